@@ -1,0 +1,25 @@
+# Options for everything compiled in this tree, and for nothing else: third-party packages come in
+# as imported targets, whose headers CMake treats as system headers (no warnings from them), and a
+# project that embeds Gearlash is not below this directory.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)  # static libraries can go into a shared Python module
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)    # for clang-tidy and editors
+
+# Gearlash promises the same bits from every build. A compiler may otherwise contract a*b + c into
+# one fused operation where the machine has it, gcc across statements, clang within expressions, so
+# that two compilers, or two machines, round differently. For the same reason never -ffast-math:
+# it also breaks the infinities and NaNs by which degenerate servos are told.
+add_compile_options(-ffp-contract=off)
+
+add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
+                    -Wold-style-cast)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # False alarm on every `"text" + std::string` (gcc bug 105651, mended in gcc 13).
+  add_compile_options(-Wno-restrict)
+endif()
+if(GEARLASH_WARNINGS_AS_ERRORS)
+  add_compile_options(-Werror)
+endif()

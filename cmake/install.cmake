@@ -1,0 +1,39 @@
+# What `cmake --install` lays down, so that another project can say
+#   find_package(gearlash 0.1 CONFIG REQUIRED)                  # the numerics: no dependency at all
+#   find_package(gearlash 0.1 CONFIG REQUIRED COMPONENTS io)    # also the reader of data sheets
+#   target_link_libraries(... gearlash::gearlash)               # or ::servo, ::motion, ::cycle, ::io
+
+include(CMakePackageConfigHelpers)
+set(gearlash_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/gearlash")
+
+set(layers servo motion cycle)
+install(TARGETS gearlash gearlash_servo gearlash_motion gearlash_cycle EXPORT gearlash_numerics)
+install(EXPORT gearlash_numerics NAMESPACE gearlash:: FILE gearlashTargets.cmake
+        DESTINATION "${gearlash_package_dir}")
+
+if(GEARLASH_BUILD_IO)
+  list(APPEND layers io)
+  # A set of its own: users of the numerics alone need not have the packages that io links.
+  install(TARGETS gearlash_io EXPORT gearlash_io)
+  install(EXPORT gearlash_io NAMESPACE gearlash:: FILE gearlashIoTargets.cmake
+          DESTINATION "${gearlash_package_dir}")
+  install(FILES cmake/FindUDUNITS2.cmake DESTINATION "${gearlash_package_dir}")
+endif()
+
+foreach(layer IN LISTS layers)
+  install(DIRECTORY include/gearlash/${layer} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/gearlash"
+          FILES_MATCHING PATTERN "*.hpp")
+endforeach()
+install(FILES "${PROJECT_BINARY_DIR}/include/gearlash/version.hpp"
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/gearlash")
+install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+
+configure_package_config_file(
+  cmake/gearlashConfig.cmake.in "${PROJECT_BINARY_DIR}/gearlashConfig.cmake"
+  INSTALL_DESTINATION "${gearlash_package_dir}")
+# Below 1.0 a minor version may break its users, so 0.1 must not be taken for 0.2.
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/gearlashConfigVersion.cmake"
+                                 COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/gearlashConfig.cmake"
+              "${PROJECT_BINARY_DIR}/gearlashConfigVersion.cmake"
+        DESTINATION "${gearlash_package_dir}")

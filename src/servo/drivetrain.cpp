@@ -1,0 +1,56 @@
+#include "gearlash/servo/drivetrain.hpp"
+
+#include <cmath>
+
+#include "gearlash/servo/range_check.hpp"
+
+namespace gearlash {
+namespace {
+
+std::vector<Violation> validate_ranges(const Drivetrain& drivetrain) {
+  RangeCheck check;
+  check.not_negative("motor_inertia", drivetrain.motor_inertia, "kg m2");
+  check.not_negative("load_inertia", drivetrain.load_inertia, "kg m2");
+  check.not_negative("motor_friction", drivetrain.motor_friction, "N m s/rad");
+  check.not_negative("load_friction", drivetrain.load_friction, "N m s/rad");
+  check.positive("stiffness", drivetrain.stiffness, "N m/rad");
+  if (drivetrain.motor_inertia == 0.0 && drivetrain.load_inertia == 0.0) {
+    check.refuse("load_inertia", "0 kg m2",
+                 "must be positive where motor_inertia is 0: something has to have inertia");
+  }
+  return check.violations();
+}
+
+NormalizedServo ratios(const Drivetrain& drivetrain) {
+  const double inertia = drivetrain.motor_inertia + drivetrain.load_inertia;
+  const double friction = drivetrain.motor_friction + drivetrain.load_friction;
+  NormalizedServo servo;
+  // One root each, so that neither K·J nor K/J can leave the range of a double.
+  servo.damping = friction / (2.0 * std::sqrt(drivetrain.stiffness) * std::sqrt(inertia));
+  servo.inertia_ratio = drivetrain.load_inertia / drivetrain.motor_inertia;
+  servo.friction_ratio = friction > 0.0 ? drivetrain.load_friction / friction : 0.0;
+  servo.backlash = drivetrain.backlash;
+  servo.restitution = drivetrain.restitution;
+  servo.sensor = drivetrain.sensor;
+  return servo;
+}
+
+}  // namespace
+
+std::vector<Violation> validate(const Drivetrain& drivetrain) {
+  const std::vector<Violation> out_of_range = validate_ranges(drivetrain);
+  if (!out_of_range.empty()) return out_of_range;
+  return validate(ratios(drivetrain));
+}
+
+double natural_frequency(const Drivetrain& drivetrain) {
+  return std::sqrt(drivetrain.stiffness) /
+         std::sqrt(drivetrain.motor_inertia + drivetrain.load_inertia);
+}
+
+NormalizedServo normalize(const Drivetrain& drivetrain) {
+  require_none(validate(drivetrain));
+  return ratios(drivetrain);
+}
+
+}  // namespace gearlash
