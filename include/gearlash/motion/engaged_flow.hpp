@@ -1,0 +1,34 @@
+// Both shafts as one: ÿ + 2ζẏ + y = 0, its closed form and its certified zeros.
+#pragma once
+
+namespace gearlash {
+
+struct ServoDynamics;
+
+/// A damped oscillation given by its state at time 0. Closed form, for every ζ ≥ 0 and continuous
+/// through ζ = 1:
+///   y(t) = y₀ (C + ζS) + ẏ₀ S,   ẏ(t) = ẏ₀ (C − ζS) − y₀ S,
+///   C = e^{−ζt} cos wt, S = e^{−ζt} sin(wt)/w, w = √(1−ζ²)   (cosh, sinh beyond ζ = 1).
+struct EngagedFlow {
+  double damping = 0.0;   ///< ζ
+  double position = 0.0;  ///< y₀, rad from the reference
+  double speed = 0.0;     ///< ẏ₀
+
+  struct State {
+    double position;
+    double speed;
+  };
+  State at(double time) const;
+};
+
+/// First time > 0 at which x(t) = 0, where ẍ + 2ζẋ + x = 0, x(0) = value, ẋ(0) = slope; infinity
+/// if there is none. A zero at t = 0 itself is not counted.
+///
+/// Guarantee: x is one damped sinusoid (ζ < 1) or a sum of two decaying exponentials (ζ ≥ 1), so
+/// its zeros are known in closed form: for ζ < 1 the first is at angle wt ∈ (0, π] given by
+/// atan2(|x₀| w, ∓(ẋ₀ + ζx₀)), for ζ ≥ 1 there is at most one, where
+/// (e^{2ωt} − 1)/(2ω) = −x₀/(ẋ₀ + λ₂x₀), ω = √(ζ²−1), λ₂ = ζ + ω. Nothing is searched, so nothing
+/// can be missed; a double zero exists only where x vanishes identically.
+double first_zero(double damping, double value, double slope);
+
+}  // namespace gearlash

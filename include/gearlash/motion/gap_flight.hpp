@@ -1,0 +1,58 @@
+// Faces apart: the load coasts, the motor runs under the loop; closed form of both.
+#pragma once
+
+#include "gearlash/motion/servo_dynamics.hpp"
+
+namespace gearlash {
+
+/// Motion across the gap from time 0. With D = F_L/J_L, c = F_M/J_M:
+///   load   y(t) = y₀ + v₀ t φ(Dt),  v(t) = v₀ e^{−Dt},           φ = decay_integral
+///   gap    u(t) = u₀ + u̇₀ t + ü₀ t² exp[0,0,−ct] + G t³ exp[0,0,−Dt,−ct]
+///   with   G = −v₀ (D² − 2ζD + 1)/J_M.
+/// u is written in its own coordinates, not as a difference of two shafts, so that it keeps its
+/// relative accuracy however short the flight. (From ü = v̇_M − v̇_L and J_M v̈_M + F_M v̇_M + v_L =
+/// 0: d/dt(ü) + c ü = G e^{−Dt}.) A massless shaft loses its fastest exponential: the same form is
+/// then kept with G = 0 and the rate that is left.
+struct GapFlight {
+  double load_position = 0.0;     ///< y₀, from the reference
+  double load_speed = 0.0;        ///< v₀
+  double gap = 0.0;               ///< u₀
+  double gap_speed = 0.0;         ///< u̇₀
+  double gap_acceleration = 0.0;  ///< ü₀
+  double gap_drive = 0.0;         ///< G
+  double load_rate = 0.0;         ///< D; 0 for a massless load, which stands still
+  double motor_rate = 0.0;        ///< c; D for a massless motor
+};
+
+struct LoadMotion {
+  double position;
+  double speed;
+};
+
+LoadMotion load_at(const GapFlight& flight, double time);
+double gap_displacement_at(const GapFlight& flight, double time);  ///< u(t) − u₀
+double gap_speed_at(const GapFlight& flight, double time);         ///< u̇(t) = v_M − v_L
+
+/// The shafts just after parting (or as given): positions and speeds about the reference.
+struct GapState {
+  double load_position;
+  double load_speed;
+  double gap;
+  double gap_speed;
+};
+
+/// Flight from any state in the gap. A massless load stops at once (its speed is ignored), a
+/// massless motor takes at once the speed −y/F_M that the loop drives it at.
+GapFlight flight_from(const ServoDynamics& dynamics, const GapState& state);
+
+/// Flight from the instant when the mesh torque of engaged faces reaches zero: there u̇ = ü = 0
+/// exactly, and (y, v) lies on the line of zero mesh torque, onto which it is projected.
+GapFlight flight_from_separation(const ServoDynamics& dynamics, double load_position,
+                                 double load_speed, double gap);
+
+/// Flight from faces that touch with no relative speed but with a mesh torque that would have to
+/// pull: u̇ = 0, ü = N/(J_M J_L).
+GapFlight flight_from_pull(const ServoDynamics& dynamics, double load_position, double load_speed,
+                           double gap);
+
+}  // namespace gearlash

@@ -1,0 +1,102 @@
+// The motion of the servo, exact between events: what happened, when, and where everything was.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "gearlash/motion/phase.hpp"
+#include "gearlash/motion/servo_dynamics.hpp"
+#include "gearlash/servo/normalized_servo.hpp"
+
+namespace gearlash {
+
+/// Positions (rad) and speeds (rad per unit of normalised time, 1/ω_n) of both shafts at the load.
+/// motor_position − load_position is the gap coordinate u ∈ [−b/2, +b/2].
+struct ServoState {
+  double motor_position = 0.0;
+  double motor_speed = 0.0;
+  double load_position = 0.0;
+  double load_speed = 0.0;
+
+  bool operator==(const ServoState&) const = default;
+};
+
+struct Event {
+  double time = 0.0;  ///< normalised, from the start of the simulation
+  EventKind kind = EventKind::separation;
+  Face face = Face::forward;
+  ServoState before;
+  ServoState after;
+  Mode mode_after = Mode::separated;
+  double energy_lost = 0.0;  ///< at an impact or a settling, in units of K rad²
+};
+
+enum class StopReason {
+  reached_end,  ///< the time asked for
+  event_limit   ///< options.event_limit events were recorded; end_time() tells how far
+};
+
+/// Energies in units of K rad² (multiply by the stiffness K for joules), accumulated from the
+/// start. Balance: stored(start) + supplied = stored + motor_friction + load_friction + impacts.
+struct EnergyAccount {
+  double kinetic = 0.0;         ///< ½ J_M v_M² + ½ J_L v_L²
+  double elastic = 0.0;         ///< ½ (θ_L − θ_ref)², the loop's virtual spring
+  double motor_friction = 0.0;  ///< ∫ F_M v_M² dt, includes the back-EMF's share
+  double load_friction = 0.0;   ///< ∫ F_L v_L² dt
+  double impacts = 0.0;         ///< Σ energy_lost
+  double supplied = 0.0;  ///< −∫ (θ_L − θ_ref)(v_M − v_L) dt: what the loop feeds in, in the gap
+
+  double stored() const { return kinetic + elastic; }
+};
+
+struct SimulationOptions {
+  double until = 0.0;      ///< normalised time to stop at, ≥ 0 and finite
+  double reference = 1.0;  ///< position reference applied at time 0, rad
+  std::size_t event_limit = 1'000'000;
+};
+
+/// A piece of motion between two events: `phase` holds its closed form, in time from `start`.
+struct Segment {
+  double start = 0.0;
+  double end = 0.0;
+  Phase phase;
+};
+
+class Trajectory {
+ public:
+  double start_time() const { return 0.0; }
+  double end_time() const;
+  StopReason stop_reason() const { return stop_reason_; }
+  const std::vector<Event>& events() const { return events_; }
+  const std::vector<Segment>& segments() const { return segments_; }
+
+  /// State at any time within [start_time, end_time] (clamped to it); at an event, the state after.
+  ServoState at(double time) const;
+  Mode mode_at(double time) const;
+
+  /// The books from the start to `time`. Every entry is computed from its own definition, so the
+  /// balance is a check, not an identity.
+  EnergyAccount energy_at(double time) const;
+
+ private:
+  const Segment& segment_at(double time) const;
+  friend Trajectory simulate(const NormalizedServo&, const ServoState&, const SimulationOptions&);
+  ServoDynamics dynamics_;
+  double reference_ = 0.0;
+  StopReason stop_reason_ = StopReason::reached_end;
+  std::vector<Segment> segments_;
+  std::vector<Event> events_;
+};
+
+/// Both shafts at the given load position and speed, on the face towards which the motor pushes
+/// for that reference (forward when reference ≥ position): the thesis's start.
+ServoState engaged_start(const NormalizedServo& servo, double load_position, double load_speed,
+                         double reference);
+
+/// The exact motion from `initial` under a step reference. No step size: every mode has a closed
+/// form and every event time is a certified first crossing (first_contact.hpp, engaged_flow.hpp).
+/// Throws InvalidInput for an unsound servo, a gap outside [−b/2, b/2] or a number not finite.
+Trajectory simulate(const NormalizedServo& servo, const ServoState& initial,
+                    const SimulationOptions& options);
+
+}  // namespace gearlash

@@ -1,0 +1,212 @@
+#include "gearlash/motion/phase.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gearlash/motion/first_contact.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Face face_of(FaceSign sign) { return sign > 0.0 ? Face::forward : Face::backward; }
+
+double gap_on(const ServoDynamics& dynamics, FaceSign face) {
+  return face * 0.5 * dynamics.backlash;
+}
+
+Phase engaged_phase(const ServoDynamics& dynamics, FaceSign face, double position, double speed) {
+  Phase phase;
+  phase.mode = dynamics.backlash == 0.0 ? Mode::no_gap
+               : face > 0.0             ? Mode::engaged_forward
+                                        : Mode::engaged_backward;
+  phase.face = face;
+  phase.engaged = {dynamics.damping, position, speed};
+  return phase;
+}
+
+Phase separated_phase(const GapFlight& flight, FaceSign face) {
+  Phase phase;
+  phase.mode = Mode::separated;
+  phase.face = face;
+  phase.flight = flight;
+  return phase;
+}
+
+GapState state_in_flight(const GapFlight& flight, double time) {
+  const LoadMotion load = load_at(flight, time);
+  return {load.position, load.speed, flight.gap + gap_displacement_at(flight, time),
+          gap_speed_at(flight, time)};
+}
+
+PhaseEnd no_event() {
+  PhaseEnd end{};
+  end.duration = infinity;
+  end.has_event = false;
+  return end;
+}
+
+/// Applies the impact law to faces that meet at relative speed `state.gap_speed`, and decides what
+/// follows.
+PhaseEnd meet(const ServoDynamics& dynamics, FaceSign face, double duration, GapState state) {
+  state.gap = gap_on(dynamics, face);
+  // Rounding may leave a grazing approach on the wrong side of zero.
+  if (state.gap_speed * face < 0.0) state.gap_speed = 0.0;
+  const ImpactOutcome outcome = impact(dynamics, state.load_speed, state.gap_speed);
+  PhaseEnd end{};
+  end.duration = duration;
+  end.has_event = true;
+  end.kind = EventKind::impact;
+  end.face = face_of(face);
+  end.before = state;
+  end.after = {state.load_position, outcome.load_speed, state.gap, outcome.gap_speed};
+  end.energy_lost = outcome.energy_lost;
+  if (outcome.gap_speed == 0.0) {
+    if (stays_engaged(dynamics, face, state.load_position, outcome.load_speed)) {
+      end.next = engaged_phase(dynamics, face, state.load_position, outcome.load_speed);
+    } else {
+      end.next = separated_phase(
+          flight_from_pull(dynamics, state.load_position, outcome.load_speed, state.gap), face);
+    }
+    return end;
+  }
+  end.next = separated_phase(flight_from(dynamics, end.after), face);
+  if (dynamics.restitution < 1.0) {
+    const SettlingBounces bounces = settling_bounces(dynamics, face, state.load_position,
+                                                     outcome.load_speed, outcome.gap_speed);
+    if (bounces.imminent) {
+      end.next.mode = Mode::settling;
+      end.next.bounces = bounces;
+      end.next.engaged = {
+          dynamics.damping, state.load_position,
+          outcome.load_speed + dynamics.motor_inertia * outcome.gap_speed};
+    }
+  }
+  return end;
+}
+
+PhaseEnd end_of_engagement(const ServoDynamics& dynamics, const Phase& phase, double horizon) {
+  const EngagedFlow& flow = phase.engaged;
+  const double duration =
+      first_zero(dynamics.damping, mesh_torque(dynamics, flow.position, flow.speed),
+                 mesh_torque_rate(dynamics, flow.position, flow.speed));
+  if (!(duration <= horizon) || std::isinf(duration)) return no_event();
+  const EngagedFlow::State state = flow.at(duration);
+  PhaseEnd end{};
+  end.duration = duration;
+  end.has_event = true;
+  end.kind = EventKind::separation;
+  end.face = face_of(phase.face);
+  end.next = parted_phase(dynamics, phase.face, state.position, state.speed);
+  const GapFlight& flight = end.next.flight;
+  end.before = {flight.load_position, state.speed, flight.gap, 0.0};
+  end.after = {flight.load_position, flight.load_speed, flight.gap, flight.gap_speed};
+  return end;
+}
+
+PhaseEnd end_of_settling(const ServoDynamics& dynamics, const Phase& phase, double horizon) {
+  const double duration = phase.bounces.duration;
+  if (duration > horizon) return no_event();
+  const EngagedFlow::State state = phase.engaged.at(duration);
+  PhaseEnd end{};
+  end.duration = duration;
+  end.has_event = true;
+  end.kind = EventKind::settling;
+  end.face = face_of(phase.face);
+  end.before = {state.position, state.speed, gap_on(dynamics, phase.face), 0.0};
+  end.after = end.before;
+  end.energy_lost = phase.bounces.energy_lost;
+  end.next = engaged_phase(dynamics, phase.face, state.position, state.speed);
+  return end;
+}
+
+/// Follows the bounces of a settling phase one by one until `time`, or until what is left of them
+/// is below a double's resolution of it.
+GapState state_while_settling(const ServoDynamics& dynamics, const Phase& phase, double time) {
+  const double resolution = std::numeric_limits<double>::epsilon() * time;
+  GapFlight bounce = phase.flight;
+  double start = 0.0;
+  while (phase.bounces.duration - start > resolution) {
+    const FirstContact contact = first_contact(bounce, dynamics.backlash, infinity);
+    if (start + contact.time > time) return state_in_flight(bounce, time - start);
+    if (!(contact.time > resolution)) break;
+    start += contact.time;
+    GapState state = state_in_flight(bounce, contact.time);
+    const ImpactOutcome outcome = impact(dynamics, state.load_speed, state.gap_speed);
+    bounce = flight_from(dynamics, {state.load_position, outcome.load_speed, bounce.gap,
+                                    outcome.gap_speed});
+  }
+  const EngagedFlow::State common = phase.engaged.at(time);
+  return {common.position, common.speed, gap_on(dynamics, phase.face), 0.0};
+}
+
+}  // namespace
+
+Phase parted_phase(const ServoDynamics& dynamics, FaceSign face, double load_position,
+                   double load_speed) {
+  return separated_phase(flight_from_separation(dynamics, load_position, load_speed,
+                                                gap_on(dynamics, face)),
+                         face);
+}
+
+PhaseStart begin_phase(const ServoDynamics& dynamics, const GapState& state) {
+  PhaseStart start{};
+  if (dynamics.backlash == 0.0) {
+    start.phase = engaged_phase(
+        dynamics, 1.0, state.load_position,
+        state.load_speed + dynamics.motor_inertia * state.gap_speed);
+    return start;
+  }
+  const bool on_face = std::abs(state.gap) >= 0.5 * dynamics.backlash;
+  const FaceSign face = state.gap >= 0.0 ? 1.0 : -1.0;
+  GapState clamped = state;
+  if (on_face) clamped.gap = gap_on(dynamics, face);
+  // A massless shaft in the gap has the speed that its law gives it, whatever was asked for.
+  const GapFlight flight = flight_from(dynamics, clamped);
+  const bool touching = on_face && (state.gap_speed == 0.0 || flight.gap_speed == 0.0);
+  if (touching && stays_engaged(dynamics, face, state.load_position, state.load_speed)) {
+    start.phase = engaged_phase(dynamics, face, state.load_position, state.load_speed);
+    return start;
+  }
+  if (touching) {
+    start.phase = separated_phase(
+        flight_from_pull(dynamics, state.load_position, state.load_speed, clamped.gap), face);
+    return start;
+  }
+  if (on_face && flight.gap_speed * face > 0.0) {
+    start.impact_at_start = true;
+    start.impact = meet(dynamics, face, 0.0, clamped);
+    start.phase = start.impact.next;
+    return start;
+  }
+  start.phase = separated_phase(flight, face);
+  return start;
+}
+
+PhaseEnd end_of_phase(const ServoDynamics& dynamics, const Phase& phase, double horizon) {
+  switch (phase.mode) {
+    case Mode::no_gap:
+      return no_event();
+    case Mode::engaged_forward:
+    case Mode::engaged_backward:
+      return end_of_engagement(dynamics, phase, horizon);
+    case Mode::settling:
+      return end_of_settling(dynamics, phase, horizon);
+    case Mode::separated:
+      break;
+  }
+  const FirstContact contact = first_contact(phase.flight, dynamics.backlash, horizon);
+  if (contact.toward == 0.0) return no_event();
+  return meet(dynamics, contact.toward, contact.time, state_in_flight(phase.flight, contact.time));
+}
+
+GapState state_in_phase(const ServoDynamics& dynamics, const Phase& phase, double time) {
+  if (phase.mode == Mode::separated) return state_in_flight(phase.flight, time);
+  if (phase.mode == Mode::settling) return state_while_settling(dynamics, phase, time);
+  const EngagedFlow::State state = phase.engaged.at(time);
+  return {state.position, state.speed, gap_on(dynamics, phase.face), 0.0};
+}
+
+}  // namespace gearlash

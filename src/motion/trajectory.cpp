@@ -1,0 +1,197 @@
+#include "gearlash/motion/trajectory.hpp"
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+
+#include "gearlash/servo/range_check.hpp"
+
+namespace gearlash {
+namespace {
+
+ServoState to_servo_state(const GapState& state, double reference) {
+  const double load_position = reference + state.load_position;
+  return {load_position + state.gap, state.load_speed + state.gap_speed, load_position,
+          state.load_speed};
+}
+
+GapState to_gap_state(const ServoState& state, double reference) {
+  return {state.load_position - reference, state.load_speed,
+          state.motor_position - state.load_position, state.motor_speed - state.load_speed};
+}
+
+Event to_event(const PhaseEnd& end, double time, double reference) {
+  return {.time = time,
+          .kind = end.kind,
+          .face = end.face,
+          .before = to_servo_state(end.before, reference),
+          .after = to_servo_state(end.after, reference),
+          .mode_after = end.next.mode,
+          .energy_lost = end.energy_lost};
+}
+
+/// The gap may exceed its faces by the rounding of the two positions it is the difference of.
+double gap_allowance(const ServoState& state) {
+  return 4.0 * std::numeric_limits<double>::epsilon() *
+         std::max(std::abs(state.motor_position), std::abs(state.load_position));
+}
+
+std::vector<Violation> validate_start(const NormalizedServo& servo, const ServoState& initial,
+                                      const SimulationOptions& options) {
+  constexpr double largest = 1e9;
+  RangeCheck check;
+  check.include(validate(servo));
+  check.within("initial.motor_position", initial.motor_position, -largest, largest);
+  check.within("initial.motor_speed", initial.motor_speed, -largest, largest);
+  check.within("initial.load_position", initial.load_position, -largest, largest);
+  check.within("initial.load_speed", initial.load_speed, -largest, largest);
+  check.within("reference", options.reference, -largest, largest);
+  check.within("until", options.until, 0.0, largest);
+  const double gap = initial.motor_position - initial.load_position;
+  if (std::abs(gap) > 0.5 * servo.backlash + gap_allowance(initial)) {
+    const std::string half = exact_text(0.5 * servo.backlash);
+    check.refuse("initial.motor_position - initial.load_position", exact_text(gap),
+                 "must be from -" + half + " to " + half + " (half the backlash each way)");
+  }
+  return check.violations();
+}
+
+/// A gap within rounding of a face is on it.
+GapState snapped_to_faces(GapState state, const ServoState& initial, double backlash) {
+  if (std::abs(std::abs(state.gap) - 0.5 * backlash) <= gap_allowance(initial)) {
+    state.gap = std::copysign(0.5 * backlash, state.gap);
+  }
+  return state;
+}
+
+/// ∫ f over [0, duration] of a smooth sum of exponentials whose fastest rate is `fastest`: panels
+/// that double from 1/fastest to 1, thirty Gauss points each.
+template <class Function>
+double integral(const Function& f, double duration, double fastest) {
+  double sum = 0.0;
+  double start = 0.0;
+  double width = 1.0 / std::max(1.0, fastest);
+  while (start < duration) {
+    const double end = std::min(start + width, duration);
+    sum += boost::math::quadrature::gauss<double, 30>::integrate(f, start, end);
+    start = end;
+    width = std::min(2.0 * width, 1.0);
+  }
+  return sum;
+}
+
+/// Adds the friction losses and the loop's supply over the first `duration` of a phase. Over a
+/// settling phase, whose bounces are below resolution, the common motion's losses are taken.
+void accumulate(const ServoDynamics& dynamics, const Phase& phase, double duration,
+                EnergyAccount& account) {
+  if (phase.mode != Mode::separated) {
+    const double speed_squared =
+        integral([&](double t) { return std::pow(phase.engaged.at(t).speed, 2); }, duration,
+                 2.0 * dynamics.damping);
+    account.motor_friction += dynamics.motor_friction * speed_squared;
+    account.load_friction += dynamics.load_friction * speed_squared;
+    return;
+  }
+  const GapFlight& flight = phase.flight;
+  const double fastest = std::max(flight.load_rate, flight.motor_rate);
+  account.motor_friction +=
+      dynamics.motor_friction * integral(
+                                    [&](double t) {
+                                      return std::pow(
+                                          load_at(flight, t).speed + gap_speed_at(flight, t), 2);
+                                    },
+                                    duration, fastest);
+  account.load_friction +=
+      dynamics.load_friction *
+      integral([&](double t) { return std::pow(load_at(flight, t).speed, 2); }, duration, fastest);
+  account.supplied -= integral(
+      [&](double t) { return load_at(flight, t).position * gap_speed_at(flight, t); }, duration,
+      fastest);
+}
+
+double kinetic_energy(const ServoDynamics& dynamics, const GapState& state) {
+  const double motor_speed = state.load_speed + state.gap_speed;
+  return 0.5 * (dynamics.motor_inertia * motor_speed * motor_speed +
+                dynamics.load_inertia * state.load_speed * state.load_speed);
+}
+
+}  // namespace
+
+double Trajectory::end_time() const { return segments_.empty() ? 0.0 : segments_.back().end; }
+
+const Segment& Trajectory::segment_at(double time) const {
+  const auto after =
+      std::upper_bound(segments_.begin(), segments_.end(), time,
+                       [](double value, const Segment& segment) { return value < segment.start; });
+  return after == segments_.begin() ? segments_.front() : *(after - 1);
+}
+
+ServoState Trajectory::at(double time) const {
+  const double clamped = std::clamp(time, 0.0, end_time());
+  const Segment& segment = segment_at(clamped);
+  return to_servo_state(state_in_phase(dynamics_, segment.phase, clamped - segment.start),
+                        reference_);
+}
+
+Mode Trajectory::mode_at(double time) const { return segment_at(time).phase.mode; }
+
+EnergyAccount Trajectory::energy_at(double time) const {
+  const double clamped = std::clamp(time, 0.0, end_time());
+  EnergyAccount account;
+  for (const Segment& segment : segments_) {
+    if (segment.start > clamped) break;
+    accumulate(dynamics_, segment.phase, std::min(segment.end, clamped) - segment.start, account);
+  }
+  for (const Event& event : events_) {
+    if (event.time > clamped) break;
+    account.impacts += event.energy_lost;
+  }
+  const Segment& segment = segment_at(clamped);
+  const GapState state = state_in_phase(dynamics_, segment.phase, clamped - segment.start);
+  account.kinetic = kinetic_energy(dynamics_, state);
+  account.elastic = 0.5 * state.load_position * state.load_position;
+  return account;
+}
+
+ServoState engaged_start(const NormalizedServo& servo, double load_position, double load_speed,
+                         double reference) {
+  const double side = reference >= load_position ? 0.5 : -0.5;
+  return {load_position + side * servo.backlash, load_speed, load_position, load_speed};
+}
+
+Trajectory simulate(const NormalizedServo& servo, const ServoState& initial,
+                    const SimulationOptions& options) {
+  require_none(validate_start(servo, initial, options));
+  Trajectory trajectory;
+  trajectory.dynamics_ = servo_dynamics(servo);
+  trajectory.reference_ = options.reference;
+  const ServoDynamics& dynamics = trajectory.dynamics_;
+
+  const GapState state = snapped_to_faces(to_gap_state(initial, options.reference), initial,
+                                          servo.backlash);
+  const PhaseStart start = begin_phase(dynamics, state);
+  if (start.impact_at_start) {
+    trajectory.events_.push_back(to_event(start.impact, 0.0, options.reference));
+  }
+  Phase phase = start.phase;
+  double time = 0.0;
+  while (true) {
+    const PhaseEnd end = end_of_phase(dynamics, phase, options.until - time);
+    const double end_time = end.has_event ? time + end.duration : options.until;
+    trajectory.segments_.push_back({time, end_time, phase});
+    if (!end.has_event) {
+      trajectory.stop_reason_ = StopReason::reached_end;
+      break;
+    }
+    if (trajectory.events_.size() >= options.event_limit) {
+      trajectory.stop_reason_ = StopReason::event_limit;
+      break;
+    }
+    trajectory.events_.push_back(to_event(end, end_time, options.reference));
+    phase = end.next;
+    time = end_time;
+  }
+  return trajectory;
+}
+
+}  // namespace gearlash
