@@ -1,0 +1,85 @@
+// Whether the servo hunts, how big and how fast: its limit cycles and the verdict on them.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "gearlash/motion/trajectory.hpp"
+#include "gearlash/servo/normalized_servo.hpp"
+
+namespace gearlash {
+
+enum class CycleKind {
+  symmetric,   ///< the second half mirrors the first
+  asymmetric,  ///< repeats after one traversal of the gap each way, without mirror symmetry
+  subharmonic  ///< repeats only after several traversals each way
+};
+
+/// Energy fed in by the loop equals the sum of the losses. Units of K rad², over a whole period.
+struct CycleEnergy {
+  double motor_friction = std::numeric_limits<double>::quiet_NaN();
+  double load_friction = std::numeric_limits<double>::quiet_NaN();
+  double impacts = std::numeric_limits<double>::quiet_NaN();
+
+  double lost() const { return motor_friction + load_friction + impacts; }
+};
+
+/// Times in units of 1/ω_n, angles in rad at the load shaft. NaN where not computed.
+struct LimitCycle {
+  CycleKind kind = CycleKind::symmetric;
+  bool stable = false;  ///< |multiplier| < 1
+  double size = std::numeric_limits<double>::quiet_NaN();  ///< half peak-to-peak of the load
+  double motor_size = std::numeric_limits<double>::quiet_NaN();  ///< the same of the motor
+  double period = std::numeric_limits<double>::quiet_NaN();
+  double multiplier = std::numeric_limits<double>::quiet_NaN();  ///< Floquet's, largest modulus,
+                                                                 ///< over a whole period
+  double impact_speed = std::numeric_limits<double>::quiet_NaN();  ///< |v_M − v_L| before the
+                                                                   ///< hardest impact
+  double engaged_time = std::numeric_limits<double>::quiet_NaN();    ///< a period's share
+  double separated_time = std::numeric_limits<double>::quiet_NaN();  ///< a period's share
+  double residual = std::numeric_limits<double>::quiet_NaN();  ///< relative mismatch of the state
+                                                               ///< after one map, of its size
+  std::size_t impacts_per_period = 0;  ///< impacts counted one by one; a settling adds none more
+  bool settles = false;                ///< bounces settle (or are plastic) before each separation
+  CycleEnergy energy;
+  ServoState start;  ///< a state on the cycle, about reference 0: as the faces part forward (plastic
+                     ///< contact), or just after an impact on the forward face
+};
+
+enum class Verdict {
+  cannot_hunt,          ///< comes to rest from everywhere the search looked (proved for e = 0)
+  hunts,                ///< rest is unstable; a stable limit cycle was found
+  hunts_if_disturbed,   ///< rest is stable, but so is a limit cycle beside it
+  hunts_irregularly,    ///< rest is unstable; the motion stayed bounded and did not repeat
+  grows_without_bound,  ///< no friction at all: the oscillation has no bound
+  undamped,             ///< neither friction nor backlash: any amplitude persists
+  undecided             ///< on the boundary to within rounding, or more bounces than can be followed
+};
+
+struct LimitCycleAnalysis {
+  Verdict verdict = Verdict::cannot_hunt;
+  bool proved = false;  ///< the verdict rests on a theorem (docs/mathematics), not on a search
+  double growth_at_rest = std::numeric_limits<double>::quiet_NaN();  ///< μ₀, see growth_at_rest()
+  std::vector<LimitCycle> cycles;  ///< by decreasing size
+  double irregular_size = std::numeric_limits<double>::quiet_NaN();  ///< half the peak-to-peak seen
+                                                                     ///< when hunts_irregularly
+};
+
+/// All limit cycles that can be found, and the verdict.
+///
+/// e = 0 (or a massless side): the return map is increasing in size and one-dimensional, so there
+/// is exactly one cycle when growth_at_rest > 1 and none otherwise (proof: docs/mathematics.md);
+/// it is the root of one scalar equation and always found.
+/// 0 < e ≤ 1: fixed points of the return map by Newton's method (return_map.hpp), from a scan over
+/// amplitudes and from the motions that small, middle and large starts end in. Complete as far as
+/// the scan is fine; every cycle reported is one, to its residual.
+/// Throws InvalidInput.
+LimitCycleAnalysis analyse_limit_cycles(const NormalizedServo& servo);
+
+/// "cannot hunt", "hunts", … as printed and as the JSON key `verdict` has it.
+const char* name_of(Verdict verdict);
+/// "symmetric", "asymmetric", "subharmonic".
+const char* name_of(CycleKind kind);
+
+}  // namespace gearlash

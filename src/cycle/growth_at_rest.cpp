@@ -1,0 +1,71 @@
+#include "gearlash/cycle/growth_at_rest.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "gearlash/motion/engaged_flow.hpp"
+#include "gearlash/motion/phase.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A gap that motion of order one cannot cross.
+constexpr double wide_gap = 1e6;
+
+/// The load at y = −1, at rest; the motor arrives from behind on the forward face.
+GapState creeping_contact(const ServoDynamics& dynamics) {
+  return {-1.0, 0.0, 0.5 * wide_gap, 1.0 / dynamics.motor_friction};
+}
+
+/// Where the load comes to rest if the gap never closes again.
+double rest_position(const GapFlight& flight) {
+  if (flight.load_speed == 0.0) return flight.load_position;
+  return flight.load_position + flight.load_speed / flight.load_rate;
+}
+
+/// One engaged motion from contact to parting, by the form Q = y² + 2ζyv + v², which it multiplies
+/// by e^{−2ζt}.
+double plastic_growth(const ServoDynamics& dynamics) {
+  const double contact_speed = dynamics.motor_inertia / dynamics.motor_friction;
+  const double engaged_time =
+      first_zero(dynamics.damping, mesh_torque(dynamics, -1.0, contact_speed),
+                 mesh_torque_rate(dynamics, -1.0, contact_speed));
+  if (std::isinf(engaged_time)) return 0.0;
+  const auto form = [&](double position, double speed) {
+    return position * position + 2.0 * dynamics.damping * position * speed + speed * speed;
+  };
+  const TorqueFreeLine line = torque_free_line(dynamics);
+  const double amplitude = std::sqrt(form(-1.0, contact_speed) / form(line.position, line.speed)) *
+                           std::exp(-dynamics.damping * engaged_time);
+  return amplitude * std::abs(line.position + line.speed / dynamics.load_rate);
+}
+
+/// The bounces followed one by one.
+double bouncing_growth(const ServoDynamics& dynamics) {
+  constexpr int event_limit = 1'000'000;
+  ServoDynamics wide = dynamics;
+  wide.backlash = wide_gap;
+  PhaseStart start = begin_phase(wide, creeping_contact(dynamics));
+  Phase phase = start.phase;
+  for (int event = 0; event < event_limit; ++event) {
+    const PhaseEnd end = end_of_phase(wide, phase, infinity);
+    if (phase.mode == Mode::separated &&
+        (!end.has_event || end.face == Face::backward)) {
+      return std::abs(rest_position(phase.flight));
+    }
+    if (!end.has_event) return 0.0;
+    phase = end.next;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+}  // namespace
+
+double growth_at_rest(const ServoDynamics& dynamics) {
+  if (dynamics.motor_friction == 0.0 || dynamics.load_friction == 0.0) return infinity;
+  return dynamics.plastic_contact() ? plastic_growth(dynamics) : bouncing_growth(dynamics);
+}
+
+}  // namespace gearlash

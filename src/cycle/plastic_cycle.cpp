@@ -1,0 +1,251 @@
+#include "gearlash/cycle/plastic_cycle.hpp"
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "gearlash/motion/bracketed_root.hpp"
+#include "gearlash/motion/engaged_flow.hpp"
+#include "gearlash/motion/gap_flight.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Q(y, v) = y² + 2ζyv + v², which the engaged flow multiplies by e^{−2ζt}.
+double flow_form(double damping, double position, double speed) {
+  return position * position + 2.0 * damping * position * speed + speed * speed;
+}
+
+GapFlight unit_flight(const ServoDynamics& dynamics) {
+  const TorqueFreeLine line = torque_free_line(dynamics);
+  return flight_from_separation(dynamics, line.position, line.speed, 0.0);
+}
+
+UnitHalfCycle half_cycle(const ServoDynamics& dynamics, const GapFlight& flight, double time) {
+  const LoadMotion load = load_at(flight, time);
+  UnitHalfCycle half;
+  half.flight_time = time;
+  half.load_position = load.position;
+  half.load_speed = load.speed;
+  half.gap_speed = gap_speed_at(flight, time);
+  half.common_speed = load.speed + dynamics.motor_inertia * half.gap_speed;
+
+  const double start_form = flow_form(dynamics.damping, flight.load_position, flight.load_speed);
+  // Q(impact) − Q(start) from the differences of position and speed: for light damping it is far
+  // smaller than either.
+  const double moved = load.position - flight.load_position;
+  const double speeded = flight.load_speed * std::expm1(-flight.load_rate * time) +
+                         dynamics.motor_inertia * half.gap_speed;
+  const double change =
+      moved * (2.0 * flight.load_position + moved) +
+      speeded * (2.0 * flight.load_speed + speeded) +
+      2.0 * dynamics.damping *
+          (flight.load_position * speeded + moved * flight.load_speed + moved * speeded);
+  half.engaged_time =
+      first_zero(dynamics.damping, mesh_torque(dynamics, half.load_position, half.common_speed),
+                 mesh_torque_rate(dynamics, half.load_position, half.common_speed));
+  half.log_growth = std::isinf(half.engaged_time)
+                        ? -infinity
+                        : 0.5 * std::log1p(change / start_form) -
+                              dynamics.damping * half.engaged_time;
+  half.log_growth_slope = -half.gap_speed *
+                          (dynamics.motor_inertia * half.load_position +
+                           dynamics.motor_friction * half.common_speed) /
+                          (start_form + change);
+  return half;
+}
+
+/// The flight time at which ln ρ passes through zero, or infinity.
+double balanced_flight_time(const ServoDynamics& dynamics, const GapFlight& flight) {
+  constexpr double longest = 1e90;
+  // Near t = 0, ln ρ = −ζπ/w + κ t³/6 + t⁴/8, κ = c J_L + D J_M being the drag on the gap.
+  const double drag = std::min(dynamics.motor_rate, 1e3) * dynamics.load_inertia +
+                      std::min(dynamics.load_rate, 1e3) * dynamics.motor_inertia;
+  const double deficit = std::numbers::pi * dynamics.damping /
+                         std::sqrt(std::max(0.05, 1.0 - dynamics.damping * dynamics.damping));
+  const double guess =
+      std::min(std::cbrt(6.0 * deficit / drag), std::sqrt(std::sqrt(8.0 * deficit)));
+  double high = std::max(2.0 * guess, 1.0);
+  double low = 0.0;
+  while (half_cycle(dynamics, flight, high).log_growth < 0.0) {
+    low = high;
+    high *= 2.0;
+    if (high > longest) return infinity;
+  }
+  const auto log_growth = [&](double time) {
+    const UnitHalfCycle half = half_cycle(dynamics, flight, time);
+    return ValueAndSlope{half.log_growth, half.log_growth_slope};
+  };
+  return bracketed_root(log_growth, low, high, std::clamp(guess, low, high), 1.0);
+}
+
+/// ∫ f over the flight of a function that is nearly a polynomial of low degree there.
+template <class Function>
+double smooth_integral(const Function& f, double time) {
+  return boost::math::quadrature::gauss<double, 7>::integrate(f, 0.0, time);
+}
+
+/// ∫ y v_M dt over a unit flight: what the loop's torque −y takes out of the motor. By parts, from
+/// ∫ v_L v_M = −(½Δ(y²) + J_M Δ(v_L v_M))/(J_M D + F_M) and either
+///   y = y∞ − v_L/D                      (divides by D), or
+///   F_M ∫ y v_M = J_M ∫ v_L v_M − J_M Δ(y v_M) − ∫ y²   (divides by F_M);
+/// where both decays are slight the integrand is smooth and seven Gauss points are exact.
+double loop_work(const ServoDynamics& dynamics, const GapFlight& flight,
+                 const UnitHalfCycle& half, double motor_moved) {
+  constexpr double slight = 0.25;
+  if (flight.load_speed == 0.0) return flight.load_position * motor_moved;
+  const double time = half.flight_time;
+  const bool load_coasts = dynamics.load_rate * time <= slight;
+  if (load_coasts && dynamics.motor_rate * time <= slight) {
+    return smooth_integral(
+        [&](double t) {
+          const LoadMotion load = load_at(flight, t);
+          return load.position * (load.speed + gap_speed_at(flight, t));
+        },
+        time);
+  }
+  const double motor_inertia = dynamics.motor_inertia;
+  const double motor_speed = half.load_speed + half.gap_speed;
+  const double square_change = half.load_position * half.load_position -
+                               flight.load_position * flight.load_position;
+  const double speed_product =
+      -(0.5 * square_change +
+        motor_inertia * (half.load_speed * motor_speed - flight.load_speed * flight.load_speed)) /
+      (motor_inertia * dynamics.load_rate + dynamics.motor_friction);
+  if (!load_coasts) {
+    const double rest = flight.load_position + flight.load_speed / dynamics.load_rate;
+    return rest * motor_moved - speed_product / dynamics.load_rate;
+  }
+  const double position_square = smooth_integral(
+      [&](double t) { return std::pow(load_at(flight, t).position, 2); }, time);
+  const double edge =
+      half.load_position * motor_speed - flight.load_position * flight.load_speed;
+  return (motor_inertia * (speed_product - edge) - position_square) / dynamics.motor_friction;
+}
+
+/// Where the motor turns within the flight, from the gap's middle line; e^{ct} v_M has the slope
+/// −y e^{ct}/J_M and y changes sign at most once, from below, so v_M, positive at the start, has at
+/// most one zero. The start's position when it does not turn.
+double motor_turning_position(const ServoDynamics& dynamics, const GapFlight& flight,
+                              const UnitHalfCycle& half) {
+  const double end_speed = half.load_speed + half.gap_speed;
+  if (!(end_speed < 0.0) || !(flight.load_speed > 0.0)) return flight.load_position;
+  const auto motor_speed = [&](double t) {
+    const LoadMotion load = load_at(flight, t);
+    const double speed = load.speed + gap_speed_at(flight, t);
+    const double slope =
+        dynamics.massless_motor()
+            ? -load.speed / dynamics.motor_friction
+            : -dynamics.motor_rate * speed - load.position / dynamics.motor_inertia;
+    return ValueAndSlope{speed, slope};
+  };
+  const double guess =
+      half.flight_time * flight.load_speed / (flight.load_speed - end_speed);
+  const double turning = bracketed_root(motor_speed, 0.0, half.flight_time, guess, -1.0);
+  return load_at(flight, turning).position + gap_displacement_at(flight, turning);
+}
+
+/// Sizes of both shafts for a unit amplitude; half_gap is b/2 in the same unit. The load turns at
+/// the impact or in the engaged motion after it, the motor in the flight or likewise.
+struct Sizes {
+  double load;
+  double motor;
+};
+
+Sizes sizes(const ServoDynamics& dynamics, const GapFlight& flight, const UnitHalfCycle& half,
+            double half_gap) {
+  double turning = half.load_position;
+  const EngagedFlow engaged{dynamics.damping, half.load_position, half.common_speed};
+  const double turning_time =
+      first_zero(dynamics.damping, half.common_speed,
+                 -2.0 * dynamics.damping * half.common_speed - half.load_position);
+  if (turning_time < half.engaged_time) turning = engaged.at(turning_time).position;
+  const double start = flight.load_position;
+  const double motor_turning = motor_turning_position(dynamics, flight, half);
+  return {.load = std::max({std::abs(start), std::abs(half.load_position), std::abs(turning)}),
+          .motor = std::max({std::abs(start + half_gap), std::abs(motor_turning + half_gap),
+                             std::abs(half.load_position - half_gap),
+                             std::abs(turning - half_gap)})};
+}
+
+/// Losses of a whole period for a unit amplitude.
+CycleEnergy losses(const ServoDynamics& dynamics, const GapFlight& flight,
+                   const UnitHalfCycle& half, double motor_moved) {
+  const double motor_speed = half.load_speed + half.gap_speed;
+  const double start_square = flight.load_speed * flight.load_speed;
+  const double load_in_flight =
+      -0.5 * dynamics.load_inertia * start_square *
+      std::expm1(-2.0 * flight.load_rate * half.flight_time);
+  const double motor_in_flight =
+      -0.5 * dynamics.motor_inertia * (motor_speed * motor_speed - start_square) -
+      loop_work(dynamics, flight, half, motor_moved);
+  const double engaged =
+      0.5 * (half.load_position * half.load_position - flight.load_position * flight.load_position +
+             half.common_speed * half.common_speed - start_square);
+  const double load_share =
+      dynamics.load_friction / (dynamics.load_friction + dynamics.motor_friction);
+  return {.motor_friction = 2.0 * (motor_in_flight + (1.0 - load_share) * engaged),
+          .load_friction = 2.0 * (load_in_flight + load_share * engaged),
+          .impacts = dynamics.motor_inertia * dynamics.load_inertia * half.gap_speed *
+                     half.gap_speed};
+}
+
+/// Mismatch, relative to the state, after the half cycle is run through the engaged flow.
+double closing_error(const ServoDynamics& dynamics, const GapFlight& flight,
+                     const UnitHalfCycle& half) {
+  const EngagedFlow engaged{dynamics.damping, half.load_position, half.common_speed};
+  const EngagedFlow::State end = engaged.at(half.engaged_time);
+  const double scale = std::max(std::abs(flight.load_position), std::abs(flight.load_speed));
+  return std::max(std::abs(end.position + flight.load_position),
+                  std::abs(end.speed + flight.load_speed)) /
+         scale;
+}
+
+}  // namespace
+
+UnitHalfCycle unit_half_cycle(const ServoDynamics& dynamics, double flight_time) {
+  return half_cycle(dynamics, unit_flight(dynamics), flight_time);
+}
+
+PlasticCycle plastic_cycle(const ServoDynamics& dynamics) {
+  const GapFlight flight = unit_flight(dynamics);
+  const double flight_time = balanced_flight_time(dynamics, flight);
+  PlasticCycle result;
+  if (std::isinf(flight_time)) return result;
+  const UnitHalfCycle half = half_cycle(dynamics, flight, flight_time);
+  const double gap = -gap_displacement_at(flight, flight_time);
+  const double amplitude = dynamics.backlash / gap;
+  const double square = amplitude * amplitude;
+  const Sizes unit_sizes = sizes(dynamics, flight, half, 0.5 * gap);
+  const CycleEnergy unit_losses = losses(dynamics, flight, half, half.load_position -
+                                                                     flight.load_position - gap);
+  const double half_map_slope =
+      1.0 + gap * half.log_growth_slope / half.gap_speed;  // 1 − |Δu| (J_M y + F_M P)/Q
+
+  LimitCycle& cycle = result.cycle;
+  cycle.kind = CycleKind::symmetric;
+  cycle.multiplier = half_map_slope * half_map_slope;
+  cycle.stable = cycle.multiplier < 1.0;
+  cycle.size = amplitude * unit_sizes.load;
+  cycle.motor_size = amplitude * unit_sizes.motor;
+  cycle.engaged_time = 2.0 * half.engaged_time;
+  cycle.separated_time = 2.0 * flight_time;
+  cycle.period = cycle.engaged_time + cycle.separated_time;
+  cycle.impact_speed = -amplitude * half.gap_speed;
+  cycle.residual = closing_error(dynamics, flight, half);
+  cycle.impacts_per_period = 2;
+  cycle.settles = true;
+  cycle.energy = {square * unit_losses.motor_friction, square * unit_losses.load_friction,
+                  square * unit_losses.impacts};
+  const double load_position = amplitude * flight.load_position;
+  const double load_speed = amplitude * flight.load_speed;
+  cycle.start = {load_position + 0.5 * dynamics.backlash, load_speed, load_position, load_speed};
+  result.found = true;
+  return result;
+}
+
+}  // namespace gearlash
