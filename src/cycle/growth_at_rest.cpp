@@ -36,7 +36,7 @@ double plastic_growth(const ServoDynamics& dynamics) {
   const auto form = [&](double position, double speed) {
     return position * position + 2.0 * dynamics.damping * position * speed + speed * speed;
   };
-  const TorqueFreeLine line = torque_free_line(dynamics);
+  const TorqueFreeLine line = dynamics.torque_free_line;
   const double amplitude = std::sqrt(form(-1.0, contact_speed) / form(line.position, line.speed)) *
                            std::exp(-dynamics.damping * engaged_time);
   return amplitude * std::abs(line.position + line.speed / dynamics.load_rate);

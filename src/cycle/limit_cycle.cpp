@@ -17,7 +17,7 @@ void analyse_plastic(const ServoDynamics& dynamics, LimitCycleAnalysis& analysis
     analysis.verdict = Verdict::cannot_hunt;
     return;
   }
-  const PlasticCycle plastic = plastic_cycle(dynamics);
+  const PlasticCycle plastic = plastic_cycle(dynamics, analysis.growth_at_rest);
   if (!plastic.found) {
     analysis.verdict = Verdict::undecided;
     analysis.proved = false;

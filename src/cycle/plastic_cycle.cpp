@@ -21,30 +21,32 @@ double flow_form(double damping, double position, double speed) {
 }
 
 GapFlight unit_flight(const ServoDynamics& dynamics) {
-  const TorqueFreeLine line = torque_free_line(dynamics);
+  const TorqueFreeLine line = dynamics.torque_free_line;
   return flight_from_separation(dynamics, line.position, line.speed, 0.0);
 }
 
 UnitHalfCycle half_cycle(const ServoDynamics& dynamics, const GapFlight& flight, double time) {
-  const LoadMotion load = load_at(flight, time);
+  const FlightMotion motion = motion_in_flight(flight, time);
   UnitHalfCycle half;
   half.flight_time = time;
-  half.load_position = load.position;
-  half.load_speed = load.speed;
-  half.gap_speed = gap_speed_at(flight, time);
-  half.common_speed = load.speed + dynamics.motor_inertia * half.gap_speed;
+  half.load_position = motion.load_position;
+  half.load_speed = motion.load_speed;
+  half.gap_speed = motion.gap_speed;
+  half.gap_acceleration = motion.gap_acceleration;
+  half.common_speed = motion.load_speed + dynamics.motor_inertia * motion.gap_speed;
 
   const double start_form = flow_form(dynamics.damping, flight.load_position, flight.load_speed);
   // Q(impact) − Q(start) from the differences of position and speed: for light damping it is far
   // smaller than either.
-  const double moved = load.position - flight.load_position;
-  const double speeded = flight.load_speed * std::expm1(-flight.load_rate * time) +
-                         dynamics.motor_inertia * half.gap_speed;
+  const double moved = motion.load_moved;
+  const double speeded =
+      -flight.load_rate * moved + dynamics.motor_inertia * motion.gap_speed;
   const double change =
       moved * (2.0 * flight.load_position + moved) +
       speeded * (2.0 * flight.load_speed + speeded) +
       2.0 * dynamics.damping *
           (flight.load_position * speeded + moved * flight.load_speed + moved * speeded);
+  half.form = start_form + change;
   half.engaged_time =
       first_zero(dynamics.damping, mesh_torque(dynamics, half.load_position, half.common_speed),
                  mesh_torque_rate(dynamics, half.load_position, half.common_speed));
@@ -55,32 +57,49 @@ UnitHalfCycle half_cycle(const ServoDynamics& dynamics, const GapFlight& flight,
   half.log_growth_slope = -half.gap_speed *
                           (dynamics.motor_inertia * half.load_position +
                            dynamics.motor_friction * half.common_speed) /
-                          (start_form + change);
+                          half.form;
   return half;
 }
 
-/// The flight time at which ln ρ passes through zero, or infinity.
-double balanced_flight_time(const ServoDynamics& dynamics, const GapFlight& flight) {
-  constexpr double longest = 1e90;
-  // Near t = 0, ln ρ = −ζπ/w + κ t³/6 + t⁴/8, κ = c J_L + D J_M being the drag on the gap.
-  const double drag = std::min(dynamics.motor_rate, 1e3) * dynamics.load_inertia +
-                      std::min(dynamics.load_rate, 1e3) * dynamics.motor_inertia;
-  const double deficit = std::numbers::pi * dynamics.damping /
-                         std::sqrt(std::max(0.05, 1.0 - dynamics.damping * dynamics.damping));
-  const double guess =
+/// d² ln ρ/dt², from the product that makes its slope: with S = J_M y + F_M P,
+///   (ln ρ)″/(ln ρ)′ = ü/u̇ + Ṡ/S − Q̇/Q.
+double log_growth_curvature(const ServoDynamics& dynamics, const UnitHalfCycle& half) {
+  const double motor_speed = half.load_speed + half.gap_speed;
+  const double momentum_rate = -dynamics.motor_friction * motor_speed -
+                               dynamics.load_friction * half.load_speed - half.load_position;
+  const double drive = dynamics.motor_inertia * half.load_position +
+                       dynamics.motor_friction * half.common_speed;
+  const double drive_rate = dynamics.motor_inertia * half.load_speed +
+                            dynamics.motor_friction * momentum_rate;
+  const double form_rate =
+      2.0 * (half.load_position * half.load_speed + half.common_speed * momentum_rate +
+             dynamics.damping * (half.load_speed * half.common_speed +
+                                 half.load_position * momentum_rate));
+  return half.log_growth_slope * (half.gap_acceleration / half.gap_speed + drive_rate / drive -
+                                  form_rate / half.form);
+}
+
+/// The root of ln ρ(t) = 0 where growth at rest > 1.
+double balanced_flight_time(const ServoDynamics& dynamics, const GapFlight& flight,
+                            double growth_at_rest) {
+  // Near t = 0, ln ρ = −ζπ/w + κ t³/6 + t⁴/8, κ = c J_L + D J_M being the drag on the gap's motion;
+  // in the end it tends to ln μ₀. The guess joins the two and is within some 20 % as a rule.
+  constexpr double fastest_rate = 1e3;
+  constexpr double least_frequency_squared = 0.05;
+  const double drag = std::min(dynamics.motor_rate, fastest_rate) * dynamics.load_inertia +
+                      std::min(dynamics.load_rate, fastest_rate) * dynamics.motor_inertia;
+  const double deficit =
+      std::numbers::pi * dynamics.damping /
+      std::sqrt(std::max(least_frequency_squared, 1.0 - dynamics.damping * dynamics.damping));
+  const double early =
       std::min(std::cbrt(6.0 * deficit / drag), std::sqrt(std::sqrt(8.0 * deficit)));
-  double high = std::max(2.0 * guess, 1.0);
-  double low = 0.0;
-  while (half_cycle(dynamics, flight, high).log_growth < 0.0) {
-    low = high;
-    high *= 2.0;
-    if (high > longest) return infinity;
-  }
+  const double guess = early * std::sqrt(1.0 + deficit / std::log(growth_at_rest));
   const auto log_growth = [&](double time) {
     const UnitHalfCycle half = half_cycle(dynamics, flight, time);
-    return ValueAndSlope{half.log_growth, half.log_growth_slope};
+    return ValueAndSlope{half.log_growth, half.log_growth_slope,
+                         log_growth_curvature(dynamics, half)};
   };
-  return bracketed_root(log_growth, low, high, std::clamp(guess, low, high), 1.0);
+  return bracketed_root(log_growth, 0.0, infinity, std::min(guess, 1e3), 1.0);
 }
 
 /// ∫ f over the flight of a function that is nearly a polynomial of low degree there.
@@ -96,15 +115,15 @@ double smooth_integral(const Function& f, double time) {
 /// where both decays are slight the integrand is smooth and seven Gauss points are exact.
 double loop_work(const ServoDynamics& dynamics, const GapFlight& flight,
                  const UnitHalfCycle& half, double motor_moved) {
-  constexpr double slight = 0.25;
+  constexpr double slight = 0.1;
   if (flight.load_speed == 0.0) return flight.load_position * motor_moved;
   const double time = half.flight_time;
   const bool load_coasts = dynamics.load_rate * time <= slight;
   if (load_coasts && dynamics.motor_rate * time <= slight) {
     return smooth_integral(
         [&](double t) {
-          const LoadMotion load = load_at(flight, t);
-          return load.position * (load.speed + gap_speed_at(flight, t));
+          const FlightMotion motion = motion_in_flight(flight, t);
+          return motion.load_position * (motion.load_speed + motion.gap_speed);
         },
         time);
   }
@@ -121,7 +140,7 @@ double loop_work(const ServoDynamics& dynamics, const GapFlight& flight,
     return rest * motor_moved - speed_product / dynamics.load_rate;
   }
   const double position_square = smooth_integral(
-      [&](double t) { return std::pow(load_at(flight, t).position, 2); }, time);
+      [&](double t) { return std::pow(motion_in_flight(flight, t).load_position, 2); }, time);
   const double edge =
       half.load_position * motor_speed - flight.load_position * flight.load_speed;
   return (motor_inertia * (speed_product - edge) - position_square) / dynamics.motor_friction;
@@ -132,21 +151,23 @@ double loop_work(const ServoDynamics& dynamics, const GapFlight& flight,
 /// most one zero. The start's position when it does not turn.
 double motor_turning_position(const ServoDynamics& dynamics, const GapFlight& flight,
                               const UnitHalfCycle& half) {
+  constexpr double time_tolerance = 1e-8;  // the position is stationary there
   const double end_speed = half.load_speed + half.gap_speed;
   if (!(end_speed < 0.0) || !(flight.load_speed > 0.0)) return flight.load_position;
   const auto motor_speed = [&](double t) {
-    const LoadMotion load = load_at(flight, t);
-    const double speed = load.speed + gap_speed_at(flight, t);
-    const double slope =
+    const FlightMotion motion = motion_in_flight(flight, t);
+    const double acceleration = motion.gap_acceleration - flight.load_rate * motion.load_speed;
+    const double jerk =
         dynamics.massless_motor()
-            ? -load.speed / dynamics.motor_friction
-            : -dynamics.motor_rate * speed - load.position / dynamics.motor_inertia;
-    return ValueAndSlope{speed, slope};
+            ? 0.0
+            : -dynamics.motor_rate * acceleration - motion.load_speed / dynamics.motor_inertia;
+    return ValueAndSlope{motion.load_speed + motion.gap_speed, acceleration, jerk};
   };
   const double guess =
       half.flight_time * flight.load_speed / (flight.load_speed - end_speed);
-  const double turning = bracketed_root(motor_speed, 0.0, half.flight_time, guess, -1.0);
-  return load_at(flight, turning).position + gap_displacement_at(flight, turning);
+  const double turning =
+      bracketed_root(motor_speed, 0.0, half.flight_time, guess, -1.0, time_tolerance);
+  return motion_in_flight(flight, turning).load_position + gap_displacement_at(flight, turning);
 }
 
 /// Sizes of both shafts for a unit amplitude; half_gap is b/2 in the same unit. The load turns at
@@ -211,12 +232,13 @@ UnitHalfCycle unit_half_cycle(const ServoDynamics& dynamics, double flight_time)
   return half_cycle(dynamics, unit_flight(dynamics), flight_time);
 }
 
-PlasticCycle plastic_cycle(const ServoDynamics& dynamics) {
+PlasticCycle plastic_cycle(const ServoDynamics& dynamics, double growth_at_rest) {
+  constexpr double acceptable = 1e-9;
   const GapFlight flight = unit_flight(dynamics);
-  const double flight_time = balanced_flight_time(dynamics, flight);
-  PlasticCycle result;
-  if (std::isinf(flight_time)) return result;
+  const double flight_time = balanced_flight_time(dynamics, flight, growth_at_rest);
   const UnitHalfCycle half = half_cycle(dynamics, flight, flight_time);
+  PlasticCycle result;
+  if (!(std::abs(half.log_growth) <= acceptable)) return result;
   const double gap = -gap_displacement_at(flight, flight_time);
   const double amplitude = dynamics.backlash / gap;
   const double square = amplitude * amplitude;

@@ -131,7 +131,7 @@ Traversal traverse(const ServoDynamics& dynamics, const Arrival& arrival) {
     carry(dynamics, phase, end.duration, disturbance);
     book(traversal, phase, end);
     if (end.kind == EventKind::separation) {
-      const TorqueFreeLine line = torque_free_line(dynamics);
+      const TorqueFreeLine line = dynamics.torque_free_line;
       traversal.settled = true;
       traversal.parting_amplitude =
           end.after.load_position * line.position + end.after.load_speed * line.speed;
@@ -155,7 +155,7 @@ Traversal traverse(const ServoDynamics& dynamics, const Arrival& arrival) {
 }
 
 Traversal first_arrival(const ServoDynamics& dynamics, double amplitude) {
-  const TorqueFreeLine line = torque_free_line(dynamics);
+  const TorqueFreeLine line = dynamics.torque_free_line;
   Traversal traversal;
   Phase phase = parted_phase(dynamics, 1.0, amplitude * line.position, amplitude * line.speed);
   for (int event = 0; event < event_limit; ++event) {

@@ -40,7 +40,8 @@ double reference_passing_time(const GapFlight& flight, double otherwise) {
 
 std::vector<double> motor_turning_times(const GapFlight& flight, double from, double to) {
   const auto motor_speed = [&](double t) {
-    return load_at(flight, t).speed + gap_speed_at(flight, t);
+    const FlightMotion motion = motion_in_flight(flight, t);
+    return motion.load_speed + motion.gap_speed;
   };
   std::vector<double> times;
   const double passing = std::clamp(reference_passing_time(flight, to), from, to);

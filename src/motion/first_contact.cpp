@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "gearlash/motion/bracketed_root.hpp"
-#include "gearlash/motion/decay_integral.hpp"
 
 namespace gearlash {
 namespace {
@@ -14,16 +13,6 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double sign_of(double value) { return static_cast<double>((value > 0.0) - (value < 0.0)); }
-
-double gap_acceleration_at(const GapFlight& flight, double time) {
-  const double motor_decay = flight.motor_rate * time;
-  double acceleration = flight.gap_acceleration * std::exp(-motor_decay);
-  if (flight.gap_drive != 0.0) {
-    acceleration +=
-        flight.gap_drive * time * decay_convolution(flight.load_rate * time, motor_decay);
-  }
-  return acceleration;
-}
 
 /// The zero of ü on t > 0, or infinity: t φ₁(κt) = −ü₀/G with κ = c − D.
 double inflection_time(const GapFlight& flight) {
@@ -84,14 +73,16 @@ TurningPoints turning_points(const GapFlight& flight, double horizon) {
     if (!(end > start) || direction == 0.0) continue;
     double bound = end;
     const double end_direction =
-        std::isinf(end) ? final_direction(flight) : sign_of(gap_speed_at(flight, end));
+        std::isinf(end) ? final_direction(flight) : sign_of(motion_in_flight(flight, end).gap_speed);
     if (end_direction * direction < 0.0) {
       if (std::isinf(end)) {
-        bound = finite_bound(
-            start, [&](double t) { return sign_of(gap_speed_at(flight, t)) == end_direction; });
+        bound = finite_bound(start, [&](double t) {
+          return sign_of(motion_in_flight(flight, t).gap_speed) == end_direction;
+        });
       }
       const auto speed = [&](double t) {
-        return ValueAndSlope{gap_speed_at(flight, t), gap_acceleration_at(flight, t)};
+        const FlightMotion motion = motion_in_flight(flight, t);
+        return ValueAndSlope{motion.gap_speed, motion.gap_acceleration};
       };
       turning.times[turning.count++] =
           bracketed_root(speed, start, bound, 0.5 * (start + bound), end_direction);
@@ -112,7 +103,8 @@ double crossing(const GapFlight& flight, double start, double end, double target
   }
   if (distance(bound) * direction < 0.0) return infinity;
   const auto value_and_slope = [&](double t) {
-    return ValueAndSlope{distance(t), gap_speed_at(flight, t)};
+    const FlightMotion motion = motion_in_flight(flight, t);
+    return ValueAndSlope{distance(t), motion.gap_speed, motion.gap_acceleration};
   };
   // Exact for a clean separation without friction; an underestimate otherwise.
   double guess = 0.5 * (start + bound);

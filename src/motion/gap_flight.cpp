@@ -56,10 +56,22 @@ GapFlight of_two_masses(const ServoDynamics& dynamics, const GapState& state,
 
 }  // namespace
 
-LoadMotion load_at(const GapFlight& flight, double time) {
-  const double decay = flight.load_rate * time;
-  return {flight.load_position + flight.load_speed * time * decay_integral(decay),
-          flight.load_speed * std::exp(-decay)};
+FlightMotion motion_in_flight(const GapFlight& flight, double time) {
+  const Decay load = decay(flight.load_rate * time);
+  const Decay motor = decay(flight.motor_rate * time);
+  const double load_moved = flight.load_speed * time * load.integral();
+  FlightMotion motion{
+      .load_moved = load_moved,
+      .load_position = flight.load_position + load_moved,
+      .load_speed = flight.load_speed * load.factor,
+      .gap_speed = flight.gap_speed + flight.gap_acceleration * time * motor.integral(),
+      .gap_acceleration = flight.gap_acceleration * motor.factor};
+  if (flight.gap_drive != 0.0) {
+    const double drive = flight.gap_drive * time;
+    motion.gap_speed += drive * time * convolution_integral(load, motor);
+    motion.gap_acceleration += drive * decay_convolution(load, motor);
+  }
+  return motion;
 }
 
 double gap_displacement_at(const GapFlight& flight, double time) {
@@ -74,19 +86,6 @@ double gap_displacement_at(const GapFlight& flight, double time) {
                     convolution_double_integral(flight.load_rate * time, motor_decay);
   }
   return displacement;
-}
-
-double gap_speed_at(const GapFlight& flight, double time) {
-  const double motor_decay = flight.motor_rate * time;
-  double speed = flight.gap_speed;
-  if (flight.gap_acceleration != 0.0) {
-    speed += flight.gap_acceleration * time * decay_integral(motor_decay);
-  }
-  if (flight.gap_drive != 0.0) {
-    speed += flight.gap_drive * time * time *
-             convolution_integral(flight.load_rate * time, motor_decay);
-  }
-  return speed;
 }
 
 GapFlight flight_from(const ServoDynamics& dynamics, const GapState& state) {
@@ -106,7 +105,7 @@ GapFlight flight_from(const ServoDynamics& dynamics, const GapState& state) {
 
 GapFlight flight_from_separation(const ServoDynamics& dynamics, double load_position,
                                  double load_speed, double gap) {
-  const TorqueFreeLine line = torque_free_line(dynamics);
+  const TorqueFreeLine line = dynamics.torque_free_line;
   const double amplitude = load_position * line.position + load_speed * line.speed;
   const GapState state{amplitude * line.position, amplitude * line.speed, gap, 0.0};
   if (dynamics.massless_load()) {

@@ -36,9 +36,9 @@ Phase separated_phase(const GapFlight& flight, FaceSign face) {
 }
 
 GapState state_in_flight(const GapFlight& flight, double time) {
-  const LoadMotion load = load_at(flight, time);
-  return {load.position, load.speed, flight.gap + gap_displacement_at(flight, time),
-          gap_speed_at(flight, time)};
+  const FlightMotion motion = motion_in_flight(flight, time);
+  return {motion.load_position, motion.load_speed,
+          flight.gap + gap_displacement_at(flight, time), motion.gap_speed};
 }
 
 PhaseEnd no_event() {

@@ -28,12 +28,11 @@ ServoDynamics servo_dynamics(const NormalizedServo& servo) {
   dynamics.restitution = servo.restitution;
   dynamics.torque_per_speed = dynamics.load_friction * dynamics.motor_inertia -
                               dynamics.motor_friction * dynamics.load_inertia;
+  const double length = std::sqrt(dynamics.torque_per_speed * dynamics.torque_per_speed +
+                                  dynamics.load_inertia * dynamics.load_inertia);
+  dynamics.torque_free_line = {dynamics.torque_per_speed / length,
+                               dynamics.load_inertia / length};
   return dynamics;
-}
-
-TorqueFreeLine torque_free_line(const ServoDynamics& dynamics) {
-  const double length = std::hypot(dynamics.torque_per_speed, dynamics.load_inertia);
-  return {dynamics.torque_per_speed / length, dynamics.load_inertia / length};
 }
 
 }  // namespace gearlash

@@ -94,19 +94,22 @@ void accumulate(const ServoDynamics& dynamics, const Phase& phase, double durati
   }
   const GapFlight& flight = phase.flight;
   const double fastest = std::max(flight.load_rate, flight.motor_rate);
+  const auto motor_speed_squared = [&](double t) {
+    const FlightMotion motion = motion_in_flight(flight, t);
+    return std::pow(motion.load_speed + motion.gap_speed, 2);
+  };
+  const auto load_speed_squared = [&](double t) {
+    return std::pow(motion_in_flight(flight, t).load_speed, 2);
+  };
+  const auto loop_power = [&](double t) {
+    const FlightMotion motion = motion_in_flight(flight, t);
+    return -motion.load_position * motion.gap_speed;
+  };
   account.motor_friction +=
-      dynamics.motor_friction * integral(
-                                    [&](double t) {
-                                      return std::pow(
-                                          load_at(flight, t).speed + gap_speed_at(flight, t), 2);
-                                    },
-                                    duration, fastest);
+      dynamics.motor_friction * integral(motor_speed_squared, duration, fastest);
   account.load_friction +=
-      dynamics.load_friction *
-      integral([&](double t) { return std::pow(load_at(flight, t).speed, 2); }, duration, fastest);
-  account.supplied -= integral(
-      [&](double t) { return load_at(flight, t).position * gap_speed_at(flight, t); }, duration,
-      fastest);
+      dynamics.load_friction * integral(load_speed_squared, duration, fastest);
+  account.supplied += integral(loop_power, duration, fastest);
 }
 
 double kinetic_energy(const ServoDynamics& dynamics, const GapState& state) {

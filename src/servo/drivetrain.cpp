@@ -7,7 +7,7 @@
 namespace gearlash {
 namespace {
 
-std::vector<Violation> validate_ranges(const Drivetrain& drivetrain) {
+std::vector<Violation> validate_masses_and_stiffness(const Drivetrain& drivetrain) {
   RangeCheck check;
   check.not_negative("motor_inertia", drivetrain.motor_inertia, "kg m2");
   check.not_negative("load_inertia", drivetrain.load_inertia, "kg m2");
@@ -17,6 +17,11 @@ std::vector<Violation> validate_ranges(const Drivetrain& drivetrain) {
   if (drivetrain.motor_inertia == 0.0 && drivetrain.load_inertia == 0.0) {
     check.refuse("load_inertia", "0 kg m2",
                  "must be positive where motor_inertia is 0: something has to have inertia");
+  }
+  if (check.violations().empty() &&
+      std::isinf(drivetrain.motor_inertia + drivetrain.load_inertia)) {
+    check.refuse("load_inertia", exact_text(drivetrain.load_inertia) + " kg m2",
+                 "must leave motor_inertia + load_inertia finite");
   }
   return check.violations();
 }
@@ -38,9 +43,16 @@ NormalizedServo ratios(const Drivetrain& drivetrain) {
 }  // namespace
 
 std::vector<Violation> validate(const Drivetrain& drivetrain) {
-  const std::vector<Violation> out_of_range = validate_ranges(drivetrain);
-  if (!out_of_range.empty()) return out_of_range;
-  return validate(ratios(drivetrain));
+  RangeCheck check;
+  check.include(validate_masses_and_stiffness(drivetrain));
+  // Ratios of unsound masses mean nothing; the fields that are passed on are checked all the same.
+  const bool sound = check.violations().empty();
+  NormalizedServo servo = sound ? ratios(drivetrain) : NormalizedServo{};
+  servo.backlash = drivetrain.backlash;
+  servo.restitution = drivetrain.restitution;
+  servo.sensor = drivetrain.sensor;
+  check.include(validate(servo));
+  return check.violations();
 }
 
 double natural_frequency(const Drivetrain& drivetrain) {

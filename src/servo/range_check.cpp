@@ -40,8 +40,7 @@ RangeCheck& RangeCheck::not_negative(std::string_view field, double value, std::
   return refuse(field, with_unit(exact_text(value), unit), "must be zero or positive, and finite");
 }
 
-RangeCheck& RangeCheck::within(std::string_view field, double value, double low, double high) {
-  if (value >= low && value <= high) return *this;
+RangeCheck& RangeCheck::outside(std::string_view field, double value, double low, double high) {
   return refuse(field, exact_text(value),
                 "must be from " + exact_text(low) + " to " + exact_text(high));
 }

@@ -14,7 +14,9 @@ struct UnitHalfCycle {
   double load_position;  ///< y at impact
   double load_speed;     ///< v_L just before impact
   double gap_speed;      ///< u̇ just before impact, ≤ 0
+  double gap_acceleration;  ///< ü just before impact
   double common_speed;   ///< P = J_M v_M + J_L v_L, the speed just after impact
+  double form;           ///< Q(y, P) = y² + 2ζyP + P² just after impact
   double log_growth;     ///< ln ρ, ρ the amplitude at the next parting; −∞ when there is none
   double log_growth_slope;  ///< d ln ρ/dt₂ = |u̇| (J_M y + F_M P)/(y² + 2ζyP + P²), > 0
 };
@@ -33,8 +35,8 @@ struct PlasticCycle {
 /// The symmetric cycle: the root t₂ of ln ρ(t₂) = 0, which exists exactly when growth_at_rest > 1
 /// and is unique; amplitude b / |u(t₂) − u(0)| of the unit flight. Half-map slope, whose square is
 /// the multiplier: R′ = 1 − |Δu| (J_M y + F_M P)/Q(y, P).
-/// Precondition: plastic contact, b > 0, ζ > 0, growth at rest > 1. `found` is false only where
-/// ln ρ does not rise above zero within a double's range (growth at rest 1 + rounding).
-PlasticCycle plastic_cycle(const ServoDynamics& dynamics);
+/// Precondition: plastic contact, b > 0, ζ > 0, growth_at_rest = growth_at_rest(dynamics) > 1.
+/// `found` is false only where ln ρ cannot be told from zero (growth at rest 1 + rounding).
+PlasticCycle plastic_cycle(const ServoDynamics& dynamics, double growth_at_rest);
 
 }  // namespace gearlash

@@ -9,41 +9,48 @@ namespace gearlash {
 struct ValueAndSlope {
   double value;
   double slope;
+  double curvature = 0.0;  ///< second derivative where known: Halley's step instead of Newton's
 };
 
-/// Root of a continuous function in [low, high], to the last bits of a double.
+/// Root of a continuous function in [low, high], by default to the last bits of a double.
 ///
-/// Precondition: f(high) has the sign `sign_at_high` (+1 or −1) or is zero, f(low) the opposite
-/// sign or zero. The bracket shrinks at every evaluation; a Newton step that would leave it, or
-/// that does not halve the one before, is replaced by bisection, so the loop ends after at most
-/// about 2 × 64 bisections' worth of steps whatever f does. `guess` is clamped into the bracket.
+/// `high` may be infinite when f takes the sign `sign_at_high` somewhere above: bisection then
+/// doubles. Precondition: f(high) has the sign `sign_at_high` (+1 or −1) or is zero, f(low) the opposite
+/// sign or zero; `guess` is clamped into the bracket. The bracket shrinks at every evaluation; a
+/// step that would leave it, or that does not halve the one before, is replaced by bisection, so
+/// the loop ends whatever f does. It ends when
+///   |step| ≤ tolerance · |x|, or when the step that would follow, |step|³/|last step|² at least
+///   for a method of second order, is below an eighth of that; or at an exact zero; or when the
+///   bracket is down to neighbouring numbers.
 template <class Function>
 double bracketed_root(const Function& f, double low, double high, double guess,
-                      double sign_at_high) {
+                      double sign_at_high,
+                      double tolerance = std::numeric_limits<double>::epsilon()) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   constexpr int step_limit = 256;
   double x = guess > low && guess < high ? guess : 0.5 * (low + high);
-  double previous_step = high - low;
-  for (int step_count = 0; step_count < step_limit; ++step_count) {
-    const auto [value, slope] = f(x);
-    if (value == 0.0) return x;
-    if (value * sign_at_high > 0.0) {
-      high = x;
-    } else {
-      low = x;
+  double last_step = high - low;  // infinite at first where high is
+  bool last_was_newton = false;
+  for (int count = 0; count < step_limit; ++count) {
+    const ValueAndSlope at_x = f(x);
+    if (at_x.value == 0.0) return x;
+    (at_x.value * sign_at_high > 0.0 ? high : low) = x;
+    if (!std::isinf(high) && high - low <= epsilon * std::abs(high)) return x;
+    const double newton = -at_x.value / at_x.slope;
+    double step = newton / (1.0 + 0.5 * newton * at_x.curvature / at_x.slope);
+    // Below the resolution of x a step has converged, even across the bracket's end.
+    if (std::abs(step) <= tolerance * std::abs(x)) return std::fmin(std::fmax(x + step, low), high);
+    const bool is_newton =
+        x + step > low && x + step < high && std::abs(step) <= 0.5 * std::abs(last_step);
+    if (!is_newton) step = (std::isinf(high) ? 2.0 * low + 1.0 : 0.5 * (low + high)) - x;
+    x += step;
+    const double ratio = step / last_step;
+    if (is_newton && last_was_newton &&
+        std::abs(step) * ratio * ratio <= 0.125 * tolerance * std::abs(x)) {
+      return x;
     }
-    double next = x - value / slope;
-    const bool newton_is_good = next > low && next < high &&
-                                std::abs(next - x) <= 0.5 * std::abs(previous_step);
-    // A Newton step below the resolution has converged even when it points across the bracket's
-    // end, which then is the root's other neighbour.
-    if (std::abs(value) <= epsilon * std::abs(slope * x)) {
-      return next >= low && next <= high ? next : x;
-    }
-    if (!newton_is_good) next = 0.5 * (low + high);
-    previous_step = next - x;
-    if (next == x || high - low <= epsilon * std::abs(high)) return next;
-    x = next;
+    last_step = step;
+    last_was_newton = is_newton;
   }
   return x;
 }

@@ -24,14 +24,17 @@ struct GapFlight {
   double motor_rate = 0.0;        ///< c; D for a massless motor
 };
 
-struct LoadMotion {
-  double position;
-  double speed;
+/// Everything of a flight at one time that needs no second integral.
+struct FlightMotion {
+  double load_moved;        ///< y − y₀
+  double load_position;     ///< y
+  double load_speed;        ///< v_L
+  double gap_speed;         ///< u̇ = v_M − v_L
+  double gap_acceleration;  ///< ü
 };
 
-LoadMotion load_at(const GapFlight& flight, double time);
+FlightMotion motion_in_flight(const GapFlight& flight, double time);
 double gap_displacement_at(const GapFlight& flight, double time);  ///< u(t) − u₀
-double gap_speed_at(const GapFlight& flight, double time);         ///< u̇(t) = v_M − v_L
 
 /// The shafts just after parting (or as given): positions and speeds about the reference.
 struct GapState {

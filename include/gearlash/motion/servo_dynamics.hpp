@@ -5,6 +5,13 @@
 
 namespace gearlash {
 
+/// Unit vector (y, ẏ) along the line of zero mesh torque, with speed ≥ 0: the states at which faces
+/// can part. A massless load parts at rest (speed 0, position 1).
+struct TorqueFreeLine {
+  double position = 0.0;
+  double speed = 1.0;
+};
+
 /// Normalised so that J_M + J_L = 1, K = 1 and F_M + F_L = 2ζ.
 struct ServoDynamics {
   double damping = 0.0;         ///< ζ
@@ -17,6 +24,7 @@ struct ServoDynamics {
   double backlash = 0.0;        ///< b, rad
   double restitution = 0.0;     ///< e
   double torque_per_speed = 0.0;  ///< F_L J_M − F_M J_L, see mesh_torque()
+  TorqueFreeLine torque_free_line;
 
   bool massless_motor() const { return motor_inertia == 0.0; }
   bool massless_load() const { return load_inertia == 0.0; }
@@ -40,13 +48,5 @@ inline double mesh_torque_rate(const ServoDynamics& dynamics, double position, d
   return -dynamics.torque_per_speed * (2.0 * dynamics.damping * speed + position) -
          dynamics.load_inertia * speed;
 }
-
-/// Unit vector (y, ẏ) along the line N = 0, with speed ≥ 0: the states at which faces can part. A
-/// massless load parts at rest (speed 0, position 1).
-struct TorqueFreeLine {
-  double position;
-  double speed;
-};
-TorqueFreeLine torque_free_line(const ServoDynamics& dynamics);
 
 }  // namespace gearlash

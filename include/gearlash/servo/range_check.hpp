@@ -19,7 +19,9 @@ class RangeCheck {
 
   RangeCheck& positive(std::string_view field, double value, std::string_view unit);
   RangeCheck& not_negative(std::string_view field, double value, std::string_view unit);
-  RangeCheck& within(std::string_view field, double value, double low, double high);
+  RangeCheck& within(std::string_view field, double value, double low, double high) {
+    return value >= low && value <= high ? *this : outside(field, value, low, high);
+  }
   RangeCheck& refuse(std::string_view field, std::string_view value, std::string_view permitted);
 
   /// Adds the violations of another check.
@@ -28,6 +30,8 @@ class RangeCheck {
   std::vector<Violation> violations() const { return violations_; }
 
  private:
+  RangeCheck& outside(std::string_view field, double value, double low, double high);
+
   std::string prefix_;
   std::vector<Violation> violations_;
 };
