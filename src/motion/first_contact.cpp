@@ -25,19 +25,23 @@ double inflection_time(const GapFlight& flight) {
   return argument > -1.0 ? std::log1p(argument) / rate_difference : infinity;
 }
 
-/// Sign of u̇ as t → ∞: its limit, or the sign of the term that outgrows the others.
+/// Sign of u̇ as t → ∞: its limit, or the sign of the term that outgrows the others. With D = 0
+/// the load coasts for ever and C t²/2 or C t/c wins; with c = 0 < D the motor is left with the
+/// steady acceleration A + C/D.
 double final_direction(const GapFlight& flight) {
   const double c = flight.motor_rate;
   const double d = flight.load_rate;
-  if (flight.gap_drive != 0.0 && d == 0.0) return sign_of(flight.gap_drive);
+  const bool coupled = flight.coupling != 0.0;
+  if (coupled && d == 0.0) return sign_of(flight.coupling);
+  double limit = flight.gap_speed;
+  if (d > 0.0) limit += flight.load_deceleration / d;
   if (c == 0.0) {
-    const double growth =
-        flight.gap_acceleration + (flight.gap_drive != 0.0 ? flight.gap_drive / d : 0.0);
+    const double growth = flight.motor_acceleration + (coupled ? flight.coupling / d : 0.0);
     if (growth != 0.0) return sign_of(growth);
-    return sign_of(flight.gap_speed - (flight.gap_drive != 0.0 ? flight.gap_drive / (d * d) : 0.0));
+    return sign_of(limit - (coupled ? flight.coupling / (d * d) : 0.0));
   }
-  double limit = flight.gap_speed + flight.gap_acceleration / c;
-  if (flight.gap_drive != 0.0) limit += flight.gap_drive / (d * c);
+  limit += flight.motor_acceleration / c;
+  if (coupled) limit += flight.coupling / (d * c);
   return sign_of(limit);
 }
 

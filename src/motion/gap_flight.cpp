@@ -18,40 +18,56 @@ double gap_drive(const ServoDynamics& dynamics, double load_speed) {
 /// A massless load stands still in the gap: u̇ = v_M, v̇_M = −c v_M − y (J_M = 1).
 GapFlight over_massless_load(const ServoDynamics& dynamics, double load_position, double gap,
                              double motor_speed) {
+  const double acceleration = -dynamics.motor_rate * motor_speed - load_position;
   return {.load_position = load_position,
-          .load_speed = 0.0,
           .gap = gap,
           .gap_speed = motor_speed,
-          .gap_acceleration = -dynamics.motor_rate * motor_speed - load_position,
-          .gap_drive = 0.0,
-          .load_rate = 0.0,
-          .motor_rate = dynamics.motor_rate};
+          .motor_acceleration = acceleration,
+          .motor_rate = dynamics.motor_rate,
+          .gap_acceleration = acceleration};
 }
 
 /// A massless motor runs at v_M = −y/F_M: u̇ = −y/F_M − v, ü = (D − 1/F_M) v₀ e^{−Dt} (J_L = 1).
 GapFlight of_massless_motor(const ServoDynamics& dynamics, const GapState& state,
                             double gap_speed) {
+  const double acceleration =
+      (dynamics.load_rate - 1.0 / dynamics.motor_friction) * state.load_speed;
   return {.load_position = state.load_position,
           .load_speed = state.load_speed,
           .gap = state.gap,
           .gap_speed = gap_speed,
-          .gap_acceleration =
-              (dynamics.load_rate - 1.0 / dynamics.motor_friction) * state.load_speed,
-          .gap_drive = 0.0,
+          .load_deceleration = acceleration,
           .load_rate = dynamics.load_rate,
-          .motor_rate = dynamics.load_rate};
+          .gap_acceleration = acceleration};
 }
 
+/// Two masses, apart from what happens to the gap.
 GapFlight of_two_masses(const ServoDynamics& dynamics, const GapState& state,
                         double gap_acceleration) {
+  const double load_deceleration = dynamics.load_rate * state.load_speed;
   return {.load_position = state.load_position,
           .load_speed = state.load_speed,
           .gap = state.gap,
           .gap_speed = state.gap_speed,
-          .gap_acceleration = gap_acceleration,
-          .gap_drive = gap_drive(dynamics, state.load_speed),
+          .motor_acceleration = gap_acceleration - load_deceleration,
+          .load_deceleration = load_deceleration,
+          .coupling = -state.load_speed / dynamics.motor_inertia,
           .load_rate = dynamics.load_rate,
-          .motor_rate = dynamics.motor_rate};
+          .motor_rate = dynamics.motor_rate,
+          .gap_acceleration = gap_acceleration,
+          .gap_drive = gap_drive(dynamics, state.load_speed)};
+}
+
+/// Two masses that part cleanly: the terms of first and second order in time cancel exactly.
+GapFlight of_clean_parting(const ServoDynamics& dynamics, const GapState& state) {
+  const double drive = gap_drive(dynamics, state.load_speed);
+  return {.load_position = state.load_position,
+          .load_speed = state.load_speed,
+          .gap = state.gap,
+          .coupling = drive,
+          .load_rate = dynamics.load_rate,
+          .motor_rate = dynamics.motor_rate,
+          .gap_drive = drive};
 }
 
 }  // namespace
@@ -64,26 +80,31 @@ FlightMotion motion_in_flight(const GapFlight& flight, double time) {
       .load_moved = load_moved,
       .load_position = flight.load_position + load_moved,
       .load_speed = flight.load_speed * load.factor,
-      .gap_speed = flight.gap_speed + flight.gap_acceleration * time * motor.integral(),
-      .gap_acceleration = flight.gap_acceleration * motor.factor};
-  if (flight.gap_drive != 0.0) {
-    const double drive = flight.gap_drive * time;
-    motion.gap_speed += drive * time * convolution_integral(load, motor);
-    motion.gap_acceleration += drive * decay_convolution(load, motor);
+      .gap_speed = flight.gap_speed + time * (flight.motor_acceleration * motor.integral() +
+                                              flight.load_deceleration * load.integral()),
+      .gap_acceleration =
+          flight.motor_acceleration * motor.factor + flight.load_deceleration * load.factor};
+  if (flight.coupling != 0.0) {
+    const double coupled = flight.coupling * time;
+    motion.gap_speed += coupled * time * convolution_integral(load, motor);
+    motion.gap_acceleration += coupled * decay_convolution(load, motor);
   }
   return motion;
 }
 
 double gap_displacement_at(const GapFlight& flight, double time) {
+  const double load_decay = flight.load_rate * time;
   const double motor_decay = flight.motor_rate * time;
   double displacement = flight.gap_speed * time;
-  if (flight.gap_acceleration != 0.0) {
-    displacement +=
-        flight.gap_acceleration * time * time * decay_double_integral(motor_decay);
+  if (flight.motor_acceleration != 0.0) {
+    displacement += flight.motor_acceleration * time * time * decay_double_integral(motor_decay);
   }
-  if (flight.gap_drive != 0.0) {
-    displacement += flight.gap_drive * time * time * time *
-                    convolution_double_integral(flight.load_rate * time, motor_decay);
+  if (flight.load_deceleration != 0.0) {
+    displacement += flight.load_deceleration * time * time * decay_double_integral(load_decay);
+  }
+  if (flight.coupling != 0.0) {
+    displacement += flight.coupling * time * time * time *
+                    convolution_double_integral(load_decay, motor_decay);
   }
   return displacement;
 }
@@ -97,10 +118,12 @@ GapFlight flight_from(const ServoDynamics& dynamics, const GapState& state) {
     const double driven_speed = -state.load_position / dynamics.motor_friction;
     return of_massless_motor(dynamics, state, driven_speed - state.load_speed);
   }
-  const double gap_acceleration = -dynamics.motor_rate * motor_speed -
-                                  state.load_position / dynamics.motor_inertia +
-                                  dynamics.load_rate * state.load_speed;
-  return of_two_masses(dynamics, state, gap_acceleration);
+  const double motor_acceleration =
+      -dynamics.motor_rate * motor_speed - state.load_position / dynamics.motor_inertia;
+  GapFlight flight = of_two_masses(
+      dynamics, state, motor_acceleration + dynamics.load_rate * state.load_speed);
+  flight.motor_acceleration = motor_acceleration;
+  return flight;
 }
 
 GapFlight flight_from_separation(const ServoDynamics& dynamics, double load_position,
@@ -112,7 +135,7 @@ GapFlight flight_from_separation(const ServoDynamics& dynamics, double load_posi
     return over_massless_load(dynamics, state.load_position, gap, 0.0);
   }
   if (dynamics.massless_motor()) return of_massless_motor(dynamics, state, 0.0);
-  return of_two_masses(dynamics, state, 0.0);
+  return of_clean_parting(dynamics, state);
 }
 
 GapFlight flight_from_pull(const ServoDynamics& dynamics, double load_position, double load_speed,

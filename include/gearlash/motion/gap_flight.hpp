@@ -7,21 +7,25 @@ namespace gearlash {
 
 /// Motion across the gap from time 0. With D = F_L/J_L, c = F_M/J_M:
 ///   load   y(t) = y₀ + v₀ t φ(Dt),  v(t) = v₀ e^{−Dt},           φ = decay_integral
-///   gap    u(t) = u₀ + u̇₀ t + ü₀ t² exp[0,0,−ct] + G t³ exp[0,0,−Dt,−ct]
-///   with   G = −v₀ (D² − 2ζD + 1)/J_M.
-/// u is written in its own coordinates, not as a difference of two shafts, so that it keeps its
-/// relative accuracy however short the flight. (From ü = v̇_M − v̇_L and J_M v̈_M + F_M v̇_M + v_L =
-/// 0: d/dt(ü) + c ü = G e^{−Dt}.) A massless shaft loses its fastest exponential: the same form is
-/// then kept with G = 0 and the rate that is left.
+///   gap    u(t) = u₀ + u̇₀ t + A t² exp[0,0,−ct] + B t² exp[0,0,−Dt] + C t³ exp[0,0,−Dt,−ct]
+///   with   A = v̇_M(0) = −c v_M − y₀/J_M,  B = −v̇_L(0) = D v₀,  C = −v₀/J_M.
+/// (From v̈_M + c v̇_M = −v_L/J_M and v̇_L = −D v_L.) u is written in its own coordinates, not as a
+/// difference of two shafts, so that it keeps its relative accuracy however short the flight. A
+/// massless load stands still (B = C = 0); for a massless motor v_M = −y/F_M leaves
+/// B = (D − 1/F_M) v₀ alone; after a clean parting u̇₀ = ü₀ = 0 leaves C = G alone.
 struct GapFlight {
-  double load_position = 0.0;     ///< y₀, from the reference
-  double load_speed = 0.0;        ///< v₀
-  double gap = 0.0;               ///< u₀
-  double gap_speed = 0.0;         ///< u̇₀
-  double gap_acceleration = 0.0;  ///< ü₀
-  double gap_drive = 0.0;         ///< G
-  double load_rate = 0.0;         ///< D; 0 for a massless load, which stands still
-  double motor_rate = 0.0;        ///< c; D for a massless motor
+  double load_position = 0.0;       ///< y₀, from the reference
+  double load_speed = 0.0;          ///< v₀
+  double gap = 0.0;                 ///< u₀
+  double gap_speed = 0.0;           ///< u̇₀
+  double motor_acceleration = 0.0;  ///< A
+  double load_deceleration = 0.0;   ///< B
+  double coupling = 0.0;            ///< C
+  double load_rate = 0.0;           ///< D; 0 for a massless load
+  double motor_rate = 0.0;          ///< c; 0 for a massless motor
+  double gap_acceleration = 0.0;    ///< ü₀ = A + B, known more exactly than that sum
+  double gap_drive = 0.0;           ///< G = −v₀(D² − 2ζD + 1)/J_M = (c − D) B + C, likewise:
+                                    ///< ü e^{ct} = ü₀ + G t φ₁((c − D)t)
 };
 
 /// Everything of a flight at one time that needs no second integral.
