@@ -152,8 +152,12 @@ double loop_work(const ServoDynamics& dynamics, const GapFlight& flight,
 double motor_turning_position(const ServoDynamics& dynamics, const GapFlight& flight,
                               const UnitHalfCycle& half) {
   constexpr double time_tolerance = 1e-8;  // the position is stationary there
+  const double start_speed = flight.load_speed;
   const double end_speed = half.load_speed + half.gap_speed;
-  if (!(end_speed < 0.0) || !(flight.load_speed > 0.0)) return flight.load_position;
+  if (!(end_speed < 0.0) || !(start_speed > 0.0)) return flight.load_position;
+  double last_time = 0.0;
+  double last_load_position = 0.0;
+  ValueAndSlope last{};
   const auto motor_speed = [&](double t) {
     const FlightMotion motion = motion_in_flight(flight, t);
     const double acceleration = motion.gap_acceleration - flight.load_rate * motion.load_speed;
@@ -161,13 +165,24 @@ double motor_turning_position(const ServoDynamics& dynamics, const GapFlight& fl
         dynamics.massless_motor()
             ? 0.0
             : -dynamics.motor_rate * acceleration - motion.load_speed / dynamics.motor_inertia;
-    return ValueAndSlope{motion.load_speed + motion.gap_speed, acceleration, jerk};
+    last_time = t;
+    last_load_position = motion.load_position;
+    last = {motion.load_speed + motion.gap_speed, acceleration, jerk};
+    return last;
   };
+  // The parabola through the speeds at both ends with the acceleration at parting.
+  const double time = half.flight_time;
+  const double acceleration = flight.gap_acceleration - flight.load_rate * start_speed;
+  const double bend = (end_speed - start_speed - acceleration * time) / (time * time);
   const double guess =
-      half.flight_time * flight.load_speed / (flight.load_speed - end_speed);
-  const double turning =
-      bracketed_root(motor_speed, 0.0, half.flight_time, guess, -1.0, time_tolerance);
-  return motion_in_flight(flight, turning).load_position + gap_displacement_at(flight, turning);
+      2.0 * start_speed /
+      (std::sqrt(acceleration * acceleration - 4.0 * bend * start_speed) - acceleration);
+  const double step =
+      bracketed_root(motor_speed, 0.0, time, guess, -1.0, time_tolerance) - last_time;
+  // The last step, some 1e-4, by Taylor's series from where the motion is known.
+  const double last_position = last_load_position + gap_displacement_at(flight, last_time);
+  return last_position +
+         step * (last.value + step * (0.5 * last.slope + step * last.curvature / 6.0));
 }
 
 /// Sizes of both shafts for a unit amplitude; half_gap is b/2 in the same unit. The load turns at
@@ -180,11 +195,14 @@ struct Sizes {
 Sizes sizes(const ServoDynamics& dynamics, const GapFlight& flight, const UnitHalfCycle& half,
             double half_gap) {
   double turning = half.load_position;
-  const EngagedFlow engaged{dynamics.damping, half.load_position, half.common_speed};
   const double turning_time =
       first_zero(dynamics.damping, half.common_speed,
                  -2.0 * dynamics.damping * half.common_speed - half.load_position);
-  if (turning_time < half.engaged_time) turning = engaged.at(turning_time).position;
+  // There ẏ = 0, so that Q = y².
+  if (turning_time < half.engaged_time) {
+    turning = std::copysign(std::sqrt(half.form) * std::exp(-dynamics.damping * turning_time),
+                            half.common_speed);
+  }
   const double start = flight.load_position;
   const double motor_turning = motor_turning_position(dynamics, flight, half);
   return {.load = std::max({std::abs(start), std::abs(half.load_position), std::abs(turning)}),

@@ -61,6 +61,11 @@ double finite_bound(double from, const Predicate& reached) {
   return bound;
 }
 
+/// Exact for a constant acceleration; outside the bracket where that says nothing.
+double turning_guess(const GapFlight& flight, double start) {
+  return start == 0.0 ? -flight.gap_speed / flight.gap_acceleration : 0.0;
+}
+
 /// Zeros of u̇ within (0, horizon), at most two, in order.
 struct TurningPoints {
   std::array<double, 2> times{};
@@ -89,7 +94,7 @@ TurningPoints turning_points(const GapFlight& flight, double horizon) {
         return ValueAndSlope{motion.gap_speed, motion.gap_acceleration};
       };
       turning.times[turning.count++] =
-          bracketed_root(speed, start, bound, 0.5 * (start + bound), end_direction);
+          bracketed_root(speed, start, bound, turning_guess(flight, start), end_direction);
     }
     if (end_direction != 0.0) direction = end_direction;
     start = end;
@@ -110,8 +115,8 @@ double crossing(const GapFlight& flight, double start, double end, double target
     const FlightMotion motion = motion_in_flight(flight, t);
     return ValueAndSlope{distance(t), motion.gap_speed, motion.gap_acceleration};
   };
-  // Exact for a clean separation without friction; an underestimate otherwise.
-  double guess = 0.5 * (start + bound);
+  // Exact for a bounce under a constant acceleration, and for a clean parting without friction.
+  double guess = 2.0 * start;
   if (start == 0.0 && flight.gap_speed == 0.0 && flight.gap_acceleration == 0.0) {
     guess = std::cbrt(std::abs(6.0 * target / flight.gap_drive));
   }

@@ -12,11 +12,24 @@ struct ValueAndSlope {
   double curvature = 0.0;  ///< second derivative where known: Halley's step instead of Newton's
 };
 
+namespace detail {
+
+/// A point strictly inside the bracket that halves it, or halves its exponents where it spans more
+/// than a factor of four: a root at 1e-80 is then as near as one at 1.
+inline double middle_of(double low, double high) {
+  if (std::isinf(high)) return 2.0 * low + 1.0;
+  if (low > 0.0 && high > 4.0 * low) return std::sqrt(low) * std::sqrt(high);
+  if (low == 0.0) return high < 1e-300 ? 0.5 * high : high * 0x1p-20;
+  return 0.5 * (low + high);
+}
+
+}  // namespace detail
+
 /// Root of a continuous function in [low, high], by default to the last bits of a double.
 ///
 /// `high` may be infinite when f takes the sign `sign_at_high` somewhere above: bisection then
 /// doubles. Precondition: f(high) has the sign `sign_at_high` (+1 or −1) or is zero, f(low) the opposite
-/// sign or zero; `guess` is clamped into the bracket. The bracket shrinks at every evaluation; a
+/// sign or zero, 0 ≤ low. The bracket shrinks at every evaluation; a
 /// step that would leave it, or that does not halve the one before, is replaced by bisection, so
 /// the loop ends whatever f does. It ends when
 ///   |step| ≤ tolerance · |x|, or when the step that would follow, |step|³/|last step|² at least
@@ -28,7 +41,7 @@ double bracketed_root(const Function& f, double low, double high, double guess,
                       double tolerance = std::numeric_limits<double>::epsilon()) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   constexpr int step_limit = 256;
-  double x = guess > low && guess < high ? guess : 0.5 * (low + high);
+  double x = guess > low && guess < high ? guess : detail::middle_of(low, high);
   double last_step = high - low;  // infinite at first where high is
   bool last_was_newton = false;
   for (int count = 0; count < step_limit; ++count) {
@@ -42,8 +55,9 @@ double bracketed_root(const Function& f, double low, double high, double guess,
     if (std::abs(step) <= tolerance * std::abs(x)) return std::fmin(std::fmax(x + step, low), high);
     const bool is_newton =
         x + step > low && x + step < high && std::abs(step) <= 0.5 * std::abs(last_step);
-    if (!is_newton) step = (std::isinf(high) ? 2.0 * low + 1.0 : 0.5 * (low + high)) - x;
-    x += step;
+    const double next = is_newton ? x + step : detail::middle_of(low, high);
+    step = next - x;
+    x = next;
     const double ratio = step / last_step;
     if (is_newton && last_was_newton &&
         std::abs(step) * ratio * ratio <= 0.125 * tolerance * std::abs(x)) {
