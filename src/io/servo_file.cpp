@@ -1,0 +1,262 @@
+#include "gearlash/io/servo_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "gearlash/io/units.hpp"
+#include "section_reader.hpp"
+#include "toml_document.hpp"
+
+namespace gearlash {
+namespace {
+
+const std::vector<std::string> section_names = {"motor", "gearbox", "load",
+                                                "loop",  "contact", "servo"};
+const std::vector<std::string> motor_kinds = {"armature-controlled", "field-controlled",
+                                              "two-phase"};
+/// The keys that depend on the kind of motor.
+const std::vector<std::string> motor_keys = {"torque_constant", "back_emf_constant", "resistance",
+                                             "torque_per_volt", "torque_per_speed"};
+
+/// The sections that make up a data sheet but for [contact], which either form may have.
+constexpr std::array datasheet_sections = {"motor", "gearbox", "load", "loop"};
+
+class ServoReader {
+ public:
+  ServoReader(std::string_view text, std::string_view source_name)
+      : document_(text, source_name, largest_servo_file), findings_(document_) {}
+
+  ServoFile read() {
+    refuse_other_sections();
+    if (is_normalized()) {
+      read_normalized();
+    } else {
+      read_datasheet();
+    }
+    findings_.require_none();
+    return std::move(file_);
+  }
+
+ private:
+  bool has(std::string_view section) const { return document_.root().contains(section); }
+
+  template <class Names>
+  bool has_any_of(const Names& sections) const {
+    return std::any_of(sections.begin(), sections.end(), [&](auto name) { return has(name); });
+  }
+
+  bool is_normalized() const { return has("servo") && !has("motor"); }
+
+  SectionReader section(std::string name, bool required, std::string contents) {
+    return SectionReader(document_, findings_, std::move(name), required, std::move(contents));
+  }
+
+  void refuse_other_sections() {
+    for (const auto& [key, value] : document_.root()) {
+      const std::string name(key.str());
+      if (std::find(section_names.begin(), section_names.end(), name) == section_names.end()) {
+        findings_.refuse(key.source().begin, shown(name), document_.written(value),
+                         "is no section: " + one_of(section_names, name));
+      }
+    }
+    if (has("servo") && has("motor")) {
+      findings_.refuse("servo", *document_.root().get("servo"),
+                       "must not stand beside [motor]: a file describes its servo once");
+    }
+  }
+
+  // --- a data sheet ---
+
+  void read_datasheet() {
+    Datasheet datasheet;
+    SectionReader motor =
+        section("motor", true, "with [gearbox], [load] and [loop], or [servo] in their place");
+    if (!motor.present() && !has_any_of(datasheet_sections)) return;  // nothing to go by
+    datasheet.motor = read_motor(motor);
+    datasheet.gearbox = read_gearbox();
+    datasheet.load = read_load();
+    datasheet.loop = read_loop();
+    datasheet.contact.restitution = read_restitution();
+    findings_.take(validate(datasheet), &name_in_datasheet, motor.place());
+    if (findings_.none()) derive(datasheet, motor.place());
+  }
+
+  Motor read_motor(SectionReader& section) {
+    const std::optional<std::string> kind = section.choice("kind", motor_kinds, true);
+    const double inertia = section.quantity("inertia", dimensions::inertia).si;
+    const double friction = section.quantity("friction", dimensions::torque_per_speed).si;
+    Motor motor = read_kind(section, kind.value_or(""), inertia, friction);
+    section.refuse_other_keys();
+    return motor;
+  }
+
+  static Motor read_kind(SectionReader& section, const std::string& kind, double inertia,
+                         double friction) {
+    const auto si = [&](const char* key, const Dimension& dimension) {
+      return section.quantity(key, dimension).si;
+    };
+    // Members are initialised in the order of their declaration, which is that of the keys.
+    if (kind == "armature-controlled") {
+      return ArmatureControlledMotor{
+          .inertia = inertia,
+          .friction = friction,
+          .torque_constant = si("torque_constant", dimensions::torque_per_current),
+          .back_emf_constant = si("back_emf_constant", dimensions::voltage_per_speed),
+          .resistance = si("resistance", dimensions::resistance)};
+    }
+    if (kind == "field-controlled") {
+      return FieldControlledMotor{
+          .inertia = inertia,
+          .friction = friction,
+          .torque_constant = si("torque_constant", dimensions::torque_per_current),
+          .resistance = si("resistance", dimensions::resistance)};
+    }
+    if (kind == "two-phase") {
+      return TwoPhaseMotor{
+          .inertia = inertia,
+          .friction = friction,
+          .torque_per_volt = si("torque_per_volt", dimensions::torque_per_voltage),
+          .torque_per_speed = si("torque_per_speed", dimensions::torque_per_speed)};
+    }
+    for (const std::string& key : motor_keys) section.ignore(key);
+    return FieldControlledMotor{
+        .inertia = inertia, .friction = friction, .torque_constant = 1.0, .resistance = 1.0};
+  }
+
+  Gearbox read_gearbox() {
+    SectionReader gearbox = section("gearbox", true, "with ratio and backlash");
+    const double ratio = gearbox.number("ratio");
+    const double backlash = read_backlash(gearbox);
+    gearbox.refuse_other_keys();
+    return {.ratio = ratio, .backlash = backlash};
+  }
+
+  Load read_load() {
+    SectionReader load = section("load", true, "with inertia and friction");
+    const double inertia = load.quantity("inertia", dimensions::inertia).si;
+    const double friction = load.quantity("friction", dimensions::torque_per_speed).si;
+    load.refuse_other_keys();
+    return {.inertia = inertia, .friction = friction};
+  }
+
+  Loop read_loop() {
+    SectionReader loop = section("loop", true, "with error_gain");
+    const double error_gain = loop.quantity("error_gain", dimensions::voltage_per_angle).si;
+    const std::optional<std::string> sensor = loop.choice("sensor", {"load", "motor"}, false);
+    loop.refuse_other_keys();
+    return {.error_gain = error_gain, .sensor = sensor == "motor" ? Sensor::motor : Sensor::load};
+  }
+
+  /// A drivetrain has names of its own for the values that it takes over from the file.
+  static std::string name_in_datasheet(const std::string& field) {
+    return field == "load_inertia" ? "load.inertia" : field;
+  }
+
+  void derive(const Datasheet& datasheet, Place motor) {
+    const Drivetrain drivetrain = to_drivetrain(datasheet);
+    const double frequency = natural_frequency(drivetrain);
+    if (!std::isnormal(frequency)) {
+      findings_.refuse(
+          motor, "natural_frequency", frequency > 1.0 ? "inf rad/s" : "0 rad/s",
+          "must be from 1e-308 to 1e308 rad/s: stiffness and inertias are too far apart");
+      return;
+    }
+    file_.servo = normalize(drivetrain);
+    file_.natural_frequency = frequency;
+    file_.datasheet = datasheet;
+    file_.drivetrain = drivetrain;
+  }
+
+  // --- the normalised numbers ---
+
+  void read_normalized() {
+    for (const char* name : datasheet_sections) {
+      if (const toml::node* node = document_.root().get(name)) {
+        findings_.refuse(name, *node, "must not stand beside [servo], which is normalised");
+      }
+    }
+    SectionReader section = this->section("servo", true, "");
+    section.accept_bare_numbers();  // normalised numbers have no data sheet whose unit to keep
+    NormalizedServo servo;
+    servo.damping = section.number("damping");
+    servo.inertia_ratio = section.number("inertia_ratio");
+    servo.friction_ratio = section.number("friction_ratio");
+    servo.backlash = read_backlash(section);
+    file_.natural_frequency = read_natural_frequency(section);
+    section.refuse_other_keys();
+    servo.restitution = read_restitution();
+    findings_.take(validate(servo), &name_in_normalized, section.place());
+    file_.servo = servo;
+  }
+
+  std::optional<double> read_natural_frequency(SectionReader& section) {
+    const std::optional<Quantity> frequency =
+        section.optional_quantity("natural_frequency", dimensions::angular_frequency);
+    if (!frequency) return std::nullopt;
+    if (!(frequency->si > 0.0) || std::isinf(frequency->si)) {
+      findings_.take({{"natural_frequency", "", "must be positive and finite", ""}},
+                     &name_in_normalized, section.place());
+    }
+    return frequency->si;
+  }
+
+  static std::string name_in_normalized(const std::string& field) {
+    return (field == "restitution" ? "contact." : "servo.") + field;
+  }
+
+  // --- what both forms have ---
+
+  double read_backlash(SectionReader& section) {
+    const Quantity backlash = section.quantity("backlash", dimensions::angle);
+    file_.backlash_unit = {.name = backlash.unit, .radians = backlash.unit_in_si};
+    return backlash.si;
+  }
+
+  double read_restitution() {
+    SectionReader contact = section("contact", false, "with restitution");
+    const double restitution = contact.number("restitution", Contact{}.restitution);
+    contact.refuse_other_keys();
+    return restitution;
+  }
+
+  TomlDocument document_;
+  Findings findings_;
+  ServoFile file_;
+};
+
+[[noreturn]] void refuse_file(const std::filesystem::path& path, const std::string& problem) {
+  throw InvalidInput({{"file", shown(path.string(), std::string_view::npos),
+                       "must be a readable file (" + problem + ")", ""}});
+}
+
+/// One byte more than the limit, at most: enough to tell that it is exceeded, of however endless a
+/// device.
+std::string read_up_to_limit(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) refuse_file(path, "it is a directory");
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) refuse_file(path, std::generic_category().message(errno));
+  std::string text(largest_servo_file + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad()) refuse_file(path, std::generic_category().message(errno));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
+}
+
+}  // namespace
+
+ServoFile parse_servo(std::string_view toml, std::string_view source_name) {
+  return ServoReader(toml, source_name).read();
+}
+
+ServoFile read_servo_file(const std::filesystem::path& path) {
+  return parse_servo(read_up_to_limit(path), path.string());
+}
+
+}  // namespace gearlash

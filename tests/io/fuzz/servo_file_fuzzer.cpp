@@ -1,0 +1,47 @@
+// Whatever the bytes: parse_servo either throws InvalidInput, one line a violation, or returns a
+// sound servo.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "gearlash/io/servo_file.hpp"
+
+namespace {
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+void require_sound(const gearlash::ServoFile& file) {
+  require(gearlash::validate(file.servo).empty());
+  require(file.datasheet.has_value() == file.drivetrain.has_value());
+  if (file.datasheet) {
+    require(gearlash::validate(*file.datasheet).empty());
+    require(gearlash::validate(*file.drivetrain).empty());
+    require(file.natural_frequency.has_value());
+  }
+  require(!file.natural_frequency || *file.natural_frequency > 0.0);
+  require(file.backlash_unit.radians > 0.0 && !file.backlash_unit.name.empty());
+}
+
+void require_one_line_each(const gearlash::InvalidInput& refusal) {
+  require(!refusal.violations().empty());
+  for (const gearlash::Violation& violation : refusal.violations()) {
+    const std::string line = to_string(violation);
+    require(line.find('\n') == std::string::npos && line.find('\0') == std::string::npos);
+    require(line.starts_with("fuzz.toml:"));
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  try {
+    require_sound(gearlash::parse_servo(text, "fuzz.toml"));
+  } catch (const gearlash::InvalidInput& refusal) {
+    require_one_line_each(refusal);
+  }
+  return 0;
+}
