@@ -1,0 +1,99 @@
+# One word for each thing that people do here. The builds themselves are CMake presets.
+
+FUZZ_SECONDS ?= 30
+# An optimised compilation takes up to 1 GB of memory: say JOBS=2 where that is scarce.
+JOBS ?= $(shell nproc)
+
+RELEASE := build/release
+TOOL := $(RELEASE)/gearlash
+EXAMPLE := examples/elinco-fd162
+INSTALL := bash scripts/install-dependencies
+BUILD := cmake --build --parallel $(JOBS) --preset
+
+export CTEST_PARALLEL_LEVEL ?= $(JOBS)
+
+.DEFAULT_GOAL := help
+.PHONY: help demo tool test bench clang sanitize fuzz oracle million coverage readme format tidy \
+        clean
+
+help:  ## this list
+	@awk -F':.*## ' '/^[a-z]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+demo: tool  ## build the tool; does the servo of the thesis hunt? with its picture
+	$(TOOL) limit-cycle $(EXAMPLE).toml --plot $(EXAMPLE).svg
+	@echo "Picture: $(EXAMPLE).svg"
+
+# Tests are left out of a first build, whose user need not have their packages, and left alone in
+# one that has them.
+tool:  ## build the tool alone: build/release/gearlash
+	@$(INSTALL) run
+	@test -f $(RELEASE)/build.ninja || cmake --preset release -DGEARLASH_BUILD_TESTS=OFF
+	@$(BUILD) release --target gearlash_tool
+
+test:  ## build everything and run every test
+	@$(INSTALL) test
+	cmake --preset release -DGEARLASH_BUILD_TESTS=ON
+	$(BUILD) release
+	ctest --preset release
+
+bench:  ## measure the speed beside SUNDIALS CVODE and Boost.odeint
+	@$(INSTALL) bench
+	cmake --preset bench
+	$(BUILD) bench
+	$(BUILD) bench --target run_benchmarks
+
+clang:  ## build everything with clang 16, warnings being errors, and run every test
+	@$(INSTALL) test clang
+	cmake --preset clang-16
+	$(BUILD) clang-16
+	ctest --preset clang-16
+
+sanitize:  ## run every test under AddressSanitizer and UndefinedBehaviorSanitizer
+	@$(INSTALL) test
+	cmake --preset asan-ubsan
+	$(BUILD) asan-ubsan
+	ctest --preset asan-ubsan
+
+# New inputs that libFuzzer finds go to the first folder, in the build; the corpus in the sources is
+# only read.
+fuzz:  ## feed random bytes to the reader of data sheets for FUZZ_SECONDS (30)
+	@$(INSTALL) clang
+	cmake --preset fuzz
+	$(BUILD) fuzz
+	mkdir -p build/fuzz/found
+	build/fuzz/tests/io/fuzz/servo_file_fuzzer -max_total_time=$(FUZZ_SECONDS) -print_final_stats=1 \
+	  -dict=tests/io/fuzz/servo_file.dict -artifact_prefix=build/fuzz/ \
+	  build/fuzz/found tests/io/fuzz/corpus
+
+oracle: programs  ## 1,000 random servos beside a slow and independent integration
+	$(RELEASE)/tests/oracle/oracle_run
+
+million: programs  ## 1,000,000 random servos beside the certified count of crossings
+	$(RELEASE)/tests/oracle/million_servos
+
+.PHONY: programs
+programs:
+	@$(INSTALL) test
+	cmake --preset release -DGEARLASH_BUILD_TESTS=ON
+	$(BUILD) release
+
+coverage:  ## the share of lines that the tests run
+	@$(INSTALL) test lint
+	cmake --preset coverage
+	$(BUILD) coverage
+	ctest --preset coverage
+	gcovr --root . --filter include --filter src --filter apps build/coverage
+
+readme: tool  ## renew the output and the pictures in README.md
+	scripts/readme
+
+format:  ## lay out all C++ as .clang-format says
+	@$(INSTALL) lint
+	find include src apps tests benchmarks -name '*.[ch]pp' -exec clang-format-16 -i {} +
+
+tidy: programs  ## clang-tidy over the libraries and the tool
+	@$(INSTALL) lint
+	find src apps -name '*.cpp' -print0 | xargs -0 -P $(JOBS) -n 1 clang-tidy-16 -p $(RELEASE) --quiet
+
+clean:  ## remove all that was built
+	rm -rf build examples/*.svg
