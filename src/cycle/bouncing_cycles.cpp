@@ -20,6 +20,10 @@ bool arrives(const Traversal& traversal) {
   return traversal.outcome == Traversal::Outcome::arrived;
 }
 
+bool is_cut_short(const Traversal& traversal) {
+  return traversal.outcome == Traversal::Outcome::event_limit;
+}
+
 /// `order` traversals in a row.
 struct Iterate {
   Arrival end;
@@ -162,13 +166,15 @@ class Search {
     return true;
   }
 
-  void scan_amplitudes() {
+  void scan_amplitudes(BouncingCycles& result) {
     constexpr int count = 121;
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count && !result.cut_short; ++i) {
       const double amplitude = servo_.backlash * std::pow(10.0, -4.0 + 8.0 * i / (count - 1));
       const Traversal first = first_arrival(dynamics_, amplitude);
+      result.cut_short = is_cut_short(first);
       if (!arrives(first)) continue;
-      const Traversal second = traverse(dynamics_, first.next);
+      const Traversal second = traverse(dynamics_, first.next, Derivative::not_wanted);
+      result.cut_short = is_cut_short(second);
       if (!arrives(second)) continue;
       if ((second.next - first.next).norm() < 0.5 * first.next.norm()) try_from(first.next, 1);
     }
@@ -176,10 +182,11 @@ class Search {
 
   void follow_starts(BouncingCycles& result) {
     constexpr int count = 8;
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count && !result.cut_short; ++i) {
       const double amplitude =
           servo_.backlash * std::pow(10.0, -1.3 + 3.0 * i / (count - 1));
       const Traversal first = first_arrival(dynamics_, amplitude);
+      result.cut_short = is_cut_short(first);
       if (arrives(first)) follow(first.next, result);
     }
   }
@@ -200,7 +207,7 @@ class Search {
       for (int step = 0; step < point.order; ++step) {
         const bool counts = !only_stable || spectral_radius(point.map.slope) < 1.0;
         if (counts && (arrival - visited).norm() < tolerance * visited.norm()) return true;
-        const Traversal traversal = traverse(dynamics_, visited);
+        const Traversal traversal = traverse(dynamics_, visited, Derivative::not_wanted);
         visited = traversal.next;
       }
     }
@@ -217,12 +224,13 @@ class Search {
   void follow(Arrival arrival, BouncingCycles& result) {
     constexpr int traversal_limit = 1500;
     constexpr int between_attempts = 25;
+    constexpr double negligible = 1e-9;  // of the backlash: growth at rest decides from here
     std::array<Arrival, longest_order> recent;
     recent.fill(Arrival::Zero());
     for (int count = 1; count <= traversal_limit; ++count) {
-      const Traversal traversal = traverse(dynamics_, arrival);
-      if (traversal.outcome == Traversal::Outcome::came_to_rest) return;
-      if (!arrives(traversal) || traversal.next.norm() < 1e-9 * servo_.backlash) return;
+      const Traversal traversal = traverse(dynamics_, arrival, Derivative::not_wanted);
+      result.cut_short = is_cut_short(traversal);
+      if (!arrives(traversal) || traversal.next.norm() < negligible * servo_.backlash) return;
       recent[static_cast<std::size_t>(count % longest_order)] = arrival;
       arrival = traversal.next;
       if (count % between_attempts != 0) continue;
@@ -264,7 +272,7 @@ class Search {
 BouncingCycles find_bouncing_cycles(const NormalizedServo& servo, const ServoDynamics& dynamics) {
   BouncingCycles result;
   Search search(servo, dynamics);
-  search.scan_amplitudes();
+  search.scan_amplitudes(result);
   search.follow_starts(result);
   result.cycles = search.cycles();
   return result;

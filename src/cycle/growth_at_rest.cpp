@@ -44,7 +44,7 @@ double plastic_growth(const ServoDynamics& dynamics) {
 
 /// The bounces followed one by one.
 double bouncing_growth(const ServoDynamics& dynamics) {
-  constexpr int event_limit = 1'000'000;
+  constexpr int event_limit = 200'000;
   ServoDynamics wide = dynamics;
   wide.backlash = wide_gap;
   PhaseStart start = begin_phase(wide, creeping_contact(dynamics));

@@ -31,6 +31,7 @@ Verdict bouncing_verdict(double growth, const BouncingCycles& found) {
   if (std::isnan(growth)) return Verdict::undecided;
   const bool any_stable = std::any_of(found.cycles.begin(), found.cycles.end(),
                                       [](const LimitCycle& cycle) { return cycle.stable; });
+  if (found.cut_short && !any_stable) return Verdict::undecided;
   if (growth > 1.0) return any_stable ? Verdict::hunts : Verdict::hunts_irregularly;
   if (any_stable || !found.all_starts_settled) return Verdict::hunts_if_disturbed;
   return Verdict::cannot_hunt;

@@ -51,8 +51,8 @@ Disturbance arrival_disturbance(const ServoDynamics& dynamics) {
 /// Moves each disturbance from fixed time onto the impact surface u = const, or, with the impact
 /// law and the flow after it, through the impact back to fixed time.
 struct ImpactSlope {
-  Eigen::Matrix4d onto_surface;
-  Eigen::Matrix4d through;
+  Eigen::Matrix4d onto_surface = Eigen::Matrix4d::Identity();
+  Eigen::Matrix4d through = Eigen::Matrix4d::Identity();
 };
 
 ImpactSlope impact_slope(const ServoDynamics& dynamics, const GapState& before,
@@ -116,19 +116,23 @@ GapState after_arrival(const ServoDynamics& dynamics, const Arrival& arrival) {
   return begin_phase(dynamics, before_arrival(dynamics, arrival)).impact.after;
 }
 
-Traversal traverse(const ServoDynamics& dynamics, const Arrival& arrival) {
+Traversal traverse(const ServoDynamics& dynamics, const Arrival& arrival,
+                   Derivative derivative) {
+  const bool with_slope = derivative == Derivative::wanted;
   Traversal traversal;
   const GapState before = before_arrival(dynamics, arrival);
   const PhaseStart start = begin_phase(dynamics, before);
-  Disturbance disturbance = impact_slope(dynamics, before, start.impact.after).through *
-                            arrival_disturbance(dynamics);
+  Disturbance disturbance = arrival_disturbance(dynamics);
+  if (with_slope) {
+    disturbance = impact_slope(dynamics, before, start.impact.after).through * disturbance;
+  }
   traversal.impacts = 1;
   traversal.hardest_impact = std::abs(arrival(2));
   Phase phase = start.phase;
   for (int event = 0; event < event_limit; ++event) {
     const PhaseEnd end = end_of_phase(dynamics, phase, infinity);
     if (!end.has_event) return traversal;  // came_to_rest
-    carry(dynamics, phase, end.duration, disturbance);
+    if (with_slope) carry(dynamics, phase, end.duration, disturbance);
     book(traversal, phase, end);
     if (end.kind == EventKind::separation) {
       const TorqueFreeLine line = dynamics.torque_free_line;
@@ -137,7 +141,8 @@ Traversal traverse(const ServoDynamics& dynamics, const Arrival& arrival) {
           end.after.load_position * line.position + end.after.load_speed * line.speed;
     }
     if (end.kind == EventKind::impact) {
-      const ImpactSlope slope = impact_slope(dynamics, end.before, end.after);
+      const ImpactSlope slope =
+          with_slope ? impact_slope(dynamics, end.before, end.after) : ImpactSlope{};
       if (end.face == Face::backward) {
         traversal.outcome = Traversal::Outcome::arrived;
         traversal.next = mirrored_arrival(dynamics, end.before, -1.0);
@@ -158,6 +163,9 @@ Traversal first_arrival(const ServoDynamics& dynamics, double amplitude) {
   const TorqueFreeLine line = dynamics.torque_free_line;
   Traversal traversal;
   Phase phase = parted_phase(dynamics, 1.0, amplitude * line.position, amplitude * line.speed);
+  if (phase.flight.gap_drive > 0.0) {
+    phase = parted_phase(dynamics, 1.0, -amplitude * line.position, -amplitude * line.speed);
+  }
   for (int event = 0; event < event_limit; ++event) {
     const PhaseEnd end = end_of_phase(dynamics, phase, infinity);
     if (!end.has_event) return traversal;

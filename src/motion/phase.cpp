@@ -87,6 +87,14 @@ PhaseEnd meet(const ServoDynamics& dynamics, FaceSign face, double duration, Gap
   return end;
 }
 
+/// Whether a flight that starts on a face moves off it: the first of its derivatives that is not
+/// zero decides.
+bool leaves(const GapFlight& flight, FaceSign face) {
+  if (flight.gap_speed != 0.0) return flight.gap_speed * face < 0.0;
+  if (flight.gap_acceleration != 0.0) return flight.gap_acceleration * face < 0.0;
+  return flight.gap_drive * face < 0.0;
+}
+
 PhaseEnd end_of_engagement(const ServoDynamics& dynamics, const Phase& phase, double horizon) {
   const EngagedFlow& flow = phase.engaged;
   const double duration =
@@ -101,6 +109,8 @@ PhaseEnd end_of_engagement(const ServoDynamics& dynamics, const Phase& phase, do
   end.face = face_of(phase.face);
   end.next = parted_phase(dynamics, phase.face, state.position, state.speed);
   const GapFlight& flight = end.next.flight;
+  // N touches zero without passing through it only where it vanishes for good, to rounding.
+  if (!leaves(flight, phase.face)) return no_event();
   end.before = {flight.load_position, state.speed, flight.gap, 0.0};
   end.after = {flight.load_position, flight.load_speed, flight.gap, flight.gap_speed};
   return end;

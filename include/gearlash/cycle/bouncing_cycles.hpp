@@ -13,6 +13,7 @@ namespace gearlash {
 struct BouncingCycles {
   std::vector<LimitCycle> cycles;  ///< by decreasing size
   bool all_starts_settled = true;  ///< every start tried ended in one of the cycles, or at rest
+  bool cut_short = false;  ///< a motion bounced more than 200,000 times without crossing the gap
   double irregular_size = std::numeric_limits<double>::quiet_NaN();  ///< largest half peak-to-peak
                                                                      ///< of those that did not
 };

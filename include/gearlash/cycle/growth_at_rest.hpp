@@ -17,7 +17,7 @@ namespace gearlash {
 /// (1 − friction_ratio, 1/inertia_ratio). μ₀ is 0 when the faces never part again, as for
 /// λ₁ ≤ D ≤ λ₂ in an overdamped servo. With 0 < e ≤ 1 the bounces are followed by the simulator
 /// (bounces do not reach the far face: the motion is small against the gap).
-/// NaN when e is so close to 1 that more than a million bounces would have to be followed, and for
+/// NaN when e is so close to 1 that more than 200,000 bounces would have to be followed, and for
 /// zero damping with plastic contact infinity. Source: DESIGN 3.4; proofs in docs/mathematics.md.
 double growth_at_rest(const ServoDynamics& dynamics);
 

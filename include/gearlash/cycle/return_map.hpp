@@ -38,11 +38,13 @@ struct Traversal {
 /// across a separation by the identity (u̇ = ü = 0 there), across a settling by momentum and centre
 /// of mass. Source: Müller, Chaos, Solitons & Fractals 5 (1995) 1671; Leine & Nijmeijer, Dynamics
 /// and Bifurcations of Non-Smooth Mechanical Systems (2004), ch. 7.
-/// Precondition: two masses (0 < J_M < 1) and b > 0.
-Traversal traverse(const ServoDynamics& dynamics, const Arrival& arrival);
+/// Precondition: two masses (0 < J_M < 1) and b > 0. `slope` is computed only where it is wanted.
+enum class Derivative { wanted, not_wanted };
+Traversal traverse(const ServoDynamics& dynamics, const Arrival& arrival,
+                   Derivative derivative = Derivative::wanted);
 
-/// The first arrival of a motion in which the faces part forward at (y, ẏ) = amplitude × the
-/// torque-free line. `outcome` is arrived or came_to_rest; only `next` is set.
+/// The first arrival of a motion in which the faces part forward at (y, ẏ) = ±amplitude × the
+/// torque-free line, with the sign at which they can part so. `outcome` is arrived or came_to_rest; only `next` is set.
 Traversal first_arrival(const ServoDynamics& dynamics, double amplitude);
 
 /// The state just after the impact that an arrival ends in, about reference 0.
