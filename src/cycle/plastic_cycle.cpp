@@ -9,6 +9,7 @@
 #include "gearlash/motion/bracketed_root.hpp"
 #include "gearlash/motion/engaged_flow.hpp"
 #include "gearlash/motion/gap_flight.hpp"
+#include "gearlash/motion/panel_quadrature.hpp"
 
 namespace gearlash {
 namespace {
@@ -41,9 +42,10 @@ UnitHalfCycle half_cycle(const ServoDynamics& dynamics, const GapFlight& flight,
   const double moved = motion.load_moved;
   const double speeded =
       -flight.load_rate * moved + dynamics.motor_inertia * motion.gap_speed;
+  half.square_change = moved * (2.0 * flight.load_position + moved) +
+                       speeded * (2.0 * flight.load_speed + speeded);
   const double change =
-      moved * (2.0 * flight.load_position + moved) +
-      speeded * (2.0 * flight.load_speed + speeded) +
+      half.square_change +
       2.0 * dynamics.damping *
           (flight.load_position * speeded + moved * flight.load_speed + moved * speeded);
   half.form = start_form + change;
@@ -102,48 +104,43 @@ double balanced_flight_time(const ServoDynamics& dynamics, const GapFlight& flig
   return bracketed_root(log_growth, 0.0, infinity, std::min(guess, 1e3), 1.0);
 }
 
-/// ∫ f over the flight of a function that is nearly a polynomial of low degree there.
-template <class Function>
-double smooth_integral(const Function& f, double time) {
-  return boost::math::quadrature::gauss<double, 7>::integrate(f, 0.0, time);
-}
-
-/// ∫ y v_M dt over a unit flight: what the loop's torque −y takes out of the motor. By parts, from
-/// ∫ v_L v_M = −(½Δ(y²) + J_M Δ(v_L v_M))/(J_M D + F_M) and either
-///   y = y∞ − v_L/D                      (divides by D), or
-///   F_M ∫ y v_M = J_M ∫ v_L v_M − J_M Δ(y v_M) − ∫ y²   (divides by F_M);
-/// where both decays are slight the integrand is smooth and seven Gauss points are exact.
-double loop_work(const ServoDynamics& dynamics, const GapFlight& flight,
-                 const UnitHalfCycle& half, double motor_moved) {
+/// F_M ∫ v_M² dt over a unit flight. Where the motor's decay is slight, from the definition, which
+/// keeps its relative accuracy as F_M → 0. Else from the balance of the motor's energy,
+///   F_M ∫ v_M² = −½J_M Δ(v_M²) − ∫ y v_M, and by parts ∫ v_L v_M = −(½Δ(y²) + J_M Δ(v_L v_M))/
+///   (J_M D + F_M), with either y = y∞ − v_L/D (divides by D), or, for a load that coasts,
+///   F_M ∫ y v_M = J_M ∫ v_L v_M − J_M Δ(y v_M) − ∫ y².
+double motor_friction_in_flight(const ServoDynamics& dynamics, const GapFlight& flight,
+                                const UnitHalfCycle& half, double motor_moved) {
   constexpr double slight = 0.1;
-  if (flight.load_speed == 0.0) return flight.load_position * motor_moved;
   const double time = half.flight_time;
-  const bool load_coasts = dynamics.load_rate * time <= slight;
-  if (load_coasts && dynamics.motor_rate * time <= slight) {
-    return smooth_integral(
-        [&](double t) {
-          const FlightMotion motion = motion_in_flight(flight, t);
-          return motion.load_position * (motion.load_speed + motion.gap_speed);
-        },
-        time);
-  }
   const double motor_inertia = dynamics.motor_inertia;
   const double motor_speed = half.load_speed + half.gap_speed;
+  const double start_speed = flight.load_speed;
+  const auto motion = [&](double t) { return motion_in_flight(flight, t); };
+  if (dynamics.motor_rate * time <= slight) {
+    return dynamics.motor_friction *
+           panel_integral(
+               [&](double t) { return std::pow(motion(t).load_speed + motion(t).gap_speed, 2); },
+               time, flight.load_rate);
+  }
+  const double kinetic_loss =
+      0.5 * motor_inertia * (start_speed * start_speed - motor_speed * motor_speed);
+  if (start_speed == 0.0) return kinetic_loss - flight.load_position * motor_moved;
   const double square_change = half.load_position * half.load_position -
                                flight.load_position * flight.load_position;
   const double speed_product =
       -(0.5 * square_change +
-        motor_inertia * (half.load_speed * motor_speed - flight.load_speed * flight.load_speed)) /
+        motor_inertia * (half.load_speed * motor_speed - start_speed * start_speed)) /
       (motor_inertia * dynamics.load_rate + dynamics.motor_friction);
-  if (!load_coasts) {
-    const double rest = flight.load_position + flight.load_speed / dynamics.load_rate;
-    return rest * motor_moved - speed_product / dynamics.load_rate;
+  if (dynamics.load_rate * time > slight) {
+    const double rest = flight.load_position + start_speed / dynamics.load_rate;
+    return kinetic_loss - rest * motor_moved + speed_product / dynamics.load_rate;
   }
-  const double position_square = smooth_integral(
-      [&](double t) { return std::pow(motion_in_flight(flight, t).load_position, 2); }, time);
-  const double edge =
-      half.load_position * motor_speed - flight.load_position * flight.load_speed;
-  return (motor_inertia * (speed_product - edge) - position_square) / dynamics.motor_friction;
+  const double position_square = boost::math::quadrature::gauss<double, 7>::integrate(
+      [&](double t) { return std::pow(motion(t).load_position, 2); }, 0.0, time);
+  const double edge = half.load_position * motor_speed - flight.load_position * start_speed;
+  return kinetic_loss -
+         (motor_inertia * (speed_product - edge) - position_square) / dynamics.motor_friction;
 }
 
 /// Where the motor turns within the flight, from the gap's middle line; e^{ct} v_M has the slope
@@ -214,17 +211,12 @@ Sizes sizes(const ServoDynamics& dynamics, const GapFlight& flight, const UnitHa
 /// Losses of a whole period for a unit amplitude.
 CycleEnergy losses(const ServoDynamics& dynamics, const GapFlight& flight,
                    const UnitHalfCycle& half, double motor_moved) {
-  const double motor_speed = half.load_speed + half.gap_speed;
-  const double start_square = flight.load_speed * flight.load_speed;
-  const double load_in_flight =
-      -0.5 * dynamics.load_inertia * start_square *
-      std::expm1(-2.0 * flight.load_rate * half.flight_time);
-  const double motor_in_flight =
-      -0.5 * dynamics.motor_inertia * (motor_speed * motor_speed - start_square) -
-      loop_work(dynamics, flight, half, motor_moved);
-  const double engaged =
-      0.5 * (half.load_position * half.load_position - flight.load_position * flight.load_position +
-             half.common_speed * half.common_speed - start_square);
+  const double load_in_flight = -0.5 * dynamics.load_inertia * flight.load_speed *
+                                flight.load_speed *
+                                std::expm1(-2.0 * flight.load_rate * half.flight_time);
+  const double motor_in_flight = motor_friction_in_flight(dynamics, flight, half, motor_moved);
+  // What the engaged motion loses, the flight and the impact have added.
+  const double engaged = 0.5 * half.square_change;
   const double load_share =
       dynamics.load_friction / (dynamics.load_friction + dynamics.motor_friction);
   return {.motor_friction = 2.0 * (motor_in_flight + (1.0 - load_share) * engaged),

@@ -1,9 +1,9 @@
 #include "gearlash/motion/trajectory.hpp"
 
 #include <algorithm>
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 
+#include "gearlash/motion/panel_quadrature.hpp"
 #include "gearlash/servo/range_check.hpp"
 
 namespace gearlash {
@@ -64,29 +64,13 @@ GapState snapped_to_faces(GapState state, const ServoState& initial, double back
   return state;
 }
 
-/// ∫ f over [0, duration] of a smooth sum of exponentials whose fastest rate is `fastest`: panels
-/// that double from 1/fastest to 1, thirty Gauss points each.
-template <class Function>
-double integral(const Function& f, double duration, double fastest) {
-  double sum = 0.0;
-  double start = 0.0;
-  double width = 1.0 / std::max(1.0, fastest);
-  while (start < duration) {
-    const double end = std::min(start + width, duration);
-    sum += boost::math::quadrature::gauss<double, 30>::integrate(f, start, end);
-    start = end;
-    width = std::min(2.0 * width, 1.0);
-  }
-  return sum;
-}
-
 /// Adds the friction losses and the loop's supply over the first `duration` of a phase. Over a
 /// settling phase, whose bounces are below resolution, the common motion's losses are taken.
 void accumulate(const ServoDynamics& dynamics, const Phase& phase, double duration,
                 EnergyAccount& account) {
   if (phase.mode != Mode::separated) {
     const double speed_squared =
-        integral([&](double t) { return std::pow(phase.engaged.at(t).speed, 2); }, duration,
+        panel_integral([&](double t) { return std::pow(phase.engaged.at(t).speed, 2); }, duration,
                  2.0 * dynamics.damping);
     account.motor_friction += dynamics.motor_friction * speed_squared;
     account.load_friction += dynamics.load_friction * speed_squared;
@@ -106,10 +90,10 @@ void accumulate(const ServoDynamics& dynamics, const Phase& phase, double durati
     return -motion.load_position * motion.gap_speed;
   };
   account.motor_friction +=
-      dynamics.motor_friction * integral(motor_speed_squared, duration, fastest);
+      dynamics.motor_friction * panel_integral(motor_speed_squared, duration, fastest);
   account.load_friction +=
-      dynamics.load_friction * integral(load_speed_squared, duration, fastest);
-  account.supplied += integral(loop_power, duration, fastest);
+      dynamics.load_friction * panel_integral(load_speed_squared, duration, fastest);
+  account.supplied += panel_integral(loop_power, duration, fastest);
 }
 
 double kinetic_energy(const ServoDynamics& dynamics, const GapState& state) {
@@ -173,6 +157,11 @@ Trajectory simulate(const NormalizedServo& servo, const ServoState& initial,
   const GapState state = snapped_to_faces(to_gap_state(initial, options.reference), initial,
                                           servo.backlash);
   const PhaseStart start = begin_phase(dynamics, state);
+  if (start.impact_at_start && options.event_limit == 0) {
+    trajectory.segments_.push_back({0.0, 0.0, start.phase});
+    trajectory.stop_reason_ = StopReason::event_limit;
+    return trajectory;
+  }
   if (start.impact_at_start) {
     trajectory.events_.push_back(to_event(start.impact, 0.0, options.reference));
   }

@@ -16,6 +16,7 @@ struct UnitHalfCycle {
   double gap_speed;      ///< u̇ just before impact, ≤ 0
   double gap_acceleration;  ///< ü just before impact
   double common_speed;   ///< P = J_M v_M + J_L v_L, the speed just after impact
+  double square_change;  ///< (y² + P²) just after impact less (y² + v²) at parting
   double form;           ///< Q(y, P) = y² + 2ζyP + P² just after impact
   double log_growth;     ///< ln ρ, ρ the amplitude at the next parting; −∞ when there is none
   double log_growth_slope;  ///< d ln ρ/dt₂ = |u̇| (J_M y + F_M P)/(y² + 2ζyP + P²), > 0
