@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "gearlash/cycle/return_map.hpp"
@@ -15,14 +16,35 @@ namespace {
 
 constexpr std::array<int, 6> orders = {1, 2, 3, 4, 6, 8};
 constexpr int longest_order = 8;
+/// Irregular motion passes by unstable cycles without end; these many tell enough.
+constexpr std::size_t most_cycles = 16;
 
 bool arrives(const Traversal& traversal) {
   return traversal.outcome == Traversal::Outcome::arrived;
 }
 
-bool is_cut_short(const Traversal& traversal) {
-  return traversal.outcome == Traversal::Outcome::event_limit;
-}
+/// The servo, and how many events may still be followed.
+struct Course {
+  const ServoDynamics& dynamics;
+  std::size_t events_left = 4'000'000;
+  bool cut_short = false;
+
+  Traversal traverse(const Arrival& arrival, Derivative derivative) {
+    return booked(gearlash::traverse(dynamics, arrival, derivative,
+                                     std::min(events_left, traversal_event_limit)));
+  }
+
+  Traversal first_arrival(double amplitude) {
+    return booked(gearlash::first_arrival(dynamics, amplitude));
+  }
+
+ private:
+  Traversal booked(const Traversal& traversal) {
+    events_left -= std::min(events_left, traversal.events);
+    cut_short = cut_short || traversal.outcome == Traversal::Outcome::event_limit;
+    return traversal;
+  }
+};
 
 /// `order` traversals in a row.
 struct Iterate {
@@ -35,12 +57,12 @@ struct Iterate {
   bool settled = true;
 };
 
-std::optional<Iterate> iterate(const ServoDynamics& dynamics, const Arrival& start, int order) {
+std::optional<Iterate> iterate(Course& course, const Arrival& start, int order) {
   Iterate result;
   result.end = start;
   for (int step = 0; step < order; ++step) {
     if (!(result.end(2) > 0.0)) return std::nullopt;
-    const Traversal traversal = traverse(dynamics, result.end);
+    const Traversal traversal = course.traverse(result.end, Derivative::wanted);
     if (!arrives(traversal)) return std::nullopt;
     result.end = traversal.next;
     result.slope = traversal.slope * result.slope;
@@ -65,21 +87,20 @@ double mismatch(const Iterate& map, const Arrival& start) {
 }
 
 /// Newton's method with halved steps where the mismatch does not fall.
-std::optional<FixedPoint> newton(const ServoDynamics& dynamics, Arrival arrival, int order) {
-  constexpr int step_limit = 30;
+std::optional<FixedPoint> newton(Course& course, Arrival arrival, int order) {
+  constexpr int step_limit = 25;
   constexpr double converged = 1e-13;
   constexpr double acceptable = 1e-10;
-  std::optional<Iterate> map = iterate(dynamics, arrival, order);
+  std::optional<Iterate> map = iterate(course, arrival, order);
   if (!map) return std::nullopt;
   for (int step = 0; step < step_limit && mismatch(*map, arrival) > converged; ++step) {
-    const Arrival full = (map->slope - Eigen::Matrix3d::Identity())
-                             .fullPivLu()
-                             .solve(arrival - map->end);
+    const Arrival full =
+        (map->slope - Eigen::Matrix3d::Identity()).fullPivLu().solve(arrival - map->end);
     std::optional<Iterate> better;
     double share = 1.0;
     for (; share > 1e-3 && !better; share *= 0.5) {
       const Arrival trial = arrival + share * full;
-      std::optional<Iterate> trial_map = iterate(dynamics, trial, order);
+      std::optional<Iterate> trial_map = iterate(course, trial, order);
       if (trial_map && mismatch(*trial_map, trial) < mismatch(*map, arrival)) {
         better = trial_map;
         arrival = trial;
@@ -94,10 +115,10 @@ std::optional<FixedPoint> newton(const ServoDynamics& dynamics, Arrival arrival,
 }
 
 /// The point belongs to a cycle of a lower order when it already repeats after a divisor of it.
-bool repeats_earlier(const ServoDynamics& dynamics, const FixedPoint& point) {
+bool repeats_earlier(Course& course, const FixedPoint& point) {
   return std::any_of(orders.begin(), orders.end(), [&](int divisor) {
     if (divisor >= point.order || point.order % divisor != 0) return false;
-    const std::optional<Iterate> map = iterate(dynamics, point.arrival, divisor);
+    const std::optional<Iterate> map = iterate(course, point.arrival, divisor);
     return map && mismatch(*map, point.arrival) < 1e-7;
   });
 }
@@ -136,8 +157,7 @@ LimitCycle describe(const NormalizedServo& servo, const ServoDynamics& dynamics,
   cycle.start = {start.load_position + start.gap, start.load_speed + start.gap_speed,
                  start.load_position, start.load_speed};
 
-  const Trajectory period =
-      simulate(servo, cycle.start, {.until = cycle.period, .reference = 0.0});
+  const Trajectory period = simulate(servo, cycle.start, {.until = cycle.period, .reference = 0.0});
   const Extremes range = extremes(period, 0.0, cycle.period);
   cycle.size = range.load_size();
   cycle.motor_size = range.motor_size();
@@ -153,129 +173,140 @@ LimitCycle describe(const NormalizedServo& servo, const ServoDynamics& dynamics,
   return cycle;
 }
 
+double spectral_radius(const Eigen::Matrix3d& slope) {
+  return Eigen::EigenSolver<Eigen::Matrix3d>(slope, false).eigenvalues().cwiseAbs().maxCoeff();
+}
+
 class Search {
  public:
   Search(const NormalizedServo& servo, const ServoDynamics& dynamics)
-      : servo_(servo), dynamics_(dynamics) {}
+      : servo_(servo), dynamics_(dynamics), course_{dynamics} {}
 
+  BouncingCycles run() {
+    scan_amplitudes();
+    follow_starts();
+    for (const FixedPoint& point : found_) {
+      result_.cycles.push_back(describe(servo_, dynamics_, point));
+    }
+    std::sort(result_.cycles.begin(), result_.cycles.end(),
+              [](const LimitCycle& a, const LimitCycle& b) { return a.size > b.size; });
+    result_.cut_short = course_.cut_short;
+    return result_;
+  }
+
+ private:
   /// Adds the cycle that Newton's method reaches, unless it is known.
   bool try_from(const Arrival& start, int order) {
-    const std::optional<FixedPoint> point = newton(dynamics_, start, order);
-    if (!point || known(point->arrival) || repeats_earlier(dynamics_, *point)) return false;
+    const std::optional<FixedPoint> point = newton(course_, start, order);
+    if (!point || distance_to_known(point->arrival, false) < 1e-7) return false;
+    if (repeats_earlier(course_, *point)) return false;
     found_.push_back(*point);
     return true;
   }
 
-  void scan_amplitudes(BouncingCycles& result) {
+  /// Coarsely first, then finer, for as long as half of the events last.
+  void scan_amplitudes() {
     constexpr int count = 121;
-    for (int i = 0; i < count && !result.cut_short; ++i) {
-      const double amplitude = servo_.backlash * std::pow(10.0, -4.0 + 8.0 * i / (count - 1));
-      const Traversal first = first_arrival(dynamics_, amplitude);
-      result.cut_short = is_cut_short(first);
-      if (!arrives(first)) continue;
-      const Traversal second = traverse(dynamics_, first.next, Derivative::not_wanted);
-      result.cut_short = is_cut_short(second);
-      if (!arrives(second)) continue;
-      if ((second.next - first.next).norm() < 0.5 * first.next.norm()) try_from(first.next, 1);
-    }
-  }
-
-  void follow_starts(BouncingCycles& result) {
-    constexpr int count = 8;
-    for (int i = 0; i < count && !result.cut_short; ++i) {
-      const double amplitude =
-          servo_.backlash * std::pow(10.0, -1.3 + 3.0 * i / (count - 1));
-      const Traversal first = first_arrival(dynamics_, amplitude);
-      result.cut_short = is_cut_short(first);
-      if (arrives(first)) follow(first.next, result);
-    }
-  }
-
-  std::vector<LimitCycle> cycles() const {
-    std::vector<LimitCycle> cycles;
-    for (const FixedPoint& point : found_) cycles.push_back(describe(servo_, dynamics_, point));
-    std::sort(cycles.begin(), cycles.end(),
-              [](const LimitCycle& a, const LimitCycle& b) { return a.size > b.size; });
-    return cycles;
-  }
-
- private:
-  /// Near a known cycle, at any of its arrivals or their mirror images.
-  bool near_known(const Arrival& arrival, double tolerance, bool only_stable) const {
-    for (const FixedPoint& point : found_) {
-      Arrival visited = point.arrival;
-      for (int step = 0; step < point.order; ++step) {
-        const bool counts = !only_stable || spectral_radius(point.map.slope) < 1.0;
-        if (counts && (arrival - visited).norm() < tolerance * visited.norm()) return true;
-        const Traversal traversal = traverse(dynamics_, visited, Derivative::not_wanted);
-        visited = traversal.next;
+    const std::size_t reserve = course_.events_left / 2;
+    for (const int offset : {0, 4, 2, 6, 1, 3, 5, 7}) {
+      for (int i = offset; i < count; i += 8) {
+        if (course_.cut_short || course_.events_left < reserve) return;
+        try_amplitude(std::pow(10.0, -4.0 + 8.0 * i / (count - 1)));
       }
     }
-    return false;
   }
 
-  bool known(const Arrival& arrival) const { return near_known(arrival, 1e-7, false); }
-
-  static double spectral_radius(const Eigen::Matrix3d& slope) {
-    return Eigen::EigenSolver<Eigen::Matrix3d>(slope, false).eigenvalues().cwiseAbs().maxCoeff();
+  void try_amplitude(double per_backlash) {
+    const Traversal first = course_.first_arrival(servo_.backlash * per_backlash);
+    if (!arrives(first)) return;
+    const Traversal second = course_.traverse(first.next, Derivative::not_wanted);
+    if (!arrives(second)) return;
+    if ((second.next - first.next).norm() < 0.5 * first.next.norm()) try_from(first.next, 1);
   }
 
-  /// Follows one motion until it rests, meets a stable cycle, or has gone on too long.
-  void follow(Arrival arrival, BouncingCycles& result) {
+  void follow_starts() {
+    constexpr int count = 8;
+    for (int i = 0; i < count && !course_.cut_short; ++i) {
+      const Traversal first =
+          course_.first_arrival(servo_.backlash * std::pow(10.0, -1.3 + 3.0 * i / (count - 1)));
+      if (arrives(first)) follow(first.next);
+    }
+  }
+
+  /// Relative distance to the nearest known cycle, at any of its arrivals.
+  double distance_to_known(const Arrival& arrival, bool only_stable) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const FixedPoint& point : found_) {
+      if (only_stable && !(spectral_radius(point.map.slope) < 1.0)) continue;
+      Arrival visited = point.arrival;
+      for (int step = 0; step < point.order; ++step) {
+        nearest = std::min(nearest, (arrival - visited).norm() / visited.norm());
+        visited = course_.traverse(visited, Derivative::not_wanted).next;
+      }
+    }
+    return nearest;
+  }
+
+  /// Follows one motion until it rests, meets a stable cycle, or has gone on too long without
+  /// even coming nearer to one (a lightly damped servo takes 1/ζ crossings).
+  void follow(Arrival arrival) {
     constexpr int traversal_limit = 1500;
     constexpr int between_attempts = 25;
     constexpr double negligible = 1e-9;  // of the backlash: growth at rest decides from here
+    constexpr double captured = 1e-3;
     std::array<Arrival, longest_order> recent;
     recent.fill(Arrival::Zero());
+    double distance_halfway = std::numeric_limits<double>::infinity();
     for (int count = 1; count <= traversal_limit; ++count) {
-      const Traversal traversal = traverse(dynamics_, arrival, Derivative::not_wanted);
-      result.cut_short = is_cut_short(traversal);
+      const Traversal traversal = course_.traverse(arrival, Derivative::not_wanted);
       if (!arrives(traversal) || traversal.next.norm() < negligible * servo_.backlash) return;
       recent[static_cast<std::size_t>(count % longest_order)] = arrival;
       arrival = traversal.next;
       if (count % between_attempts != 0) continue;
-      if (near_known(arrival, 1e-3, true)) return;
+      const double distance = distance_to_known(arrival, true);
+      if (distance < captured) return;
+      if (count <= traversal_limit / 2) distance_halfway = distance;
       attempt(arrival, recent, count);
     }
-    result.all_starts_settled = false;
-    const double size = size_from(arrival);
-    result.irregular_size = std::fmax(result.irregular_size, size);
+    if (distance_to_known(arrival, true) < 0.9 * distance_halfway) return;
+    result_.all_starts_settled = false;
+    result_.irregular_size = std::fmax(result_.irregular_size, size_from(arrival));
   }
 
   void attempt(const Arrival& arrival, const std::array<Arrival, longest_order>& recent,
                int count) {
+    if (found_.size() >= most_cycles) return;
     for (const int order : orders) {
-      const auto slot = static_cast<std::size_t>((count - order + 1 + longest_order) %
-                                                 longest_order);
+      const auto slot =
+          static_cast<std::size_t>((count - order + 1 + longest_order) % longest_order);
       if ((recent[slot] - arrival).norm() > 0.05 * arrival.norm()) continue;
       if (try_from(arrival, order)) return;
     }
   }
 
-  /// Half peak-to-peak over a hundred further traversals' time.
+  /// Half peak-to-peak over some hundred further traversals.
   double size_from(const Arrival& arrival) const {
-    constexpr double duration = 100.0 * 3.14159265358979;
+    constexpr double duration = 100.0 * std::numbers::pi;
+    constexpr std::size_t event_limit = 100'000;
     const GapState state = after_arrival(dynamics_, arrival);
     const ServoState start{state.load_position + state.gap, state.load_speed + state.gap_speed,
                            state.load_position, state.load_speed};
-    const Trajectory motion = simulate(servo_, start, {.until = duration, .reference = 0.0});
+    const Trajectory motion =
+        simulate(servo_, start, {.until = duration, .reference = 0.0, .event_limit = event_limit});
     return extremes(motion, 0.0, motion.end_time()).load_size();
   }
 
   const NormalizedServo& servo_;
   const ServoDynamics& dynamics_;
+  Course course_;
   std::vector<FixedPoint> found_;
+  BouncingCycles result_;
 };
 
 }  // namespace
 
 BouncingCycles find_bouncing_cycles(const NormalizedServo& servo, const ServoDynamics& dynamics) {
-  BouncingCycles result;
-  Search search(servo, dynamics);
-  search.scan_amplitudes(result);
-  search.follow_starts(result);
-  result.cycles = search.cycles();
-  return result;
+  return Search(servo, dynamics).run();
 }
 
 }  // namespace gearlash

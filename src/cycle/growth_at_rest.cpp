@@ -51,8 +51,7 @@ double bouncing_growth(const ServoDynamics& dynamics) {
   Phase phase = start.phase;
   for (int event = 0; event < event_limit; ++event) {
     const PhaseEnd end = end_of_phase(wide, phase, infinity);
-    if (phase.mode == Mode::separated &&
-        (!end.has_event || end.face == Face::backward)) {
+    if (phase.mode == Mode::separated && (!end.has_event || end.face == Face::backward)) {
       return std::abs(rest_position(phase.flight));
     }
     if (!end.has_event) return 0.0;

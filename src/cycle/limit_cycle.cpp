@@ -41,8 +41,10 @@ void analyse_bouncing(const NormalizedServo& servo, const ServoDynamics& dynamic
                       LimitCycleAnalysis& analysis) {
   const BouncingCycles found = find_bouncing_cycles(servo, dynamics);
   analysis.cycles = found.cycles;
-  analysis.irregular_size = found.irregular_size;
   analysis.verdict = bouncing_verdict(analysis.growth_at_rest, found);
+  if (analysis.verdict == Verdict::hunts_irregularly) {
+    analysis.irregular_size = found.irregular_size;
+  }
 }
 
 }  // namespace

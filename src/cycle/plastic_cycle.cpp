@@ -40,26 +40,23 @@ UnitHalfCycle half_cycle(const ServoDynamics& dynamics, const GapFlight& flight,
   // Q(impact) − Q(start) from the differences of position and speed: for light damping it is far
   // smaller than either.
   const double moved = motion.load_moved;
-  const double speeded =
-      -flight.load_rate * moved + dynamics.motor_inertia * motion.gap_speed;
-  half.square_change = moved * (2.0 * flight.load_position + moved) +
-                       speeded * (2.0 * flight.load_speed + speeded);
-  const double change =
-      half.square_change +
-      2.0 * dynamics.damping *
-          (flight.load_position * speeded + moved * flight.load_speed + moved * speeded);
+  const double speeded = -flight.load_rate * moved + dynamics.motor_inertia * motion.gap_speed;
+  half.square_change =
+      moved * (2.0 * flight.load_position + moved) + speeded * (2.0 * flight.load_speed + speeded);
+  const double change = half.square_change + 2.0 * dynamics.damping *
+                                                 (flight.load_position * speeded +
+                                                  moved * flight.load_speed + moved * speeded);
   half.form = start_form + change;
   half.engaged_time =
       first_zero(dynamics.damping, mesh_torque(dynamics, half.load_position, half.common_speed),
                  mesh_torque_rate(dynamics, half.load_position, half.common_speed));
-  half.log_growth = std::isinf(half.engaged_time)
-                        ? -infinity
-                        : 0.5 * std::log1p(change / start_form) -
-                              dynamics.damping * half.engaged_time;
-  half.log_growth_slope = -half.gap_speed *
-                          (dynamics.motor_inertia * half.load_position +
-                           dynamics.motor_friction * half.common_speed) /
-                          half.form;
+  half.log_growth = std::isinf(half.engaged_time) ? -infinity
+                                                  : 0.5 * std::log1p(change / start_form) -
+                                                        dynamics.damping * half.engaged_time;
+  half.log_growth_slope =
+      -half.gap_speed *
+      (dynamics.motor_inertia * half.load_position + dynamics.motor_friction * half.common_speed) /
+      half.form;
   return half;
 }
 
@@ -69,16 +66,16 @@ double log_growth_curvature(const ServoDynamics& dynamics, const UnitHalfCycle& 
   const double motor_speed = half.load_speed + half.gap_speed;
   const double momentum_rate = -dynamics.motor_friction * motor_speed -
                                dynamics.load_friction * half.load_speed - half.load_position;
-  const double drive = dynamics.motor_inertia * half.load_position +
-                       dynamics.motor_friction * half.common_speed;
-  const double drive_rate = dynamics.motor_inertia * half.load_speed +
-                            dynamics.motor_friction * momentum_rate;
+  const double drive =
+      dynamics.motor_inertia * half.load_position + dynamics.motor_friction * half.common_speed;
+  const double drive_rate =
+      dynamics.motor_inertia * half.load_speed + dynamics.motor_friction * momentum_rate;
   const double form_rate =
       2.0 * (half.load_position * half.load_speed + half.common_speed * momentum_rate +
-             dynamics.damping * (half.load_speed * half.common_speed +
-                                 half.load_position * momentum_rate));
-  return half.log_growth_slope * (half.gap_acceleration / half.gap_speed + drive_rate / drive -
-                                  form_rate / half.form);
+             dynamics.damping *
+                 (half.load_speed * half.common_speed + half.load_position * momentum_rate));
+  return half.log_growth_slope *
+         (half.gap_acceleration / half.gap_speed + drive_rate / drive - form_rate / half.form);
 }
 
 /// The root of ln ρ(t) = 0 where growth at rest > 1.
@@ -126,8 +123,8 @@ double motor_friction_in_flight(const ServoDynamics& dynamics, const GapFlight& 
   const double kinetic_loss =
       0.5 * motor_inertia * (start_speed * start_speed - motor_speed * motor_speed);
   if (start_speed == 0.0) return kinetic_loss - flight.load_position * motor_moved;
-  const double square_change = half.load_position * half.load_position -
-                               flight.load_position * flight.load_position;
+  const double square_change =
+      half.load_position * half.load_position - flight.load_position * flight.load_position;
   const double speed_product =
       -(0.5 * square_change +
         motor_inertia * (half.load_speed * motor_speed - start_speed * start_speed)) /
@@ -158,10 +155,9 @@ double motor_turning_position(const ServoDynamics& dynamics, const GapFlight& fl
   const auto motor_speed = [&](double t) {
     const FlightMotion motion = motion_in_flight(flight, t);
     const double acceleration = motion.gap_acceleration - flight.load_rate * motion.load_speed;
-    const double jerk =
-        dynamics.massless_motor()
-            ? 0.0
-            : -dynamics.motor_rate * acceleration - motion.load_speed / dynamics.motor_inertia;
+    const double jerk = dynamics.massless_motor() ? 0.0
+                                                  : -dynamics.motor_rate * acceleration -
+                                                        motion.load_speed / dynamics.motor_inertia;
     last_time = t;
     last_load_position = motion.load_position;
     last = {motion.load_speed + motion.gap_speed, acceleration, jerk};
@@ -202,10 +198,10 @@ Sizes sizes(const ServoDynamics& dynamics, const GapFlight& flight, const UnitHa
   }
   const double start = flight.load_position;
   const double motor_turning = motor_turning_position(dynamics, flight, half);
-  return {.load = std::max({std::abs(start), std::abs(half.load_position), std::abs(turning)}),
-          .motor = std::max({std::abs(start + half_gap), std::abs(motor_turning + half_gap),
-                             std::abs(half.load_position - half_gap),
-                             std::abs(turning - half_gap)})};
+  return {
+      .load = std::max({std::abs(start), std::abs(half.load_position), std::abs(turning)}),
+      .motor = std::max({std::abs(start + half_gap), std::abs(motor_turning + half_gap),
+                         std::abs(half.load_position - half_gap), std::abs(turning - half_gap)})};
 }
 
 /// Losses of a whole period for a unit amplitude.
@@ -219,10 +215,10 @@ CycleEnergy losses(const ServoDynamics& dynamics, const GapFlight& flight,
   const double engaged = 0.5 * half.square_change;
   const double load_share =
       dynamics.load_friction / (dynamics.load_friction + dynamics.motor_friction);
-  return {.motor_friction = 2.0 * (motor_in_flight + (1.0 - load_share) * engaged),
-          .load_friction = 2.0 * (load_in_flight + load_share * engaged),
-          .impacts = dynamics.motor_inertia * dynamics.load_inertia * half.gap_speed *
-                     half.gap_speed};
+  return {
+      .motor_friction = 2.0 * (motor_in_flight + (1.0 - load_share) * engaged),
+      .load_friction = 2.0 * (load_in_flight + load_share * engaged),
+      .impacts = dynamics.motor_inertia * dynamics.load_inertia * half.gap_speed * half.gap_speed};
 }
 
 /// Mismatch, relative to the state, after the half cycle is run through the engaged flow.
@@ -253,8 +249,8 @@ PlasticCycle plastic_cycle(const ServoDynamics& dynamics, double growth_at_rest)
   const double amplitude = dynamics.backlash / gap;
   const double square = amplitude * amplitude;
   const Sizes unit_sizes = sizes(dynamics, flight, half, 0.5 * gap);
-  const CycleEnergy unit_losses = losses(dynamics, flight, half, half.load_position -
-                                                                     flight.load_position - gap);
+  const CycleEnergy unit_losses =
+      losses(dynamics, flight, half, half.load_position - flight.load_position - gap);
   const double half_map_slope =
       1.0 + gap * half.log_growth_slope / half.gap_speed;  // 1 − |Δu| (J_M y + F_M P)/Q
 

@@ -4,23 +4,16 @@
 #include <cmath>
 #include <limits>
 
+#include "gearlash/motion/decay_integral.hpp"
+
 namespace gearlash {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int event_limit = 200'000;
 
-/// State and disturbance in the gap, (y, v, u, u̇), as columns of one matrix.
+/// State and disturbances in the gap, (y, v, u, u̇).
 using GapVector = Eigen::Vector4d;
 using Disturbance = Eigen::Matrix<double, 4, 3>;  // for each entry of the arrival
-
-GapVector as_vector(const GapState& state) {
-  return {state.load_position, state.load_speed, state.gap, state.gap_speed};
-}
-
-GapState as_state(const GapVector& vector) {
-  return {vector(0), vector(1), vector(2), vector(3)};
-}
 
 /// ẋ in the gap.
 GapVector motion_rate(const ServoDynamics& dynamics, const GapState& state) {
@@ -69,25 +62,43 @@ ImpactSlope impact_slope(const ServoDynamics& dynamics, const GapState& before,
   return slope;
 }
 
-/// Every flow is linear, so it carries a disturbance as it carries a state.
-void carry(const ServoDynamics& dynamics, const Phase& phase, double duration,
-           Disturbance& disturbance) {
-  for (Eigen::Index column = 0; column < disturbance.cols(); ++column) {
-    const GapState start = as_state(disturbance.col(column));
-    if (phase.mode == Mode::separated) {
-      Phase carried;
-      carried.mode = Mode::separated;
-      carried.flight = flight_from(dynamics, start);
-      disturbance.col(column) = as_vector(state_in_phase(dynamics, carried, duration));
-      continue;
-    }
-    // Engaged or settling: centre of mass and common momentum move as the engaged flow.
+/// Every flow is linear, so it carries a disturbance as it carries a state. The closed form of
+/// gap_flight.hpp, for all columns at once.
+Disturbance carried_through_flight(const ServoDynamics& dynamics, double time,
+                                   const Disturbance& start) {
+  const Decay load = decay(dynamics.load_rate * time);
+  const Decay motor = decay(dynamics.motor_rate * time);
+  const Eigen::RowVector3d motor_acceleration =
+      -dynamics.motor_rate * (start.row(1) + start.row(3)) - start.row(0) / dynamics.motor_inertia;
+  const Eigen::RowVector3d load_deceleration = dynamics.load_rate * start.row(1);
+  const Eigen::RowVector3d coupling = -start.row(1) / dynamics.motor_inertia;
+  Disturbance end;
+  end.row(0) = start.row(0) + start.row(1) * (time * load.integral());
+  end.row(1) = start.row(1) * load.factor;
+  end.row(2) =
+      start.row(2) +
+      time * (start.row(3) + time * (motor_acceleration * decay_double_integral(motor.exponent) +
+                                     load_deceleration * decay_double_integral(load.exponent) +
+                                     coupling * (time * convolution_double_integral(
+                                                            load.exponent, motor.exponent))));
+  end.row(3) = start.row(3) +
+               time * (motor_acceleration * motor.integral() + load_deceleration * load.integral() +
+                       coupling * (time * convolution_integral(load, motor)));
+  return end;
+}
+
+/// Engaged or settling: centre of mass and common momentum move as the engaged flow.
+Disturbance carried_together(const ServoDynamics& dynamics, double time, const Disturbance& start) {
+  Disturbance end = Disturbance::Zero();
+  for (Eigen::Index column = 0; column < start.cols(); ++column) {
     const EngagedFlow flow{dynamics.damping,
-                           start.load_position + dynamics.motor_inertia * start.gap,
-                           start.load_speed + dynamics.motor_inertia * start.gap_speed};
-    const EngagedFlow::State end = flow.at(duration);
-    disturbance.col(column) = GapVector{end.position, end.speed, 0.0, 0.0};
+                           start(0, column) + dynamics.motor_inertia * start(2, column),
+                           start(1, column) + dynamics.motor_inertia * start(3, column)};
+    const EngagedFlow::State state = flow.at(time);
+    end(0, column) = state.position;
+    end(1, column) = state.speed;
   }
+  return end;
 }
 
 /// The three rows (y, P, u̇) of a disturbance on the impact surface, mirrored.
@@ -116,8 +127,8 @@ GapState after_arrival(const ServoDynamics& dynamics, const Arrival& arrival) {
   return begin_phase(dynamics, before_arrival(dynamics, arrival)).impact.after;
 }
 
-Traversal traverse(const ServoDynamics& dynamics, const Arrival& arrival,
-                   Derivative derivative) {
+Traversal traverse(const ServoDynamics& dynamics, const Arrival& arrival, Derivative derivative,
+                   std::size_t event_limit) {
   const bool with_slope = derivative == Derivative::wanted;
   Traversal traversal;
   const GapState before = before_arrival(dynamics, arrival);
@@ -129,10 +140,15 @@ Traversal traverse(const ServoDynamics& dynamics, const Arrival& arrival,
   traversal.impacts = 1;
   traversal.hardest_impact = std::abs(arrival(2));
   Phase phase = start.phase;
-  for (int event = 0; event < event_limit; ++event) {
+  while (traversal.events < event_limit) {
+    ++traversal.events;
     const PhaseEnd end = end_of_phase(dynamics, phase, infinity);
     if (!end.has_event) return traversal;  // came_to_rest
-    if (with_slope) carry(dynamics, phase, end.duration, disturbance);
+    if (with_slope) {
+      disturbance = phase.mode == Mode::separated
+                        ? carried_through_flight(dynamics, end.duration, disturbance)
+                        : carried_together(dynamics, end.duration, disturbance);
+    }
     book(traversal, phase, end);
     if (end.kind == EventKind::separation) {
       const TorqueFreeLine line = dynamics.torque_free_line;
@@ -166,7 +182,8 @@ Traversal first_arrival(const ServoDynamics& dynamics, double amplitude) {
   if (phase.flight.gap_drive > 0.0) {
     phase = parted_phase(dynamics, 1.0, -amplitude * line.position, -amplitude * line.speed);
   }
-  for (int event = 0; event < event_limit; ++event) {
+  while (traversal.events < traversal_event_limit) {
+    ++traversal.events;
     const PhaseEnd end = end_of_phase(dynamics, phase, infinity);
     if (!end.has_event) return traversal;
     if (end.kind == EventKind::impact && end.face == Face::backward) {

@@ -21,8 +21,8 @@ std::vector<double> engaged_turning_times(const EngagedFlow& flow, double from, 
   double time = from;
   for (int turn = 0; turn < 2; ++turn) {
     const EngagedFlow::State state = flow.at(time);
-    time += first_zero(flow.damping, state.speed,
-                       -2.0 * flow.damping * state.speed - state.position);
+    time +=
+        first_zero(flow.damping, state.speed, -2.0 * flow.damping * state.speed - state.position);
     if (!(time < to)) break;
     times.push_back(time);
   }
@@ -52,8 +52,8 @@ std::vector<double> motor_turning_times(const GapFlight& flight, double from, do
     if (!(start_speed * end_speed < 0.0)) continue;
     // The position is stationary there: a bisected time is more than it needs.
     const auto speed = [&](double t) { return ValueAndSlope{motor_speed(t), 0.0}; };
-    times.push_back(bracketed_root(speed, start, end, 0.5 * (start + end),
-                                   end_speed > 0.0 ? 1.0 : -1.0));
+    times.push_back(
+        bracketed_root(speed, start, end, 0.5 * (start + end), end_speed > 0.0 ? 1.0 : -1.0));
   }
   return times;
 }

@@ -81,8 +81,8 @@ TurningPoints turning_points(const GapFlight& flight, double horizon) {
   for (const double end : ends) {
     if (!(end > start) || direction == 0.0) continue;
     double bound = end;
-    const double end_direction =
-        std::isinf(end) ? final_direction(flight) : sign_of(motion_in_flight(flight, end).gap_speed);
+    const double end_direction = std::isinf(end) ? final_direction(flight)
+                                                 : sign_of(motion_in_flight(flight, end).gap_speed);
     if (end_direction * direction < 0.0) {
       if (std::isinf(end)) {
         bound = finite_bound(start, [&](double t) {

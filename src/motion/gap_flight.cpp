@@ -10,8 +10,7 @@ namespace {
 /// G = −v (D² − 2ζD + 1)/J_M, with the square completed: the sum is of one sign for ζ ≤ 1.
 double gap_drive(const ServoDynamics& dynamics, double load_speed) {
   const double offset = dynamics.load_rate - dynamics.damping;
-  const double quadratic =
-      offset * offset + (1.0 - dynamics.damping) * (1.0 + dynamics.damping);
+  const double quadratic = offset * offset + (1.0 - dynamics.damping) * (1.0 + dynamics.damping);
   return -load_speed * quadratic / dynamics.motor_inertia;
 }
 
@@ -41,16 +40,21 @@ GapFlight of_massless_motor(const ServoDynamics& dynamics, const GapState& state
           .gap_acceleration = acceleration};
 }
 
-/// Two masses, apart from what happens to the gap.
+double motor_acceleration(const ServoDynamics& dynamics, const GapState& state) {
+  return -dynamics.motor_rate * (state.load_speed + state.gap_speed) -
+         state.load_position / dynamics.motor_inertia;
+}
+
+/// Two masses. The shafts' own accelerations are not taken from the gap's: of a light load that
+/// would lose digits.
 GapFlight of_two_masses(const ServoDynamics& dynamics, const GapState& state,
                         double gap_acceleration) {
-  const double load_deceleration = dynamics.load_rate * state.load_speed;
   return {.load_position = state.load_position,
           .load_speed = state.load_speed,
           .gap = state.gap,
           .gap_speed = state.gap_speed,
-          .motor_acceleration = gap_acceleration - load_deceleration,
-          .load_deceleration = load_deceleration,
+          .motor_acceleration = motor_acceleration(dynamics, state),
+          .load_deceleration = dynamics.load_rate * state.load_speed,
           .coupling = -state.load_speed / dynamics.motor_inertia,
           .load_rate = dynamics.load_rate,
           .motor_rate = dynamics.motor_rate,
@@ -103,8 +107,8 @@ double gap_displacement_at(const GapFlight& flight, double time) {
     displacement += flight.load_deceleration * time * time * decay_double_integral(load_decay);
   }
   if (flight.coupling != 0.0) {
-    displacement += flight.coupling * time * time * time *
-                    convolution_double_integral(load_decay, motor_decay);
+    displacement +=
+        flight.coupling * time * time * time * convolution_double_integral(load_decay, motor_decay);
   }
   return displacement;
 }
@@ -118,12 +122,9 @@ GapFlight flight_from(const ServoDynamics& dynamics, const GapState& state) {
     const double driven_speed = -state.load_position / dynamics.motor_friction;
     return of_massless_motor(dynamics, state, driven_speed - state.load_speed);
   }
-  const double motor_acceleration =
-      -dynamics.motor_rate * motor_speed - state.load_position / dynamics.motor_inertia;
-  GapFlight flight = of_two_masses(
-      dynamics, state, motor_acceleration + dynamics.load_rate * state.load_speed);
-  flight.motor_acceleration = motor_acceleration;
-  return flight;
+  return of_two_masses(
+      dynamics, state,
+      motor_acceleration(dynamics, state) + dynamics.load_rate * state.load_speed);
 }
 
 GapFlight flight_from_separation(const ServoDynamics& dynamics, double load_position,
@@ -143,8 +144,7 @@ GapFlight flight_from_pull(const ServoDynamics& dynamics, double load_position, 
   const GapState state{load_position, load_speed, gap, 0.0};
   if (dynamics.massless_load() || dynamics.massless_motor()) return flight_from(dynamics, state);
   const double torque = mesh_torque(dynamics, load_position, load_speed);
-  return of_two_masses(dynamics, state,
-                       torque / (dynamics.motor_inertia * dynamics.load_inertia));
+  return of_two_masses(dynamics, state, torque / (dynamics.motor_inertia * dynamics.load_inertia));
 }
 
 }  // namespace gearlash

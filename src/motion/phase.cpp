@@ -37,8 +37,8 @@ Phase separated_phase(const GapFlight& flight, FaceSign face) {
 
 GapState state_in_flight(const GapFlight& flight, double time) {
   const FlightMotion motion = motion_in_flight(flight, time);
-  return {motion.load_position, motion.load_speed,
-          flight.gap + gap_displacement_at(flight, time), motion.gap_speed};
+  return {motion.load_position, motion.load_speed, flight.gap + gap_displacement_at(flight, time),
+          motion.gap_speed};
 }
 
 PhaseEnd no_event() {
@@ -79,9 +79,8 @@ PhaseEnd meet(const ServoDynamics& dynamics, FaceSign face, double duration, Gap
     if (bounces.imminent) {
       end.next.mode = Mode::settling;
       end.next.bounces = bounces;
-      end.next.engaged = {
-          dynamics.damping, state.load_position,
-          outcome.load_speed + dynamics.motor_inertia * outcome.gap_speed};
+      end.next.engaged = {dynamics.damping, state.load_position,
+                          outcome.load_speed + dynamics.motor_inertia * outcome.gap_speed};
     }
   }
   return end;
@@ -145,8 +144,8 @@ GapState state_while_settling(const ServoDynamics& dynamics, const Phase& phase,
     start += contact.time;
     GapState state = state_in_flight(bounce, contact.time);
     const ImpactOutcome outcome = impact(dynamics, state.load_speed, state.gap_speed);
-    bounce = flight_from(dynamics, {state.load_position, outcome.load_speed, bounce.gap,
-                                    outcome.gap_speed});
+    bounce = flight_from(dynamics,
+                         {state.load_position, outcome.load_speed, bounce.gap, outcome.gap_speed});
   }
   const EngagedFlow::State common = phase.engaged.at(time);
   return {common.position, common.speed, gap_on(dynamics, phase.face), 0.0};
@@ -156,17 +155,15 @@ GapState state_while_settling(const ServoDynamics& dynamics, const Phase& phase,
 
 Phase parted_phase(const ServoDynamics& dynamics, FaceSign face, double load_position,
                    double load_speed) {
-  return separated_phase(flight_from_separation(dynamics, load_position, load_speed,
-                                                gap_on(dynamics, face)),
-                         face);
+  return separated_phase(
+      flight_from_separation(dynamics, load_position, load_speed, gap_on(dynamics, face)), face);
 }
 
 PhaseStart begin_phase(const ServoDynamics& dynamics, const GapState& state) {
   PhaseStart start{};
   if (dynamics.backlash == 0.0) {
-    start.phase = engaged_phase(
-        dynamics, 1.0, state.load_position,
-        state.load_speed + dynamics.motor_inertia * state.gap_speed);
+    start.phase = engaged_phase(dynamics, 1.0, state.load_position,
+                                state.load_speed + dynamics.motor_inertia * state.gap_speed);
     return start;
   }
   const bool on_face = std::abs(state.gap) >= 0.5 * dynamics.backlash;

@@ -38,7 +38,8 @@ double gap_allowance(const ServoState& state) {
 
 std::vector<Violation> validate_start(const NormalizedServo& servo, const ServoState& initial,
                                       const SimulationOptions& options) {
-  constexpr double largest = 1e9;
+  constexpr double largest = 1e100;  // squares and cubes stay finite
+  constexpr double longest = 1e9;
   RangeCheck check;
   check.include(validate(servo));
   check.within("initial.motor_position", initial.motor_position, -largest, largest);
@@ -46,7 +47,7 @@ std::vector<Violation> validate_start(const NormalizedServo& servo, const ServoS
   check.within("initial.load_position", initial.load_position, -largest, largest);
   check.within("initial.load_speed", initial.load_speed, -largest, largest);
   check.within("reference", options.reference, -largest, largest);
-  check.within("until", options.until, 0.0, largest);
+  check.within("until", options.until, 0.0, longest);
   const double gap = initial.motor_position - initial.load_position;
   if (std::abs(gap) > 0.5 * servo.backlash + gap_allowance(initial)) {
     const std::string half = exact_text(0.5 * servo.backlash);
@@ -71,7 +72,7 @@ void accumulate(const ServoDynamics& dynamics, const Phase& phase, double durati
   if (phase.mode != Mode::separated) {
     const double speed_squared =
         panel_integral([&](double t) { return std::pow(phase.engaged.at(t).speed, 2); }, duration,
-                 2.0 * dynamics.damping);
+                       2.0 * dynamics.damping);
     account.motor_friction += dynamics.motor_friction * speed_squared;
     account.load_friction += dynamics.load_friction * speed_squared;
     return;
@@ -154,8 +155,8 @@ Trajectory simulate(const NormalizedServo& servo, const ServoState& initial,
   trajectory.reference_ = options.reference;
   const ServoDynamics& dynamics = trajectory.dynamics_;
 
-  const GapState state = snapped_to_faces(to_gap_state(initial, options.reference), initial,
-                                          servo.backlash);
+  const GapState state =
+      snapped_to_faces(to_gap_state(initial, options.reference), initial, servo.backlash);
   const PhaseStart start = begin_phase(dynamics, state);
   if (start.impact_at_start && options.event_limit == 0) {
     trajectory.segments_.push_back({0.0, 0.0, start.phase});

@@ -20,22 +20,21 @@ std::vector<Violation> validate(const Motor& motor) {
         check.not_negative("friction", any.friction, "N m s/rad");
       },
       motor);
-  std::visit(Overloaded{[&](const ArmatureControlledMotor& armature) {
-                          check.positive("torque_constant", armature.torque_constant, "N m/A");
-                          check.not_negative("back_emf_constant", armature.back_emf_constant,
-                                             "V s/rad");
-                          check.positive("resistance", armature.resistance, "ohm");
-                        },
-                        [&](const FieldControlledMotor& field) {
-                          check.positive("torque_constant", field.torque_constant, "N m/A");
-                          check.positive("resistance", field.resistance, "ohm");
-                        },
-                        [&](const TwoPhaseMotor& two_phase) {
-                          check.positive("torque_per_volt", two_phase.torque_per_volt, "N m/V");
-                          check.not_negative("torque_per_speed", two_phase.torque_per_speed,
-                                             "N m s/rad");
-                        }},
-             motor);
+  std::visit(
+      Overloaded{[&](const ArmatureControlledMotor& armature) {
+                   check.positive("torque_constant", armature.torque_constant, "N m/A");
+                   check.not_negative("back_emf_constant", armature.back_emf_constant, "V s/rad");
+                   check.positive("resistance", armature.resistance, "ohm");
+                 },
+                 [&](const FieldControlledMotor& field) {
+                   check.positive("torque_constant", field.torque_constant, "N m/A");
+                   check.positive("resistance", field.resistance, "ohm");
+                 },
+                 [&](const TwoPhaseMotor& two_phase) {
+                   check.positive("torque_per_volt", two_phase.torque_per_volt, "N m/V");
+                   check.not_negative("torque_per_speed", two_phase.torque_per_speed, "N m s/rad");
+                 }},
+      motor);
   return check.violations();
 }
 
@@ -96,9 +95,8 @@ ReferredMotor refer_to_load(const Datasheet& datasheet) {
                                  motor.inertia * square, motor.friction * square, 0.0};
           },
           [&](const TwoPhaseMotor& motor) {
-            return ReferredMotor{motor.torque_per_volt * error_gain * ratio,
-                                 motor.inertia * square, motor.friction * square,
-                                 motor.torque_per_speed * square};
+            return ReferredMotor{motor.torque_per_volt * error_gain * ratio, motor.inertia * square,
+                                 motor.friction * square, motor.torque_per_speed * square};
           }},
       datasheet.motor);
 }

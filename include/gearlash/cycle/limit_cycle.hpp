@@ -28,23 +28,23 @@ struct CycleEnergy {
 /// Times in units of 1/ω_n, angles in rad at the load shaft. NaN where not computed.
 struct LimitCycle {
   CycleKind kind = CycleKind::symmetric;
-  bool stable = false;  ///< |multiplier| < 1
-  double size = std::numeric_limits<double>::quiet_NaN();  ///< half peak-to-peak of the load
+  bool stable = false;                                           ///< |multiplier| < 1
+  double size = std::numeric_limits<double>::quiet_NaN();        ///< half peak-to-peak of the load
   double motor_size = std::numeric_limits<double>::quiet_NaN();  ///< the same of the motor
   double period = std::numeric_limits<double>::quiet_NaN();
-  double multiplier = std::numeric_limits<double>::quiet_NaN();  ///< Floquet's, largest modulus,
-                                                                 ///< over a whole period
+  double multiplier = std::numeric_limits<double>::quiet_NaN();    ///< Floquet's, largest modulus,
+                                                                   ///< over a whole period
   double impact_speed = std::numeric_limits<double>::quiet_NaN();  ///< |v_M − v_L| before the
                                                                    ///< hardest impact
-  double engaged_time = std::numeric_limits<double>::quiet_NaN();    ///< a period's share
+  double engaged_time = std::numeric_limits<double>::quiet_NaN();  ///< a period's share
   double separated_time = std::numeric_limits<double>::quiet_NaN();  ///< a period's share
   double residual = std::numeric_limits<double>::quiet_NaN();  ///< relative mismatch of the state
                                                                ///< after one map, of its size
   std::size_t impacts_per_period = 0;  ///< impacts counted one by one; a settling adds none more
   bool settles = false;                ///< bounces settle (or are plastic) before each separation
   CycleEnergy energy;
-  ServoState start;  ///< a state on the cycle, about reference 0: as the faces part forward (plastic
-                     ///< contact), or just after an impact on the forward face
+  ServoState start;  ///< a state on the cycle, about reference 0: as the faces part forward
+                     ///< (plastic contact), or just after an impact on the forward face
 };
 
 enum class Verdict {
@@ -54,14 +54,14 @@ enum class Verdict {
   hunts_irregularly,    ///< rest is unstable; the motion stayed bounded and did not repeat
   grows_without_bound,  ///< no friction at all: the oscillation has no bound
   undamped,             ///< neither friction nor backlash: any amplitude persists
-  undecided             ///< on the boundary to within rounding, or more bounces than can be followed
+  undecided  ///< on the boundary to within rounding, or more bounces than can be followed
 };
 
 struct LimitCycleAnalysis {
   Verdict verdict = Verdict::cannot_hunt;
   bool proved = false;  ///< the verdict rests on a theorem (docs/mathematics), not on a search
   double growth_at_rest = std::numeric_limits<double>::quiet_NaN();  ///< μ₀, see growth_at_rest()
-  std::vector<LimitCycle> cycles;  ///< by decreasing size
+  std::vector<LimitCycle> cycles;                                    ///< by decreasing size
   double irregular_size = std::numeric_limits<double>::quiet_NaN();  ///< half the peak-to-peak seen
                                                                      ///< when hunts_irregularly
 };

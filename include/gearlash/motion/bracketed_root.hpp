@@ -28,16 +28,15 @@ inline double middle_of(double low, double high) {
 /// Root of a continuous function in [low, high], by default to the last bits of a double.
 ///
 /// `high` may be infinite when f takes the sign `sign_at_high` somewhere above: bisection then
-/// doubles. Precondition: f(high) has the sign `sign_at_high` (+1 or −1) or is zero, f(low) the opposite
-/// sign or zero, 0 ≤ low. The bracket shrinks at every evaluation; a
-/// step that would leave it, or that does not halve the one before, is replaced by bisection, so
-/// the loop ends whatever f does. It ends when
+/// doubles. Precondition: f(high) has the sign `sign_at_high` (+1 or −1) or is zero, f(low) the
+/// opposite sign or zero, 0 ≤ low. The bracket shrinks at every evaluation; a step that would leave
+/// it, or that does not halve the one before, is replaced by bisection, so the loop ends whatever f
+/// does. It ends when
 ///   |step| ≤ tolerance · |x|, or when the step that would follow, |step|³/|last step|² at least
 ///   for a method of second order, is below an eighth of that; or at an exact zero; or when the
 ///   bracket is down to neighbouring numbers.
 template <class Function>
-double bracketed_root(const Function& f, double low, double high, double guess,
-                      double sign_at_high,
+double bracketed_root(const Function& f, double low, double high, double guess, double sign_at_high,
                       double tolerance = std::numeric_limits<double>::epsilon()) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   constexpr int step_limit = 256;

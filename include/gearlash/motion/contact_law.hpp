@@ -40,7 +40,7 @@ struct SettlingBounces {
 /// state that the engaged flow would have reached over T, to the same order. `imminent` is set when
 /// T₀ times the rates involved is below 1e-5, so that what is left out is below 1e-15.
 /// Precondition: just after an impact on `face`, gap_speed pointing away from it, 0 < e < 1.
-SettlingBounces settling_bounces(const ServoDynamics& dynamics, FaceSign face,
-                                 double load_position, double load_speed, double gap_speed);
+SettlingBounces settling_bounces(const ServoDynamics& dynamics, FaceSign face, double load_position,
+                                 double load_speed, double gap_speed);
 
 }  // namespace gearlash

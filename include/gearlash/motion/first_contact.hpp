@@ -6,7 +6,7 @@
 namespace gearlash {
 
 struct FirstContact {
-  double time;   ///< from the flight's start; infinity when the gap never closes before `horizon`
+  double time;    ///< from the flight's start; infinity when the gap never closes before `horizon`
   double toward;  ///< +1: the forward face, −1: the backward face; 0 when there is no contact
 };
 

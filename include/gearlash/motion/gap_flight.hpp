@@ -24,8 +24,8 @@ struct GapFlight {
   double load_rate = 0.0;           ///< D; 0 for a massless load
   double motor_rate = 0.0;          ///< c; 0 for a massless motor
   double gap_acceleration = 0.0;    ///< ü₀ = A + B, known more exactly than that sum
-  double gap_drive = 0.0;           ///< G = −v₀(D² − 2ζD + 1)/J_M = (c − D) B + C, likewise:
-                                    ///< ü e^{ct} = ü₀ + G t φ₁((c − D)t)
+  double gap_drive = 0.0;  ///< G = −v₀(D² − 2ζD + 1)/J_M = (c − D) B + C, likewise:
+                           ///< ü e^{ct} = ü₀ + G t φ₁((c − D)t)
 };
 
 /// Everything of a flight at one time that needs no second integral.

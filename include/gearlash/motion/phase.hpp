@@ -28,9 +28,9 @@ enum class EventKind {
 /// Positions are from the reference (y = θ − θ_ref); times from the phase's own start.
 struct Phase {
   Mode mode = Mode::no_gap;
-  FaceSign face = 1.0;       ///< engaged on, or bouncing on; unused when separated
-  EngagedFlow engaged;       ///< engaged and no_gap; when settling, the common motion
-  GapFlight flight;          ///< separated; when settling, the first of the bounces
+  FaceSign face = 1.0;        ///< engaged on, or bouncing on; unused when separated
+  EngagedFlow engaged;        ///< engaged and no_gap; when settling, the common motion
+  GapFlight flight;           ///< separated; when settling, the first of the bounces
   SettlingBounces bounces{};  ///< settling only
 };
 

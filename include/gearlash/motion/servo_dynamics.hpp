@@ -14,15 +14,15 @@ struct TorqueFreeLine {
 
 /// Normalised so that J_M + J_L = 1, K = 1 and F_M + F_L = 2ζ.
 struct ServoDynamics {
-  double damping = 0.0;         ///< ζ
-  double motor_inertia = 0.5;   ///< J_M
-  double load_inertia = 0.5;    ///< J_L
-  double motor_friction = 0.0;  ///< F_M
-  double load_friction = 0.0;   ///< F_L
-  double motor_rate = 0.0;      ///< c = F_M/J_M, infinite for a massless motor
-  double load_rate = 0.0;       ///< D = F_L/J_L, infinite for a massless load
-  double backlash = 0.0;        ///< b, rad
-  double restitution = 0.0;     ///< e
+  double damping = 0.0;           ///< ζ
+  double motor_inertia = 0.5;     ///< J_M
+  double load_inertia = 0.5;      ///< J_L
+  double motor_friction = 0.0;    ///< F_M
+  double load_friction = 0.0;     ///< F_L
+  double motor_rate = 0.0;        ///< c = F_M/J_M, infinite for a massless motor
+  double load_rate = 0.0;         ///< D = F_L/J_L, infinite for a massless load
+  double backlash = 0.0;          ///< b, rad
+  double restitution = 0.0;       ///< e
   double torque_per_speed = 0.0;  ///< F_L J_M − F_M J_L, see mesh_torque()
   TorqueFreeLine torque_free_line;
 

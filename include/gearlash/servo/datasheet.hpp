@@ -31,9 +31,9 @@ struct FieldControlledMotor {
 
 /// Two-phase induction servo motor given by the slopes of its characteristic curves.
 struct TwoPhaseMotor {
-  double inertia = 0.0;           ///< J_m, kg m², ≥ 0
-  double friction = 0.0;          ///< f_m, N m s/rad, ≥ 0
-  double torque_per_volt = 0.0;   ///< K_e = ∂T/∂e, N m/V, > 0
+  double inertia = 0.0;          ///< J_m, kg m², ≥ 0
+  double friction = 0.0;         ///< f_m, N m s/rad, ≥ 0
+  double torque_per_volt = 0.0;  ///< K_e = ∂T/∂e, N m/V, > 0
   double torque_per_speed = 0.0;  ///< K_N = −∂T/∂n, N m s/rad, ≥ 0 (the slope, taken positive)
 
   bool operator==(const TwoPhaseMotor&) const = default;

@@ -7,13 +7,13 @@ namespace gearlash {
 
 /// DESIGN's table of conventions in SI: what remains of any motor once it is referred to the load.
 struct Drivetrain {
-  double motor_inertia = 0.0;    ///< J_M, kg m², ≥ 0
-  double load_inertia = 0.0;     ///< J_L, kg m², ≥ 0; not both zero
-  double motor_friction = 0.0;   ///< F_M, N m s/rad, ≥ 0; includes back-EMF or speed-torque slope
-  double load_friction = 0.0;    ///< F_L, N m s/rad, ≥ 0
-  double stiffness = 0.0;        ///< K, N m/rad, > 0: torque at the load per unit position error
-  double backlash = 0.0;         ///< b, rad, ≥ 0, face to face at the load shaft
-  double restitution = 0.0;      ///< e, 0 … 1
+  double motor_inertia = 0.0;   ///< J_M, kg m², ≥ 0
+  double load_inertia = 0.0;    ///< J_L, kg m², ≥ 0; not both zero
+  double motor_friction = 0.0;  ///< F_M, N m s/rad, ≥ 0; includes back-EMF or speed-torque slope
+  double load_friction = 0.0;   ///< F_L, N m s/rad, ≥ 0
+  double stiffness = 0.0;       ///< K, N m/rad, > 0: torque at the load per unit position error
+  double backlash = 0.0;        ///< b, rad, ≥ 0, face to face at the load shaft
+  double restitution = 0.0;     ///< e, 0 … 1
   Sensor sensor = Sensor::load;
 
   bool operator==(const Drivetrain&) const = default;
