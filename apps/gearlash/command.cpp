@@ -1,0 +1,44 @@
+#include "command.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include "gearlash/io/units.hpp"
+
+namespace gearlash::cli {
+namespace {
+
+bool is_plain(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+         std::string_view("-_./=,:+@%").find(c) != std::string_view::npos;
+}
+
+std::string shell_quoted(const std::string& argument) {
+  if (!argument.empty() && std::all_of(argument.begin(), argument.end(), is_plain)) {
+    return argument;
+  }
+  // Control characters are escaped by shown(): the command stays on its line, in a CSV file too.
+  std::string quoted = "'";
+  for (const char c : argument.empty() ? argument : shown(argument, std::string_view::npos)) {
+    quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  }
+  return quoted + "'";
+}
+
+}  // namespace
+
+std::string help_footer(const std::string& examples) {
+  return "Examples:\n" + examples +
+         "\nExit status:\n"
+         "  0  done, whether the servo hunts or not\n"
+         "  1  the numerics could not decide; what they know has been printed\n"
+         "  2  bad input, one line a fault; or output that cannot be written";
+}
+
+std::string typed_command(int argument_count, const char* const* arguments) {
+  std::string command = "gearlash";
+  for (int i = 1; i < argument_count; ++i) command += " " + shell_quoted(arguments[i]);
+  return command;
+}
+
+}  // namespace gearlash::cli

@@ -1,0 +1,32 @@
+// What the subcommands share: how they are registered, what they know and how they end.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+#include "gearlash/io/report_units.hpp"
+
+namespace gearlash::cli {
+
+/// Exit statuses, as --help tells them.
+enum class ExitStatus {
+  done = 0,
+  undecided = 1,  ///< the numerics could not decide; what is known has been printed
+  bad_input = 2   ///< also output that cannot be written
+};
+
+/// Set by the subcommand that was parsed; runs it. Throws InvalidInput, OutputError or ReaderGone.
+using Action = std::function<ExitStatus(const Provenance&)>;
+
+void add_limit_cycle_command(CLI::App& app, Action& action);
+void add_simulate_command(CLI::App& app, Action& action);
+void add_motor_command(CLI::App& app, Action& action);
+
+/// The end of every --help.
+std::string help_footer(const std::string& examples);
+
+/// The command as it could be typed into a shell, always on one line.
+std::string typed_command(int argument_count, const char* const* arguments);
+
+}  // namespace gearlash::cli

@@ -1,0 +1,146 @@
+// gearlash limit-cycle: does it hunt, how big and how fast?
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "command.hpp"
+#include "gearlash/io/limit_cycle_report.hpp"
+#include "gearlash/io/output_file.hpp"
+#include "gearlash/io/picture.hpp"
+#include "gearlash/io/units.hpp"
+#include "servo_options.hpp"
+#include "terminal.hpp"
+
+namespace gearlash::cli {
+namespace {
+
+constexpr char examples[] =
+    "  gearlash limit-cycle examples/elinco-fd162.toml --plot hunting.svg\n"
+    "  gearlash limit-cycle examples/elinco-fd162.toml --backlash \"12 arcmin\"\n"
+    "  gearlash limit-cycle --damping 0.19 --inertia-ratio 2 --friction-ratio 1/10 --backlash 0.3\n"
+    "  gearlash limit-cycle examples/normalized.toml --format json | jq .cycles[0].size\n";
+
+struct LimitCycleOptions {
+  ServoOptions servo;
+  std::string format = "text";
+  std::string plot;
+};
+
+const LimitCycle* largest_stable(const LimitCycleAnalysis& analysis) {
+  const auto cycle = std::find_if(analysis.cycles.begin(), analysis.cycles.end(),
+                                  [](const LimitCycle& candidate) { return candidate.stable; });
+  return cycle == analysis.cycles.end() ? nullptr : &*cycle;
+}
+
+/// A number that is easily said, not far above `value`.
+double round_up(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double factor : {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
+    if (value <= factor * power) return factor * power;
+  }
+  return 10.0 * power;
+}
+
+/// A step from rest, large enough that the way to the cycle is seen and small enough that the cycle
+/// is too. Its size is free: everything scales with the backlash.
+struct Step {
+  double size;   ///< rad
+  double until;  ///< normalised
+};
+
+Step step_to_draw(const LimitCycleReport& report) {
+  const NormalizedServo& servo = report.servo;
+  const AngleUnit& unit = report.units.angle;
+  const auto rounded = [&](double size) {
+    return unit.radians * round_up(unit.from_radians(size));
+  };
+  constexpr double turn = 2.0 * std::numbers::pi;
+  if (const LimitCycle* cycle = largest_stable(report.analysis)) {
+    // Until a disturbance has died to a hundredth, which the lines of the cycle hide; but of a
+    // cycle that is reached slowly no more than can be told apart.
+    const double periods = std::log(0.01) / std::log(std::abs(cycle->multiplier));
+    return {rounded(1.8 * std::max(cycle->size, cycle->motor_size)),
+            cycle->period * std::clamp(std::ceil(periods), 4.0, 8.0)};
+  }
+  const double settling_time =
+      servo.damping < 1.0 ? 5.0 / std::max(servo.damping, 0.01) : 10.0 * servo.damping;
+  return {servo.backlash > 0.0 ? rounded(4.0 * servo.backlash) : 1.0,
+          servo.damping < 1.0 ? std::clamp(settling_time, 2.0 * turn, 20.0 * turn) : settling_time};
+}
+
+std::string draw(const LimitCycleReport& report, PictureFormat format) {
+  const Step step = step_to_draw(report);
+  MotionPicture picture{
+      .title = verdict_line(report),
+      .servo = report.servo,
+      .trajectory = simulate(report.servo, engaged_start(report.servo, 0.0, 0.0, step.size),
+                             {.until = step.until, .reference = step.size}),
+      .reference = step.size,
+      .cycle = std::nullopt,
+      .units = report.units};
+  if (const LimitCycle* cycle = largest_stable(report.analysis)) picture.cycle = *cycle;
+  return draw_phase_plane(picture, format);
+}
+
+std::string text_for_terminal(const LimitCycleReport& report) {
+  const std::string text = limit_cycle_text(report);
+  const std::size_t end_of_verdict = text.find('\n');
+  return emphasized(text.substr(0, end_of_verdict)) + text.substr(end_of_verdict);
+}
+
+/// Verdicts that need a number which the search did not find are no answer.
+bool is_decided(const LimitCycleAnalysis& analysis) {
+  switch (analysis.verdict) {
+    case Verdict::hunts:
+    case Verdict::hunts_if_disturbed:
+    case Verdict::hunts_irregularly:
+      return largest_stable(analysis) != nullptr || std::isfinite(analysis.irregular_size);
+    case Verdict::undecided:
+      return false;
+    default:
+      return true;
+  }
+}
+
+ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
+  Faults faults;
+  faults.require_choice("--format", options.format, {"text", "json"});
+  const PictureFormat picture_kind = faults.collect(
+      [&] {
+        return options.plot.empty() ? PictureFormat::svg : picture_format("--plot", options.plot);
+      },
+      PictureFormat::svg);
+  const ServoFile file = resolve_servo(options.servo, faults);
+  faults.require_none();
+
+  const LimitCycleReport report{.servo = file.servo,
+                                .analysis = analyse_limit_cycles(file.servo),
+                                .units = report_units(file),
+                                .provenance = provenance};
+  if (!options.plot.empty()) write_file(options.plot, draw(report, picture_kind));
+  write_file("-", options.format == "json" ? limit_cycle_json(report) : text_for_terminal(report));
+  if (is_decided(report.analysis)) return ExitStatus::done;
+  std::fputs(("gearlash: " + verdict_line(report) + "\n").c_str(), stderr);
+  return ExitStatus::undecided;
+}
+
+}  // namespace
+
+void add_limit_cycle_command(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<LimitCycleOptions>();
+  CLI::App* command = app.add_subcommand("limit-cycle", "does it hunt, how big and how fast?");
+  add_servo_options(*command, options->servo);
+  command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");
+  command
+      ->add_option("--plot", options->plot,
+                   "draw the cycle in the phase plane, over a step response\n"
+                   "that leads to it; FILE ends in .svg, .png or .pdf")
+      ->type_name("FILE");
+  command->footer(help_footer(examples));
+  command->callback([options, &action] {
+    action = [options](const Provenance& provenance) { return run(*options, provenance); };
+  });
+}
+
+}  // namespace gearlash::cli

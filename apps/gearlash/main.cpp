@@ -1,0 +1,136 @@
+// gearlash: will a geared servo with backlash hunt, how big and how fast?
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "command.hpp"
+#include "gearlash/io/output_file.hpp"
+#include "gearlash/io/units.hpp"
+#include "gearlash/servo/violation.hpp"
+#include "gearlash/version.hpp"
+
+namespace gearlash::cli {
+namespace {
+
+constexpr char description[] =
+    "Tells whether a geared servo with backlash will limit-cycle (hunt), how big and how fast.\n";
+
+constexpr char examples[] =
+    "  gearlash limit-cycle examples/elinco-fd162.toml --plot hunting.svg\n"
+    "  gearlash simulate examples/elinco-fd162.toml --plot time=step.svg > step.csv\n"
+    "  gearlash motor examples/elinco-fd162.toml\n"
+    "  gearlash limit-cycle --help\n";
+
+extern "C" void remove_outputs_and_die(int signal_number) {
+  remove_unfinished_outputs();
+  std::signal(signal_number, SIG_DFL);
+  std::raise(signal_number);
+}
+
+void install_signal_handlers() {
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
+    // nohup has SIGHUP ignored, a shell's background job SIGINT: that stays.
+    if (std::signal(signal_number, remove_outputs_and_die) == SIG_IGN) {
+      std::signal(signal_number, SIG_IGN);
+    }
+  }
+  // A closed pipe and a file grown too large are then seen where they are written to.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void report_lines(const std::string& lines) {
+  std::size_t start = 0;
+  while (start < lines.size()) {
+    const std::size_t end = std::min(lines.find('\n', start), lines.size());
+    std::fputs(("gearlash: " + lines.substr(start, end - start) + "\n").c_str(), stderr);
+    start = end + 1;
+  }
+}
+
+std::string names_of_subcommands(const CLI::App& app) {
+  std::string names;
+  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    if (i > 0) names += i + 1 == commands.size() ? " or " : ", ";
+    names += commands[i]->get_name();
+  }
+  return names;
+}
+
+/// What was typed where a subcommand belongs.
+void require_subcommand(const CLI::App& app, int argument_count, char** arguments) {
+  const std::string first = argument_count > 1 ? arguments[1] : "";
+  if (first.starts_with("-")) return;  // an option: CLI11 knows it or says that it does not
+  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+  const bool is_known = std::any_of(commands.begin(), commands.end(), [&](const CLI::App* command) {
+    return command->get_name() == first;
+  });
+  if (!is_known) {
+    throw InvalidInput({{"subcommand", first.empty() ? "" : shown(first),
+                         "must be " + names_of_subcommands(app) + "; see gearlash --help", ""}});
+  }
+}
+
+/// CLI11's own words, on one line, and where to find what is permitted.
+ExitStatus report_usage(const CLI::App& app, const CLI::ParseError& error) {
+  const auto chosen = app.get_subcommands();
+  const std::string name = chosen.empty() ? "" : " " + chosen.front()->get_name();
+  report_lines(shown(error.what(), 300) + "; see gearlash" + name + " --help");
+  return ExitStatus::bad_input;
+}
+
+ExitStatus parse_and_run(int argument_count, char** arguments) {
+  CLI::App app(description, "gearlash");
+  Action action;
+  app.set_version_flag("--version", std::string("gearlash ") + version);
+  app.require_subcommand(1);
+  app.footer(help_footer(examples));
+  app.get_formatter()->column_width(30);
+  add_limit_cycle_command(app, action);
+  add_simulate_command(app, action);
+  add_motor_command(app, action);
+  require_subcommand(app, argument_count, arguments);
+  try {
+    app.parse(argument_count, arguments);
+  } catch (const CLI::CallForHelp&) {
+    write_file("-", app.help());
+    return ExitStatus::done;
+  } catch (const CLI::CallForVersion& version_text) {
+    write_file("-", std::string(version_text.what()) + "\n");
+    return ExitStatus::done;
+  } catch (const CLI::ParseError& error) {
+    return report_usage(app, error);
+  }
+  return action({typed_command(argument_count, arguments), version});
+}
+
+ExitStatus guarded(int argument_count, char** arguments) {
+  try {
+    return parse_and_run(argument_count, arguments);
+  } catch (const ReaderGone&) {
+    return ExitStatus::done;
+  } catch (const InvalidInput& error) {
+    report_lines(error.what());
+  } catch (const OutputError& error) {
+    report_lines(error.what());
+  } catch (const std::bad_alloc&) {
+    report_lines("not enough memory");
+    return ExitStatus::undecided;
+  } catch (const std::exception& error) {
+    report_lines(std::string("a fault in gearlash itself, please report it: ") + error.what());
+    return ExitStatus::undecided;
+  }
+  return ExitStatus::bad_input;
+}
+
+}  // namespace
+}  // namespace gearlash::cli
+
+int main(int argument_count, char** arguments) {
+  gearlash::cli::install_signal_handlers();
+  return static_cast<int>(gearlash::cli::guarded(argument_count, arguments));
+}

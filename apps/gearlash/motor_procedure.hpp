@@ -1,0 +1,19 @@
+// Appendix A of the 1960 thesis with a data sheet's numbers in it, to be followed with a pencil.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "gearlash/io/servo_file.hpp"
+
+namespace gearlash::cli {
+
+/// The data sheet in SI, the steps of the procedure for its kind of motor as the thesis numbers
+/// them, each with formula, numbers and result, and the limit cycle. Every step can be recomputed
+/// from the numbers on its line, to five digits at least. `written` are the values as their author
+/// wrote them, by "section.key"; those that are missing are printed in SI alone.
+/// Precondition: the file holds a data sheet.
+std::string motor_procedure(const ServoFile& file,
+                            const std::map<std::string, std::string>& written);
+
+}  // namespace gearlash::cli

@@ -1,0 +1,154 @@
+#include "servo_options.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gearlash/io/units.hpp"
+
+namespace gearlash::cli {
+namespace {
+
+constexpr char servo_group[] = "Servo";
+
+/// The options that can describe a servo without a file, and where each goes.
+struct NumberOption {
+  const char* name;
+  std::optional<std::string> ServoOptions::*typed;
+  double NormalizedServo::*number;
+  bool required_without_file;
+};
+constexpr NumberOption number_options[] = {
+    {"damping", &ServoOptions::damping, &NormalizedServo::damping, true},
+    {"inertia_ratio", &ServoOptions::inertia_ratio, &NormalizedServo::inertia_ratio, true},
+    {"friction_ratio", &ServoOptions::friction_ratio, &NormalizedServo::friction_ratio, true},
+    {"backlash", &ServoOptions::backlash, &NormalizedServo::backlash, true},
+    {"restitution", &ServoOptions::restitution, &NormalizedServo::restitution, false}};
+
+/// "--inertia-ratio" for inertia_ratio.
+std::string option_name(std::string field) {
+  std::replace(field.begin(), field.end(), '_', '-');
+  return "--" + field;
+}
+
+const char* permitted_without_file(std::string_view field) {
+  if (field == "damping") return "a number from 0 to 1000, or give SERVO.toml";
+  if (field == "inertia_ratio") return "0, a number from 1e-9 to 1e9, or inf, or give SERVO.toml";
+  if (field == "friction_ratio") return "a number from 0 to 1, or give SERVO.toml";
+  return "an angle such as 0.1 (rad) or \"12 arcmin\", or give SERVO.toml";
+}
+
+void apply(const ServoOptions& options, const NumberOption& option, ServoFile& file,
+           Faults& faults) {
+  const std::optional<std::string>& typed = options.*option.typed;
+  const std::string name = option_name(option.name);
+  if (!typed) {
+    if (options.file.empty() && option.required_without_file) {
+      faults.add({name, "", permitted_without_file(option.name), ""});
+    }
+    return;
+  }
+  double& number = file.servo.*option.number;
+  if (option.typed == &ServoOptions::backlash) {
+    const Angle angle = faults.collect([&] { return read_angle(name, *typed); }, Angle{});
+    number = angle.radians;
+    file.backlash_unit = angle.unit;
+  } else {
+    number = faults.collect([&] { return read_number(name, *typed); }, number);
+  }
+}
+
+/// A fault of a number that was typed is named as it was typed.
+std::vector<Violation> faults_of_servo(const NormalizedServo& servo, const ServoOptions& options) {
+  std::vector<Violation> violations = validate(servo);
+  for (Violation& violation : violations) {
+    for (const NumberOption& option : number_options) {
+      if (violation.field == option.name && options.*option.typed) {
+        violation.field = option_name(option.name);
+        violation.value = shown(*(options.*option.typed));
+        break;
+      }
+    }
+    if (violation.field == "sensor" && options.sensor) violation.field = "--sensor";
+  }
+  return violations;
+}
+
+/// Reads the file, or stands in for it with a sound servo, so that the options can be checked.
+ServoFile read_file(const ServoOptions& options, Faults& faults) {
+  ServoFile stand_in;
+  stand_in.servo.damping = 1.0;
+  if (options.file.empty()) return stand_in;
+  return faults.collect([&] { return read_servo_file(options.file); }, stand_in);
+}
+
+}  // namespace
+
+void add_servo_options(CLI::App& command, ServoOptions& options) {
+  command
+      .add_option("SERVO.toml", options.file,
+                  "data sheet or normalised servo (docs/data-sheets.md)")
+      ->type_name("");
+  command.add_option("--damping", options.damping, "damping coefficient, 0 to 1000")
+      ->type_name("NUMBER")
+      ->group(servo_group);
+  command.add_option("--inertia-ratio", options.inertia_ratio, "of load to motor; 0 to inf")
+      ->type_name("NUMBER")
+      ->group(servo_group);
+  command.add_option("--friction-ratio", options.friction_ratio, "of load to total, 0 to 1")
+      ->type_name("NUMBER")
+      ->group(servo_group);
+  command
+      .add_option("--backlash", options.backlash,
+                  "at the load, face to face: rad, or with its unit, \"12 arcmin\"")
+      ->type_name("ANGLE")
+      ->group(servo_group);
+  command
+      .add_option("--restitution", options.restitution, "0 (plastic, the default) to 1 (elastic)")
+      ->type_name("NUMBER")
+      ->group(servo_group);
+  command.add_option("--sensor", options.sensor, "shaft with the position sensor: load")
+      ->type_name("SHAFT")
+      ->group(servo_group);
+}
+
+void Faults::require_choice(const std::string& field, const std::string& value,
+                            const std::vector<std::string>& choices) {
+  if (std::find(choices.begin(), choices.end(), value) != choices.end()) return;
+  std::string permitted = "must be ";
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    if (i > 0) permitted += i + 1 == choices.size() ? " or " : ", ";
+    permitted += choices[i];
+  }
+  add({field, shown(value), permitted, ""});
+}
+
+double read_finite(std::string_view field, std::string_view text) {
+  const double number = read_number(field, text);
+  if (!std::isfinite(number)) {
+    throw InvalidInput({{std::string(field), shown(text), "must be finite", ""}});
+  }
+  return number;
+}
+
+Angle read_angle(std::string_view field, std::string_view text) {
+  try {
+    return {.radians = read_number(field, text), .unit = {}};
+  } catch (const InvalidInput&) {
+    // Not a bare number: its unit decides.
+  }
+  const Quantity quantity = read_quantity(field, text, dimensions::angle);
+  return {.radians = quantity.si, .unit = {.name = quantity.unit, .radians = quantity.unit_in_si}};
+}
+
+ServoFile resolve_servo(const ServoOptions& options, Faults& faults) {
+  ServoFile file = read_file(options, faults);
+  for (const NumberOption& option : number_options) apply(options, option, file, faults);
+  if (options.sensor) {
+    faults.require_choice("--sensor", *options.sensor, {"load", "motor"});
+    file.servo.sensor = *options.sensor == "motor" ? Sensor::motor : Sensor::load;
+  }
+  faults.add(faults_of_servo(file.servo, options));
+  return file;
+}
+
+}  // namespace gearlash::cli

@@ -1,0 +1,68 @@
+// The servo that the command line describes: a file, options, or a file changed by options.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gearlash/io/servo_file.hpp"
+
+namespace gearlash::cli {
+
+/// As typed; empty where not given.
+struct ServoOptions {
+  std::string file;
+  std::optional<std::string> damping;
+  std::optional<std::string> inertia_ratio;
+  std::optional<std::string> friction_ratio;
+  std::optional<std::string> backlash;
+  std::optional<std::string> restitution;
+  std::optional<std::string> sensor;
+};
+
+void add_servo_options(CLI::App& command, ServoOptions& options);
+
+/// Collects the faults of a command line, so that all of them are told at once.
+class Faults {
+ public:
+  void add(Violation violation) { violations_.push_back(std::move(violation)); }
+  void add(const std::vector<Violation>& violations) {
+    violations_.insert(violations_.end(), violations.begin(), violations.end());
+  }
+  /// What `read` returns, or `otherwise` when it throws InvalidInput, whose faults are kept.
+  template <class Read, class Value>
+  Value collect(const Read& read, Value otherwise) {
+    try {
+      return read();
+    } catch (const InvalidInput& error) {
+      add(error.violations());
+      return otherwise;
+    }
+  }
+  /// `value` if it is one of `choices`, else a fault of `field`.
+  void require_choice(const std::string& field, const std::string& value,
+                      const std::vector<std::string>& choices);
+  void require_none() const { gearlash::require_none(violations_); }
+
+ private:
+  std::vector<Violation> violations_;
+};
+
+/// A finite number or a fraction of two.
+double read_finite(std::string_view field, std::string_view text);
+
+/// An angle in rad: a number of radians, or a number with its unit ("12 arcmin").
+struct Angle {
+  double radians = 0.0;
+  AngleUnit unit = {};
+};
+Angle read_angle(std::string_view field, std::string_view text);
+
+/// The servo, its file read and its options applied: an option changes the normalised number and
+/// leaves the natural frequency and the stiffness of a data sheet as they are. Faults of the file
+/// and of the options go to `faults`; the result is sound if there are none.
+ServoFile resolve_servo(const ServoOptions& options, Faults& faults);
+
+}  // namespace gearlash::cli

@@ -1,0 +1,248 @@
+// gearlash simulate: the exact motion after a step or from a disturbance.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "command.hpp"
+#include "gearlash/io/motion_report.hpp"
+#include "gearlash/io/output_file.hpp"
+#include "gearlash/io/picture.hpp"
+#include "gearlash/io/units.hpp"
+#include "gearlash/servo/range_check.hpp"
+#include "servo_options.hpp"
+#include "terminal.hpp"
+
+namespace gearlash::cli {
+namespace {
+
+constexpr char examples[] =
+    "  gearlash simulate examples/elinco-fd162.toml > step.csv\n"
+    "  gearlash simulate examples/elinco-fd162.toml --until 3 --plot time=step.svg\n"
+    "  gearlash simulate examples/elinco-fd162.toml --events --output events.csv\n"
+    "  gearlash simulate --damping 0.2 --inertia-ratio 4 --friction-ratio 1/4 --backlash 0.3 \\\n"
+    "      --reference 0 --initial-position 0.01 --format json --plot phase=growth.png\n";
+
+/// A table this long takes about a gigabyte.
+constexpr double most_samples = 1e7;
+constexpr double default_periods = 10.0;
+constexpr double default_samples = 1000.0;
+
+struct SimulateOptions {
+  ServoOptions servo;
+  std::string initial_position = "0";
+  std::string initial_speed = "0";
+  std::string reference = "1";
+  std::optional<std::string> until;
+  std::optional<std::string> every;
+  bool events = false;
+  std::string format = "csv";
+  std::vector<std::string> plots;
+  std::string output = "-";
+};
+
+struct Plot {
+  bool is_phase_plane = false;
+  std::string file;
+  PictureFormat format = PictureFormat::svg;
+};
+
+Plot read_plot(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::string kind = text.substr(0, equals);
+  if (equals == std::string::npos || (kind != "time" && kind != "phase")) {
+    throw InvalidInput({{"--plot", shown(text), "must be time=FILE or phase=FILE", ""}});
+  }
+  const std::string file = text.substr(equals + 1);
+  return {kind == "phase", file, picture_format("--plot", file)};
+}
+
+std::vector<Plot> read_plots(const SimulateOptions& options, Faults& faults) {
+  std::vector<Plot> plots;
+  for (const std::string& text : options.plots) {
+    plots.push_back(faults.collect([&] { return read_plot(text); }, Plot{}));
+  }
+  return plots;
+}
+
+/// Times in the report's unit: seconds, or 1/ω_n.
+struct Times {
+  double until;
+  double every;
+};
+
+double read_positive(const char* field, const std::string& text, const ReportUnits& units) {
+  const double number = read_finite(field, text);
+  if (number > 0.0) return number;
+  throw InvalidInput(
+      {{field, shown(text), fmt::format("must be positive, in {}", units.time_unit()), ""}});
+}
+
+Times read_times(const SimulateOptions& options, const ReportUnits& units) {
+  Faults faults;
+  Times times{units.time(default_periods * 2.0 * std::numbers::pi), 0.0};
+  if (options.until) {
+    times.until = faults.collect([&] { return read_positive("--until", *options.until, units); },
+                                 times.until);
+  }
+  times.every = times.until / default_samples;
+  if (options.every) {
+    times.every = faults.collect([&] { return read_positive("--every", *options.every, units); },
+                                 times.every);
+  }
+  faults.require_none();
+  if (!options.events && !(times.until / times.every < most_samples)) {
+    throw InvalidInput({{"--every", exact_text(times.every),
+                         fmt::format("must be more than {} {}: {} samples at most up to {}",
+                                     significant(times.until / most_samples, 6), units.time_unit(),
+                                     significant(most_samples, 3), exact_text(times.until)),
+                         ""}});
+  }
+  return times;
+}
+
+struct Start {
+  double position = 0.0;
+  double speed = 0.0;
+  double reference = 0.0;
+};
+
+Start read_start(const SimulateOptions& options, Faults& faults) {
+  return {
+      faults.collect(
+          [&] { return read_angle("--initial-position", options.initial_position).radians; }, 0.0),
+      faults.collect([&] { return read_finite("--initial-speed", options.initial_speed); }, 0.0),
+      faults.collect([&] { return read_angle("--reference", options.reference).radians; }, 0.0)};
+}
+
+MotionReport simulated(const SimulateOptions& options, const Provenance& provenance,
+                       Faults& faults) {
+  const ServoFile file = resolve_servo(options.servo, faults);
+  const ReportUnits units = report_units(file);
+  const Start start = read_start(options, faults);
+  const Times times = faults.collect([&] { return read_times(options, units); }, Times{1.0, 1.0});
+  faults.require_none();
+
+  const ServoState initial = engaged_start(file.servo, start.position,
+                                           units.normalized_speed(start.speed), start.reference);
+  return {.servo = file.servo,
+          .initial = initial,
+          .reference = start.reference,
+          .until = times.until,
+          .every = times.every,
+          .trajectory =
+              simulate(file.servo, initial,
+                       {.until = units.normalized_time(times.until), .reference = start.reference}),
+          .units = units,
+          .provenance = provenance};
+}
+
+std::string title(const MotionReport& report) {
+  const AngleUnit& angle = report.units.angle;
+  const auto position = [&](double radians) {
+    return significant(angle.from_radians(radians), 4) + " " + angle.name;
+  };
+  const ServoState& initial = report.initial;
+  if (initial.load_position == 0.0 && initial.load_speed == 0.0) {
+    return "Step to " + position(report.reference);
+  }
+  return fmt::format("Motion from {}, {} {}; reference {}", position(initial.load_position),
+                     significant(report.units.speed(initial.load_speed), 4),
+                     report.units.speed_unit(), position(report.reference));
+}
+
+void draw(const MotionReport& report, const Plot& plot) {
+  const MotionPicture picture{.title = title(report),
+                              .servo = report.servo,
+                              .trajectory = report.trajectory,
+                              .reference = report.reference,
+                              .cycle = std::nullopt,
+                              .units = report.units};
+  write_file(plot.file, plot.is_phase_plane ? draw_phase_plane(picture, plot.format)
+                                            : draw_time_response(picture, plot.format));
+}
+
+void write_tables(const MotionReport& report, const SimulateOptions& options) {
+  OutputFile output(options.output);
+  Progress progress("Writing");
+  const TextSink sink = [&](std::string_view text) { output.write(text); };
+  const ProgressSink show = [&](double share) { progress.show(share); };
+  if (options.format == "json") {
+    write_motion_json(report, sink, show);
+  } else if (options.events) {
+    write_events_csv(report, sink);
+  } else {
+    write_samples_csv(report, sink, show);
+  }
+  output.commit();
+}
+
+ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
+  Faults faults;
+  faults.require_choice("--format", options.format, {"csv", "json"});
+  const std::vector<Plot> plots = read_plots(options, faults);
+  const MotionReport report = simulated(options, provenance, faults);
+  for (const Plot& plot : plots) draw(report, plot);
+  write_tables(report, options);
+  if (report.trajectory.stop_reason() == StopReason::reached_end) return ExitStatus::done;
+  fmt::print(stderr, "gearlash: stopped at {} {} of {} after {} events\n",
+             exact_text(report.units.time(report.trajectory.end_time())), report.units.time_unit(),
+             exact_text(report.until), report.trajectory.events().size());
+  return ExitStatus::undecided;
+}
+
+void add_motion_options(CLI::App& command, SimulateOptions& options) {
+  constexpr char group[] = "Motion (seconds and rad/s with a natural frequency, else normalised)";
+  command
+      .add_option("--initial-position", options.initial_position,
+                  "of the load; rad or with its unit; default 0")
+      ->type_name("ANGLE")
+      ->group(group);
+  command.add_option("--initial-speed", options.initial_speed, "of both shafts; default 0")
+      ->type_name("SPEED")
+      ->group(group);
+  command
+      .add_option("--reference", options.reference,
+                  "position asked for from time 0 on; rad or with its unit; default 1")
+      ->type_name("ANGLE")
+      ->group(group);
+  command
+      .add_option("--until", options.until,
+                  "time to stop at; default 10 periods of the natural "
+                  "frequency")
+      ->type_name("TIME")
+      ->group(group);
+  command.add_option("--every", options.every, "between samples; default a thousandth of --until")
+      ->type_name("TIME")
+      ->group(group);
+}
+
+}  // namespace
+
+void add_simulate_command(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<SimulateOptions>();
+  CLI::App* command =
+      app.add_subcommand("simulate", "the exact motion after a step or from a disturbance");
+  add_servo_options(*command, options->servo);
+  add_motion_options(*command, *options);
+  command->add_flag("--events", options->events,
+                    "list separations and impacts instead of samples (JSON has both)");
+  command->add_option("--format", options->format, "csv (default) or json")->type_name("FORMAT");
+  command
+      ->add_option("--plot", options->plots,
+                   "time=FILE draws the response, phase=FILE the phase\n"
+                   "plane; FILE ends in .svg, .png or .pdf; may be repeated")
+      ->type_name("KIND=FILE")
+      ->take_all()
+      ->expected(1)
+      ->allow_extra_args(false);
+  command->add_option("--output", options->output, "file for the table; default standard output")
+      ->type_name("FILE");
+  command->footer(help_footer(examples));
+  command->callback([options, &action] {
+    action = [options](const Provenance& provenance) { return run(*options, provenance); };
+  });
+}
+
+}  // namespace gearlash::cli

@@ -1,0 +1,14 @@
+// A data sheet's values as their author wrote them, beside which conversions are printed.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+
+namespace gearlash::cli {
+
+/// "motor.inertia" → "0.61 oz in2" for every text value of a file that read_servo_file accepts.
+/// Empty where the file cannot be read a second time (a pipe).
+std::map<std::string, std::string> written_values(const std::filesystem::path& path);
+
+}  // namespace gearlash::cli

@@ -1,0 +1,27 @@
+#include "gearlash/io/report_units.hpp"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+namespace gearlash {
+
+ReportUnits report_units(const ServoFile& file) {
+  ReportUnits units{.natural_frequency = file.natural_frequency, .angle = file.backlash_unit};
+  if (file.drivetrain) units.stiffness = file.drivetrain->stiffness;
+  return units;
+}
+
+std::string significant(double value, int digits) { return fmt::format("{:.{}g}", value, digits); }
+
+std::string swing_text(double size, const AngleUnit& unit, int digits) {
+  const std::string radians = significant(size, digits) + " rad";
+  if (unit.radians != 1.0) {
+    return fmt::format("±{} {} ({})", significant(unit.from_radians(size), digits), unit.name,
+                       radians);
+  }
+  const double degrees = size * 180.0 / std::numbers::pi;
+  return fmt::format("±{} ({}°)", radians, significant(degrees, digits));
+}
+
+}  // namespace gearlash

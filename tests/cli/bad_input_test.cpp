@@ -1,0 +1,105 @@
+// Bad input ends with exit status 2 and one line for each fault: field, value, what is permitted.
+#include <gmock/gmock.h>
+
+#include "tool.hpp"
+
+namespace gearlash {
+namespace {
+
+using test::lines_of;
+using test::Outcome;
+using test::run_tool;
+using test::Scratch;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+std::vector<std::string> faults(const std::vector<std::string>& arguments) {
+  const Outcome run = run_tool(arguments);
+  EXPECT_EQ(run.status, 2) << run.out << run.err;
+  EXPECT_THAT(run.out, IsEmpty());
+  return lines_of(run.err);
+}
+
+TEST(BadInput, AllMissingOptionsAreListedAtOnce) {
+  EXPECT_THAT(faults({"limit-cycle"}),
+              ElementsAre(StartsWith("gearlash: --damping is missing: "),
+                          StartsWith("gearlash: --inertia-ratio is missing: "),
+                          StartsWith("gearlash: --friction-ratio is missing: "),
+                          StartsWith("gearlash: --backlash is missing: ")));
+}
+
+TEST(BadInput, EveryFaultOfTheOptionsIsListed) {
+  EXPECT_THAT(faults({"simulate", "--damping", "-1", "--inertia-ratio", "x", "--friction-ratio",
+                      "3/2", "--backlash", "12 kg", "--format", "xml", "--plot", "both=a.svg",
+                      "--until", "0", "--initial-speed", "inf"}),
+              testing::UnorderedElementsAre(
+                  "gearlash: --format = xml: must be csv or json",
+                  "gearlash: --plot = both=a.svg: must be time=FILE or phase=FILE",
+                  StartsWith("gearlash: --inertia-ratio = x: must be"),
+                  StartsWith("gearlash: --backlash = 12 kg: must be"),
+                  "gearlash: --damping = -1: must be from 0 to 1000",
+                  "gearlash: --friction-ratio = 3/2: must be from 0 to 1",
+                  "gearlash: --initial-speed = inf: must be finite",
+                  "gearlash: --until = 0: must be positive, in 1/ω_n"));
+}
+
+TEST(BadInput, SensorOnTheMotorIsRefusedInClearWords) {
+  EXPECT_THAT(faults({"limit-cycle", "examples/elinco-fd162.toml", "--sensor", "motor"}),
+              ElementsAre(StartsWith("gearlash: --sensor = motor: must be load")));
+  EXPECT_THAT(faults({"limit-cycle", "examples/elinco-fd162.toml", "--sensor", "gear"}),
+              ElementsAre("gearlash: --sensor = gear: must be load or motor"));
+}
+
+TEST(BadInput, FaultsOfTheFileCarryItsPlaceAndStandBesideThoseOfOptions) {
+  const Scratch scratch;
+  const std::string path = (scratch / "servo.toml").string();
+  std::ofstream(path) << "[servo]\ndamping = -2\ninertia_ratio = 1\nfriction_ratio = 0.5\n"
+                         "backlash = \"0.1 rad\"\n";
+  EXPECT_THAT(faults({"limit-cycle", path, "--restitution", "2"}),
+              ElementsAre(StartsWith("gearlash: " + path + ":2:11: servo.damping = -2: must be"),
+                          "gearlash: --restitution = 2: must be from 0 to 1"));
+}
+
+TEST(BadInput, FileThatIsNotThere) {
+  EXPECT_THAT(faults({"limit-cycle", "no-such.toml"}), ElementsAre(HasSubstr("no-such.toml")));
+  EXPECT_THAT(faults({"motor", "no-such.toml"}), ElementsAre(HasSubstr("no-such.toml")));
+}
+
+TEST(BadInput, MotorNeedsADataSheet) {
+  EXPECT_THAT(faults({"motor", "examples/normalized.toml"}),
+              ElementsAre("gearlash: examples/normalized.toml: motor is missing: the procedure "
+                          "starts from a data sheet with [motor]"));
+}
+
+TEST(BadInput, UsageFaultsAreOneLine) {
+  EXPECT_THAT(faults({}), ElementsAre("gearlash: subcommand is missing: must be limit-cycle, "
+                                      "simulate or motor; see gearlash --help"));
+  EXPECT_THAT(faults({"hunt"}), ElementsAre("gearlash: subcommand = hunt: must be limit-cycle, "
+                                            "simulate or motor; see gearlash --help"));
+  EXPECT_THAT(faults({"limit-cycle", "--dampness", "1"}), ElementsAre(HasSubstr("--dampness")));
+  EXPECT_THAT(faults({"limit-cycle", "--damping"}), ElementsAre(HasSubstr("--damping")));
+  EXPECT_THAT(faults({"limit-cycle", "a.toml", "b.toml"}), ElementsAre(HasSubstr("b.toml")));
+  EXPECT_THAT(faults({"motor"}), ElementsAre(HasSubstr("SERVO.toml")));
+  EXPECT_THAT(faults({"limit-cycle", "--format\nx", "1"}), ElementsAre(HasSubstr("\\n")));
+}
+
+TEST(BadInput, PictureEndings) {
+  EXPECT_THAT(faults({"limit-cycle", "examples/elinco-fd162.toml", "--plot", "a.jpeg"}),
+              ElementsAre("gearlash: --plot = a.jpeg: must end in .svg, .png or .pdf"));
+  EXPECT_THAT(faults({"simulate", "examples/elinco-fd162.toml", "--plot", "time="}),
+              ElementsAre(HasSubstr("must end in .svg, .png or .pdf")));
+}
+
+TEST(BadInput, TooManySamplesAndTooLongPicturesAreRefused) {
+  EXPECT_THAT(faults({"simulate", "examples/elinco-fd162.toml", "--until", "1", "--every", "1e-8"}),
+              ElementsAre("gearlash: --every = 1e-08: must be more than 1e-07 s: 1e+07 samples at "
+                          "most up to 1"));
+  EXPECT_THAT(faults({"simulate", "examples/normalized.toml", "--until", "1e4", "--plot",
+                      "time=never-drawn.svg"}),
+              ElementsAre(StartsWith("gearlash: --until = ")));
+}
+
+}  // namespace
+}  // namespace gearlash

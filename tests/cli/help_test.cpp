@@ -1,0 +1,53 @@
+// --help everywhere, with examples and exit statuses, and --version.
+#include <gmock/gmock.h>
+
+#include "gearlash/version.hpp"
+#include "tool.hpp"
+
+namespace gearlash {
+namespace {
+
+using test::Outcome;
+using test::run_tool;
+using testing::HasSubstr;
+
+class Help : public testing::TestWithParam<std::vector<std::string>> {};
+
+TEST_P(Help, HasExamplesAndExitStatuses) {
+  const Outcome run = run_tool(GetParam());
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.err, "");
+  EXPECT_THAT(run.out, HasSubstr("Examples:\n  gearlash "));
+  EXPECT_THAT(run.out, HasSubstr("Exit status:\n  0  done"));
+  EXPECT_THAT(run.out, HasSubstr("  2  bad input"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Everywhere, Help,
+                         testing::Values(std::vector<std::string>{"--help"},
+                                         std::vector<std::string>{"-h"},
+                                         std::vector<std::string>{"limit-cycle", "--help"},
+                                         std::vector<std::string>{"simulate", "--help"},
+                                         std::vector<std::string>{"motor", "--help"}));
+
+TEST(Help, EveryOptionOfTheContractIsNamed) {
+  const std::string limit_cycle = run_tool({"limit-cycle", "--help"}).out;
+  const std::string simulate = run_tool({"simulate", "--help"}).out;
+  for (const char* option : {"--damping", "--inertia-ratio", "--friction-ratio", "--backlash",
+                             "--restitution", "--sensor", "--format", "--plot"}) {
+    EXPECT_THAT(limit_cycle, HasSubstr(option));
+    EXPECT_THAT(simulate, HasSubstr(option));
+  }
+  for (const char* option : {"--initial-position", "--initial-speed", "--reference", "--until",
+                             "--every", "--events", "--output"}) {
+    EXPECT_THAT(simulate, HasSubstr(option));
+  }
+}
+
+TEST(Help, Version) {
+  const Outcome run = run_tool({"--version"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_EQ(run.out, std::string("gearlash ") + version + "\n");
+}
+
+}  // namespace
+}  // namespace gearlash

@@ -1,0 +1,158 @@
+// gearlash limit-cycle: what it prints is what the library finds.
+#include <gmock/gmock.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "gearlash/cycle/limit_cycle.hpp"
+#include "gearlash/io/servo_file.hpp"
+#include "gearlash/version.hpp"
+#include "tool.hpp"
+
+namespace gearlash {
+namespace {
+
+using nlohmann::json;
+using test::Outcome;
+using test::run_tool;
+using test::with_sample_servo;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+json parsed(const Outcome& run) {
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  return json::parse(run.out);
+}
+
+void expect_same_cycle(const json& printed, const LimitCycle& cycle) {
+  EXPECT_EQ(printed["kind"], name_of(cycle.kind));
+  EXPECT_EQ(printed["stable"], cycle.stable);
+  EXPECT_EQ(printed["size"].get<double>(), cycle.size);
+  EXPECT_EQ(printed["motor_size"].get<double>(), cycle.motor_size);
+  EXPECT_EQ(printed["period"].get<double>(), cycle.period);
+  EXPECT_EQ(printed["multiplier"].get<double>(), cycle.multiplier);
+  EXPECT_EQ(printed["impact_speed"].get<double>(), cycle.impact_speed);
+  EXPECT_EQ(printed["engaged_time"].get<double>(), cycle.engaged_time);
+  EXPECT_EQ(printed["separated_time"].get<double>(), cycle.separated_time);
+  EXPECT_EQ(printed["residual"].get<double>(), cycle.residual);
+  EXPECT_EQ(printed["impacts_per_period"].get<std::size_t>(), cycle.impacts_per_period);
+  EXPECT_EQ(printed["settles"], cycle.settles);
+  EXPECT_EQ(printed["energy"]["impacts"].get<double>(), cycle.energy.impacts);
+  EXPECT_EQ(printed["energy"]["lost"].get<double>(), cycle.energy.lost());
+}
+
+TEST(LimitCycleCommand, JsonReadsBackAsExactlyWhatTheLibraryFinds) {
+  const json printed = parsed(run_tool(with_sample_servo({"limit-cycle", "--format", "json"})));
+  const NormalizedServo servo{
+      .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3};
+  const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
+
+  EXPECT_EQ(printed["servo"]["damping"].get<double>(), 0.19);
+  EXPECT_EQ(printed["servo"]["inertia_ratio"].get<double>(), 2.0);
+  EXPECT_EQ(printed["servo"]["friction_ratio"].get<double>(), 0.1);
+  EXPECT_EQ(printed["servo"]["backlash"].get<double>(), 0.3);
+  EXPECT_EQ(printed["servo"]["restitution"].get<double>(), 0.0);
+  EXPECT_EQ(printed["servo"]["sensor"], "load");
+  EXPECT_EQ(printed["growth_at_rest"].get<double>(), analysis.growth_at_rest);
+  EXPECT_EQ(printed["verdict"], "hunts");
+  EXPECT_EQ(printed["proved"], true);
+  ASSERT_EQ(printed["cycles"].size(), analysis.cycles.size());
+  for (std::size_t i = 0; i < analysis.cycles.size(); ++i) {
+    expect_same_cycle(printed["cycles"][i], analysis.cycles[i]);
+  }
+  EXPECT_FALSE(printed.contains("physical"));
+  EXPECT_EQ(printed["provenance"]["version"], version);
+  EXPECT_THAT(printed["provenance"]["command"].get<std::string>(),
+              StartsWith("gearlash limit-cycle --format json --damping 0.19"));
+  // Published numbers, so that a fault shared with the library would be seen.
+  EXPECT_NEAR(printed["cycles"][0]["size"].get<double>(), 0.241611108, 1e-9);
+  EXPECT_NEAR(printed["cycles"][0]["period"].get<double>(), 6.456205, 1e-6);
+}
+
+TEST(LimitCycleCommand, BouncingContactHasItsCyclesInJsonToo) {
+  const json printed = parsed(
+      run_tool(with_sample_servo({"limit-cycle", "--format", "json", "--restitution", "0.3"})));
+  EXPECT_EQ(printed["proved"], false);
+  ASSERT_FALSE(printed["cycles"].empty());
+  EXPECT_NEAR(printed["cycles"][0]["size"].get<double>(), 0.2401, 5e-5);
+}
+
+TEST(LimitCycleCommand, PhysicalNumbersAreThoseOfTheDataSheet) {
+  const json printed =
+      parsed(run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--format", "json"}));
+  const ServoFile file =
+      read_servo_file(std::string(GEARLASH_SOURCE_DIRECTORY) + "/examples/elinco-fd162.toml");
+  const LimitCycle cycle = analyse_limit_cycles(file.servo).cycles.at(0);
+  const json& physical = printed["physical"];
+  EXPECT_EQ(physical["size"].get<double>(), cycle.size);
+  EXPECT_EQ(physical["period"].get<double>(), cycle.period / *file.natural_frequency);
+  EXPECT_EQ(physical["frequency"].get<double>(), 1.0 / physical["period"].get<double>());
+  EXPECT_EQ(physical["natural_frequency"].get<double>(), *file.natural_frequency);
+  EXPECT_EQ(physical["stiffness"].get<double>(), file.drivetrain->stiffness);
+  EXPECT_EQ(physical["energy"]["impacts"].get<double>(),
+            cycle.energy.impacts * file.drivetrain->stiffness);
+}
+
+TEST(LimitCycleCommand, NaturalFrequencyWithoutDataSheetGivesSecondsButNoJoules) {
+  const json printed =
+      parsed(run_tool({"limit-cycle", "examples/normalized.toml", "--format", "json"}));
+  EXPECT_EQ(printed["physical"]["natural_frequency"].get<double>(), 14.5);
+  EXPECT_FALSE(printed["physical"].contains("energy"));
+  EXPECT_FALSE(printed["physical"].contains("stiffness"));
+}
+
+TEST(LimitCycleCommand, InfinityIsTextBecauseJsonHasNone) {
+  const json massless_motor =
+      parsed(run_tool({"limit-cycle", "--damping", "0.3", "--inertia-ratio", "inf",
+                       "--friction-ratio", "0.5", "--backlash", "0.1", "--format", "json"}));
+  EXPECT_EQ(massless_motor["servo"]["inertia_ratio"], "inf");
+  const json frictionless_load =
+      parsed(run_tool({"limit-cycle", "--damping", "0.3", "--inertia-ratio", "1",
+                       "--friction-ratio", "0", "--backlash", "0.1", "--format", "json"}));
+  EXPECT_EQ(frictionless_load["growth_at_rest"], "inf");
+}
+
+TEST(LimitCycleCommand, TextBeginsWithTheVerdict) {
+  EXPECT_THAT(run_tool({"limit-cycle", "examples/elinco-fd162.toml"}).out,
+              StartsWith("hunts: ±0.0819 rad (4.69°) at 2.26 Hz\n"));
+  EXPECT_THAT(run_tool(with_sample_servo({"limit-cycle"})).out,
+              StartsWith("hunts: ±0.242 rad (13.8°), period 6.456 / ω_n\n"));
+  EXPECT_THAT(run_tool({"limit-cycle", "examples/antenna-field-controlled.toml"}).out,
+              StartsWith("cannot hunt: growth at rest 0.422 < 1\n"));
+}
+
+TEST(LimitCycleCommand, SizeIsToldInTheUnitOfTheBacklash) {
+  EXPECT_THAT(
+      run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--backlash", "12 arcmin"}).out,
+      StartsWith("hunts: ±9.83 arcmin (0.00286 rad) at 2.26 Hz\n"));
+}
+
+TEST(LimitCycleCommand, DegenerateServosHaveAnAnswer) {
+  const auto verdict = [](const char* damping, const char* backlash) {
+    const Outcome run = run_tool({"limit-cycle", "--damping", damping, "--inertia-ratio", "1",
+                                  "--friction-ratio", "0.5", "--backlash", backlash});
+    EXPECT_EQ(run.status, 0);
+    return run.out;
+  };
+  EXPECT_THAT(verdict("0", "0.1"), StartsWith("grows without bound"));
+  EXPECT_THAT(verdict("0", "0"), StartsWith("undamped"));
+  EXPECT_THAT(verdict("0.5", "0"), StartsWith("cannot hunt: no backlash\n"));
+  EXPECT_THAT(verdict("100", "0.1"), StartsWith("cannot hunt: growth at rest 0 < 1\n"));
+}
+
+TEST(LimitCycleCommand, UnstableCyclesAreTheFootnoteOfTheStableOnes) {
+  const Outcome run = run_tool(with_sample_servo({"limit-cycle", "--restitution", "0.6"}));
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.out, StartsWith("hunts: ±0.217 rad"));
+  EXPECT_THAT(run.out,
+              HasSubstr("\nUnstable limit cycles, on which no motion stays\n  symmetric "));
+}
+
+TEST(LimitCycleCommand, TextHasNoEscapesWhereItIsNoTerminal) {
+  EXPECT_THAT(run_tool({"limit-cycle", "examples/elinco-fd162.toml"}).out,
+              testing::Not(HasSubstr("\x1b")));
+}
+
+}  // namespace
+}  // namespace gearlash

@@ -1,0 +1,156 @@
+// Output files appear whole or not at all, whatever goes wrong.
+#include <gmock/gmock.h>
+
+#include "tool.hpp"
+
+namespace gearlash {
+namespace {
+
+using test::file_text;
+using test::Outcome;
+using test::quoted;
+using test::run_shell;
+using test::run_tool;
+using test::Scratch;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::vector<std::string> simulate_into(const std::filesystem::path& path) {
+  return {"simulate", "examples/elinco-fd162.toml", "--output", path.string()};
+}
+
+TEST(OutputFiles, HoldWhatStandardOutputWould) {
+  const Scratch scratch;
+  const Outcome to_file = run_tool(simulate_into(scratch / "table.csv"));
+  EXPECT_EQ(to_file.status, 0) << to_file.err;
+  EXPECT_EQ(to_file.out, "");
+  const Outcome to_output = run_tool(simulate_into("-"));
+  const auto body = [](const std::string& text) { return text.substr(text.find("\ntime_s")); };
+  EXPECT_EQ(body(file_text(scratch / "table.csv")), body(to_output.out));
+  EXPECT_EQ(scratch.file_count(), 1U);
+}
+
+TEST(OutputFiles, DirectoryThatIsNotThere) {
+  const Scratch scratch;
+  const Outcome run = run_tool(simulate_into(scratch / "missing" / "table.csv"));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("missing/table.csv: cannot be written: No such file"));
+  EXPECT_EQ(run.out, "");
+}
+
+TEST(OutputFiles, FullDisk) {
+  const Outcome table = run_tool(simulate_into("/dev/full"));
+  EXPECT_EQ(table.status, 2);
+  EXPECT_EQ(table.err, "gearlash: /dev/full: cannot be written: No space left on device\n");
+  for (const char* arguments :
+       {"limit-cycle examples/elinco-fd162.toml", "motor examples/elinco-fd162.toml",
+        "simulate examples/elinco-fd162.toml", "--help", "--version"}) {
+    const Outcome run = run_shell(std::string("\"$GEARLASH\" ") + arguments + " > /dev/full");
+    EXPECT_EQ(run.status, 2) << arguments;
+    EXPECT_EQ(run.err, "gearlash: standard output: cannot be written: No space left on device\n");
+  }
+}
+
+TEST(OutputFiles, AFailureLeavesTheOldFileAndNothingElse) {
+  const Scratch scratch;
+  std::ofstream(scratch / "table.csv") << "old";
+  // No file may grow beyond a kilobyte: the table fails when it is half written.
+  const Outcome run = run_shell(
+      "ulimit -f 1; \"$GEARLASH\" simulate examples/elinco-fd162.toml "
+      "--output " +
+      quoted((scratch / "table.csv").string()));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("table.csv: cannot be written: File too large"));
+  EXPECT_EQ(file_text(scratch / "table.csv"), "old");
+  EXPECT_EQ(scratch.file_count(), 1U);
+}
+
+TEST(OutputFiles, BeingKilledLeavesNothing) {
+  for (const char* signal : {"TERM", "INT", "HUP"}) {
+    const Scratch scratch;
+    // The table takes many seconds; it is killed as soon as its hidden file is there.
+    const Outcome run = run_shell(
+        "set -m; \"$GEARLASH\" simulate examples/elinco-fd162.toml --until 1 --every 1.1e-7 "
+        "--output " +
+        quoted((scratch / "table.csv").string()) +
+        " & tool=$!\n"
+        "until ls -A " +
+        quoted((scratch / "").string()) +
+        " | grep -q . || ! kill -0 $tool; do :; done\n"
+        "kill -" +
+        signal + " $tool; wait $tool");
+    EXPECT_GT(run.status, 128) << signal;
+    EXPECT_EQ(scratch.file_count(), 0U) << signal;
+  }
+}
+
+TEST(OutputFiles, AClosedPipeEndsItQuietly) {
+  const Outcome run = run_shell(
+      "set -o pipefail; \"$GEARLASH\" simulate examples/elinco-fd162.toml --until 1 --every 1e-4 | "
+      "head -n 1");
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.out, StartsWith("# gearlash "));
+  EXPECT_EQ(run.err, "");
+}
+
+TEST(OutputFiles, MissingGnuplotIsNamedWithItsPackage) {
+  const Scratch scratch;
+  const Outcome run = run_shell("PATH=" + quoted((scratch / "").string()) +
+                                " \"$GEARLASH\" limit-cycle examples/elinco-fd162.toml --plot " +
+                                quoted((scratch / "a.svg").string()));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.err,
+            "gearlash: gnuplot: not found; pictures need it: apt-get install gnuplot-nox\n");
+  EXPECT_EQ(scratch.file_count(), 0U);
+}
+
+TEST(OutputFiles, AnyFileNameWillDo) {
+  const Scratch scratch;
+  const std::string name = "a b'c\"d`e$(touch f)\n{g};h.svg";
+  const Outcome run =
+      run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--plot", (scratch / name).string()});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(file_text(scratch / name), StartsWith("<?xml"));
+  EXPECT_EQ(scratch.file_count(), 1U);
+}
+
+TEST(OutputFiles, ASymbolicLinkStaysOneAndPermissionsStay) {
+  const Scratch scratch;
+  std::ofstream(scratch / "real.csv") << "old";
+  std::filesystem::permissions(scratch / "real.csv", std::filesystem::perms(0640));
+  std::filesystem::create_symlink(scratch / "real.csv", scratch / "link.csv");
+  EXPECT_EQ(run_tool(simulate_into(scratch / "link.csv")).status, 0);
+  EXPECT_TRUE(std::filesystem::is_symlink(scratch / "link.csv"));
+  EXPECT_THAT(file_text(scratch / "real.csv"), StartsWith("# gearlash "));
+  EXPECT_EQ(std::filesystem::status(scratch / "real.csv").permissions(),
+            std::filesystem::perms(0640));
+}
+
+TEST(OutputFiles, ADeviceIsWrittenTo) {
+  EXPECT_EQ(run_tool(simulate_into("/dev/null")).status, 0);
+  EXPECT_THAT(run_tool(simulate_into("/dev/stdout")).out, StartsWith("# gearlash "));
+}
+
+TEST(OutputFiles, TheirCommandStaysOnOneLine) {
+  const Scratch scratch;
+  const Outcome run = run_tool({"simulate", "examples/elinco-fd162.toml", "--until", "1",
+                                "--output", (scratch / "a\nb.csv").string()});
+  EXPECT_EQ(run.status, 0) << run.err;
+  const auto lines = test::lines_of(file_text(scratch / "a\nb.csv"));
+  EXPECT_THAT(lines.at(1), testing::EndsWith("a\\nb.csv'"));
+}
+
+TEST(OutputFiles, PicturesOfAllKinds) {
+  const Scratch scratch;
+  const Outcome run = run_tool({"simulate", "examples/elinco-fd162.toml", "--plot",
+                                "time=" + (scratch / "a.svg").string(), "--plot",
+                                "phase=" + (scratch / "b.PNG").string(), "--plot",
+                                "phase=" + (scratch / "c.pdf").string()});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(file_text(scratch / "a.svg"), StartsWith("<?xml"));
+  EXPECT_THAT(file_text(scratch / "b.PNG"), StartsWith("\x89PNG\r\n"));
+  EXPECT_THAT(file_text(scratch / "c.pdf"), StartsWith("%PDF-"));
+}
+
+}  // namespace
+}  // namespace gearlash

@@ -1,0 +1,170 @@
+// Pictures: of the kind their ending says, well formed, the same for the same motion.
+#include "gearlash/io/picture.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <string>
+#include <vector>
+
+namespace gearlash {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+MotionPicture sample_picture(double restitution = 0.0) {
+  const NormalizedServo servo{.damping = 0.19,
+                              .inertia_ratio = 2.0,
+                              .friction_ratio = 0.1,
+                              .backlash = 0.3,
+                              .restitution = restitution};
+  return {.title = "title",
+          .servo = servo,
+          .trajectory = simulate(servo, engaged_start(servo, 0.0, 0.0, 1.0),
+                                 {.until = 20.0, .reference = 1.0}),
+          .reference = 1.0,
+          .cycle = analyse_limit_cycles(servo).cycles.at(0),
+          .units = {}};
+}
+
+/// Every element of an XML text is closed in order. No more is asked of the text than gnuplot does.
+bool is_well_formed(const std::string& xml) {
+  std::vector<std::string> open;
+  std::size_t place = 0;
+  while ((place = xml.find('<', place)) != std::string::npos) {
+    const bool is_comment = xml.compare(place, 4, "<!--") == 0;
+    const std::size_t end = is_comment ? xml.find("-->", place) : xml.find('>', place);
+    if (end == std::string::npos) return false;
+    const std::string tag = xml.substr(place + 1, end - place - 1);
+    place = end;
+    if (tag.empty()) return false;
+    if (is_comment || tag[0] == '?' || tag[0] == '!' || tag.back() == '/') continue;
+    const std::string name =
+        tag.substr(tag[0] == '/' ? 1 : 0, tag.find_first_of(" \t\r\n") - (tag[0] == '/' ? 1U : 0U));
+    if (tag[0] != '/') {
+      open.push_back(name);
+    } else if (open.empty() || open.back() != name) {
+      return false;
+    } else {
+      open.pop_back();
+    }
+  }
+  return open.empty() && xml.find("<svg") != std::string::npos;
+}
+
+/// What a reader sees: the text between the tags.
+std::string visible_text(const std::string& svg) {
+  std::string text;
+  bool inside_tag = false;
+  for (const char c : svg) {
+    if (c == '<') inside_tag = true;
+    if (!inside_tag) text += c;
+    if (c == '>') inside_tag = false;
+  }
+  return text;
+}
+
+TEST(Picture, KindIsThatOfTheEnding) {
+  const MotionPicture picture = sample_picture();
+  for (const auto draw : {&draw_time_response, &draw_phase_plane}) {
+    EXPECT_TRUE(is_well_formed(draw(picture, PictureFormat::svg)));
+    EXPECT_THAT(draw(picture, PictureFormat::png), StartsWith("\x89PNG\r\n\x1a\n"));
+    const std::string pdf = draw(picture, PictureFormat::pdf);
+    EXPECT_THAT(pdf, StartsWith("%PDF-"));
+    EXPECT_THAT(pdf.substr(pdf.size() - 8), HasSubstr("%%EOF"));
+  }
+}
+
+TEST(Picture, EndingsAreThreeInSmallOrCapitalLetters) {
+  EXPECT_EQ(picture_format("--plot", "a.svg"), PictureFormat::svg);
+  EXPECT_EQ(picture_format("--plot", "a.b.PNG"), PictureFormat::png);
+  EXPECT_EQ(picture_format("--plot", "dir.svg/a.Pdf"), PictureFormat::pdf);
+  for (const char* name : {"a", "a.eps", "svg", ".svg", "a.svg.gz", ""}) {
+    EXPECT_THROW(picture_format("--plot", name), InvalidInput) << name;
+  }
+}
+
+TEST(Picture, SameMotionGivesTheSameBytes) {
+  for (const double restitution : {0.0, 0.6}) {
+    const MotionPicture picture = sample_picture(restitution);
+    EXPECT_EQ(draw_time_response(picture, PictureFormat::svg),
+              draw_time_response(picture, PictureFormat::svg));
+    EXPECT_EQ(draw_phase_plane(picture, PictureFormat::svg),
+              draw_phase_plane(picture, PictureFormat::svg));
+  }
+}
+
+TEST(Picture, LegendNamesWhatIsDrawn) {
+  const MotionPicture picture = sample_picture();
+  const std::string response = visible_text(draw_time_response(picture, PictureFormat::svg));
+  for (const char* word :
+       {"load", "motor", "reference", "gap", "faces apart", "impact", "time (", "position (rad)"}) {
+    EXPECT_THAT(response, HasSubstr(word));
+  }
+  const std::string plane = visible_text(draw_phase_plane(picture, PictureFormat::svg));
+  for (const char* word : {"load, limit cycle", "motor, limit cycle", "faces apart", "impact",
+                           "position from the reference (rad)", "damping 0.19"}) {
+    EXPECT_THAT(plane, HasSubstr(word));
+  }
+}
+
+TEST(Picture, AxesAreInTheUnitOfTheBacklashAndInSeconds) {
+  MotionPicture picture = sample_picture();
+  picture.units = {.natural_frequency = 14.5,
+                   .stiffness = std::nullopt,
+                   .angle = {.name = "arcmin", .radians = 2.908882086657216e-4}};
+  EXPECT_THAT(visible_text(draw_time_response(picture, PictureFormat::svg)),
+              testing::AllOf(HasSubstr("time (s)"), HasSubstr("position (arcmin)")));
+  EXPECT_THAT(visible_text(draw_phase_plane(picture, PictureFormat::svg)),
+              HasSubstr("speed (arcmin/s)"));
+}
+
+TEST(Picture, TitleIsTextWhateverItHolds) {
+  MotionPicture picture = sample_picture();
+  picture.title = "it's a \"title\" {/*9 big} a_b^c @d &e ~f \\n `date` $x <g> # h";
+  const std::string svg = draw_time_response(picture, PictureFormat::svg);
+  EXPECT_TRUE(is_well_formed(svg));
+  const std::string text = visible_text(svg);
+  EXPECT_THAT(text, HasSubstr("it's a "));
+  EXPECT_THAT(text, HasSubstr("{/*9 big} a_b^c @d "));
+  EXPECT_THAT(text, HasSubstr("`date` $x "));
+}
+
+TEST(Picture, DegenerateMotionsCanBeDrawn) {
+  for (const double backlash : {0.0, 0.3}) {
+    for (const double damping : {0.0, 0.5, 100.0}) {
+      const NormalizedServo servo{.damping = damping, .backlash = backlash};
+      for (const double reference : {0.0, 1.0}) {
+        const MotionPicture picture{
+            .title = "",
+            .servo = servo,
+            .trajectory = simulate(servo, engaged_start(servo, 0.0, 0.0, reference),
+                                   {.until = 10.0, .reference = reference}),
+            .reference = reference,
+            .cycle = std::nullopt,
+            .units = {}};
+        EXPECT_TRUE(is_well_formed(draw_time_response(picture, PictureFormat::svg)));
+        EXPECT_TRUE(is_well_formed(draw_phase_plane(picture, PictureFormat::svg)));
+      }
+    }
+  }
+}
+
+TEST(Picture, WhatCouldNotBeReadIsRefused) {
+  MotionPicture picture = sample_picture();
+  picture.trajectory = simulate(picture.servo, engaged_start(picture.servo, 0.0, 0.0, 1.0),
+                                {.until = 2.0 * longest_time_drawn, .reference = 1.0});
+  EXPECT_THROW(draw_time_response(picture, PictureFormat::svg), InvalidInput);
+  picture.servo.restitution = 0.999;
+  picture.trajectory = simulate(picture.servo, engaged_start(picture.servo, 0.0, 0.0, 0.001),
+                                {.until = 9000.0, .reference = 0.001, .event_limit = 30'000});
+  if (picture.trajectory.events().size() > most_events_drawn) {
+    EXPECT_THROW(draw_phase_plane(picture, PictureFormat::svg), InvalidInput);
+  }
+}
+
+}  // namespace
+}  // namespace gearlash
