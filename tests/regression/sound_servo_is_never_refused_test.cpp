@@ -1,0 +1,21 @@
+// A sound servo of light damping and nearly elastic contact was refused by its own analysis: a
+// motion that grew for long was handed to simulate() beyond the range of its starts.
+#include <gtest/gtest.h>
+
+#include "gearlash/cycle/limit_cycle.hpp"
+
+namespace gearlash {
+namespace {
+
+TEST(RegressionLimitCycle, ASoundServoIsNeverRefused) {
+  const NormalizedServo servo{.damping = 7.9736962637908334e-05,
+                              .inertia_ratio = 37.412700866734241,
+                              .friction_ratio = 0.75625613728762442,
+                              .backlash = 0.3,
+                              .restitution = 0.99994110834930883};
+  ASSERT_TRUE(validate(servo).empty());
+  EXPECT_NO_THROW(analyse_limit_cycles(servo));
+}
+
+}  // namespace
+}  // namespace gearlash
