@@ -1,0 +1,32 @@
+// The limit cycles of DESIGN's table, found by running the reference until it repeats.
+#pragma once
+
+#include <vector>
+
+#include "gearlash/servo/normalized_servo.hpp"
+
+namespace gearlash::oracle {
+
+struct CycleCheck {
+  NormalizedServo servo;
+  double reference_size;
+  double reference_period;
+  double library_size;
+  double library_period;
+  bool agrees;  ///< size and period to 1e-10 (relative)
+};
+
+std::vector<CycleCheck> check_known_cycles();
+
+/// DESIGN's last row, restitution 0.9: the motion never repeats. Half the peak-to-peak of a long
+/// run beside the library's irregular_size.
+struct IrregularCheck {
+  NormalizedServo servo;
+  double reference_size;
+  double library_size;
+  bool agrees;  ///< to 1 %: both are the extremes of a finite run
+};
+
+IrregularCheck check_irregular_motion();
+
+}  // namespace gearlash::oracle
