@@ -1,0 +1,152 @@
+// Gearlash beside Boost.odeint and SUNDIALS CVODE: every contestant does the same problems in this
+// one process, its answers are checked against ours, and the table of ratios is printed at the end.
+// Options are Google Benchmark's; the tables go to standard output in Markdown, the rest to
+// standard error.
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "contestants.hpp"
+
+namespace {
+
+using namespace gearlash::benchmarks;
+
+struct Accuracy {
+  double size = 0.0;         ///< worst relative difference from ours
+  double period = 0.0;       ///< likewise
+  double half_cycles = 0.0;  ///< mean, to convergence
+  bool complete = true;      ///< every problem converged
+};
+
+/// One line of the report: a contestant on one list of problems.
+struct Entry {
+  std::string benchmark;
+  Contestant contestant;
+  std::size_t problems;
+  Accuracy accuracy;
+};
+
+struct Race {
+  std::string title;
+  std::vector<Entry> entries;
+};
+
+std::vector<Task> prepare_all(const Contestant& contestant, const std::vector<Problem>& problems) {
+  std::vector<Task> tasks;
+  for (const Problem& problem : problems) tasks.push_back(contestant.prepare(problem));
+  return tasks;
+}
+
+Accuracy check(const std::vector<Task>& tasks, const std::vector<Problem>& problems) {
+  Accuracy accuracy;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const RivalCycle found = tasks[i]();
+    const auto& cycle = problems[i].cycle;
+    accuracy.size = std::max(accuracy.size, std::abs(found.size / cycle.size - 1.0));
+    accuracy.period = std::max(accuracy.period, std::abs(found.period / cycle.period - 1.0));
+    accuracy.half_cycles +=
+        static_cast<double>(found.half_cycles) / static_cast<double>(tasks.size());
+    accuracy.complete = accuracy.complete && found.converged;
+  }
+  return accuracy;
+}
+
+Race enter(const std::string& title, const std::vector<Contestant>& contestants,
+           const std::vector<Problem>& problems) {
+  Race race{title, {}};
+  for (const Contestant& contestant : contestants) {
+    const std::vector<Task> tasks = prepare_all(contestant, problems);
+    const std::string name = title + "/" + contestant.name;
+    race.entries.push_back({name, contestant, problems.size(), check(tasks, problems)});
+    benchmark::RegisterBenchmark(name.c_str(), [tasks](benchmark::State& state) {
+      for (auto _ : state) {
+        for (const Task& task : tasks) benchmark::DoNotOptimize(task());
+      }
+    })->Unit(benchmark::kMicrosecond);
+  }
+  return race;
+}
+
+/// Shows the runs as usual and keeps the fastest repetition of each, in seconds of processor time.
+class KeepingReporter : public benchmark::ConsoleReporter {
+ public:
+  KeepingReporter() : benchmark::ConsoleReporter(OO_None) { SetOutputStream(&std::cerr); }
+
+  void ReportRuns(const std::vector<Run>& runs) override {
+    ConsoleReporter::ReportRuns(runs);
+    for (const Run& run : runs) {
+      if (run.run_type != Run::RT_Iteration) continue;
+      const double seconds = run.cpu_accumulated_time / static_cast<double>(run.iterations);
+      const auto [entry, first] = fastest.emplace(run.run_name.function_name, seconds);
+      if (!first) entry->second = std::min(entry->second, seconds);
+    }
+  }
+
+  std::map<std::string, double> fastest;
+};
+
+void print_race(const Race& race, const std::map<std::string, double>& fastest) {
+  std::printf("\n**%s** (%zu problems)\n\n", race.title.c_str(), race.entries.front().problems);
+  std::printf("| | one problem, µs | times %s | worst error: size, period | half cycles |\n",
+              race.entries.front().contestant.name.c_str());
+  std::printf("|---|--:|--:|--:|--:|\n");
+  double ours = std::numeric_limits<double>::quiet_NaN();
+  for (const Entry& entry : race.entries) {
+    const auto measured = fastest.find(entry.benchmark);
+    if (measured == fastest.end()) continue;
+    const double microseconds = measured->second * 1e6 / static_cast<double>(entry.problems);
+    if (&entry == &race.entries.front()) ours = microseconds;
+    std::printf("| %s | %.3f | %.3g | %.1e, %.1e%s | %.0f |\n", entry.contestant.name.c_str(),
+                microseconds, microseconds / ours, entry.accuracy.size, entry.accuracy.period,
+                entry.accuracy.complete ? "" : " (did not converge)", entry.accuracy.half_cycles);
+  }
+}
+
+std::vector<Race> all_races() {
+  const std::vector<Problem> plastic = thesis_problems(0.0);
+  const std::vector<Problem> bouncing = thesis_problems(0.3);
+  std::vector<Race> races;
+  const auto add = [&](const char* title, const auto& contestants, const auto& problems) {
+    if (!problems.empty()) races.push_back(enter(title, contestants, problems));
+  };
+  add("Limit cycle, rivals from rest", limit_cycle_contestants(Start::from_rest), plastic);
+  add("Limit cycle, rivals from 1 % off our cycle", limit_cycle_contestants(Start::near_cycle),
+      plastic);
+  add("Limit cycle with restitution 0.3, rivals from rest",
+      limit_cycle_contestants(Start::from_rest), bouncing);
+  add("Half cycle", half_cycle_contestants(), plastic);
+  add("Half cycle with restitution 0.3", half_cycle_contestants(), bouncing);
+  return races;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<std::string> words = {argv[0], "--benchmark_min_time=0.2",
+                                    "--benchmark_repetitions=5"};
+  words.insert(words.end(), argv + 1, argv + argc);  // the user's own come later and prevail
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  int count = static_cast<int>(arguments.size());
+  benchmark::Initialize(&count, arguments.data());
+  if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
+
+  const std::vector<Race> races = all_races();
+  KeepingReporter reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  std::printf(
+      "Processor time on one core, the fastest of the repetitions; rivals at tolerance "
+      "%.0e, cycles converged to %.0e (with restitution %.0e).\n",
+      rival_tolerance, cycle_tolerance, bouncing_cycle_tolerance);
+  for (const Race& race : races) print_race(race, reporter.fastest);
+  return 0;
+}

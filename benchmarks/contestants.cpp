@@ -1,0 +1,121 @@
+#include "contestants.hpp"
+
+#include <cmath>
+
+#include "cvode_rival.hpp"
+#include "gearlash/cycle/limit_cycle.hpp"
+#include "gearlash/motion/phase.hpp"
+#include "gearlash/motion/trajectory.hpp"
+#include "odeint_rival.hpp"
+
+namespace gearlash::benchmarks {
+namespace {
+
+struct RivalStart {
+  EngagedState state;
+  bool parted;
+};
+
+/// Cycles with bounces start after an impact; the state at which the faces part forward is found
+/// once, outside all measurement.
+ServoState separation_on_cycle(const Problem& problem) {
+  if (problem.servo.restitution == 0.0) return problem.cycle.start;
+  const Trajectory trajectory = simulate(problem.servo, problem.cycle.start,
+                                         {.until = 1.5 * problem.cycle.period, .reference = 0.0});
+  for (const Event& event : trajectory.events()) {
+    if (event.kind == EventKind::separation && event.face == Face::forward) return event.after;
+  }
+  return problem.cycle.start;
+}
+
+RivalStart start_of(const Problem& problem, Start start) {
+  constexpr double step = 1.0;  // of the reference, rad
+  constexpr double nearness = 1.01;
+  if (start == Start::from_rest) return {{-step, 0.0}, false};
+  const ServoState on_cycle = separation_on_cycle(problem);
+  return {{nearness * on_cycle.load_position, nearness * on_cycle.load_speed}, true};
+}
+
+/// Solvers live as long as the task does, and are used again in every call.
+template <class Rival, class... Arguments>
+Contestant cycle_rival(const std::string& name, Start start, Arguments... arguments) {
+  return {name, false, [=](const Problem& problem) -> Task {
+            auto rival = std::make_shared<Rival>(problem.servo, arguments...);
+            const RivalStart begin = start_of(problem, start);
+            return [rival, begin, servo = problem.servo] {
+              return find_cycle(*rival, servo, begin.state, 1.0, begin.parted);
+            };
+          }};
+}
+
+template <class Rival, class... Arguments>
+Contestant half_cycle_rival(const std::string& name, Arguments... arguments) {
+  return {name, false, [=](const Problem& problem) -> Task {
+            auto rival = std::make_shared<Rival>(problem.servo, arguments...);
+            const ServoState begin = separation_on_cycle(problem);
+            const Coefficients coefficients(problem.servo);
+            return [rival, begin, coefficients] {
+              double time = 0.0;
+              double face = 1.0;
+              EngagedState state = {begin.load_position, begin.load_speed};
+              const double size = follow_half_cycle(*rival, coefficients, time, state, face);
+              return RivalCycle{size, 2.0 * time, 1, true};
+            };
+          }};
+}
+
+Task prepare_analysis(const Problem& problem) {
+  return [servo = problem.servo] {
+    const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
+    const LimitCycle& cycle = analysis.cycles.front();
+    return RivalCycle{cycle.size, cycle.period, 0, true};
+  };
+}
+
+/// The public simulator: the whole trajectory with its events, from a separation to just after the
+/// next one.
+Task prepare_simulation(const Problem& problem) {
+  const ServoState begin = separation_on_cycle(problem);
+  const double until = 0.5 * problem.cycle.period * (1.0 + 1e-9);
+  return [servo = problem.servo, begin, until, size = problem.cycle.size] {
+    const Trajectory trajectory = simulate(servo, begin, {.until = until, .reference = 0.0});
+    return RivalCycle{size, 2.0 * trajectory.events().back().time, 1, true};
+  };
+}
+
+/// The layer below: phase after phase until the next separation, nothing recorded.
+Task prepare_phases(const Problem& problem) {
+  constexpr double horizon = 100.0;  // far beyond any half cycle
+  const ServoState begin = separation_on_cycle(problem);
+  return [servo = problem.servo, begin, size = problem.cycle.size] {
+    const ServoDynamics dynamics = servo_dynamics(servo);
+    Phase phase = parted_phase(dynamics, 1.0, begin.load_position, begin.load_speed);
+    double time = 0.0;
+    while (true) {
+      const PhaseEnd end = end_of_phase(dynamics, phase, horizon);
+      if (!end.has_event) return RivalCycle{};
+      time += end.duration;
+      if (end.kind == EventKind::separation) return RivalCycle{size, 2.0 * time, 1, true};
+      phase = end.next;
+    }
+  };
+}
+
+}  // namespace
+
+std::vector<Contestant> limit_cycle_contestants(Start start) {
+  return {{"Gearlash, analyse_limit_cycles()", true, prepare_analysis},
+          cycle_rival<OdeintRival>("Boost.odeint, dopri5 dense output", start),
+          cycle_rival<CvodeRival>("SUNDIALS CVODE, Adams", start, CvodeMethod::adams),
+          cycle_rival<CvodeRival>("SUNDIALS CVODE, BDF dense", start, CvodeMethod::bdf)};
+}
+
+std::vector<Contestant> half_cycle_contestants() {
+  return {{"Gearlash, simulate()", true, prepare_simulation},
+          {"Gearlash, end_of_phase()", true, prepare_phases},
+          half_cycle_rival<OdeintRival>("Boost.odeint, dopri5 dense output"),
+          half_cycle_rival<CvodeRival>("SUNDIALS CVODE, Adams", CvodeMethod::adams),
+          half_cycle_rival<CvodeRival>("SUNDIALS CVODE, BDF dense", CvodeMethod::bdf)};
+}
+
+}  // namespace gearlash::benchmarks

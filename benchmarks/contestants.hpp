@@ -1,0 +1,36 @@
+// Every contestant as a function of a problem, so that one loop measures and checks them all.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "problems.hpp"
+#include "rival.hpp"
+
+namespace gearlash::benchmarks {
+
+/// Where a limit cycle is sought from.
+enum class Start {
+  from_rest,  ///< step response, what one does who does not know the cycle
+  near_cycle  ///< our exact cycle, its starting state 1 % off: the best that a rival can hope for
+};
+
+/// A task made ready (solvers allocated); calling it does the work once and returns size and
+/// period. What is made ready is not measured.
+using Task = std::function<RivalCycle()>;
+
+struct Contestant {
+  std::string name;
+  bool ours = false;
+  std::function<Task(const Problem&)> prepare;
+};
+
+/// Finding a limit cycle. Ours is analyse_limit_cycles(): data in, every property out.
+std::vector<Contestant> limit_cycle_contestants(Start start);
+
+/// Following the exact cycle from one separation to the next: flight, impacts, engagement.
+std::vector<Contestant> half_cycle_contestants();
+
+}  // namespace gearlash::benchmarks
