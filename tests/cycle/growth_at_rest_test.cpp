@@ -1,5 +1,5 @@
-// μ₀ against its closed form in complex numbers, against engaged motion in fifty digits, and against
-// a simulated disturbance.
+// μ₀ against its closed form in complex numbers, against engaged motion in fifty digits, and
+// against a simulated disturbance.
 #include "gearlash/cycle/growth_at_rest.hpp"
 
 #include <gtest/gtest.h>
@@ -156,8 +156,8 @@ std::optional<double> simulated_growth(const NormalizedServo& servo, double expe
   const ServoDynamics d = servo_dynamics(servo);
   const ServoState start{-amplitude + 0.5 * servo.backlash, amplitude / d.motor_friction,
                          -amplitude, 0.0};
-  const Trajectory motion = simulate(servo, start, {.until = 1e9, .reference = 0.0,
-                                                    .event_limit = 2000});
+  const Trajectory motion =
+      simulate(servo, start, {.until = 1e9, .reference = 0.0, .event_limit = 2000});
   for (const Event& event : motion.events()) {
     if (event.kind == EventKind::impact && event.face == Face::backward) {
       return std::abs(event.before.load_position) / amplitude;
@@ -193,13 +193,17 @@ TEST(OracleGrowthAtRest, ASimulatedSmallDisturbanceGrowsByIt) {
 TEST(EdgeGrowthAtRest, InfiniteWithoutFrictionOnOneSide) {
   for (const double restitution : {0.0, 0.5}) {
     for (const double share : {0.0, 1.0}) {
-      EXPECT_EQ(growth_at_rest(servo_dynamics({.damping = 0.3, .inertia_ratio = 2.0,
-                                               .friction_ratio = share, .backlash = 0.3,
+      EXPECT_EQ(growth_at_rest(servo_dynamics({.damping = 0.3,
+                                               .inertia_ratio = 2.0,
+                                               .friction_ratio = share,
+                                               .backlash = 0.3,
                                                .restitution = restitution})),
                 infinity);
     }
-    EXPECT_EQ(growth_at_rest(servo_dynamics({.damping = 0.0, .inertia_ratio = 2.0,
-                                             .friction_ratio = 0.5, .backlash = 0.3,
+    EXPECT_EQ(growth_at_rest(servo_dynamics({.damping = 0.0,
+                                             .inertia_ratio = 2.0,
+                                             .friction_ratio = 0.5,
+                                             .backlash = 0.3,
                                              .restitution = restitution})),
               infinity);
   }
@@ -216,8 +220,10 @@ TEST(EdgeGrowthAtRest, ZeroBetweenTheOverdampedRates) {
       const double inertia_ratio =
           2.0 * damping * friction_ratio / (rate - 2.0 * damping * friction_ratio);
       if (!(inertia_ratio > 0.0)) continue;
-      const ServoDynamics d = servo_dynamics({.damping = damping, .inertia_ratio = inertia_ratio,
-                                              .friction_ratio = friction_ratio, .backlash = 0.3});
+      const ServoDynamics d = servo_dynamics({.damping = damping,
+                                              .inertia_ratio = inertia_ratio,
+                                              .friction_ratio = friction_ratio,
+                                              .backlash = 0.3});
       ASSERT_NEAR(d.load_rate, rate, 1e-12 * rate);
       EXPECT_EQ(growth_at_rest(d), 0.0) << damping << " " << share;
     }
@@ -226,8 +232,11 @@ TEST(EdgeGrowthAtRest, ZeroBetweenTheOverdampedRates) {
 
 TEST(EdgeGrowthAtRest, MasslessSidesAreLimits) {
   for (const double restitution : {0.0, 0.5}) {
-    NormalizedServo servo{.damping = 0.3, .inertia_ratio = 0.0, .friction_ratio = 0.2,
-                          .backlash = 0.3, .restitution = restitution};
+    NormalizedServo servo{.damping = 0.3,
+                          .inertia_ratio = 0.0,
+                          .friction_ratio = 0.2,
+                          .backlash = 0.3,
+                          .restitution = restitution};
     const double massless_load = growth_at_rest(servo_dynamics(servo));
     servo.inertia_ratio = 1e-8;
     EXPECT_NEAR(growth_at_rest(servo_dynamics(servo)), massless_load, 1e-6 * massless_load);

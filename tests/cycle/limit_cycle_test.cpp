@@ -19,8 +19,8 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::string describe(const NormalizedServo& s) {
   return "damping " + exact_text(s.damping) + " inertia_ratio " + exact_text(s.inertia_ratio) +
-         " friction_ratio " + exact_text(s.friction_ratio) + " backlash " +
-         exact_text(s.backlash) + " restitution " + exact_text(s.restitution);
+         " friction_ratio " + exact_text(s.friction_ratio) + " backlash " + exact_text(s.backlash) +
+         " restitution " + exact_text(s.restitution);
 }
 
 /// Half peak-to-peak of the load from `from` on, sampled every 200th of a radian and at the events.
@@ -78,8 +78,7 @@ TEST(PropertyVerdict, PlasticServosDoWhatItSays) {
         if (cycle.multiplier > 0.995) continue;
         ++hunting;
         const Trajectory motion = long_run(servo, factor * cycle.size, until);
-        ASSERT_NEAR(sampled_size(motion, until - 1.5 * cycle.period), cycle.size,
-                    1e-5 * cycle.size)
+        ASSERT_NEAR(sampled_size(motion, until - 1.5 * cycle.period), cycle.size, 1e-5 * cycle.size)
             << "from " << factor << " times its size";
       } else {
         ++resting;
@@ -146,8 +145,8 @@ TEST(EdgeVerdict, OverdampedBetweenItsRatesNeverHunts) {
                                 .friction_ratio = draws.uniform(0.01, 0.99),
                                 .backlash = 0.3};
     const double root = std::sqrt(servo.damping * servo.damping - 1.0);
-    const double rate = 2.0 * servo.damping * servo.friction_ratio *
-                        (1.0 + servo.inertia_ratio) / servo.inertia_ratio;
+    const double rate = 2.0 * servo.damping * servo.friction_ratio * (1.0 + servo.inertia_ratio) /
+                        servo.inertia_ratio;
     if (rate < servo.damping - root || rate > servo.damping + root) continue;
     ++between;
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
@@ -180,7 +179,10 @@ TEST(EdgeVerdict, WordsForEach) {
 // ---- with restitution ---------------------------------------------------------------------------
 
 NormalizedServo sample(double restitution) {
-  return {.damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3,
+  return {.damping = 0.19,
+          .inertia_ratio = 2.0,
+          .friction_ratio = 0.1,
+          .backlash = 0.3,
           .restitution = restitution};
 }
 
@@ -197,8 +199,8 @@ TEST(OracleRestitution, SizesOfSettledRuns) {
   const double late = sampled_size(long_run(sample(0.6), 1.0, 2e4), 2e4 - 20.0);
   EXPECT_NEAR(late, 0.216536, 2e-6);
   EXPECT_NEAR(late, 0.2172, 1e-3);
-  const bool seen = std::any_of(
-      middle.cycles.begin(), middle.cycles.end(), [&](const LimitCycle& cycle) {
+  const bool seen =
+      std::any_of(middle.cycles.begin(), middle.cycles.end(), [&](const LimitCycle& cycle) {
         return cycle.stable && std::abs(cycle.size - late) < 2e-5 * late;
       });
   EXPECT_TRUE(seen) << "a long run ends at " << late;
@@ -230,10 +232,10 @@ TEST(PropertyRestitution, EveryReportedCycleReturnsToItself) {
       ASSERT_EQ(cycle.stable, std::abs(cycle.multiplier) < 1.0);
       ASSERT_GE(cycle.impacts_per_period, 2U);
       // A tenth of the first flight later, and a period after that, clear of the events.
-      const double offset = 0.01 * cycle.separated_time / static_cast<double>(
-                                                             cycle.impacts_per_period);
-      const Trajectory motion = simulate(servo, cycle.start,
-                                         {.until = cycle.period + offset, .reference = 0.0});
+      const double offset =
+          0.01 * cycle.separated_time / static_cast<double>(cycle.impacts_per_period);
+      const Trajectory motion =
+          simulate(servo, cycle.start, {.until = cycle.period + offset, .reference = 0.0});
       const ServoState first = motion.at(offset);
       const ServoState again = motion.at(offset + cycle.period);
       // The residual allowed, multiplied along one period.
@@ -247,10 +249,8 @@ TEST(PropertyRestitution, EveryReportedCycleReturnsToItself) {
       ASSERT_NEAR(cycle.engaged_time + cycle.separated_time, cycle.period, 1e-9);
       const EnergyAccount books = motion.energy_at(offset + cycle.period);
       const EnergyAccount start = motion.energy_at(offset);
-      ASSERT_NEAR(books.supplied - start.supplied, cycle.energy.lost(),
-                  1e-7 * cycle.energy.lost());
-      ASSERT_NEAR(books.impacts - start.impacts, cycle.energy.impacts,
-                  1e-7 * cycle.energy.lost());
+      ASSERT_NEAR(books.supplied - start.supplied, cycle.energy.lost(), 1e-7 * cycle.energy.lost());
+      ASSERT_NEAR(books.impacts - start.impacts, cycle.energy.impacts, 1e-7 * cycle.energy.lost());
     }
   }
   EXPECT_GT(cycles, 8);

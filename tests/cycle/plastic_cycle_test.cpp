@@ -1,5 +1,5 @@
-// The symmetric cycle of plastic contact: published numbers, its growth function, the return map run
-// by the simulator, the simulator's books, and its symmetries.
+// The symmetric cycle of plastic contact: published numbers, its growth function, the return map
+// run by the simulator, the simulator's books, and its symmetries.
 #include "gearlash/cycle/plastic_cycle.hpp"
 
 #include <gtest/gtest.h>
@@ -32,11 +32,10 @@ struct Known {
 };
 
 TEST(OraclePlasticCycle, FortyDigitNumbers) {
-  for (const Known& known :
-       {Known{0.19, 2.0, 0.1, 0.241611108023074, 6.45620541393174},
-        {0.2, 4.0, 0.25, 0.160515768385224, 6.79190613743561},
-        {0.1, 1.0, 0.2, 0.497055172184603, 6.055607459396},
-        {0.1, 0.25, 0.2, 0.791450654824151, 6.05991062080386}}) {
+  for (const Known& known : {Known{0.19, 2.0, 0.1, 0.241611108023074, 6.45620541393174},
+                             {0.2, 4.0, 0.25, 0.160515768385224, 6.79190613743561},
+                             {0.1, 1.0, 0.2, 0.497055172184603, 6.055607459396},
+                             {0.1, 0.25, 0.2, 0.791450654824151, 6.05991062080386}}) {
     const LimitCycle cycle = only_cycle({.damping = known.damping,
                                          .inertia_ratio = known.inertia_ratio,
                                          .friction_ratio = known.friction_ratio,
@@ -66,8 +65,7 @@ NormalizedServo hunting_servo(SeededDraws& draws) {
 
 std::string describe(const NormalizedServo& s) {
   return "damping " + exact_text(s.damping) + " inertia_ratio " + exact_text(s.inertia_ratio) +
-         " friction_ratio " + exact_text(s.friction_ratio) + " backlash " +
-         exact_text(s.backlash);
+         " friction_ratio " + exact_text(s.friction_ratio) + " backlash " + exact_text(s.backlash);
 }
 
 TEST(PropertyPlasticCycle, GrowthIncreasesWithTheSlopeItReports) {
@@ -121,8 +119,8 @@ double next_amplitude(const NormalizedServo& servo, double amplitude) {
   const double y = amplitude * line.position;
   const double v = amplitude * line.speed;
   const ServoState start{y + 0.5 * servo.backlash, v, y, v};
-  const Trajectory motion = simulate(servo, start, {.until = 1e6, .reference = 0.0,
-                                                    .event_limit = 20});
+  const Trajectory motion =
+      simulate(servo, start, {.until = 1e6, .reference = 0.0, .event_limit = 20});
   for (const Event& event : motion.events()) {
     if (event.kind == EventKind::separation && event.face == Face::backward) {
       return -(event.after.load_position * line.position + event.after.load_speed * line.speed);
@@ -150,9 +148,9 @@ TEST(PropertyPlasticCycle, ItIsAFixedPointOfTheSimulatedMapWithItsSlope) {
     ASSERT_NEAR(next_amplitude(servo, amplitude), amplitude,
                 1e-11 * std::max(amplitude, servo.backlash));
     const double step = 1e-4 * amplitude;
-    const double slope = (next_amplitude(servo, amplitude + step) -
-                          next_amplitude(servo, amplitude - step)) /
-                         (2.0 * step);
+    const double slope =
+        (next_amplitude(servo, amplitude + step) - next_amplitude(servo, amplitude - step)) /
+        (2.0 * step);
     // Central differences: the third derivative times (1e-4)², about 1e-8, and 1e-15/1e-4.
     ASSERT_NEAR(cycle.multiplier, slope * slope, 1e-6);
     ASSERT_GT(slope, 0.0);  // the map increases (seen always, not proved)
@@ -172,8 +170,8 @@ TEST(PropertyPlasticCycle, EverythingAgreesWithASimulatedPeriod) {
     // From just after the parting to just before the next but one: half a quarter of flight each
     // way keeps every event clear of the ends.
     const double offset = 0.125 * cycle.separated_time;
-    const Trajectory motion = simulate(servo, cycle.start,
-                                       {.until = cycle.period + offset, .reference = 0.0});
+    const Trajectory motion =
+        simulate(servo, cycle.start, {.until = cycle.period + offset, .reference = 0.0});
     const double scale = std::max(cycle.size, cycle.motor_size);
     const double tolerance = 1e-10 * scale;
     const ServoState first = motion.at(offset);
@@ -202,8 +200,7 @@ TEST(PropertyPlasticCycle, EverythingAgreesWithASimulatedPeriod) {
     double hardest = 0.0;
     for (const Event& event : motion.events()) {
       if (event.kind != EventKind::impact) continue;
-      hardest =
-          std::max(hardest, std::abs(event.before.motor_speed - event.before.load_speed));
+      hardest = std::max(hardest, std::abs(event.before.motor_speed - event.before.load_speed));
     }
     ASSERT_NEAR(cycle.impact_speed, hardest, 1e-10 * (scale + hardest));
     ASSERT_NEAR(cycle.engaged_time + cycle.separated_time, cycle.period, 4.0 * epsilon * 10.0);
@@ -268,8 +265,7 @@ TEST(PropertyPlasticCycle, ExchangingMotorAndLoadKeepsItsTimes) {
     ASSERT_NEAR(one.engaged_time, other.engaged_time, bits * one.period) << describe(servo);
     ASSERT_NEAR(one.separated_time, other.separated_time, bits * one.period) << describe(servo);
     ASSERT_NEAR(one.multiplier, other.multiplier, bits) << describe(servo);
-    ASSERT_NEAR(one.impact_speed, other.impact_speed, bits * one.impact_speed)
-        << describe(servo);
+    ASSERT_NEAR(one.impact_speed, other.impact_speed, bits * one.impact_speed) << describe(servo);
     ASSERT_NEAR(one.energy.impacts, other.energy.impacts, bits * one.energy.impacts)
         << describe(servo);
   }
@@ -279,8 +275,8 @@ TEST(EdgePlasticCycle, ExtremesOfTheRangesThatHunt) {
   for (const double damping : {1e-9, 1e-3, 0.2}) {
     for (const double ratio : {0.0, 1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9, infinity}) {
       for (const double share : {0.0, 1e-12, 1e-3, 0.1, 1.0 - 1e-3, 1.0}) {
-        const NormalizedServo servo{.damping = damping, .inertia_ratio = ratio,
-                                    .friction_ratio = share, .backlash = 0.3};
+        const NormalizedServo servo{
+            .damping = damping, .inertia_ratio = ratio, .friction_ratio = share, .backlash = 0.3};
         if (!validate(servo).empty()) continue;
         const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
         SCOPED_TRACE(describe(servo));
@@ -293,8 +289,7 @@ TEST(EdgePlasticCycle, ExtremesOfTheRangesThatHunt) {
         EXPECT_GE(cycle.multiplier, 0.0);
         EXPECT_LE(cycle.residual, 1e-12);
         // Zero to the rounding of the stored energies whose difference they are.
-        const double noise =
-            64.0 * epsilon * (cycle.energy.lost() + cycle.size * cycle.size);
+        const double noise = 64.0 * epsilon * (cycle.energy.lost() + cycle.size * cycle.size);
         EXPECT_GE(cycle.energy.motor_friction, -noise);
         EXPECT_GE(cycle.energy.load_friction, -noise);
         EXPECT_GE(cycle.energy.impacts, 0.0);
@@ -305,8 +300,8 @@ TEST(EdgePlasticCycle, ExtremesOfTheRangesThatHunt) {
 
 TEST(EdgePlasticCycle, MasslessSidesAreTheLimitsOfLightOnes) {
   for (const double share : {0.1, 0.4}) {
-    NormalizedServo servo{.damping = 0.2, .inertia_ratio = 0.0, .friction_ratio = share,
-                          .backlash = 0.3};
+    NormalizedServo servo{
+        .damping = 0.2, .inertia_ratio = 0.0, .friction_ratio = share, .backlash = 0.3};
     for (const auto& [massless, light] : {std::pair{0.0, 1e-8}, std::pair{infinity, 1e8}}) {
       servo.inertia_ratio = massless;
       const LimitCycleAnalysis limit = analyse_limit_cycles(servo);

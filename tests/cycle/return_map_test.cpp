@@ -38,9 +38,9 @@ TEST(PropertyReturnMap, DerivativeAgainstCentralDifferences) {
       const Traversal up = traverse(dynamics, above);
       const Traversal down = traverse(dynamics, below);
       comparable = comparable && up.outcome == Traversal::Outcome::arrived &&
-                   down.outcome == Traversal::Outcome::arrived &&
-                   up.impacts == traversal.impacts && down.impacts == traversal.impacts &&
-                   up.settled == traversal.settled && down.settled == traversal.settled;
+                   down.outcome == Traversal::Outcome::arrived && up.impacts == traversal.impacts &&
+                   down.impacts == traversal.impacts && up.settled == traversal.settled &&
+                   down.settled == traversal.settled;
       if (!comparable) break;
       differences.col(column) = (up.next - down.next) / (2.0 * step);
     }
@@ -53,7 +53,9 @@ TEST(PropertyReturnMap, DerivativeAgainstCentralDifferences) {
         << "damping " << servo.damping << " inertia_ratio " << servo.inertia_ratio
         << " friction_ratio " << servo.friction_ratio << " restitution " << servo.restitution
         << " arrival " << arrival.transpose() << " settled " << traversal.settled << " impacts "
-        << traversal.impacts << "\n" << differences << "\nagainst\n" << traversal.slope;
+        << traversal.impacts << "\n"
+        << differences << "\nagainst\n"
+        << traversal.slope;
   }
   EXPECT_GT(compared, 200);
 }

@@ -53,8 +53,8 @@ TEST(EdgeBracketedRoot, TinyAndHugeRoots) {
 
 TEST(EdgeBracketedRoot, AnInfiniteUpperEnd) {
   const auto line = [](double x) { return ValueAndSlope{x - 12345.0, 1.0}; };
-  EXPECT_NEAR(bracketed_root(line, 0.0, std::numeric_limits<double>::infinity(), 1.0, 1.0),
-              12345.0, 2.0 * epsilon * 12345.0);
+  EXPECT_NEAR(bracketed_root(line, 0.0, std::numeric_limits<double>::infinity(), 1.0, 1.0), 12345.0,
+              2.0 * epsilon * 12345.0);
 }
 
 }  // namespace

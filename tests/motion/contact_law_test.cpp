@@ -15,8 +15,10 @@ namespace {
 
 ServoDynamics dynamics_of(double damping, double inertia_ratio, double friction_ratio,
                           double restitution) {
-  return servo_dynamics({.damping = damping, .inertia_ratio = inertia_ratio,
-                         .friction_ratio = friction_ratio, .backlash = 0.3,
+  return servo_dynamics({.damping = damping,
+                         .inertia_ratio = inertia_ratio,
+                         .friction_ratio = friction_ratio,
+                         .backlash = 0.3,
                          .restitution = restitution});
 }
 
@@ -41,8 +43,7 @@ TEST(PropertyImpact, MomentumIsKeptAndEnergyNeverGrows) {
   for (int i = 0; i < 50000; ++i) {
     const double restitution =
         draws.happens(0.3) ? draws.one_of({0.0, 1.0}) : draws.uniform(0.0, 1.0);
-    const ServoDynamics dynamics =
-        dynamics_of(0.3, draws.log_uniform(1e-9, 1e9), 0.5, restitution);
+    const ServoDynamics dynamics = dynamics_of(0.3, draws.log_uniform(1e-9, 1e9), 0.5, restitution);
     const double load_speed = draws.uniform(-1.0, 1.0);
     const double gap_speed = draws.either_sign(1e-9, 1.0);
     const ImpactOutcome outcome = impact(dynamics, load_speed, gap_speed);
@@ -61,7 +62,7 @@ TEST(EdgeImpact, EndsOfRestitution) {
   const ServoDynamics plastic = dynamics_of(0.3, 3.0, 0.5, 0.0);
   const ImpactOutcome together = impact(plastic, 1.0, -2.0);
   EXPECT_EQ(together.gap_speed, 0.0);
-  EXPECT_EQ(together.load_speed, 0.5);   // (1·(−1) + 3·1)/4
+  EXPECT_EQ(together.load_speed, 0.5);     // (1·(−1) + 3·1)/4
   EXPECT_EQ(together.energy_lost, 0.375);  // ½ · 3/16 · 4
   EXPECT_FALSE(std::signbit(together.gap_speed));
   const ServoDynamics elastic = dynamics_of(0.3, 3.0, 0.5, 1.0);
@@ -98,10 +99,10 @@ TEST(EdgeStaysEngaged, ByTheSignOfTheTorqueThenOfItsRate) {
   EXPECT_FALSE(stays_engaged(free, 1.0, 0.1, -5.0));
   EXPECT_TRUE(stays_engaged(free, -1.0, 0.1, 0.0));
   EXPECT_FALSE(stays_engaged(free, -1.0, -0.1, 0.0));
-  EXPECT_TRUE(stays_engaged(free, 1.0, 0.0, -1.0));    // about to push
-  EXPECT_FALSE(stays_engaged(free, 1.0, 0.0, 1.0));    // about to pull
+  EXPECT_TRUE(stays_engaged(free, 1.0, 0.0, -1.0));  // about to push
+  EXPECT_FALSE(stays_engaged(free, 1.0, 0.0, 1.0));  // about to pull
   EXPECT_TRUE(stays_engaged(free, -1.0, 0.0, 1.0));
-  EXPECT_TRUE(stays_engaged(free, 1.0, 0.0, 0.0));     // vanishes for good
+  EXPECT_TRUE(stays_engaged(free, 1.0, 0.0, 0.0));  // vanishes for good
   EXPECT_TRUE(stays_engaged(free, -1.0, 0.0, 0.0));
 }
 
@@ -116,10 +117,9 @@ TEST(PropertyStaysEngaged, AgreesWithTheRawEquations) {
     const double y = draws.uniform(-1.0, 1.0);
     const double v = draws.uniform(-1.0, 1.0);
     const double face = draws.sign();
-    const Wide torque =
-        Wide(dynamics.load_inertia) *
-            (-(Wide(dynamics.motor_friction) + dynamics.load_friction) * v - y) +
-        Wide(dynamics.load_friction) * v;
+    const Wide torque = Wide(dynamics.load_inertia) *
+                            (-(Wide(dynamics.motor_friction) + dynamics.load_friction) * v - y) +
+                        Wide(dynamics.load_friction) * v;
     const double noise = 8.0 * epsilon * (dynamics.load_inertia * (std::abs(y) + 4.0) + 4.0);
     if (abs(torque) < noise) continue;
     ASSERT_EQ(stays_engaged(dynamics, face, y, v), face * torque > 0);
@@ -199,8 +199,8 @@ BounceStart bounce_start(SeededDraws& draws, double first_order) {
   const double y = -start.face * draws.uniform(0.5, 1.0);
   const double pressing = start.face * mesh_torque(start.dynamics, y, v) /
                           (start.dynamics.motor_inertia * start.dynamics.load_inertia);
-  const double gap_speed = -start.face * 0.5 * first_order * pressing *
-                           (1.0 - start.dynamics.restitution);
+  const double gap_speed =
+      -start.face * 0.5 * first_order * pressing * (1.0 - start.dynamics.restitution);
   start.state = {y, v - start.dynamics.motor_inertia * gap_speed, 0.15 * start.face, gap_speed};
   return start;
 }
@@ -254,9 +254,9 @@ TEST(OracleSettlingBounces, WhenImminentItIsRightToRounding) {
     EXPECT_NEAR(closed.energy_lost, followed.energy_lost,
                 20.0 * first_order * followed.energy_lost);
     // Engaged in the state that the common motion reaches over T.
-    const EngagedFlow common{start.dynamics.damping, start.state.load_position,
-                             start.state.load_speed +
-                                 start.dynamics.motor_inertia * start.state.gap_speed};
+    const EngagedFlow common{
+        start.dynamics.damping, start.state.load_position,
+        start.state.load_speed + start.dynamics.motor_inertia * start.state.gap_speed};
     const EngagedFlow::State end = common.at(closed.duration);
     EXPECT_NEAR(end.position, static_cast<double>(followed.end.y), 4e-15);
     EXPECT_NEAR(end.speed, static_cast<double>(followed.end.v), 4e-15);
@@ -277,14 +277,12 @@ TEST(PropertySettlingBounces, MirrorAndScale) {
   for (int i = 0; i < 200; ++i) {
     const BounceStart start = bounce_start(draws, draws.log_uniform(1e-8, 1e-2));
     const GapState& s = start.state;
-    const SettlingBounces one = settling_bounces(start.dynamics, start.face, s.load_position,
-                                                 s.load_speed, s.gap_speed);
-    const SettlingBounces mirrored = settling_bounces(start.dynamics, -start.face,
-                                                      -s.load_position, -s.load_speed,
-                                                      -s.gap_speed);
-    const SettlingBounces doubled = settling_bounces(start.dynamics, start.face,
-                                                     2.0 * s.load_position, 2.0 * s.load_speed,
-                                                     2.0 * s.gap_speed);
+    const SettlingBounces one =
+        settling_bounces(start.dynamics, start.face, s.load_position, s.load_speed, s.gap_speed);
+    const SettlingBounces mirrored = settling_bounces(start.dynamics, -start.face, -s.load_position,
+                                                      -s.load_speed, -s.gap_speed);
+    const SettlingBounces doubled = settling_bounces(
+        start.dynamics, start.face, 2.0 * s.load_position, 2.0 * s.load_speed, 2.0 * s.gap_speed);
     ASSERT_EQ(one.duration, mirrored.duration);
     ASSERT_EQ(one.duration, doubled.duration);
     ASSERT_EQ(one.imminent, mirrored.imminent);

@@ -43,8 +43,8 @@ struct Errors {
   double convolution_double_integral = 0.0;
 
   double largest() const {
-    return std::max({decay_integral, decay_double_integral, decay_convolution,
-                     convolution_integral, convolution_double_integral});
+    return std::max({decay_integral, decay_double_integral, decay_convolution, convolution_integral,
+                     convolution_double_integral});
   }
 };
 
@@ -73,8 +73,7 @@ class LargestErrors {
   }
   ~LargestErrors() {
     testing::Test::RecordProperty("decay_integral", std::to_string(decay_integral_));
-    testing::Test::RecordProperty("decay_double_integral",
-                                  std::to_string(decay_double_integral_));
+    testing::Test::RecordProperty("decay_double_integral", std::to_string(decay_double_integral_));
     testing::Test::RecordProperty("decay_convolution", std::to_string(decay_convolution_));
     testing::Test::RecordProperty("convolution_integral", std::to_string(convolution_integral_));
     testing::Test::RecordProperty("convolution_double_integral",
@@ -127,9 +126,10 @@ TEST(EdgeDecayIntegral, EqualVanishingAndLimitingArguments) {
   LargestErrors largest;
   const double below = std::nextafter(1.5, 0.0);
   const double above = std::nextafter(1.5, 2.0);
-  std::vector<double> values = {0.0,   5e-324, 1e-300, 1e-20, 1e-12, 1e-8, 1e-4, 0.1,
-                                std::nextafter(0.5, 0.0), 0.5,   1.0,   below, 1.5,  above,
-                                3.0,   36.0,   700.0,  708.0, 745.0, 800.0, 1e4,  1e9};
+  std::vector<double> values = {
+      0.0,   5e-324, 1e-300, 1e-20, 1e-12, 1e-8, 1e-4, 0.1,   std::nextafter(0.5, 0.0),
+      0.5,   1.0,    below,  1.5,   above, 3.0,  36.0, 700.0, 708.0,
+      745.0, 800.0,  1e4,    1e9};
   for (const double x : values) {
     for (const double y : values) largest.check(x, y);
   }

@@ -89,8 +89,8 @@ TEST(OracleEngagedFlow, RandomStatesAgainstTheMatrixExponential) {
 }
 
 TEST(EdgeEngagedFlow, TimeZeroIsTheInitialStateExactly) {
-  for (const double damping : {0.0, 0.3, std::nextafter(1.0, 0.0), 1.0, std::nextafter(1.0, 2.0),
-                               3.0, 1000.0}) {
+  for (const double damping :
+       {0.0, 0.3, std::nextafter(1.0, 0.0), 1.0, std::nextafter(1.0, 2.0), 3.0, 1000.0}) {
     const EngagedFlow::State state = EngagedFlow{damping, 0.3, -0.7}.at(0.0);
     EXPECT_EQ(state.position, 0.3) << damping;
     EXPECT_EQ(state.speed, -0.7) << damping;
@@ -135,8 +135,7 @@ TEST(PropertyEngagedFlow, Semigroup) {
     // The middle state carries its own error through the second flow, whose terms are no larger
     // than those of scale_of for a state of the same bound; the sum first + second is rounded too.
     const Scale at_first = scale_of(flow, first);
-    const Scale carried =
-        scale_of({flow.damping, at_first.position, at_first.speed}, second);
+    const Scale carried = scale_of({flow.damping, at_first.position, at_first.speed}, second);
     ASSERT_NEAR(split.position, whole.position,
                 2.0 * flow_epsilons * epsilon * (scale.position + carried.position))
         << flow.damping << " " << first << " " << second;

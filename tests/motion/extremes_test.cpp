@@ -20,9 +20,9 @@ TEST(PropertyExtremes, NoSampleLiesOutsideAndTheyAreReached) {
   for (int i = 0; i < 300 && !testing::Test::HasFailure(); ++i) {
     const RandomStart start = random_start(draws, {.massless_sides = true});
     SCOPED_TRACE(describe(start));
-    const Trajectory motion = simulate(start.servo, start.initial,
-                                       {.until = 15.0, .reference = start.reference,
-                                        .event_limit = 500});
+    const Trajectory motion =
+        simulate(start.servo, start.initial,
+                 {.until = 15.0, .reference = start.reference, .event_limit = 500});
     const double from = draws.uniform(0.0, 0.5 * motion.end_time());
     const double to = draws.uniform(from, motion.end_time());
     const Extremes range = extremes(motion, from, to);
@@ -66,8 +66,8 @@ TEST(OracleExtremes, OvershootOfTheStepResponse) {
 }
 
 TEST(EdgeExtremes, EmptyAndClampedStretches) {
-  const NormalizedServo servo{.damping = 0.3, .inertia_ratio = 1.0, .friction_ratio = 0.5,
-                              .backlash = 0.2};
+  const NormalizedServo servo{
+      .damping = 0.3, .inertia_ratio = 1.0, .friction_ratio = 0.5, .backlash = 0.2};
   const Trajectory motion =
       simulate(servo, engaged_start(servo, 0.0, 0.0, 1.0), {.until = 10.0, .reference = 1.0});
   const Extremes point = extremes(motion, 2.0, 2.0);

@@ -52,8 +52,7 @@ void expect_first(const GapFlight& flight, double backlash, double horizon) {
   }
   for (const double time : looks(end)) {
     if (time >= end) break;
-    ASSERT_LE(std::abs(gap_at(flight, time)),
-              0.5 * backlash + noise(flight, backlash, time))
+    ASSERT_LE(std::abs(gap_at(flight, time)), 0.5 * backlash + noise(flight, backlash, time))
         << "missed one before " << time << ", answer " << contact.time;
   }
 }
@@ -67,8 +66,10 @@ ServoDynamics random_dynamics(SeededDraws& draws, double backlash) {
     ratio = draws.one_of({0.0, infinity});
     friction_ratio = 0.5;
   }
-  return servo_dynamics({.damping = damping, .inertia_ratio = ratio,
-                         .friction_ratio = friction_ratio, .backlash = backlash});
+  return servo_dynamics({.damping = damping,
+                         .inertia_ratio = ratio,
+                         .friction_ratio = friction_ratio,
+                         .backlash = backlash});
 }
 
 TEST(PropertyFirstContact, RandomFlightsFromWithinTheGap) {
@@ -96,8 +97,8 @@ TEST(PropertyFirstContact, RandomReboundsFromEitherFace) {
     const ServoDynamics dynamics = random_dynamics(draws, backlash);
     const double face = draws.sign();
     // Rebounds from violent to barely noticeable.
-    const GapState start{draws.uniform(-1.0, 1.0), draws.uniform(-1.0, 1.0),
-                         face * 0.5 * backlash, -face * draws.log_uniform(1e-9, 1.0)};
+    const GapState start{draws.uniform(-1.0, 1.0), draws.uniform(-1.0, 1.0), face * 0.5 * backlash,
+                         -face * draws.log_uniform(1e-9, 1.0)};
     const GapFlight flight = flight_from(dynamics, start);
     if (flight.gap_speed * face >= 0.0) continue;  // a massless motor goes where it is driven
     expect_first(flight, backlash, infinity);
@@ -115,11 +116,11 @@ TEST(PropertyFirstContact, CleanSeparationsFromEitherFace) {
     const TorqueFreeLine line = dynamics.torque_free_line;
     const double face = draws.sign();
     const double amplitude = face * draws.log_uniform(1e-3, 10.0);
-    const GapFlight flight = flight_from_separation(
-        dynamics, amplitude * line.position, amplitude * line.speed, face * 0.5 * backlash);
+    const GapFlight flight = flight_from_separation(dynamics, amplitude * line.position,
+                                                    amplitude * line.speed, face * 0.5 * backlash);
     // Overdamped servos may have D between the two rates: the faces would not part.
-    const double departure = flight.gap_acceleration != 0.0 ? flight.gap_acceleration
-                                                            : flight.gap_drive;
+    const double departure =
+        flight.gap_acceleration != 0.0 ? flight.gap_acceleration : flight.gap_drive;
     if (departure * face >= 0.0) continue;
     expect_first(flight, backlash, infinity);
   }
@@ -168,8 +169,10 @@ TEST(EdgeFirstContact, GrazingOfRandomFlightsAtTheirTurningPoints) {
     double high = 0.0;
     const double direction = flight.gap_speed > 0.0 ? 1.0 : -1.0;
     for (double time = 1e-3; time < 20.0 && high == 0.0; time += 1e-2) {
-      if (motion_in_flight(flight, time).gap_speed * direction < 0.0) high = time;
-      else low = time;
+      if (motion_in_flight(flight, time).gap_speed * direction < 0.0)
+        high = time;
+      else
+        low = time;
     }
     if (high == 0.0) continue;
     for (int k = 0; k < 60; ++k) {
@@ -183,8 +186,7 @@ TEST(EdgeFirstContact, GrazingOfRandomFlightsAtTheirTurningPoints) {
     const FirstContact inside = first_contact(flight, 2.0 * apex * (1.0 - 2.0 * slack), infinity);
     ASSERT_EQ(inside.toward, direction) << "missed a grazing contact";
     const FirstContact outside = first_contact(flight, 2.0 * apex * (1.0 + 2.0 * slack), infinity);
-    ASSERT_TRUE(outside.toward != direction || outside.time > high)
-        << "invented a grazing contact";
+    ASSERT_TRUE(outside.toward != direction || outside.time > high) << "invented a grazing contact";
     // At the face to rounding either answer may be given, but it has to be one of the two.
     const FirstContact exact = first_contact(flight, 2.0 * apex, infinity);
     if (exact.toward == direction && exact.time < 1.5 * high) {

@@ -57,10 +57,10 @@ Scale scale_of(const ServoDynamics& dynamics, const GapState& start, bool clean,
   const double v = std::abs(start.load_speed);
   const double w = std::abs(start.gap_speed);
   // ü₀ and G are differences themselves (D² − 2ζD + 1); at a clean separation ü₀ is exactly zero.
-  const double acceleration =
-      clean ? 0.0
-            : c * std::abs(start.load_speed + start.gap_speed) +
-                  std::abs(start.load_position) / dynamics.motor_inertia + d * v;
+  const double acceleration = clean ? 0.0
+                                    : c * std::abs(start.load_speed + start.gap_speed) +
+                                          std::abs(start.load_position) / dynamics.motor_inertia +
+                                          d * v;
   const double drive = v * (d * d + 2.0 * dynamics.damping * d + 1.0) / dynamics.motor_inertia;
   return {std::abs(start.load_position) + v * t * decay_integral(d * t),
           v * std::exp(-d * t) * (1.0 + d * t),
@@ -71,8 +71,10 @@ Scale scale_of(const ServoDynamics& dynamics, const GapState& start, bool clean,
 }
 
 ServoDynamics dynamics_of(double damping, double inertia_ratio, double friction_ratio) {
-  return servo_dynamics({.damping = damping, .inertia_ratio = inertia_ratio,
-                         .friction_ratio = friction_ratio, .backlash = 0.3});
+  return servo_dynamics({.damping = damping,
+                         .inertia_ratio = inertia_ratio,
+                         .friction_ratio = friction_ratio,
+                         .backlash = 0.3});
 }
 
 /// Sixteen for the φ-functions (measured 5) and four for the coefficients before them.
@@ -84,8 +86,8 @@ void expect_exact(const ServoDynamics& dynamics, const GapFlight& flight, const 
                                   << dynamics.load_inertia << " J_M " << dynamics.motor_inertia
                                   << " D " << dynamics.load_rate << " c " << dynamics.motor_rate
                                   << " time " << time);
-  const WideFlight exact = wide_flight(dynamics, flight.load_position, flight.load_speed,
-                                       flight.gap_speed, time);
+  const WideFlight exact =
+      wide_flight(dynamics, flight.load_position, flight.load_speed, flight.gap_speed, time);
   const Scale scale = scale_of(dynamics, start, clean, time);
   const FlightMotion motion = motion_in_flight(flight, time);
   EXPECT_LE(epsilons_of(motion.load_position, exact.load_position, scale.load_position),
@@ -97,8 +99,7 @@ void expect_exact(const ServoDynamics& dynamics, const GapFlight& flight, const 
   EXPECT_LE(epsilons_of(gap_displacement_at(flight, time), exact.gap_displacement,
                         scale.gap_displacement),
             flight_epsilons);
-  EXPECT_LE(epsilons_of(motion.gap_speed, exact.gap_speed, scale.gap_speed),
-            flight_epsilons);
+  EXPECT_LE(epsilons_of(motion.gap_speed, exact.gap_speed, scale.gap_speed), flight_epsilons);
 }
 
 struct RandomFlight {
@@ -146,18 +147,17 @@ TEST(OracleGapFlight, CleanSeparationsKeepRelativeAccuracyHoweverShort) {
     ASSERT_EQ(flight.gap_acceleration, 0.0);
     ASSERT_EQ(flight.gap_speed, 0.0);
     const double time = draws.log_uniform(1e-9, 50.0);
-    const WideFlight exact =
-        wide_flight(dynamics, separating_position(dynamics, flight.load_speed), flight.load_speed,
-                    0, time);
+    const WideFlight exact = wide_flight(dynamics, separating_position(dynamics, flight.load_speed),
+                                         flight.load_speed, 0, time);
     const GapState start{flight.load_position, flight.load_speed, 0.15, 0.0};
     const Scale scale = scale_of(dynamics, start, true, time);
     EXPECT_LE(epsilons_of(gap_displacement_at(flight, time), exact.gap_displacement,
                           scale.gap_displacement),
               flight_epsilons)
         << "c " << dynamics.motor_rate << " D " << dynamics.load_rate << " t " << time;
-    EXPECT_LE(epsilons_of(motion_in_flight(flight, time).gap_speed, exact.gap_speed,
-                          scale.gap_speed),
-              flight_epsilons)
+    EXPECT_LE(
+        epsilons_of(motion_in_flight(flight, time).gap_speed, exact.gap_speed, scale.gap_speed),
+        flight_epsilons)
         << "c " << dynamics.motor_rate << " D " << dynamics.load_rate << " t " << time;
   }
 }
@@ -214,8 +214,8 @@ TEST(EdgeGapFlight, LightLoadKeepsItsDigits) {
     const ServoDynamics dynamics = dynamics_of(0.3, ratio, 0.4);
     const GapFlight flight = flight_from(dynamics, start);
     for (const double time : {1e-3, 0.1, 1.0, 3.0}) {
-      const WideFlight exact = wide_flight(dynamics, start.load_position, start.load_speed,
-                                           start.gap_speed, time);
+      const WideFlight exact =
+          wide_flight(dynamics, start.load_position, start.load_speed, start.gap_speed, time);
       // Each shaft's own motion: |v_M| t, |y| t²/2J_M of the motor, |v_L| t φ(Dt) of the load.
       const double load_way = 0.8 * time * decay_integral(dynamics.load_rate * time);
       const double way = 0.9 * time + (0.4 + load_way) * time * time + load_way;
@@ -243,8 +243,8 @@ TEST(EdgeGapFlight, MasslessLoadStandsStill) {
     // The motor's speed is the sum 0.8 + 0.1 as a double forms it.
     const Wide exact = creep + (Wide(0.8 + 0.1) - creep) * exp(-Wide(friction) * time);
     EXPECT_LE(epsilons_of(motion.gap_speed, exact, 0.9 + 0.4 * time), 8.0);
-    const Wide moved = creep * time + (Wide(0.8 + 0.1) - creep) *
-                                          (1 - exp(-Wide(friction) * time)) / friction;
+    const Wide moved =
+        creep * time + (Wide(0.8 + 0.1) - creep) * (1 - exp(-Wide(friction) * time)) / friction;
     EXPECT_LE(epsilons_of(gap_displacement_at(flight, time), moved, time * (0.9 + 0.4 * time)),
               8.0);
   }
@@ -275,11 +275,10 @@ double difference(const ServoDynamics& a, const ServoDynamics& b, const GapState
   for (const double time : {0.5, 1.0, 3.0}) {
     const FlightMotion x = motion_in_flight(first, time);
     const FlightMotion y = motion_in_flight(second, time);
-    largest = std::max({largest, std::abs(x.load_position - y.load_position),
-                        std::abs(x.load_speed - y.load_speed),
-                        std::abs(x.gap_speed - y.gap_speed),
-                        std::abs(gap_displacement_at(first, time) -
-                                 gap_displacement_at(second, time))});
+    largest =
+        std::max({largest, std::abs(x.load_position - y.load_position),
+                  std::abs(x.load_speed - y.load_speed), std::abs(x.gap_speed - y.gap_speed),
+                  std::abs(gap_displacement_at(first, time) - gap_displacement_at(second, time))});
   }
   return largest;
 }

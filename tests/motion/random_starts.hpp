@@ -35,8 +35,8 @@ struct RandomRange {
 inline RandomStart random_start(SeededDraws& draws, const RandomRange& range = {}) {
   RandomStart random;
   NormalizedServo& servo = random.servo;
-  servo.damping = draws.happens(0.1) ? draws.one_of({0.0, 1.0})
-                                     : draws.uniform(0.0, range.largest_damping);
+  servo.damping =
+      draws.happens(0.1) ? draws.one_of({0.0, 1.0}) : draws.uniform(0.0, range.largest_damping);
   servo.inertia_ratio =
       draws.log_uniform(range.smallest_inertia_ratio, range.largest_inertia_ratio);
   servo.friction_ratio = draws.happens(0.2) ? draws.one_of({0.0, 1.0}) : draws.uniform(0.0, 1.0);
@@ -73,10 +73,9 @@ inline std::string describe(const RandomStart& r) {
 
 /// Largest difference of positions and speeds.
 inline double distance(const ServoState& a, const ServoState& b) {
-  return std::max({std::abs(a.motor_position - b.motor_position),
-                   std::abs(a.motor_speed - b.motor_speed),
-                   std::abs(a.load_position - b.load_position),
-                   std::abs(a.load_speed - b.load_speed)});
+  return std::max(
+      {std::abs(a.motor_position - b.motor_position), std::abs(a.motor_speed - b.motor_speed),
+       std::abs(a.load_position - b.load_position), std::abs(a.load_speed - b.load_speed)});
 }
 
 }  // namespace gearlash

@@ -130,8 +130,11 @@ TEST(OracleEnergy, EngagedStepResponseLosesWhatItsClosedFormSays) {
 TEST(PropertyEnergy, LongRunsDoNotDrift) {
   // Tens of thousands of phases: rounding errors add like a random walk, far below one a phase.
   for (const double restitution : {0.0, 0.6}) {
-    const NormalizedServo servo{.damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1,
-                                .backlash = 0.3, .restitution = restitution};
+    const NormalizedServo servo{.damping = 0.19,
+                                .inertia_ratio = 2.0,
+                                .friction_ratio = 0.1,
+                                .backlash = 0.3,
+                                .restitution = restitution};
     constexpr double until = 1e5;
     const Trajectory motion =
         simulate(servo, engaged_start(servo, 0.0, 0.0, 1.0), {.until = until, .reference = 1.0});

@@ -22,8 +22,8 @@ Trajectory run(const RandomStart& start, double until) {
 
 double gap_of(const ServoState& state) { return state.motor_position - state.load_position; }
 
-const NormalizedServo sample{.damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1,
-                             .backlash = 0.3};
+const NormalizedServo sample{
+    .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3};
 
 /// Largest of all lengths and speeds at the events: what epsilons are counted of. Position and
 /// reference are added and subtracted, so the reference counts as well.
@@ -128,8 +128,7 @@ TEST(PropertyEvents, EachKindDoesWhatItsNameSays) {
         ASSERT_EQ(event.energy_lost, 0.0);
       }
       if (event.kind == EventKind::settling) {
-        ASSERT_EQ(event.mode_after,
-                  side > 0.0 ? Mode::engaged_forward : Mode::engaged_backward);
+        ASSERT_EQ(event.mode_after, side > 0.0 ? Mode::engaged_forward : Mode::engaged_backward);
       }
     }
   }
@@ -244,8 +243,8 @@ TEST(EdgeStart, AtRestTogetherPushedOrPulled) {
 
 TEST(EdgeStart, AtRestOnTheReferenceNothingEverHappens) {
   for (const double gap : {0.15, -0.15, 0.0, 0.1}) {
-    const Trajectory motion = simulate(sample, {gap, 0.0, 0.0, 0.0}, {.until = 1e6,
-                                                                      .reference = 0.0});
+    const Trajectory motion =
+        simulate(sample, {gap, 0.0, 0.0, 0.0}, {.until = 1e6, .reference = 0.0});
     EXPECT_TRUE(motion.events().empty()) << gap;
     EXPECT_EQ(motion.at(1e6), (ServoState{gap, 0.0, 0.0, 0.0})) << gap;
   }
@@ -330,8 +329,7 @@ TEST(EdgeEnd, UntilZeroAndEventLimits) {
 }
 
 TEST(EdgeEnd, TimesOutsideAreClamped) {
-  const Trajectory motion =
-      simulate(sample, engaged_start(sample, 0.0, 0.0, 1.0), {.until = 10.0});
+  const Trajectory motion = simulate(sample, engaged_start(sample, 0.0, 0.0, 1.0), {.until = 10.0});
   EXPECT_EQ(motion.at(-1.0), motion.at(0.0));
   EXPECT_EQ(motion.at(1e300), motion.at(10.0));
   EXPECT_EQ(motion.mode_at(-1.0), motion.mode_at(0.0));

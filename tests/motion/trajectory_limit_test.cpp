@@ -47,8 +47,7 @@ TEST(OracleNoBacklash, IsTheSecondOrderStepResponse) {
 
 TEST(EdgeNoBacklash, UnequalSpeedsAreSharedAtOnce) {
   const NormalizedServo servo{.damping = 0.1, .inertia_ratio = 3.0, .friction_ratio = 0.3};
-  const Trajectory motion =
-      simulate(servo, {0.0, 1.0, 0.0, 0.0}, {.until = 1.0, .reference = 0.0});
+  const Trajectory motion = simulate(servo, {0.0, 1.0, 0.0, 0.0}, {.until = 1.0, .reference = 0.0});
   EXPECT_DOUBLE_EQ(motion.at(0.0).load_speed, 0.25);
   EXPECT_DOUBLE_EQ(motion.at(0.0).motor_speed, 0.25);
 }
@@ -87,8 +86,11 @@ void expect_convergence(const NormalizedServo& limit, const std::vector<Limit>& 
 
 TEST(PropertyLimits, LightLoadsTendToTheMasslessLoad) {
   for (const double restitution : {0.0, 0.5}) {
-    NormalizedServo limit{.damping = 0.3, .inertia_ratio = 0.0, .friction_ratio = 0.4,
-                          .backlash = 0.2, .restitution = restitution};
+    NormalizedServo limit{.damping = 0.3,
+                          .inertia_ratio = 0.0,
+                          .friction_ratio = 0.4,
+                          .backlash = 0.2,
+                          .restitution = restitution};
     std::vector<Limit> approach;
     for (const double light : {1e-4, 1e-6, 1e-8}) {
       NormalizedServo near = limit;
@@ -101,8 +103,11 @@ TEST(PropertyLimits, LightLoadsTendToTheMasslessLoad) {
 
 TEST(PropertyLimits, LightMotorsTendToTheMasslessMotor) {
   for (const double restitution : {0.0, 0.5}) {
-    NormalizedServo limit{.damping = 0.3, .inertia_ratio = infinity, .friction_ratio = 0.4,
-                          .backlash = 0.2, .restitution = restitution};
+    NormalizedServo limit{.damping = 0.3,
+                          .inertia_ratio = infinity,
+                          .friction_ratio = 0.4,
+                          .backlash = 0.2,
+                          .restitution = restitution};
     std::vector<Limit> approach;
     for (const double light : {1e-4, 1e-6, 1e-8}) {
       NormalizedServo near = limit;
@@ -126,8 +131,8 @@ void expect_continuous(const NormalizedServo& limit, const Change& change,
 }
 
 const std::vector<double> shrinking{1e-2, 1e-4, 1e-6, 1e-9, 1e-12, 1e-15};
-const NormalizedServo sample{.damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1,
-                             .backlash = 0.3};
+const NormalizedServo sample{
+    .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3};
 
 TEST(PropertyLimits, NearlyPlasticTendsToPlastic) {
   expect_continuous(
@@ -148,8 +153,8 @@ TEST(PropertyLimits, ThroughCriticalDamping) {
   limit.damping = 1.0;
   for (const double side : {-1.0, 1.0}) {
     expect_continuous(
-        limit, [&](NormalizedServo& s, double small) { s.damping = 1.0 + side * small; },
-        shrinking, 1.0, 100.0);
+        limit, [&](NormalizedServo& s, double small) { s.damping = 1.0 + side * small; }, shrinking,
+        1.0, 100.0);
   }
 }
 
@@ -197,8 +202,8 @@ TEST(PropertyLimits, VanishingBacklashTendsToNone) {
 
 TEST(EdgeLimits, FrictionlessMotionGrowsAndKeepsItsEnergyBooks) {
   // ζ = 0, plastic: the gap feeds energy in at every crossing and nothing but impacts takes it out.
-  const NormalizedServo servo{.damping = 0.0, .inertia_ratio = 1.0, .friction_ratio = 0.5,
-                              .backlash = 0.3};
+  const NormalizedServo servo{
+      .damping = 0.0, .inertia_ratio = 1.0, .friction_ratio = 0.5, .backlash = 0.3};
   const Trajectory motion =
       simulate(servo, engaged_start(servo, -0.5, 0.0, 0.0), {.until = 500.0, .reference = 0.0});
   EXPECT_GT(motion.energy_at(500.0).stored(), 4.0 * motion.energy_at(0.0).stored());

@@ -74,8 +74,10 @@ void expect_same_bits(const Trajectory& a, const Trajectory& b, double factor, d
   ASSERT_TRUE(same(x.supplied * square, y.supplied));
 }
 
-constexpr RandomRange everything{.largest_damping = 3.0, .smallest_inertia_ratio = 1e-6,
-                                 .largest_inertia_ratio = 1e6, .massless_sides = true};
+constexpr RandomRange everything{.largest_damping = 3.0,
+                                 .smallest_inertia_ratio = 1e-6,
+                                 .largest_inertia_ratio = 1e6,
+                                 .massless_sides = true};
 
 TEST(PropertyTrajectory, MirrorImageBitForBit) {
   constexpr std::uint64_t seed = 201;

@@ -73,28 +73,35 @@ TEST(OracleAppendixB, Steps6To8Ratios) {
 
 // The numbers below are small whole numbers and powers of two, so every result is exact.
 TEST(OracleAppendixA, ArmatureControlledThroughAGearbox) {
-  const Datasheet datasheet{
-      .motor = ArmatureControlledMotor{.inertia = 3.0, .friction = 5.0, .torque_constant = 8.0,
-                                       .back_emf_constant = 7.0, .resistance = 2.0},
-      .gearbox = {.ratio = 4.0, .backlash = 0.25},
-      .load = {.inertia = 11.0, .friction = 13.0},
-      .loop = {.error_gain = 10.0},
-      .contact = {.restitution = 0.5}};
+  const Datasheet datasheet{.motor = ArmatureControlledMotor{.inertia = 3.0,
+                                                             .friction = 5.0,
+                                                             .torque_constant = 8.0,
+                                                             .back_emf_constant = 7.0,
+                                                             .resistance = 2.0},
+                            .gearbox = {.ratio = 4.0, .backlash = 0.25},
+                            .load = {.inertia = 11.0, .friction = 13.0},
+                            .loop = {.error_gain = 10.0},
+                            .contact = {.restitution = 0.5}};
   const ReferredMotor motor = refer_to_load(datasheet);
-  EXPECT_EQ(motor.stiffness, 160.0);             // K₁K₃n/R
-  EXPECT_EQ(motor.inertia, 48.0);                // J_m n²
-  EXPECT_EQ(motor.mechanical_friction, 80.0);    // f_m n²
-  EXPECT_EQ(motor.electrical_friction, 448.0);   // K₁K₂n²/R
+  EXPECT_EQ(motor.stiffness, 160.0);            // K₁K₃n/R
+  EXPECT_EQ(motor.inertia, 48.0);               // J_m n²
+  EXPECT_EQ(motor.mechanical_friction, 80.0);   // f_m n²
+  EXPECT_EQ(motor.electrical_friction, 448.0);  // K₁K₂n²/R
   const Drivetrain drivetrain = to_drivetrain(datasheet);
-  EXPECT_EQ(drivetrain, (Drivetrain{.motor_inertia = 48.0, .load_inertia = 11.0,
-                                    .motor_friction = 528.0, .load_friction = 13.0,
-                                    .stiffness = 160.0, .backlash = 0.25, .restitution = 0.5}));
+  EXPECT_EQ(drivetrain, (Drivetrain{.motor_inertia = 48.0,
+                                    .load_inertia = 11.0,
+                                    .motor_friction = 528.0,
+                                    .load_friction = 13.0,
+                                    .stiffness = 160.0,
+                                    .backlash = 0.25,
+                                    .restitution = 0.5}));
 }
 
 TEST(OracleAppendixA, FieldControlledHasNoElectricalFriction) {
   const Datasheet datasheet{
-      .motor = FieldControlledMotor{.inertia = 3.0, .friction = 5.0, .torque_constant = 8.0,
-                                    .resistance = 2.0},
+      .motor =
+          FieldControlledMotor{
+              .inertia = 3.0, .friction = 5.0, .torque_constant = 8.0, .resistance = 2.0},
       .gearbox = {.ratio = 4.0, .backlash = 0.25},
       .load = {.inertia = 11.0, .friction = 13.0},
       .loop = {.error_gain = 10.0},
@@ -108,24 +115,26 @@ TEST(OracleAppendixA, FieldControlledHasNoElectricalFriction) {
 
 TEST(OracleAppendixA, TwoPhaseBySlopes) {
   const Datasheet datasheet{
-      .motor = TwoPhaseMotor{.inertia = 3.0, .friction = 5.0, .torque_per_volt = 8.0,
-                             .torque_per_speed = 2.0},
+      .motor =
+          TwoPhaseMotor{
+              .inertia = 3.0, .friction = 5.0, .torque_per_volt = 8.0, .torque_per_speed = 2.0},
       .gearbox = {.ratio = 4.0, .backlash = 0.25},
       .load = {.inertia = 11.0, .friction = 13.0},
       .loop = {.error_gain = 10.0},
       .contact = {}};
   const ReferredMotor motor = refer_to_load(datasheet);
-  EXPECT_EQ(motor.stiffness, 320.0);            // K_e K₃ n
+  EXPECT_EQ(motor.stiffness, 320.0);  // K_e K₃ n
   EXPECT_EQ(motor.inertia, 48.0);
   EXPECT_EQ(motor.mechanical_friction, 80.0);
-  EXPECT_EQ(motor.electrical_friction, 32.0);   // K_N n²
+  EXPECT_EQ(motor.electrical_friction, 32.0);  // K_N n²
 }
 
 TEST(OracleAppendixA, ThesisFormOfTheTwoPhaseMotor) {
   // The thesis writes K_e and K_N for a direct drive and one volt per radian.
   const Datasheet datasheet{
-      .motor = TwoPhaseMotor{.inertia = 1.0, .friction = 1.0, .torque_per_volt = 16.0,
-                             .torque_per_speed = 2.0},
+      .motor =
+          TwoPhaseMotor{
+              .inertia = 1.0, .friction = 1.0, .torque_per_volt = 16.0, .torque_per_speed = 2.0},
       .gearbox = {.ratio = 1.0, .backlash = 0.3},
       .load = {.inertia = 3.0, .friction = 1.0},
       .loop = {.error_gain = 1.0},
@@ -133,7 +142,7 @@ TEST(OracleAppendixA, ThesisFormOfTheTwoPhaseMotor) {
   const Drivetrain drivetrain = to_drivetrain(datasheet);
   EXPECT_EQ(natural_frequency(drivetrain), 2.0);  // √(16/4)
   const NormalizedServo servo = normalize(drivetrain);
-  EXPECT_EQ(servo.damping, 0.25);                 // (4/4)/(2·2)
+  EXPECT_EQ(servo.damping, 0.25);  // (4/4)/(2·2)
   EXPECT_EQ(servo.inertia_ratio, 3.0);
   EXPECT_EQ(servo.friction_ratio, 0.25);
 }

@@ -63,37 +63,43 @@ TEST(PropertyNormalization, RoundTripThroughPhysicalUnits) {
 }
 
 TEST(EdgeNormalization, MasslessSides) {
-  const NormalizedServo motor_only =
-      normalize({.motor_inertia = 4.0, .load_inertia = 0.0, .motor_friction = 1.0,
-                 .load_friction = 3.0, .stiffness = 1.0});
+  const NormalizedServo motor_only = normalize({.motor_inertia = 4.0,
+                                                .load_inertia = 0.0,
+                                                .motor_friction = 1.0,
+                                                .load_friction = 3.0,
+                                                .stiffness = 1.0});
   EXPECT_EQ(motor_only.inertia_ratio, 0.0);
   EXPECT_EQ(motor_only.friction_ratio, 0.75);
   EXPECT_EQ(motor_only.damping, 1.0);
-  const NormalizedServo load_only =
-      normalize({.motor_inertia = 0.0, .load_inertia = 4.0, .motor_friction = 1.0,
-                 .load_friction = 3.0, .stiffness = 1.0});
+  const NormalizedServo load_only = normalize({.motor_inertia = 0.0,
+                                               .load_inertia = 4.0,
+                                               .motor_friction = 1.0,
+                                               .load_friction = 3.0,
+                                               .stiffness = 1.0});
   EXPECT_EQ(load_only.inertia_ratio, infinity);
   EXPECT_EQ(load_only.damping, 1.0);
 }
 
 TEST(EdgeNormalization, WithoutFrictionTheRatioIsZero) {
-  const NormalizedServo servo = normalize({.motor_inertia = 1.0, .load_inertia = 1.0,
-                                           .stiffness = 1.0});
+  const NormalizedServo servo =
+      normalize({.motor_inertia = 1.0, .load_inertia = 1.0, .stiffness = 1.0});
   EXPECT_EQ(servo.damping, 0.0);
   EXPECT_EQ(servo.friction_ratio, 0.0);
   EXPECT_FALSE(std::signbit(servo.friction_ratio));
 }
 
 TEST(EdgeNormalization, ExtremeMagnitudesNeitherOverflowNorUnderflow) {
-  const NormalizedServo servo{.damping = 0.25, .inertia_ratio = 3.0, .friction_ratio = 0.5,
-                              .backlash = 0.1};
+  const NormalizedServo servo{
+      .damping = 0.25, .inertia_ratio = 3.0, .friction_ratio = 0.5, .backlash = 0.1};
   for (const double inertia : {0x1p-1000, 1e-300, 1e-200, 1e-30, 1.0, 1e30, 1e200, 1e300}) {
     for (const double stiffness : {1e-300, 1e-30, 1.0, 1e30, 1e300}) {
       const double root = std::sqrt(stiffness) * std::sqrt(inertia);
       const double friction = 2.0 * servo.damping * root;
-      const Drivetrain drivetrain{.motor_inertia = 0.25 * inertia, .load_inertia = 0.75 * inertia,
+      const Drivetrain drivetrain{.motor_inertia = 0.25 * inertia,
+                                  .load_inertia = 0.75 * inertia,
                                   .motor_friction = 0.5 * friction,
-                                  .load_friction = 0.5 * friction, .stiffness = stiffness,
+                                  .load_friction = 0.5 * friction,
+                                  .stiffness = stiffness,
                                   .backlash = 0.1};
       SCOPED_TRACE(inertia);
       SCOPED_TRACE(stiffness);
@@ -108,8 +114,10 @@ TEST(EdgeNormalization, ExtremeMagnitudesNeitherOverflowNorUnderflow) {
 }
 
 TEST(EdgeNormalization, ATotalInertiaBeyondDoublesIsNotTakenForZeroDamping) {
-  const Drivetrain drivetrain{.motor_inertia = 1.5e308, .load_inertia = 1.5e308,
-                              .motor_friction = 1e300, .load_friction = 1e300,
+  const Drivetrain drivetrain{.motor_inertia = 1.5e308,
+                              .load_inertia = 1.5e308,
+                              .motor_friction = 1e300,
+                              .load_friction = 1e300,
                               .stiffness = 1e300};
   // 2e300/(2 √1e300 √3e308) = 5.8e-5: either that number or a refusal, never a silent zero.
   if (validate(drivetrain).empty()) {
@@ -122,16 +130,16 @@ TEST(PropertyReferring, GearRatioScalesAsAppendixASays) {
   SCOPED_TRACE(seed);
   SeededDraws draws(seed);
   for (int i = 0; i < 1000; ++i) {
-    Datasheet direct{.motor = ArmatureControlledMotor{.inertia = draws.log_uniform(1e-30, 1.0),
-                                                      .friction = draws.log_uniform(1e-12, 1.0),
-                                                      .torque_constant = draws.log_uniform(1e-3, 1),
-                                                      .back_emf_constant =
-                                                          draws.log_uniform(1e-3, 1),
-                                                      .resistance = draws.log_uniform(0.1, 1e3)},
-                     .gearbox = {.ratio = 1.0, .backlash = 0.1},
-                     .load = {.inertia = 1e-3, .friction = 1e-3},
-                     .loop = {.error_gain = draws.log_uniform(1e-2, 1e3)},
-                     .contact = {}};
+    Datasheet direct{
+        .motor = ArmatureControlledMotor{.inertia = draws.log_uniform(1e-30, 1.0),
+                                         .friction = draws.log_uniform(1e-12, 1.0),
+                                         .torque_constant = draws.log_uniform(1e-3, 1),
+                                         .back_emf_constant = draws.log_uniform(1e-3, 1),
+                                         .resistance = draws.log_uniform(0.1, 1e3)},
+        .gearbox = {.ratio = 1.0, .backlash = 0.1},
+        .load = {.inertia = 1e-3, .friction = 1e-3},
+        .loop = {.error_gain = draws.log_uniform(1e-2, 1e3)},
+        .contact = {}};
     Datasheet geared = direct;
     const double ratio = draws.log_uniform(1e-2, 1e3);
     geared.gearbox.ratio = ratio;

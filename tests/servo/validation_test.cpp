@@ -29,18 +29,28 @@ std::vector<std::string> fields(const std::vector<Violation>& violations) {
 }
 
 NormalizedServo sound_servo() {
-  return {.damping = 0.2, .inertia_ratio = 2.0, .friction_ratio = 0.25, .backlash = 0.3,
+  return {.damping = 0.2,
+          .inertia_ratio = 2.0,
+          .friction_ratio = 0.25,
+          .backlash = 0.3,
           .restitution = 0.5};
 }
 
 Drivetrain sound_drivetrain() {
-  return {.motor_inertia = 1.0, .load_inertia = 2.0, .motor_friction = 0.5,
-          .load_friction = 0.25, .stiffness = 4.0, .backlash = 0.1};
+  return {.motor_inertia = 1.0,
+          .load_inertia = 2.0,
+          .motor_friction = 0.5,
+          .load_friction = 0.25,
+          .stiffness = 4.0,
+          .backlash = 0.1};
 }
 
 Datasheet sound_datasheet() {
-  return {.motor = ArmatureControlledMotor{.inertia = 1.0, .friction = 1.0, .torque_constant = 1.0,
-                                           .back_emf_constant = 1.0, .resistance = 1.0},
+  return {.motor = ArmatureControlledMotor{.inertia = 1.0,
+                                           .friction = 1.0,
+                                           .torque_constant = 1.0,
+                                           .back_emf_constant = 1.0,
+                                           .resistance = 1.0},
           .gearbox = {.ratio = 2.0, .backlash = 0.1},
           .load = {.inertia = 3.0, .friction = 0.5},
           .loop = {.error_gain = 2.0},
@@ -111,11 +121,14 @@ TEST(EdgeNormalizedServoRanges, MasslessShaftsNeedFriction) {
 }
 
 TEST(EdgeNormalizedServoRanges, AllViolationsAreListed) {
-  const NormalizedServo servo{.damping = -1.0, .inertia_ratio = -2.0, .friction_ratio = 3.0,
-                              .backlash = nan, .restitution = 2.0, .sensor = Sensor::motor};
-  EXPECT_THAT(fields(validate(servo)),
-              ElementsAre("damping", "inertia_ratio", "friction_ratio", "backlash", "restitution",
-                          "sensor"));
+  const NormalizedServo servo{.damping = -1.0,
+                              .inertia_ratio = -2.0,
+                              .friction_ratio = 3.0,
+                              .backlash = nan,
+                              .restitution = 2.0,
+                              .sensor = Sensor::motor};
+  EXPECT_THAT(fields(validate(servo)), ElementsAre("damping", "inertia_ratio", "friction_ratio",
+                                                   "backlash", "restitution", "sensor"));
 }
 
 TEST(EdgeDatasheetRanges, AllViolationsAreListedForEachMotor) {
@@ -148,16 +161,16 @@ TEST(EdgeDatasheetRanges, ZerosThatArePermitted) {
   datasheet.gearbox.backlash = 0.0;
   datasheet.load = {.inertia = 0.0, .friction = 0.5};
   EXPECT_THAT(validate(datasheet), IsEmpty());
-  datasheet.motor = TwoPhaseMotor{.inertia = 0.0, .friction = 0.0, .torque_per_volt = 1.0,
-                                  .torque_per_speed = 1.0};
+  datasheet.motor = TwoPhaseMotor{
+      .inertia = 0.0, .friction = 0.0, .torque_per_volt = 1.0, .torque_per_speed = 1.0};
   datasheet.load = {.inertia = 1.0, .friction = 0.0};
   EXPECT_THAT(validate(datasheet), IsEmpty());
 }
 
 TEST(EdgeDatasheetRanges, NoInertiaAnywhereIsRefused) {
   Datasheet datasheet = sound_datasheet();
-  datasheet.motor = FieldControlledMotor{.inertia = 0.0, .friction = 1.0, .torque_constant = 1.0,
-                                         .resistance = 1.0};
+  datasheet.motor = FieldControlledMotor{
+      .inertia = 0.0, .friction = 1.0, .torque_constant = 1.0, .resistance = 1.0};
   datasheet.load.inertia = 0.0;
   EXPECT_THAT(validate(datasheet), testing::SizeIs(1));
   EXPECT_THROW(to_drivetrain(datasheet), InvalidInput);
@@ -171,11 +184,14 @@ TEST(EdgeDatasheetRanges, OverflowInReferringIsRefusedNotReturned) {
 }
 
 TEST(EdgeDrivetrainRanges, AllViolationsAreListed) {
-  const Drivetrain drivetrain{.motor_inertia = -1.0, .load_inertia = nan, .motor_friction = -1.0,
-                              .load_friction = infinity, .stiffness = 0.0};
-  EXPECT_THAT(fields(validate(drivetrain)),
-              ElementsAre("motor_inertia", "load_inertia", "motor_friction", "load_friction",
-                          "stiffness"));
+  const Drivetrain drivetrain{.motor_inertia = -1.0,
+                              .load_inertia = nan,
+                              .motor_friction = -1.0,
+                              .load_friction = infinity,
+                              .stiffness = 0.0};
+  EXPECT_THAT(
+      fields(validate(drivetrain)),
+      ElementsAre("motor_inertia", "load_inertia", "motor_friction", "load_friction", "stiffness"));
   // Whatever is already wrong with the inertias, a backlash out of range is wrong too.
   Drivetrain two_faults = sound_drivetrain();
   two_faults.backlash = -1.0;
