@@ -60,25 +60,59 @@ UnitHalfCycle half_cycle(const ServoDynamics& dynamics, const GapFlight& flight,
   return half;
 }
 
+/// How the state just after the impact changes with the flight time.
+struct ArrivalRates {
+  double momentum;  ///< Ṗ
+  double form;      ///< Q̇
+};
+
+ArrivalRates arrival_rates(const ServoDynamics& dynamics, const UnitHalfCycle& half) {
+  const double motor_speed = half.load_speed + half.gap_speed;
+  const double momentum = -dynamics.motor_friction * motor_speed -
+                          dynamics.load_friction * half.load_speed - half.load_position;
+  const double form =
+      2.0 *
+      (half.load_position * half.load_speed + half.common_speed * momentum +
+       dynamics.damping * (half.load_speed * half.common_speed + half.load_position * momentum));
+  return {momentum, form};
+}
+
 /// d² ln ρ/dt², from the product that makes its slope: with S = J_M y + F_M P,
 ///   (ln ρ)″/(ln ρ)′ = ü/u̇ + Ṡ/S − Q̇/Q.
 double log_growth_curvature(const ServoDynamics& dynamics, const UnitHalfCycle& half) {
-  const double motor_speed = half.load_speed + half.gap_speed;
-  const double momentum_rate = -dynamics.motor_friction * motor_speed -
-                               dynamics.load_friction * half.load_speed - half.load_position;
+  const ArrivalRates rates = arrival_rates(dynamics, half);
   const double drive =
       dynamics.motor_inertia * half.load_position + dynamics.motor_friction * half.common_speed;
   const double drive_rate =
-      dynamics.motor_inertia * half.load_speed + dynamics.motor_friction * momentum_rate;
-  const double form_rate =
-      2.0 * (half.load_position * half.load_speed + half.common_speed * momentum_rate +
-             dynamics.damping *
-                 (half.load_speed * half.common_speed + half.load_position * momentum_rate));
+      dynamics.motor_inertia * half.load_speed + dynamics.motor_friction * rates.momentum;
   return half.log_growth_slope *
-         (half.gap_acceleration / half.gap_speed + drive_rate / drive - form_rate / half.form);
+         (half.gap_acceleration / half.gap_speed + drive_rate / drive - rates.form / half.form);
 }
 
-/// The root of ln ρ(t) = 0 where growth at rest > 1.
+/// The last step of Newton's method, so short that all changes by its rate times the step.
+UnitHalfCycle stepped(const ServoDynamics& dynamics, const GapFlight& flight,
+                      const UnitHalfCycle& half, double step) {
+  const ArrivalRates rates = arrival_rates(dynamics, half);
+  const double engaged_time_rate =
+      (0.5 * rates.form / half.form - half.log_growth_slope) / dynamics.damping;
+  UnitHalfCycle next = half;
+  next.flight_time += step;
+  next.engaged_time += step * engaged_time_rate;
+  next.load_position += step * half.load_speed;
+  next.load_speed -= step * flight.load_rate * half.load_speed;
+  next.gap_speed += step * half.gap_acceleration;
+  next.common_speed += step * rates.momentum;
+  next.square_change +=
+      step * 2.0 * (half.load_position * half.load_speed + half.common_speed * rates.momentum);
+  next.form += step * rates.form;
+  next.log_growth += step * half.log_growth_slope;
+  next.log_growth_slope += step * log_growth_curvature(dynamics, half);
+  return next;
+}
+
+constexpr double time_tolerance = 1e-9;  // its square is below rounding
+
+/// The root of ln ρ(t) = 0 where growth at rest > 1, to time_tolerance.
 double balanced_flight_time(const ServoDynamics& dynamics, const GapFlight& flight,
                             double growth_at_rest) {
   // Near t = 0, ln ρ = −ζπ/w + κ t³/6 + t⁴/8, κ = c J_L + D J_M being the drag on the gap's motion;
@@ -90,15 +124,15 @@ double balanced_flight_time(const ServoDynamics& dynamics, const GapFlight& flig
   const double deficit =
       std::numbers::pi * dynamics.damping /
       std::sqrt(std::max(least_frequency_squared, 1.0 - dynamics.damping * dynamics.damping));
-  const double early =
-      std::min(std::cbrt(6.0 * deficit / drag), std::sqrt(std::sqrt(8.0 * deficit)));
+  double early = std::sqrt(std::sqrt(8.0 * deficit));
+  if (drag * early * early * early > 6.0 * deficit) early = std::cbrt(6.0 * deficit / drag);
   const double guess = early * std::sqrt(1.0 + deficit / std::log(growth_at_rest));
   const auto log_growth = [&](double time) {
     const UnitHalfCycle half = half_cycle(dynamics, flight, time);
     return ValueAndSlope{half.log_growth, half.log_growth_slope,
                          log_growth_curvature(dynamics, half)};
   };
-  return bracketed_root(log_growth, 0.0, infinity, std::min(guess, 1e3), 1.0);
+  return bracketed_root(log_growth, 0.0, infinity, std::min(guess, 1e3), 1.0, time_tolerance);
 }
 
 /// F_M ∫ v_M² dt over a unit flight. Where the motor's decay is slight, from the definition, which
@@ -140,42 +174,79 @@ double motor_friction_in_flight(const ServoDynamics& dynamics, const GapFlight& 
          (motor_inertia * (speed_product - edge) - position_square) / dynamics.motor_friction;
 }
 
+/// The motor's speed at one time of the flight and its derivatives: v̈ = −c v̇ − a, ȧ = −D a, where
+/// a = v_L/J_M (and for a massless motor, whose v_M = −y/F_M, c = 0 and a = −D v_L/F_M).
+struct MotorSpeed {
+  ValueAndSlope speed;
+  double jerk_rate;
+};
+
+MotorSpeed motor_speed(const ServoDynamics& dynamics, const GapFlight& flight, double load_speed,
+                       double gap_speed, double gap_acceleration) {
+  const double drive = dynamics.massless_motor()
+                           ? -flight.load_rate * load_speed / dynamics.motor_friction
+                           : load_speed / dynamics.motor_inertia;
+  const double acceleration = gap_acceleration - flight.load_rate * load_speed;
+  const double jerk = -flight.motor_rate * acceleration - drive;
+  return {{load_speed + gap_speed, acceleration, jerk},
+          flight.load_rate * drive - flight.motor_rate * jerk};
+}
+
+/// Root of the quintic through value, slope and curvature at 0 and at `end`, values of opposite
+/// sign, to some 1e-4 of `end`: Halley's step from the root of a parabola.
+double quintic_root(const ValueAndSlope& at_start, const ValueAndSlope& at_end, double end) {
+  const double value = at_start.value;
+  const double slope = at_start.slope * end;
+  const double square = 0.5 * at_start.curvature * end * end;
+  const double rise = at_end.value - value;
+  const double parabola_root =
+      2.0 * value / (std::sqrt(slope * slope - 4.0 * (rise - slope) * value) - slope);
+  const double value_left = rise - slope - square;
+  const double slope_left = at_end.slope * end - slope - 2.0 * square;
+  const double curvature_left = 0.5 * at_end.curvature * end * end - square;
+  const double cubic = 10.0 * value_left - 4.0 * slope_left + curvature_left;
+  const double quartic = -15.0 * value_left + 7.0 * slope_left - 2.0 * curvature_left;
+  const double quintic = 6.0 * value_left - 3.0 * slope_left + curvature_left;
+  const double x = parabola_root;
+  const ValueAndSlope at_x = {
+      value + x * (slope + x * (square + x * (cubic + x * (quartic + x * quintic)))),
+      slope + x * (2.0 * square + x * (3.0 * cubic + x * (4.0 * quartic + x * 5.0 * quintic))),
+      2.0 * square + x * (6.0 * cubic + x * (12.0 * quartic + x * 20.0 * quintic))};
+  return (x + newton_step(at_x)) * end;
+}
+
 /// Where the motor turns within the flight, from the gap's middle line; e^{ct} v_M has the slope
 /// −y e^{ct}/J_M and y changes sign at most once, from below, so v_M, positive at the start, has at
 /// most one zero. The start's position when it does not turn.
 double motor_turning_position(const ServoDynamics& dynamics, const GapFlight& flight,
                               const UnitHalfCycle& half) {
-  constexpr double time_tolerance = 1e-8;  // the position is stationary there
-  const double start_speed = flight.load_speed;
-  const double end_speed = half.load_speed + half.gap_speed;
-  if (!(end_speed < 0.0) || !(start_speed > 0.0)) return flight.load_position;
-  double last_time = 0.0;
-  double last_load_position = 0.0;
-  ValueAndSlope last{};
-  const auto motor_speed = [&](double t) {
-    const FlightMotion motion = motion_in_flight(flight, t);
-    const double acceleration = motion.gap_acceleration - flight.load_rate * motion.load_speed;
-    const double jerk = dynamics.massless_motor() ? 0.0
-                                                  : -dynamics.motor_rate * acceleration -
-                                                        motion.load_speed / dynamics.motor_inertia;
-    last_time = t;
-    last_load_position = motion.load_position;
-    last = {motion.load_speed + motion.gap_speed, acceleration, jerk};
-    return last;
+  const MotorSpeed at_start =
+      motor_speed(dynamics, flight, flight.load_speed, 0.0, flight.gap_acceleration);
+  const MotorSpeed at_end =
+      motor_speed(dynamics, flight, half.load_speed, half.gap_speed, half.gap_acceleration);
+  if (!(at_end.speed.value < 0.0) || !(at_start.speed.value > 0.0)) return flight.load_position;
+  const auto at = [&](const FlightMotion& motion) {
+    return motor_speed(dynamics, flight, motion.load_speed, motion.gap_speed,
+                       motion.gap_acceleration);
   };
-  // The parabola through the speeds at both ends with the acceleration at parting.
   const double time = half.flight_time;
-  const double acceleration = flight.gap_acceleration - flight.load_rate * start_speed;
-  const double bend = (end_speed - start_speed - acceleration * time) / (time * time);
-  const double guess =
-      2.0 * start_speed /
-      (std::sqrt(acceleration * acceleration - 4.0 * bend * start_speed) - acceleration);
-  const double step =
-      bracketed_root(motor_speed, 0.0, time, guess, -1.0, time_tolerance) - last_time;
-  // The last step, some 1e-4, by Taylor's series from where the motion is known.
-  const double last_position = last_load_position + gap_displacement_at(flight, last_time);
-  return last_position +
-         step * (last.value + step * (0.5 * last.slope + step * last.curvature / 6.0));
+  // From so near Taylor's series leads to the turn: the position is stationary there, and its next
+  // term is below rounding.
+  const double tolerance = 0.01 / (1.0 + flight.motor_rate * time);
+  double near = quintic_root(at_start.speed, at_end.speed, time);
+  if (!(near > 0.0 && near < time)) near = 0.5 * time;
+  FlightPoint point = point_in_flight(flight, near);
+  if (!(std::abs(newton_step(at(point.motion).speed)) <= tolerance * time)) {
+    near = bracketed_root([&](double t) { return at(motion_in_flight(flight, t)).speed; }, 0.0,
+                          time, near, -1.0, tolerance);
+    point = point_in_flight(flight, near);
+  }
+  const MotorSpeed here = at(point.motion);
+  const double step = newton_step(here.speed);
+  return point.motion.load_position + point.gap_displacement +
+         step * (here.speed.value +
+                 step * (here.speed.slope / 2.0 +
+                         step * (here.speed.curvature / 6.0 + step * here.jerk_rate / 24.0)));
 }
 
 /// Sizes of both shafts for a unit amplitude; half_gap is b/2 in the same unit. The load turns at
@@ -239,12 +310,15 @@ UnitHalfCycle unit_half_cycle(const ServoDynamics& dynamics, double flight_time)
 }
 
 PlasticCycle plastic_cycle(const ServoDynamics& dynamics, double growth_at_rest) {
-  constexpr double acceptable = 1e-9;
+  constexpr double acceptable = 100.0 * time_tolerance;
   const GapFlight flight = unit_flight(dynamics);
-  const double flight_time = balanced_flight_time(dynamics, flight, growth_at_rest);
-  const UnitHalfCycle half = half_cycle(dynamics, flight, flight_time);
+  const UnitHalfCycle nearly =
+      half_cycle(dynamics, flight, balanced_flight_time(dynamics, flight, growth_at_rest));
   PlasticCycle result;
-  if (!(std::abs(half.log_growth) <= acceptable)) return result;
+  if (!(std::abs(nearly.log_growth) <= acceptable)) return result;
+  const UnitHalfCycle half =
+      stepped(dynamics, flight, nearly, -nearly.log_growth / nearly.log_growth_slope);
+  const double flight_time = half.flight_time;
   const double gap = -gap_displacement_at(flight, flight_time);
   const double amplitude = dynamics.backlash / gap;
   const double square = amplitude * amplitude;

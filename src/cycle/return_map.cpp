@@ -68,22 +68,21 @@ Disturbance carried_through_flight(const ServoDynamics& dynamics, double time,
                                    const Disturbance& start) {
   const Decay load = decay(dynamics.load_rate * time);
   const Decay motor = decay(dynamics.motor_rate * time);
+  const Convolution coupled = convolution(load, motor);
   const Eigen::RowVector3d motor_acceleration =
       -dynamics.motor_rate * (start.row(1) + start.row(3)) - start.row(0) / dynamics.motor_inertia;
   const Eigen::RowVector3d load_deceleration = dynamics.load_rate * start.row(1);
   const Eigen::RowVector3d coupling = -start.row(1) / dynamics.motor_inertia;
   Disturbance end;
-  end.row(0) = start.row(0) + start.row(1) * (time * load.integral());
+  end.row(0) = start.row(0) + start.row(1) * (time * load.integral);
   end.row(1) = start.row(1) * load.factor;
   end.row(2) =
-      start.row(2) +
-      time * (start.row(3) + time * (motor_acceleration * decay_double_integral(motor.exponent) +
-                                     load_deceleration * decay_double_integral(load.exponent) +
-                                     coupling * (time * convolution_double_integral(
-                                                            load.exponent, motor.exponent))));
+      start.row(2) + time * (start.row(3) + time * (motor_acceleration * motor.double_integral +
+                                                    load_deceleration * load.double_integral +
+                                                    coupling * (time * coupled.double_integral)));
   end.row(3) = start.row(3) +
-               time * (motor_acceleration * motor.integral() + load_deceleration * load.integral() +
-                       coupling * (time * convolution_integral(load, motor)));
+               time * (motor_acceleration * motor.integral + load_deceleration * load.integral +
+                       coupling * (time * coupled.integral));
   return end;
 }
 

@@ -34,7 +34,7 @@ Responses overdamped(double damping, double time) {
   const double fast = damping + half_split;
   const double slow = 1.0 / fast;
   const double slow_decay = std::exp(-slow * time);
-  const double impulse = slow_decay * time * decay_integral(2.0 * half_split * time);
+  const double impulse = slow_decay * time * decay(2.0 * half_split * time).integral;
   return {slow_decay + slow * impulse, std::exp(-fast * time) - slow * impulse, impulse};
 }
 

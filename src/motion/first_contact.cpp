@@ -45,11 +45,49 @@ double final_direction(const GapFlight& flight) {
   return sign_of(limit);
 }
 
+/// Sign of ü from just after t = 0 to its zero.
+double initial_bend(const GapFlight& flight) {
+  return sign_of(flight.gap_acceleration != 0.0 ? flight.gap_acceleration : flight.gap_drive);
+}
+
 /// Sign of u̇ just after t = 0.
 double initial_direction(const GapFlight& flight) {
-  if (flight.gap_speed != 0.0) return sign_of(flight.gap_speed);
-  if (flight.gap_acceleration != 0.0) return sign_of(flight.gap_acceleration);
-  return sign_of(flight.gap_drive);
+  return flight.gap_speed != 0.0 ? sign_of(flight.gap_speed) : initial_bend(flight);
+}
+
+/// Zeros of u̇ on t > 0, at most two, in order.
+struct TurningPoints {
+  std::array<double, 2> times{};
+  std::size_t count = 0;
+};
+
+TurningPoints turning_points(const GapFlight& flight) {
+  TurningPoints turning;
+  const auto speed = [&](double t) {
+    const FlightMotion motion = motion_in_flight(flight, t);
+    return ValueAndSlope{motion.gap_speed, motion.gap_acceleration};
+  };
+  const std::array<double, 2> ends = {inflection_time(flight), infinity};
+  const std::array<double, 2> bends = {initial_bend(flight), sign_of(flight.gap_drive)};
+  double start = 0.0;
+  double direction = initial_direction(flight);
+  for (std::size_t piece = 0; piece < ends.size() && start < infinity; ++piece) {
+    const double end = ends[piece];
+    // Where u̇ and ü have the same sign u̇ cannot turn.
+    if (direction * bends[piece] < 0.0) {
+      const double end_direction =
+          std::isinf(end) ? final_direction(flight) : sign_of(speed(end).value);
+      if (end_direction * direction < 0.0) {
+        // The guess is exact for a constant acceleration.
+        const double guess =
+            start == 0.0 ? -flight.gap_speed / flight.gap_acceleration : 2.0 * start;
+        turning.times[turning.count++] = bracketed_root(speed, start, end, guess, end_direction);
+      }
+      if (end_direction != 0.0) direction = end_direction;
+    }
+    start = end;
+  }
+  return turning;
 }
 
 /// A finite time beyond `from` at which `reached` holds; doubled until it does (1e90 keeps t³ a
@@ -61,66 +99,31 @@ double finite_bound(double from, const Predicate& reached) {
   return bound;
 }
 
-/// Exact for a constant acceleration; outside the bracket where that says nothing.
-double turning_guess(const GapFlight& flight, double start) {
-  return start == 0.0 ? -flight.gap_speed / flight.gap_acceleration : 0.0;
-}
-
-/// Zeros of u̇ within (0, horizon), at most two, in order.
-struct TurningPoints {
-  std::array<double, 2> times{};
-  std::size_t count = 0;
-};
-
-TurningPoints turning_points(const GapFlight& flight, double horizon) {
-  TurningPoints turning;
-  const double inflection = inflection_time(flight);
-  const std::array<double, 2> ends = {std::min(inflection, horizon), horizon};
-  double start = 0.0;
-  double direction = initial_direction(flight);
-  for (const double end : ends) {
-    if (!(end > start) || direction == 0.0) continue;
-    double bound = end;
-    const double end_direction = std::isinf(end) ? final_direction(flight)
-                                                 : sign_of(motion_in_flight(flight, end).gap_speed);
-    if (end_direction * direction < 0.0) {
-      if (std::isinf(end)) {
-        bound = finite_bound(start, [&](double t) {
-          return sign_of(motion_in_flight(flight, t).gap_speed) == end_direction;
-        });
-      }
-      const auto speed = [&](double t) {
-        const FlightMotion motion = motion_in_flight(flight, t);
-        return ValueAndSlope{motion.gap_speed, motion.gap_acceleration};
-      };
-      turning.times[turning.count++] =
-          bracketed_root(speed, start, bound, turning_guess(flight, start), end_direction);
-    }
-    if (end_direction != 0.0) direction = end_direction;
-    start = end;
+/// Exact where the first of the gap's derivatives that is not zero stays as it is, and for a bounce
+/// under a constant acceleration.
+double crossing_guess(const GapFlight& flight, double start, double target) {
+  if (start > 0.0) return 2.0 * start;
+  if (flight.gap_speed != 0.0) return std::abs(target / flight.gap_speed);
+  if (flight.gap_acceleration != 0.0) {
+    return std::sqrt(std::abs(2.0 * target / flight.gap_acceleration));
   }
-  return turning;
+  return std::cbrt(std::abs(6.0 * target / flight.gap_drive));
 }
 
 /// Where a monotone piece of u − u₀ reaches `target`, or infinity.
 double crossing(const GapFlight& flight, double start, double end, double target,
                 double direction) {
-  const auto distance = [&](double t) { return gap_displacement_at(flight, t) - target; };
-  double bound = end;
-  if (std::isinf(end)) {
-    bound = finite_bound(start, [&](double t) { return distance(t) * direction >= 0.0; });
-  }
-  if (distance(bound) * direction < 0.0) return infinity;
-  const auto value_and_slope = [&](double t) {
-    const FlightMotion motion = motion_in_flight(flight, t);
-    return ValueAndSlope{distance(t), motion.gap_speed, motion.gap_acceleration};
+  const auto distance = [&](double t) {
+    const FlightPoint point = point_in_flight(flight, t);
+    return ValueAndSlope{point.gap_displacement - target, point.motion.gap_speed,
+                         point.motion.gap_acceleration};
   };
-  // Exact for a bounce under a constant acceleration, and for a clean parting without friction.
-  double guess = 2.0 * start;
-  if (start == 0.0 && flight.gap_speed == 0.0 && flight.gap_acceleration == 0.0) {
-    guess = std::cbrt(std::abs(6.0 * target / flight.gap_drive));
-  }
-  return bracketed_root(value_and_slope, start, bound, guess, direction);
+  const auto reached = [&](double t) { return distance(t).value * direction >= 0.0; };
+  double bound = end;
+  // At a speed that does not die out the gap closes for certain; else it must be seen to.
+  if (std::isinf(end) && final_direction(flight) == 0.0) bound = finite_bound(start, reached);
+  if (!std::isinf(bound) && !reached(bound)) return infinity;
+  return bracketed_root(distance, start, bound, crossing_guess(flight, start, target), direction);
 }
 
 }  // namespace
@@ -128,15 +131,16 @@ double crossing(const GapFlight& flight, double start, double end, double target
 FirstContact first_contact(const GapFlight& flight, double backlash, double horizon) {
   const double to_forward = 0.5 * backlash - flight.gap;
   const double to_backward = -0.5 * backlash - flight.gap;
-  const TurningPoints turning = turning_points(flight, horizon);
+  const TurningPoints turning = turning_points(flight);
   double start = 0.0;
   double direction = initial_direction(flight);
-  for (std::size_t piece = 0; piece <= turning.count; ++piece) {
-    const double end = piece < turning.count ? turning.times[piece] : horizon;
+  for (std::size_t piece = 0; piece <= turning.count && start < horizon; ++piece) {
+    const double end = piece < turning.count ? turning.times[piece] : infinity;
     const double target = direction > 0.0 ? to_forward : to_backward;
     if (direction != 0.0) {
       const double time = crossing(flight, start, end, target, direction);
       if (time <= horizon && time < infinity) return {time, direction};
+      if (time > horizon && time < infinity) break;
     }
     start = end;
     direction = -direction;

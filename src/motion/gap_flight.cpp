@@ -74,43 +74,53 @@ GapFlight of_clean_parting(const ServoDynamics& dynamics, const GapState& state)
           .gap_drive = drive};
 }
 
+/// The decays that every quantity of a flight is made of, at one time.
+struct Decays {
+  Decay load;
+  Decay motor;
+  Convolution coupled;
+
+  Decays(const GapFlight& flight, double time)
+      : load(decay(flight.load_rate * time)),
+        motor(decay(flight.motor_rate * time)),
+        coupled(convolution(load, motor)) {}
+};
+
+FlightMotion motion_after(const GapFlight& flight, double time, const Decays& decays) {
+  const double load_moved = flight.load_speed * time * decays.load.integral;
+  const double coupling = flight.coupling * time;
+  return {
+      .load_moved = load_moved,
+      .load_position = flight.load_position + load_moved,
+      .load_speed = flight.load_speed * decays.load.factor,
+      .gap_speed = flight.gap_speed + time * (flight.motor_acceleration * decays.motor.integral +
+                                              flight.load_deceleration * decays.load.integral +
+                                              coupling * decays.coupled.integral),
+      .gap_acceleration = flight.motor_acceleration * decays.motor.factor +
+                          flight.load_deceleration * decays.load.factor +
+                          coupling * decays.coupled.value};
+}
+
+double displacement_after(const GapFlight& flight, double time, const Decays& decays) {
+  return time *
+         (flight.gap_speed + time * (flight.motor_acceleration * decays.motor.double_integral +
+                                     flight.load_deceleration * decays.load.double_integral +
+                                     flight.coupling * time * decays.coupled.double_integral));
+}
+
 }  // namespace
 
 FlightMotion motion_in_flight(const GapFlight& flight, double time) {
-  const Decay load = decay(flight.load_rate * time);
-  const Decay motor = decay(flight.motor_rate * time);
-  const double load_moved = flight.load_speed * time * load.integral();
-  FlightMotion motion{
-      .load_moved = load_moved,
-      .load_position = flight.load_position + load_moved,
-      .load_speed = flight.load_speed * load.factor,
-      .gap_speed = flight.gap_speed + time * (flight.motor_acceleration * motor.integral() +
-                                              flight.load_deceleration * load.integral()),
-      .gap_acceleration =
-          flight.motor_acceleration * motor.factor + flight.load_deceleration * load.factor};
-  if (flight.coupling != 0.0) {
-    const double coupled = flight.coupling * time;
-    motion.gap_speed += coupled * time * convolution_integral(load, motor);
-    motion.gap_acceleration += coupled * decay_convolution(load, motor);
-  }
-  return motion;
+  return motion_after(flight, time, Decays(flight, time));
+}
+
+FlightPoint point_in_flight(const GapFlight& flight, double time) {
+  const Decays decays(flight, time);
+  return {motion_after(flight, time, decays), displacement_after(flight, time, decays)};
 }
 
 double gap_displacement_at(const GapFlight& flight, double time) {
-  const double load_decay = flight.load_rate * time;
-  const double motor_decay = flight.motor_rate * time;
-  double displacement = flight.gap_speed * time;
-  if (flight.motor_acceleration != 0.0) {
-    displacement += flight.motor_acceleration * time * time * decay_double_integral(motor_decay);
-  }
-  if (flight.load_deceleration != 0.0) {
-    displacement += flight.load_deceleration * time * time * decay_double_integral(load_decay);
-  }
-  if (flight.coupling != 0.0) {
-    displacement +=
-        flight.coupling * time * time * time * convolution_double_integral(load_decay, motor_decay);
-  }
-  return displacement;
+  return displacement_after(flight, time, Decays(flight, time));
 }
 
 GapFlight flight_from(const ServoDynamics& dynamics, const GapState& state) {
@@ -122,9 +132,8 @@ GapFlight flight_from(const ServoDynamics& dynamics, const GapState& state) {
     const double driven_speed = -state.load_position / dynamics.motor_friction;
     return of_massless_motor(dynamics, state, driven_speed - state.load_speed);
   }
-  return of_two_masses(
-      dynamics, state,
-      motor_acceleration(dynamics, state) + dynamics.load_rate * state.load_speed);
+  return of_two_masses(dynamics, state,
+                       motor_acceleration(dynamics, state) + dynamics.load_rate * state.load_speed);
 }
 
 GapFlight flight_from_separation(const ServoDynamics& dynamics, double load_position,

@@ -36,9 +36,9 @@ Phase separated_phase(const GapFlight& flight, FaceSign face) {
 }
 
 GapState state_in_flight(const GapFlight& flight, double time) {
-  const FlightMotion motion = motion_in_flight(flight, time);
-  return {motion.load_position, motion.load_speed, flight.gap + gap_displacement_at(flight, time),
-          motion.gap_speed};
+  const FlightPoint point = point_in_flight(flight, time);
+  return {point.motion.load_position, point.motion.load_speed, flight.gap + point.gap_displacement,
+          point.motion.gap_speed};
 }
 
 PhaseEnd no_event() {
@@ -51,7 +51,6 @@ PhaseEnd no_event() {
 /// Applies the impact law to faces that meet at relative speed `state.gap_speed`, and decides what
 /// follows.
 PhaseEnd meet(const ServoDynamics& dynamics, FaceSign face, double duration, GapState state) {
-  state.gap = gap_on(dynamics, face);
   // Rounding may leave a grazing approach on the wrong side of zero.
   if (state.gap_speed * face < 0.0) state.gap_speed = 0.0;
   const ImpactOutcome outcome = impact(dynamics, state.load_speed, state.gap_speed);
@@ -206,7 +205,10 @@ PhaseEnd end_of_phase(const ServoDynamics& dynamics, const Phase& phase, double 
   }
   const FirstContact contact = first_contact(phase.flight, dynamics.backlash, horizon);
   if (contact.toward == 0.0) return no_event();
-  return meet(dynamics, contact.toward, contact.time, state_in_flight(phase.flight, contact.time));
+  const FlightMotion motion = motion_in_flight(phase.flight, contact.time);
+  return meet(dynamics, contact.toward, contact.time,
+              {motion.load_position, motion.load_speed, gap_on(dynamics, contact.toward),
+               motion.gap_speed});
 }
 
 GapState state_in_phase(const ServoDynamics& dynamics, const Phase& phase, double time) {

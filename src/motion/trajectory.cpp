@@ -166,6 +166,9 @@ Trajectory simulate(const NormalizedServo& servo, const ServoState& initial,
   if (start.impact_at_start) {
     trajectory.events_.push_back(to_event(start.impact, 0.0, options.reference));
   }
+  constexpr std::size_t usual_size = 16;
+  trajectory.segments_.reserve(usual_size);
+  trajectory.events_.reserve(usual_size);
   Phase phase = start.phase;
   double time = 0.0;
   while (true) {

@@ -1,12 +1,15 @@
-// The five φ-functions against Opitz's matrix: the divided differences of exp at x₀ … x_n are the
-// first row of the exponential of the matrix with x₀ … x_n on its diagonal and ones above it. That
-// holds for coincident points too, and shares nothing with the formulas under test.
+// All divided differences of the header against Opitz's matrix: the divided differences of exp at
+// x₀ … x_n are the first row of the exponential of the matrix with x₀ … x_n on its diagonal and
+// ones above it. That holds for coincident points too, and shares nothing with the formulas under
+// test.
 #include "gearlash/motion/decay_integral.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "../servo/seeded_draws.hpp"
@@ -35,58 +38,34 @@ double error(double actual, const Wide& exact) {
   return epsilons_off(actual, exact);
 }
 
-struct Errors {
-  double decay_integral = 0.0;
-  double decay_double_integral = 0.0;
-  double decay_convolution = 0.0;
-  double convolution_integral = 0.0;
-  double convolution_double_integral = 0.0;
+Convolution convolution_of(double x, double y) { return convolution(decay(x), decay(y)); }
 
-  double largest() const {
-    return std::max({decay_integral, decay_double_integral, decay_convolution, convolution_integral,
-                     convolution_double_integral});
-  }
-};
-
-Errors errors_at(double x, double y) {
-  return {error(decay_integral(x), divided_difference<2>({0.0, -x})),
-          error(decay_double_integral(x), divided_difference<3>({0.0, 0.0, -x})),
-          error(decay_convolution(x, y), divided_difference<2>({-x, -y})),
-          error(convolution_integral(x, y), divided_difference<3>({0.0, -x, -y})),
-          error(convolution_double_integral(x, y), divided_difference<4>({0.0, 0.0, -x, -y}))};
-}
-
+/// Keeps the largest error of each divided difference for the test's report.
 class LargestErrors {
  public:
   void check(double x, double y) {
-    const Errors errors = errors_at(x, y);
-    keep(decay_integral_, errors.decay_integral);
-    keep(decay_double_integral_, errors.decay_double_integral);
-    keep(decay_convolution_, errors.decay_convolution);
-    keep(convolution_integral_, errors.convolution_integral);
-    keep(convolution_double_integral_, errors.convolution_double_integral);
-    EXPECT_LE(errors.decay_integral, promised_epsilons) << "x " << x;
-    EXPECT_LE(errors.decay_double_integral, promised_epsilons) << "x " << x;
-    EXPECT_LE(errors.decay_convolution, promised_epsilons) << "x " << x << " y " << y;
-    EXPECT_LE(errors.convolution_integral, promised_epsilons) << "x " << x << " y " << y;
-    EXPECT_LE(errors.convolution_double_integral, promised_epsilons) << "x " << x << " y " << y;
+    const Decay single = decay(x);
+    const Convolution two = convolution_of(x, y);
+    check("exp[-x]", single.factor, divided_difference<1>({-x}), x, y);
+    check("exp[0,-x]", single.integral, divided_difference<2>({0.0, -x}), x, y);
+    check("exp[0,0,-x]", single.double_integral, divided_difference<3>({0.0, 0.0, -x}), x, y);
+    check("exp[-x,-y]", two.value, divided_difference<2>({-x, -y}), x, y);
+    check("exp[0,-x,-y]", two.integral, divided_difference<3>({0.0, -x, -y}), x, y);
+    check("exp[0,0,-x,-y]", two.double_integral, divided_difference<4>({0.0, 0.0, -x, -y}), x, y);
   }
   ~LargestErrors() {
-    testing::Test::RecordProperty("decay_integral", std::to_string(decay_integral_));
-    testing::Test::RecordProperty("decay_double_integral", std::to_string(decay_double_integral_));
-    testing::Test::RecordProperty("decay_convolution", std::to_string(decay_convolution_));
-    testing::Test::RecordProperty("convolution_integral", std::to_string(convolution_integral_));
-    testing::Test::RecordProperty("convolution_double_integral",
-                                  std::to_string(convolution_double_integral_));
+    for (const auto& [name, value] : largest_) {
+      testing::Test::RecordProperty(name, std::to_string(value));
+    }
   }
 
  private:
-  static void keep(double& largest, double value) { largest = std::max(largest, value); }
-  double decay_integral_ = 0.0;
-  double decay_double_integral_ = 0.0;
-  double decay_convolution_ = 0.0;
-  double convolution_integral_ = 0.0;
-  double convolution_double_integral_ = 0.0;
+  void check(const std::string& name, double actual, const Wide& exact, double x, double y) {
+    const double epsilons = error(actual, exact);
+    largest_[name] = std::max(largest_[name], epsilons);
+    EXPECT_LE(epsilons, promised_epsilons) << name << " x " << x << " y " << y;
+  }
+  std::map<std::string, double> largest_;
 };
 
 TEST(OracleDecayIntegral, RandomArgumentsOverTheQuadrant) {
@@ -124,23 +103,25 @@ TEST(OracleDecayIntegral, NearlyEqualArguments) {
 
 TEST(EdgeDecayIntegral, EqualVanishingAndLimitingArguments) {
   LargestErrors largest;
-  const double below = std::nextafter(1.5, 0.0);
-  const double above = std::nextafter(1.5, 2.0);
-  std::vector<double> values = {
-      0.0,   5e-324, 1e-300, 1e-20, 1e-12, 1e-8, 1e-4, 0.1,   std::nextafter(0.5, 0.0),
-      0.5,   1.0,    below,  1.5,   above, 3.0,  36.0, 700.0, 708.0,
-      745.0, 800.0,  1e4,    1e9};
+  const double below = std::nextafter(1.0, 0.0);
+  const double above = std::nextafter(1.0, 2.0);
+  std::vector<double> values = {0.0,  5e-324, 1e-300, 1e-20, 1e-12, 1e-8, 1e-4,
+                                0.1,  0.5,    below,  1.0,   above, 1.5,  3.0,
+                                36.0, 700.0,  708.0,  745.0, 800.0, 1e4,  1e9};
   for (const double x : values) {
     for (const double y : values) largest.check(x, y);
   }
 }
 
 TEST(EdgeDecayIntegral, ValuesAtZero) {
-  EXPECT_EQ(decay_integral(0.0), 1.0);
-  EXPECT_EQ(decay_double_integral(0.0), 0.5);
-  EXPECT_EQ(decay_convolution(0.0, 0.0), 1.0);
-  EXPECT_EQ(convolution_integral(0.0, 0.0), 0.5);
-  EXPECT_EQ(convolution_double_integral(0.0, 0.0), 1.0 / 6.0);
+  const Decay none = decay(0.0);
+  EXPECT_EQ(none.factor, 1.0);
+  EXPECT_EQ(none.integral, 1.0);
+  EXPECT_EQ(none.double_integral, 0.5);
+  const Convolution two = convolution(none, none);
+  EXPECT_EQ(two.value, 1.0);
+  EXPECT_EQ(two.integral, 0.5);
+  EXPECT_EQ(two.double_integral, 1.0 / 6.0);
 }
 
 TEST(PropertyDecayIntegral, SymmetricInTheTwoRates) {
@@ -148,9 +129,11 @@ TEST(PropertyDecayIntegral, SymmetricInTheTwoRates) {
   for (int i = 0; i < 10000; ++i) {
     const double x = draws.log_uniform(1e-12, 1e9);
     const double y = draws.log_uniform(1e-12, 1e9);
-    ASSERT_EQ(decay_convolution(x, y), decay_convolution(y, x));
-    ASSERT_EQ(convolution_integral(x, y), convolution_integral(y, x));
-    ASSERT_EQ(convolution_double_integral(x, y), convolution_double_integral(y, x));
+    const Convolution one = convolution_of(x, y);
+    const Convolution other = convolution_of(y, x);
+    ASSERT_EQ(one.value, other.value);
+    ASSERT_EQ(one.integral, other.integral);
+    ASSERT_EQ(one.double_integral, other.double_integral);
   }
 }
 
@@ -160,11 +143,13 @@ TEST(PropertyDecayIntegral, PositiveAndDecreasing) {
   for (int i = 0; i < 10000; ++i) {
     const double x = draws.log_uniform(0.1, 100.0);
     const double y = draws.log_uniform(0.1, 100.0);
-    ASSERT_GT(decay_integral(x), decay_integral(1.001 * x));
-    ASSERT_GT(decay_double_integral(x), decay_double_integral(1.001 * x));
-    ASSERT_GT(convolution_integral(x, y), convolution_integral(1.001 * x, 1.001 * y));
-    ASSERT_GT(convolution_double_integral(x, y), convolution_double_integral(1.001 * x, 1.001 * y));
-    ASSERT_GT(convolution_double_integral(x, y), 0.0);
+    const Convolution here = convolution_of(x, y);
+    const Convolution later = convolution_of(1.001 * x, 1.001 * y);
+    ASSERT_GT(decay(x).integral, decay(1.001 * x).integral);
+    ASSERT_GT(decay(x).double_integral, decay(1.001 * x).double_integral);
+    ASSERT_GT(here.integral, later.integral);
+    ASSERT_GT(here.double_integral, later.double_integral);
+    ASSERT_GT(here.double_integral, 0.0);
   }
 }
 

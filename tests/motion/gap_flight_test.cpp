@@ -62,12 +62,14 @@ Scale scale_of(const ServoDynamics& dynamics, const GapState& start, bool clean,
                                           std::abs(start.load_position) / dynamics.motor_inertia +
                                           d * v;
   const double drive = v * (d * d + 2.0 * dynamics.damping * d + 1.0) / dynamics.motor_inertia;
-  return {std::abs(start.load_position) + v * t * decay_integral(d * t),
+  const Decay load = decay(d * t);
+  const Decay motor = decay(c * t);
+  const Convolution coupled = convolution(load, motor);
+  return {std::abs(start.load_position) + v * t * load.integral,
           v * std::exp(-d * t) * (1.0 + d * t),
-          w * t + acceleration * t * t * decay_double_integral(c * t) +
-              drive * t * t * t * convolution_double_integral(d * t, c * t),
-          w + acceleration * t * decay_integral(c * t) +
-              drive * t * t * convolution_integral(d * t, c * t)};
+          w * t + acceleration * t * t * motor.double_integral +
+              drive * t * t * t * coupled.double_integral,
+          w + acceleration * t * motor.integral + drive * t * t * coupled.integral};
 }
 
 ServoDynamics dynamics_of(double damping, double inertia_ratio, double friction_ratio) {
@@ -217,7 +219,7 @@ TEST(EdgeGapFlight, LightLoadKeepsItsDigits) {
       const WideFlight exact =
           wide_flight(dynamics, start.load_position, start.load_speed, start.gap_speed, time);
       // Each shaft's own motion: |v_M| t, |y| t²/2J_M of the motor, |v_L| t φ(Dt) of the load.
-      const double load_way = 0.8 * time * decay_integral(dynamics.load_rate * time);
+      const double load_way = 0.8 * time * decay(dynamics.load_rate * time).integral;
       const double way = 0.9 * time + (0.4 + load_way) * time * time + load_way;
       const double speed = 0.9 + (0.4 + load_way) * time + 0.8;
       EXPECT_LE(epsilons_of(gap_displacement_at(flight, time), exact.gap_displacement, way),

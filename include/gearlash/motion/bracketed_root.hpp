@@ -12,6 +12,12 @@ struct ValueAndSlope {
   double curvature = 0.0;  ///< second derivative where known: Halley's step instead of Newton's
 };
 
+/// Towards the zero: Newton's step, or Halley's where the curvature is known.
+inline double newton_step(const ValueAndSlope& at) {
+  const double newton = -at.value / at.slope;
+  return newton / (1.0 + 0.5 * newton * at.curvature / at.slope);
+}
+
 namespace detail {
 
 /// A point strictly inside the bracket that halves it, or halves its exponents where it spans more
@@ -27,19 +33,21 @@ inline double middle_of(double low, double high) {
 
 /// Root of a continuous function in [low, high], by default to the last bits of a double.
 ///
-/// `high` may be infinite when f takes the sign `sign_at_high` somewhere above: bisection then
-/// doubles. Precondition: f(high) has the sign `sign_at_high` (+1 or −1) or is zero, f(low) the
-/// opposite sign or zero, 0 ≤ low. The bracket shrinks at every evaluation; a step that would leave
-/// it, or that does not halve the one before, is replaced by bisection, so the loop ends whatever f
-/// does. It ends when
-///   |step| ≤ tolerance · |x|, or when the step that would follow, |step|³/|last step|² at least
-///   for a method of second order, is below an eighth of that; or at an exact zero; or when the
-///   bracket is down to neighbouring numbers.
+/// `high` may be infinite when f takes the sign `sign_at_high` somewhere above: until it is seen,
+/// steps go by Newton's method while they are not too wild, and by doubling. Precondition: f(high)
+/// has the sign `sign_at_high` (+1 or −1) or is zero, f(low) the opposite sign or zero, 0 ≤ low.
+/// The bracket shrinks at every evaluation; a step that would leave it, or that does not halve the
+/// one before, is replaced by bisection, so the loop ends whatever f does. It ends when
+///   |step| ≤ tolerance · |x|, or when the step that would follow is below an eighth of that (it is
+///   |step|³/|last step|² for a method of second order, |step|⁴/|last step|³ for one of third,
+///   where both are within the root's own size); or at an exact zero; or when the bracket is down
+///   to neighbouring numbers.
 template <class Function>
 double bracketed_root(const Function& f, double low, double high, double guess, double sign_at_high,
                       double tolerance = std::numeric_limits<double>::epsilon()) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   constexpr int step_limit = 256;
+  constexpr double wild = 1e3;
   double x = guess > low && guess < high ? guess : detail::middle_of(low, high);
   double last_step = high - low;  // infinite at first where high is
   bool last_was_newton = false;
@@ -47,19 +55,21 @@ double bracketed_root(const Function& f, double low, double high, double guess, 
     const ValueAndSlope at_x = f(x);
     if (at_x.value == 0.0) return x;
     (at_x.value * sign_at_high > 0.0 ? high : low) = x;
-    if (!std::isinf(high) && high - low <= epsilon * std::abs(high)) return x;
-    const double newton = -at_x.value / at_x.slope;
-    double step = newton / (1.0 + 0.5 * newton * at_x.curvature / at_x.slope);
+    const bool bracketed = !std::isinf(high);
+    if (bracketed && high - low <= epsilon * std::abs(high)) return x;
+    double step = newton_step(at_x);
     // Below the resolution of x a step has converged, even across the bracket's end.
     if (std::abs(step) <= tolerance * std::abs(x)) return std::fmin(std::fmax(x + step, low), high);
     const bool is_newton =
-        x + step > low && x + step < high && std::abs(step) <= 0.5 * std::abs(last_step);
+        bracketed ? x + step > low && x + step < high && std::abs(step) <= 0.5 * std::abs(last_step)
+                  : step > 0.0 && step < wild * (1.0 + x);
     const double next = is_newton ? x + step : detail::middle_of(low, high);
     step = next - x;
     x = next;
-    const double ratio = step / last_step;
-    if (is_newton && last_was_newton &&
-        std::abs(step) * ratio * ratio <= 0.125 * tolerance * std::abs(x)) {
+    const double ratio = std::abs(step / last_step);
+    const double gain = at_x.curvature == 0.0 ? ratio * ratio : ratio * ratio * ratio;
+    if (is_newton && last_was_newton && std::abs(last_step) <= std::abs(x) &&
+        std::abs(step) * gain <= 0.125 * tolerance * std::abs(x)) {
       return x;
     }
     last_step = step;

@@ -28,7 +28,7 @@ struct GapFlight {
                            ///< ü e^{ct} = ü₀ + G t φ₁((c − D)t)
 };
 
-/// Everything of a flight at one time that needs no second integral.
+/// A flight at one time, but for the gap's displacement, which costs a second integral.
 struct FlightMotion {
   double load_moved;        ///< y − y₀
   double load_position;     ///< y
@@ -37,8 +37,15 @@ struct FlightMotion {
   double gap_acceleration;  ///< ü
 };
 
+/// A flight at one time, whole.
+struct FlightPoint {
+  FlightMotion motion;
+  double gap_displacement;  ///< u − u₀
+};
+
 FlightMotion motion_in_flight(const GapFlight& flight, double time);
-double gap_displacement_at(const GapFlight& flight, double time);  ///< u(t) − u₀
+FlightPoint point_in_flight(const GapFlight& flight, double time);
+double gap_displacement_at(const GapFlight& flight, double time);
 
 /// The shafts just after parting (or as given): positions and speeds about the reference.
 struct GapState {
