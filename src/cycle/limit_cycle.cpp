@@ -17,14 +17,14 @@ void analyse_plastic(const ServoDynamics& dynamics, LimitCycleAnalysis& analysis
     analysis.verdict = Verdict::cannot_hunt;
     return;
   }
-  const PlasticCycle plastic = plastic_cycle(dynamics, analysis.growth_at_rest);
-  if (!plastic.found) {
+  const auto half = balanced_half_cycle(dynamics, analysis.growth_at_rest);
+  if (!half) {
     analysis.verdict = Verdict::undecided;
     analysis.proved = false;
     return;
   }
   analysis.verdict = Verdict::hunts;
-  analysis.cycles.push_back(plastic.cycle);
+  analysis.cycles.push_back(plastic_cycle(dynamics, *half));
 }
 
 Verdict bouncing_verdict(double growth, const BouncingCycles& found) {

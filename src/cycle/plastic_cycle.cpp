@@ -309,17 +309,19 @@ UnitHalfCycle unit_half_cycle(const ServoDynamics& dynamics, double flight_time)
   return half_cycle(dynamics, unit_flight(dynamics), flight_time);
 }
 
-PlasticCycle plastic_cycle(const ServoDynamics& dynamics, double growth_at_rest) {
+std::optional<UnitHalfCycle> balanced_half_cycle(const ServoDynamics& dynamics,
+                                                 double growth_at_rest) {
   constexpr double acceptable = 100.0 * time_tolerance;
   const GapFlight flight = unit_flight(dynamics);
   const UnitHalfCycle nearly =
       half_cycle(dynamics, flight, balanced_flight_time(dynamics, flight, growth_at_rest));
-  PlasticCycle result;
-  if (!(std::abs(nearly.log_growth) <= acceptable)) return result;
-  const UnitHalfCycle half =
-      stepped(dynamics, flight, nearly, -nearly.log_growth / nearly.log_growth_slope);
-  const double flight_time = half.flight_time;
-  const double gap = -gap_displacement_at(flight, flight_time);
+  if (!(std::abs(nearly.log_growth) <= acceptable)) return std::nullopt;
+  return stepped(dynamics, flight, nearly, -nearly.log_growth / nearly.log_growth_slope);
+}
+
+LimitCycle plastic_cycle(const ServoDynamics& dynamics, const UnitHalfCycle& half) {
+  const GapFlight flight = unit_flight(dynamics);
+  const double gap = -gap_displacement_at(flight, half.flight_time);
   const double amplitude = dynamics.backlash / gap;
   const double square = amplitude * amplitude;
   const Sizes unit_sizes = sizes(dynamics, flight, half, 0.5 * gap);
@@ -328,14 +330,14 @@ PlasticCycle plastic_cycle(const ServoDynamics& dynamics, double growth_at_rest)
   const double half_map_slope =
       1.0 + gap * half.log_growth_slope / half.gap_speed;  // 1 − |Δu| (J_M y + F_M P)/Q
 
-  LimitCycle& cycle = result.cycle;
+  LimitCycle cycle;
   cycle.kind = CycleKind::symmetric;
   cycle.multiplier = half_map_slope * half_map_slope;
   cycle.stable = cycle.multiplier < 1.0;
   cycle.size = amplitude * unit_sizes.load;
   cycle.motor_size = amplitude * unit_sizes.motor;
   cycle.engaged_time = 2.0 * half.engaged_time;
-  cycle.separated_time = 2.0 * flight_time;
+  cycle.separated_time = 2.0 * half.flight_time;
   cycle.period = cycle.engaged_time + cycle.separated_time;
   cycle.impact_speed = -amplitude * half.gap_speed;
   cycle.residual = closing_error(dynamics, flight, half);
@@ -346,8 +348,7 @@ PlasticCycle plastic_cycle(const ServoDynamics& dynamics, double growth_at_rest)
   const double load_position = amplitude * flight.load_position;
   const double load_speed = amplitude * flight.load_speed;
   cycle.start = {load_position + 0.5 * dynamics.backlash, load_speed, load_position, load_speed};
-  result.found = true;
-  return result;
+  return cycle;
 }
 
 }  // namespace gearlash

@@ -100,30 +100,35 @@ double finite_bound(double from, const Predicate& reached) {
 }
 
 /// Exact where the first of the gap's derivatives that is not zero stays as it is, and for a bounce
-/// under a constant acceleration.
+/// under a constant acceleration. After a clean parting u = G t³/6 (1 − (c + D) t/4 + …).
 double crossing_guess(const GapFlight& flight, double start, double target) {
   if (start > 0.0) return 2.0 * start;
   if (flight.gap_speed != 0.0) return std::abs(target / flight.gap_speed);
   if (flight.gap_acceleration != 0.0) {
     return std::sqrt(std::abs(2.0 * target / flight.gap_acceleration));
   }
-  return std::cbrt(std::abs(6.0 * target / flight.gap_drive));
+  const double time = std::cbrt(std::abs(6.0 * target / flight.gap_drive));
+  const double drag = (flight.motor_rate + flight.load_rate) * time;
+  return time * (1.0 + drag / (12.0 + drag));
 }
 
-/// Where a monotone piece of u − u₀ reaches `target`, or infinity.
-double crossing(const GapFlight& flight, double start, double end, double target,
-                double direction) {
+/// Where a monotone piece of u − u₀ reaches `target`, or infinity if it does not by the horizon.
+double crossing(const GapFlight& flight, double start, double end, double target, double direction,
+                double horizon) {
   const auto distance = [&](double t) {
     const FlightPoint point = point_in_flight(flight, t);
     return ValueAndSlope{point.gap_displacement - target, point.motion.gap_speed,
                          point.motion.gap_acceleration};
   };
   const auto reached = [&](double t) { return distance(t).value * direction >= 0.0; };
+  const double guess = crossing_guess(flight, start, target);
+  if (horizon < end && horizon < guess && !reached(horizon)) return infinity;
   double bound = end;
   // At a speed that does not die out the gap closes for certain; else it must be seen to.
   if (std::isinf(end) && final_direction(flight) == 0.0) bound = finite_bound(start, reached);
   if (!std::isinf(bound) && !reached(bound)) return infinity;
-  return bracketed_root(distance, start, bound, crossing_guess(flight, start, target), direction);
+  const double time = bracketed_root(distance, start, bound, guess, direction);
+  return time <= horizon ? time : infinity;
 }
 
 }  // namespace
@@ -138,9 +143,8 @@ FirstContact first_contact(const GapFlight& flight, double backlash, double hori
     const double end = piece < turning.count ? turning.times[piece] : infinity;
     const double target = direction > 0.0 ? to_forward : to_backward;
     if (direction != 0.0) {
-      const double time = crossing(flight, start, end, target, direction);
-      if (time <= horizon && time < infinity) return {time, direction};
-      if (time > horizon && time < infinity) break;
+      const double time = crossing(flight, start, end, target, direction, horizon);
+      if (time < infinity) return {time, direction};
     }
     start = end;
     direction = -direction;

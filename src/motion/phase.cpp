@@ -27,14 +27,6 @@ Phase engaged_phase(const ServoDynamics& dynamics, FaceSign face, double positio
   return phase;
 }
 
-Phase separated_phase(const GapFlight& flight, FaceSign face) {
-  Phase phase;
-  phase.mode = Mode::separated;
-  phase.face = face;
-  phase.flight = flight;
-  return phase;
-}
-
 GapState state_in_flight(const GapFlight& flight, double time) {
   const FlightPoint point = point_in_flight(flight, time);
   return {point.motion.load_position, point.motion.load_speed, flight.gap + point.gap_displacement,
@@ -42,10 +34,33 @@ GapState state_in_flight(const GapFlight& flight, double time) {
 }
 
 PhaseEnd no_event() {
-  PhaseEnd end{};
+  PhaseEnd end;
   end.duration = infinity;
-  end.has_event = false;
   return end;
+}
+
+/// What follows an impact that left the shafts in the state `after`.
+Phase phase_after_impact(const ServoDynamics& dynamics, FaceSign face, const GapState& after) {
+  if (after.gap_speed == 0.0) {
+    if (stays_engaged(dynamics, face, after.load_position, after.load_speed)) {
+      return engaged_phase(dynamics, face, after.load_position, after.load_speed);
+    }
+    return {.mode = Mode::separated,
+            .face = face,
+            .flight = flight_from_pull(dynamics, after.load_position, after.load_speed, after.gap)};
+  }
+  Phase phase = {.mode = Mode::separated, .face = face, .flight = flight_from(dynamics, after)};
+  if (dynamics.restitution < 1.0) {
+    const SettlingBounces bounces =
+        settling_bounces(dynamics, face, after.load_position, after.load_speed, after.gap_speed);
+    if (bounces.imminent) {
+      phase.mode = Mode::settling;
+      phase.bounces = bounces;
+      phase.engaged = {dynamics.damping, after.load_position,
+                       after.load_speed + dynamics.motor_inertia * after.gap_speed};
+    }
+  }
+  return phase;
 }
 
 /// Applies the impact law to faces that meet at relative speed `state.gap_speed`, and decides what
@@ -54,35 +69,15 @@ PhaseEnd meet(const ServoDynamics& dynamics, FaceSign face, double duration, Gap
   // Rounding may leave a grazing approach on the wrong side of zero.
   if (state.gap_speed * face < 0.0) state.gap_speed = 0.0;
   const ImpactOutcome outcome = impact(dynamics, state.load_speed, state.gap_speed);
-  PhaseEnd end{};
-  end.duration = duration;
-  end.has_event = true;
-  end.kind = EventKind::impact;
-  end.face = face_of(face);
-  end.before = state;
-  end.after = {state.load_position, outcome.load_speed, state.gap, outcome.gap_speed};
-  end.energy_lost = outcome.energy_lost;
-  if (outcome.gap_speed == 0.0) {
-    if (stays_engaged(dynamics, face, state.load_position, outcome.load_speed)) {
-      end.next = engaged_phase(dynamics, face, state.load_position, outcome.load_speed);
-    } else {
-      end.next = separated_phase(
-          flight_from_pull(dynamics, state.load_position, outcome.load_speed, state.gap), face);
-    }
-    return end;
-  }
-  end.next = separated_phase(flight_from(dynamics, end.after), face);
-  if (dynamics.restitution < 1.0) {
-    const SettlingBounces bounces = settling_bounces(dynamics, face, state.load_position,
-                                                     outcome.load_speed, outcome.gap_speed);
-    if (bounces.imminent) {
-      end.next.mode = Mode::settling;
-      end.next.bounces = bounces;
-      end.next.engaged = {dynamics.damping, state.load_position,
-                          outcome.load_speed + dynamics.motor_inertia * outcome.gap_speed};
-    }
-  }
-  return end;
+  const GapState after = {state.load_position, outcome.load_speed, state.gap, outcome.gap_speed};
+  return {.duration = duration,
+          .has_event = true,
+          .kind = EventKind::impact,
+          .face = face_of(face),
+          .before = state,
+          .after = after,
+          .energy_lost = outcome.energy_lost,
+          .next = phase_after_impact(dynamics, face, after)};
 }
 
 /// Whether a flight that starts on a face moves off it: the first of its derivatives that is not
@@ -100,12 +95,11 @@ PhaseEnd end_of_engagement(const ServoDynamics& dynamics, const Phase& phase, do
                  mesh_torque_rate(dynamics, flow.position, flow.speed));
   if (!(duration <= horizon) || std::isinf(duration)) return no_event();
   const EngagedFlow::State state = flow.at(duration);
-  PhaseEnd end{};
-  end.duration = duration;
-  end.has_event = true;
-  end.kind = EventKind::separation;
-  end.face = face_of(phase.face);
-  end.next = parted_phase(dynamics, phase.face, state.position, state.speed);
+  PhaseEnd end{.duration = duration,
+               .has_event = true,
+               .kind = EventKind::separation,
+               .face = face_of(phase.face),
+               .next = parted_phase(dynamics, phase.face, state.position, state.speed)};
   const GapFlight& flight = end.next.flight;
   // N touches zero without passing through it only where it vanishes for good, to rounding.
   if (!leaves(flight, phase.face)) return no_event();
@@ -118,16 +112,15 @@ PhaseEnd end_of_settling(const ServoDynamics& dynamics, const Phase& phase, doub
   const double duration = phase.bounces.duration;
   if (duration > horizon) return no_event();
   const EngagedFlow::State state = phase.engaged.at(duration);
-  PhaseEnd end{};
-  end.duration = duration;
-  end.has_event = true;
-  end.kind = EventKind::settling;
-  end.face = face_of(phase.face);
-  end.before = {state.position, state.speed, gap_on(dynamics, phase.face), 0.0};
-  end.after = end.before;
-  end.energy_lost = phase.bounces.energy_lost;
-  end.next = engaged_phase(dynamics, phase.face, state.position, state.speed);
-  return end;
+  const GapState touching = {state.position, state.speed, gap_on(dynamics, phase.face), 0.0};
+  return {.duration = duration,
+          .has_event = true,
+          .kind = EventKind::settling,
+          .face = face_of(phase.face),
+          .before = touching,
+          .after = touching,
+          .energy_lost = phase.bounces.energy_lost,
+          .next = engaged_phase(dynamics, phase.face, state.position, state.speed)};
 }
 
 /// Follows the bounces of a settling phase one by one until `time`, or until what is left of them
@@ -154,12 +147,14 @@ GapState state_while_settling(const ServoDynamics& dynamics, const Phase& phase,
 
 Phase parted_phase(const ServoDynamics& dynamics, FaceSign face, double load_position,
                    double load_speed) {
-  return separated_phase(
-      flight_from_separation(dynamics, load_position, load_speed, gap_on(dynamics, face)), face);
+  return {.mode = Mode::separated,
+          .face = face,
+          .flight =
+              flight_from_separation(dynamics, load_position, load_speed, gap_on(dynamics, face))};
 }
 
 PhaseStart begin_phase(const ServoDynamics& dynamics, const GapState& state) {
-  PhaseStart start{};
+  PhaseStart start;
   if (dynamics.backlash == 0.0) {
     start.phase = engaged_phase(dynamics, 1.0, state.load_position,
                                 state.load_speed + dynamics.motor_inertia * state.gap_speed);
@@ -177,8 +172,10 @@ PhaseStart begin_phase(const ServoDynamics& dynamics, const GapState& state) {
     return start;
   }
   if (touching) {
-    start.phase = separated_phase(
-        flight_from_pull(dynamics, state.load_position, state.load_speed, clamped.gap), face);
+    start.phase.mode = Mode::separated;
+    start.phase.face = face;
+    start.phase.flight =
+        flight_from_pull(dynamics, state.load_position, state.load_speed, clamped.gap);
     return start;
   }
   if (on_face && flight.gap_speed * face > 0.0) {
@@ -187,7 +184,9 @@ PhaseStart begin_phase(const ServoDynamics& dynamics, const GapState& state) {
     start.phase = start.impact.next;
     return start;
   }
-  start.phase = separated_phase(flight, face);
+  start.phase.mode = Mode::separated;
+  start.phase.face = face;
+  start.phase.flight = flight;
   return start;
 }
 

@@ -157,37 +157,31 @@ Trajectory simulate(const NormalizedServo& servo, const ServoState& initial,
 
   const GapState state =
       snapped_to_faces(to_gap_state(initial, options.reference), initial, servo.backlash);
+  constexpr std::size_t usual_size = 4;
+  std::vector<Segment>& segments = trajectory.segments_;
+  std::vector<Event>& events = trajectory.events_;
+  segments.reserve(usual_size);
+  events.reserve(usual_size);
   const PhaseStart start = begin_phase(dynamics, state);
-  if (start.impact_at_start && options.event_limit == 0) {
-    trajectory.segments_.push_back({0.0, 0.0, start.phase});
-    trajectory.stop_reason_ = StopReason::event_limit;
-    return trajectory;
-  }
+  segments.push_back({0.0, 0.0, start.phase});
+  trajectory.stop_reason_ = StopReason::event_limit;
   if (start.impact_at_start) {
-    trajectory.events_.push_back(to_event(start.impact, 0.0, options.reference));
+    if (options.event_limit == 0) return trajectory;
+    events.push_back(to_event(start.impact, 0.0, options.reference));
   }
-  constexpr std::size_t usual_size = 16;
-  trajectory.segments_.reserve(usual_size);
-  trajectory.events_.reserve(usual_size);
-  Phase phase = start.phase;
-  double time = 0.0;
   while (true) {
-    const PhaseEnd end = end_of_phase(dynamics, phase, options.until - time);
-    const double end_time = end.has_event ? time + end.duration : options.until;
-    trajectory.segments_.push_back({time, end_time, phase});
+    Segment& segment = segments.back();
+    const PhaseEnd end = end_of_phase(dynamics, segment.phase, options.until - segment.start);
     if (!end.has_event) {
+      segment.end = options.until;
       trajectory.stop_reason_ = StopReason::reached_end;
-      break;
+      return trajectory;
     }
-    if (trajectory.events_.size() >= options.event_limit) {
-      trajectory.stop_reason_ = StopReason::event_limit;
-      break;
-    }
-    trajectory.events_.push_back(to_event(end, end_time, options.reference));
-    phase = end.next;
-    time = end_time;
+    segment.end = segment.start + end.duration;
+    if (events.size() >= options.event_limit) return trajectory;
+    events.push_back(to_event(end, segment.end, options.reference));
+    segments.push_back({segment.end, segment.end, end.next});
   }
-  return trajectory;
 }
 
 }  // namespace gearlash

@@ -1,6 +1,8 @@
 // The one symmetric limit cycle of a servo with plastic contact, from one scalar equation.
 #pragma once
 
+#include <optional>
+
 #include "gearlash/cycle/limit_cycle.hpp"
 #include "gearlash/motion/servo_dynamics.hpp"
 
@@ -27,17 +29,16 @@ struct UnitHalfCycle {
 /// Precondition: plastic contact, flight_time > 0.
 UnitHalfCycle unit_half_cycle(const ServoDynamics& dynamics, double flight_time);
 
-/// Whether the root was found.
-struct PlasticCycle {
-  bool found = false;
-  LimitCycle cycle;
-};
+/// The half cycle that ends as it began, mirrored: the root t₂ of ln ρ(t₂) = 0, which exists
+/// exactly when growth at rest > 1 and is unique. Nothing only where ln ρ cannot be told from zero
+/// (growth at rest 1 + rounding). Precondition: plastic contact, ζ > 0, growth_at_rest =
+/// growth_at_rest(dynamics) > 1.
+std::optional<UnitHalfCycle> balanced_half_cycle(const ServoDynamics& dynamics,
+                                                 double growth_at_rest);
 
-/// The symmetric cycle: the root t₂ of ln ρ(t₂) = 0, which exists exactly when growth_at_rest > 1
-/// and is unique; amplitude b / |u(t₂) − u(0)| of the unit flight. Half-map slope, whose square is
-/// the multiplier: R′ = 1 − |Δu| (J_M y + F_M P)/Q(y, P).
-/// Precondition: plastic contact, b > 0, ζ > 0, growth_at_rest = growth_at_rest(dynamics) > 1.
-/// `found` is false only where ln ρ cannot be told from zero (growth at rest 1 + rounding).
-PlasticCycle plastic_cycle(const ServoDynamics& dynamics, double growth_at_rest);
+/// The symmetric cycle of a balanced half cycle, with all its properties; its amplitude is
+/// b / |u(t₂) − u(0)| of the unit flight. Half-map slope, whose square is the multiplier:
+/// R′ = 1 − |Δu| (J_M y + F_M P)/Q(y, P). Precondition: b > 0.
+LimitCycle plastic_cycle(const ServoDynamics& dynamics, const UnitHalfCycle& balanced);
 
 }  // namespace gearlash

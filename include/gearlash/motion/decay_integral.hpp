@@ -99,9 +99,11 @@ inline Decay decay(double exponent) {
     const double integral = 1.0 - exponent * double_integral;
     return {exponent, 1.0 - exponent * integral, integral, double_integral};
   }
+  // The quotients are ready before the exponential is.
+  const double inverse = 1.0 / exponent;
   const double factor = std::exp(-exponent);
-  const double integral = (1.0 - factor) / exponent;
-  return {exponent, factor, integral, (1.0 - integral) / exponent};
+  const double integral = (1.0 - factor) * inverse;
+  return {exponent, factor, integral, (1.0 - integral) * inverse};
 }
 
 /// Two decays, the one feeding the other, with its integrals.
@@ -120,10 +122,11 @@ inline Convolution convolution(const Decay& x, const Decay& y) {
     return {slow.integral - fast.exponent * integral, integral, double_integral};
   }
   const double difference = fast.exponent - slow.exponent;
-  const double value = difference > 0.5 ? (slow.factor - fast.factor) / difference
+  const double inverse = 1.0 / fast.exponent;
+  const double value = difference > 0.5 ? (slow.factor - fast.factor) * (1.0 / difference)
                                         : slow.factor * decay(difference).integral;
-  const double integral = (slow.integral - value) / fast.exponent;
-  return {value, integral, (slow.double_integral - integral) / fast.exponent};
+  const double integral = (slow.integral - value) * inverse;
+  return {value, integral, (slow.double_integral - integral) * inverse};
 }
 
 }  // namespace gearlash

@@ -36,20 +36,20 @@ struct Phase {
 
 /// How a phase ends.
 struct PhaseEnd {
-  double duration;  ///< infinity (or beyond the horizon): no event within it
-  bool has_event;
-  EventKind kind;
-  Face face;
-  GapState before;
-  GapState after;
-  double energy_lost;
+  double duration = 0.0;  ///< infinity (or beyond the horizon): no event within it
+  bool has_event = false;
+  EventKind kind = EventKind::separation;
+  Face face = Face::forward;
+  GapState before{};
+  GapState after{};
+  double energy_lost = 0.0;
   Phase next;
 };
 
 /// The phase that a state begins: contact is resolved at once where the state is on a face and
 /// moves into it (an impact at time 0, told by `event_at_start`) or touches it at rest.
 struct PhaseStart {
-  bool impact_at_start;
+  bool impact_at_start = false;
   PhaseEnd impact;  ///< meaningful when impact_at_start; duration 0
   Phase phase;
 };
