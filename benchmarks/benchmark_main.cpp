@@ -118,11 +118,12 @@ std::vector<Race> all_races() {
   const auto add = [&](const char* title, const auto& contestants, const auto& problems) {
     if (!problems.empty()) races.push_back(enter(title, contestants, problems));
   };
-  add("Limit cycle, rivals from rest", limit_cycle_contestants(Start::from_rest), plastic);
-  add("Limit cycle, rivals from 1 % off our cycle", limit_cycle_contestants(Start::near_cycle),
+  add("Limit cycle, rivals from rest", limit_cycle_contestants(Start::from_rest, Contact::plastic),
       plastic);
+  add("Limit cycle, rivals from 1 % off our cycle",
+      limit_cycle_contestants(Start::near_cycle, Contact::plastic), plastic);
   add("Limit cycle with restitution 0.3, rivals from rest",
-      limit_cycle_contestants(Start::from_rest), bouncing);
+      limit_cycle_contestants(Start::from_rest, Contact::bouncing), bouncing);
   add("Half cycle", half_cycle_contestants(), plastic);
   add("Half cycle with restitution 0.3", half_cycle_contestants(), bouncing);
   return races;

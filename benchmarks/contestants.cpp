@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "cvode_rival.hpp"
+#include "gearlash/cycle/growth_at_rest.hpp"
 #include "gearlash/cycle/limit_cycle.hpp"
+#include "gearlash/cycle/plastic_cycle.hpp"
 #include "gearlash/motion/phase.hpp"
 #include "gearlash/motion/trajectory.hpp"
 #include "odeint_rival.hpp"
@@ -72,6 +74,15 @@ Task prepare_analysis(const Problem& problem) {
   };
 }
 
+/// The layer below: the scalar equation alone, which gives the period; nothing else is worked out.
+Task prepare_scalar_equation(const Problem& problem) {
+  return [servo = problem.servo, size = problem.cycle.size] {
+    const ServoDynamics dynamics = servo_dynamics(servo);
+    const auto half = balanced_half_cycle(dynamics, growth_at_rest(dynamics));
+    return RivalCycle{size, 2.0 * (half->flight_time + half->engaged_time), 0, true};
+  };
+}
+
 /// The public simulator: the whole trajectory with its events, from a separation to just after the
 /// next one.
 Task prepare_simulation(const Problem& problem) {
@@ -103,11 +114,17 @@ Task prepare_phases(const Problem& problem) {
 
 }  // namespace
 
-std::vector<Contestant> limit_cycle_contestants(Start start) {
-  return {{"Gearlash, analyse_limit_cycles()", true, prepare_analysis},
-          cycle_rival<OdeintRival>("Boost.odeint, dopri5 dense output", start),
-          cycle_rival<CvodeRival>("SUNDIALS CVODE, Adams", start, CvodeMethod::adams),
-          cycle_rival<CvodeRival>("SUNDIALS CVODE, BDF dense", start, CvodeMethod::bdf)};
+std::vector<Contestant> limit_cycle_contestants(Start start, Contact contact) {
+  std::vector<Contestant> contestants = {
+      {"Gearlash, analyse_limit_cycles()", true, prepare_analysis},
+      cycle_rival<OdeintRival>("Boost.odeint, dopri5 dense output", start),
+      cycle_rival<CvodeRival>("SUNDIALS CVODE, Adams", start, CvodeMethod::adams),
+      cycle_rival<CvodeRival>("SUNDIALS CVODE, BDF dense", start, CvodeMethod::bdf)};
+  if (contact == Contact::plastic) {
+    contestants.insert(contestants.begin() + 1,
+                       {"Gearlash, balanced_half_cycle()", true, prepare_scalar_equation});
+  }
+  return contestants;
 }
 
 std::vector<Contestant> half_cycle_contestants() {

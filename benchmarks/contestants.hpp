@@ -17,6 +17,8 @@ enum class Start {
   near_cycle  ///< our exact cycle, its starting state 1 % off: the best that a rival can hope for
 };
 
+enum class Contact { plastic, bouncing };
+
 /// A task made ready (solvers allocated); calling it does the work once and returns size and
 /// period. What is made ready is not measured.
 using Task = std::function<RivalCycle()>;
@@ -28,7 +30,7 @@ struct Contestant {
 };
 
 /// Finding a limit cycle. Ours is analyse_limit_cycles(): data in, every property out.
-std::vector<Contestant> limit_cycle_contestants(Start start);
+std::vector<Contestant> limit_cycle_contestants(Start start, Contact contact);
 
 /// Following the exact cycle from one separation to the next: flight, impacts, engagement.
 std::vector<Contestant> half_cycle_contestants();

@@ -27,9 +27,11 @@ GapFlight unit_flight(const ServoDynamics& dynamics) {
 }
 
 UnitHalfCycle half_cycle(const ServoDynamics& dynamics, const GapFlight& flight, double time) {
-  const FlightMotion motion = motion_in_flight(flight, time);
+  const FlightPoint point = point_in_flight(flight, time);
+  const FlightMotion& motion = point.motion;
   UnitHalfCycle half;
   half.flight_time = time;
+  half.gap_displacement = point.gap_displacement;
   half.load_position = motion.load_position;
   half.load_speed = motion.load_speed;
   half.gap_speed = motion.gap_speed;
@@ -100,6 +102,7 @@ UnitHalfCycle stepped(const ServoDynamics& dynamics, const GapFlight& flight,
   next.engaged_time += step * engaged_time_rate;
   next.load_position += step * half.load_speed;
   next.load_speed -= step * flight.load_rate * half.load_speed;
+  next.gap_displacement += step * half.gap_speed;
   next.gap_speed += step * half.gap_acceleration;
   next.common_speed += step * rates.momentum;
   next.square_change +=
@@ -321,7 +324,7 @@ std::optional<UnitHalfCycle> balanced_half_cycle(const ServoDynamics& dynamics,
 
 LimitCycle plastic_cycle(const ServoDynamics& dynamics, const UnitHalfCycle& half) {
   const GapFlight flight = unit_flight(dynamics);
-  const double gap = -gap_displacement_at(flight, half.flight_time);
+  const double gap = -half.gap_displacement;
   const double amplitude = dynamics.backlash / gap;
   const double square = amplitude * amplitude;
   const Sizes unit_sizes = sizes(dynamics, flight, half, 0.5 * gap);

@@ -99,17 +99,16 @@ double finite_bound(double from, const Predicate& reached) {
   return bound;
 }
 
-/// Exact where the first of the gap's derivatives that is not zero stays as it is, and for a bounce
-/// under a constant acceleration. After a clean parting u = G t³/6 (1 − (c + D) t/4 + …).
+/// The least of the times that each of the gap's first three derivatives would take alone; after a
+/// clean parting with the next order, u = G t³/6 (1 − (c + D) t/4 + …). For a return to the same
+/// face exact under a constant acceleration.
 double crossing_guess(const GapFlight& flight, double start, double target) {
   if (start > 0.0) return 2.0 * start;
-  if (flight.gap_speed != 0.0) return std::abs(target / flight.gap_speed);
-  if (flight.gap_acceleration != 0.0) {
-    return std::sqrt(std::abs(2.0 * target / flight.gap_acceleration));
-  }
-  const double time = std::cbrt(std::abs(6.0 * target / flight.gap_drive));
-  const double drag = (flight.motor_rate + flight.load_rate) * time;
-  return time * (1.0 + drag / (12.0 + drag));
+  const double cubic = std::cbrt(std::abs(6.0 * target / flight.gap_drive));
+  const double drag = (flight.motor_rate + flight.load_rate) * cubic;
+  return std::min({std::abs(target / flight.gap_speed),
+                   std::sqrt(std::abs(2.0 * target / flight.gap_acceleration)),
+                   cubic * (1.0 + drag / (12.0 + drag))});
 }
 
 /// Where a monotone piece of u − u₀ reaches `target`, or infinity if it does not by the horizon.

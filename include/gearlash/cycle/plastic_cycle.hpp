@@ -15,6 +15,7 @@ struct UnitHalfCycle {
   double engaged_time;      ///< t₁, infinite when the faces do not part again
   double load_position;     ///< y at impact
   double load_speed;        ///< v_L just before impact
+  double gap_displacement;  ///< u − u₀ at impact, < 0
   double gap_speed;         ///< u̇ just before impact, ≤ 0
   double gap_acceleration;  ///< ü just before impact
   double common_speed;      ///< P = J_M v_M + J_L v_L, the speed just after impact

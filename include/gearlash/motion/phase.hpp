@@ -29,8 +29,8 @@ enum class EventKind {
 struct Phase {
   Mode mode = Mode::no_gap;
   FaceSign face = 1.0;        ///< engaged on, or bouncing on; unused when separated
-  EngagedFlow engaged;        ///< engaged and no_gap; when settling, the common motion
-  GapFlight flight;           ///< separated; when settling, the first of the bounces
+  EngagedFlow engaged{};      ///< engaged and no_gap; when settling, the common motion
+  GapFlight flight{};         ///< separated; when settling, the first of the bounces
   SettlingBounces bounces{};  ///< settling only
 };
 
@@ -43,7 +43,7 @@ struct PhaseEnd {
   GapState before{};
   GapState after{};
   double energy_lost = 0.0;
-  Phase next;
+  Phase next{};
 };
 
 /// The phase that a state begins: contact is resolved at once where the state is on a face and
