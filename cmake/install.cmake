@@ -1,7 +1,7 @@
 # What `cmake --install` lays down, so that another project can say
 #   find_package(gearlash 0.1 CONFIG REQUIRED)                  # the numerics; needs only Eigen
 #   find_package(gearlash 0.1 CONFIG REQUIRED COMPONENTS io)  # also the reader of data sheets
-#   target_link_libraries(... gearlash::gearlash)               # or ::servo, ::motion, ::cycle, ::io
+#   target_link_libraries(... gearlash::gearlash)  # or ::servo, ::motion, ::cycle, ::io
 
 include(CMakePackageConfigHelpers)
 set(gearlash_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/gearlash")

@@ -52,9 +52,37 @@ TEST(EdgeBracketedRoot, TinyAndHugeRoots) {
 }
 
 TEST(EdgeBracketedRoot, AnInfiniteUpperEnd) {
-  const auto line = [](double x) { return ValueAndSlope{x - 12345.0, 1.0}; };
-  EXPECT_NEAR(bracketed_root(line, 0.0, std::numeric_limits<double>::infinity(), 1.0, 1.0), 12345.0,
-              2.0 * epsilon * 12345.0);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const double root : {1e-12, 1e-3, 1.0, 12345.0, 1e12, 1e30}) {
+    const auto line = [&](double x) { return ValueAndSlope{x - root, 1.0}; };
+    const auto convex = [&](double x) {
+      return ValueAndSlope{x * x * x - root * root * root, 3.0 * x * x, 6.0 * x};
+    };
+    const auto concave = [&](double x) {
+      return ValueAndSlope{std::sqrt(x) - std::sqrt(root), 0.5 / std::sqrt(x)};
+    };
+    const auto no_slope = [&](double x) { return ValueAndSlope{x < root ? -1.0 : 1.0, 0.0}; };
+    for (const double guess : {0.0, 1e-6, 0.5, 1.0, 1e6}) {
+      EXPECT_NEAR(bracketed_root(line, 0.0, infinity, guess, 1.0), root, 4.0 * epsilon * root);
+      EXPECT_NEAR(bracketed_root(convex, 0.0, infinity, guess, 1.0), root, 4.0 * epsilon * root);
+      EXPECT_NEAR(bracketed_root(concave, 0.0, infinity, guess, 1.0), root, 4.0 * epsilon * root);
+      EXPECT_NEAR(bracketed_root(no_slope, 0.0, infinity, guess, 1.0), root, 4.0 * epsilon * root);
+    }
+  }
+}
+
+// A line far out, bent near its root: the step from far out to near it is far longer than the next
+// one, which says nothing of how near it is.
+TEST(EdgeBracketedRoot, AStepFromFarAwayIsNoConvergence) {
+  const auto bent = [](double x) {
+    const double bend = 0.01 * std::exp(-40.0 * x);
+    return ValueAndSlope{x + bend - 0.1, 1.0 - 40.0 * bend, 1600.0 * bend};
+  };
+  const double root = bracketed_root(bent, 0.0, 1.0, 0.1, 1.0);
+  for (const double far : {1e3, 4e9, 1e20, 1e60}) {
+    EXPECT_NEAR(bracketed_root(bent, 0.0, 1e90, far, 1.0), root, 4.0 * epsilon) << far;
+  }
+  EXPECT_NEAR(bent(root).value, 0.0, epsilon);
 }
 
 }  // namespace

@@ -18,14 +18,15 @@ struct FirstContact {
 /// Guarantee: no crossing is stepped over, grazing included, and there is no step size. Proof.
 /// ü = ü₀ e^{−ct} + G t exp[−Dt, −ct]; divided by e^{−ct} it is ü₀ + G t φ₁((c−D)t), which is
 /// monotone in t, so ü has at most one zero on t > 0, where t φ₁((c−D)t) = −ü₀/G: it is known in
-/// closed form. Between 0, that zero and the horizon u̇ is monotone, so each of these at most two
-/// intervals holds at most one zero of u̇, present exactly when u̇ changes sign between the ends.
-/// Between 0, those at most two turning points and the horizon u is monotone, so each of these at
-/// most three intervals reaches a given face at most once, exactly when the face lies between the
-/// values of u at the ends. Every root is thus bracketed on an interval of monotonicity before it
-/// is refined (bracketed_root.hpp). What rounding can change is only whether a turning point
-/// within a few epsilons of a face touches it (grazing); both answers are then within rounding of
-/// the exact motion.
+/// closed form. Before and after that zero u̇ is monotone, so each of these at most two intervals
+/// holds at most one zero of u̇, present exactly when u̇ changes sign between the ends; its sign as
+/// t → ∞ is that of a closed form too. Between those at most two turning points u is monotone, so
+/// each of these at most three intervals reaches a given face at most once, exactly when the face
+/// lies between the values of u at the ends; on the last, for certain when u̇ does not die out.
+/// Every root is thus bracketed on an interval of monotonicity before it is refined
+/// (bracketed_root.hpp); one beyond the horizon is not counted. What rounding can change is only
+/// whether a turning point within a few epsilons of a face touches it (grazing); both answers are
+/// then within rounding of the exact motion.
 /// A flight that starts at a face is measured from that face (u − u₀), so its zero at t = 0 is
 /// exact and no return to the same face, however early, is confused with it.
 FirstContact first_contact(const GapFlight& flight, double backlash, double horizon);

@@ -95,7 +95,9 @@ ServoState engaged_start(const NormalizedServo& servo, double load_position, dou
 
 /// The exact motion from `initial` under a step reference. No step size: every mode has a closed
 /// form and every event time is a certified first crossing (first_contact.hpp, engaged_flow.hpp).
-/// Throws InvalidInput for an unsound servo, a gap outside [−b/2, b/2] or a number not finite.
+/// Permitted: positions, speeds and reference from −1e100 to 1e100, the gap from −b/2 to b/2 (to
+/// rounding), options.until from 0 to 1e9. Throws InvalidInput that lists every violation, those of
+/// the servo included.
 Trajectory simulate(const NormalizedServo& servo, const ServoState& initial,
                     const SimulationOptions& options);
 
