@@ -5,7 +5,7 @@
 #include "cvode_rival.hpp"
 #include "gearlash/cycle/growth_at_rest.hpp"
 #include "gearlash/cycle/limit_cycle.hpp"
-#include "gearlash/cycle/plastic_cycle.hpp"
+#include "gearlash/cycle/unit_half_cycle.hpp"
 #include "gearlash/motion/phase.hpp"
 #include "gearlash/motion/trajectory.hpp"
 #include "odeint_rival.hpp"

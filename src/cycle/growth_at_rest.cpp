@@ -25,20 +25,18 @@ double rest_position(const GapFlight& flight) {
   return flight.load_position + flight.load_speed / flight.load_rate;
 }
 
-/// One engaged motion from contact to parting, by the form Q = y² + 2ζyv + v², which it multiplies
-/// by e^{−2ζt}.
+/// One engaged motion from contact to parting.
 double plastic_growth(const ServoDynamics& dynamics) {
   const double contact_speed = dynamics.motor_inertia / dynamics.motor_friction;
   const double engaged_time =
       first_zero(dynamics.damping, mesh_torque(dynamics, -1.0, contact_speed),
                  mesh_torque_rate(dynamics, -1.0, contact_speed));
   if (std::isinf(engaged_time)) return 0.0;
-  const auto form = [&](double position, double speed) {
-    return position * position + 2.0 * dynamics.damping * position * speed + speed * speed;
-  };
   const TorqueFreeLine line = dynamics.torque_free_line;
-  const double amplitude = std::sqrt(form(-1.0, contact_speed) / form(line.position, line.speed)) *
-                           std::exp(-dynamics.damping * engaged_time);
+  const double start_form = decaying_form(dynamics.damping, -1.0, contact_speed);
+  const double end_form = decaying_form(dynamics.damping, line.position, line.speed);
+  const double amplitude =
+      std::sqrt(start_form / end_form) * std::exp(-dynamics.damping * engaged_time);
   return amplitude * std::abs(line.position + line.speed / dynamics.load_rate);
 }
 

@@ -21,6 +21,11 @@ struct EngagedFlow {
   State at(double time) const;
 };
 
+/// Q(y, v) = y² + 2ζyv + v², which the engaged flow multiplies by e^{−2ζt} for every ζ.
+inline double decaying_form(double damping, double position, double speed) {
+  return position * position + 2.0 * damping * position * speed + speed * speed;
+}
+
 /// First time > 0 at which x(t) = 0, where ẍ + 2ζẋ + x = 0, x(0) = value, ẋ(0) = slope; infinity
 /// if there is none. A zero at t = 0 itself is not counted.
 ///
