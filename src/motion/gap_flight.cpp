@@ -119,10 +119,6 @@ FlightPoint point_in_flight(const GapFlight& flight, double time) {
   return {motion_after(flight, time, decays), displacement_after(flight, time, decays)};
 }
 
-double gap_displacement_at(const GapFlight& flight, double time) {
-  return displacement_after(flight, time, Decays(flight, time));
-}
-
 GapFlight flight_from(const ServoDynamics& dynamics, const GapState& state) {
   const double motor_speed = state.load_speed + state.gap_speed;
   if (dynamics.massless_load()) {

@@ -15,7 +15,7 @@ namespace {
 
 /// u after `time`, as the flight under test gives it (gap_flight_test.cpp checks that).
 double gap_at(const GapFlight& flight, double time) {
-  return flight.gap + gap_displacement_at(flight, time);
+  return flight.gap + point_in_flight(flight, time).gap_displacement;
 }
 
 /// What rounding does to u: its terms are added in an order of their own.

@@ -98,7 +98,7 @@ void expect_exact(const ServoDynamics& dynamics, const GapFlight& flight, const 
   const double tiny = std::numeric_limits<double>::min();
   EXPECT_LE(epsilons_of(motion.load_speed, exact.load_speed, std::max(scale.load_speed, tiny)),
             flight_epsilons);
-  EXPECT_LE(epsilons_of(gap_displacement_at(flight, time), exact.gap_displacement,
+  EXPECT_LE(epsilons_of(point_in_flight(flight, time).gap_displacement, exact.gap_displacement,
                         scale.gap_displacement),
             flight_epsilons);
   EXPECT_LE(epsilons_of(motion.gap_speed, exact.gap_speed, scale.gap_speed), flight_epsilons);
@@ -153,7 +153,7 @@ TEST(OracleGapFlight, CleanSeparationsKeepRelativeAccuracyHoweverShort) {
                                          flight.load_speed, 0, time);
     const GapState start{flight.load_position, flight.load_speed, 0.15, 0.0};
     const Scale scale = scale_of(dynamics, start, true, time);
-    EXPECT_LE(epsilons_of(gap_displacement_at(flight, time), exact.gap_displacement,
+    EXPECT_LE(epsilons_of(point_in_flight(flight, time).gap_displacement, exact.gap_displacement,
                           scale.gap_displacement),
               flight_epsilons)
         << "c " << dynamics.motor_rate << " D " << dynamics.load_rate << " t " << time;
@@ -222,8 +222,9 @@ TEST(EdgeGapFlight, LightLoadKeepsItsDigits) {
       const double load_way = 0.8 * time * decay(dynamics.load_rate * time).integral;
       const double way = 0.9 * time + (0.4 + load_way) * time * time + load_way;
       const double speed = 0.9 + (0.4 + load_way) * time + 0.8;
-      EXPECT_LE(epsilons_of(gap_displacement_at(flight, time), exact.gap_displacement, way),
-                flight_epsilons)
+      EXPECT_LE(
+          epsilons_of(point_in_flight(flight, time).gap_displacement, exact.gap_displacement, way),
+          flight_epsilons)
           << "inertia ratio " << ratio << " time " << time;
       EXPECT_LE(epsilons_of(motion_in_flight(flight, time).gap_speed, exact.gap_speed, speed),
                 flight_epsilons)
@@ -247,7 +248,8 @@ TEST(EdgeGapFlight, MasslessLoadStandsStill) {
     EXPECT_LE(epsilons_of(motion.gap_speed, exact, 0.9 + 0.4 * time), 8.0);
     const Wide moved =
         creep * time + (Wide(0.8 + 0.1) - creep) * (1 - exp(-Wide(friction) * time)) / friction;
-    EXPECT_LE(epsilons_of(gap_displacement_at(flight, time), moved, time * (0.9 + 0.4 * time)),
+    EXPECT_LE(epsilons_of(point_in_flight(flight, time).gap_displacement, moved,
+                          time * (0.9 + 0.4 * time)),
               8.0);
   }
 }
@@ -277,10 +279,10 @@ double difference(const ServoDynamics& a, const ServoDynamics& b, const GapState
   for (const double time : {0.5, 1.0, 3.0}) {
     const FlightMotion x = motion_in_flight(first, time);
     const FlightMotion y = motion_in_flight(second, time);
-    largest =
-        std::max({largest, std::abs(x.load_position - y.load_position),
-                  std::abs(x.load_speed - y.load_speed), std::abs(x.gap_speed - y.gap_speed),
-                  std::abs(gap_displacement_at(first, time) - gap_displacement_at(second, time))});
+    largest = std::max({largest, std::abs(x.load_position - y.load_position),
+                        std::abs(x.load_speed - y.load_speed), std::abs(x.gap_speed - y.gap_speed),
+                        std::abs(point_in_flight(first, time).gap_displacement -
+                                 point_in_flight(second, time).gap_displacement)});
   }
   return largest;
 }
@@ -317,7 +319,7 @@ TEST(PropertyGapFlight, Semigroup) {
     const GapFlight whole = flight_from(dynamics, random.start);
     const FlightMotion middle = motion_in_flight(whole, first);
     const GapState restart{middle.load_position, middle.load_speed,
-                           gap_displacement_at(whole, first), middle.gap_speed};
+                           point_in_flight(whole, first).gap_displacement, middle.gap_speed};
     const GapFlight rest = flight_from(dynamics, restart);
     const double time = first + second;
     const Scale scale = scale_of(dynamics, random.start, false, time);
@@ -333,8 +335,8 @@ TEST(PropertyGapFlight, Semigroup) {
     const FlightMotion in_two = motion_in_flight(rest, second);
     ASSERT_NEAR(in_two.load_position, at_once.load_position, bound(&Scale::load_position));
     ASSERT_NEAR(in_two.load_speed, at_once.load_speed, bound(&Scale::load_speed));
-    ASSERT_NEAR(restart.gap + gap_displacement_at(rest, second), gap_displacement_at(whole, time),
-                bound(&Scale::gap_displacement));
+    ASSERT_NEAR(restart.gap + point_in_flight(rest, second).gap_displacement,
+                point_in_flight(whole, time).gap_displacement, bound(&Scale::gap_displacement));
     ASSERT_NEAR(in_two.gap_speed, at_once.gap_speed, bound(&Scale::gap_speed));
   }
 }

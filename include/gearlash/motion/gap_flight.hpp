@@ -45,7 +45,6 @@ struct FlightPoint {
 
 FlightMotion motion_in_flight(const GapFlight& flight, double time);
 FlightPoint point_in_flight(const GapFlight& flight, double time);
-double gap_displacement_at(const GapFlight& flight, double time);
 
 /// The shafts just after parting (or as given): positions and speeds about the reference.
 struct GapState {
