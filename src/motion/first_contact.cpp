@@ -25,24 +25,21 @@ double inflection_time(const GapFlight& flight) {
   return argument > -1.0 ? std::log1p(argument) / rate_difference : infinity;
 }
 
-/// Sign of u̇ as t → ∞: its limit, or the sign of the term that outgrows the others. With D = 0
-/// the load coasts for ever and C t²/2 or C t/c wins; with c = 0 < D the motor is left with the
-/// steady acceleration A + C/D.
+/// Sign of u̇ as t → ∞. In the end the loop drives the motor against the side on which the load
+/// comes to rest, y∞ = y₀ + v₀/D, or to which it coasts for ever. With the load at rest at the
+/// reference the motor's speed dies out as well, but for a motor without friction, which keeps its
+/// own (a massless one, without coupling, has friction).
 double final_direction(const GapFlight& flight) {
-  const double c = flight.motor_rate;
   const double d = flight.load_rate;
-  const bool coupled = flight.coupling != 0.0;
-  if (coupled && d == 0.0) return sign_of(flight.coupling);
-  double limit = flight.gap_speed;
-  if (d > 0.0) limit += flight.load_deceleration / d;
-  if (c == 0.0) {
-    const double growth = flight.motor_acceleration + (coupled ? flight.coupling / d : 0.0);
-    if (growth != 0.0) return sign_of(growth);
-    return sign_of(limit - (coupled ? flight.coupling / (d * d) : 0.0));
-  }
-  limit += flight.motor_acceleration / c;
-  if (coupled) limit += flight.coupling / (d * c);
-  return sign_of(limit);
+  const double v = flight.load_speed;
+  const bool comes_to_rest = d > 0.0 && v != 0.0;
+  const double side = comes_to_rest ? d * flight.load_position + v
+                      : v != 0.0    ? v
+                                    : flight.load_position;
+  if (side != 0.0) return -sign_of(side);
+  if (flight.motor_rate > 0.0 || (comes_to_rest && flight.coupling == 0.0)) return 0.0;
+  const double gained = comes_to_rest ? (flight.load_deceleration - flight.coupling / d) / d : 0.0;
+  return sign_of(flight.gap_speed + gained);
 }
 
 /// Sign of ü from just after t = 0 to its zero.

@@ -64,7 +64,8 @@ ServoDynamics random_dynamics(SeededDraws& draws, double backlash) {
   if (draws.happens(0.1)) friction_ratio = ratio / (1.0 + ratio);
   if (draws.happens(0.1) && damping > 0.0) {
     ratio = draws.one_of({0.0, infinity});
-    friction_ratio = 0.5;
+    // The massless side needs friction; the other may go without.
+    if (friction_ratio == (ratio == 0.0 ? 0.0 : 1.0)) friction_ratio = 0.5;
   }
   return servo_dynamics({.damping = damping,
                          .inertia_ratio = ratio,
