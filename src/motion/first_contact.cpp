@@ -108,6 +108,14 @@ double crossing_guess(const GapFlight& flight, double start, double target) {
                    cubic * (1.0 + drag / (12.0 + drag))});
 }
 
+/// |u − u₀| up to t is at most this: the decays' integrals are at most 1/2 and 1/6.
+double farthest(const GapFlight& flight, double time) {
+  const double acceleration =
+      std::abs(flight.motor_acceleration) + std::abs(flight.load_deceleration);
+  return time * (std::abs(flight.gap_speed) +
+                 time * (acceleration / 2.0 + time * std::abs(flight.coupling) / 6.0));
+}
+
 /// Where a monotone piece of u − u₀ reaches `target`, or infinity if it does not by the horizon.
 double crossing(const GapFlight& flight, double start, double end, double target, double direction,
                 double horizon) {
@@ -117,12 +125,14 @@ double crossing(const GapFlight& flight, double start, double end, double target
                          point.motion.gap_acceleration};
   };
   const auto reached = [&](double t) { return distance(t).value * direction >= 0.0; };
-  const double guess = crossing_guess(flight, start, target);
-  if (horizon < end && horizon < guess && !reached(horizon)) return infinity;
+  if (horizon < end && farthest(flight, horizon) < (1.0 - 1e-9) * std::abs(target)) {
+    return infinity;
+  }
   double bound = end;
   // At a speed that does not die out the gap closes for certain; else it must be seen to.
   if (std::isinf(end) && final_direction(flight) == 0.0) bound = finite_bound(start, reached);
   if (!std::isinf(bound) && !reached(bound)) return infinity;
+  const double guess = crossing_guess(flight, start, target);
   const double time = bracketed_root(distance, start, bound, guess, direction);
   return time <= horizon ? time : infinity;
 }
