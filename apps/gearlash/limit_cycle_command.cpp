@@ -111,6 +111,7 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
         return options.plot.empty() ? PictureFormat::svg : picture_format("--plot", options.plot);
       },
       PictureFormat::svg);
+  faults.require_distinct({{"SERVO.toml", options.servo.file}, {"--plot", options.plot}});
   const ServoFile file = resolve_servo(options.servo, faults);
   faults.require_none();
 

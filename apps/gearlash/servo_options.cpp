@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <map>
 
 #include "gearlash/io/units.hpp"
 
@@ -31,7 +33,7 @@ std::string option_name(std::string field) {
 }
 
 const char* permitted_without_file(std::string_view field) {
-  if (field == "damping") return "a number from 0 to 1000, or give SERVO.toml";
+  if (field == "damping") return "0 or a number from 1e-15 to 1000, or give SERVO.toml";
   if (field == "inertia_ratio") return "0, a number from 1e-9 to 1e9, or inf, or give SERVO.toml";
   if (field == "friction_ratio") return "a number from 0 to 1, or give SERVO.toml";
   return "an angle such as 0.1 (rad) or \"12 arcmin\", or give SERVO.toml";
@@ -88,7 +90,7 @@ void add_servo_options(CLI::App& command, ServoOptions& options) {
       .add_option("SERVO.toml", options.file,
                   "data sheet or normalised servo (docs/data-sheets.md)")
       ->type_name("");
-  command.add_option("--damping", options.damping, "damping coefficient, 0 to 1000")
+  command.add_option("--damping", options.damping, "damping coefficient, 0 or 1e-15 to 1000")
       ->type_name("NUMBER")
       ->group(servo_group);
   command.add_option("--inertia-ratio", options.inertia_ratio, "of load to motor; 0 to inf")
@@ -120,6 +122,19 @@ void Faults::require_choice(const std::string& field, const std::string& value,
     permitted += choices[i];
   }
   add({field, shown(value), permitted, ""});
+}
+
+void Faults::require_distinct(const std::vector<std::pair<std::string, std::string>>& files) {
+  namespace fs = std::filesystem;
+  std::map<fs::path, std::string> users;
+  for (const auto& [use, file] : files) {
+    std::error_code error;
+    const fs::path path = fs::weakly_canonical(file, error);
+    const bool is_device = fs::exists(path, error) && !fs::is_regular_file(path, error);
+    if (file.empty() || file == "-" || error || is_device) continue;
+    const auto [user, first] = users.emplace(path, use);
+    if (!first) add({use, shown(file), "must not be the file of " + user->second, ""});
+  }
 }
 
 double read_finite(std::string_view field, std::string_view text) {

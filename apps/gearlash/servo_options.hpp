@@ -44,6 +44,9 @@ class Faults {
   /// `value` if it is one of `choices`, else a fault of `field`.
   void require_choice(const std::string& field, const std::string& value,
                       const std::vector<std::string>& choices);
+  /// Files that are to be read or written, each with what it is for: no two may be the same file,
+  /// of which one would be lost. Empty names, "-" and devices are no matter.
+  void require_distinct(const std::vector<std::pair<std::string, std::string>>& files);
   void require_none() const { gearlash::require_none(violations_); }
 
  private:

@@ -182,6 +182,10 @@ ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
   Faults faults;
   faults.require_choice("--format", options.format, {"csv", "json"});
   const std::vector<Plot> plots = read_plots(options, faults);
+  std::vector<std::pair<std::string, std::string>> files = {{"SERVO.toml", options.servo.file},
+                                                            {"--output", options.output}};
+  for (const Plot& plot : plots) files.emplace_back("--plot", plot.file);
+  faults.require_distinct(files);
   const MotionReport report = simulated(options, provenance, faults);
   for (const Plot& plot : plots) draw(report, plot);
   write_tables(report, options);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 
@@ -190,7 +191,7 @@ class Search {
     }
     std::sort(result_.cycles.begin(), result_.cycles.end(),
               [](const LimitCycle& a, const LimitCycle& b) { return a.size > b.size; });
-    result_.cut_short = course_.cut_short;
+    result_.cut_short = course_.cut_short || still_growing_;
     return result_;
   }
 
@@ -257,11 +258,14 @@ class Search {
     std::array<Arrival, longest_order> recent;
     recent.fill(Arrival::Zero());
     double distance_halfway = std::numeric_limits<double>::infinity();
+    std::array<double, 8> largest{};  // in each eighth of the way
     for (int count = 1; count <= traversal_limit; ++count) {
       const Traversal traversal = course_.traverse(arrival, Derivative::not_wanted);
       if (!arrives(traversal) || traversal.next.norm() < negligible * servo_.backlash) return;
       recent[static_cast<std::size_t>(count % longest_order)] = arrival;
       arrival = traversal.next;
+      double& so_far = largest[static_cast<std::size_t>(8 * (count - 1) / traversal_limit)];
+      so_far = std::max(so_far, arrival.norm());
       if (count % between_attempts != 0) continue;
       const double distance = distance_to_known(arrival, true);
       if (distance < captured) return;
@@ -269,6 +273,14 @@ class Search {
       attempt(arrival, recent, count);
     }
     if (distance_to_known(arrival, true) < 0.9 * distance_halfway) return;
+    // Motion that is still dying away does not last, and motion that is still growing has not shown
+    // how far.
+    const auto never = largest.end();
+    if (std::adjacent_find(largest.begin(), never, std::less_equal<>()) == never) return;
+    if (std::adjacent_find(largest.begin(), never, std::greater_equal<>()) == never) {
+      still_growing_ = true;
+      return;
+    }
     result_.all_starts_settled = false;
     result_.irregular_size = std::fmax(result_.irregular_size, size_from(arrival));
   }
@@ -300,6 +312,7 @@ class Search {
   const ServoDynamics& dynamics_;
   Course course_;
   std::vector<FixedPoint> found_;
+  bool still_growing_ = false;
   BouncingCycles result_;
 };
 

@@ -10,6 +10,13 @@
 namespace gearlash {
 namespace {
 
+bool rests_engaged(const ServoDynamics& dynamics) {
+  const double zeta = dynamics.damping;
+  if (zeta < 1.0) return false;
+  const double slow_rate = 1.0 / (zeta + std::sqrt((zeta - 1.0) * (zeta + 1.0)));
+  return mesh_torque(dynamics, -1.0, slow_rate) > 0.0;
+}
+
 /// Plastic contact: the theorem of docs/mathematics.md decides.
 void analyse_plastic(const ServoDynamics& dynamics, LimitCycleAnalysis& analysis) {
   analysis.proved = true;
@@ -32,6 +39,8 @@ Verdict bouncing_verdict(double growth, const BouncingCycles& found) {
   const bool any_stable = std::any_of(found.cycles.begin(), found.cycles.end(),
                                       [](const LimitCycle& cycle) { return cycle.stable; });
   if (found.cut_short && !any_stable) return Verdict::undecided;
+  const bool any_lasting = any_stable || !std::isnan(found.irregular_size);
+  if (growth > 1.0 && !any_lasting) return Verdict::undecided;
   if (growth > 1.0) return any_stable ? Verdict::hunts : Verdict::hunts_irregularly;
   if (any_stable || !found.all_starts_settled) return Verdict::hunts_if_disturbed;
   return Verdict::cannot_hunt;
@@ -54,6 +63,7 @@ LimitCycleAnalysis analyse_limit_cycles(const NormalizedServo& servo) {
   const ServoDynamics dynamics = servo_dynamics(servo);
   LimitCycleAnalysis analysis;
   analysis.growth_at_rest = growth_at_rest(dynamics);
+  analysis.rests_engaged = rests_engaged(dynamics);
   if (dynamics.backlash == 0.0) {
     analysis.verdict = dynamics.damping == 0.0 ? Verdict::undamped : Verdict::cannot_hunt;
     analysis.proved = true;

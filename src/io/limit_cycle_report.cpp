@@ -214,21 +214,34 @@ std::string certainty(const LimitCycleAnalysis& analysis) {
   return analysis.proved ? "This is proved, not searched for." : "This is what a search has found.";
 }
 
+std::string persistence(const LimitCycleAnalysis& analysis) {
+  if (!analysis.rests_engaged) return "The load never comes to rest";
+  return "A motion whose faces come to stay together ends at rest, as large ones may. Small "
+         "motion\n"
+         "in the gap grows";
+}
+
 std::string meaning_when_hunting(const LimitCycleReport& report) {
   const LimitCycle* cycle = observed_cycle(report.analysis);
   if (cycle == nullptr) {
-    return "The load never comes to rest, and its motion was not seen to repeat: it stays within "
-           "the size told.\n";
+    return persistence(report.analysis) +
+           ", and its motion was not seen to repeat: it stayed within\nthe size told as long as it "
+           "was followed.\n";
   }
-  const double backlash = report.servo.backlash;
-  return fmt::format(
-      "The load never comes to rest: it ends in a swing of {} times the backlash to either side "
-      "of\n"
-      "the position asked for. Size is proportional to backlash: half the backlash, half the "
-      "swing\n"
-      "at the same frequency. No backlash is small enough to end the hunting; that takes a growth\n"
-      "at rest below 1. {}\n",
-      significant(cycle->size / backlash, headline_digits), certainty(report.analysis));
+  const std::string share =
+      significant(cycle->size / report.servo.backlash, headline_digits) + " times the backlash";
+  const std::string where =
+      cycle->kind == CycleKind::symmetric
+          ? "to either side of\nthe position asked for."
+          : "to either side of\nits middle, which is off the position asked for.";
+  const std::string end = report.analysis.proved ? "it ends in a swing of " + share
+                                                 : "the largest\nlasting swing found is " + share;
+  return persistence(report.analysis) + ": " + end + " " + where +
+         " Size is proportional to backlash: half the backlash, half the swing\n"
+         "at the same frequency. No backlash is small enough to end the hunting; that takes a "
+         "growth\n"
+         "at rest below 1. " +
+         certainty(report.analysis) + "\n";
 }
 
 std::string meaning(const LimitCycleReport& report) {
@@ -313,7 +326,8 @@ std::string verdict_line(const LimitCycleReport& report) {
   switch (analysis.verdict) {
     case Verdict::hunts:
     case Verdict::hunts_irregularly:
-      return verdict + ": " + swing_and_pace(report);
+      return verdict + (analysis.rests_engaged ? ", or rests with its faces together: " : ": ") +
+             swing_and_pace(report);
     case Verdict::hunts_if_disturbed:
       return verdict + ": " + swing_and_pace(report) + "; " +
              growth_beside_one(analysis.growth_at_rest);
@@ -342,6 +356,7 @@ std::string limit_cycle_json(const LimitCycleReport& report) {
                {"growth_at_rest", json_number(analysis.growth_at_rest)},
                {"verdict", name_of(analysis.verdict)},
                {"proved", analysis.proved},
+               {"rests_engaged", analysis.rests_engaged},
                {"cycles", std::move(cycles)}};
   if (!std::isnan(analysis.irregular_size)) {
     json["irregular_size"] = json_number(analysis.irregular_size);

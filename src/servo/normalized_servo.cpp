@@ -7,9 +7,11 @@
 namespace gearlash {
 namespace {
 
+constexpr double smallest_damping = 1e-15;
 constexpr double largest_damping = 1e3;
 constexpr double smallest_inertia_ratio = 1e-9;
 constexpr double largest_inertia_ratio = 1e9;
+constexpr double smallest_backlash = 1e-15;
 constexpr double largest_backlash = 1e6;
 
 bool permitted_inertia_ratio(double ratio) {
@@ -21,13 +23,17 @@ bool permitted_inertia_ratio(double ratio) {
 
 std::vector<Violation> validate(const NormalizedServo& servo) {
   RangeCheck check;
-  check.within("damping", servo.damping, 0.0, largest_damping);
+  if (servo.damping != 0.0) {
+    check.within("damping", servo.damping, smallest_damping, largest_damping, "0 or ");
+  }
   if (!permitted_inertia_ratio(servo.inertia_ratio)) {
     check.refuse("inertia_ratio", exact_text(servo.inertia_ratio),
                  "must be 0 (massless load), from 1e-9 to 1e9, or inf (massless motor)");
   }
   check.within("friction_ratio", servo.friction_ratio, 0.0, 1.0);
-  check.within("backlash", servo.backlash, 0.0, largest_backlash);
+  if (servo.backlash != 0.0) {
+    check.within("backlash", servo.backlash, smallest_backlash, largest_backlash, "0 or ");
+  }
   check.within("restitution", servo.restitution, 0.0, 1.0);
   if (servo.sensor != Sensor::load) {
     check.refuse("sensor", "motor", "must be load (a sensor on the motor comes with drives)");

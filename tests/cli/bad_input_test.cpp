@@ -39,7 +39,7 @@ TEST(BadInput, EveryFaultOfTheOptionsIsListed) {
                   "gearlash: --plot = both=a.svg: must be time=FILE or phase=FILE",
                   StartsWith("gearlash: --inertia-ratio = x: must be"),
                   StartsWith("gearlash: --backlash = 12 kg: must be"),
-                  "gearlash: --damping = -1: must be from 0 to 1000",
+                  "gearlash: --damping = -1: must be 0 or from 1e-15 to 1000",
                   "gearlash: --friction-ratio = 3/2: must be from 0 to 1",
                   "gearlash: --initial-speed = inf: must be finite",
                   "gearlash: --until = 0: must be positive, in 1/ω_n"));

@@ -126,6 +126,20 @@ TEST(OutputFiles, ASymbolicLinkStaysOneAndPermissionsStay) {
             std::filesystem::perms(0640));
 }
 
+TEST(OutputFiles, NoneMayTakeThePlaceOfAnother) {
+  const Scratch scratch;
+  const std::string sheet = (scratch / "own.toml").string();
+  std::ofstream(sheet) << file_text("examples/elinco-fd162.toml");
+  const std::string picture = (scratch / "y.svg").string();
+  const Outcome run = run_tool({"simulate", sheet, "--output", sheet, "--plot", "time=" + picture,
+                                "--plot", "phase=" + picture});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("--output = " + sheet + ": must not be the file of SERVO.toml"));
+  EXPECT_THAT(run.err, HasSubstr("--plot = " + picture + ": must not be the file of --plot"));
+  EXPECT_EQ(file_text(sheet), file_text("examples/elinco-fd162.toml"));
+  EXPECT_EQ(scratch.file_count(), 1U);
+}
+
 TEST(OutputFiles, ADeviceIsWrittenTo) {
   EXPECT_EQ(run_tool(simulate_into("/dev/null")).status, 0);
   EXPECT_THAT(run_tool(simulate_into("/dev/stdout")).out, StartsWith("# gearlash "));

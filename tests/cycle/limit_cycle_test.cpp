@@ -357,5 +357,63 @@ TEST(PropertyRestitution, NearlyPlasticTendsToThePlasticCycle) {
   }
 }
 
+// ---- servos that rest while their faces stay together -------------------------------------------
+
+TEST(PropertyVerdict, OverdampedFacesThatStayTogetherDoWhatIsSaid) {
+  constexpr std::uint64_t seed = 641;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  int resting = 0;
+  int parting = 0;
+  for (int i = 0; i < 400; ++i) {
+    const NormalizedServo servo{.damping = draws.uniform(1.0, 3.0),
+                                .inertia_ratio = draws.log_uniform(0.03, 30.0),
+                                .friction_ratio = draws.uniform(0.0, 1.0),
+                                .backlash = 0.3};
+    const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
+    SCOPED_TRACE(i);
+    // On the slow decay, pressed together by the loop.
+    const double zeta = servo.damping;
+    const double slow_rate = 1.0 / (zeta + std::sqrt(zeta * zeta - 1.0));
+    const ServoState start = engaged_start(servo, -1.0, slow_rate, 0.0);
+    const Trajectory motion = simulate(servo, start, {.until = 20.0 / slow_rate, .reference = 0.0});
+    if (analysis.rests_engaged) {
+      ++resting;
+      ASSERT_EQ(motion.events().size(), 0U);
+    } else {
+      ++parting;
+      ASSERT_GT(motion.events().size(), 0U);
+    }
+    // Small motion grows into the cycle whether there is rest beside it or not.
+    if (analysis.verdict != Verdict::hunts || analysis.growth_at_rest < 1.1) continue;
+    const TorqueFreeLine line = servo_dynamics(servo).torque_free_line;
+    const ServoState cycle = analysis.cycles.front().start;
+    const double amplitude =
+        0.5 * (cycle.load_position * line.position + cycle.load_speed * line.speed);
+    const ServoState parted{amplitude * line.position + 0.15, amplitude * line.speed,
+                            amplitude * line.position, amplitude * line.speed};
+    ASSERT_GT(simulate(servo, parted, {.until = 2000.0, .reference = 0.0}).events().size(), 20U);
+  }
+  EXPECT_GT(resting, 20);
+  EXPECT_GT(parting, 10);
+}
+
+TEST(EdgeRestitution, MotionThatStillGrowsIsNotCalledIrregular) {
+  // The largest swing of the first is 8e4 rad, reached in some 1e8 crossings of the gap.
+  for (const NormalizedServo& servo :
+       {NormalizedServo{1e-8, 1.0, 0.3, 0.3, 1e-12}, NormalizedServo{1e-5, 1e6, 0.3, 0.3, 1e-12}}) {
+    EXPECT_EQ(analyse_limit_cycles(servo).verdict, Verdict::undecided);
+  }
+}
+
+TEST(EdgeRestitution, MotionThatDiesAwaySlowlyIsNoHunting) {
+  // Equal rates of decay on both sides: growth at rest is e itself.
+  for (const double restitution : {0.9, 0.99, 0.999}) {
+    const LimitCycleAnalysis analysis = analyse_limit_cycles({0.5, 1.0, 0.5, 0.3, restitution});
+    EXPECT_EQ(analysis.verdict, Verdict::cannot_hunt);
+    EXPECT_NEAR(analysis.growth_at_rest, restitution, 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace gearlash

@@ -58,7 +58,7 @@ Datasheet sound_datasheet() {
 }
 
 TEST(EdgeNormalizedServoRanges, EndsArePermitted) {
-  for (const double damping : {0.0, 1e3}) {
+  for (const double damping : {0.0, 1e-15, 1e3}) {
     NormalizedServo servo = sound_servo();
     servo.damping = damping;
     EXPECT_THAT(validate(servo), IsEmpty()) << damping;
@@ -74,7 +74,7 @@ TEST(EdgeNormalizedServoRanges, EndsArePermitted) {
     servo.restitution = ratio;
     EXPECT_THAT(validate(servo), IsEmpty()) << ratio;
   }
-  for (const double backlash : {0.0, 5e-324, 1e6}) {
+  for (const double backlash : {0.0, 1e-15, 1e6}) {
     NormalizedServo servo = sound_servo();
     servo.backlash = backlash;
     EXPECT_THAT(validate(servo), IsEmpty()) << backlash;
@@ -89,7 +89,8 @@ TEST(EdgeNormalizedServoRanges, OneStepBeyondIsRefused) {
   };
   const double below_zero = -5e-324;
   const double above_one = std::nextafter(1.0, 2.0);
-  for (const double bad : {below_zero, std::nextafter(1e3, 1e4), nan, infinity, -infinity}) {
+  for (const double bad : {below_zero, std::nextafter(1e-15, 0.0), std::nextafter(1e3, 1e4), nan,
+                           infinity, -infinity}) {
     refused(&NormalizedServo::damping, bad, "damping");
   }
   for (const double bad : {below_zero, 5e-324, std::nextafter(1e-9, 0.0),
@@ -100,7 +101,8 @@ TEST(EdgeNormalizedServoRanges, OneStepBeyondIsRefused) {
     refused(&NormalizedServo::friction_ratio, bad, "friction_ratio");
     refused(&NormalizedServo::restitution, bad, "restitution");
   }
-  for (const double bad : {below_zero, std::nextafter(1e6, 1e7), nan, infinity}) {
+  for (const double bad :
+       {below_zero, std::nextafter(1e-15, 0.0), std::nextafter(1e6, 1e7), nan, infinity}) {
     refused(&NormalizedServo::backlash, bad, "backlash");
   }
 }

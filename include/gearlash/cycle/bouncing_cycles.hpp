@@ -13,7 +13,7 @@ namespace gearlash {
 struct BouncingCycles {
   std::vector<LimitCycle> cycles;  ///< by decreasing size
   bool all_starts_settled = true;  ///< every start tried ended in one of the cycles, or at rest
-  bool cut_short = false;          ///< the search ran out of events before it was through
+  bool cut_short = false;          ///< events ran out, or a motion still grew when it was left
   double irregular_size = std::numeric_limits<double>::quiet_NaN();  ///< largest half peak-to-peak
                                                                      ///< of those that did not
 };

@@ -61,6 +61,10 @@ struct LimitCycleAnalysis {
   Verdict verdict = Verdict::cannot_hunt;
   bool proved = false;  ///< the verdict rests on a theorem (docs/mathematics), not on a search
   double growth_at_rest = std::numeric_limits<double>::quiet_NaN();  ///< μ₀, see growth_at_rest()
+  /// Whether motions in which the faces stay together come to rest: ζ ≥ 1 and the slow decay
+  /// presses them together, N > 0 on y = −e^{−λt}. Such a servo has rest beside its limit cycle:
+  /// small motion in the gap grows, but a large one may end with the faces together.
+  bool rests_engaged = false;
   std::vector<LimitCycle> cycles;                                    ///< by decreasing size
   double irregular_size = std::numeric_limits<double>::quiet_NaN();  ///< half the peak-to-peak seen
                                                                      ///< when hunts_irregularly

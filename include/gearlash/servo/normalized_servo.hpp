@@ -16,10 +16,10 @@ enum class Sensor { load, motor };
 ///   engaged    ÿ + 2ζẏ + y = 0,
 ///   separated  J_L ÿ_L + F_L ẏ_L = 0,   J_M ÿ_M + F_M ẏ_M + y_L = 0.
 struct NormalizedServo {
-  double damping = 0.0;         ///< ζ = (F_M+F_L)/(2 ω_n (J_M+J_L)), 0 … 1000
+  double damping = 0.0;         ///< ζ = (F_M+F_L)/(2 ω_n (J_M+J_L)), 0 or 1e-15 … 1000
   double inertia_ratio = 1.0;   ///< J_L/J_M; 0, 1e-9 … 1e9, or infinity (a massless motor)
   double friction_ratio = 0.5;  ///< F_L/(F_M+F_L), 0 … 1; without effect where damping is 0
-  double backlash = 0.0;        ///< b, rad at the load shaft, face to face, 0 … 1e6
+  double backlash = 0.0;        ///< b, rad at the load shaft, face to face, 0 or 1e-15 … 1e6
   double restitution = 0.0;     ///< e, 0 (plastic) … 1 (elastic)
   Sensor sensor = Sensor::load;
 
