@@ -61,11 +61,11 @@ inline double near_face_margin(const GapState4& start) {
 ///   gap      the face met, +1 forward or −1 backward, or 0 when none is met for a long time.
 /// `face` is the face in contact, or left, +1 or −1.
 template <class Integrator>
-concept EventIntegrator = requires(Integrator integrator, double time, EngagedState engaged,
-                                   GapState4 gap, double face) {
-  { integrator.follow_engagement(time, engaged, face) } -> std::same_as<double>;
-  { integrator.follow_gap(time, gap, face) } -> std::same_as<double>;
-};
+concept EventIntegrator =
+    requires(Integrator integrator, double time, EngagedState engaged, GapState4 gap, double face) {
+      { integrator.follow_engagement(time, engaged, face) } -> std::same_as<double>;
+      { integrator.follow_gap(time, gap, face) } -> std::same_as<double>;
+    };
 
 struct RivalCycle {
   double size = 0.0;

@@ -39,8 +39,19 @@ PhaseEnd no_event() {
   return end;
 }
 
-/// What follows an impact that left the shafts in the state `after`.
-Phase phase_after_impact(const ServoDynamics& dynamics, FaceSign face, const GapState& after) {
+/// The bounces to come, where they need not be followed one by one.
+SettlingBounces bounces_summed_up(const ServoDynamics& dynamics, FaceSign face,
+                                  const GapState& after, std::size_t bounces) {
+  constexpr std::size_t always_followed = 100;
+  const SettlingBounces settling =
+      settling_bounces(dynamics, face, after.load_position, after.load_speed, after.gap_speed);
+  if (settling.imminent || bounces < always_followed) return settling;
+  return fading_rattle(dynamics, face, after.load_position, after.load_speed, after.gap_speed);
+}
+
+/// What follows an impact, the `bounces`-th in a row, that left the shafts in the state `after`.
+Phase phase_after_impact(const ServoDynamics& dynamics, FaceSign face, const GapState& after,
+                         std::size_t bounces) {
   if (after.gap_speed == 0.0) {
     if (stays_engaged(dynamics, face, after.load_position, after.load_speed)) {
       return engaged_phase(dynamics, face, after.load_position, after.load_speed);
@@ -49,23 +60,24 @@ Phase phase_after_impact(const ServoDynamics& dynamics, FaceSign face, const Gap
             .face = face,
             .flight = flight_from_pull(dynamics, after.load_position, after.load_speed, after.gap)};
   }
-  Phase phase = {.mode = Mode::separated, .face = face, .flight = flight_from(dynamics, after)};
-  if (dynamics.restitution < 1.0) {
-    const SettlingBounces bounces =
-        settling_bounces(dynamics, face, after.load_position, after.load_speed, after.gap_speed);
-    if (bounces.imminent) {
-      phase.mode = Mode::settling;
-      phase.bounces = bounces;
-      phase.engaged = {dynamics.damping, after.load_position,
-                       after.load_speed + dynamics.motor_inertia * after.gap_speed};
-    }
+  Phase phase = {.mode = Mode::separated,
+                 .face = face,
+                 .flight = flight_from(dynamics, after),
+                 .impacts_in_a_row = bounces};
+  const SettlingBounces summed_up = bounces_summed_up(dynamics, face, after, bounces);
+  if (summed_up.imminent) {
+    phase.mode = Mode::settling;
+    phase.bounces = summed_up;
+    phase.engaged = {dynamics.damping, after.load_position,
+                     after.load_speed + dynamics.motor_inertia * after.gap_speed};
   }
   return phase;
 }
 
 /// Applies the impact law to faces that meet at relative speed `state.gap_speed`, and decides what
 /// follows.
-PhaseEnd meet(const ServoDynamics& dynamics, FaceSign face, double duration, GapState state) {
+PhaseEnd meet(const ServoDynamics& dynamics, FaceSign face, double duration, GapState state,
+              std::size_t impacts_before) {
   // Rounding may leave a grazing approach on the wrong side of zero.
   if (state.gap_speed * face < 0.0) state.gap_speed = 0.0;
   const ImpactOutcome outcome = impact(dynamics, state.load_speed, state.gap_speed);
@@ -77,7 +89,7 @@ PhaseEnd meet(const ServoDynamics& dynamics, FaceSign face, double duration, Gap
           .before = state,
           .after = after,
           .energy_lost = outcome.energy_lost,
-          .next = phase_after_impact(dynamics, face, after)};
+          .next = phase_after_impact(dynamics, face, after, impacts_before + 1)};
 }
 
 /// Whether a flight that starts on a face moves off it: the first of its derivatives that is not
@@ -180,7 +192,7 @@ PhaseStart begin_phase(const ServoDynamics& dynamics, const GapState& state) {
   }
   if (on_face && flight.gap_speed * face > 0.0) {
     start.impact_at_start = true;
-    start.impact = meet(dynamics, face, 0.0, clamped);
+    start.impact = meet(dynamics, face, 0.0, clamped, 0);
     start.phase = start.impact.next;
     return start;
   }
@@ -205,9 +217,10 @@ PhaseEnd end_of_phase(const ServoDynamics& dynamics, const Phase& phase, double 
   const FirstContact contact = first_contact(phase.flight, dynamics.backlash, horizon);
   if (contact.toward == 0.0) return no_event();
   const FlightMotion motion = motion_in_flight(phase.flight, contact.time);
-  return meet(dynamics, contact.toward, contact.time,
-              {motion.load_position, motion.load_speed, gap_on(dynamics, contact.toward),
-               motion.gap_speed});
+  return meet(
+      dynamics, contact.toward, contact.time,
+      {motion.load_position, motion.load_speed, gap_on(dynamics, contact.toward), motion.gap_speed},
+      contact.toward == phase.face ? phase.impacts_in_a_row : 0);
 }
 
 GapState state_in_phase(const ServoDynamics& dynamics, const Phase& phase, double time) {

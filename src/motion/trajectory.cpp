@@ -66,15 +66,17 @@ GapState snapped_to_faces(GapState state, const ServoState& initial, double back
 }
 
 /// Adds the friction losses and the loop's supply over the first `duration` of a phase. Over a
-/// settling phase, whose bounces are below resolution, the common motion's losses are taken.
+/// settling phase the common motion's losses are taken, and the bounces' own at once.
 void accumulate(const ServoDynamics& dynamics, const Phase& phase, double duration,
                 EnergyAccount& account) {
   if (phase.mode != Mode::separated) {
     const double speed_squared =
         panel_integral([&](double t) { return std::pow(phase.engaged.at(t).speed, 2); }, duration,
                        2.0 * dynamics.damping);
-    account.motor_friction += dynamics.motor_friction * speed_squared;
-    account.load_friction += dynamics.load_friction * speed_squared;
+    account.motor_friction +=
+        dynamics.motor_friction * speed_squared + phase.bounces.motor_friction_lost;
+    account.load_friction +=
+        dynamics.load_friction * speed_squared + phase.bounces.load_friction_lost;
     return;
   }
   const GapFlight& flight = phase.flight;

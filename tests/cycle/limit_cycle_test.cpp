@@ -357,6 +357,38 @@ TEST(PropertyRestitution, NearlyPlasticTendsToThePlasticCycle) {
   }
 }
 
+TEST(PropertyRestitution, NearlyElasticTendsToTheElasticCycle) {
+  // A light motor with friction: its bounces fade away as 1/n, not geometrically.
+  NormalizedServo servo{.damping = 0.19,
+                        .inertia_ratio = 100.0,
+                        .friction_ratio = 0.1,
+                        .backlash = 0.3,
+                        .restitution = 1.0};
+  const LimitCycleAnalysis elastic = analyse_limit_cycles(servo);
+  EXPECT_EQ(elastic.verdict, Verdict::hunts);
+  ASSERT_EQ(elastic.cycles.size(), 1U);
+  EXPECT_TRUE(elastic.cycles[0].stable);
+  for (const double small : {1e-5, 1e-7, 1e-9}) {
+    servo.restitution = 1.0 - small;
+    const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
+    ASSERT_EQ(analysis.cycles.size(), 1U) << small;
+    EXPECT_NEAR(analysis.cycles[0].size, elastic.cycles[0].size, small + 1e-8) << small;
+    EXPECT_NEAR(analysis.cycles[0].period, elastic.cycles[0].period, 10.0 * small + 1e-7) << small;
+  }
+}
+
+TEST(EdgeRestitution, ElasticOverdampedServosAreDecided) {
+  // Pressed together while the motion decays, elastic faces bounce without end.
+  for (const double damping : {1.0, 1.2}) {
+    const LimitCycleAnalysis analysis = analyse_limit_cycles({.damping = damping,
+                                                              .inertia_ratio = 1.0,
+                                                              .friction_ratio = 0.1,
+                                                              .backlash = 0.3,
+                                                              .restitution = 1.0});
+    EXPECT_EQ(analysis.verdict, Verdict::cannot_hunt) << damping;
+  }
+}
+
 // ---- servos that rest while their faces stay together -------------------------------------------
 
 TEST(PropertyVerdict, OverdampedFacesThatStayTogetherDoWhatIsSaid) {

@@ -348,8 +348,9 @@ TEST(ServoFileRefusal, OfAnotherType) {
                 ElementsAre(HasSubstr("must be a number without unit, such as ")))
         << value;
   }
-  EXPECT_THAT(refusals(replaced(normalized, "\"0.3 rad\"", "nan")),
-              ElementsAre(StartsWith("s.toml:5:12: servo.backlash = nan: must be 0 or from 1e-15 to ")));
+  EXPECT_THAT(
+      refusals(replaced(normalized, "\"0.3 rad\"", "nan")),
+      ElementsAre(StartsWith("s.toml:5:12: servo.backlash = nan: must be 0 or from 1e-15 to ")));
   EXPECT_THAT(refusals("motor = 3\n[gearbox]\nratio = 1\nbacklash = \"1 deg\"\n")[2],
               StartsWith("s.toml:1:9: motor = 3: must be a section [motor] "));
   EXPECT_THAT(refusals("[[servo]]\ndamping = 1\n"),
@@ -371,8 +372,9 @@ TEST(ServoFileRefusal, OutOfRange) {
               ElementsAre("s.toml:9:9: gearbox.ratio = inf: must be positive and finite"));
   EXPECT_THAT(refusals(replaced(sample, "282 ohm", "0 ohm")),
               ElementsAre("s.toml:7:14: motor.resistance = 0 ohm: must be positive and finite"));
-  EXPECT_THAT(refusals(replaced(normalized, "0.19", "nan")),
-              ElementsAre(StartsWith("s.toml:2:11: servo.damping = nan: must be 0 or from 1e-15 to ")));
+  EXPECT_THAT(
+      refusals(replaced(normalized, "0.19", "nan")),
+      ElementsAre(StartsWith("s.toml:2:11: servo.damping = nan: must be 0 or from 1e-15 to ")));
   EXPECT_THAT(refusals(replaced(normalized, "inertia_ratio = 2", "inertia_ratio = -inf")),
               ElementsAre(StartsWith("s.toml:3:17: servo.inertia_ratio = -inf: must be ")));
   EXPECT_THAT(refusals(std::string(normalized) + "natural_frequency = \"-2 Hz\"\n"),

@@ -25,15 +25,17 @@ ImpactOutcome impact(const ServoDynamics& dynamics, double load_speed, double ga
 bool stays_engaged(const ServoDynamics& dynamics, FaceSign face, double load_position,
                    double load_speed);
 
-/// The rest of a run of bounces that has become so short that the pressing torque is linear in
-/// time over it.
+/// The rest of a run of bounces on one face, summed up.
 struct SettlingBounces {
-  bool imminent;       ///< the closed form below holds to a double's accuracy
-  double duration;     ///< time until the infinitely many remaining bounces are over
-  double energy_lost;  ///< ½ J_M J_L u̇², what they lose together
+  bool imminent = false;             ///< the closed form holds; the rest may be taken at once
+  double duration = 0.0;             ///< time until the remaining bounces are over
+  double energy_lost = 0.0;          ///< what the impacts of them lose, units of K rad²
+  double motor_friction_lost = 0.0;  ///< what the bouncing itself rubs away at the motor and at
+  double load_friction_lost = 0.0;   ///< the load, beside the friction of the common motion
 };
 
-/// Zeno limit in closed form. With a = s N/(J_M J_L) the pressing acceleration, a′ its rate, κ =
+/// Zeno limit in closed form, for a run that has become so short that the pressing torque is linear
+/// in time over it. With a = s N/(J_M J_L) the pressing acceleration, a′ its rate, κ =
 /// c J_L + D J_M the drag on the gap's motion and s₀ = |u̇|/a, the bounces still to come take
 ///   T = T₀ (1 − T₀ (κ + 2a′/a)/6),   T₀ = 2 s₀/(1 − e),
 /// to third order in T₀ (docs/mathematics.md derives it); at their end the faces are engaged in the
@@ -42,5 +44,18 @@ struct SettlingBounces {
 /// Precondition: just after an impact on `face`, gap_speed pointing away from it, 0 < e < 1.
 SettlingBounces settling_bounces(const ServoDynamics& dynamics, FaceSign face, double load_position,
                                  double load_speed, double gap_speed);
+
+/// The rest of a run of nearly elastic bounces (1 − e ≤ 1e-3), which shrink so slowly that they
+/// cannot all be followed. While they are pressed together their action p³/a falls as e^{−κt}, and
+/// no faster where e = 1 (adiabatic invariance; docs/mathematics.md). `imminent` is set, with
+/// duration 0, when more than 1e4 bounces are to come before the faces part, and
+///   the height p²/(2a) is below 1e-8 of backlash + motion (and below 1e-4 of the backlash),
+///   the common motion is displaced by less than 1e-9 of itself or of the backlash,
+///   the relative speed left at the parting, (⅔ p³/a · e^{−κT})^{2/5} |ȧ|^{1/5}, is below 1e-6 of
+///   the motion then, or, the more bounces n there would be to follow, below 1e-10 n ≤ 1e-3.
+/// So the faces are called engaged where they rattle still; the numbers above are the errors made.
+/// Precondition: as for settling_bounces(), e ≤ 1.
+SettlingBounces fading_rattle(const ServoDynamics& dynamics, FaceSign face, double load_position,
+                              double load_speed, double gap_speed);
 
 }  // namespace gearlash

@@ -1,6 +1,8 @@
 // One mode of motion with its closed form, and the event that ends it.
 #pragma once
 
+#include <cstddef>
+
 #include "gearlash/motion/contact_law.hpp"
 #include "gearlash/motion/engaged_flow.hpp"
 #include "gearlash/motion/gap_flight.hpp"
@@ -15,23 +17,24 @@ enum class Mode {
   engaged_forward,   ///< both move as one, u = +b/2
   engaged_backward,  ///< both move as one, u = −b/2
   separated,         ///< the load coasts, the motor runs alone
-  settling,          ///< infinitely many bounces, each shorter than the last, up to their limit
+  settling,          ///< the last bounces, summed up: infinitely many, or too many to follow
   no_gap             ///< backlash 0: both move as one, pushing and pulling
 };
 
 enum class EventKind {
   separation,  ///< engaged faces part: the mesh torque reached zero
   impact,      ///< faces meet; `after` differs from `before` by the law of restitution
-  settling     ///< the limit of infinitely many bounces: relative speed 0, faces engage
+  settling     ///< the end of the last bounces: relative speed 0, faces engage
 };
 
 /// Positions are from the reference (y = θ − θ_ref); times from the phase's own start.
 struct Phase {
   Mode mode = Mode::no_gap;
-  FaceSign face = 1.0;        ///< engaged on, or bouncing on; unused when separated
-  EngagedFlow engaged{};      ///< engaged and no_gap; when settling, the common motion
-  GapFlight flight{};         ///< separated; when settling, the first of the bounces
-  SettlingBounces bounces{};  ///< settling only
+  FaceSign face = 1.0;               ///< engaged on, or bouncing on; unused when separated
+  EngagedFlow engaged{};             ///< engaged and no_gap; when settling, the common motion
+  GapFlight flight{};                ///< separated; when settling, the first of the bounces
+  SettlingBounces bounces{};         ///< settling only
+  std::size_t impacts_in_a_row = 0;  ///< separated: on `face`, without parting or crossing between
 };
 
 /// How a phase ends.
@@ -61,8 +64,9 @@ PhaseStart begin_phase(const ServoDynamics& dynamics, const GapState& state);
 /// Separated: ends at the first contact with either face (first_contact, certified); the impact
 /// law is applied; if the relative speed after it is zero, stays_engaged() decides between
 /// engagement and parting at once; else, if the bounces to come are settling_bounces().imminent,
-/// the settling phase begins; else the next flight does. Settling: ends after its closed-form
-/// duration, engaged. An impact and a separation at one instant are thus taken in that order.
+/// or, after a hundred of them, fading_rattle().imminent, the settling phase begins; else the next
+/// flight does. Settling: ends after its closed-form duration, engaged. An impact and a separation
+/// at one instant are thus taken in that order.
 PhaseEnd end_of_phase(const ServoDynamics& dynamics, const Phase& phase, double horizon);
 
 /// State at `time` within the phase. Within a settling phase the bounces are followed one by one.
