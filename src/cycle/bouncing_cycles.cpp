@@ -9,7 +9,9 @@
 #include <numbers>
 #include <optional>
 
+#include "gearlash/cycle/growth_at_rest.hpp"
 #include "gearlash/cycle/return_map.hpp"
+#include "gearlash/cycle/unit_half_cycle.hpp"
 #include "gearlash/motion/extremes.hpp"
 
 namespace gearlash {
@@ -85,6 +87,16 @@ struct FixedPoint {
 
 double mismatch(const Iterate& map, const Arrival& start) {
   return (map.end - start).norm() / start.norm();
+}
+
+/// Whether a fixed point can be told from its neighbours: what the map is uncertain by moves it
+/// little. It does not hold where a multiplier is 1 to rounding: there a swing of any size lasts.
+bool is_isolated(const FixedPoint& point) {
+  constexpr double map_rounding = 1e-14;
+  constexpr double displacement_allowed = 1e-5;
+  const Eigen::Matrix3d mismatch_slope = point.map.slope - Eigen::Matrix3d::Identity();
+  const double least_pivot = mismatch_slope.fullPivLu().matrixLU().diagonal().cwiseAbs().minCoeff();
+  return std::max(point.residual, map_rounding) < displacement_allowed * least_pivot;
 }
 
 /// Newton's method with halved steps where the mismatch does not fall.
@@ -184,6 +196,7 @@ class Search {
       : servo_(servo), dynamics_(dynamics), course_{dynamics} {}
 
   BouncingCycles run() {
+    try_plastic_cycle();
     scan_amplitudes();
     follow_starts();
     for (const FixedPoint& point : found_) {
@@ -200,9 +213,25 @@ class Search {
   bool try_from(const Arrival& start, int order) {
     const std::optional<FixedPoint> point = newton(course_, start, order);
     if (!point || distance_to_known(point->arrival, false) < 1e-7) return false;
+    if (!is_isolated(*point)) {
+      result_.any_neutral = true;
+      return false;
+    }
     if (repeats_earlier(course_, *point)) return false;
     found_.push_back(*point);
     return true;
+  }
+
+  /// Few bounces change the cycle little, and it may lie far outside the scan.
+  void try_plastic_cycle() {
+    ServoDynamics plastic = dynamics_;
+    plastic.restitution = 0.0;
+    const double growth = growth_at_rest(plastic);
+    if (!(growth > 1.0)) return;
+    const auto half = balanced_half_cycle(plastic, growth);
+    if (!half) return;
+    const Traversal first = course_.first_arrival(servo_.backlash / -half->gap_displacement);
+    if (arrives(first)) try_from(first.next, 1);
   }
 
   /// Coarsely first, then finer, for as long as half of the events last.

@@ -38,7 +38,7 @@ Verdict bouncing_verdict(double growth, const BouncingCycles& found) {
   if (std::isnan(growth)) return Verdict::undecided;
   const bool any_stable = std::any_of(found.cycles.begin(), found.cycles.end(),
                                       [](const LimitCycle& cycle) { return cycle.stable; });
-  if (found.cut_short && !any_stable) return Verdict::undecided;
+  if ((found.cut_short || found.any_neutral) && !any_stable) return Verdict::undecided;
   const bool any_lasting = any_stable || !std::isnan(found.irregular_size);
   if (growth > 1.0 && !any_lasting) return Verdict::undecided;
   if (growth > 1.0) return any_stable ? Verdict::hunts : Verdict::hunts_irregularly;
@@ -50,10 +50,9 @@ void analyse_bouncing(const NormalizedServo& servo, const ServoDynamics& dynamic
                       LimitCycleAnalysis& analysis) {
   const BouncingCycles found = find_bouncing_cycles(servo, dynamics);
   analysis.cycles = found.cycles;
+  analysis.neutral_swings = found.any_neutral;
+  analysis.irregular_size = found.irregular_size;
   analysis.verdict = bouncing_verdict(analysis.growth_at_rest, found);
-  if (analysis.verdict == Verdict::hunts_irregularly) {
-    analysis.irregular_size = found.irregular_size;
-  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 #include <vector>
 
 #include "json_values.hpp"
@@ -217,58 +218,87 @@ std::string certainty(const LimitCycleAnalysis& analysis) {
 std::string persistence(const LimitCycleAnalysis& analysis) {
   if (!analysis.rests_engaged) return "The load never comes to rest";
   return "A motion whose faces come to stay together ends at rest, as large ones may. Small "
-         "motion\n"
-         "in the gap grows";
+         "motion in the gap grows";
+}
+
+/// Other starts may end elsewhere; empty where none was seen to.
+std::string other_motion(const LimitCycleReport& report) {
+  const double size = report.analysis.irregular_size;
+  if (std::isnan(size)) return "";
+  return "Other starts end in a motion that was not seen to repeat, of up to " +
+         swing_text(size, report.units.angle, headline_digits) + ". ";
 }
 
 std::string meaning_when_hunting(const LimitCycleReport& report) {
   const LimitCycle* cycle = observed_cycle(report.analysis);
   if (cycle == nullptr) {
     return persistence(report.analysis) +
-           ", and its motion was not seen to repeat: it stayed within\nthe size told as long as it "
-           "was followed.\n";
+           ", and its motion was not seen to repeat: it stayed within the size told as long as it "
+           "was followed.";
   }
   const std::string share =
       significant(cycle->size / report.servo.backlash, headline_digits) + " times the backlash";
   const std::string where =
       cycle->kind == CycleKind::symmetric
-          ? "to either side of\nthe position asked for."
-          : "to either side of\nits middle, which is off the position asked for.";
+          ? "to either side of the position asked for. "
+          : "to either side of its middle, which is off the position asked for. ";
   const std::string end = report.analysis.proved ? "it ends in a swing of " + share
-                                                 : "the largest\nlasting swing found is " + share;
-  return persistence(report.analysis) + ": " + end + " " + where +
-         " Size is proportional to backlash: half the backlash, half the swing\n"
-         "at the same frequency. No backlash is small enough to end the hunting; that takes a "
-         "growth\n"
-         "at rest below 1. " +
-         certainty(report.analysis) + "\n";
+                                                 : "the largest steady swing found is " + share;
+  return persistence(report.analysis) + ": " + end + " " + where + other_motion(report) +
+         "Size is proportional to backlash: half the backlash, half the swing at the same "
+         "frequency. No backlash is small enough to end the hunting; that takes a growth at rest "
+         "below 1. " +
+         certainty(report.analysis);
+}
+
+std::string meaning_when_undecided(const LimitCycleAnalysis& analysis) {
+  if (analysis.neutral_swings) {
+    return "Some swings neither grow nor die away as far as numbers can tell (multiplier 1): the "
+           "servo lies on a boundary, where any change of a parameter decides.";
+  }
+  return "The numerics could not decide; what is known is in the table.";
 }
 
 std::string meaning(const LimitCycleReport& report) {
   const std::string sure = certainty(report.analysis);
   switch (report.analysis.verdict) {
     case Verdict::cannot_hunt:
-      if (report.servo.backlash == 0.0) return "Without backlash there is nothing to hunt in.\n";
-      return "The load comes to rest wherever it starts, somewhere within the backlash. However\n"
-             "large the backlash is, this stays so: it depends on damping and ratios alone.\n" +
-             sure + "\n";
+      if (report.servo.backlash == 0.0) return "Without backlash there is nothing to hunt in.";
+      return "The load comes to rest wherever it starts, somewhere within the backlash. However "
+             "large the backlash is, this stays so: it depends on damping and ratios alone. " +
+             sure;
     case Verdict::hunts:
     case Verdict::hunts_irregularly:
       return meaning_when_hunting(report);
     case Verdict::hunts_if_disturbed:
-      return "At rest the load stays at rest; a large enough disturbance sets it swinging for\n"
+      return "At rest the load stays at rest; a large enough disturbance sets it swinging for "
              "good. " +
-             sure + "\n";
+             sure;
     case Verdict::grows_without_bound:
-      return "There is no friction at all: every swing through the backlash is larger than the\n"
+      return "There is no friction at all: every swing through the backlash is larger than the "
              "last. " +
-             sure + "\n";
+             sure;
     case Verdict::undamped:
-      return "There is neither friction nor backlash: the load swings for ever as it was "
-             "started.\n";
+      return "There is neither friction nor backlash: the load swings for ever as it was started.";
     default:
-      return "The numerics could not decide; what is known is in the table.\n";
+      return meaning_when_undecided(report.analysis);
   }
+}
+
+/// Lines of a paragraph, broken between words.
+std::string wrapped(const std::string& paragraph) {
+  constexpr std::size_t columns = 92;
+  std::string text;
+  std::string line;
+  std::istringstream words(paragraph);
+  for (std::string word; words >> word;) {
+    if (!line.empty() && width(line) + 1 + width(word) > columns) {
+      text += line + '\n';
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  return text + line + '\n';
 }
 
 // --- JSON ---
@@ -345,7 +375,7 @@ std::string verdict_line(const LimitCycleReport& report) {
 
 std::string limit_cycle_text(const LimitCycleReport& report) {
   return verdict_line(report) + "\n" + cycle_tables(report) + "\nServo\n" + servo_table(report) +
-         "\n" + meaning(report);
+         "\n" + wrapped(meaning(report));
 }
 
 std::string limit_cycle_json(const LimitCycleReport& report) {
@@ -357,6 +387,7 @@ std::string limit_cycle_json(const LimitCycleReport& report) {
                {"verdict", name_of(analysis.verdict)},
                {"proved", analysis.proved},
                {"rests_engaged", analysis.rests_engaged},
+               {"neutral_swings", analysis.neutral_swings},
                {"cycles", std::move(cycles)}};
   if (!std::isnan(analysis.irregular_size)) {
     json["irregular_size"] = json_number(analysis.irregular_size);

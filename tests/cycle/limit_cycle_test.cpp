@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "../servo/seeded_draws.hpp"
+#include "gearlash/motion/extremes.hpp"
 #include "gearlash/servo/range_check.hpp"
 
 namespace gearlash {
@@ -430,12 +431,44 @@ TEST(PropertyVerdict, OverdampedFacesThatStayTogetherDoWhatIsSaid) {
   EXPECT_GT(parting, 10);
 }
 
-TEST(EdgeRestitution, MotionThatStillGrowsIsNotCalledIrregular) {
-  // The largest swing of the first is 8e4 rad, reached in some 1e8 crossings of the gap.
-  for (const NormalizedServo& servo :
-       {NormalizedServo{1e-8, 1.0, 0.3, 0.3, 1e-12}, NormalizedServo{1e-5, 1e6, 0.3, 0.3, 1e-12}}) {
-    EXPECT_EQ(analyse_limit_cycles(servo).verdict, Verdict::undecided);
+TEST(EdgeRestitution, LightlyDampedCyclesAreFoundFarOutsideTheScan) {
+  // The largest is 8e4 rad, which a motion from rest reaches in some 1e8 crossings of the gap.
+  for (NormalizedServo servo :
+       {NormalizedServo{1e-8, 1.0, 0.3, 0.3, 1e-12}, NormalizedServo{1e-5, 1e6, 0.3, 0.3, 1e-12},
+        NormalizedServo{1e-6, 30.0, 0.6, 0.3, 1e-9}}) {
+    const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
+    EXPECT_EQ(analysis.verdict, Verdict::hunts);
+    ASSERT_EQ(analysis.cycles.size(), 1U);
+    servo.restitution = 0.0;
+    const double plastic = analyse_limit_cycles(servo).cycles.at(0).size;
+    EXPECT_NEAR(analysis.cycles[0].size, plastic, 1e-6 * plastic);
   }
+}
+
+TEST(EdgeRestitution, CyclesThatCannotBeToldFromTheirNeighboursAreNotListed) {
+  // Equal rates of decay and elastic faces: a continuum of swings. And damping below rounding.
+  for (const NormalizedServo& servo :
+       {NormalizedServo{0.5, 1.0, 0.5, 0.3, 1.0}, NormalizedServo{1e-12, 1e9, 0.0, 0.3, 1e-12}}) {
+    const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
+    EXPECT_EQ(analysis.verdict, Verdict::undecided);
+    EXPECT_TRUE(analysis.neutral_swings);
+    EXPECT_TRUE(analysis.cycles.empty());
+  }
+}
+
+TEST(EdgeRestitution, IrregularMotionBesideAStableCycleIsTold) {
+  const NormalizedServo servo{0.1, 2.0, 0.1, 0.3, 0.95};
+  const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
+  EXPECT_EQ(analysis.verdict, Verdict::hunts);
+  ASSERT_TRUE(analysis.cycles.at(0).stable);
+  // What two step responses end in.
+  const auto final_size = [&](double step) {
+    const Trajectory motion =
+        simulate(servo, engaged_start(servo, 0.0, 0.0, step), {.until = 3000.0, .reference = step});
+    return extremes(motion, 2500.0, 3000.0).load_size();
+  };
+  EXPECT_NEAR(final_size(0.2), analysis.cycles[0].size, 1e-9);
+  EXPECT_NEAR(final_size(0.02), analysis.irregular_size, 2e-3);
 }
 
 TEST(EdgeRestitution, MotionThatDiesAwaySlowlyIsNoHunting) {

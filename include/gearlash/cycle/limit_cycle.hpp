@@ -65,9 +65,13 @@ struct LimitCycleAnalysis {
   /// presses them together, N > 0 on y = −e^{−λt}. Such a servo has rest beside its limit cycle:
   /// small motion in the gap grows, but a large one may end with the faces together.
   bool rests_engaged = false;
-  std::vector<LimitCycle> cycles;                                    ///< by decreasing size
-  double irregular_size = std::numeric_limits<double>::quiet_NaN();  ///< half the peak-to-peak seen
-                                                                     ///< when hunts_irregularly
+  /// Whether cycles were met that could not be told from their neighbours, their multiplier being 1
+  /// to within rounding (on a boundary in the parameters, or ζ below 1e-9). They are not listed.
+  bool neutral_swings = false;
+  std::vector<LimitCycle> cycles;  ///< by decreasing size
+  /// Half the peak-to-peak of bounded motion that was not seen to repeat, which may exist beside a
+  /// stable cycle; NaN where every start ended in a cycle or at rest.
+  double irregular_size = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// All limit cycles that can be found, and the verdict.
