@@ -32,11 +32,9 @@ std::string option_name(std::string field) {
   return "--" + field;
 }
 
-const char* permitted_without_file(std::string_view field) {
-  if (field == "damping") return "0 or a number from 1e-15 to 1000, or give SERVO.toml";
-  if (field == "inertia_ratio") return "0, a number from 1e-9 to 1e9, or inf, or give SERVO.toml";
-  if (field == "friction_ratio") return "a number from 0 to 1, or give SERVO.toml";
-  return "an angle such as 0.1 (rad) or \"12 arcmin\", or give SERVO.toml";
+std::string permitted_without_file(std::string_view field) {
+  if (field == "backlash") return "must be an angle such as 0.1 (rad) or \"12 arcmin\"";
+  return "must be " + permitted_values(field);
 }
 
 void apply(const ServoOptions& options, const NumberOption& option, ServoFile& file,
@@ -45,7 +43,7 @@ void apply(const ServoOptions& options, const NumberOption& option, ServoFile& f
   const std::string name = option_name(option.name);
   if (!typed) {
     if (options.file.empty() && option.required_without_file) {
-      faults.add({name, "", permitted_without_file(option.name), ""});
+      faults.add({name, "", permitted_without_file(option.name) + "; or give SERVO.toml", ""});
     }
     return;
   }
@@ -81,6 +79,19 @@ ServoFile read_file(const ServoOptions& options, Faults& faults) {
   stand_in.servo.damping = 1.0;
   if (options.file.empty()) return stand_in;
   return faults.collect([&] { return read_servo_file(options.file); }, stand_in);
+}
+
+std::optional<double> read_bare_number(std::string_view field, std::string_view text) {
+  try {
+    return read_number(field, text);
+  } catch (const InvalidInput&) {
+    return std::nullopt;  // its unit decides, if it has one
+  }
+}
+
+void require_finite(std::string_view field, std::string_view text, double number) {
+  if (std::isfinite(number)) return;
+  throw InvalidInput({{std::string(field), shown(text), "must be finite", ""}});
 }
 
 }  // namespace
@@ -137,19 +148,23 @@ void Faults::require_distinct(const std::vector<std::pair<std::string, std::stri
   }
 }
 
-double read_finite(std::string_view field, std::string_view text) {
-  const double number = read_number(field, text);
-  if (!std::isfinite(number)) {
-    throw InvalidInput({{std::string(field), shown(text), "must be finite", ""}});
+double read_scaled(std::string_view field, std::string_view text, const Dimension& dimension,
+                   const ReportUnits& units, std::string_view unit) {
+  if (const std::optional<double> number = read_bare_number(field, text)) {
+    require_finite(field, text, *number);
+    return *number;
   }
-  return number;
+  if (units.natural_frequency) return to_si(field, text, dimension);
+  throw InvalidInput({{std::string(field), shown(text),
+                       "must be a number, in " + std::string(unit) +
+                           ": the servo has no natural_frequency to go by",
+                       ""}});
 }
 
 Angle read_angle(std::string_view field, std::string_view text) {
-  try {
-    return {.radians = read_number(field, text), .unit = {}};
-  } catch (const InvalidInput&) {
-    // Not a bare number: its unit decides.
+  if (const std::optional<double> number = read_bare_number(field, text)) {
+    require_finite(field, text, *number);
+    return {.radians = *number, .unit = {}};
   }
   const Quantity quantity = read_quantity(field, text, dimensions::angle);
   return {.radians = quantity.si, .unit = {.name = quantity.unit, .radians = quantity.unit_in_si}};

@@ -7,7 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "gearlash/io/report_units.hpp"
 #include "gearlash/io/servo_file.hpp"
+#include "gearlash/io/units.hpp"
 
 namespace gearlash::cli {
 
@@ -53,15 +55,17 @@ class Faults {
   std::vector<Violation> violations_;
 };
 
-/// A finite number or a fraction of two.
-double read_finite(std::string_view field, std::string_view text);
-
-/// An angle in rad: a number of radians, or a number with its unit ("12 arcmin").
+/// A finite angle in rad: a number of radians, or a number with its unit ("12 arcmin").
 struct Angle {
   double radians = 0.0;
   AngleUnit unit = {};
 };
 Angle read_angle(std::string_view field, std::string_view text);
+
+/// A finite number in the unit of a report, SI with a natural frequency and normalised without; or
+/// one with its unit ("50 ms"), which only a natural frequency gives a meaning.
+double read_scaled(std::string_view field, std::string_view text, const Dimension& dimension,
+                   const ReportUnits& units, std::string_view unit);
 
 /// The servo, its file read and its options applied: an option changes the normalised number and
 /// leaves the natural frequency and the stiffness of a data sheet as they are. Faults of the file

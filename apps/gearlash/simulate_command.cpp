@@ -1,6 +1,7 @@
 // gearlash simulate: the exact motion after a step or from a disturbance.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -33,6 +34,8 @@ struct SimulateOptions {
   ServoOptions servo;
   std::string initial_position = "0";
   std::string initial_speed = "0";
+  std::optional<std::string> initial_gap;
+  std::string initial_gap_speed = "0";
   std::string reference = "1";
   std::optional<std::string> until;
   std::optional<std::string> every;
@@ -73,7 +76,7 @@ struct Times {
 };
 
 double read_positive(const char* field, const std::string& text, const ReportUnits& units) {
-  const double number = read_finite(field, text);
+  const double number = read_scaled(field, text, dimensions::time, units, units.time_unit());
   if (number > 0.0) return number;
   throw InvalidInput(
       {{field, shown(text), fmt::format("must be positive, in {}", units.time_unit()), ""}});
@@ -85,6 +88,12 @@ Times read_times(const SimulateOptions& options, const ReportUnits& units) {
   if (options.until) {
     times.until = faults.collect([&] { return read_positive("--until", *options.until, units); },
                                  times.until);
+    if (units.normalized_time(times.until) > longest_simulation) {
+      faults.add({"--until", shown(*options.until),
+                  fmt::format("must be at most {} {}",
+                              significant(units.time(longest_simulation), 6), units.time_unit()),
+                  ""});
+    }
   }
   times.every = times.until / default_samples;
   if (options.every) {
@@ -103,36 +112,64 @@ Times read_times(const SimulateOptions& options, const ReportUnits& units) {
 }
 
 struct Start {
-  double position = 0.0;
-  double speed = 0.0;
+  ServoState state;
   double reference = 0.0;
 };
 
-Start read_start(const SimulateOptions& options, Faults& faults) {
-  return {
-      faults.collect(
-          [&] { return read_angle("--initial-position", options.initial_position).radians; }, 0.0),
-      faults.collect([&] { return read_finite("--initial-speed", options.initial_speed); }, 0.0),
-      faults.collect([&] { return read_angle("--reference", options.reference).radians; }, 0.0)};
+/// The gap as it is to be at the start; nothing where the faces are to touch.
+std::optional<double> read_gap(const SimulateOptions& options, double backlash, Faults& faults) {
+  if (!options.initial_gap) return std::nullopt;
+  const double gap = faults.collect(
+      [&] { return read_angle("--initial-gap", *options.initial_gap).radians; }, 0.0);
+  // An angle written in another unit may miss the face by its rounding.
+  if (std::abs(gap) <= 0.5 * backlash * (1.0 + 1e-12)) {
+    return std::clamp(gap, -0.5 * backlash, 0.5 * backlash);
+  }
+  faults.add({"--initial-gap", shown(*options.initial_gap),
+              fmt::format("must be from -{0} to {0} rad, half the backlash each way",
+                          exact_text(0.5 * backlash)),
+              ""});
+  return std::nullopt;
+}
+
+Start read_start(const SimulateOptions& options, const NormalizedServo& servo,
+                 const ReportUnits& units, Faults& faults) {
+  const auto angle = [&](const char* field, const std::string& text) {
+    return faults.collect([&] { return read_angle(field, text).radians; }, 0.0);
+  };
+  const auto speed = [&](const char* field, const std::string& text) {
+    return units.normalized_speed(faults.collect(
+        [&] {
+          return read_scaled(field, text, dimensions::angular_speed, units, units.speed_unit());
+        },
+        0.0));
+  };
+  Start start;
+  start.reference = angle("--reference", options.reference);
+  start.state = engaged_start(servo, angle("--initial-position", options.initial_position),
+                              speed("--initial-speed", options.initial_speed), start.reference);
+  if (const std::optional<double> gap = read_gap(options, servo.backlash, faults)) {
+    start.state.motor_position = start.state.load_position + *gap;
+  }
+  start.state.motor_speed += speed("--initial-gap-speed", options.initial_gap_speed);
+  return start;
 }
 
 MotionReport simulated(const SimulateOptions& options, const Provenance& provenance,
                        Faults& faults) {
   const ServoFile file = resolve_servo(options.servo, faults);
   const ReportUnits units = report_units(file);
-  const Start start = read_start(options, faults);
+  const Start start = read_start(options, file.servo, units, faults);
   const Times times = faults.collect([&] { return read_times(options, units); }, Times{1.0, 1.0});
   faults.require_none();
 
-  const ServoState initial = engaged_start(file.servo, start.position,
-                                           units.normalized_speed(start.speed), start.reference);
   return {.servo = file.servo,
-          .initial = initial,
+          .initial = start.state,
           .reference = start.reference,
           .until = times.until,
           .every = times.every,
           .trajectory =
-              simulate(file.servo, initial,
+              simulate(file.servo, start.state,
                        {.until = units.normalized_time(times.until), .reference = start.reference}),
           .units = units,
           .provenance = provenance};
@@ -197,13 +234,28 @@ ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
 }
 
 void add_motion_options(CLI::App& command, SimulateOptions& options) {
-  constexpr char group[] = "Motion (seconds and rad/s with a natural frequency, else normalised)";
+  constexpr char group[] =
+      "Motion (s and rad/s, or with their unit, \"50 ms\", \"3 rpm\"; without a natural frequency "
+      "normalised)";
   command
       .add_option("--initial-position", options.initial_position,
                   "of the load; rad or with its unit; default 0")
       ->type_name("ANGLE")
       ->group(group);
-  command.add_option("--initial-speed", options.initial_speed, "of both shafts; default 0")
+  command
+      .add_option("--initial-speed", options.initial_speed,
+                  "of the load, and of the motor but for the next; default 0")
+      ->type_name("SPEED")
+      ->group(group);
+  command
+      .add_option("--initial-gap", options.initial_gap,
+                  "motor less load, within half the backlash each way; default\n"
+                  "on the face towards which the motor pushes")
+      ->type_name("ANGLE")
+      ->group(group);
+  command
+      .add_option("--initial-gap-speed", options.initial_gap_speed,
+                  "speed of the motor less that of the load; default 0")
       ->type_name("SPEED")
       ->group(group);
   command

@@ -119,8 +119,8 @@ std::optional<Quantity> SectionReader::optional_quantity(const std::string& key,
   return read(key, *value, expected);
 }
 
-double SectionReader::number(const std::string& key) {
-  const toml::node* value = require(key, "must be a number without unit");
+double SectionReader::number(const std::string& key, const std::string& permitted) {
+  const toml::node* value = require(key, "must be " + permitted);
   return value != nullptr ? read(key, *value) : placeholder_number;
 }
 

@@ -66,16 +66,15 @@ class SectionReader {
   /// A number with a unit, in text.
   Quantity quantity(const std::string& key, const Dimension& expected);
   std::optional<Quantity> optional_quantity(const std::string& key, const Dimension& expected);
-  /// A number without unit: of TOML, or in text (a fraction).
-  double number(const std::string& key);
+  /// A number without unit: of TOML, or in text (a fraction). Where it is missing, `permitted` says
+  /// what it must be.
+  double number(const std::string& key, const std::string& permitted);
   double number(const std::string& key, double if_missing);
   /// One of `choices`. Empty, and noted, for anything else; a missing key is noted if `required`.
   std::optional<std::string> choice(const std::string& key, const std::vector<std::string>& choices,
                                     bool required);
-  /// Lets a key pass whose meaning depends on another that is at fault.
-  void ignore(const std::string& key) { known_.push_back(key); }
 
-  /// Notes every key that has been neither read nor ignored.
+  /// Notes every key that has not been read.
   void refuse_other_keys();
 
   bool present() const { return table_ != nullptr; }

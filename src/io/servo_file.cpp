@@ -19,9 +19,6 @@ const std::vector<std::string> section_names = {"motor", "gearbox", "load",
                                                 "loop",  "contact", "servo"};
 const std::vector<std::string> motor_kinds = {"armature-controlled", "field-controlled",
                                               "two-phase"};
-/// The keys that depend on the kind of motor.
-const std::vector<std::string> motor_keys = {"torque_constant", "back_emf_constant", "resistance",
-                                             "torque_per_volt", "torque_per_speed"};
 
 /// The sections that make up a data sheet but for [contact], which either form may have.
 constexpr std::array datasheet_sections = {"motor", "gearbox", "load", "loop"};
@@ -95,6 +92,31 @@ class ServoReader {
     return motor;
   }
 
+  /// The motor of a kind that could not be read: that which its keys tell, so that they are
+  /// checked.
+  static Motor read_unknown_kind(SectionReader& section, double inertia, double friction) {
+    const auto si = [&](const char* key, const Dimension& dimension) {
+      const std::optional<Quantity> quantity = section.optional_quantity(key, dimension);
+      return quantity ? std::optional(quantity->si) : std::nullopt;
+    };
+    const auto torque_constant = si("torque_constant", dimensions::torque_per_current);
+    const auto back_emf_constant = si("back_emf_constant", dimensions::voltage_per_speed);
+    const auto resistance = si("resistance", dimensions::resistance);
+    const auto torque_per_volt = si("torque_per_volt", dimensions::torque_per_voltage);
+    const auto torque_per_speed = si("torque_per_speed", dimensions::torque_per_speed);
+    if (torque_per_volt || torque_per_speed) {
+      return TwoPhaseMotor{.inertia = inertia,
+                           .friction = friction,
+                           .torque_per_volt = torque_per_volt.value_or(1.0),
+                           .torque_per_speed = torque_per_speed.value_or(1.0)};
+    }
+    return ArmatureControlledMotor{.inertia = inertia,
+                                   .friction = friction,
+                                   .torque_constant = torque_constant.value_or(1.0),
+                                   .back_emf_constant = back_emf_constant.value_or(1.0),
+                                   .resistance = resistance.value_or(1.0)};
+  }
+
   static Motor read_kind(SectionReader& section, const std::string& kind, double inertia,
                          double friction) {
     const auto si = [&](const char* key, const Dimension& dimension) {
@@ -123,14 +145,12 @@ class ServoReader {
           .torque_per_volt = si("torque_per_volt", dimensions::torque_per_voltage),
           .torque_per_speed = si("torque_per_speed", dimensions::torque_per_speed)};
     }
-    for (const std::string& key : motor_keys) section.ignore(key);
-    return FieldControlledMotor{
-        .inertia = inertia, .friction = friction, .torque_constant = 1.0, .resistance = 1.0};
+    return read_unknown_kind(section, inertia, friction);
   }
 
   Gearbox read_gearbox() {
     SectionReader gearbox = section("gearbox", true, "with ratio and backlash");
-    const double ratio = gearbox.number("ratio");
+    const double ratio = gearbox.number("ratio", "positive, motor turns per load turn");
     const double backlash = read_backlash(gearbox);
     gearbox.refuse_other_keys();
     return {.ratio = ratio, .backlash = backlash};
@@ -183,9 +203,9 @@ class ServoReader {
     SectionReader section = this->section("servo", true, "");
     section.accept_bare_numbers();  // normalised numbers have no data sheet whose unit to keep
     NormalizedServo servo;
-    servo.damping = section.number("damping");
-    servo.inertia_ratio = section.number("inertia_ratio");
-    servo.friction_ratio = section.number("friction_ratio");
+    servo.damping = section.number("damping", permitted_values("damping"));
+    servo.inertia_ratio = section.number("inertia_ratio", permitted_values("inertia_ratio"));
+    servo.friction_ratio = section.number("friction_ratio", permitted_values("friction_ratio"));
     servo.backlash = read_backlash(section);
     file_.natural_frequency = read_natural_frequency(section);
     section.refuse_other_keys();

@@ -124,10 +124,20 @@ class UnitReader {
     // The signs for minutes and seconds of arc are words of their own.
     if (length == 0 && (rest_.starts_with('\'') || rest_.starts_with('"'))) length = 1;
     if (length == 0) throw NotAUnit("there is no unit at \"" + shown(rest_, 20) + "\"");
-    const std::string text(rest_.substr(0, length));
+    std::string text(rest_.substr(0, length));
+    rest_.remove_prefix(length);
+    if (text == "arc" && (rest_.starts_with("-") || rest_.starts_with(" "))) {  // arc-min, arc sec
+      length = 1;
+      while (length < rest_.size() && is_letter(rest_[length])) ++length;
+      text += rest_.substr(1, length - 1);
+      rest_.remove_prefix(length);
+    }
     std::vector<Unit> units = find_units(text);
     if (units.empty()) throw NotAUnit("\"" + shown(text, 20) + "\" is no known unit");
-    rest_.remove_prefix(length);
+    const bool sign_of_angle = text == "\u00B0" || text == "'" || text == "\"";
+    if (sign_of_angle && !rest_.empty() && is_digit(rest_[0])) {
+      throw NotAUnit("an angle takes one unit: 1.5\u00B0 or 90'");
+    }
     units.back() = raised(units.back());
     Unit result;
     for (const Unit& unit : units) result.multiply(unit, 1);

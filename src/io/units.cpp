@@ -1,5 +1,6 @@
 #include "gearlash/io/units.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -56,7 +57,18 @@ std::string advice(std::string_view unit, const UnitPowers& powers, const Dimens
   if (like_mass_for_force && ((metre == -1 && second == 2) || (metre == 1 && second == -2))) {
     return "; oz, lb, g and kg are masses, the forces are ozf, lbf, gf and kgf";
   }
-  const std::size_t slash = unit.find('/');
+  if (expected.radian == 1 && expected.second == 0 && powers == UnitPowers{.second = 1}) {
+    return "; minutes and seconds of arc are arcmin and arcsec";
+  }
+  if (expected.radian == 1 && expected.second == 0 && powers == UnitPowers{.metre = 1}) {
+    return "; this is a length, milliradians are mrad";
+  }
+  const std::size_t slash = std::min(unit.find('/'), unit.find(" per "));
+  const std::size_t divisor =
+      slash == std::string_view::npos ? slash : unit.find_first_not_of("/per ", slash);
+  if (divisor != std::string_view::npos && unit[divisor] >= '0' && unit[divisor] <= '9') {
+    return "; x/1000 rpm is (x/1000) rpm, write x/(1000 rpm)";
+  }
   if (slash != std::string_view::npos && unit.find('/', slash + 1) != std::string_view::npos) {
     return "; x/rad/s is x/(rad s), write x/(rad/s)";
   }
@@ -141,6 +153,7 @@ double read_number(std::string_view field, std::string_view text) {
   if (!numerator || !denominator) {
     refuse(field, text, "must be a number without unit, such as 0.25, 1e-3 or 1/9");
   }
+  if (*denominator == 0.0) refuse(field, text, "must not be divided by 0");
   const double value = *numerator / *denominator;
   if (!std::isfinite(value)) refuse(field, text, "must be a number from -1e308 to 1e308");
   return value + 0.0;

@@ -39,7 +39,6 @@ double gap_allowance(const ServoState& state) {
 std::vector<Violation> validate_start(const NormalizedServo& servo, const ServoState& initial,
                                       const SimulationOptions& options) {
   constexpr double largest = 1e100;  // squares and cubes stay finite
-  constexpr double longest = 1e9;
   RangeCheck check;
   check.include(validate(servo));
   check.within("initial.motor_position", initial.motor_position, -largest, largest);
@@ -47,7 +46,7 @@ std::vector<Violation> validate_start(const NormalizedServo& servo, const ServoS
   check.within("initial.load_position", initial.load_position, -largest, largest);
   check.within("initial.load_speed", initial.load_speed, -largest, largest);
   check.within("reference", options.reference, -largest, largest);
-  check.within("until", options.until, 0.0, longest);
+  check.within("until", options.until, 0.0, longest_simulation);
   const double gap = initial.motor_position - initial.load_position;
   if (std::abs(gap) > 0.5 * servo.backlash + gap_allowance(initial)) {
     const std::string half = exact_text(0.5 * servo.backlash);

@@ -1,5 +1,9 @@
 #include "gearlash/servo/datasheet.hpp"
 
+#include <array>
+#include <string>
+#include <string_view>
+
 #include "gearlash/servo/range_check.hpp"
 
 namespace gearlash {
@@ -50,9 +54,25 @@ Drivetrain assemble(const Datasheet& datasheet) {
           .sensor = datasheet.loop.sensor};
 }
 
+/// What the numbers at the load shaft are made of, for an author who has given none of them.
+struct Origin {
+  std::string_view field;
+  std::string_view made_of;
+};
+constexpr std::array origins = {
+    Origin{"motor_inertia", "motor.inertia * gearbox.ratio^2"},
+    Origin{"motor_friction", "(motor.friction + the motor's electrical one) * gearbox.ratio^2"},
+    Origin{"stiffness", "the motor's torque per volt * loop.error_gain * gearbox.ratio"},
+    Origin{"damping", "friction/(2 sqrt(stiffness * inertia)), everything at the load"},
+    Origin{"inertia_ratio", "load.inertia/(motor.inertia * gearbox.ratio^2)"}};
+
 /// Names of the fields of a data sheet for those that a drivetrain or a normalised servo reports.
 std::vector<Violation> named_for_datasheet(std::vector<Violation> violations) {
   for (Violation& violation : violations) {
+    for (const Origin& origin : origins) {
+      if (violation.field != origin.field) continue;
+      violation.permitted += "; it is " + std::string(origin.made_of);
+    }
     if (violation.field == "backlash") violation.field = "gearbox.backlash";
     if (violation.field == "restitution") violation.field = "contact.restitution";
     if (violation.field == "sensor") violation.field = "loop.sensor";
@@ -72,7 +92,7 @@ std::vector<Violation> validate(const Datasheet& datasheet) {
   check.positive("loop.error_gain", datasheet.loop.error_gain, "V/rad");
   check.within("contact.restitution", datasheet.contact.restitution, 0.0, 1.0);
   if (datasheet.loop.sensor != Sensor::load) {
-    check.refuse("loop.sensor", "motor", "must be load (a sensor on the motor comes with drives)");
+    check.refuse("loop.sensor", "motor", "must be " + permitted_values("sensor"));
   }
   if (!check.violations().empty()) return check.violations();
   return named_for_datasheet(validate(assemble(datasheet)));

@@ -7,37 +7,56 @@
 namespace gearlash {
 namespace {
 
-constexpr double smallest_damping = 1e-15;
-constexpr double largest_damping = 1e3;
-constexpr double smallest_inertia_ratio = 1e-9;
-constexpr double largest_inertia_ratio = 1e9;
-constexpr double smallest_backlash = 1e-15;
-constexpr double largest_backlash = 1e6;
+/// What a number may be: 0 where that is permitted besides, else from least to most.
+struct Range {
+  double least;
+  double most;
+  bool or_zero = false;
+
+  bool includes(double value) const {
+    return (value >= least && value <= most) || (or_zero && value == 0.0);
+  }
+  std::string text() const {
+    return std::string(or_zero ? "0 or " : "") + "from " + exact_text(least) + " to " +
+           exact_text(most);
+  }
+};
+
+constexpr Range damping_range{1e-15, 1e3, true};
+constexpr Range inertia_ratio_range{1e-9, 1e9};
+constexpr Range share_range{0.0, 1.0};
+constexpr Range backlash_range{1e-15, 1e6, true};
 
 bool permitted_inertia_ratio(double ratio) {
-  return ratio == 0.0 || (ratio >= smallest_inertia_ratio && ratio <= largest_inertia_ratio) ||
-         (std::isinf(ratio) && ratio > 0.0);
+  return ratio == 0.0 || inertia_ratio_range.includes(ratio) || (std::isinf(ratio) && ratio > 0.0);
 }
 
 }  // namespace
 
+std::string permitted_values(std::string_view field) {
+  if (field == "damping") return damping_range.text();
+  if (field == "inertia_ratio") {
+    return "0 (massless load), " + inertia_ratio_range.text() + ", or inf (massless motor)";
+  }
+  if (field == "friction_ratio" || field == "restitution") return share_range.text();
+  if (field == "backlash") return backlash_range.text() + " (rad)";
+  if (field == "sensor") return "load (a sensor on the motor comes with drives)";
+  return "";
+}
+
 std::vector<Violation> validate(const NormalizedServo& servo) {
   RangeCheck check;
-  if (servo.damping != 0.0) {
-    check.within("damping", servo.damping, smallest_damping, largest_damping, "0 or ");
-  }
-  if (!permitted_inertia_ratio(servo.inertia_ratio)) {
-    check.refuse("inertia_ratio", exact_text(servo.inertia_ratio),
-                 "must be 0 (massless load), from 1e-9 to 1e9, or inf (massless motor)");
-  }
-  check.within("friction_ratio", servo.friction_ratio, 0.0, 1.0);
-  if (servo.backlash != 0.0) {
-    check.within("backlash", servo.backlash, smallest_backlash, largest_backlash, "0 or ");
-  }
-  check.within("restitution", servo.restitution, 0.0, 1.0);
-  if (servo.sensor != Sensor::load) {
-    check.refuse("sensor", "motor", "must be load (a sensor on the motor comes with drives)");
-  }
+  const auto require = [&](bool permitted, const char* field, const std::string& value) {
+    if (!permitted) check.refuse(field, value, "must be " + permitted_values(field));
+  };
+  require(damping_range.includes(servo.damping), "damping", exact_text(servo.damping));
+  require(permitted_inertia_ratio(servo.inertia_ratio), "inertia_ratio",
+          exact_text(servo.inertia_ratio));
+  require(share_range.includes(servo.friction_ratio), "friction_ratio",
+          exact_text(servo.friction_ratio));
+  require(backlash_range.includes(servo.backlash), "backlash", exact_text(servo.backlash));
+  require(share_range.includes(servo.restitution), "restitution", exact_text(servo.restitution));
+  require(servo.sensor == Sensor::load, "sensor", "motor");
   const double load_friction = servo.damping * servo.friction_ratio;
   const double motor_friction = servo.damping * (1.0 - servo.friction_ratio);
   if (servo.inertia_ratio == 0.0 && load_friction == 0.0) {

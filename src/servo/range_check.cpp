@@ -40,11 +40,9 @@ RangeCheck& RangeCheck::not_negative(std::string_view field, double value, std::
   return refuse(field, with_unit(exact_text(value), unit), "must be zero or positive, and finite");
 }
 
-RangeCheck& RangeCheck::outside(std::string_view field, double value, double low, double high,
-                                std::string_view also) {
-  return refuse(
-      field, exact_text(value),
-      "must be " + std::string(also) + "from " + exact_text(low) + " to " + exact_text(high));
+RangeCheck& RangeCheck::outside(std::string_view field, double value, double low, double high) {
+  return refuse(field, exact_text(value),
+                "must be from " + exact_text(low) + " to " + exact_text(high));
 }
 
 RangeCheck& RangeCheck::include(std::vector<Violation> others) {

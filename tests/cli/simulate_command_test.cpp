@@ -200,5 +200,39 @@ TEST(SimulateCommand, AnglesMayCarryTheirUnit) {
   EXPECT_DOUBLE_EQ(number(table.rows[0][1]), std::numbers::pi);
 }
 
+TEST(SimulateCommand, TimesAndSpeedsMayCarryTheirUnitWhereThereIsASecond) {
+  const Table table =
+      table_of(run_tool({"simulate", "examples/elinco-fd162.toml", "--until", "50 ms", "--every",
+                         "25 ms", "--initial-speed", "60 rpm"}));
+  ASSERT_EQ(table.rows.size(), 3U);
+  EXPECT_DOUBLE_EQ(number(table.rows[2][0]), 0.05);
+  EXPECT_DOUBLE_EQ(number(table.rows[0][2]), 2.0 * std::numbers::pi);
+  const Outcome run = run_tool(with_sample_servo({"simulate", "--until", "50 ms"}));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.err,
+            "gearlash: --until = 50 ms: must be a number, in 1/ω_n: the servo has no "
+            "natural_frequency to go by\n");
+}
+
+TEST(SimulateCommand, ShaftsMayStartApart) {
+  const Table table = table_of(run_tool(
+      with_sample_servo({"simulate", "--until", "1", "--initial-position", "0.5", "--initial-speed",
+                         "0.25", "--initial-gap", "0.01", "--initial-gap-speed", "-0.5"})));
+  EXPECT_DOUBLE_EQ(number(table.rows[0][1]), 0.5);
+  EXPECT_DOUBLE_EQ(number(table.rows[0][2]), 0.25);
+  EXPECT_DOUBLE_EQ(number(table.rows[0][3]), 0.51);
+  EXPECT_DOUBLE_EQ(number(table.rows[0][4]), -0.25);
+  const Outcome run =
+      run_tool(with_sample_servo({"simulate", "--until", "1", "--initial-gap", "2"}));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("--initial-gap = 2: must be from -0.15 to 0.15 rad"));
+}
+
+TEST(SimulateCommand, TheLongestTimeIsToldInItsUnit) {
+  const Outcome run = run_tool({"simulate", "examples/elinco-fd162.toml", "--until", "1e300"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, testing::MatchesRegex("gearlash: --until = 1e300: must be at most .* s\n"));
+}
+
 }  // namespace
 }  // namespace gearlash

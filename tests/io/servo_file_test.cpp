@@ -18,6 +18,7 @@
 namespace gearlash {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
@@ -334,6 +335,22 @@ TEST(ServoFileRefusal, KindOfMotor) {
               ElementsAre(StartsWith("s.toml:6:1: motor.back_emf_constant = 0.233 V/(rad/s): is no "
                                      "key of [motor]: must be one of kind, inertia, friction, "
                                      "torque_constant, resistance")));
+}
+
+TEST(ServoFileRefusal, OtherFaultsBesideAnUnknownKind) {
+  const std::string unknown = replaced(sample, "\"armature-controlled\"", "\"armature\"");
+  EXPECT_THAT(refusals(replaced(unknown, "\"282 ohm\"", "\"-282 ohm\"")),
+              ElementsAre(StartsWith("s.toml:2:8: motor.kind = armature: must be one of "),
+                          "s.toml:7:14: motor.resistance = -282 ohm: must be positive and finite"));
+  EXPECT_THAT(refusals(replaced(unknown, "\"282 ohm\"", "\"282 V\"")),
+              ElementsAre(StartsWith("s.toml:2:8: motor.kind = armature: must be one of "),
+                          StartsWith("s.toml:7:14: motor.resistance = 282 V: must be ")));
+}
+
+TEST(ServoFileRefusal, NumbersAtTheLoadSayWhatTheyAreMadeOf) {
+  EXPECT_THAT(refusals(replaced(sample, "ratio = 1", "ratio = 1e200")),
+              Contains("s.toml:1:1: motor_inertia = inf kg m2: must be zero or positive, and "
+                       "finite; it is motor.inertia * gearbox.ratio^2"));
 }
 
 TEST(ServoFileRefusal, OfAnotherType) {

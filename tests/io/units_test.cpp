@@ -225,6 +225,31 @@ TEST(Units, RefusesAnotherDimensionAndSaysWhatItExpects) {
             "masses, the forces are ozf, lbf, gf and kgf");
 }
 
+TEST(Units, AnswersTheCommonMistakes) {
+  EXPECT_EQ(refusal("12 minutes", angle),
+            "key = 12 minutes: must be angle, such as rad; minutes and seconds of arc are arcmin "
+            "and arcsec");
+  EXPECT_EQ(refusal("0.5 mil", angle),
+            "key = 0.5 mil: must be angle, such as rad; this is a length, milliradians are mrad");
+  EXPECT_EQ(refusal("1\u00B030'", angle),
+            "key = 1\u00B030': must be angle, such as rad; an angle takes one unit: 1.5\u00B0 or "
+            "90'");
+  for (const char* text : {"5 V/1000 rpm", "5 V per 1000 rpm"}) {
+    EXPECT_EQ(refusal(text, voltage_per_speed),
+              "key = " + std::string(text) +
+                  ": must be voltage per angular speed, such as V s/rad; x/1000 rpm is (x/1000) "
+                  "rpm, write x/(1000 rpm)");
+  }
+}
+
+TEST(Units, MinutesOfArcInTheirSpellings) {
+  for (const char* text : {"30 arcmin", "30 arc-min", "30 arc min", "30 arc-minutes", "30 MOA",
+                           "30'", "30 arcminutes", "1800 arc-sec"}) {
+    EXPECT_NEAR(to_si("key", text, angle), 0.5 * degree, degree * tolerance) << text;
+  }
+  EXPECT_NEAR(to_si("key", "100 gon", angle), 90.0 * degree, 90.0 * degree * tolerance);
+}
+
 TEST(Units, NeverConvertsByReciprocalOffsetOrLogarithm) {
   for (const char* text : {"10 rad/V", "1 S", "1 degC", "1 K", "1 dB", "1 mol", "1 K/K"}) {
     EXPECT_TRUE(refusal(text, voltage_per_angle).starts_with("key = ")) << text;
@@ -283,6 +308,15 @@ TEST(Units, QuantityKeepsTheUnitAsWritten) {
   EXPECT_EQ(quantity.unit, "arcmin");
   EXPECT_NEAR(quantity.unit_in_si, degree / 60, tolerance);
   EXPECT_EQ(quantity.si, 12 * quantity.unit_in_si);
+}
+
+TEST(Units, NumberDividedByZero) {
+  try {
+    read_number("key", "2/0");
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(error.what(), "key = 2/0: must not be divided by 0");
+  }
 }
 
 TEST(Units, NumbersWithoutUnit) {

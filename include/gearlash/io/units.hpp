@@ -31,6 +31,12 @@ struct Dimension {
 namespace dimensions {
 inline constexpr Dimension angle{
     .name = "angle", .unit = "rad", .radian = 1, .angle = AngleRule::required};
+inline constexpr Dimension time{.name = "time", .unit = "s", .second = 1};
+inline constexpr Dimension angular_speed{.name = "angular speed",
+                                         .unit = "rad/s",
+                                         .second = -1,
+                                         .radian = 1,
+                                         .angle = AngleRule::required};
 inline constexpr Dimension angular_frequency{.name = "angular frequency",
                                              .unit = "rad/s",
                                              .second = -1,

@@ -49,8 +49,11 @@ struct EnergyAccount {
   double stored() const { return kinetic + elastic; }
 };
 
+/// Normalised times go so far.
+inline constexpr double longest_simulation = 1e9;
+
 struct SimulationOptions {
-  double until = 0.0;      ///< normalised time to stop at, ≥ 0 and finite
+  double until = 0.0;      ///< normalised time to stop at, 0 … longest_simulation
   double reference = 1.0;  ///< position reference applied at time 0, rad
   std::size_t event_limit = 1'000'000;
 };
@@ -96,8 +99,8 @@ ServoState engaged_start(const NormalizedServo& servo, double load_position, dou
 /// The exact motion from `initial` under a step reference. No step size: every mode has a closed
 /// form and every event time is a certified first crossing (first_contact.hpp, engaged_flow.hpp).
 /// Permitted: positions, speeds and reference from −1e100 to 1e100, the gap from −b/2 to b/2 (to
-/// rounding), options.until from 0 to 1e9. Throws InvalidInput that lists every violation, those of
-/// the servo included.
+/// rounding), options.until from 0 to longest_simulation. Throws InvalidInput that lists every
+/// violation, those of the servo included.
 Trajectory simulate(const NormalizedServo& servo, const ServoState& initial,
                     const SimulationOptions& options);
 

@@ -1,6 +1,8 @@
 // The servo reduced to the numbers on which its hunting depends: ω_n = 1, J_M + J_L = 1, K = 1.
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "gearlash/servo/violation.hpp"
@@ -25,6 +27,10 @@ struct NormalizedServo {
 
   bool operator==(const NormalizedServo&) const = default;
 };
+
+/// What a field may be, as an error says it after "must be": permitted_values("friction_ratio") is
+/// "from 0 to 1". Empty for another name.
+std::string permitted_values(std::string_view field);
 
 /// Every violation of the ranges above, and of two rules that join fields: a massless load
 /// (inertia_ratio 0) needs load friction and a massless motor (infinity) needs motor friction,

@@ -19,10 +19,8 @@ class RangeCheck {
 
   RangeCheck& positive(std::string_view field, double value, std::string_view unit);
   RangeCheck& not_negative(std::string_view field, double value, std::string_view unit);
-  /// `also` names what the caller permits besides, such as "0 or ".
-  RangeCheck& within(std::string_view field, double value, double low, double high,
-                     std::string_view also = {}) {
-    return value >= low && value <= high ? *this : outside(field, value, low, high, also);
+  RangeCheck& within(std::string_view field, double value, double low, double high) {
+    return value >= low && value <= high ? *this : outside(field, value, low, high);
   }
   RangeCheck& refuse(std::string_view field, std::string_view value, std::string_view permitted);
 
@@ -32,8 +30,7 @@ class RangeCheck {
   std::vector<Violation> violations() const { return violations_; }
 
  private:
-  RangeCheck& outside(std::string_view field, double value, double low, double high,
-                      std::string_view also);
+  RangeCheck& outside(std::string_view field, double value, double low, double high);
 
   std::string prefix_;
   std::vector<Violation> violations_;
