@@ -69,16 +69,29 @@ Step step_to_draw(const LimitCycleReport& report) {
           servo.damping < 1.0 ? std::clamp(settling_time, 2.0 * turn, 20.0 * turn) : settling_time};
 }
 
+/// From rest on a face; but where the faces may come to rest together after such a step, small
+/// motion in the gap, which grows into the cycle.
+ServoState start_to_draw(const LimitCycleReport& report, const Step& step) {
+  const LimitCycle* cycle = largest_stable(report.analysis);
+  if (cycle == nullptr || !report.analysis.rests_engaged) {
+    return engaged_start(report.servo, 0.0, 0.0, step.size);
+  }
+  constexpr double share = 0.2;
+  const ServoState& start = cycle->start;
+  const double load_position = step.size + share * start.load_position;
+  return {load_position + (start.motor_position - start.load_position), share * start.motor_speed,
+          load_position, share * start.load_speed};
+}
+
 std::string draw(const LimitCycleReport& report, PictureFormat format) {
   const Step step = step_to_draw(report);
-  MotionPicture picture{
-      .title = verdict_line(report),
-      .servo = report.servo,
-      .trajectory = simulate(report.servo, engaged_start(report.servo, 0.0, 0.0, step.size),
-                             {.until = step.until, .reference = step.size}),
-      .reference = step.size,
-      .cycle = std::nullopt,
-      .units = report.units};
+  MotionPicture picture{.title = verdict_line(report),
+                        .servo = report.servo,
+                        .trajectory = simulate(report.servo, start_to_draw(report, step),
+                                               {.until = step.until, .reference = step.size}),
+                        .reference = step.size,
+                        .cycle = std::nullopt,
+                        .units = report.units};
   if (const LimitCycle* cycle = largest_stable(report.analysis)) picture.cycle = *cycle;
   return draw_phase_plane(picture, format);
 }

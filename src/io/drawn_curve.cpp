@@ -102,12 +102,22 @@ void measure_extent(const Trajectory& trajectory, CurveTracer& tracer) {
   tracer.set_extent(std::max(position, smallest), std::max(speed, smallest));
 }
 
-bool impact_at(const Trajectory& trajectory, double time) {
+/// The impact at a time, if there is one.
+const Event* impact_at(const Trajectory& trajectory, double time) {
   const auto& events = trajectory.events();
   const auto event =
       std::lower_bound(events.begin(), events.end(), time,
                        [](const Event& candidate, double value) { return candidate.time < value; });
-  return event != events.end() && event->time == time && event->kind == EventKind::impact;
+  if (event == events.end() || event->time != time) return nullptr;
+  return event->kind == EventKind::impact ? &*event : nullptr;
+}
+
+/// Whether a flight goes from a rebound back to the same face.
+bool is_bounce(const NormalizedServo& servo, const Segment& segment, const Event* end) {
+  const GapFlight& flight = segment.phase.flight;
+  return segment.phase.mode == Mode::separated && end != nullptr && flight.gap_speed != 0.0 &&
+         std::abs(flight.gap) == 0.5 * servo.backlash &&
+         (end->face == Face::forward) == (flight.gap > 0.0);
 }
 
 }  // namespace
@@ -118,8 +128,10 @@ std::vector<CurvePiece> drawn_curve(const NormalizedServo& servo, const Trajecto
   measure_extent(trajectory, tracer);
   std::vector<CurvePiece> pieces;
   for (const Segment& segment : trajectory.segments()) {
+    const Event* impact = impact_at(trajectory, segment.end);
     pieces.push_back({.separated = segment.phase.mode == Mode::separated,
-                      .ends_with_impact = impact_at(trajectory, segment.end),
+                      .is_bounce = is_bounce(servo, segment, impact),
+                      .ends_with_impact = impact != nullptr,
                       .points = tracer.trace(segment)});
   }
   return pieces;

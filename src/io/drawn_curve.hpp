@@ -20,6 +20,7 @@ struct CurvePoint {
 /// One segment of the trajectory.
 struct CurvePiece {
   bool separated;
+  bool is_bounce = false;  ///< from a face back to it after a rebound
   bool ends_with_impact;
   std::vector<CurvePoint> points;  ///< both ends included; the last one is before the event
 };

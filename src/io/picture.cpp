@@ -257,7 +257,8 @@ struct PhasePlane {
       : curve(name), gaps(name + "_gaps"), impacts_name(name + "_impacts") {}
 
   DataBlock curve;  ///< load position, load speed, motor position, motor speed
-  DataBlock gaps;   ///< closed outlines
+  DataBlock gaps;   ///< closed outlines, but for bounces
+  bool leaves_out_bounces = false;
   std::string impacts_name;
   Range positions;
   Range speeds;
@@ -272,6 +273,10 @@ void add_piece(const CurvePiece& piece, PhasePlane& plane) {
     plane.speeds.include(point.motor_speed);
   }
   if (!piece.separated) return;
+  if (piece.is_bounce) {  // many of them would hide one another
+    plane.leaves_out_bounces = true;
+    return;
+  }
   for (const CurvePoint& point : piece.points)
     plane.gaps.row(point.load_position, point.load_speed);
   for (auto point = piece.points.rbegin(); point != piece.points.rend(); ++point) {
@@ -305,10 +310,10 @@ struct PhaseStyle {
 void add_fill(const PhasePlane& plane, const std::string& name, const PhaseStyle& style,
               std::vector<std::string>& layers) {
   if (!style.is_subject || plane.gaps.is_empty()) return;
-  layers.push_back(
-      fmt::format("${}_gaps using 1:2 with filledcurves closed fill solid noborder "
-                  "linecolor rgb '{}' title 'faces apart'",
-                  name, between_colour));
+  layers.push_back(fmt::format(
+      "${}_gaps using 1:2 with filledcurves closed fill solid noborder "
+      "linecolor rgb '{}' title '{}'",
+      name, between_colour, plane.leaves_out_bounces ? "crossing the gap" : "faces apart"));
 }
 
 void add_lines(const std::string& name, const PhaseStyle& style, bool has_impacts,
@@ -340,7 +345,8 @@ std::vector<CurvePiece> cycle_curve(const MotionPicture& picture) {
   const double speed = std::abs(start.load_speed) + std::abs(last.points.back().load_speed);
   constexpr double smallest_visible_jump = 1e-3;
   if (jump > smallest_visible_jump * speed) last.ends_with_impact = true;
-  pieces.push_back({.separated = false, .ends_with_impact = false, .points = {start}});
+  pieces.push_back(
+      {.separated = false, .is_bounce = false, .ends_with_impact = false, .points = {start}});
   return pieces;
 }
 
