@@ -41,6 +41,7 @@ bool matters_no_more(const ServoDynamics& dynamics, const EngagedFlow& common, d
                  mesh_torque_rate(dynamics, common.position, common.speed));
   if (std::isinf(engaged_time)) return offset < offset_allowed * dynamics.backlash;
 
+  if (height > height_allowed * size) return false;
   const double slowed = drag * engaged_time / 3.0;
   const double bounces_left =
       engaged_time / bounce_duration * (slowed > 0.0 ? std::expm1(slowed) / slowed : 1.0);

@@ -373,6 +373,7 @@ TEST(PropertyRestitution, NearlyElasticTendsToTheElasticCycle) {
     servo.restitution = 1.0 - small;
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
     ASSERT_EQ(analysis.cycles.size(), 1U) << small;
+    EXPECT_NEAR(analysis.growth_at_rest, elastic.growth_at_rest, 10.0 * small + 1e-6) << small;
     EXPECT_NEAR(analysis.cycles[0].size, elastic.cycles[0].size, small + 1e-8) << small;
     EXPECT_NEAR(analysis.cycles[0].period, elastic.cycles[0].period, 10.0 * small + 1e-7) << small;
   }

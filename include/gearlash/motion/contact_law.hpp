@@ -49,10 +49,11 @@ SettlingBounces settling_bounces(const ServoDynamics& dynamics, FaceSign face, d
 /// cannot all be followed. While they are pressed together their action p³/a falls as e^{−κt}, and
 /// no faster where e = 1 (adiabatic invariance; docs/mathematics.md). `imminent` is set, with
 /// duration 0, when more than 1e4 bounces are to come before the faces part, and
-///   the height p²/(2a) is below 1e-8 of backlash + motion (and below 1e-4 of the backlash),
+///   the height p²/(2a) is below 1e-8 of the motion (and below 1e-4 of the backlash),
 ///   the common motion is displaced by less than 1e-9 of itself or of the backlash,
 ///   the relative speed left at the parting, (⅔ p³/a · e^{−κT})^{2/5} |ȧ|^{1/5}, is below 1e-6 of
 ///   the motion then, or, the more bounces n there would be to follow, below 1e-10 n ≤ 1e-3.
+/// Where they never part, the first two hold of backlash + motion and of the backlash.
 /// So the faces are called engaged where they rattle still; the numbers above are the errors made.
 /// Precondition: as for settling_bounces(), e ≤ 1.
 SettlingBounces fading_rattle(const ServoDynamics& dynamics, FaceSign face, double load_position,
