@@ -46,17 +46,17 @@ std::string permitted_values(std::string_view field) {
 
 std::vector<Violation> validate(const NormalizedServo& servo) {
   RangeCheck check;
-  const auto require = [&](bool permitted, const char* field, const std::string& value) {
-    if (!permitted) check.refuse(field, value, "must be " + permitted_values(field));
+  const auto require = [&](bool permitted, const char* field, double value) {
+    if (!permitted) check.refuse(field, exact_text(value), "must be " + permitted_values(field));
   };
-  require(damping_range.includes(servo.damping), "damping", exact_text(servo.damping));
-  require(permitted_inertia_ratio(servo.inertia_ratio), "inertia_ratio",
-          exact_text(servo.inertia_ratio));
-  require(share_range.includes(servo.friction_ratio), "friction_ratio",
-          exact_text(servo.friction_ratio));
-  require(backlash_range.includes(servo.backlash), "backlash", exact_text(servo.backlash));
-  require(share_range.includes(servo.restitution), "restitution", exact_text(servo.restitution));
-  require(servo.sensor == Sensor::load, "sensor", "motor");
+  require(damping_range.includes(servo.damping), "damping", servo.damping);
+  require(permitted_inertia_ratio(servo.inertia_ratio), "inertia_ratio", servo.inertia_ratio);
+  require(share_range.includes(servo.friction_ratio), "friction_ratio", servo.friction_ratio);
+  require(backlash_range.includes(servo.backlash), "backlash", servo.backlash);
+  require(share_range.includes(servo.restitution), "restitution", servo.restitution);
+  if (servo.sensor != Sensor::load) {
+    check.refuse("sensor", "motor", "must be " + permitted_values("sensor"));
+  }
   const double load_friction = servo.damping * servo.friction_ratio;
   const double motor_friction = servo.damping * (1.0 - servo.friction_ratio);
   if (servo.inertia_ratio == 0.0 && load_friction == 0.0) {
