@@ -339,7 +339,13 @@ std::vector<CurvePiece> cycle_curve(const MotionPicture& picture) {
   const Trajectory trajectory = simulate(picture.servo, picture.cycle->start,
                                          {.until = picture.cycle->period, .reference = 0.0});
   std::vector<CurvePiece> pieces = drawn_curve(picture.servo, trajectory, picture.units);
-  const CurvePoint& start = pieces.front().points.front();
+  const CurvePoint start = pieces.front().points.front();
+  // By rounding, the parting that begins the cycle may come once more at its end.
+  constexpr double rounding = 1e-9;
+  const double end = pieces.back().points.back().time;
+  if (pieces.size() > 1 && end - pieces.back().points.front().time < rounding * end) {
+    pieces.pop_back();
+  }
   CurvePiece& last = pieces.back();
   const double jump = std::abs(start.load_speed - last.points.back().load_speed);
   const double speed = std::abs(start.load_speed) + std::abs(last.points.back().load_speed);

@@ -13,6 +13,7 @@ namespace gearlash {
 struct UnitHalfCycle {
   double flight_time;       ///< t₂
   double engaged_time;      ///< t₁, infinite when the faces do not part again
+  double load_moved;        ///< y at impact less y at parting
   double load_position;     ///< y at impact
   double load_speed;        ///< v_L just before impact
   double gap_displacement;  ///< u − u₀ at impact, < 0
