@@ -5,6 +5,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "command.hpp"
 #include "gearlash/io/output_file.hpp"
@@ -61,18 +62,22 @@ std::string names_of_subcommands(const CLI::App& app) {
   return names;
 }
 
-/// What was typed where a subcommand belongs.
-void require_subcommand(const CLI::App& app, int argument_count, char** arguments) {
-  const std::string first = argument_count > 1 ? arguments[1] : "";
-  if (first.starts_with("-")) return;  // an option: CLI11 knows it or says that it does not
+/// What was typed where a subcommand of `app`, itself typed as `typed`, belongs.
+void require_subcommand(const CLI::App& app, const std::string& typed,
+                        const std::vector<std::string>& arguments) {
   const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
-  const bool is_known = std::any_of(commands.begin(), commands.end(), [&](const CLI::App* command) {
+  if (commands.empty()) return;
+  const std::string first = arguments.empty() ? "" : arguments.front();
+  if (first.starts_with("-")) return;  // an option: CLI11 knows it or says that it does not
+  const auto known = std::find_if(commands.begin(), commands.end(), [&](const CLI::App* command) {
     return command->get_name() == first;
   });
-  if (!is_known) {
-    throw InvalidInput({{"subcommand", first.empty() ? "" : shown(first),
-                         "must be " + names_of_subcommands(app) + "; see gearlash --help", ""}});
+  if (known == commands.end()) {
+    throw InvalidInput(
+        {{"subcommand", first.empty() ? "" : shown(first),
+          "must be " + names_of_subcommands(app) + "; see " + typed + " --help", ""}});
   }
+  require_subcommand(**known, typed + " " + first, {arguments.begin() + 1, arguments.end()});
 }
 
 /// CLI11's own words, on one line, and where to find what is permitted.
@@ -93,7 +98,9 @@ ExitStatus parse_and_run(int argument_count, char** arguments) {
   add_limit_cycle_command(app, action);
   add_simulate_command(app, action);
   add_motor_command(app, action);
-  require_subcommand(app, argument_count, arguments);
+  add_thesis_command(app, action);
+  require_subcommand(app, "gearlash",
+                     {arguments + std::min(argument_count, 1), arguments + argument_count});
   try {
     app.parse(argument_count, arguments);
   } catch (const CLI::CallForHelp&) {

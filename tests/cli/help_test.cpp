@@ -27,7 +27,10 @@ INSTANTIATE_TEST_SUITE_P(Everywhere, Help,
                                          std::vector<std::string>{"-h"},
                                          std::vector<std::string>{"limit-cycle", "--help"},
                                          std::vector<std::string>{"simulate", "--help"},
-                                         std::vector<std::string>{"motor", "--help"}));
+                                         std::vector<std::string>{"motor", "--help"},
+                                         std::vector<std::string>{"thesis", "--help"},
+                                         std::vector<std::string>{"thesis", "table-2", "--help"},
+                                         std::vector<std::string>{"thesis", "run", "--help"}));
 
 TEST(Help, EveryOptionOfTheContractIsNamed) {
   const std::string limit_cycle = run_tool({"limit-cycle", "--help"}).out;

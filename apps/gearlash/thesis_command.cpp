@@ -1,0 +1,186 @@
+// gearlash thesis: the program of 1960, its printout and its charts, beside the exact answer.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+
+#include "command.hpp"
+#include "gearlash/cycle/limit_cycle.hpp"
+#include "gearlash/heritage/float_1604.hpp"
+#include "gearlash/heritage/printout.hpp"
+#include "gearlash/heritage/settled_cycle.hpp"
+#include "gearlash/io/output_file.hpp"
+#include "servo_options.hpp"
+
+namespace gearlash::cli {
+namespace {
+
+using heritage::FloatRules;
+using heritage::Number1604;
+using heritage::PrintedLine;
+using heritage::PrintedNumber;
+using heritage::PrintedRow;
+
+constexpr char examples[] =
+    "  gearlash thesis table-2\n"
+    "  gearlash thesis table-2 --arithmetic 1604\n"
+    "  gearlash thesis run --damping 0.19 --inertia-ratio 2 --friction-ratio 0.1\n";
+
+// --- table-2 ---
+
+constexpr char table_2_examples[] =
+    "  gearlash thesis table-2\n"
+    "  gearlash thesis table-2 --arithmetic 1604\n";
+
+std::vector<PrintedLine> run_listed_program(const std::string& arithmetic, std::size_t lines) {
+  if (arithmetic == "1604") {
+    return heritage::printout<Number1604<FloatRules{}>>(heritage::listed_parameters, lines);
+  }
+  return heritage::printout<double>(heritage::listed_parameters, lines);
+}
+
+std::string row_text(const PrintedRow& row) {
+  std::string text;
+  for (const PrintedNumber& number : row) text += fmt::format("{:<13}", printed_text(number));
+  return text;
+}
+
+/// How many numbers have the digits of 1960, and how many are within one of the eighth.
+struct Score {
+  int exact = 0;
+  int within_one = 0;
+  std::vector<std::string> others = {};
+};
+
+void score(const PrintedRow& printed, const PrintedRow& now, std::size_t line, Score& result) {
+  constexpr std::array names = {"time", "motor speed", "motor position", "load speed",
+                                "load position"};
+  for (std::size_t k = 0; k < printed.size(); ++k) {
+    const bool same_exponent = printed[k].exponent == now[k].exponent;
+    const int apart = same_exponent ? std::abs(printed[k].digits - now[k].digits) : 100'000'000;
+    // 99999999 and 1.0000000 are neighbours though their exponents differ.
+    const double value = now[k].digits * std::pow(10.0, now[k].exponent - 8);
+    const bool neighbours = apart <= 1 || std::abs(units_apart(value, printed[k])) <= 1.0;
+    result.exact += printed[k] == now[k] ? 1 : 0;
+    result.within_one += neighbours ? 1 : 0;
+    if (!neighbours) {
+      result.others.push_back(fmt::format("line {}, {}: {} here, {} in 1960", line + 1, names[k],
+                                          printed_text(now[k]), printed_text(printed[k])));
+    }
+  }
+}
+
+std::string table_2_text(const std::string& arithmetic) {
+  const auto& printed = heritage::thesis_table_2();
+  const std::vector<PrintedLine> lines = run_listed_program(arithmetic, printed.size());
+  const std::string heading = fmt::format("{:<13}{:<13}{:<13}{:<13}{:<13}", "TIME", "MOTOR SPEED",
+                                          "MOTOR POS.", "LOAD SPEED", "LOAD POS.");
+  std::string text = "Table II: the program of 1960 run again, and what it printed then\n\n";
+  text += fmt::format("{:<68}{}\n", "now", "1960");
+  text += heading + "   " + heading.substr(0, heading.find_last_not_of(' ') + 1) + "\n";
+  Score result;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const PrintedRow now = printed_row(lines[i]);
+    score(printed[i], now, i, result);
+    const std::string row = row_text(now) + "   " + row_text(printed[i]);
+    text += row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
+  }
+  text += fmt::format(
+      "\n{} of 190 numbers have the digits of 1960; {} are within one unit of the eighth digit.\n",
+      result.exact, result.within_one);
+  for (const std::string& other : result.others) text += other + "\n";
+  return text;
+}
+
+void add_table_2(CLI::App& thesis, Action& action) {
+  const auto arithmetic = std::make_shared<std::string>("double");
+  CLI::App* command =
+      thesis.add_subcommand("table-2", "the typical printout, beside what was printed in 1960");
+  command
+      ->add_option("--arithmetic", *arithmetic,
+                   "double (default), or 1604: the machine's, which cuts\n"
+                   "operands off before it adds them")
+      ->type_name("KIND");
+  command->footer(help_footer(table_2_examples));
+  command->callback([arithmetic, &action] {
+    action = [arithmetic](const Provenance&) {
+      Faults faults;
+      faults.require_choice("--arithmetic", *arithmetic, {"double", "1604"});
+      faults.require_none();
+      write_file("-", table_2_text(*arithmetic));
+      return ExitStatus::done;
+    };
+  });
+}
+
+// --- run ---
+
+constexpr char run_examples[] =
+    "  gearlash thesis run --damping 0.19 --inertia-ratio 2 --friction-ratio 0.1\n"
+    "  gearlash thesis run examples/elinco-fd162.toml\n";
+
+std::string run_text(const NormalizedServo& servo, const heritage::SettledCycle& cycle) {
+  std::string text =
+      fmt::format("The program of 1960, {} s of the servo's time in steps of 0.01 s (ω_n = 1):\n",
+                  significant(cycle.run_time, 4));
+  if (!cycle.hunts) {
+    text += "  no limit cycle: the faces meet no more\n";
+  } else {
+    text += fmt::format("  size    ±{} rad{}\n", significant(cycle.size, 5),
+                        cycle.settled ? "" : ", still changing");
+    text += fmt::format(
+        "          mean of {} cycles, from {} to {}: on the grid none is like the "
+        "next\n",
+        cycle.cycles, significant(cycle.smallest, 5), significant(cycle.largest, 5));
+    text += fmt::format("  period  {} s\n", significant(cycle.period, 5));
+  }
+  const LimitCycleAnalysis exact = analyse_limit_cycles(servo);
+  text += "Exactly:\n";
+  if (exact.cycles.empty()) {
+    return text + fmt::format("  no limit cycle: {}\n", name_of(exact.verdict));
+  }
+  const LimitCycle& one = exact.cycles.front();
+  text += fmt::format("  size    ±{} rad\n", significant(one.size, 9));
+  text += fmt::format("  period  {} s\n", significant(one.period, 9));
+  if (cycle.hunts) {
+    text += fmt::format("The program's size is off by {:+.2f} %, its period by {:+.2f} %.\n",
+                        100.0 * (cycle.size / one.size - 1.0),
+                        100.0 * (cycle.period / one.period - 1.0));
+  }
+  return text;
+}
+
+void add_run(CLI::App& thesis, Action& action) {
+  const auto options = std::make_shared<ServoOptions>();
+  CLI::App* command = thesis.add_subcommand(
+      "run", "the size that the program of 1960 finds for any servo, beside the exact one");
+  add_servo_options(*command, *options);
+  command->footer(help_footer(run_examples));
+  command->callback([options, &action] {
+    action = [options](const Provenance&) {
+      if (options->file.empty() && !options->backlash) options->backlash = "0.3";  // of the charts
+      Faults faults;
+      const ServoFile file = resolve_servo(*options, faults);
+      faults.require_none();
+      const auto parameters = heritage::program_parameters(file.servo);
+      const heritage::SettledCycle cycle = heritage::run_until_settled(parameters);
+      write_file("-", run_text(file.servo, cycle));
+      return cycle.settled ? ExitStatus::done : ExitStatus::undecided;
+    };
+  });
+}
+
+}  // namespace
+
+void add_thesis_command(CLI::App& app, Action& action) {
+  CLI::App* thesis =
+      app.add_subcommand("thesis", "the program and the charts of 1960, beside the exact answer");
+  thesis->require_subcommand(1);
+  thesis->footer(help_footer(examples));
+  add_table_2(*thesis, action);
+  add_run(*thesis, action);
+}
+
+}  // namespace gearlash::cli
