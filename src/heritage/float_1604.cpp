@@ -90,7 +90,8 @@ Float1604 sum(const Float1604& one, const Float1604& other, SumRule rule) {
   const Float1604& larger = one.exponent_ >= other.exponent_ ? one : other;
   const Float1604& smaller = one.exponent_ >= other.exponent_ ? other : one;
   const int shift = larger.exponent_ - smaller.exponent_;
-  if (shift > fraction_bits) return larger;
+  const int widest = rule == SumRule::no_guard_digits ? fraction_bits : 2 * fraction_bits;
+  if (shift > widest) return larger;
   if (rule == SumRule::no_guard_digits) {
     const std::int64_t kept = std::abs(smaller.fraction_) >> shift;
     return normalized(larger.fraction_ + (smaller.fraction_ < 0 ? -kept : kept), larger.exponent_,
