@@ -30,6 +30,7 @@ INSTANTIATE_TEST_SUITE_P(Everywhere, Help,
                                          std::vector<std::string>{"motor", "--help"},
                                          std::vector<std::string>{"thesis", "--help"},
                                          std::vector<std::string>{"thesis", "table-2", "--help"},
+                                         std::vector<std::string>{"thesis", "machine", "--help"},
                                          std::vector<std::string>{"thesis", "run", "--help"}));
 
 TEST(Help, EveryOptionOfTheContractIsNamed) {

@@ -25,6 +25,34 @@ TEST(ThesisCommand, TheMachinesArithmeticGivesItsDigits) {
   EXPECT_THAT(run.out, HasSubstr("\n189 of 190 numbers have the digits of 1960; 190 are within"));
 }
 
+TEST(ThesisCommand, MachinePrintsTheSameFromTheOctalWords) {
+  const Outcome run = run_tool({"thesis", "machine"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.out, HasSubstr("\n189 of 190 numbers have the digits of 1960; 190 are within"));
+  EXPECT_THAT(run.out, HasSubstr("\n174953 instructions were executed.\n"));
+}
+
+TEST(ThesisCommand, MachineShowsHowItsRulesWereFoundAndItsListing) {
+  const std::string rules = run_tool({"thesis", "machine", "--rules"}).out;
+  EXPECT_THAT(rules, testing::ContainsRegex("smaller operand cut off .* rounded +cut off +189\n"));
+  EXPECT_THAT(rules, testing::ContainsRegex("exact sum, cut off +cut off +cut off +169\n"));
+  EXPECT_THAT(rules, testing::ContainsRegex("exact sum, rounded +rounded +rounded +149\n"));
+  EXPECT_THAT(run_tool({"thesis", "machine", "--listing"}).out,
+              HasSubstr("  20103  listed     12 0 20074  15 0 20172\n"
+                        "         assembled  12 0 20074  15 0 20167   LDA 0 BKTEST2 | SUB 0 "
+                        "FACTOR2\n"));
+}
+
+TEST(ThesisCommand, TraceShowsRegistersAtEachInstruction) {
+  const Outcome run = run_tool({"thesis", "machine", "--trace", "2"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.out, HasSubstr("\n  20000 U  SLJ  4 20022  0000000000000000 "));
+  EXPECT_THAT(run.out, HasSubstr("\n  20022 L  SLJ  0 20022  0000000000000000 "));
+  const Outcome none = run_tool({"thesis", "machine", "--trace", "0.5"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_EQ(none.err, "gearlash: --trace = 0.5: must be a whole number from 1 to 1000000\n");
+}
+
 TEST(ThesisCommand, RunTellsWhatTheProgramWouldHaveGivenAndTheTruth) {
   const Outcome run = run_tool(
       {"thesis", "run", "--damping", "0.1", "--inertia-ratio", "1", "--friction-ratio", "0.2"});
@@ -46,12 +74,13 @@ TEST(ThesisCommand, FaultsAreOneLine) {
   const Outcome subcommand = run_tool({"thesis", "table-9"});
   EXPECT_EQ(subcommand.status, 2);
   EXPECT_EQ(subcommand.err,
-            "gearlash: subcommand = table-9: must be table-2 or run; see gearlash thesis --help\n");
+            "gearlash: subcommand = table-9: must be table-2, machine or run; see gearlash thesis "
+            "--help\n");
   const Outcome none = run_tool({"thesis"});
   EXPECT_EQ(none.status, 2);
-  EXPECT_EQ(
-      none.err,
-      "gearlash: subcommand is missing: must be table-2 or run; see gearlash thesis --help\n");
+  EXPECT_EQ(none.err,
+            "gearlash: subcommand is missing: must be table-2, machine or run; see gearlash thesis "
+            "--help\n");
   const Outcome arithmetic = run_tool({"thesis", "table-2", "--arithmetic", "decimal"});
   EXPECT_EQ(arithmetic.status, 2);
   EXPECT_EQ(arithmetic.err, "gearlash: --arithmetic = decimal: must be double or 1604\n");
