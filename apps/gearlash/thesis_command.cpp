@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <functional>
 #include <memory>
 
 #include "command.hpp"
 #include "gearlash/cycle/limit_cycle.hpp"
+#include "gearlash/heritage/figures.hpp"
 #include "gearlash/heritage/float_1604.hpp"
 #include "gearlash/heritage/listing.hpp"
 #include "gearlash/heritage/printout.hpp"
@@ -15,6 +18,7 @@
 #include "gearlash/heritage/thesis_machine.hpp"
 #include "gearlash/io/output_file.hpp"
 #include "servo_options.hpp"
+#include "terminal.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -306,6 +310,112 @@ void add_run(CLI::App& thesis, Action& action) {
   });
 }
 
+// --- figures ---
+
+constexpr char figure_examples[] =
+    "  gearlash thesis figure 7\n"
+    "  gearlash thesis figure 12 --output phase.pdf\n"
+    "  gearlash thesis all --output figures\n";
+
+std::vector<int> figure_numbers() {
+  std::vector<int> numbers;
+  for (const auto& figure : heritage::thesis_figures()) numbers.push_back(figure.number);
+  for (const auto& figure : heritage::thesis_phase_figures()) numbers.push_back(figure.number);
+  return numbers;
+}
+
+int read_figure_number(const std::string& text) {
+  const std::vector<int> numbers = figure_numbers();
+  for (const int number : numbers) {
+    if (text == std::to_string(number)) return number;
+  }
+  throw InvalidInput(
+      {{"N", shown(text),
+        fmt::format("must be the number of a figure, {} to {}", numbers.front(), numbers.back()),
+        ""}});
+}
+
+/// Works the figure out and draws it; `done` hears how far it is.
+std::string draw_figure(int number, PictureFormat format, const std::function<void(double)>& done) {
+  for (const auto& figure : heritage::thesis_phase_figures()) {
+    if (figure.number == number) return draw_line_chart(chart_of(figure), format);
+  }
+  const auto& figures = heritage::thesis_figures();
+  const auto figure = std::find_if(figures.begin(), figures.end(), [&](const auto& candidate) {
+    return candidate.number == number;
+  });
+  std::vector<heritage::FigureCurveData> data;
+  const auto count = static_cast<double>(figure->curves.size());
+  for (const auto& curve : figure->curves) {
+    const auto before = static_cast<double>(data.size());
+    data.push_back(
+        heritage::work_out(*figure, curve, [&](double share) { done((before + share) / count); }));
+  }
+  return draw_line_chart(chart_of(*figure, data), format);
+}
+
+void add_figure(CLI::App& thesis, Action& action) {
+  struct Options {
+    std::string number;
+    std::string output;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* command =
+      thesis.add_subcommand("figure", "one of figures 2 to 15, then and exactly, as a picture");
+  command->add_option("N", options->number, "number of the figure, 2 to 15")
+      ->type_name("")
+      ->required();
+  command
+      ->add_option("--output", options->output,
+                   "picture, ending in .svg, .png or .pdf; default\nfigure-N.svg")
+      ->type_name("FILE");
+  command->footer(help_footer(figure_examples));
+  command->callback([options, &action] {
+    action = [options](const Provenance&) {
+      Faults faults;
+      const int number = faults.collect([&] { return read_figure_number(options->number); }, 2);
+      const std::string file =
+          options->output.empty() ? fmt::format("figure-{}.svg", number) : options->output;
+      const PictureFormat format =
+          faults.collect([&] { return picture_format("--output", file); }, PictureFormat::svg);
+      faults.require_none();
+      Progress progress("Figure " + options->number);
+      write_file(file, draw_figure(number, format, [&](double share) { progress.show(share); }));
+      return ExitStatus::done;
+    };
+  });
+}
+
+void add_all(CLI::App& thesis, Action& action) {
+  const auto folder = std::make_shared<std::string>("thesis-figures");
+  CLI::App* command = thesis.add_subcommand("all", "all figures into a folder, as SVG");
+  command->add_option("--output", *folder, "folder, made if need be; default thesis-figures")
+      ->type_name("DIR");
+  command->footer(help_footer(figure_examples));
+  command->callback([folder, &action] {
+    action = [folder](const Provenance&) {
+      std::error_code error;
+      std::filesystem::create_directories(*folder, error);
+      if (error) {
+        throw InvalidInput({{"--output", shown(*folder),
+                             "must be a folder that can be made (" + error.message() + ")", ""}});
+      }
+      Progress progress("Figures");
+      const std::vector<int> numbers = figure_numbers();
+      const auto count = static_cast<double>(numbers.size());
+      for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const auto done = [&](double share) {
+          progress.show((static_cast<double>(i) + share) / count);
+        };
+        const std::filesystem::path file =
+            std::filesystem::path(*folder) / fmt::format("figure-{}.svg", numbers[i]);
+        write_file(file.string(), draw_figure(numbers[i], PictureFormat::svg, done));
+      }
+      return ExitStatus::done;
+    };
+  });
+}
+
 }  // namespace
 
 void add_thesis_command(CLI::App& app, Action& action) {
@@ -316,6 +426,8 @@ void add_thesis_command(CLI::App& app, Action& action) {
   add_table_2(*thesis, action);
   add_machine(*thesis, action);
   add_run(*thesis, action);
+  add_figure(*thesis, action);
+  add_all(*thesis, action);
 }
 
 }  // namespace gearlash::cli

@@ -12,6 +12,7 @@
 #include "drawn_curve.hpp"
 #include "gearlash/io/units.hpp"
 #include "gnuplot.hpp"
+#include "gnuplot_script.hpp"
 
 namespace gearlash {
 namespace {
@@ -24,41 +25,6 @@ constexpr char reference_colour[] = "#555555";
 constexpr char gap_colour[] = "#dcdcdc";
 constexpr char between_colour[] = "#f5d9a8";  ///< load and motor, in the phase plane
 constexpr char apart_colour[] = "#fdf3dd";
-
-/// gnuplot text in single quotes, wholly within `style` if there is one. Nothing in the text ends
-/// the quotes or is taken for markup, but that the n of ω_n is set low.
-std::string quoted(const std::string& text, const std::string& style = "") {
-  std::string safe = style.empty() ? "'" : "'{" + style + " ";
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (static_cast<unsigned char>(c) < 0x20) continue;
-    if (text.compare(i, 2, "_n") == 0 && safe.ends_with("ω")) {
-      safe += "_{n}";
-      ++i;
-      continue;
-    }
-    if (std::string_view("\\_^{}@&~").find(c) != std::string_view::npos) safe += '\\';
-    safe += c;
-    if (c == '\'') safe += c;
-  }
-  return safe + (style.empty() ? "'" : "}'");
-}
-
-/// The kind of picture, its size, and the share of its height that axis and legend take.
-const char* terminal(PictureFormat format) {
-  switch (format) {
-    case PictureFormat::svg:
-      return "set terminal svg enhanced size 900,700 font 'sans-serif,15' background rgb 'white' "
-             "linewidth 1.2\nset bmargin screen 0.25\n";
-    case PictureFormat::png:
-      return "set terminal pngcairo enhanced size 1800,1400 font 'sans-serif,22' linewidth 2.4 "
-             "dashlength 1.4 pointscale 2\nset bmargin screen 0.21\n";
-    case PictureFormat::pdf:
-      return "set terminal pdfcairo enhanced size 18cm,14cm font 'sans-serif,11' linewidth 1.2\n"
-             "set bmargin screen 0.21\n";
-  }
-  return "";
-}
 
 std::string numbers_line(const MotionPicture& picture) {
   const NormalizedServo& servo = picture.servo;
@@ -88,28 +54,6 @@ std::string preamble(const MotionPicture& picture, PictureFormat format) {
          "set grid linewidth 0.5 linecolor rgb '#c4c4c4'\n"
          "set tics nomirror out\nset border linewidth 0.8\n";
 }
-
-/// Named data of a script, rows of numbers; blank lines part the pieces of a curve.
-class DataBlock {
- public:
-  explicit DataBlock(std::string name) : name_(std::move(name)) {}
-
-  template <class... Numbers>
-  void row(Numbers... numbers) {
-    ((text_ += fmt::format("{:.7g} ", numbers)), ...);
-    text_ += '\n';
-    is_empty_ = false;
-  }
-  void gap() { text_ += '\n'; }
-
-  bool is_empty() const { return is_empty_; }
-  std::string text() const { return "$" + name_ + " << EOD\n" + text_ + "EOD\n"; }
-
- private:
-  std::string name_;
-  std::string text_;
-  bool is_empty_ = true;
-};
 
 struct Range {
   double low = std::numeric_limits<double>::infinity();
@@ -167,14 +111,6 @@ void require_legible(const MotionPicture& picture) {
                       significant(units.time(longest_time_drawn), 6), units.time_unit()),
           ""}});
   }
-}
-
-std::string plot_command(const std::vector<std::string>& layers) {
-  std::string command = "plot ";
-  for (std::size_t i = 0; i < layers.size(); ++i) {
-    command += (i == 0 ? "" : ", \\\n     ") + layers[i];
-  }
-  return command + "\n";
 }
 
 // --- time response ---

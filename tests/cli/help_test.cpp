@@ -31,6 +31,8 @@ INSTANTIATE_TEST_SUITE_P(Everywhere, Help,
                                          std::vector<std::string>{"thesis", "--help"},
                                          std::vector<std::string>{"thesis", "table-2", "--help"},
                                          std::vector<std::string>{"thesis", "machine", "--help"},
+                                         std::vector<std::string>{"thesis", "figure", "--help"},
+                                         std::vector<std::string>{"thesis", "all", "--help"},
                                          std::vector<std::string>{"thesis", "run", "--help"}));
 
 TEST(Help, EveryOptionOfTheContractIsNamed) {

@@ -1,6 +1,8 @@
 // gearlash thesis, as typed.
 #include <gmock/gmock.h>
 
+#include <filesystem>
+
 #include "tool.hpp"
 
 namespace gearlash {
@@ -70,16 +72,38 @@ TEST(ThesisCommand, RunSaysWhereTheFacesMeetNoMore) {
   EXPECT_THAT(run.out, HasSubstr("no limit cycle: cannot hunt"));
 }
 
+TEST(ThesisCommand, FiguresAreWritten) {
+  const test::Scratch scratch;
+  const std::string file = (scratch / "phase.pdf").string();
+  EXPECT_EQ(run_tool({"thesis", "figure", "13", "--output", file}).status, 0);
+  EXPECT_GT(std::filesystem::file_size(file), 1000U);
+  const std::string folder = (scratch / "figures" / "of 1960").string();
+  EXPECT_EQ(run_tool({"thesis", "all", "--output", folder}).status, 0);
+  for (int number = 2; number <= 15; ++number) {
+    const auto figure =
+        std::filesystem::path(folder) / ("figure-" + std::to_string(number) + ".svg");
+    EXPECT_GT(std::filesystem::file_size(figure), 1000U) << number;
+  }
+}
+
+TEST(ThesisCommand, FiguresThereAre) {
+  const Outcome run = run_tool({"thesis", "figure", "16"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.err, "gearlash: N = 16: must be the number of a figure, 2 to 15\n");
+}
+
 TEST(ThesisCommand, FaultsAreOneLine) {
   const Outcome subcommand = run_tool({"thesis", "table-9"});
   EXPECT_EQ(subcommand.status, 2);
   EXPECT_EQ(subcommand.err,
-            "gearlash: subcommand = table-9: must be table-2, machine or run; see gearlash thesis "
+            "gearlash: subcommand = table-9: must be table-2, machine, run, figure or all; see "
+            "gearlash thesis "
             "--help\n");
   const Outcome none = run_tool({"thesis"});
   EXPECT_EQ(none.status, 2);
   EXPECT_EQ(none.err,
-            "gearlash: subcommand is missing: must be table-2, machine or run; see gearlash thesis "
+            "gearlash: subcommand is missing: must be table-2, machine, run, figure or all; see "
+            "gearlash thesis "
             "--help\n");
   const Outcome arithmetic = run_tool({"thesis", "table-2", "--arithmetic", "decimal"});
   EXPECT_EQ(arithmetic.status, 2);

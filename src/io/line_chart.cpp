@@ -1,0 +1,105 @@
+#include "gearlash/io/line_chart.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "gnuplot.hpp"
+#include "gnuplot_script.hpp"
+
+namespace gearlash {
+namespace {
+
+// Colours that the colour-blind tell apart (Okabe and Ito), dashes and marks that say the same in
+// grey.
+constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                "#000000", "#56b4e9", "#e69f00"};
+constexpr std::array dashes = {"1",     "(10,4)", "(4,3)",        "(12,3,3,3)",
+                               "(2,2)", "(16,4)", "(8,3,2,3,2,3)"};
+constexpr std::array marks = {5, 7, 9, 11, 13, 15, 3};
+
+std::string axis_text(char name, const ChartAxis& axis) {
+  const auto end = [](const std::optional<double>& value) {
+    return value ? fmt::format("{:.7g}", *value) : "*";
+  };
+  std::string text = fmt::format("set {}label {}\n", name, quoted(axis.label));
+  text += fmt::format("set {}range [{}:{}]\n", name, end(axis.low), end(axis.high));
+  if (axis.logarithmic) text += fmt::format("set logscale {}\n", name);
+  if (axis.tics.empty()) return text;
+  text += fmt::format("set {}tics (", name);
+  for (std::size_t i = 0; i < axis.tics.size(); ++i) {
+    text += fmt::format("{}{} {:.7g}", i == 0 ? "" : ", ", quoted(axis.tics[i].first),
+                        axis.tics[i].second);
+  }
+  return text + ")\n";
+}
+
+DataBlock points(const std::string& name, const std::vector<ChartPoint>& data) {
+  DataBlock block(name);
+  for (const ChartPoint& point : data) {
+    if (std::isnan(point.y)) {
+      block.gap();
+    } else {
+      block.row(point.x, point.y);
+    }
+  }
+  return block;
+}
+
+/// What lines, marks and circles are, without a curve of their own.
+void add_meanings(const LineChart& chart, std::vector<std::string>& layers) {
+  if (!chart.line_meaning.empty()) {
+    layers.push_back("keyentry with lines linewidth 1.8 linecolor rgb '#555555' title " +
+                     quoted(chart.line_meaning));
+  }
+  if (!chart.mark_meaning.empty()) {
+    layers.push_back(
+        "keyentry with points pointtype 7 pointsize 0.8 linecolor rgb '#555555' title " +
+        quoted(chart.mark_meaning));
+  }
+  if (!chart.end_meaning.empty()) {
+    layers.push_back(
+        "keyentry with points pointtype 6 pointsize 1.1 linecolor rgb '#555555' title " +
+        quoted(chart.end_meaning));
+  }
+}
+
+}  // namespace
+
+std::string draw_line_chart(const LineChart& chart, PictureFormat format) {
+  std::string script = std::string(terminal(format)) + "set encoding utf8\nset title " +
+                       quoted(chart.title, "/:Bold") + " offset 0,1.1\nset label 1 " +
+                       quoted(chart.subtitle, "/*0.87") +
+                       " at graph 0.5, screen 0.905 center\n"
+                       "set tmargin screen 0.88\nset rmargin screen 0.97\n"
+                       "set key at screen 0.54, 0.02 bottom center horizontal maxcols 4 Left "
+                       "reverse samplen 3 spacing 1.25\n"
+                       "set grid linewidth 0.5 linecolor rgb '#c4c4c4'\n"
+                       "set tics nomirror out\nset border linewidth 0.8\n";
+  script += axis_text('x', chart.x) + axis_text('y', chart.y);
+  std::vector<std::string> layers;
+  for (std::size_t i = 0; i < chart.curves.size(); ++i) {
+    const ChartCurve& curve = chart.curves[i];
+    const std::size_t style = i % colours.size();
+    const std::string name = fmt::format("curve{}", i);
+    const auto add = [&](const std::string& part, const std::vector<ChartPoint>& data,
+                         const std::string& how, const std::string& title) {
+      const DataBlock block = points(name + part, data);
+      if (block.is_empty()) return;
+      script += block.text();
+      layers.push_back(fmt::format("${}{} using 1:2 {} linecolor rgb '{}' {}", name, part, how,
+                                   colours[style], title));
+    };
+    add("_line", curve.line, fmt::format("with lines linewidth 1.8 dashtype {}", dashes[style]),
+        "title " + quoted(curve.name));
+    add("_marks", curve.marks,
+        fmt::format("with points pointtype {} pointsize {}", marks[style], chart.mark_size),
+        "notitle");
+    add("_ends", curve.ends, "with points pointtype 6 pointsize 1.1", "notitle");
+  }
+  add_meanings(chart, layers);
+  return run_gnuplot(script + plot_command(layers));
+}
+
+}  // namespace gearlash
