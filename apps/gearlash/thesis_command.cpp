@@ -10,6 +10,8 @@
 
 #include "command.hpp"
 #include "gearlash/cycle/limit_cycle.hpp"
+#include "gearlash/heritage/chart_reading.hpp"
+#include "gearlash/heritage/extensions.hpp"
 #include "gearlash/heritage/figures.hpp"
 #include "gearlash/heritage/float_1604.hpp"
 #include "gearlash/heritage/listing.hpp"
@@ -416,6 +418,102 @@ void add_all(CLI::App& thesis, Action& action) {
   });
 }
 
+// --- chart-reading ---
+
+constexpr char chart_reading_examples[] =
+    "  gearlash thesis chart-reading --damping .19 --inertia-ratio 2 --friction-ratio .1 \\\n"
+    "      --backlash .1\n"
+    "  gearlash thesis chart-reading examples/elinco-fd162.toml\n";
+
+std::string chart_reading_text(const NormalizedServo& servo,
+                               const heritage::ChartReading& reading) {
+  std::string text = "Reading the charts of 1960 (Appendix C of the thesis)\n\n";
+  text += fmt::format("  1. The variables: damping {}, inertia ratio {}, friction ratio {}\n",
+                      significant(servo.damping, 4), significant(servo.inertia_ratio, 4),
+                      significant(servo.friction_ratio, 4));
+  text += fmt::format("  2. The chart of the nearest friction ratio: figure {}, for {}\n",
+                      reading.chart->figure, significant(reading.chart->friction_ratio, 2));
+  text += fmt::format(
+      "  3. At inertia ratio {} its curve of damping {} is at {}, that of {} at {};\n"
+      "     between them at {}: ±{} rad for a backlash of 0.3 rad\n",
+      significant(servo.inertia_ratio, 4), reading.neighbours[0], significant(reading.read[0], 3),
+      reading.neighbours[1], significant(reading.read[1], 3), significant(servo.damping, 4),
+      significant(reading.chart_size, 3));
+  text += fmt::format("  4. For this backlash: {} × {}/0.3 = ±{} rad\n",
+                      significant(reading.chart_size, 3), significant(servo.backlash, 4),
+                      significant(reading.size, 3));
+  const LimitCycleAnalysis exact = analyse_limit_cycles(servo);
+  if (exact.cycles.empty()) {
+    return text + fmt::format("\nExactly: no limit cycle, {}\n", name_of(exact.verdict));
+  }
+  const double size = exact.cycles.front().size;
+  return text + fmt::format("\nExactly: ±{} rad; reading the chart is off by {:+.1f} %\n",
+                            significant(size, 6), 100.0 * (reading.size / size - 1.0));
+}
+
+void add_chart_reading(CLI::App& thesis, Action& action) {
+  const auto options = std::make_shared<ServoOptions>();
+  CLI::App* command = thesis.add_subcommand(
+      "chart-reading", "the size as one read it off the charts, beside the exact one");
+  add_servo_options(*command, *options);
+  command->footer(help_footer(chart_reading_examples));
+  command->callback([options, &action] {
+    action = [options](const Provenance&) {
+      if (options->file.empty() && !options->backlash) options->backlash = "0.3";
+      Faults faults;
+      const ServoFile file = resolve_servo(*options, faults);
+      faults.require_none();
+      write_file("-", chart_reading_text(file.servo, heritage::read_chart(file.servo)));
+      return ExitStatus::done;
+    };
+  });
+}
+
+// --- extensions ---
+
+constexpr char extension_examples[] =
+    "  gearlash thesis extension 2\n"
+    "  gearlash thesis extension 4 --output restitution.pdf\n";
+
+void add_extension(CLI::App& thesis, Action& action) {
+  struct Options {
+    std::string number;
+    std::string output;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = thesis.add_subcommand(
+      "extension", "what the thesis recommends to do next, as a chart: 2, 3 or 4");
+  command->add_option("N", options->number, "number of the recommendation: 2, 3 or 4")
+      ->type_name("")
+      ->required();
+  command
+      ->add_option("--output", options->output,
+                   "picture, ending in .svg, .png or .pdf; default\nextension-N.svg")
+      ->type_name("FILE");
+  command->footer(help_footer(extension_examples));
+  command->callback([options, &action] {
+    action = [options](const Provenance&) {
+      Faults faults;
+      if (options->number != "2" && options->number != "3" && options->number != "4") {
+        faults.add({"N", shown(options->number),
+                    "must be 2, 3 or 4 (recommendation 1 is gearlash thesis run)", ""});
+      }
+      const std::string file =
+          options->output.empty() ? "extension-" + options->number + ".svg" : options->output;
+      const PictureFormat format =
+          faults.collect([&] { return picture_format("--output", file); }, PictureFormat::svg);
+      faults.require_none();
+      Progress progress("Extension " + options->number);
+      const heritage::Extension extension = heritage::extension(
+          std::stoi(options->number), [&](double share) { progress.show(share); });
+      write_file(file, draw_line_chart(extension.chart, format));
+      write_file("-",
+                 fmt::format("{}. {}\n\n{}\n", extension.number, extension.wish, extension.lesson));
+      return ExitStatus::done;
+    };
+  });
+}
+
 }  // namespace
 
 void add_thesis_command(CLI::App& app, Action& action) {
@@ -427,6 +525,8 @@ void add_thesis_command(CLI::App& app, Action& action) {
   add_machine(*thesis, action);
   add_run(*thesis, action);
   add_figure(*thesis, action);
+  add_chart_reading(*thesis, action);
+  add_extension(*thesis, action);
   add_all(*thesis, action);
 }
 

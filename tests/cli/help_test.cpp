@@ -33,6 +33,8 @@ INSTANTIATE_TEST_SUITE_P(Everywhere, Help,
                                          std::vector<std::string>{"thesis", "machine", "--help"},
                                          std::vector<std::string>{"thesis", "figure", "--help"},
                                          std::vector<std::string>{"thesis", "all", "--help"},
+                                         std::vector<std::string>{"thesis", "chart-reading", "-h"},
+                                         std::vector<std::string>{"thesis", "extension", "-h"},
                                          std::vector<std::string>{"thesis", "run", "--help"}));
 
 TEST(Help, EveryOptionOfTheContractIsNamed) {

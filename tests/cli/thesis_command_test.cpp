@@ -86,6 +86,33 @@ TEST(ThesisCommand, FiguresAreWritten) {
   }
 }
 
+TEST(ThesisCommand, ChartReadingFollowsTheFourSteps) {
+  const Outcome run = run_tool({"thesis", "chart-reading", "--damping", ".19", "--inertia-ratio",
+                                "2", "--friction-ratio", ".1", "--backlash", ".1"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.out, HasSubstr("figure 7, for 0.1\n"));
+  EXPECT_THAT(run.out, HasSubstr("\nExactly: ±0.080537 rad; reading the chart is off by +"));
+  const Outcome outside = run_tool({"thesis", "chart-reading", "--damping", ".9", "--inertia-ratio",
+                                    "20", "--friction-ratio", ".1"});
+  EXPECT_EQ(outside.status, 2);
+  EXPECT_EQ(outside.err,
+            "gearlash: damping = 0.9: must be from 0.1 to 0.6\n"
+            "gearlash: inertia_ratio = 20: must be from 1/9 to 9, where the charts of 1960 end\n");
+}
+
+TEST(ThesisCommand, ExtensionsAreDrawnAndSaidInWords) {
+  const test::Scratch scratch;
+  const std::string file = (scratch / "wide.svg").string();
+  const Outcome run = run_tool({"thesis", "extension", "3", "--output", file});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.out, HasSubstr("3. Extend the program to include a larger range"));
+  EXPECT_GT(std::filesystem::file_size(file), 1000U);
+  const Outcome five = run_tool({"thesis", "extension", "5"});
+  EXPECT_EQ(five.status, 2);
+  EXPECT_EQ(five.err,
+            "gearlash: N = 5: must be 2, 3 or 4 (recommendation 1 is gearlash thesis run)\n");
+}
+
 TEST(ThesisCommand, FiguresThereAre) {
   const Outcome run = run_tool({"thesis", "figure", "16"});
   EXPECT_EQ(run.status, 2);
@@ -96,15 +123,13 @@ TEST(ThesisCommand, FaultsAreOneLine) {
   const Outcome subcommand = run_tool({"thesis", "table-9"});
   EXPECT_EQ(subcommand.status, 2);
   EXPECT_EQ(subcommand.err,
-            "gearlash: subcommand = table-9: must be table-2, machine, run, figure or all; see "
-            "gearlash thesis "
-            "--help\n");
+            "gearlash: subcommand = table-9: must be table-2, machine, run, figure, chart-reading, "
+            "extension or all; see gearlash thesis --help\n");
   const Outcome none = run_tool({"thesis"});
   EXPECT_EQ(none.status, 2);
   EXPECT_EQ(none.err,
-            "gearlash: subcommand is missing: must be table-2, machine, run, figure or all; see "
-            "gearlash thesis "
-            "--help\n");
+            "gearlash: subcommand is missing: must be table-2, machine, run, figure, "
+            "chart-reading, extension or all; see gearlash thesis --help\n");
   const Outcome arithmetic = run_tool({"thesis", "table-2", "--arithmetic", "decimal"});
   EXPECT_EQ(arithmetic.status, 2);
   EXPECT_EQ(arithmetic.err, "gearlash: --arithmetic = decimal: must be double or 1604\n");

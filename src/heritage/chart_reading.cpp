@@ -1,0 +1,91 @@
+#include "gearlash/heritage/chart_reading.hpp"
+
+#include <algorithm>
+#include <boost/math/interpolators/makima.hpp>
+#include <cmath>
+#include <utility>
+
+#include "gearlash/heritage/figures.hpp"
+#include "gearlash/heritage/settled_cycle.hpp"
+#include "gearlash/servo/range_check.hpp"
+
+namespace gearlash::heritage {
+namespace {
+
+constexpr double charted_backlash = 0.3;
+
+std::vector<DesignChart1960> make_charts() {
+  std::vector<DesignChart1960> charts;
+  for (const Figure& figure : thesis_figures()) {
+    if (figure.along != Along::inertia_ratio) continue;
+    DesignChart1960 chart;
+    chart.figure = figure.number;
+    chart.friction_ratio = figure.curves.front().servo.friction_ratio;
+    chart.inertia_ratios = figure.grid;
+    for (const FigureCurve& curve : figure.curves) {
+      chart.dampings.push_back(curve.servo.damping);
+      std::vector<double> sizes;
+      for (const double place : figure.grid) {
+        sizes.push_back(run_until_settled(program_parameters(servo_at(figure, curve, place))).size);
+      }
+      chart.sizes.push_back(std::move(sizes));
+    }
+    charts.push_back(std::move(chart));
+  }
+  return charts;
+}
+
+/// A smooth curve through the five points of a damping, over the logarithm of the inertia ratio, as
+/// a French curve draws it: makima's, which does not overshoot.
+double read_curve(const DesignChart1960& chart, std::size_t damping, double inertia_ratio) {
+  std::vector<double> places;
+  for (const double ratio : chart.inertia_ratios) places.push_back(std::log(ratio));
+  const double place = std::clamp(std::log(inertia_ratio), places.front(), places.back());
+  std::vector<double> sizes = chart.sizes[damping];
+  return std::max(0.0, boost::math::interpolators::makima<std::vector<double>>(
+                           std::move(places), std::move(sizes))(place));
+}
+
+}  // namespace
+
+const std::vector<DesignChart1960>& design_charts_1960() {
+  static const std::vector<DesignChart1960> charts = make_charts();
+  return charts;
+}
+
+ChartReading read_chart(const NormalizedServo& servo) {
+  require_none(validate(servo));
+  const auto& charts = design_charts_1960();
+  const std::vector<double>& ratios = charts.front().inertia_ratios;
+  RangeCheck check;
+  check.within("damping", servo.damping, charts.front().dampings.front(),
+               charts.front().dampings.back());
+  // Numbers that are typed as decimals may miss 1/9 by their rounding.
+  constexpr double rounding = 1e-3;
+  if (!(servo.inertia_ratio >= ratios.front() * (1.0 - rounding) &&
+        servo.inertia_ratio <= ratios.back() * (1.0 + rounding))) {
+    check.refuse("inertia_ratio", exact_text(servo.inertia_ratio),
+                 "must be from 1/9 to 9, where the charts of 1960 end");
+  }
+  require_none(check.violations());
+
+  ChartReading reading;
+  reading.chart = &*std::min_element(charts.begin(), charts.end(),
+                                     [&](const DesignChart1960& one, const DesignChart1960& other) {
+                                       return std::abs(one.friction_ratio - servo.friction_ratio) <
+                                              std::abs(other.friction_ratio - servo.friction_ratio);
+                                     });
+  const DesignChart1960& chart = *reading.chart;
+  std::size_t below = 0;
+  while (below + 2 < chart.dampings.size() && servo.damping > chart.dampings[below + 1]) ++below;
+  reading.neighbours = {chart.dampings[below], chart.dampings[below + 1]};
+  reading.read = {read_curve(chart, below, servo.inertia_ratio),
+                  read_curve(chart, below + 1, servo.inertia_ratio)};
+  const double share =
+      (servo.damping - reading.neighbours[0]) / (reading.neighbours[1] - reading.neighbours[0]);
+  reading.chart_size = (1.0 - share) * reading.read[0] + share * reading.read[1];
+  reading.size = reading.chart_size * servo.backlash / charted_backlash;
+  return reading;
+}
+
+}  // namespace gearlash::heritage
