@@ -140,7 +140,7 @@ Extension elastic_contact(const std::function<void(double share)>& done) {
                              .restitution = restitution};
     };
     result.chart.curves.push_back(
-        curve(fmt::format("damping {}", damping), evenly(0.0, 1.0, 81), servo_at));
+        curve(fmt::format("damping {}", damping), evenly(0.0, 1.0, 51), servo_at));
     if (done) done(static_cast<double>(result.chart.curves.size()) / dampings.size());
   }
   return result;

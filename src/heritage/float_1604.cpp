@@ -15,6 +15,8 @@ constexpr Word fraction_mask = (Word{1} << fraction_bits) - 1U;
 constexpr Word field_of_zero_exponent = 02000;
 constexpr Word field_above_negative_exponents = 01777;
 
+constexpr std::int64_t least_fraction = std::int64_t{1} << (fraction_bits - 1);
+
 WideInteger magnitude(WideInteger value) { return value < 0 ? -value : value; }
 
 /// Of a value ≥ 0.
@@ -68,6 +70,7 @@ Float1604 Float1604::of(Word word) {
       field >= field_of_zero_exponent
           ? static_cast<int>(field - field_of_zero_exponent)
           : static_cast<int>(field) - static_cast<int>(field_above_negative_exponents);
+  if (fraction >= least_fraction) return {negative ? -fraction : fraction, exponent};
   return normalized(negative ? -fraction : fraction, exponent, false);
 }
 
@@ -94,8 +97,10 @@ Float1604 sum(const Float1604& one, const Float1604& other, SumRule rule) {
   if (shift > widest) return larger;
   if (rule == SumRule::no_guard_digits) {
     const std::int64_t kept = std::abs(smaller.fraction_) >> shift;
-    return normalized(larger.fraction_ + (smaller.fraction_ < 0 ? -kept : kept), larger.exponent_,
-                      false);
+    const std::int64_t whole = larger.fraction_ + (smaller.fraction_ < 0 ? -kept : kept);
+    const std::int64_t length = std::abs(whole);
+    if (length >= least_fraction && length < 2 * least_fraction) return {whole, larger.exponent_};
+    return normalized(whole, larger.exponent_, false);
   }
   const WideInteger exact =
       (static_cast<WideInteger>(larger.fraction_) << shift) + smaller.fraction_;

@@ -96,15 +96,7 @@ Word shifted_right(Word word, unsigned places) {
   return (word >> places) | fill;
 }
 
-Instruction instruction(Word half) {
-  return {static_cast<unsigned>(half >> 18U) & 077U, static_cast<unsigned>(half >> 15U) & 07U,
-          static_cast<unsigned>(half) & address_bits};
-}
-
 }  // namespace
-
-Instruction upper_instruction(Word word) { return instruction(word >> half_word); }
-Instruction lower_instruction(Word word) { return instruction(word & ((1U << half_word) - 1U)); }
 
 std::string mnemonic(unsigned operation) {
   for (const Mnemonic& known : mnemonics) {
@@ -179,8 +171,9 @@ void Machine1604::step() {
 }
 
 void Machine1604::execute(const Instruction& instruction) {
-  if (execute_jump(instruction)) return;
-  if (!execute_accumulator(instruction) && !execute_index(instruction)) {
+  const bool is_plain = execute_accumulator(instruction) || execute_index(instruction);
+  if (!is_plain && execute_jump(instruction)) return;
+  if (!is_plain) {
     fault("operation " + mnemonic(instruction.operation) + " is not provided");
   }
   advance();

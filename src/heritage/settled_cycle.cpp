@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "gearlash/heritage/thesis_machine.hpp"
+
 namespace gearlash::heritage {
 namespace {
 
@@ -18,10 +20,9 @@ struct Cycle {
 /// Gathers the cycles of a running program: each ends at every second contact.
 class Cycles {
  public:
-  void step(Program1960<double>& program) {
-    bool contact = false;
-    program.step([&](const PrintedLine& line) { contact = contact || line.at_contact; });
-    const PrintedLine now = program.line();
+  /// After each step: where the load is, and whether there has been a contact.
+  void take(const PrintedLine& now, bool contact) {
+    time_ = now.time;
     low_ = std::min(low_, now.load_position);
     high_ = std::max(high_, now.load_position);
     if (!contact) return;
@@ -33,11 +34,13 @@ class Cycles {
 
   const std::vector<Cycle>& all() const { return cycles_; }
   double last_contact() const { return last_contact_; }
+  double time() const { return time_; }
 
  private:
   std::vector<Cycle> cycles_;
   std::size_t contacts_ = 0;
   double last_contact_ = 0.0;
+  double time_ = 0.0;
   double low_ = std::numeric_limits<double>::infinity();
   double high_ = -std::numeric_limits<double>::infinity();
 };
@@ -68,18 +71,16 @@ void describe(const std::vector<Cycle>& cycles, SettledCycle& result) {
   result.cycles = window;
 }
 
-}  // namespace
-
-SettledCycle run_until_settled(const ProgramParameters& parameters) {
+template <class Step>
+SettledCycle settle(const Step& step) {
   constexpr double longest_run = 20'000.0;
   constexpr double longest_quiet = 100.0;
-  Program1960<double> program(parameters);
   Cycles cycles;
   SettledCycle result;
   while (result.run_time < longest_run) {
     const std::size_t count = cycles.all().size();
-    cycles.step(program);
-    result.run_time = program.line().time;
+    step(cycles);
+    result.run_time = cycles.time();
     if (result.run_time - cycles.last_contact() > longest_quiet) {
       result.settled = true;
       return result;
@@ -92,6 +93,29 @@ SettledCycle run_until_settled(const ProgramParameters& parameters) {
   result.hunts = true;
   if (cycles.all().size() > window) describe(cycles.all(), result);
   return result;
+}
+
+}  // namespace
+
+SettledCycle run_until_settled(const ProgramParameters& parameters) {
+  Program1960<double> program(parameters);
+  return settle([&](Cycles& cycles) {
+    bool contact = false;
+    program.step([&](const PrintedLine& line) { contact = contact || line.at_contact; });
+    cycles.take(program.line(), contact);
+  });
+}
+
+MachineRun run_machine_until_settled(const ProgramParameters& parameters) {
+  ThesisMachine machine;
+  machine.set(parameters);
+  MachineRun run;
+  run.cycle = settle([&](Cycles& cycles) {
+    const bool contact = machine.step();
+    cycles.take(machine.state(), contact);
+  });
+  run.instructions = machine.machine().registers().executed;
+  return run;
 }
 
 }  // namespace gearlash::heritage

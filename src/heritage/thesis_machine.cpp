@@ -16,6 +16,8 @@ constexpr unsigned first_parameter = 020156;
 constexpr unsigned backlash_address = 020166;
 constexpr unsigned print_from_contact = 020154;  ///< where PRINT returns to from 20153
 constexpr unsigned print = 020120;
+constexpr unsigned separation_test = 020061;  // TEST1
+constexpr unsigned contact_test = 020073;     // TEST2
 constexpr unsigned deco = 071000;
 
 /// Where a return jump to `routine` came from, less one: the upper address of its first word.
@@ -37,6 +39,7 @@ ThesisMachine::ThesisMachine(FloatRules rules) : machine_(rules) {
              number_at(buffer + 2), number_at(buffer + 3),
              number_at(buffer + 4), return_address_of(machine, print) == print_from_contact};
     printed_ = true;
+    contact_printed_ = contact_printed_ || line_.at_contact;
     return return_address + 1;  // behind the word that tells the buffer and the line's number
   });
   machine_.start_at(start);
@@ -56,6 +59,18 @@ PrintedLine ThesisMachine::next_line() {
   printed_ = false;
   while (!printed_) machine_.step();
   return line_;
+}
+
+bool ThesisMachine::step() {
+  contact_printed_ = false;
+  const auto at_a_test = [&] {
+    const unsigned p = machine_.registers().p;
+    return (p == separation_test || p == contact_test) && !machine_.registers().in_lower;
+  };
+  do {
+    machine_.step();
+  } while (!at_a_test());
+  return contact_printed_;
 }
 
 PrintedLine ThesisMachine::state() const {

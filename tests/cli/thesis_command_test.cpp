@@ -113,6 +113,14 @@ TEST(ThesisCommand, ExtensionsAreDrawnAndSaidInWords) {
             "gearlash: N = 5: must be 2, 3 or 4 (recommendation 1 is gearlash thesis run)\n");
 }
 
+TEST(ThesisCommand, AllRunsAreComparedWithTheExactAnswer) {
+  const Outcome run = run_tool({"thesis", "run", "--all"});
+  EXPECT_EQ(run.status, 0);
+  EXPECT_THAT(run.out, HasSubstr("\n160 servos, "));
+  EXPECT_THAT(run.out, HasSubstr("\nfriction ratio 0.04"));
+  EXPECT_THAT(run.out, HasSubstr("\n  damping 0.6"));
+}
+
 TEST(ThesisCommand, FiguresThereAre) {
   const Outcome run = run_tool({"thesis", "figure", "16"});
   EXPECT_EQ(run.status, 2);

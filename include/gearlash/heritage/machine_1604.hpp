@@ -22,8 +22,11 @@ struct Instruction {
   unsigned designator = 0;
   unsigned operand = 0;
 };
-Instruction upper_instruction(Word word);
-Instruction lower_instruction(Word word);
+constexpr Instruction lower_instruction(Word word) {
+  return {static_cast<unsigned>(word >> 18U) & 077U, static_cast<unsigned>(word >> 15U) & 07U,
+          static_cast<unsigned>(word) & 077777U};
+}
+constexpr Instruction upper_instruction(Word word) { return lower_instruction(word >> 24U); }
 /// "LDA", or the operation's number in octal where this machine does not know it.
 std::string mnemonic(unsigned operation);
 /// The operation of a mnemonic, or −1.
@@ -50,8 +53,9 @@ class Machine1604 {
  public:
   explicit Machine1604(FloatRules rules = {}) : rules_(rules), memory_(memory_words, 0) {}
 
-  Word read(unsigned address) const { return memory_.at(address); }
-  void write(unsigned address, Word word) { memory_.at(address) = word & word_bits; }
+  /// Addresses are taken modulo the size of the memory.
+  Word read(unsigned address) const { return memory_[address % memory_words]; }
+  void write(unsigned address, Word word) { memory_[address % memory_words] = word & word_bits; }
   const Registers& registers() const { return registers_; }
 
   /// A routine of the host, entered by a return jump to `address`; it is given the address of the

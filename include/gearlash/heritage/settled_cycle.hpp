@@ -24,4 +24,11 @@ struct SettledCycle {
 /// are over.
 SettledCycle run_until_settled(const ProgramParameters& parameters);
 
+/// The same by the emulated machine, in its own arithmetic; `instructions` counts what it executed.
+struct MachineRun {
+  SettledCycle cycle;
+  std::size_t instructions = 0;
+};
+MachineRun run_machine_until_settled(const ProgramParameters& parameters);
+
 }  // namespace gearlash::heritage

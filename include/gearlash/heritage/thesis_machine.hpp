@@ -23,6 +23,10 @@ class ThesisMachine {
   /// Runs to the next line of the printout.
   PrintedLine next_line();
 
+  /// Runs to the next test for separation or contact, that is for one step of 0.01 s. Whether a
+  /// contact has been printed on the way.
+  bool step();
+
   /// State as the program's own variables have it.
   PrintedLine state() const;
   Machine1604& machine() { return machine_; }
@@ -33,6 +37,7 @@ class ThesisMachine {
 
   Machine1604 machine_;
   bool printed_ = false;
+  bool contact_printed_ = false;
   PrintedLine line_;
 };
 
