@@ -330,11 +330,17 @@ std::string errors_text(const std::vector<heritage::ChartError>& errors) {
                     sizes.back());
 }
 
-/// All of the thesis's charts, by the port or by the emulated machine.
-std::string all_runs_text(bool on_machine) {
+/// All of the thesis's charts, by the port or by the emulated machine: what each of them gave, and
+/// what it took.
+struct AllRuns {
+  std::vector<heritage::ChartError> errors;
+  std::string effort;  ///< of the emulated machine, a line
+};
+
+AllRuns run_all(bool on_machine) {
   Progress progress("Charts");
   const auto show = [&](double share) { progress.show(share); };
-  if (!on_machine) return errors_text(heritage::chart_errors(&heritage::run_until_settled, show));
+  if (!on_machine) return {heritage::chart_errors(&heritage::run_until_settled, show), ""};
   const auto start = std::chrono::steady_clock::now();
   std::size_t instructions = 0;
   const auto errors = heritage::chart_errors(
@@ -347,23 +353,30 @@ std::string all_runs_text(bool on_machine) {
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   constexpr double seconds_of_1960 = 180.0;
-  return errors_text(errors) +
-         fmt::format(
-             "{} runs of the emulated machine, {} instructions, {} s; the real one took three "
-             "minutes a run, {} times as long\n",
-             errors.size(), instructions, significant(seconds, 3),
-             std::round(seconds_of_1960 * static_cast<double>(errors.size()) / seconds));
+  return {
+      errors,
+      fmt::format("{} runs of the emulated machine, {} instructions, {} s; the real one took three "
+                  "minutes a run, {} times as long\n",
+                  errors.size(), instructions, significant(seconds, 3),
+                  std::round(seconds_of_1960 * static_cast<double>(errors.size()) / seconds))};
 }
 
 struct RunOptions {
   ServoOptions servo;
   bool all = false;
   bool machine = false;
+  std::string plot;
 };
 
 ExitStatus run_program(const RunOptions& options) {
   if (options.all) {
-    write_file("-", all_runs_text(options.machine));
+    const PictureFormat format =
+        options.plot.empty() ? PictureFormat::svg : picture_format("--plot", options.plot);
+    const AllRuns runs = run_all(options.machine);
+    if (!options.plot.empty()) {
+      write_file(options.plot, draw_cell_map(error_map(runs.errors), format));
+    }
+    write_file("-", errors_text(runs.errors) + runs.effort);
     return ExitStatus::done;
   }
   ServoOptions typed = options.servo;
@@ -386,6 +399,10 @@ void add_run(CLI::App& thesis, Action& action) {
   add_servo_options(*command, options->servo);
   command->add_flag("--all", options->all,
                     "all servos of the thesis's charts, as a table of errors");
+  command
+      ->add_option("--plot", options->plot,
+                   "with --all, draw the errors as a map; FILE ends in\n.svg, .png or .pdf")
+      ->type_name("FILE");
   command->add_flag("--machine", options->machine,
                     "on the emulated CDC 1604 instead of by the port");
   command->footer(help_footer(run_examples));

@@ -287,10 +287,15 @@ LineChart chart_of(const Figure& figure, const std::vector<FigureCurveData>& dat
                   .line_meaning = "exact",
                   .mark_meaning = "program of 1960"};
   for (std::size_t i = 0; i < data.size(); ++i) {
-    chart.curves.push_back({.name = figure.curves[i].name,
-                            .line = data[i].exact,
-                            .marks = data[i].program,
-                            .ends = data[i].boundaries});
+    const bool hunts =
+        std::any_of(data[i].exact.begin(), data[i].exact.end(),
+                    [](const ChartPoint& point) { return point.x > 0.0 && !std::isnan(point.y); });
+    ChartCurve curve;
+    curve.name = figure.curves[i].name + (hunts ? "" : ": no hunting");
+    if (hunts) curve.line = data[i].exact;
+    curve.marks = data[i].program;
+    curve.ends = data[i].boundaries;
+    chart.curves.push_back(std::move(curve));
     if (!data[i].boundaries.empty()) chart.end_meaning = "hunting ends";
   }
   return chart;

@@ -91,8 +91,13 @@ std::string draw_line_chart(const LineChart& chart, PictureFormat format) {
       layers.push_back(fmt::format("${}{} using 1:2 {} linecolor rgb '{}' {}", name, part, how,
                                    colours[style], title));
     };
-    add("_line", curve.line, fmt::format("with lines linewidth 1.8 dashtype {}", dashes[style]),
-        "title " + quoted(curve.name));
+    const std::string line_style =
+        fmt::format("with lines linewidth 1.8 dashtype {}", dashes[style]);
+    add("_line", curve.line, line_style, "title " + quoted(curve.name));
+    if (curve.line.empty()) {
+      layers.push_back(fmt::format("keyentry {} linecolor rgb '{}' title {}", line_style,
+                                   colours[style], quoted(curve.name)));
+    }
     add("_marks", curve.marks,
         fmt::format("with points pointtype {} pointsize {}", marks[style], chart.mark_size),
         "notitle");

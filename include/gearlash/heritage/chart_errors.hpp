@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gearlash/heritage/settled_cycle.hpp"
+#include "gearlash/io/cell_map.hpp"
 #include "gearlash/servo/normalized_servo.hpp"
 
 namespace gearlash::heritage {
@@ -32,5 +33,8 @@ struct ChartError {
 std::vector<ChartError> chart_errors(
     const std::function<SettledCycle(const ProgramParameters&)>& size_of,
     const std::function<void(double share)>& done = {});
+
+/// The errors as a map, a panel for each friction ratio, in per cent.
+CellMap error_map(const std::vector<ChartError>& errors);
 
 }  // namespace gearlash::heritage
