@@ -61,24 +61,25 @@ std::string row_text(const PrintedRow& row) {
 struct Score {
   int exact = 0;
   int within_one = 0;
-  std::vector<std::string> others = {};
+  std::vector<std::string> others = {};  ///< farther off, in words
+  std::vector<std::string> near = {};    ///< off by one, in words
 };
 
 void score(const PrintedRow& printed, const PrintedRow& now, std::size_t line, Score& result) {
   constexpr std::array names = {"time", "motor speed", "motor position", "load speed",
                                 "load position"};
   for (std::size_t k = 0; k < printed.size(); ++k) {
-    const bool same_exponent = printed[k].exponent == now[k].exponent;
-    const int apart = same_exponent ? std::abs(printed[k].digits - now[k].digits) : 100'000'000;
+    const bool same = printed[k] == now[k];
     // 99999999 and 1.0000000 are neighbours though their exponents differ.
     const double value = now[k].digits * std::pow(10.0, now[k].exponent - 8);
-    const bool neighbours = apart <= 1 || std::abs(units_apart(value, printed[k])) <= 1.0;
-    result.exact += printed[k] == now[k] ? 1 : 0;
+    constexpr double one_and_rounding = 1.0 + 1e-6;
+    const bool neighbours = std::abs(units_apart(value, printed[k])) <= one_and_rounding;
+    result.exact += same ? 1 : 0;
     result.within_one += neighbours ? 1 : 0;
-    if (!neighbours) {
-      result.others.push_back(fmt::format("line {}, {}: {} here, {} in 1960", line + 1, names[k],
-                                          printed_text(now[k]), printed_text(printed[k])));
-    }
+    if (same) continue;
+    (neighbours ? result.near : result.others)
+        .push_back(fmt::format("line {}, {}: {} here, {} in 1960", line + 1, names[k],
+                               printed_text(now[k]), printed_text(printed[k])));
   }
 }
 
@@ -100,6 +101,10 @@ std::string beside_table_2(const std::vector<PrintedLine>& lines) {
       "\n{} of 190 numbers have the digits of 1960; {} are within one unit of the eighth digit.\n",
       result.exact, result.within_one);
   for (const std::string& other : result.others) text += other + "\n";
+  constexpr std::size_t worth_listing = 5;
+  if (result.near.size() <= worth_listing) {
+    for (const std::string& other : result.near) text += other + "\n";
+  }
   return text;
 }
 

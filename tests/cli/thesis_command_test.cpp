@@ -27,6 +27,11 @@ TEST(ThesisCommand, TheMachinesArithmeticGivesItsDigits) {
   EXPECT_THAT(run.out, HasSubstr("\n189 of 190 numbers have the digits of 1960; 190 are within"));
 }
 
+TEST(ThesisCommand, TheOneNumberLeftIsNamed) {
+  EXPECT_THAT(run_tool({"thesis", "table-2", "--arithmetic", "1604"}).out,
+              HasSubstr("\nline 1, motor speed: 77040631- 1 here, 77040630- 1 in 1960\n"));
+}
+
 TEST(ThesisCommand, MachinePrintsTheSameFromTheOctalWords) {
   const Outcome run = run_tool({"thesis", "machine"});
   EXPECT_EQ(run.status, 0);
@@ -119,6 +124,10 @@ TEST(ThesisCommand, AllRunsAreComparedWithTheExactAnswer) {
   EXPECT_THAT(run.out, HasSubstr("\n160 servos, "));
   EXPECT_THAT(run.out, HasSubstr("\nfriction ratio 0.04"));
   EXPECT_THAT(run.out, HasSubstr("\n  damping 0.6"));
+  const test::Scratch scratch;
+  const std::string map = (scratch / "map.svg").string();
+  EXPECT_EQ(run_tool({"thesis", "run", "--all", "--plot", map}).status, 0);
+  EXPECT_GT(std::filesystem::file_size(map), 1000U);
 }
 
 TEST(ThesisCommand, FiguresThereAre) {
