@@ -27,12 +27,6 @@ struct LimitCycleOptions {
   std::string plot;
 };
 
-const LimitCycle* largest_stable(const LimitCycleAnalysis& analysis) {
-  const auto cycle = std::find_if(analysis.cycles.begin(), analysis.cycles.end(),
-                                  [](const LimitCycle& candidate) { return candidate.stable; });
-  return cycle == analysis.cycles.end() ? nullptr : &*cycle;
-}
-
 /// A number that is easily said, not far above `value`.
 double round_up(double value) {
   const double power = std::pow(10.0, std::floor(std::log10(value)));

@@ -77,6 +77,12 @@ LimitCycleAnalysis analyse_limit_cycles(const NormalizedServo& servo) {
   return analysis;
 }
 
+const LimitCycle* largest_stable(const LimitCycleAnalysis& analysis) {
+  const auto stable = std::find_if(analysis.cycles.begin(), analysis.cycles.end(),
+                                   [](const LimitCycle& cycle) { return cycle.stable; });
+  return stable == analysis.cycles.end() ? nullptr : &*stable;
+}
+
 const char* name_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::cannot_hunt:

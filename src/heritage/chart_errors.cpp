@@ -8,17 +8,10 @@
 #include <limits>
 #include <utility>
 
-#include "gearlash/cycle/limit_cycle.hpp"
+#include "exact_size.hpp"
 
 namespace gearlash::heritage {
 namespace {
-
-std::optional<double> exact_size(const NormalizedServo& servo) {
-  for (const LimitCycle& cycle : analyse_limit_cycles(servo).cycles) {
-    if (cycle.stable) return cycle.size;
-  }
-  return std::nullopt;
-}
 
 constexpr std::array friction_ratios = {0.04, 0.1, 0.2, 0.4, 0.6, 1.0};
 constexpr std::array inertia_ratios = {1.0 / 9.0, 0.25, 1.0, 4.0, 9.0};

@@ -7,7 +7,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "gearlash/cycle/limit_cycle.hpp"
+#include "exact_size.hpp"
 
 namespace gearlash::heritage {
 namespace {
@@ -15,12 +15,10 @@ namespace {
 constexpr double charted_backlash = 0.3;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double stable_size(const NormalizedServo& servo) {
-  if (!validate(servo).empty()) return std::numeric_limits<double>::quiet_NaN();
-  for (const LimitCycle& cycle : analyse_limit_cycles(servo).cycles) {
-    if (cycle.stable) return cycle.size;
-  }
-  return std::numeric_limits<double>::quiet_NaN();
+/// NaN where there is no steady swing, or no such servo.
+double steady_size(const NormalizedServo& servo) {
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  return validate(servo).empty() ? exact_size(servo).value_or(nothing) : nothing;
 }
 
 ChartCurve curve(std::string name, const std::vector<double>& places,
@@ -28,7 +26,7 @@ ChartCurve curve(std::string name, const std::vector<double>& places,
   ChartCurve result;
   result.name = std::move(name);
   for (const double place : places) {
-    result.line.push_back({place, stable_size(servo_at(place))});
+    result.line.push_back({place, steady_size(servo_at(place))});
   }
   return result;
 }

@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "gearlash/cycle/limit_cycle.hpp"
+#include "exact_size.hpp"
 #include "gearlash/heritage/settled_cycle.hpp"
 #include "gearlash/motion/trajectory.hpp"
 
@@ -95,15 +95,6 @@ std::vector<double> places(const Figure& figure) {
   }
   result.back() = high;
   return result;
-}
-
-/// Size of the exact cycle; nothing where there is none.
-std::optional<double> exact_size(const NormalizedServo& servo) {
-  const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
-  for (const LimitCycle& cycle : analysis.cycles) {
-    if (cycle.stable) return cycle.size;
-  }
-  return std::nullopt;
 }
 
 /// Where between two places the cycle begins or ends, by bisection; and its size on the hunting

@@ -36,16 +36,8 @@ std::string pace_text(const LimitCycle& cycle, const ReportUnits& units) {
   return fmt::format("{} Hz", significant(1.0 / units.time(cycle.period), headline_digits));
 }
 
-/// The cycle that is seen in practice: the largest stable one.
-const LimitCycle* observed_cycle(const LimitCycleAnalysis& analysis) {
-  for (const LimitCycle& cycle : analysis.cycles) {
-    if (cycle.stable) return &cycle;
-  }
-  return nullptr;
-}
-
 std::string swing_and_pace(const LimitCycleReport& report) {
-  const LimitCycle* cycle = observed_cycle(report.analysis);
+  const LimitCycle* cycle = largest_stable(report.analysis);
   if (cycle != nullptr) {
     return fmt::format("{}{}{}", swing_text(cycle->size, report.units.angle, headline_digits),
                        report.units.natural_frequency ? " at " : ", ",
@@ -230,7 +222,7 @@ std::string other_motion(const LimitCycleReport& report) {
 }
 
 std::string meaning_when_hunting(const LimitCycleReport& report) {
-  const LimitCycle* cycle = observed_cycle(report.analysis);
+  const LimitCycle* cycle = largest_stable(report.analysis);
   if (cycle == nullptr) {
     return persistence(report.analysis) +
            ", and its motion was not seen to repeat: it stayed within the size told as long as it "
@@ -341,7 +333,7 @@ Json json_physical_cycle(const LimitCycle& cycle, const ReportUnits& units) {
 
 /// The observed cycle in SI, and what the normalised numbers are to be scaled by.
 Json json_physical(const LimitCycleReport& report) {
-  const LimitCycle* cycle = observed_cycle(report.analysis);
+  const LimitCycle* cycle = largest_stable(report.analysis);
   Json json = cycle == nullptr ? Json::object() : json_physical_cycle(*cycle, report.units);
   json["natural_frequency"] = json_number(*report.units.natural_frequency);
   if (report.units.stiffness) json["stiffness"] = json_number(*report.units.stiffness);

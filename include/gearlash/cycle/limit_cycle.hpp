@@ -85,6 +85,9 @@ struct LimitCycleAnalysis {
 /// Throws InvalidInput.
 LimitCycleAnalysis analyse_limit_cycles(const NormalizedServo& servo);
 
+/// The cycle that is seen in practice: the largest stable one, or nullptr.
+const LimitCycle* largest_stable(const LimitCycleAnalysis& analysis);
+
 /// "cannot hunt", "hunts", … as printed and as the JSON key `verdict` has it.
 const char* name_of(Verdict verdict);
 /// "symmetric", "asymmetric", "subharmonic".
