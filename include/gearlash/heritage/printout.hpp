@@ -31,6 +31,19 @@ PrintedRow printed_row(const PrintedLine& line);
 /// The 38 lines of Table II as transcribed from the thesis (src/heritage/data/table-2.txt).
 const std::vector<PrintedRow>& thesis_table_2();
 
+/// How many numbers of a printout have the digits of 1960, and how many are within one unit of the
+/// eighth; the others in words.
+struct Reproduction {
+  int exact = 0;
+  int within_one = 0;
+  std::vector<std::string> near = {};    ///< off by one
+  std::vector<std::string> others = {};  ///< farther off
+};
+
+/// Adds a row, of line `line` counted from 0.
+void compare(const PrintedRow& printed, const PrintedRow& now, std::size_t line,
+             Reproduction& result);
+
 /// The first lines that the program prints with these parameters.
 template <class Number>
 std::vector<PrintedLine> printout(const ProgramParameters& parameters, std::size_t lines) {

@@ -1,0 +1,226 @@
+// gearlash thesis figure, all, chart-reading and extension: the charts of 1960, and those after
+// them.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "gearlash/cycle/limit_cycle.hpp"
+#include "gearlash/heritage/chart_reading.hpp"
+#include "gearlash/heritage/extensions.hpp"
+#include "gearlash/heritage/figures.hpp"
+#include "gearlash/io/output_file.hpp"
+#include "servo_options.hpp"
+#include "terminal.hpp"
+#include "thesis_command.hpp"
+
+namespace gearlash::cli {
+namespace {
+
+// --- figures ---
+
+constexpr char figure_examples[] =
+    "  gearlash thesis figure 7\n"
+    "  gearlash thesis figure 12 --output phase.pdf\n"
+    "  gearlash thesis all --output figures\n";
+
+std::vector<int> figure_numbers() {
+  std::vector<int> numbers;
+  for (const auto& figure : heritage::thesis_figures()) numbers.push_back(figure.number);
+  for (const auto& figure : heritage::thesis_phase_figures()) numbers.push_back(figure.number);
+  return numbers;
+}
+
+int read_figure_number(const std::string& text) {
+  const std::vector<int> numbers = figure_numbers();
+  for (const int number : numbers) {
+    if (text == std::to_string(number)) return number;
+  }
+  throw InvalidInput(
+      {{"N", shown(text),
+        fmt::format("must be the number of a figure, {} to {}", numbers.front(), numbers.back()),
+        ""}});
+}
+
+/// Works the figure out and draws it; `done` hears how far it is.
+std::string draw_figure(int number, PictureFormat format, const std::function<void(double)>& done) {
+  for (const auto& figure : heritage::thesis_phase_figures()) {
+    if (figure.number == number) return draw_line_chart(chart_of(figure), format);
+  }
+  const auto& figures = heritage::thesis_figures();
+  const auto figure = std::find_if(figures.begin(), figures.end(), [&](const auto& candidate) {
+    return candidate.number == number;
+  });
+  std::vector<heritage::FigureCurveData> data;
+  const auto count = static_cast<double>(figure->curves.size());
+  for (const auto& curve : figure->curves) {
+    const auto before = static_cast<double>(data.size());
+    data.push_back(
+        heritage::work_out(*figure, curve, [&](double share) { done((before + share) / count); }));
+  }
+  return draw_line_chart(chart_of(*figure, data), format);
+}
+
+// --- chart-reading ---
+
+constexpr char chart_reading_examples[] =
+    "  gearlash thesis chart-reading --damping .19 --inertia-ratio 2 --friction-ratio .1 \\\n"
+    "      --backlash .1\n"
+    "  gearlash thesis chart-reading examples/elinco-fd162.toml\n";
+
+std::string chart_reading_text(const NormalizedServo& servo,
+                               const heritage::ChartReading& reading) {
+  std::string text = "Reading the charts of 1960 (Appendix C of the thesis)\n\n";
+  text += fmt::format("  1. The variables: damping {}, inertia ratio {}, friction ratio {}\n",
+                      significant(servo.damping, 4), significant(servo.inertia_ratio, 4),
+                      significant(servo.friction_ratio, 4));
+  text += fmt::format("  2. The chart of the nearest friction ratio: figure {}, for {}\n",
+                      reading.chart->figure, significant(reading.chart->friction_ratio, 2));
+  text += fmt::format(
+      "  3. At inertia ratio {} its curve of damping {} is at {}, that of {} at {};\n"
+      "     between them at {}: ±{} rad for a backlash of 0.3 rad\n",
+      significant(servo.inertia_ratio, 4), reading.neighbours[0], significant(reading.read[0], 3),
+      reading.neighbours[1], significant(reading.read[1], 3), significant(servo.damping, 4),
+      significant(reading.chart_size, 3));
+  text += fmt::format("  4. For this backlash: {} × {}/0.3 = ±{} rad\n",
+                      significant(reading.chart_size, 3), significant(servo.backlash, 4),
+                      significant(reading.size, 3));
+  const LimitCycleAnalysis exact = analyse_limit_cycles(servo);
+  if (exact.cycles.empty()) {
+    return text + fmt::format("\nExactly: no limit cycle, {}\n", name_of(exact.verdict));
+  }
+  const double size = exact.cycles.front().size;
+  return text + fmt::format("\nExactly: ±{} rad; reading the chart is off by {:+.1f} %\n",
+                            significant(size, 6), 100.0 * (reading.size / size - 1.0));
+}
+
+// --- extensions ---
+
+constexpr char extension_examples[] =
+    "  gearlash thesis extension 2\n"
+    "  gearlash thesis extension 4 --output restitution.pdf\n";
+
+}  // namespace
+
+void add_thesis_figure(CLI::App& thesis, Action& action) {
+  struct Options {
+    std::string number;
+    std::string output;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* command =
+      thesis.add_subcommand("figure", "one of figures 2 to 15, then and exactly, as a picture");
+  command->add_option("N", options->number, "number of the figure, 2 to 15")
+      ->type_name("")
+      ->required();
+  command
+      ->add_option("--output", options->output,
+                   "picture, ending in .svg, .png or .pdf; default\nfigure-N.svg")
+      ->type_name("FILE");
+  command->footer(help_footer(figure_examples));
+  command->callback([options, &action] {
+    action = [options](const Provenance&) {
+      Faults faults;
+      const int number = faults.collect([&] { return read_figure_number(options->number); }, 2);
+      const std::string file =
+          options->output.empty() ? fmt::format("figure-{}.svg", number) : options->output;
+      const PictureFormat format =
+          faults.collect([&] { return picture_format("--output", file); }, PictureFormat::svg);
+      faults.require_none();
+      Progress progress("Figure " + options->number);
+      write_file(file, draw_figure(number, format, [&](double share) { progress.show(share); }));
+      return ExitStatus::done;
+    };
+  });
+}
+
+void add_thesis_all(CLI::App& thesis, Action& action) {
+  const auto folder = std::make_shared<std::string>("thesis-figures");
+  CLI::App* command = thesis.add_subcommand("all", "all figures into a folder, as SVG");
+  command->add_option("--output", *folder, "folder, made if need be; default thesis-figures")
+      ->type_name("DIR");
+  command->footer(help_footer(figure_examples));
+  command->callback([folder, &action] {
+    action = [folder](const Provenance&) {
+      std::error_code error;
+      std::filesystem::create_directories(*folder, error);
+      if (error) {
+        throw InvalidInput({{"--output", shown(*folder),
+                             "must be a folder that can be made (" + error.message() + ")", ""}});
+      }
+      Progress progress("Figures");
+      const std::vector<int> numbers = figure_numbers();
+      const auto count = static_cast<double>(numbers.size());
+      for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const auto done = [&](double share) {
+          progress.show((static_cast<double>(i) + share) / count);
+        };
+        const std::filesystem::path file =
+            std::filesystem::path(*folder) / fmt::format("figure-{}.svg", numbers[i]);
+        write_file(file.string(), draw_figure(numbers[i], PictureFormat::svg, done));
+      }
+      return ExitStatus::done;
+    };
+  });
+}
+
+void add_thesis_chart_reading(CLI::App& thesis, Action& action) {
+  const auto options = std::make_shared<ServoOptions>();
+  CLI::App* command = thesis.add_subcommand(
+      "chart-reading", "the size as one read it off the charts, beside the exact one");
+  add_servo_options(*command, *options);
+  command->footer(help_footer(chart_reading_examples));
+  command->callback([options, &action] {
+    action = [options](const Provenance&) {
+      if (options->file.empty() && !options->backlash) options->backlash = "0.3";
+      Faults faults;
+      const ServoFile file = resolve_servo(*options, faults);
+      faults.require_none();
+      write_file("-", chart_reading_text(file.servo, heritage::read_chart(file.servo)));
+      return ExitStatus::done;
+    };
+  });
+}
+
+void add_thesis_extension(CLI::App& thesis, Action& action) {
+  struct Options {
+    std::string number;
+    std::string output;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = thesis.add_subcommand(
+      "extension", "what the thesis recommends to do next, as a chart: 2, 3 or 4");
+  command->add_option("N", options->number, "number of the recommendation: 2, 3 or 4")
+      ->type_name("")
+      ->required();
+  command
+      ->add_option("--output", options->output,
+                   "picture, ending in .svg, .png or .pdf; default\nextension-N.svg")
+      ->type_name("FILE");
+  command->footer(help_footer(extension_examples));
+  command->callback([options, &action] {
+    action = [options](const Provenance&) {
+      Faults faults;
+      if (options->number != "2" && options->number != "3" && options->number != "4") {
+        faults.add({"N", shown(options->number),
+                    "must be 2, 3 or 4 (recommendation 1 is gearlash thesis run)", ""});
+      }
+      const std::string file =
+          options->output.empty() ? "extension-" + options->number + ".svg" : options->output;
+      const PictureFormat format =
+          faults.collect([&] { return picture_format("--output", file); }, PictureFormat::svg);
+      faults.require_none();
+      Progress progress("Extension " + options->number);
+      const heritage::Extension extension = heritage::extension(
+          std::stoi(options->number), [&](double share) { progress.show(share); });
+      write_file(file, draw_line_chart(extension.chart, format));
+      write_file("-",
+                 fmt::format("{}. {}\n\n{}\n", extension.number, extension.wish, extension.lesson));
+      return ExitStatus::done;
+    };
+  });
+}
+
+}  // namespace gearlash::cli

@@ -1,0 +1,225 @@
+// gearlash thesis table-2 and machine: the printout of 1960, by the port and by the CDC 1604.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "gearlash/heritage/float_1604.hpp"
+#include "gearlash/heritage/listing.hpp"
+#include "gearlash/heritage/printout.hpp"
+#include "gearlash/heritage/thesis_machine.hpp"
+#include "gearlash/io/output_file.hpp"
+#include "servo_options.hpp"
+#include "thesis_command.hpp"
+
+namespace gearlash::cli {
+namespace {
+
+using heritage::FloatRules;
+using heritage::Number1604;
+using heritage::PrintedLine;
+using heritage::PrintedNumber;
+using heritage::PrintedRow;
+
+// --- table-2 ---
+
+constexpr char table_2_examples[] =
+    "  gearlash thesis table-2\n"
+    "  gearlash thesis table-2 --arithmetic 1604\n";
+
+std::vector<PrintedLine> run_listed_program(const std::string& arithmetic, std::size_t lines) {
+  if (arithmetic == "1604") {
+    return heritage::printout<Number1604<FloatRules{}>>(heritage::listed_parameters, lines);
+  }
+  return heritage::printout<double>(heritage::listed_parameters, lines);
+}
+
+std::string row_text(const PrintedRow& row) {
+  std::string text;
+  for (const PrintedNumber& number : row) text += fmt::format("{:<13}", printed_text(number));
+  return text;
+}
+
+/// Lines of a printout beside those of Table II.
+std::string beside_table_2(const std::vector<PrintedLine>& lines) {
+  const auto& printed = heritage::thesis_table_2();
+  const std::string heading = fmt::format("{:<13}{:<13}{:<13}{:<13}{:<13}", "TIME", "MOTOR SPEED",
+                                          "MOTOR POS.", "LOAD SPEED", "LOAD POS.");
+  std::string text = fmt::format("{:<68}{}\n", "now", "1960");
+  text += heading + "   " + heading.substr(0, heading.find_last_not_of(' ') + 1) + "\n";
+  heritage::Reproduction result;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const PrintedRow now = printed_row(lines[i]);
+    heritage::compare(printed[i], now, i, result);
+    const std::string row = row_text(now) + "   " + row_text(printed[i]);
+    text += row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
+  }
+  text += fmt::format(
+      "\n{} of 190 numbers have the digits of 1960; {} are within one unit of the eighth digit.\n",
+      result.exact, result.within_one);
+  for (const std::string& other : result.others) text += other + "\n";
+  constexpr std::size_t worth_listing = 5;
+  if (result.near.size() <= worth_listing) {
+    for (const std::string& other : result.near) text += other + "\n";
+  }
+  return text;
+}
+
+// --- machine ---
+
+constexpr char machine_examples[] =
+    "  gearlash thesis machine\n"
+    "  gearlash thesis machine --trace 40\n"
+    "  gearlash thesis machine --rules\n"
+    "  gearlash thesis machine --listing\n";
+
+struct MachineOptions {
+  std::optional<std::string> trace;
+  bool rules = false;
+  bool listing = false;
+};
+
+/// How many numbers of Table II the port prints under each set of rules.
+template <heritage::SumRule sum, heritage::LengthRule product, heritage::LengthRule quotient>
+int digits_reproduced() {
+  const auto& printed = heritage::thesis_table_2();
+  const auto lines = heritage::printout<Number1604<FloatRules{sum, product, quotient}>>(
+      heritage::listed_parameters, printed.size());
+  heritage::Reproduction result;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    heritage::compare(printed[i], printed_row(lines[i]), i, result);
+  return result.exact;
+}
+
+template <heritage::SumRule sum>
+std::string rules_rows(const std::string& name) {
+  constexpr auto cut = heritage::LengthRule::truncated;
+  constexpr auto round = heritage::LengthRule::rounded;
+  const auto row = [&](const char* product, const char* quotient, int exact) {
+    return fmt::format("  {:<44}{:<12}{:<12}{}\n", name, product, quotient, exact);
+  };
+  return row("cut off", "cut off", digits_reproduced<sum, cut, cut>()) +
+         row("cut off", "rounded", digits_reproduced<sum, cut, round>()) +
+         row("rounded", "cut off", digits_reproduced<sum, round, cut>()) +
+         row("rounded", "rounded", digits_reproduced<sum, round, round>());
+}
+
+std::string rules_text() {
+  using heritage::SumRule;
+  return "Rules of rounding, and how many of the 190 numbers of Table II they give digit for "
+         "digit\n"
+         "\n" +
+         fmt::format("  {:<44}{:<12}{:<12}{}\n", "FAD, FSB", "FMU", "FDV", "numbers") +
+         rules_rows<SumRule::no_guard_digits>("smaller operand cut off before the sum") +
+         rules_rows<SumRule::exact_truncated>("exact sum, cut off") +
+         rules_rows<SumRule::exact_rounded>("exact sum, rounded");
+}
+
+std::string listing_text() {
+  const auto differences = heritage::differences_of_listing();
+  std::string text = fmt::format(
+      "Table I: {} words. Its symbolic column assembles to its octal column but for {}:\n",
+      heritage::thesis_table_1().octal.size(), differences.size());
+  for (const auto& difference : differences) {
+    text += fmt::format("  {:05o}  listed     {}\n", difference.address,
+                        heritage::octal_text(difference.listed));
+    text += fmt::format("         assembled  {}   {}\n", heritage::octal_text(difference.assembled),
+                        difference.source);
+  }
+  return text;
+}
+
+/// The first instructions with the registers before each, and the registers after the last.
+std::string trace_text(int count) {
+  heritage::ThesisMachine thesis;
+  std::string text = "   P      instruction         A                 B1 … B6\n";
+  const auto registers_text = [](const heritage::Registers& registers) {
+    std::string indices;
+    for (std::size_t b = 1; b < registers.index.size(); ++b) {
+      indices += fmt::format(" {:05o}", registers.index[b]);
+    }
+    return fmt::format("{:016o} {}", registers.a, indices);
+  };
+  thesis.machine().set_trace([&](const heritage::Registers& registers,
+                                 const heritage::Instruction& instruction) {
+    text += fmt::format("  {:05o} {}  {:<4} {} {:05o}  {}\n", registers.p,
+                        registers.in_lower ? "L" : "U", heritage::mnemonic(instruction.operation),
+                        instruction.designator, instruction.operand, registers_text(registers));
+  });
+  for (int i = 0; i < count; ++i) thesis.machine().step();
+  const heritage::Registers& last = thesis.machine().registers();
+  return text + fmt::format("  {:05o} {}  {:<12}  {}\n", last.p, last.in_lower ? "L" : "U", "",
+                            registers_text(last));
+}
+
+std::string machine_text() {
+  heritage::ThesisMachine thesis;
+  std::vector<PrintedLine> lines;
+  while (lines.size() < heritage::thesis_table_2().size()) lines.push_back(thesis.next_line());
+  return "Table II: the octal words of Table I run by an emulated CDC 1604, and what it printed "
+         "in 1960\n\n" +
+         beside_table_2(lines) +
+         fmt::format("{} instructions were executed.\n", thesis.machine().registers().executed);
+}
+
+int trace_count(const std::string& text) {
+  constexpr double most = 1e6;
+  const double count = read_number("--trace", text);
+  if (!(count >= 1.0 && count <= most) || count != std::floor(count)) {
+    throw InvalidInput({{"--trace", shown(text), "must be a whole number from 1 to 1000000", ""}});
+  }
+  return static_cast<int>(count);
+}
+
+}  // namespace
+
+void add_thesis_table_2(CLI::App& thesis, Action& action) {
+  const auto arithmetic = std::make_shared<std::string>("double");
+  CLI::App* command =
+      thesis.add_subcommand("table-2", "the typical printout, beside what was printed in 1960");
+  command
+      ->add_option("--arithmetic", *arithmetic,
+                   "double (default), or 1604: the machine's, which cuts\n"
+                   "operands off before it adds them")
+      ->type_name("KIND");
+  command->footer(help_footer(table_2_examples));
+  command->callback([arithmetic, &action] {
+    action = [arithmetic](const Provenance&) {
+      Faults faults;
+      faults.require_choice("--arithmetic", *arithmetic, {"double", "1604"});
+      faults.require_none();
+      const std::size_t lines = heritage::thesis_table_2().size();
+      write_file("-", "Table II: the program of 1960 run again, and what it printed then\n\n" +
+                          beside_table_2(run_listed_program(*arithmetic, lines)));
+      return ExitStatus::done;
+    };
+  });
+}
+
+void add_thesis_machine(CLI::App& thesis, Action& action) {
+  const auto options = std::make_shared<MachineOptions>();
+  CLI::App* command = thesis.add_subcommand(
+      "machine", "Table II from the octal words of Table I, by an emulated CDC 1604");
+  command->add_option("--trace", options->trace, "show the first COUNT instructions instead")
+      ->type_name("COUNT");
+  command->add_flag("--rules", options->rules,
+                    "show which rules of rounding give the digits of 1960");
+  command->add_flag("--listing", options->listing,
+                    "show where the listing's symbolic and octal columns differ");
+  command->footer(help_footer(machine_examples));
+  command->callback([options, &action] {
+    action = [options](const Provenance&) {
+      if (options->trace) {
+        write_file("-", trace_text(trace_count(*options->trace)));
+      } else if (options->rules) {
+        write_file("-", rules_text());
+      } else {
+        write_file("-", options->listing ? listing_text() : machine_text());
+      }
+      return ExitStatus::done;
+    };
+  });
+}
+
+}  // namespace gearlash::cli

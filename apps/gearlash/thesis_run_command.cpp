@@ -1,0 +1,175 @@
+// gearlash thesis run: the sizes that the program of 1960 finds, beside the exact ones.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "gearlash/heritage/chart_errors.hpp"
+#include "gearlash/heritage/settled_cycle.hpp"
+#include "gearlash/io/output_file.hpp"
+#include "servo_options.hpp"
+#include "terminal.hpp"
+#include "thesis_command.hpp"
+
+namespace gearlash::cli {
+namespace {
+
+// --- run ---
+
+constexpr char run_examples[] =
+    "  gearlash thesis run --damping 0.19 --inertia-ratio 2 --friction-ratio 0.1\n"
+    "  gearlash thesis run examples/elinco-fd162.toml\n"
+    "  gearlash thesis run --all\n"
+    "  gearlash thesis run --all --machine\n";
+
+std::string run_text(const NormalizedServo& servo, const heritage::SettledCycle& cycle) {
+  std::string text =
+      fmt::format("The program of 1960, {} s of the servo's time in steps of 0.01 s (ω_n = 1):\n",
+                  significant(cycle.run_time, 4));
+  if (!cycle.hunts) {
+    text += "  no limit cycle: the faces meet no more\n";
+  } else {
+    text += fmt::format("  size    ±{} rad{}\n", significant(cycle.size, 5),
+                        cycle.settled ? "" : ", still changing");
+    text += fmt::format(
+        "          mean of {} cycles, from {} to {}: on the grid none is like the "
+        "next\n",
+        cycle.cycles, significant(cycle.smallest, 5), significant(cycle.largest, 5));
+    text += fmt::format("  period  {} s\n", significant(cycle.period, 5));
+  }
+  const LimitCycleAnalysis exact = analyse_limit_cycles(servo);
+  text += "Exactly:\n";
+  if (exact.cycles.empty()) {
+    return text + fmt::format("  no limit cycle: {}\n", name_of(exact.verdict));
+  }
+  const LimitCycle& one = exact.cycles.front();
+  text += fmt::format("  size    ±{} rad\n", significant(one.size, 9));
+  text += fmt::format("  period  {} s\n", significant(one.period, 9));
+  if (cycle.hunts) {
+    text += fmt::format("The program's size is off by {:+.2f} %, its period by {:+.2f} %.\n",
+                        100.0 * (cycle.size / one.size - 1.0),
+                        100.0 * (cycle.period / one.period - 1.0));
+  }
+  return text;
+}
+
+/// Errors of the charts in per cent, a table for each friction ratio.
+std::string errors_text(const std::vector<heritage::ChartError>& errors) {
+  std::string text =
+      "Sizes of the program of 1960 against the exact ones, in per cent\n"
+      "(·: neither hunts; then, now: only the program or only the exact servo hunts)\n";
+  std::vector<double> sizes;
+  const heritage::ChartError* before = nullptr;
+  for (const heritage::ChartError& error : errors) {
+    const NormalizedServo& servo = error.servo;
+    if (before == nullptr || before->servo.friction_ratio != servo.friction_ratio) {
+      text += fmt::format("\n\nfriction ratio {:<8}", servo.friction_ratio);
+      for (const char* ratio : {"1/9", "1/4", "1", "4", "9"}) text += fmt::format("{:>8}", ratio);
+    }
+    if (before == nullptr || before->servo.damping != servo.damping) {
+      text += fmt::format("\n  damping {:<13}", servo.damping);
+      const bool only_balanced = servo.inertia_ratio == 1.0;  // as in figure 3
+      if (only_balanced) text += std::string(16, ' ');
+    }
+    const auto relative = error.relative();
+    if (relative) sizes.push_back(100.0 * *relative);
+    text += fmt::format("{:>8}", relative        ? fmt::format("{:+.1f}", sizes.back())
+                                 : error.program ? "then"
+                                 : error.exact   ? "now"
+                                                 : "·");
+    before = &error;
+  }
+  std::sort(sizes.begin(), sizes.end());
+  return text + fmt::format(
+                    "\n\n{} servos, {} of which hunt in both: median {:+.1f} %, from {:+.1f} "
+                    "to {:+.1f} %\n",
+                    errors.size(), sizes.size(), sizes[sizes.size() / 2], sizes.front(),
+                    sizes.back());
+}
+
+/// All of the thesis's charts, by the port or by the emulated machine: what each of them gave, and
+/// what it took.
+struct AllRuns {
+  std::vector<heritage::ChartError> errors;
+  std::string effort;  ///< of the emulated machine, a line
+};
+
+AllRuns run_all(bool on_machine) {
+  Progress progress("Charts");
+  const auto show = [&](double share) { progress.show(share); };
+  if (!on_machine) return {heritage::chart_errors(&heritage::run_until_settled, show), ""};
+  const auto start = std::chrono::steady_clock::now();
+  std::size_t instructions = 0;
+  const auto errors = heritage::chart_errors(
+      [&](const heritage::ProgramParameters& parameters) {
+        const heritage::MachineRun run = heritage::run_machine_until_settled(parameters);
+        instructions += run.instructions;
+        return run.cycle;
+      },
+      show);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  constexpr double seconds_of_1960 = 180.0;
+  return {
+      errors,
+      fmt::format("{} runs of the emulated machine, {} instructions, {} s; the real one took three "
+                  "minutes a run, {} times as long\n",
+                  errors.size(), instructions, significant(seconds, 3),
+                  std::round(seconds_of_1960 * static_cast<double>(errors.size()) / seconds))};
+}
+
+struct RunOptions {
+  ServoOptions servo;
+  bool all = false;
+  bool machine = false;
+  std::string plot;
+};
+
+ExitStatus run_program(const RunOptions& options) {
+  if (options.all) {
+    const PictureFormat format =
+        options.plot.empty() ? PictureFormat::svg : picture_format("--plot", options.plot);
+    const AllRuns runs = run_all(options.machine);
+    if (!options.plot.empty()) {
+      write_file(options.plot, draw_cell_map(error_map(runs.errors), format));
+    }
+    write_file("-", errors_text(runs.errors) + runs.effort);
+    return ExitStatus::done;
+  }
+  ServoOptions typed = options.servo;
+  if (typed.file.empty() && !typed.backlash) typed.backlash = "0.3";  // of the charts
+  Faults faults;
+  const ServoFile file = resolve_servo(typed, faults);
+  faults.require_none();
+  const auto parameters = heritage::program_parameters(file.servo);
+  const heritage::SettledCycle cycle = options.machine
+                                           ? heritage::run_machine_until_settled(parameters).cycle
+                                           : heritage::run_until_settled(parameters);
+  write_file("-", run_text(file.servo, cycle));
+  return cycle.settled ? ExitStatus::done : ExitStatus::undecided;
+}
+
+}  // namespace
+
+void add_thesis_run(CLI::App& thesis, Action& action) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* command = thesis.add_subcommand(
+      "run", "the size that the program of 1960 finds for any servo, beside the exact one");
+  add_servo_options(*command, options->servo);
+  command->add_flag("--all", options->all,
+                    "all servos of the thesis's charts, as a table of errors");
+  command
+      ->add_option("--plot", options->plot,
+                   "with --all, draw the errors as a map; FILE ends in\n.svg, .png or .pdf")
+      ->type_name("FILE");
+  command->add_flag("--machine", options->machine,
+                    "on the emulated CDC 1604 instead of by the port");
+  command->footer(help_footer(run_examples));
+  command->callback([options, &action] {
+    action = [options](const Provenance&) { return run_program(*options); };
+  });
+}
+
+}  // namespace gearlash::cli
