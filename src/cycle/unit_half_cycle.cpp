@@ -13,89 +13,16 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double start_form(const ServoDynamics& dynamics, const GapFlight& flight) {
-  return decaying_form(dynamics.damping, flight.load_position, flight.load_speed);
-}
-
-/// All that the state at the impact says; not yet the engaged time and the growth.
-struct Impact {
-  UnitHalfCycle half;
-  double form_change;  ///< Q after the impact less Q at parting
-};
-
-Impact impact_at(const ServoDynamics& dynamics, const GapFlight& flight, double time,
-                 const FlightPoint& point) {
-  const FlightMotion& motion = point.motion;
-  UnitHalfCycle half;
-  half.flight_time = time;
-  half.gap_displacement = point.gap_displacement;
-  half.load_moved = motion.load_moved;
-  half.load_position = motion.load_position;
-  half.load_speed = motion.load_speed;
-  half.gap_speed = motion.gap_speed;
-  half.gap_acceleration = motion.gap_acceleration;
-  half.common_speed = motion.load_speed + dynamics.motor_inertia * motion.gap_speed;
-
-  // Q(impact) − Q(start) from the differences of position and speed: for light damping it is far
-  // smaller than either.
-  const double moved = motion.load_moved;
-  const double speeded = -flight.load_rate * moved + dynamics.motor_inertia * motion.gap_speed;
-  half.square_change =
-      moved * (2.0 * flight.load_position + moved) + speeded * (2.0 * flight.load_speed + speeded);
-  const double form_change = half.square_change + 2.0 * dynamics.damping *
-                                                      (flight.load_position * speeded +
-                                                       moved * flight.load_speed + moved * speeded);
-  half.form = start_form(dynamics, flight) + form_change;
-  half.log_growth_slope =
-      -half.gap_speed *
-      (dynamics.motor_inertia * half.load_position + dynamics.motor_friction * half.common_speed) /
-      half.form;
-  return {half, form_change};
-}
-
 UnitHalfCycle half_cycle(const ServoDynamics& dynamics, const GapFlight& flight, double time) {
-  auto [half, form_change] = impact_at(dynamics, flight, time, point_in_flight(flight, time));
+  UnitHalfCycle half = impact_at(dynamics, flight, time, point_in_flight(flight, time));
   half.engaged_time =
       first_zero(dynamics.damping, mesh_torque(dynamics, half.load_position, half.common_speed),
                  mesh_torque_rate(dynamics, half.load_position, half.common_speed));
   half.log_growth = std::isinf(half.engaged_time)
                         ? -infinity
-                        : 0.5 * std::log1p(form_change / start_form(dynamics, flight)) -
+                        : 0.5 * std::log1p(half.form_change / start_form(dynamics, flight)) -
                               dynamics.damping * half.engaged_time;
   return half;
-}
-
-/// How the state just after the impact changes with the flight time.
-struct ArrivalRates {
-  double motor_acceleration;  ///< v̇_M before the impact
-  double load_acceleration;   ///< v̇_L
-  double momentum;            ///< Ṗ
-  double form;                ///< Q̇
-};
-
-ArrivalRates arrival_rates(const ServoDynamics& dynamics, const GapFlight& flight,
-                           const UnitHalfCycle& half) {
-  const double motor_speed = half.load_speed + half.gap_speed;
-  const double load_acceleration = -flight.load_rate * half.load_speed;
-  const double momentum = -dynamics.motor_friction * motor_speed -
-                          dynamics.load_friction * half.load_speed - half.load_position;
-  const double form =
-      2.0 *
-      (half.load_position * half.load_speed + half.common_speed * momentum +
-       dynamics.damping * (half.load_speed * half.common_speed + half.load_position * momentum));
-  return {half.gap_acceleration + load_acceleration, load_acceleration, momentum, form};
-}
-
-/// d² ln ρ/dt², from the product that makes its slope: with S = J_M y + F_M P,
-///   (ln ρ)″/(ln ρ)′ = ü/u̇ + Ṡ/S − Q̇/Q.
-double log_growth_curvature(const ServoDynamics& dynamics, const UnitHalfCycle& half,
-                            const ArrivalRates& rates) {
-  const double drive =
-      dynamics.motor_inertia * half.load_position + dynamics.motor_friction * half.common_speed;
-  const double drive_rate =
-      dynamics.motor_inertia * half.load_speed + dynamics.motor_friction * rates.momentum;
-  return half.log_growth_slope *
-         (half.gap_acceleration / half.gap_speed + drive_rate / drive - rates.form / half.form);
 }
 
 /// d³u/dt³: from ü e^{ct} = ü₀ + G t φ₁((c − D)t), or ü ∝ e^{−Dt} for a massless motor.
@@ -103,49 +30,6 @@ double gap_jerk(const ServoDynamics& dynamics, const GapFlight& flight, const Un
   if (dynamics.massless_motor()) return -flight.load_rate * half.gap_acceleration;
   const double decayed = flight.load_speed == 0.0 ? 1.0 : half.load_speed / flight.load_speed;
   return flight.gap_drive * decayed - flight.motor_rate * half.gap_acceleration;
-}
-
-/// The state of the flight `step` later, to second order in the step.
-FlightPoint point_after(const ServoDynamics& dynamics, const GapFlight& flight,
-                        const UnitHalfCycle& half, double step) {
-  const double load_deceleration = flight.load_rate * half.load_speed;
-  const double jerk = gap_jerk(dynamics, flight, half);
-  const double moved = step * (half.load_speed - 0.5 * step * load_deceleration);
-  return {
-      .motion = {.load_moved = half.load_moved + moved,
-                 .load_position = half.load_position + moved,
-                 .load_speed = half.load_speed - flight.load_rate * moved,
-                 .gap_speed = half.gap_speed + step * (half.gap_acceleration + 0.5 * step * jerk),
-                 .gap_acceleration = half.gap_acceleration + step * jerk},
-      .gap_displacement =
-          half.gap_displacement + step * (half.gap_speed + 0.5 * step * half.gap_acceleration)};
-}
-
-/// Half a cycle whose flight is `step` longer, to second order in the step.
-UnitHalfCycle stepped(const ServoDynamics& dynamics, const GapFlight& flight,
-                      const UnitHalfCycle& half, const ArrivalRates& rates, double curvature,
-                      double step) {
-  UnitHalfCycle next = impact_at(dynamics, flight, half.flight_time + step,
-                                 point_after(dynamics, flight, half, step))
-                           .half;
-  const double momentum_acceleration = -dynamics.motor_friction * rates.motor_acceleration -
-                                       dynamics.load_friction * rates.load_acceleration -
-                                       half.load_speed;
-  const double form_acceleration =
-      2.0 * (half.load_speed * half.load_speed + half.load_position * rates.load_acceleration +
-             rates.momentum * rates.momentum + half.common_speed * momentum_acceleration +
-             dynamics.damping * (rates.load_acceleration * half.common_speed +
-                                 2.0 * half.load_speed * rates.momentum +
-                                 half.load_position * momentum_acceleration));
-  // From ln ρ = ½ ln Q − ζ t₁ + const.
-  const double relative_rate = rates.form / half.form;
-  const double engaged_rate = (0.5 * relative_rate - half.log_growth_slope) / dynamics.damping;
-  const double engaged_acceleration =
-      (0.5 * (form_acceleration / half.form - relative_rate * relative_rate) - curvature) /
-      dynamics.damping;
-  next.engaged_time = half.engaged_time + step * (engaged_rate + 0.5 * step * engaged_acceleration);
-  next.log_growth = half.log_growth + step * (half.log_growth_slope + 0.5 * step * curvature);
-  return next;
 }
 
 constexpr double time_tolerance = 1e-9;  // its square is below rounding
@@ -182,9 +66,8 @@ double guessed_flight_time(const ServoDynamics& dynamics, double growth_at_rest)
 double balanced_flight_time(const ServoDynamics& dynamics, const GapFlight& flight, double guess) {
   const auto log_growth = [&](double time) {
     const UnitHalfCycle half = half_cycle(dynamics, flight, time);
-    return ValueAndSlope{
-        half.log_growth, half.log_growth_slope,
-        log_growth_curvature(dynamics, half, arrival_rates(dynamics, flight, half))};
+    return ValueAndSlope{half.log_growth, half.log_growth_slope,
+                         arrival_rates(dynamics, flight, half).growth_curvature};
   };
   return bracketed_root(log_growth, 0.0, infinity, guess, 1.0, time_tolerance);
 }
@@ -200,12 +83,12 @@ LastStep last_step(const ServoDynamics& dynamics, const GapFlight& flight,
                    const UnitHalfCycle& half) {
   constexpr double short_step = 1e-5;
   const ArrivalRates rates = arrival_rates(dynamics, flight, half);
-  const double curvature = log_growth_curvature(dynamics, half, rates);
-  const double step = newton_step({half.log_growth, half.log_growth_slope, curvature});
+  const double step = balancing_step(half, rates);
   const double fastest =
       std::max({1.0 / half.flight_time, 1.0, flight.load_rate, flight.motor_rate});
   if (!(std::abs(step) * fastest <= short_step)) return {step, std::nullopt};
-  return {step, stepped(dynamics, flight, half, rates, curvature, step)};
+  return {step,
+          stepped(dynamics, flight, half, rates, gap_jerk(dynamics, flight, half), step)};
 }
 
 }  // namespace
@@ -236,9 +119,8 @@ std::optional<UnitHalfCycle> balanced_half_cycle(const ServoDynamics& dynamics,
   half = half_cycle(dynamics, flight, balanced_flight_time(dynamics, flight, guess));
   if (!(std::abs(half.log_growth) <= acceptable)) return std::nullopt;
   const ArrivalRates rates = arrival_rates(dynamics, flight, half);
-  const double curvature = log_growth_curvature(dynamics, half, rates);
-  return stepped(dynamics, flight, half, rates, curvature,
-                 newton_step({half.log_growth, half.log_growth_slope, curvature}));
+  return stepped(dynamics, flight, half, rates, gap_jerk(dynamics, flight, half),
+                 balancing_step(half, rates));
 }
 
 }  // namespace gearlash

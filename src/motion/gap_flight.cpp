@@ -2,17 +2,8 @@
 
 #include <cmath>
 
-#include "gearlash/motion/decay_integral.hpp"
-
 namespace gearlash {
 namespace {
-
-/// G = −v (D² − 2ζD + 1)/J_M, with the square completed: the sum is of one sign for ζ ≤ 1.
-double gap_drive(const ServoDynamics& dynamics, double load_speed) {
-  const double offset = dynamics.load_rate - dynamics.damping;
-  const double quadratic = offset * offset + (1.0 - dynamics.damping) * (1.0 + dynamics.damping);
-  return -load_speed * quadratic / dynamics.motor_inertia;
-}
 
 /// A massless load stands still in the gap: u̇ = v_M, v̇_M = −c v_M − y (J_M = 1).
 GapFlight over_massless_load(const ServoDynamics& dynamics, double load_position, double gap,
@@ -62,60 +53,20 @@ GapFlight of_two_masses(const ServoDynamics& dynamics, const GapState& state,
           .gap_drive = gap_drive(dynamics, state.load_speed)};
 }
 
-/// Two masses that part cleanly: the terms of first and second order in time cancel exactly.
-GapFlight of_clean_parting(const ServoDynamics& dynamics, const GapState& state) {
-  const double drive = gap_drive(dynamics, state.load_speed);
-  return {.load_position = state.load_position,
-          .load_speed = state.load_speed,
-          .gap = state.gap,
-          .coupling = drive,
-          .load_rate = dynamics.load_rate,
-          .motor_rate = dynamics.motor_rate,
-          .gap_drive = drive};
-}
-
-/// The decays that every quantity of a flight is made of, at one time.
-struct Decays {
-  Decay load;
-  Decay motor;
-  Convolution coupled;
-
-  Decays(const GapFlight& flight, double time)
-      : load(decay(flight.load_rate * time)),
-        motor(decay(flight.motor_rate * time)),
-        coupled(convolution(load, motor)) {}
-};
-
-FlightMotion motion_after(const GapFlight& flight, double time, const Decays& decays) {
-  const double load_moved = flight.load_speed * time * decays.load.integral;
-  const double coupling = flight.coupling * time;
-  return {
-      .load_moved = load_moved,
-      .load_position = flight.load_position + load_moved,
-      .load_speed = flight.load_speed * decays.load.factor,
-      .gap_speed = flight.gap_speed + time * (flight.motor_acceleration * decays.motor.integral +
-                                              flight.load_deceleration * decays.load.integral +
-                                              coupling * decays.coupled.integral),
-      .gap_acceleration = flight.motor_acceleration * decays.motor.factor +
-                          flight.load_deceleration * decays.load.factor +
-                          coupling * decays.coupled.value};
-}
-
-double displacement_after(const GapFlight& flight, double time, const Decays& decays) {
-  return time *
-         (flight.gap_speed + time * (flight.motor_acceleration * decays.motor.double_integral +
-                                     flight.load_deceleration * decays.load.double_integral +
-                                     flight.coupling * time * decays.coupled.double_integral));
+BasicFlightDecays<double> decays_at(const GapFlight& flight, double time) {
+  const Decay load = decay(flight.load_rate * time);
+  const Decay motor = decay(flight.motor_rate * time);
+  return {load, motor, convolution(load, motor)};
 }
 
 }  // namespace
 
 FlightMotion motion_in_flight(const GapFlight& flight, double time) {
-  return motion_after(flight, time, Decays(flight, time));
+  return motion_after(flight, time, decays_at(flight, time));
 }
 
 FlightPoint point_in_flight(const GapFlight& flight, double time) {
-  const Decays decays(flight, time);
+  const BasicFlightDecays<double> decays = decays_at(flight, time);
   return {motion_after(flight, time, decays), displacement_after(flight, time, decays)};
 }
 
@@ -141,7 +92,7 @@ GapFlight flight_from_separation(const ServoDynamics& dynamics, double load_posi
     return over_massless_load(dynamics, state.load_position, gap, 0.0);
   }
   if (dynamics.massless_motor()) return of_massless_motor(dynamics, state, 0.0);
-  return of_clean_parting(dynamics, state);
+  return clean_parting(dynamics, state.load_position, state.load_speed, gap);
 }
 
 GapFlight flight_from_pull(const ServoDynamics& dynamics, double load_position, double load_speed,

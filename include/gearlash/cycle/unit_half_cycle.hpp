@@ -3,28 +3,11 @@
 
 #include <optional>
 
+#include "gearlash/cycle/half_cycle_algebra.hpp"
 #include "gearlash/motion/gap_flight.hpp"
 #include "gearlash/motion/servo_dynamics.hpp"
 
 namespace gearlash {
-
-/// Half a cycle that starts with the faces parting forward at unit amplitude on the torque-free
-/// line, as a function of the flight time t: everything scales with the amplitude (design 3.1).
-struct UnitHalfCycle {
-  double flight_time;       ///< t₂
-  double engaged_time;      ///< t₁, infinite when the faces do not part again
-  double load_moved;        ///< y at impact less y at parting
-  double load_position;     ///< y at impact
-  double load_speed;        ///< v_L just before impact
-  double gap_displacement;  ///< u − u₀ at impact, < 0
-  double gap_speed;         ///< u̇ just before impact, ≤ 0
-  double gap_acceleration;  ///< ü just before impact
-  double common_speed;      ///< P = J_M v_M + J_L v_L, the speed just after impact
-  double square_change;     ///< (y² + P²) just after impact less (y² + v²) at parting
-  double form;              ///< Q(y, P) = y² + 2ζyP + P² just after impact
-  double log_growth;  ///< ln ρ, ρ the amplitude at the next parting; −∞ when there is none
-  double log_growth_slope;  ///< d ln ρ/dt₂ = |u̇| (J_M y + F_M P)/(y² + 2ζyP + P²), > 0
-};
 
 /// The flight of a unit half cycle, whose gap is measured from the face it leaves.
 GapFlight unit_flight(const ServoDynamics& dynamics);

@@ -6,15 +6,18 @@
 
 namespace gearlash {
 
-struct ValueAndSlope {
-  double value;
-  double slope;
-  double curvature = 0.0;  ///< second derivative where known: Halley's step instead of Newton's
+template <class Real>
+struct BasicValueAndSlope {
+  Real value;
+  Real slope;
+  Real curvature = 0.0;  ///< second derivative where known: Halley's step instead of Newton's
 };
+using ValueAndSlope = BasicValueAndSlope<double>;
 
 /// Towards the zero: Newton's step, or Halley's where the curvature is known.
-inline double newton_step(const ValueAndSlope& at) {
-  const double newton = -at.value / at.slope;
+template <class Real>
+Real newton_step(const BasicValueAndSlope<Real>& at) {
+  const Real newton = -at.value / at.slope;
   return newton / (1.0 + 0.5 * newton * at.curvature / at.slope);
 }
 

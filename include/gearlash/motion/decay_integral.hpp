@@ -86,12 +86,14 @@ inline double two_rate_series(double x, double y) {
 }  // namespace detail
 
 /// One exponential decay with its integrals, from at most one call of the library's exponential.
-struct Decay {
-  double exponent;         ///< x ≥ 0
-  double factor;           ///< e^{−x}
-  double integral;         ///< exp[0, −x]
-  double double_integral;  ///< exp[0, 0, −x]
+template <class Real>
+struct BasicDecay {
+  Real exponent;         ///< x ≥ 0
+  Real factor;           ///< e^{−x}
+  Real integral;         ///< exp[0, −x]
+  Real double_integral;  ///< exp[0, 0, −x]
 };
+using Decay = BasicDecay<double>;
 
 inline Decay decay(double exponent) {
   if (exponent < detail::series_limit) {
@@ -107,11 +109,13 @@ inline Decay decay(double exponent) {
 }
 
 /// Two decays, the one feeding the other, with its integrals.
-struct Convolution {
-  double value;            ///< exp[−x, −y]
-  double integral;         ///< exp[0, −x, −y]
-  double double_integral;  ///< exp[0, 0, −x, −y]
+template <class Real>
+struct BasicConvolution {
+  Real value;            ///< exp[−x, −y]
+  Real integral;         ///< exp[0, −x, −y]
+  Real double_integral;  ///< exp[0, 0, −x, −y]
 };
+using Convolution = BasicConvolution<double>;
 
 inline Convolution convolution(const Decay& x, const Decay& y) {
   const Decay& slow = x.exponent <= y.exponent ? x : y;

@@ -3,8 +3,6 @@
 
 namespace gearlash {
 
-struct ServoDynamics;
-
 /// A damped oscillation given by its state at time 0. Closed form, for every ζ ≥ 0 and continuous
 /// through ζ = 1:
 ///   y(t) = y₀ (C + ζS) + ẏ₀ S,   ẏ(t) = ẏ₀ (C − ζS) − y₀ S,
@@ -22,7 +20,8 @@ struct EngagedFlow {
 };
 
 /// Q(y, v) = y² + 2ζyv + v², which the engaged flow multiplies by e^{−2ζt} for every ζ.
-inline double decaying_form(double damping, double position, double speed) {
+template <class Real>
+Real decaying_form(Real damping, Real position, Real speed) {
   return position * position + 2.0 * damping * position * speed + speed * speed;
 }
 

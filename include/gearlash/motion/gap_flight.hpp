@@ -1,6 +1,7 @@
 // Faces apart: the load coasts, the motor runs under the loop; closed form of both.
 #pragma once
 
+#include "gearlash/motion/decay_integral.hpp"
 #include "gearlash/motion/servo_dynamics.hpp"
 
 namespace gearlash {
@@ -13,35 +14,84 @@ namespace gearlash {
 /// difference of two shafts, so that it keeps its relative accuracy however short the flight. A
 /// massless load stands still (B = C = 0); for a massless motor v_M = −y/F_M leaves
 /// B = (D − 1/F_M) v₀ alone; after a clean parting u̇₀ = ü₀ = 0 leaves C = G alone.
-struct GapFlight {
-  double load_position = 0.0;       ///< y₀, from the reference
-  double load_speed = 0.0;          ///< v₀
-  double gap = 0.0;                 ///< u₀
-  double gap_speed = 0.0;           ///< u̇₀
-  double motor_acceleration = 0.0;  ///< A
-  double load_deceleration = 0.0;   ///< B
-  double coupling = 0.0;            ///< C
-  double load_rate = 0.0;           ///< D; 0 for a massless load
-  double motor_rate = 0.0;          ///< c; 0 for a massless motor
-  double gap_acceleration = 0.0;    ///< ü₀ = A + B, known more exactly than that sum
-  double gap_drive = 0.0;  ///< G = −v₀(D² − 2ζD + 1)/J_M = (c − D) B + C, likewise:
-                           ///< ü e^{ct} = ü₀ + G t φ₁((c − D)t)
+template <class Real>
+struct BasicGapFlight {
+  Real load_position = 0.0;       ///< y₀, from the reference
+  Real load_speed = 0.0;          ///< v₀
+  Real gap = 0.0;                 ///< u₀
+  Real gap_speed = 0.0;           ///< u̇₀
+  Real motor_acceleration = 0.0;  ///< A
+  Real load_deceleration = 0.0;   ///< B
+  Real coupling = 0.0;            ///< C
+  Real load_rate = 0.0;           ///< D; 0 for a massless load
+  Real motor_rate = 0.0;          ///< c; 0 for a massless motor
+  Real gap_acceleration = 0.0;    ///< ü₀ = A + B, known more exactly than that sum
+  Real gap_drive = 0.0;  ///< G = −v₀(D² − 2ζD + 1)/J_M = (c − D) B + C, likewise:
+                         ///< ü e^{ct} = ü₀ + G t φ₁((c − D)t)
 };
+using GapFlight = BasicGapFlight<double>;
 
 /// A flight at one time, but for the gap's displacement, which costs a second integral.
-struct FlightMotion {
-  double load_moved;        ///< y − y₀
-  double load_position;     ///< y
-  double load_speed;        ///< v_L
-  double gap_speed;         ///< u̇ = v_M − v_L
-  double gap_acceleration;  ///< ü
+template <class Real>
+struct BasicFlightMotion {
+  Real load_moved;        ///< y − y₀
+  Real load_position;     ///< y
+  Real load_speed;        ///< v_L
+  Real gap_speed;         ///< u̇ = v_M − v_L
+  Real gap_acceleration;  ///< ü
 };
+using FlightMotion = BasicFlightMotion<double>;
 
 /// A flight at one time, whole.
-struct FlightPoint {
-  FlightMotion motion;
-  double gap_displacement;  ///< u − u₀
+template <class Real>
+struct BasicFlightPoint {
+  BasicFlightMotion<Real> motion;
+  Real gap_displacement;  ///< u − u₀
 };
+using FlightPoint = BasicFlightPoint<double>;
+
+/// The decays that every quantity of a flight is made of, at one time.
+template <class Real>
+struct BasicFlightDecays {
+  BasicDecay<Real> load;
+  BasicDecay<Real> motor;
+  BasicConvolution<Real> coupled;
+};
+
+template <class Real>
+BasicFlightMotion<Real> motion_after(const BasicGapFlight<Real>& flight, Real time,
+                                     const BasicFlightDecays<Real>& decays) {
+  const Real load_moved = flight.load_speed * time * decays.load.integral;
+  const Real coupling = flight.coupling * time;
+  return {
+      .load_moved = load_moved,
+      .load_position = flight.load_position + load_moved,
+      .load_speed = flight.load_speed * decays.load.factor,
+      .gap_speed = flight.gap_speed + time * (flight.motor_acceleration * decays.motor.integral +
+                                              flight.load_deceleration * decays.load.integral +
+                                              coupling * decays.coupled.integral),
+      .gap_acceleration = flight.motor_acceleration * decays.motor.factor +
+                          flight.load_deceleration * decays.load.factor +
+                          coupling * decays.coupled.value};
+}
+
+/// G = −v (D² − 2ζD + 1)/J_M, with the square completed: the sum is of one sign for ζ ≤ 1.
+template <class Real>
+Real gap_drive(const BasicServoDynamics<Real>& dynamics, Real load_speed) {
+  const Real offset = dynamics.load_rate - dynamics.damping;
+  const Real quadratic = offset * offset + (1.0 - dynamics.damping) * (1.0 + dynamics.damping);
+  return -load_speed * quadratic / dynamics.motor_inertia;
+}
+
+/// u − u₀.
+template <class Real>
+Real displacement_after(const BasicGapFlight<Real>& flight, Real time,
+                        const BasicFlightDecays<Real>& decays) {
+  return time *
+         (flight.gap_speed + time * (flight.motor_acceleration * decays.motor.double_integral +
+                                     flight.load_deceleration * decays.load.double_integral +
+                                     flight.coupling * time * decays.coupled.double_integral));
+}
 
 FlightMotion motion_in_flight(const GapFlight& flight, double time);
 FlightPoint point_in_flight(const GapFlight& flight, double time);
@@ -62,6 +112,21 @@ GapFlight flight_from(const ServoDynamics& dynamics, const GapState& state);
 /// exactly, and (y, v) lies on the line of zero mesh torque, onto which it is projected.
 GapFlight flight_from_separation(const ServoDynamics& dynamics, double load_position,
                                  double load_speed, double gap);
+
+/// Flight of two masses from a state on the torque-free line, where u̇ = ü = 0: the terms of first
+/// and second order in time cancel exactly.
+template <class Real>
+BasicGapFlight<Real> clean_parting(const BasicServoDynamics<Real>& dynamics, Real load_position,
+                                   Real load_speed, Real gap) {
+  const Real drive = gap_drive(dynamics, load_speed);
+  return {.load_position = load_position,
+          .load_speed = load_speed,
+          .gap = gap,
+          .coupling = drive,
+          .load_rate = dynamics.load_rate,
+          .motor_rate = dynamics.motor_rate,
+          .gap_drive = drive};
+}
 
 /// Flight from faces that touch with no relative speed but with a mesh torque that would have to
 /// pull: u̇ = 0, ü = N/(J_M J_L).

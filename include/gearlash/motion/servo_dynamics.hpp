@@ -7,24 +7,28 @@ namespace gearlash {
 
 /// Unit vector (y, ẏ) along the line of zero mesh torque, with speed ≥ 0: the states at which faces
 /// can part. A massless load parts at rest (speed 0, position 1).
-struct TorqueFreeLine {
-  double position = 0.0;
-  double speed = 1.0;
+template <class Real>
+struct BasicTorqueFreeLine {
+  Real position = 0.0;
+  Real speed = 1.0;
 };
+using TorqueFreeLine = BasicTorqueFreeLine<double>;
 
-/// Normalised so that J_M + J_L = 1, K = 1 and F_M + F_L = 2ζ.
-struct ServoDynamics {
-  double damping = 0.0;           ///< ζ
-  double motor_inertia = 0.5;     ///< J_M
-  double load_inertia = 0.5;      ///< J_L
-  double motor_friction = 0.0;    ///< F_M
-  double load_friction = 0.0;     ///< F_L
-  double motor_rate = 0.0;        ///< c = F_M/J_M, infinite for a massless motor
-  double load_rate = 0.0;         ///< D = F_L/J_L, infinite for a massless load
-  double backlash = 0.0;          ///< b, rad
-  double restitution = 0.0;       ///< e
-  double torque_per_speed = 0.0;  ///< F_L J_M − F_M J_L, see mesh_torque()
-  TorqueFreeLine torque_free_line;
+/// Normalised so that J_M + J_L = 1, K = 1 and F_M + F_L = 2ζ. Real is double, or a vector of
+/// doubles that stands for several servos side by side (layer chart).
+template <class Real>
+struct BasicServoDynamics {
+  Real damping = 0.0;           ///< ζ
+  Real motor_inertia = 0.5;     ///< J_M
+  Real load_inertia = 0.5;      ///< J_L
+  Real motor_friction = 0.0;    ///< F_M
+  Real load_friction = 0.0;     ///< F_L
+  Real motor_rate = 0.0;        ///< c = F_M/J_M, infinite for a massless motor
+  Real load_rate = 0.0;         ///< D = F_L/J_L, infinite for a massless load
+  Real backlash = 0.0;          ///< b, rad
+  Real restitution = 0.0;       ///< e
+  Real torque_per_speed = 0.0;  ///< F_L J_M − F_M J_L, see mesh_torque()
+  BasicTorqueFreeLine<Real> torque_free_line;
 
   bool massless_motor() const { return motor_inertia == 0.0; }
   bool massless_load() const { return load_inertia == 0.0; }
@@ -33,18 +37,21 @@ struct ServoDynamics {
   /// engages at once whatever the restitution.
   bool plastic_contact() const { return restitution == 0.0 || massless_motor() || massless_load(); }
 };
+using ServoDynamics = BasicServoDynamics<double>;
 
 /// Precondition: validate(servo) is empty.
 ServoDynamics servo_dynamics(const NormalizedServo& servo);
 
 /// N = J_L ÿ + F_L ẏ = (F_L J_M − F_M J_L) ẏ − J_L y: the torque that engaged faces pass on to the
 /// load. The form holds for a massless shaft on either side.
-inline double mesh_torque(const ServoDynamics& dynamics, double position, double speed) {
+template <class Real>
+Real mesh_torque(const BasicServoDynamics<Real>& dynamics, Real position, Real speed) {
   return dynamics.torque_per_speed * speed - dynamics.load_inertia * position;
 }
 
 /// Ṅ while engaged.
-inline double mesh_torque_rate(const ServoDynamics& dynamics, double position, double speed) {
+template <class Real>
+Real mesh_torque_rate(const BasicServoDynamics<Real>& dynamics, Real position, Real speed) {
   return -dynamics.torque_per_speed * (2.0 * dynamics.damping * speed + position) -
          dynamics.load_inertia * speed;
 }

@@ -1,0 +1,266 @@
+// The half cycle's formulas that hold for every servo alike: no branch, no library call but √. Two
+// solvers are written with them: of one servo (Real = double), and of several side by side, whose
+// Real is a vector of doubles (layer chart).
+#pragma once
+
+#include <cmath>
+
+#include "gearlash/motion/bracketed_root.hpp"
+#include "gearlash/motion/engaged_flow.hpp"
+#include "gearlash/motion/gap_flight.hpp"
+#include "gearlash/motion/servo_dynamics.hpp"
+
+namespace gearlash {
+
+/// Half a cycle that starts with the faces parting forward at unit amplitude on the torque-free
+/// line, as a function of the flight time t: everything scales with the amplitude (design 3.1).
+template <class Real>
+struct BasicUnitHalfCycle {
+  Real flight_time;       ///< t₂
+  Real engaged_time;      ///< t₁, infinite when the faces do not part again
+  Real load_moved;        ///< y at impact less y at parting
+  Real load_position;     ///< y at impact
+  Real load_speed;        ///< v_L just before impact
+  Real gap_displacement;  ///< u − u₀ at impact, < 0
+  Real gap_speed;         ///< u̇ just before impact, ≤ 0
+  Real gap_acceleration;  ///< ü just before impact
+  Real common_speed;      ///< P = J_M v_M + J_L v_L, the speed just after impact
+  Real square_change;     ///< (y² + P²) just after impact less (y² + v²) at parting
+  Real form_change;       ///< Q just after impact less Q at parting
+  Real form;              ///< Q(y, P) = y² + 2ζyP + P² just after impact
+  Real log_growth;  ///< ln ρ, ρ the amplitude at the next parting; −∞ when there is none
+  Real log_growth_slope;  ///< d ln ρ/dt₂ = |u̇| (J_M y + F_M P)/(y² + 2ζyP + P²), > 0
+};
+using UnitHalfCycle = BasicUnitHalfCycle<double>;
+
+/// Q at parting.
+template <class Real>
+Real start_form(const BasicServoDynamics<Real>& dynamics, const BasicGapFlight<Real>& flight) {
+  return decaying_form(dynamics.damping, flight.load_position, flight.load_speed);
+}
+
+/// All that the state at the impact says; the engaged time and the growth are left to be set.
+template <class Real>
+BasicUnitHalfCycle<Real> impact_at(const BasicServoDynamics<Real>& dynamics,
+                                   const BasicGapFlight<Real>& flight, Real time,
+                                   const BasicFlightPoint<Real>& point) {
+  const BasicFlightMotion<Real>& motion = point.motion;
+  BasicUnitHalfCycle<Real> half;
+  half.flight_time = time;
+  half.gap_displacement = point.gap_displacement;
+  half.load_moved = motion.load_moved;
+  half.load_position = motion.load_position;
+  half.load_speed = motion.load_speed;
+  half.gap_speed = motion.gap_speed;
+  half.gap_acceleration = motion.gap_acceleration;
+  half.common_speed = motion.load_speed + dynamics.motor_inertia * motion.gap_speed;
+
+  // Q(impact) − Q(start) from the differences of position and speed: for light damping it is far
+  // smaller than either.
+  const Real moved = motion.load_moved;
+  const Real speeded = -flight.load_rate * moved + dynamics.motor_inertia * motion.gap_speed;
+  half.square_change =
+      moved * (2.0 * flight.load_position + moved) + speeded * (2.0 * flight.load_speed + speeded);
+  half.form_change = half.square_change + 2.0 * dynamics.damping *
+                                              (flight.load_position * speeded +
+                                               moved * flight.load_speed + moved * speeded);
+  half.form = start_form(dynamics, flight) + half.form_change;
+  half.log_growth_slope =
+      -half.gap_speed *
+      (dynamics.motor_inertia * half.load_position + dynamics.motor_friction * half.common_speed) /
+      half.form;
+  return half;
+}
+
+/// How the state at the impact changes with the flight time.
+template <class Real>
+struct BasicArrivalRates {
+  Real motor_acceleration;  ///< v̇_M before the impact
+  Real load_acceleration;   ///< v̇_L
+  Real momentum;            ///< Ṗ
+  Real form;                ///< Q̇
+  Real growth_curvature;    ///< d² ln ρ/dt²
+};
+using ArrivalRates = BasicArrivalRates<double>;
+
+/// d² ln ρ/dt² from the product that makes its slope: with S = J_M y + F_M P,
+///   (ln ρ)″/(ln ρ)′ = ü/u̇ + Ṡ/S − Q̇/Q.
+template <class Real>
+BasicArrivalRates<Real> arrival_rates(const BasicServoDynamics<Real>& dynamics,
+                                      const BasicGapFlight<Real>& flight,
+                                      const BasicUnitHalfCycle<Real>& half) {
+  const Real motor_speed = half.load_speed + half.gap_speed;
+  const Real load_acceleration = -flight.load_rate * half.load_speed;
+  const Real momentum = -dynamics.motor_friction * motor_speed -
+                        dynamics.load_friction * half.load_speed - half.load_position;
+  const Real form =
+      2.0 *
+      (half.load_position * half.load_speed + half.common_speed * momentum +
+       dynamics.damping * (half.load_speed * half.common_speed + half.load_position * momentum));
+  const Real drive =
+      dynamics.motor_inertia * half.load_position + dynamics.motor_friction * half.common_speed;
+  const Real drive_rate =
+      dynamics.motor_inertia * half.load_speed + dynamics.motor_friction * momentum;
+  const Real curvature =
+      half.log_growth_slope *
+      (half.gap_acceleration / half.gap_speed + drive_rate / drive - form / half.form);
+  return {half.gap_acceleration + load_acceleration, load_acceleration, momentum, form, curvature};
+}
+
+/// Halley's step towards ln ρ = 0.
+template <class Real>
+Real balancing_step(const BasicUnitHalfCycle<Real>& half, const BasicArrivalRates<Real>& rates) {
+  return newton_step(BasicValueAndSlope<Real>{half.log_growth, half.log_growth_slope,
+                                              rates.growth_curvature});
+}
+
+/// Half a cycle whose flight is `step` longer, to second order in the step; gap_jerk is d³u/dt³.
+template <class Real>
+BasicUnitHalfCycle<Real> stepped(const BasicServoDynamics<Real>& dynamics,
+                                 const BasicGapFlight<Real>& flight,
+                                 const BasicUnitHalfCycle<Real>& half,
+                                 const BasicArrivalRates<Real>& rates, Real gap_jerk, Real step) {
+  const Real moved = step * (half.load_speed + 0.5 * step * rates.load_acceleration);
+  const BasicFlightPoint<Real> point = {
+      .motion = {.load_moved = half.load_moved + moved,
+                 .load_position = half.load_position + moved,
+                 .load_speed = half.load_speed - flight.load_rate * moved,
+                 .gap_speed =
+                     half.gap_speed + step * (half.gap_acceleration + 0.5 * step * gap_jerk),
+                 .gap_acceleration = half.gap_acceleration + step * gap_jerk},
+      .gap_displacement =
+          half.gap_displacement + step * (half.gap_speed + 0.5 * step * half.gap_acceleration)};
+  BasicUnitHalfCycle<Real> next = impact_at(dynamics, flight, half.flight_time + step, point);
+  const Real momentum_acceleration = -dynamics.motor_friction * rates.motor_acceleration -
+                                     dynamics.load_friction * rates.load_acceleration -
+                                     half.load_speed;
+  const Real form_acceleration =
+      2.0 * (half.load_speed * half.load_speed + half.load_position * rates.load_acceleration +
+             rates.momentum * rates.momentum + half.common_speed * momentum_acceleration +
+             dynamics.damping * (rates.load_acceleration * half.common_speed +
+                                 2.0 * half.load_speed * rates.momentum +
+                                 half.load_position * momentum_acceleration));
+  // From ln ρ = ½ ln Q − ζ t₁ + const.
+  const Real relative_rate = rates.form / half.form;
+  const Real engaged_rate = (0.5 * relative_rate - half.log_growth_slope) / dynamics.damping;
+  const Real engaged_acceleration =
+      (0.5 * (form_acceleration / half.form - relative_rate * relative_rate) -
+       rates.growth_curvature) /
+      dynamics.damping;
+  next.engaged_time = half.engaged_time + step * (engaged_rate + 0.5 * step * engaged_acceleration);
+  next.log_growth =
+      half.log_growth + step * (half.log_growth_slope + 0.5 * step * rates.growth_curvature);
+  return next;
+}
+
+/// The motor's speed at one time of the flight and its derivatives: v̈ = −c v̇ − a, ȧ = −D a, where
+/// a = motor_drive v_L.
+template <class Real>
+struct BasicMotorSpeed {
+  BasicValueAndSlope<Real> speed;
+  Real jerk_rate;
+};
+
+/// motor_drive is 1/J_M; and for a massless motor, whose v_M = −y/F_M, −D/F_M (and c = 0).
+template <class Real>
+BasicMotorSpeed<Real> motor_speed_at(const BasicGapFlight<Real>& flight, Real motor_drive,
+                                     Real load_speed, Real gap_speed, Real gap_acceleration) {
+  const Real drive = motor_drive * load_speed;
+  const Real acceleration = gap_acceleration - flight.load_rate * load_speed;
+  const Real jerk = -flight.motor_rate * acceleration - drive;
+  return {{load_speed + gap_speed, acceleration, jerk},
+          flight.load_rate * drive - flight.motor_rate * jerk};
+}
+
+/// Root of the quintic through value, slope and curvature at 0 and at `end`, values of opposite
+/// sign, to some 1e-4 of `end`: Halley's step from the root of a parabola.
+template <class Real>
+Real quintic_root(const BasicValueAndSlope<Real>& at_start, const BasicValueAndSlope<Real>& at_end,
+                  Real end) {
+  using std::sqrt;
+  const Real value = at_start.value;
+  const Real slope = at_start.slope * end;
+  const Real square = 0.5 * at_start.curvature * end * end;
+  const Real rise = at_end.value - value;
+  const Real parabola_root =
+      2.0 * value / (sqrt(slope * slope - 4.0 * (rise - slope) * value) - slope);
+  const Real value_left = rise - slope - square;
+  const Real slope_left = at_end.slope * end - slope - 2.0 * square;
+  const Real curvature_left = 0.5 * at_end.curvature * end * end - square;
+  const Real cubic = 10.0 * value_left - 4.0 * slope_left + curvature_left;
+  const Real quartic = -15.0 * value_left + 7.0 * slope_left - 2.0 * curvature_left;
+  const Real quintic = 6.0 * value_left - 3.0 * slope_left + curvature_left;
+  const Real x = parabola_root;
+  const BasicValueAndSlope<Real> at_x = {
+      value + x * (slope + x * (square + x * (cubic + x * (quartic + x * quintic)))),
+      slope + x * (2.0 * square + x * (3.0 * cubic + x * (4.0 * quartic + x * 5.0 * quintic))),
+      2.0 * square + x * (6.0 * cubic + x * (12.0 * quartic + x * 20.0 * quintic))};
+  return (x + newton_step(at_x)) * end;
+}
+
+/// The motor's position, from the gap's middle line, where it turns, from a time so near that the
+/// next term of Taylor's series is below rounding (the position is stationary there).
+template <class Real>
+Real position_at_turn(const BasicFlightPoint<Real>& point, const BasicMotorSpeed<Real>& here) {
+  const Real step = newton_step(here.speed);
+  return point.motion.load_position + point.gap_displacement +
+         step * (here.speed.value +
+                 step * (here.speed.slope / 2.0 +
+                         step * (here.speed.curvature / 6.0 + step * here.jerk_rate / 24.0)));
+}
+
+/// F_L ∫ v_L² dt over the flight, in which v_L falls in proportion to the way.
+template <class Real>
+Real load_friction_in_flight(const BasicServoDynamics<Real>& dynamics,
+                             const BasicGapFlight<Real>& flight,
+                             const BasicUnitHalfCycle<Real>& half) {
+  return 0.5 * dynamics.load_friction * half.load_moved * (flight.load_speed + half.load_speed);
+}
+
+/// F_M ∫ v_M² dt over the flight from the balance of the motor's energy,
+///   F_M ∫ v_M² = −½J_M Δ(v_M²) − ∫ y v_M,   ∫ v_L v_M = −(½Δ(y²) + J_M Δ(v_L v_M))/(J_M D + F_M),
+/// with, by parts, either y = y∞ − v_L/D, or
+///   F_M ∫ y v_M = J_M ∫ v_L v_M − J_M Δ(y v_M) − ∫ y².
+/// The first form loses digits as D t → 0, and both as c t → 0.
+template <class Real>
+struct MotorFrictionBalance {
+  Real kinetic_loss;   ///< −½J_M Δ(v_M²)
+  Real speed_product;  ///< ∫ v_L v_M
+  Real edge;           ///< Δ(y v_M)
+  Real motor_moved;
+
+  MotorFrictionBalance(const BasicServoDynamics<Real>& dynamics,
+                       const BasicGapFlight<Real>& flight, const BasicUnitHalfCycle<Real>& half)
+      : motor_moved(half.load_moved + half.gap_displacement) {
+    const Real start_speed = flight.load_speed;
+    const Real motor_speed = half.load_speed + half.gap_speed;
+    const Real square_change = half.load_moved * (2.0 * flight.load_position + half.load_moved);
+    kinetic_loss = 0.5 * dynamics.motor_inertia *
+                   (start_speed * start_speed - motor_speed * motor_speed);
+    speed_product =
+        -(0.5 * square_change + dynamics.motor_inertia * (half.load_speed * motor_speed -
+                                                          start_speed * start_speed)) /
+        (dynamics.motor_inertia * dynamics.load_rate + dynamics.motor_friction);
+    edge = half.load_position * motor_speed - flight.load_position * start_speed;
+  }
+
+  Real of_braked_load(const BasicGapFlight<Real>& flight) const {
+    const Real rest = flight.load_position + flight.load_speed / flight.load_rate;
+    return kinetic_loss - rest * motor_moved + speed_product / flight.load_rate;
+  }
+
+  /// ∫ y² from ∫ (t φ(Dt))² = 2 t³ exp[0, 0, −Dt, −2Dt].
+  Real of_coasting_load(const BasicServoDynamics<Real>& dynamics,
+                        const BasicGapFlight<Real>& flight, Real time,
+                        const BasicDecay<Real>& once, const BasicConvolution<Real>& twice) const {
+    const Real position = flight.load_position;
+    const Real way = flight.load_speed * time;
+    const Real position_square =
+        time * (position * position +
+                2.0 * way * (position * once.double_integral + way * twice.double_integral));
+    return kinetic_loss - (dynamics.motor_inertia * (speed_product - edge) - position_square) /
+                              dynamics.motor_friction;
+  }
+};
+
+}  // namespace gearlash
