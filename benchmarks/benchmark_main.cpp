@@ -40,21 +40,17 @@ struct Race {
   std::vector<Entry> entries;
 };
 
-std::vector<Task> prepare_all(const Contestant& contestant, const std::vector<Problem>& problems) {
-  std::vector<Task> tasks;
-  for (const Problem& problem : problems) tasks.push_back(contestant.prepare(problem));
-  return tasks;
-}
-
-Accuracy check(const std::vector<Task>& tasks, const std::vector<Problem>& problems) {
+Accuracy check(const Task& task, const std::vector<Problem>& problems) {
   Accuracy accuracy;
-  for (std::size_t i = 0; i < tasks.size(); ++i) {
-    const RivalCycle found = tasks[i]();
+  std::vector<RivalCycle> answers(problems.size());
+  task(answers);
+  for (std::size_t i = 0; i < problems.size(); ++i) {
+    const RivalCycle& found = answers[i];
     const auto& cycle = problems[i].cycle;
     accuracy.size = std::max(accuracy.size, std::abs(found.size / cycle.size - 1.0));
     accuracy.period = std::max(accuracy.period, std::abs(found.period / cycle.period - 1.0));
     accuracy.half_cycles +=
-        static_cast<double>(found.half_cycles) / static_cast<double>(tasks.size());
+        static_cast<double>(found.half_cycles) / static_cast<double>(problems.size());
     accuracy.complete = accuracy.complete && found.converged;
   }
   return accuracy;
@@ -64,12 +60,16 @@ Race enter(const std::string& title, const std::vector<Contestant>& contestants,
            const std::vector<Problem>& problems) {
   Race race{title, {}};
   for (const Contestant& contestant : contestants) {
-    const std::vector<Task> tasks = prepare_all(contestant, problems);
+    const Task task = contestant.prepare(problems);
     const std::string name = title + "/" + contestant.name;
-    race.entries.push_back({name, contestant, problems.size(), check(tasks, problems)});
-    benchmark::RegisterBenchmark(name.c_str(), [tasks](benchmark::State& state) {
+    race.entries.push_back({name, contestant, problems.size(), check(task, problems)});
+    benchmark::RegisterBenchmark(name.c_str(), [task,
+                                                count = problems.size()](benchmark::State& state) {
+      std::vector<RivalCycle> answers(count);
       for (auto _ : state) {
-        for (const Task& task : tasks) benchmark::DoNotOptimize(task());
+        task(answers);
+        benchmark::DoNotOptimize(answers.data());
+        benchmark::ClobberMemory();
       }
     })->Unit(benchmark::kMicrosecond);
   }
@@ -96,17 +96,27 @@ class KeepingReporter : public benchmark::ConsoleReporter {
 
 void print_race(const Race& race, const std::map<std::string, double>& fastest) {
   std::printf("\n**%s** (%zu problems)\n\n", race.title.c_str(), race.entries.front().problems);
-  std::printf("| | one problem, µs | times %s | worst error: size, period | half cycles |\n",
-              race.entries.front().contestant.name.c_str());
-  std::printf("|---|--:|--:|--:|--:|\n");
-  double ours = std::numeric_limits<double>::quiet_NaN();
-  for (const Entry& entry : race.entries) {
+  const auto microseconds = [&](const Entry& entry) {
     const auto measured = fastest.find(entry.benchmark);
-    if (measured == fastest.end()) continue;
-    const double microseconds = measured->second * 1e6 / static_cast<double>(entry.problems);
-    if (&entry == &race.entries.front()) ours = microseconds;
-    std::printf("| %s | %.3f | %.3g | %.1e, %.1e%s | %.0f |\n", entry.contestant.name.c_str(),
-                microseconds, microseconds / ours, entry.accuracy.size, entry.accuracy.period,
+    return measured == fastest.end() ? std::numeric_limits<double>::quiet_NaN()
+                                     : measured->second * 1e6 / static_cast<double>(entry.problems);
+  };
+  std::vector<double> yardsticks;
+  std::printf("| | one problem, µs |");
+  for (const Entry& entry : race.entries) {
+    if (!entry.contestant.yardstick) continue;
+    yardsticks.push_back(microseconds(entry));
+    std::printf(" times %s |", entry.contestant.name.c_str());
+  }
+  std::printf(" worst error: size, period | half cycles |\n|---|--:|");
+  for (std::size_t i = 0; i < yardsticks.size(); ++i) std::printf("--:|");
+  std::printf("--:|--:|\n");
+  for (const Entry& entry : race.entries) {
+    const double time = microseconds(entry);
+    if (std::isnan(time)) continue;
+    std::printf("| %s | %.3f |", entry.contestant.name.c_str(), time);
+    for (const double yardstick : yardsticks) std::printf(" %.3g |", time / yardstick);
+    std::printf(" %.1e, %.1e%s | %.0f |\n", entry.accuracy.size, entry.accuracy.period,
                 entry.accuracy.complete ? "" : " (did not converge)", entry.accuracy.half_cycles);
   }
 }

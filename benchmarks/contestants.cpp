@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cvode_rival.hpp"
+#include "gearlash/chart/cycle_batch.hpp"
 #include "gearlash/cycle/growth_at_rest.hpp"
 #include "gearlash/cycle/limit_cycle.hpp"
 #include "gearlash/cycle/unit_half_cycle.hpp"
@@ -12,6 +13,20 @@
 
 namespace gearlash::benchmarks {
 namespace {
+
+/// What one problem asks, made ready.
+using SingleTask = std::function<RivalCycle()>;
+
+Contestant one_by_one(const std::string& name, bool yardstick,
+                      const std::function<SingleTask(const Problem&)>& prepare) {
+  return {name, yardstick, [prepare](const std::vector<Problem>& problems) -> Task {
+            std::vector<SingleTask> tasks;
+            for (const Problem& problem : problems) tasks.push_back(prepare(problem));
+            return [tasks](std::vector<RivalCycle>& answers) {
+              for (std::size_t i = 0; i < tasks.size(); ++i) answers[i] = tasks[i]();
+            };
+          }};
+}
 
 struct RivalStart {
   EngagedState state;
@@ -41,32 +56,63 @@ RivalStart start_of(const Problem& problem, Start start) {
 /// Solvers live as long as the task does, and are used again in every call.
 template <class Rival, class... Arguments>
 Contestant cycle_rival(const std::string& name, Start start, Arguments... arguments) {
-  return {name, false, [=](const Problem& problem) -> Task {
-            auto rival = std::make_shared<Rival>(problem.servo, arguments...);
-            const RivalStart begin = start_of(problem, start);
-            return [rival, begin, servo = problem.servo] {
-              return find_cycle(*rival, servo, begin.state, 1.0, begin.parted);
-            };
-          }};
+  return one_by_one(name, false, [=](const Problem& problem) -> SingleTask {
+    auto rival = std::make_shared<Rival>(problem.servo, arguments...);
+    const RivalStart begin = start_of(problem, start);
+    return [rival, begin, servo = problem.servo] {
+      return find_cycle(*rival, servo, begin.state, 1.0, begin.parted);
+    };
+  });
 }
 
 template <class Rival, class... Arguments>
 Contestant half_cycle_rival(const std::string& name, Arguments... arguments) {
-  return {name, false, [=](const Problem& problem) -> Task {
-            auto rival = std::make_shared<Rival>(problem.servo, arguments...);
-            const ServoState begin = separation_on_cycle(problem);
-            const Coefficients coefficients(problem.servo);
-            return [rival, begin, coefficients] {
-              double time = 0.0;
-              double face = 1.0;
-              EngagedState state = {begin.load_position, begin.load_speed};
-              const double size = follow_half_cycle(*rival, coefficients, time, state, face);
-              return RivalCycle{size, 2.0 * time, 1, true};
+  return one_by_one(name, false, [=](const Problem& problem) -> SingleTask {
+    auto rival = std::make_shared<Rival>(problem.servo, arguments...);
+    const ServoState begin = separation_on_cycle(problem);
+    const Coefficients coefficients(problem.servo);
+    return [rival, begin, coefficients] {
+      double time = 0.0;
+      double face = 1.0;
+      EngagedState state = {begin.load_position, begin.load_speed};
+      const double size = follow_half_cycle(*rival, coefficients, time, state, face);
+      return RivalCycle{size, 2.0 * time, 1, true};
+    };
+  });
+}
+
+/// All problems in one call.
+Contestant side_by_side(VectorUnit unit, bool yardstick) {
+  const std::string name = std::string("Gearlash, find_limit_cycles(), ") + name_of(unit);
+  return {name, yardstick, [unit](const std::vector<Problem>& problems) -> Task {
+            std::vector<NormalizedServo> servos;
+            for (const Problem& problem : problems) servos.push_back(problem.servo);
+            std::vector<Verdict> verdicts(servos.size());
+            std::vector<std::vector<double>> columns(12, std::vector<double>(servos.size()));
+            return [=](std::vector<RivalCycle>& answers) mutable {
+              find_limit_cycles(servos,
+                                {.verdict = verdicts,
+                                 .growth_at_rest = columns[0],
+                                 .size = columns[1],
+                                 .motor_size = columns[2],
+                                 .period = columns[3],
+                                 .multiplier = columns[4],
+                                 .impact_speed = columns[5],
+                                 .engaged_time = columns[6],
+                                 .separated_time = columns[7],
+                                 .motor_friction_loss = columns[8],
+                                 .load_friction_loss = columns[9],
+                                 .impact_loss = columns[10],
+                                 .residual = columns[11]},
+                                unit);
+              for (std::size_t i = 0; i < servos.size(); ++i) {
+                answers[i] = {columns[1][i], columns[3][i], 0, verdicts[i] == Verdict::hunts};
+              }
             };
           }};
 }
 
-Task prepare_analysis(const Problem& problem) {
+SingleTask prepare_analysis(const Problem& problem) {
   return [servo = problem.servo] {
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
     const LimitCycle& cycle = analysis.cycles.front();
@@ -75,7 +121,7 @@ Task prepare_analysis(const Problem& problem) {
 }
 
 /// The layer below: the scalar equation alone, which gives the period; nothing else is worked out.
-Task prepare_scalar_equation(const Problem& problem) {
+SingleTask prepare_scalar_equation(const Problem& problem) {
   return [servo = problem.servo, size = problem.cycle.size] {
     const ServoDynamics dynamics = servo_dynamics(servo);
     const auto half = balanced_half_cycle(dynamics, growth_at_rest(dynamics));
@@ -85,7 +131,7 @@ Task prepare_scalar_equation(const Problem& problem) {
 
 /// The public simulator: the whole trajectory with its events, from a separation to just after the
 /// next one.
-Task prepare_simulation(const Problem& problem) {
+SingleTask prepare_simulation(const Problem& problem) {
   const ServoState begin = separation_on_cycle(problem);
   const double until = 0.5 * problem.cycle.period * (1.0 + 1e-9);
   return [servo = problem.servo, begin, until, size = problem.cycle.size] {
@@ -95,7 +141,7 @@ Task prepare_simulation(const Problem& problem) {
 }
 
 /// The layer below: phase after phase until the next separation, nothing recorded.
-Task prepare_phases(const Problem& problem) {
+SingleTask prepare_phases(const Problem& problem) {
   constexpr double horizon = 100.0;  // far beyond any half cycle
   const ServoState begin = separation_on_cycle(problem);
   return [servo = problem.servo, begin, size = problem.cycle.size] {
@@ -115,21 +161,30 @@ Task prepare_phases(const Problem& problem) {
 }  // namespace
 
 std::vector<Contestant> limit_cycle_contestants(Start start, Contact contact) {
-  std::vector<Contestant> contestants = {
-      {"Gearlash, analyse_limit_cycles()", true, prepare_analysis},
-      cycle_rival<OdeintRival>("Boost.odeint, dopri5 dense output", start),
-      cycle_rival<CvodeRival>("SUNDIALS CVODE, Adams", start, CvodeMethod::adams),
-      cycle_rival<CvodeRival>("SUNDIALS CVODE, BDF dense", start, CvodeMethod::bdf)};
+  std::vector<Contestant> contestants;
   if (contact == Contact::plastic) {
-    contestants.insert(contestants.begin() + 1,
-                       {"Gearlash, balanced_half_cycle()", true, prepare_scalar_equation});
+    contestants.push_back(side_by_side(widest_vector_unit(), true));
+    for (const VectorUnit unit : available_vector_units()) {
+      if (unit != widest_vector_unit()) contestants.push_back(side_by_side(unit, false));
+    }
+  }
+  contestants.push_back(one_by_one("Gearlash, analyse_limit_cycles()", true, prepare_analysis));
+  if (contact == Contact::plastic) {
+    contestants.push_back(
+        one_by_one("Gearlash, balanced_half_cycle()", false, prepare_scalar_equation));
+  }
+  for (const Contestant& rival :
+       {cycle_rival<OdeintRival>("Boost.odeint, dopri5 dense output", start),
+        cycle_rival<CvodeRival>("SUNDIALS CVODE, Adams", start, CvodeMethod::adams),
+        cycle_rival<CvodeRival>("SUNDIALS CVODE, BDF dense", start, CvodeMethod::bdf)}) {
+    contestants.push_back(rival);
   }
   return contestants;
 }
 
 std::vector<Contestant> half_cycle_contestants() {
-  return {{"Gearlash, simulate()", true, prepare_simulation},
-          {"Gearlash, end_of_phase()", true, prepare_phases},
+  return {one_by_one("Gearlash, simulate()", true, prepare_simulation),
+          one_by_one("Gearlash, end_of_phase()", false, prepare_phases),
           half_cycle_rival<OdeintRival>("Boost.odeint, dopri5 dense output"),
           half_cycle_rival<CvodeRival>("SUNDIALS CVODE, Adams", CvodeMethod::adams),
           half_cycle_rival<CvodeRival>("SUNDIALS CVODE, BDF dense", CvodeMethod::bdf)};

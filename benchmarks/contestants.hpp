@@ -19,17 +19,19 @@ enum class Start {
 
 enum class Contact { plastic, bouncing };
 
-/// A task made ready (solvers allocated); calling it does the work once and returns size and
-/// period. What is made ready is not measured.
-using Task = std::function<RivalCycle()>;
+/// All of a race's problems made ready (solvers allocated); calling it does the work once and
+/// writes a size and a period for each. What is made ready is not measured.
+using Task = std::function<void(std::vector<RivalCycle>& answers)>;
 
 struct Contestant {
   std::string name;
-  bool ours = false;
-  std::function<Task(const Problem&)> prepare;
+  bool yardstick = false;  ///< the others' times are told in multiples of this one's
+  std::function<Task(const std::vector<Problem>&)> prepare;
 };
 
-/// Finding a limit cycle. Ours is analyse_limit_cycles(): data in, every property out.
+/// Finding a limit cycle. Ours are find_limit_cycles() with each vector unit of this machine,
+/// several servos side by side, and analyse_limit_cycles(), one by one: data in, every property
+/// out.
 std::vector<Contestant> limit_cycle_contestants(Start start, Contact contact);
 
 /// Following the exact cycle from one separation to the next: flight, impacts, engagement.

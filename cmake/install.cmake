@@ -1,13 +1,14 @@
 # What `cmake --install` lays down, so that another project can say
 #   find_package(gearlash 0.1 CONFIG REQUIRED)                  # the numerics; needs only Eigen
 #   find_package(gearlash 0.1 CONFIG REQUIRED COMPONENTS io)  # also the reader of data sheets
-#   target_link_libraries(... gearlash::gearlash)  # or ::servo, ::motion, ::cycle, ::io
+#   target_link_libraries(... gearlash::gearlash)  # or ::servo, ::motion, ::cycle, ::chart, ::io
 
 include(CMakePackageConfigHelpers)
 set(gearlash_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/gearlash")
 
-set(layers servo motion cycle)
-install(TARGETS gearlash gearlash_servo gearlash_motion gearlash_cycle EXPORT gearlash_numerics)
+set(layers servo motion cycle chart)
+install(TARGETS gearlash gearlash_servo gearlash_motion gearlash_cycle gearlash_chart
+        EXPORT gearlash_numerics)
 install(EXPORT gearlash_numerics NAMESPACE gearlash:: FILE gearlashTargets.cmake
         DESTINATION "${gearlash_package_dir}")
 

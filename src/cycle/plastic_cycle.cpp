@@ -40,9 +40,8 @@ double motor_friction_in_flight(const ServoDynamics& dynamics, const GapFlight& 
 /// most one zero. The start's position when it does not turn.
 double motor_turning_position(const ServoDynamics& dynamics, const GapFlight& flight,
                               const UnitHalfCycle& half) {
-  const double motor_drive = dynamics.massless_motor()
-                                 ? -flight.load_rate / dynamics.motor_friction
-                                 : 1.0 / dynamics.motor_inertia;
+  const double motor_drive = dynamics.massless_motor() ? -flight.load_rate / dynamics.motor_friction
+                                                       : 1.0 / dynamics.motor_inertia;
   const auto at_start =
       motor_speed_at(flight, motor_drive, flight.load_speed, 0.0, flight.gap_acceleration);
   const auto at_end =

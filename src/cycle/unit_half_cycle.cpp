@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "gearlash/motion/bracketed_root.hpp"
 #include "gearlash/motion/engaged_flow.hpp"
@@ -34,34 +33,6 @@ double gap_jerk(const ServoDynamics& dynamics, const GapFlight& flight, const Un
 
 constexpr double time_tolerance = 1e-9;  // its square is below rounding
 
-/// A flight time near the root of ln ρ(t) = 0, within 2 % as a rule.
-///
-/// Near t = 0, ln ρ = −δ + κ t³/6 + t⁴/8 with δ = ζπ/w, κ = c J_L + D J_M the drag on the gap's
-/// motion; in the end it tends to ln μ₀. One step of Newton's method gives the first root, a factor
-/// √(1 + δ/ln μ₀) the second, and a polynomial fitted to the thesis's range and beyond (damping
-/// 0.05 to 0.6, inertia ratio 1/9 to 9, friction ratio 0.04 to 0.99) what both leave over.
-double guessed_flight_time(const ServoDynamics& dynamics, double growth_at_rest) {
-  constexpr double fastest_rate = 1e3;
-  constexpr double least_frequency_squared = 0.05;
-  const double drag = std::min(dynamics.motor_rate, fastest_rate) * dynamics.load_inertia +
-                      std::min(dynamics.load_rate, fastest_rate) * dynamics.motor_inertia;
-  const double deficit =
-      std::numbers::pi * dynamics.damping /
-      std::sqrt(std::max(least_frequency_squared, 1.0 - dynamics.damping * dynamics.damping));
-  // From t⁴/8 = δ: 3t/4 + … in place of t less the step.
-  const double undragged = std::sqrt(std::sqrt(8.0 * deficit));
-  const double early = undragged * (1.0 - drag / (3.0 * (undragged + drag)));
-  constexpr double fitted = 8.0;
-  constexpr double fitted_excess = 4.0;
-  constexpr double longest = 1e3;
-  const double excess = deficit / std::log(growth_at_rest);
-  const double k = std::min(drag * early, fitted);
-  const double x = std::min(excess, fitted_excess);
-  const double correction =
-      1.0 + k * (0.019 - 0.0087 * k) + x * (0.0119 - 0.0211 * x) + early * (0.0385 + 0.072 * k);
-  return std::min(longest, early * std::sqrt(1.0 + excess) * correction);
-}
-
 /// The root of ln ρ(t) = 0, to time_tolerance: bracketed, so that no guess can mislead it.
 double balanced_flight_time(const ServoDynamics& dynamics, const GapFlight& flight, double guess) {
   const auto log_growth = [&](double time) {
@@ -81,14 +52,12 @@ struct LastStep {
 
 LastStep last_step(const ServoDynamics& dynamics, const GapFlight& flight,
                    const UnitHalfCycle& half) {
-  constexpr double short_step = 1e-5;
   const ArrivalRates rates = arrival_rates(dynamics, flight, half);
   const double step = balancing_step(half, rates);
   const double fastest =
       std::max({1.0 / half.flight_time, 1.0, flight.load_rate, flight.motor_rate});
   if (!(std::abs(step) * fastest <= short_step)) return {step, std::nullopt};
-  return {step,
-          stepped(dynamics, flight, half, rates, gap_jerk(dynamics, flight, half), step)};
+  return {step, stepped(dynamics, flight, half, rates, gap_jerk(dynamics, flight, half), step)};
 }
 
 }  // namespace
@@ -105,7 +74,7 @@ UnitHalfCycle unit_half_cycle(const ServoDynamics& dynamics, double flight_time)
 std::optional<UnitHalfCycle> balanced_half_cycle(const ServoDynamics& dynamics,
                                                  double growth_at_rest) {
   const GapFlight flight = unit_flight(dynamics);
-  const double guess = guessed_flight_time(dynamics, growth_at_rest);
+  const double guess = guessed_flight_time(dynamics, std::log(growth_at_rest));
   UnitHalfCycle half = half_cycle(dynamics, flight, guess);
   for (int evaluation = 1;; ++evaluation) {
     const LastStep step = last_step(dynamics, flight, half);

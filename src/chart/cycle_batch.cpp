@@ -1,0 +1,166 @@
+#include "gearlash/chart/cycle_batch.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "cycle_kernel.hpp"
+
+namespace gearlash {
+namespace {
+
+using detail::CycleBlock;
+
+detail::CycleKernel kernel_for(VectorUnit unit) {
+#ifdef GEARLASH_X86_VECTOR_UNITS
+  if (unit == VectorUnit::avx512) return detail::solve_block_avx512;
+  if (unit == VectorUnit::avx2) return detail::solve_block_avx2;
+#endif
+  if (unit == VectorUnit::baseline) return detail::solve_block_baseline;
+  throw std::invalid_argument(std::string("vector unit ") + name_of(unit) +
+                              " is not of this machine");
+}
+
+void require_rows(const CycleColumns& cycles, std::size_t rows) {
+  const auto require = [&](const char* name, std::size_t size) {
+    if (size == rows) return;
+    throw std::invalid_argument(std::string("column ") + name + ": " + std::to_string(size) +
+                                " rows; must be " + std::to_string(rows) +
+                                ", as many as there are servos");
+  };
+  require("verdict", cycles.verdict.size());
+  require("growth_at_rest", cycles.growth_at_rest.size());
+  require("size", cycles.size.size());
+  require("motor_size", cycles.motor_size.size());
+  require("period", cycles.period.size());
+  require("multiplier", cycles.multiplier.size());
+  require("impact_speed", cycles.impact_speed.size());
+  require("engaged_time", cycles.engaged_time.size());
+  require("separated_time", cycles.separated_time.size());
+  require("motor_friction_loss", cycles.motor_friction_loss.size());
+  require("load_friction_loss", cycles.load_friction_loss.size());
+  require("impact_loss", cycles.impact_loss.size());
+  require("residual", cycles.residual.size());
+}
+
+/// The last servo fills up a block that is not full.
+void load(CycleBlock& block, std::span<const NormalizedServo> servos) {
+  for (std::size_t row = 0; row < CycleBlock::rows; ++row) {
+    const NormalizedServo& servo = servos[std::min(row, servos.size() - 1)];
+    block.damping[row] = servo.damping;
+    block.inertia_ratio[row] = servo.inertia_ratio;
+    block.friction_ratio[row] = servo.friction_ratio;
+    block.backlash[row] = servo.backlash;
+  }
+}
+
+void write_row(const CycleColumns& cycles, std::size_t row, Verdict verdict, double growth_at_rest,
+               const LimitCycle& cycle) {
+  cycles.verdict[row] = verdict;
+  cycles.growth_at_rest[row] = growth_at_rest;
+  cycles.size[row] = cycle.size;
+  cycles.motor_size[row] = cycle.motor_size;
+  cycles.period[row] = cycle.period;
+  cycles.multiplier[row] = cycle.multiplier;
+  cycles.impact_speed[row] = cycle.impact_speed;
+  cycles.engaged_time[row] = cycle.engaged_time;
+  cycles.separated_time[row] = cycle.separated_time;
+  cycles.motor_friction_loss[row] = cycle.energy.motor_friction;
+  cycles.load_friction_loss[row] = cycle.energy.load_friction;
+  cycles.impact_loss[row] = cycle.energy.impacts;
+  cycles.residual[row] = cycle.residual;
+}
+
+void write_from_block(const CycleColumns& cycles, std::size_t row, const CycleBlock& block,
+                      std::size_t block_row) {
+  if (block.outcome[block_row] == CycleBlock::cannot_hunt) {
+    write_row(cycles, row, Verdict::cannot_hunt, block.growth_at_rest[block_row], LimitCycle{});
+    return;
+  }
+  cycles.verdict[row] = Verdict::hunts;
+  cycles.growth_at_rest[row] = block.growth_at_rest[block_row];
+  cycles.size[row] = block.size[block_row];
+  cycles.motor_size[row] = block.motor_size[block_row];
+  cycles.period[row] = block.engaged_time[block_row] + block.separated_time[block_row];
+  cycles.multiplier[row] = block.multiplier[block_row];
+  cycles.impact_speed[row] = block.impact_speed[block_row];
+  cycles.engaged_time[row] = block.engaged_time[block_row];
+  cycles.separated_time[row] = block.separated_time[block_row];
+  cycles.motor_friction_loss[row] = block.motor_friction_loss[block_row];
+  cycles.load_friction_loss[row] = block.load_friction_loss[block_row];
+  cycles.impact_loss[row] = block.impact_loss[block_row];
+  cycles.residual[row] = block.residual[block_row];
+}
+
+void solve_alone(const NormalizedServo& servo, const CycleColumns& cycles, std::size_t row) {
+  const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
+  const LimitCycle* cycle = largest_stable(analysis);
+  write_row(cycles, row, analysis.verdict, analysis.growth_at_rest,
+            cycle != nullptr ? *cycle : LimitCycle{});
+}
+
+bool for_kernel(const NormalizedServo& servo) {
+  return servo.restitution == 0.0 && servo.sensor == Sensor::load;
+}
+
+}  // namespace
+
+std::vector<VectorUnit> available_vector_units() {
+  std::vector<VectorUnit> units = {VectorUnit::baseline};
+#ifdef GEARLASH_X86_VECTOR_UNITS
+  // Not xsimd's own question: it asks the processor alone, not whether the operating system saves
+  // the registers.
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
+    units.push_back(VectorUnit::avx2);
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
+        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw")) {
+      units.push_back(VectorUnit::avx512);
+    }
+  }
+#endif
+  return units;
+}
+
+VectorUnit widest_vector_unit() {
+  static const VectorUnit widest = available_vector_units().back();
+  return widest;
+}
+
+const char* name_of(VectorUnit unit) {
+  switch (unit) {
+    case VectorUnit::baseline:
+      return "baseline";
+    case VectorUnit::avx2:
+      return "avx2";
+    case VectorUnit::avx512:
+      return "avx512";
+  }
+  return "";
+}
+
+BatchCount find_limit_cycles(std::span<const NormalizedServo> servos, const CycleColumns& cycles,
+                             VectorUnit unit) {
+  require_rows(cycles, servos.size());
+  const detail::CycleKernel solve = kernel_for(unit);
+  BatchCount count;
+  CycleBlock block;
+  for (std::size_t begin = 0; begin < servos.size(); begin += CycleBlock::rows) {
+    const std::size_t rows = std::min(CycleBlock::rows, servos.size() - begin);
+    load(block, servos.subspan(begin, rows));
+    solve(block, rows);
+    for (std::size_t row = 0; row < rows; ++row) {
+      const NormalizedServo& servo = servos[begin + row];
+      if (for_kernel(servo) && block.outcome[row] != CycleBlock::uncertain) {
+        write_from_block(cycles, begin + row, block, row);
+        ++count.side_by_side;
+      } else {
+        solve_alone(servo, cycles, begin + row);
+        ++count.one_by_one;
+      }
+    }
+  }
+  return count;
+}
+
+}  // namespace gearlash

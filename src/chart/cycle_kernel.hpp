@@ -1,0 +1,45 @@
+// What passes between the batch and its kernels: plain arrays, because the kernels' files are
+// compiled for other processors than the rest and may share no inline function with it.
+#pragma once
+
+#include <cstddef>
+
+namespace gearlash::detail {
+
+/// A block of servos, a column a quantity; a multiple of every vector's length.
+struct CycleBlock {
+  static constexpr std::size_t rows = 64;
+  using Column = double[rows];
+
+  alignas(64) Column damping;
+  alignas(64) Column inertia_ratio;
+  alignas(64) Column friction_ratio;
+  alignas(64) Column backlash;
+
+  alignas(64) Column outcome;  ///< of the values below
+  alignas(64) Column growth_at_rest;
+  alignas(64) Column size;
+  alignas(64) Column motor_size;
+  alignas(64) Column multiplier;
+  alignas(64) Column impact_speed;
+  alignas(64) Column engaged_time;
+  alignas(64) Column separated_time;
+  alignas(64) Column motor_friction_loss;
+  alignas(64) Column load_friction_loss;
+  alignas(64) Column impact_loss;
+  alignas(64) Column residual;
+
+  static constexpr double uncertain = 0.0;  ///< to be solved one by one
+  static constexpr double cannot_hunt = 1.0;
+  static constexpr double hunts = 2.0;
+};
+
+/// Solves the first rows of the block (and those that fill up the last vector). Plastic contact is
+/// taken for granted.
+using CycleKernel = void (*)(CycleBlock& block, std::size_t rows);
+
+void solve_block_baseline(CycleBlock& block, std::size_t rows);
+void solve_block_avx2(CycleBlock& block, std::size_t rows);
+void solve_block_avx512(CycleBlock& block, std::size_t rows);
+
+}  // namespace gearlash::detail

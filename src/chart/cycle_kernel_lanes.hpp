@@ -1,0 +1,447 @@
+// The limit cycles of one vector's length of servos, lane by lane the algebra of
+// half_cycle_algebra.
+//
+// Included by one file for each vector unit, compiled with that unit's instructions. So that no
+// code of theirs is called on a processor that lacks them, everything here is a template of the
+// unit, and no inline function of others that works on plain doubles is called.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <xsimd/xsimd.hpp>
+
+#include "cycle_kernel.hpp"
+#include "gearlash/cycle/half_cycle_algebra.hpp"
+
+namespace gearlash::detail {
+
+template <class Unit>
+using Lanes = xsimd::batch<double, Unit>;
+template <class Unit>
+using Mask = xsimd::batch_bool<double, Unit>;
+
+template <class Unit>
+bool none(const Mask<Unit>& mask) {
+  return !xsimd::any(mask);
+}
+
+/// Where a lane is finished or hopeless its value stays.
+template <class Unit>
+void assign_where(const Mask<Unit>& mask, Lanes<Unit>& to, const Lanes<Unit>& from) {
+  to = xsimd::select(mask, from, to);
+}
+
+/// exp[0, 0, −x] for x < 1, see decay_integral.hpp: even and odd terms apart.
+template <class Unit>
+Lanes<Unit> single_rate_series_lanes(const Lanes<Unit>& x) {
+  constexpr std::size_t terms = 18;
+  const Lanes<Unit> square = x * x;
+  Lanes<Unit> even = inverse_factorials[terms];
+  Lanes<Unit> odd = inverse_factorials[terms + 1];
+  for (std::size_t k = terms - 2; k > 0; k -= 2) {
+    even = inverse_factorials[k] + square * even;
+    odd = inverse_factorials[k + 1] + square * odd;
+  }
+  return even - x * odd;
+}
+
+/// exp[0, 0, −x, −y] for x ≤ y < 1: two interleaved sums, h_{k+2} = y² h_k + x^{k+1} (x + y).
+template <class Unit>
+Lanes<Unit> two_rate_series_lanes(const Lanes<Unit>& x, const Lanes<Unit>& y) {
+  constexpr std::size_t terms = 18;
+  const Lanes<Unit> x2 = x * x;
+  const Lanes<Unit> y2 = y * y;
+  Lanes<Unit> even = 1.0;
+  Lanes<Unit> odd = x + y;
+  Lanes<Unit> even_step = x * odd;
+  Lanes<Unit> odd_step = x2 * odd;
+  Lanes<Unit> even_sum = 0.0;
+  Lanes<Unit> odd_sum = 0.0;
+  for (std::size_t k = 0; k < terms; k += 2) {
+    even_sum = even_sum + even * inverse_factorials[k + 3];
+    odd_sum = odd_sum + odd * inverse_factorials[k + 4];
+    even = even_step + y2 * even;
+    odd = odd_step + y2 * odd;
+    even_step = even_step * x2;
+    odd_step = odd_step * x2;
+  }
+  return even_sum - odd_sum;
+}
+
+template <class Unit>
+BasicDecay<Lanes<Unit>> decay_lanes(const Lanes<Unit>& exponent) {
+  using Real = Lanes<Unit>;
+  const Mask<Unit> small = exponent < Real(series_limit);
+  BasicDecay<Real> result{exponent, 0.0, 0.0, 0.0};
+  if (xsimd::any(small)) {
+    result.double_integral = single_rate_series_lanes<Unit>(exponent);
+    result.integral = 1.0 - exponent * result.double_integral;
+    result.factor = 1.0 - exponent * result.integral;
+  }
+  if (!xsimd::all(small)) {
+    const Real inverse = 1.0 / exponent;
+    const Real factor = xsimd::exp(-exponent);
+    const Real integral = (1.0 - factor) * inverse;
+    assign_where<Unit>(!small, result.factor, factor);
+    assign_where<Unit>(!small, result.integral, integral);
+    assign_where<Unit>(!small, result.double_integral, (1.0 - integral) * inverse);
+  }
+  return result;
+}
+
+template <class Unit>
+BasicConvolution<Lanes<Unit>> convolution_lanes(const BasicDecay<Lanes<Unit>>& x,
+                                                const BasicDecay<Lanes<Unit>>& y) {
+  using Real = Lanes<Unit>;
+  const Mask<Unit> in_order = x.exponent <= y.exponent;
+  const auto slow = [&](Real BasicDecay<Real>::*part) {
+    return xsimd::select(in_order, x.*part, y.*part);
+  };
+  const auto fast = [&](Real BasicDecay<Real>::*part) {
+    return xsimd::select(in_order, y.*part, x.*part);
+  };
+  const Real slow_exponent = slow(&BasicDecay<Real>::exponent);
+  const Real slow_factor = slow(&BasicDecay<Real>::factor);
+  const Real slow_integral = slow(&BasicDecay<Real>::integral);
+  const Real slow_double_integral = slow(&BasicDecay<Real>::double_integral);
+  const Real fast_exponent = fast(&BasicDecay<Real>::exponent);
+  const Mask<Unit> small = fast_exponent < Real(series_limit);
+  BasicConvolution<Real> result{0.0, 0.0, 0.0};
+  if (xsimd::any(small)) {
+    result.double_integral = two_rate_series_lanes<Unit>(slow_exponent, fast_exponent);
+    result.integral = slow_double_integral - fast_exponent * result.double_integral;
+    result.value = slow_integral - fast_exponent * result.integral;
+  }
+  if (!xsimd::all(small)) {
+    const Real difference = fast_exponent - slow_exponent;
+    const Mask<Unit> apart = difference > Real(0.5);
+    const Real inverse = 1.0 / fast_exponent;
+    Real value = (slow_factor - fast(&BasicDecay<Real>::factor)) / difference;
+    if (!xsimd::all(apart)) {
+      const Real integral = 1.0 - difference * single_rate_series_lanes<Unit>(difference);
+      assign_where<Unit>(!apart, value, slow_factor * integral);
+    }
+    const Real integral = (slow_integral - value) * inverse;
+    assign_where<Unit>(!small, result.value, value);
+    assign_where<Unit>(!small, result.integral, integral);
+    assign_where<Unit>(!small, result.double_integral, (slow_double_integral - integral) * inverse);
+  }
+  return result;
+}
+
+template <class Unit>
+class CycleLanes {
+ public:
+  using Real = Lanes<Unit>;
+
+  static void solve(CycleBlock& block, std::size_t row) {
+    CycleLanes lanes(block, row);
+    lanes.find_growth_at_rest();
+    lanes.balance();
+    lanes.write_properties(block, row);
+  }
+
+ private:
+  using HalfCycle = BasicUnitHalfCycle<Real>;
+  using FlightPointLanes = BasicFlightPoint<Real>;
+
+  CycleLanes(const CycleBlock& block, std::size_t row) {
+    const Real inertia_ratio = Real::load_aligned(block.inertia_ratio + row);
+    const Real friction_ratio = Real::load_aligned(block.friction_ratio + row);
+    servo_.damping = Real::load_aligned(block.damping + row);
+    servo_.backlash = Real::load_aligned(block.backlash + row);
+    permitted_ = servo_.damping >= Real(1e-4) && servo_.damping <= Real(0.99) &&
+                 inertia_ratio >= Real(1e-4) && inertia_ratio <= Real(1e4) &&
+                 friction_ratio >= Real(1e-4) && friction_ratio <= Real(1.0 - 1e-4) &&
+                 servo_.backlash >= Real(1e-15) && servo_.backlash <= Real(1e6);
+    servo_.motor_inertia = 1.0 / (1.0 + inertia_ratio);
+    servo_.load_inertia = inertia_ratio / (1.0 + inertia_ratio);
+    servo_.motor_friction = 2.0 * servo_.damping * (1.0 - friction_ratio);
+    servo_.load_friction = 2.0 * servo_.damping * friction_ratio;
+    servo_.motor_rate = servo_.motor_friction / servo_.motor_inertia;
+    servo_.load_rate = servo_.load_friction / servo_.load_inertia;
+    servo_.torque_per_speed =
+        servo_.load_friction * servo_.motor_inertia - servo_.motor_friction * servo_.load_inertia;
+    const Real length = xsimd::sqrt(servo_.torque_per_speed * servo_.torque_per_speed +
+                                    servo_.load_inertia * servo_.load_inertia);
+    const Real inverse_length = 1.0 / length;
+    servo_.torque_free_line = {servo_.torque_per_speed * inverse_length,
+                               servo_.load_inertia * inverse_length};
+    frequency_ = xsimd::sqrt((1.0 - servo_.damping) * (1.0 + servo_.damping));
+    flight_ = clean_parting<Real>(servo_, servo_.torque_free_line.position,
+                                  servo_.torque_free_line.speed, 0.0);
+  }
+
+  /// first_zero() of engaged_flow.hpp below critical damping; 0 where the value is.
+  Real first_zero_after(const Real& value, const Real& slope) const {
+    const Real cosine_part = xsimd::copysign(Real(1.0), value) * -(slope + servo_.damping * value);
+    return xsimd::atan2(xsimd::abs(value) * frequency_, cosine_part) / frequency_;
+  }
+
+  Real parting_time(const Real& position, const Real& speed) const {
+    return first_zero_after(mesh_torque(servo_, position, speed),
+                            mesh_torque_rate(servo_, position, speed));
+  }
+
+  FlightPointLanes point_at(const Real& time) const {
+    const BasicDecay<Real> load = decay_lanes<Unit>(flight_.load_rate * time);
+    const BasicDecay<Real> motor = decay_lanes<Unit>(flight_.motor_rate * time);
+    const BasicFlightDecays<Real> decays{load, motor, convolution_lanes<Unit>(load, motor)};
+    return {motion_after(flight_, time, decays), displacement_after(flight_, time, decays)};
+  }
+
+  void find_growth_at_rest() {
+    const Real position = -1.0;
+    const Real contact_speed = 1.0 / servo_.motor_rate;
+    const Real engaged_time = parting_time(position, contact_speed);
+    const Real start = decaying_form(servo_.damping, position, contact_speed);
+    const Real rest =
+        servo_.torque_free_line.position + servo_.torque_free_line.speed / servo_.load_rate;
+    growth_ = xsimd::sqrt(start / start_form(servo_, flight_)) *
+              xsimd::exp(-servo_.damping * engaged_time) * xsimd::abs(rest);
+    permitted_ = permitted_ && xsimd::abs(growth_ - 1.0) > Real(1e-9);
+    sought_ = permitted_ && growth_ > Real(1.0);
+  }
+
+  HalfCycle half_cycle(const Real& time) const {
+    HalfCycle half = impact_at(servo_, flight_, time, point_at(time));
+    half.engaged_time = parting_time(half.load_position, half.common_speed);
+    half.log_growth = 0.5 * xsimd::log1p(half.form_change / start_form(servo_, flight_)) -
+                      servo_.damping * half.engaged_time;
+    return half;
+  }
+
+  void take_where(const Mask<Unit>& mask, const HalfCycle& from) {
+    assign_where<Unit>(mask, half_.flight_time, from.flight_time);
+    assign_where<Unit>(mask, half_.engaged_time, from.engaged_time);
+    assign_where<Unit>(mask, half_.load_moved, from.load_moved);
+    assign_where<Unit>(mask, half_.load_position, from.load_position);
+    assign_where<Unit>(mask, half_.load_speed, from.load_speed);
+    assign_where<Unit>(mask, half_.gap_displacement, from.gap_displacement);
+    assign_where<Unit>(mask, half_.gap_speed, from.gap_speed);
+    assign_where<Unit>(mask, half_.gap_acceleration, from.gap_acceleration);
+    assign_where<Unit>(mask, half_.common_speed, from.common_speed);
+    assign_where<Unit>(mask, half_.square_change, from.square_change);
+    assign_where<Unit>(mask, half_.form, from.form);
+    assign_where<Unit>(mask, half_.log_growth_slope, from.log_growth_slope);
+  }
+
+  /// The root of ln ρ = 0, which rises; a lane that has found it waits for the others unchanged.
+  void balance() {
+    constexpr int most_steps = 6;
+    found_ = sought_ && !sought_;
+    if (none<Unit>(sought_)) return;
+    const Real growth = xsimd::select(sought_, growth_, Real(2.0));
+    Real time = guessed_flight_time<Real>(servo_, xsimd::log(growth));
+    const Real fastest_rate =
+        xsimd::max(Real(1.0), xsimd::max(flight_.load_rate, flight_.motor_rate));
+    Mask<Unit> searching = sought_;
+    for (int count = 0; count < most_steps; ++count) {
+      const HalfCycle half = half_cycle(time);
+      const BasicArrivalRates<Real> rates = arrival_rates(servo_, flight_, half);
+      const Real step = balancing_step(half, rates);
+      const Real fastest = xsimd::max(fastest_rate, 1.0 / time);
+      const Mask<Unit> arrived = searching && xsimd::abs(step) * fastest <= Real(short_step);
+      if (xsimd::any(arrived)) {
+        const Real jerk = flight_.gap_drive * (half.load_speed / flight_.load_speed) -
+                          flight_.motor_rate * half.gap_acceleration;
+        const HalfCycle next = stepped(servo_, flight_, half, rates, jerk, step);
+        if (none<Unit>(found_)) {
+          half_ = next;
+        } else {
+          take_where(arrived, next);
+        }
+        found_ = found_ || arrived;
+      }
+      searching = searching && !arrived && xsimd::abs(step) < 0.5 * time;
+      if (none<Unit>(searching)) return;
+      assign_where<Unit>(searching, time, time + step);
+    }
+  }
+
+  /// As motor_turning_position() of plastic_cycle.cpp; `certain` loses the lanes whose turn is not
+  /// found.
+  Real motor_turning_position(Mask<Unit>& certain) const {
+    constexpr int most_steps = 4;
+    const Real motor_drive = 1.0 / servo_.motor_inertia;
+    const auto speed_at = [&](const Real& load_speed, const Real& gap_speed,
+                              const Real& gap_acceleration) {
+      return motor_speed_at(flight_, motor_drive, load_speed, gap_speed, gap_acceleration);
+    };
+    const auto at_start = speed_at(flight_.load_speed, 0.0, 0.0);
+    const auto at_end = speed_at(half_.load_speed, half_.gap_speed, half_.gap_acceleration);
+    const Mask<Unit> turns = found_ && at_end.speed.value < Real(0.0);
+    Real turning = flight_.load_position;
+    if (none<Unit>(turns)) return turning;
+    const Real end = half_.flight_time;
+    const Real tolerance = end * (0.01 / (1.0 + flight_.motor_rate * end));
+    Real near = quintic_root(at_start.speed, at_end.speed, end);
+    const Mask<Unit> inside = near > Real(0.0) && near < end;
+    near = xsimd::select(inside, near, 0.5 * end);
+    Mask<Unit> searching = turns;
+    for (int count = 0; count < most_steps; ++count) {
+      const FlightPointLanes point = point_at(near);
+      const auto here =
+          speed_at(point.motion.load_speed, point.motion.gap_speed, point.motion.gap_acceleration);
+      const Real step = newton_step(here.speed);
+      const Mask<Unit> arrived = searching && xsimd::abs(step) <= tolerance;
+      assign_where<Unit>(arrived, turning, position_at_turn(point, here));
+      searching = searching && !arrived && near + step > Real(0.0) && near + step < end;
+      if (none<Unit>(searching)) break;
+      assign_where<Unit>(searching, near, near + step);
+    }
+    certain = certain && (!turns || !xsimd::isnan(turning)) && !searching;
+    return turning;
+  }
+
+  /// F_M ∫ v_M² dt over the flight; `certain` loses the lanes where no form keeps its digits.
+  Real motor_friction_in_flight(Mask<Unit>& certain) const {
+    const Real slight = 0.1;
+    const Real time = half_.flight_time;
+    const Real load_decay = flight_.load_rate * time;
+    const Mask<Unit> coasting_motor = flight_.motor_rate * time <= slight;
+    const Mask<Unit> coasting_load = load_decay <= slight;
+    const MotorFrictionBalance<Real> balance(servo_, flight_, half_);
+    Real loss = balance.of_braked_load(flight_);
+    if (xsimd::any(coasting_load)) {
+      const BasicDecay<Real> once = decay_lanes<Unit>(load_decay);
+      const BasicDecay<Real> twice = decay_lanes<Unit>(2.0 * load_decay);
+      assign_where<Unit>(coasting_load, loss,
+                         balance.of_coasting_load(servo_, flight_, time, once,
+                                                  convolution_lanes<Unit>(once, twice)));
+    }
+    if (xsimd::any(found_ && coasting_motor)) {
+      assign_where<Unit>(coasting_motor, loss, friction_of_coasting_motor());
+      certain = certain && (!coasting_motor || load_decay <= Real(2.0));
+    }
+    return loss;
+  }
+
+  /// F_M ∫ v_M² dt of a flight no longer than two time constants of either shaft: Taylor's series
+  /// of v_M about the flight's middle (v̈ = −c v̇ − a, ȧ = −D a), squared and integrated by ten Gauss
+  /// points, which miss less than rounding.
+  Real friction_of_coasting_motor() const {
+    constexpr int terms = 20;
+    const Real middle = 0.5 * half_.flight_time;
+    const FlightPointLanes point = point_at(middle);
+    const BasicFlightMotion<Real>& motion = point.motion;
+    const Real motor_decay = flight_.motor_rate * middle;
+    const Real load_decay = flight_.load_rate * middle;
+    Real coefficients[terms];
+    coefficients[0] = motion.load_speed + motion.gap_speed;
+    coefficients[1] = middle * (motion.gap_acceleration - flight_.load_rate * motion.load_speed);
+    Real drive = middle * middle * motion.load_speed / servo_.motor_inertia;
+    for (int k = 0; k + 2 < terms; ++k) {
+      const double next = k + 1.0;
+      coefficients[k + 2] =
+          -(motor_decay * coefficients[k + 1] * next + drive) * (1.0 / (next * (next + 1.0)));
+      drive = -drive * load_decay * (1.0 / next);
+    }
+    // Gauss and Legendre's points and weights, n = 10 (Abramowitz & Stegun, table 25.4).
+    constexpr double points[] = {0.148874338981631211, 0.433395394129247191, 0.679409568299024406,
+                                 0.865063366688984511, 0.973906528517171720};
+    constexpr double weights[] = {0.295524224714752870, 0.269266719309996355, 0.219086362515982044,
+                                  0.149451349150580593, 0.066671344308688138};
+    Real sum = 0.0;
+    for (int node = 0; node < 5; ++node) {
+      const double square = points[node] * points[node];
+      Real even = coefficients[terms - 2];
+      Real odd = coefficients[terms - 1];
+      for (int k = terms - 4; k >= 0; k -= 2) {
+        even = coefficients[k] + square * even;
+        odd = coefficients[k + 1] + square * odd;
+      }
+      sum = sum + weights[node] * (even * even + square * odd * odd);
+    }
+    return servo_.motor_friction * half_.flight_time * sum;
+  }
+
+  /// As closing_error() of plastic_cycle.cpp, with the decay and the angle of the engaged motion.
+  Real closing_error(const Real& decay) const {
+    const auto [sine, cosine] = xsimd::sincos(frequency_ * half_.engaged_time);
+    const Real impulse = decay * sine / frequency_;
+    const Real even = decay * cosine;
+    const Real position =
+        half_.load_position * (even + servo_.damping * impulse) + half_.common_speed * impulse;
+    const Real speed =
+        half_.common_speed * (even - servo_.damping * impulse) - half_.load_position * impulse;
+    const Real scale =
+        xsimd::max(xsimd::abs(flight_.load_position), xsimd::abs(flight_.load_speed));
+    return xsimd::max(xsimd::abs(position + flight_.load_position),
+                      xsimd::abs(speed + flight_.load_speed)) /
+           scale;
+  }
+
+  void write_properties(CycleBlock& block, std::size_t row) const {
+    growth_.store_aligned(block.growth_at_rest + row);
+    const Real failed = xsimd::select(permitted_ && !sought_, Real(CycleBlock::cannot_hunt),
+                                      Real(CycleBlock::uncertain));
+    if (none<Unit>(found_)) {
+      failed.store_aligned(block.outcome + row);
+      return;
+    }
+    Mask<Unit> certain = found_;
+    const Real gap = -half_.gap_displacement;
+    const Real amplitude = servo_.backlash / gap;
+    const Real square = amplitude * amplitude;
+    const Real half_gap = 0.5 * gap;
+    const Real start = flight_.load_position;
+
+    const Real turning_time = first_zero_after(
+        half_.common_speed, -2.0 * servo_.damping * half_.common_speed - half_.load_position);
+    const Real turned = xsimd::copysign(
+        xsimd::sqrt(half_.form) * xsimd::exp(-servo_.damping * turning_time), half_.common_speed);
+    const Real turning =
+        xsimd::select(turning_time < half_.engaged_time, turned, half_.load_position);
+    const Real motor_turning = motor_turning_position(certain);
+    const Real size = xsimd::max(xsimd::abs(start),
+                                 xsimd::max(xsimd::abs(half_.load_position), xsimd::abs(turning)));
+    const Real motor_size = xsimd::max(
+        xsimd::max(xsimd::abs(start + half_gap), xsimd::abs(motor_turning + half_gap)),
+        xsimd::max(xsimd::abs(half_.load_position - half_gap), xsimd::abs(turning - half_gap)));
+
+    const Real engaged_loss = 0.5 * half_.square_change;
+    const Real load_share = servo_.load_friction / (servo_.load_friction + servo_.motor_friction);
+    const Real motor_loss = motor_friction_in_flight(certain) + (1.0 - load_share) * engaged_loss;
+    const Real load_loss =
+        load_friction_in_flight(servo_, flight_, half_) + load_share * engaged_loss;
+    const Real impact_loss =
+        servo_.motor_inertia * servo_.load_inertia * half_.gap_speed * half_.gap_speed;
+
+    const Real half_map_slope = 1.0 + gap * half_.log_growth_slope / half_.gap_speed;
+    const Real residual = closing_error(xsimd::exp(-servo_.damping * half_.engaged_time));
+    certain = certain && residual <= Real(1e-12) && half_.engaged_time > Real(0.0);
+
+    xsimd::select(certain, Real(CycleBlock::hunts), failed).store_aligned(block.outcome + row);
+    (amplitude * size).store_aligned(block.size + row);
+    (amplitude * motor_size).store_aligned(block.motor_size + row);
+    (half_map_slope * half_map_slope).store_aligned(block.multiplier + row);
+    (-amplitude * half_.gap_speed).store_aligned(block.impact_speed + row);
+    (2.0 * half_.engaged_time).store_aligned(block.engaged_time + row);
+    (2.0 * half_.flight_time).store_aligned(block.separated_time + row);
+    (2.0 * square * motor_loss).store_aligned(block.motor_friction_loss + row);
+    (2.0 * square * load_loss).store_aligned(block.load_friction_loss + row);
+    (square * impact_loss).store_aligned(block.impact_loss + row);
+    residual.store_aligned(block.residual + row);
+  }
+
+  BasicServoDynamics<Real> servo_;
+  BasicGapFlight<Real> flight_;
+  Real frequency_;
+  Mask<Unit> permitted_;  ///< within the kernel's ranges, and growth at rest not 1
+  Mask<Unit> sought_;     ///< permitted, and has a cycle
+  Mask<Unit> found_;      ///< sought, and the half cycle balances
+  Real growth_;
+  HalfCycle half_;
+};
+
+template <class Unit>
+void solve_block(CycleBlock& block, std::size_t rows) {
+  static_assert(CycleBlock::rows % Lanes<Unit>::size == 0);
+  for (std::size_t row = 0; row < rows; row += Lanes<Unit>::size) {
+    CycleLanes<Unit>::solve(block, row);
+  }
+}
+
+}  // namespace gearlash::detail
