@@ -130,6 +130,16 @@ BasicConvolution<Lanes<Unit>> convolution_lanes(const BasicDecay<Lanes<Unit>>& x
   return result;
 }
 
+/// Σ_k (−1)^k x^{2k}/(2k + parity)!: cos x, and sin x/x, by Taylor's series for |x| ≤ π/2. (xsimd's
+/// own sine calls, for large arguments, an inline function of doubles.)
+template <class Unit, std::size_t parity>
+Lanes<Unit> alternating_series_lanes(const Lanes<Unit>& square) {
+  constexpr std::size_t last = 24 + parity;
+  Lanes<Unit> sum = inverse_factorials[last];
+  for (std::size_t k = last; k >= 2; k -= 2) sum = inverse_factorials[k - 2] - square * sum;
+  return sum;
+}
+
 template <class Unit>
 class CycleLanes {
  public:
@@ -359,9 +369,11 @@ class CycleLanes {
 
   /// As closing_error() of plastic_cycle.cpp, with the decay and the angle of the engaged motion.
   Real closing_error(const Real& decay) const {
-    const auto [sine, cosine] = xsimd::sincos(frequency_ * half_.engaged_time);
-    const Real impulse = decay * sine / frequency_;
-    const Real even = decay * cosine;
+    // The angle is in (0, π]: sine and cosine of what it exceeds π/2 by.
+    const Real excess = frequency_ * half_.engaged_time - 0.5 * std::numbers::pi;
+    const Real square = excess * excess;
+    const Real impulse = decay * alternating_series_lanes<Unit, 0>(square) / frequency_;
+    const Real even = -decay * excess * alternating_series_lanes<Unit, 1>(square);
     const Real position =
         half_.load_position * (even + servo_.damping * impulse) + half_.common_speed * impulse;
     const Real speed =

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "exact_size.hpp"
+#include "exact_curve.hpp"
 
 namespace gearlash::heritage {
 namespace {

@@ -7,26 +7,31 @@
 #include <limits>
 #include <stdexcept>
 
-#include "exact_size.hpp"
+#include "exact_curve.hpp"
+#include "gearlash/cycle/limit_cycle.hpp"
 
 namespace gearlash::heritage {
 namespace {
 
 constexpr double charted_backlash = 0.3;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// NaN where there is no steady swing, or no such servo.
-double steady_size(const NormalizedServo& servo) {
-  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  return validate(servo).empty() ? exact_size(servo).value_or(nothing) : nothing;
-}
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 ChartCurve curve(std::string name, const std::vector<double>& places,
                  const std::function<NormalizedServo(double)>& servo_at) {
-  ChartCurve result;
-  result.name = std::move(name);
+  ExactCurve exact = exact_curve(places, servo_at);
+  return {.name = std::move(name), .line = std::move(exact.line), .ends = std::move(exact.ends)};
+}
+
+/// With bounces: steady swings as the line, the extent of those that do not repeat as marks.
+ChartCurve bouncing_curve(std::string name, const std::vector<double>& places,
+                          const std::function<NormalizedServo(double)>& servo_at) {
+  ChartCurve result{.name = std::move(name)};
   for (const double place : places) {
-    result.line.push_back({place, steady_size(servo_at(place))});
+    const LimitCycleAnalysis analysis = analyse_limit_cycles(servo_at(place));
+    const LimitCycle* cycle = largest_stable(analysis);
+    result.line.push_back({place, cycle != nullptr ? cycle->size : nothing});
+    if (cycle == nullptr) result.marks.push_back({place, analysis.irregular_size});
   }
   return result;
 }
@@ -53,8 +58,8 @@ Extension zero_friction_and_inertia() {
       .wish = "Extend the program to include the zero friction and zero inertia cases.",
       .lesson =
           "With friction all on one side the servo hunts whatever its inertias, at a friction "
-          "ratio "
-          "of 0 as of 1, and the lighter the load the more. A side without inertia takes no energy "
+          "ratio of 0 as of 1, and the lighter the load the more. A side without inertia takes no "
+          "energy "
           "at the impact; the servo hunts all the same, though with a motor without inertia the "
           "swing vanishes as the friction moves to the load. The size at a friction ratio of 0 is "
           "within four per cent of that at 0.04, which the thesis took for it.",
@@ -88,8 +93,8 @@ Extension wide_inertia_ratios() {
       .lesson =
           "Beyond a ratio of 30 the curves are flat: a heavier load neither calms the servo nor "
           "makes it worse, the motor's inertia then being negligible. Below 1/10 everything "
-          "depends "
-          "on damping: at 0.1 the servo swings by two to three times the backlash, from 0.4 on it "
+          "depends on damping: at 0.1 the servo swings by two to three times the backlash, from "
+          "0.4 on it "
           "comes to rest.",
       .chart = {.title = "Recommendation 3: inertia ratios from 1/1000 to 1000",
                 .subtitle = "friction ratio 0.2, backlash 0.3",
@@ -97,7 +102,8 @@ Extension wide_inertia_ratios() {
                       .logarithmic = true,
                       .low = 1e-3,
                       .high = 1e3},
-                .y = size_axis}};
+                .y = size_axis,
+                .end_meaning = "hunting ends"}};
   constexpr int dampings = 6;
   for (int tenth = 1; tenth <= dampings; ++tenth) {
     result.chart.curves.push_back(curve(fmt::format("damping 0.{}", tenth),
@@ -122,12 +128,14 @@ Extension elastic_contact(const std::function<void(double share)>& done) {
           "As restitution rises the swing becomes smaller on the whole, not larger. Up to a "
           "restitution of a half the plastic charts are right within five per cent, on the safe "
           "side. Beyond, steady swings end and begin again: where a curve is broken none was "
-          "found, "
-          "and the motion goes on without repeating.",
+          "found, and the motion goes on without repeating (marks, at half its extent).",
       .chart = {.title = "Recommendation 4: from plastic to elastic contact",
                 .subtitle = "friction ratio 0.1, inertia ratio 2, backlash 0.3",
                 .x = {.label = "restitution", .low = 0.0, .high = 1.0},
-                .y = size_axis}};
+                .y = size_axis,
+                .line_meaning = "steady swing",
+                .mark_meaning = "does not repeat: its extent",
+                .mark_size = 0.55}};
   constexpr std::array dampings = {0.1, 0.19, 0.3, 0.5};
   for (const double damping : dampings) {
     const auto servo_at = [damping](double restitution) {
@@ -138,7 +146,7 @@ Extension elastic_contact(const std::function<void(double share)>& done) {
                              .restitution = restitution};
     };
     result.chart.curves.push_back(
-        curve(fmt::format("damping {}", damping), evenly(0.0, 1.0, 51), servo_at));
+        bouncing_curve(fmt::format("damping {}", damping), evenly(0.0, 1.0, 51), servo_at));
     if (done) done(static_cast<double>(result.chart.curves.size()) / dampings.size());
   }
   return result;

@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "exact_size.hpp"
+#include "exact_curve.hpp"
 #include "gearlash/heritage/settled_cycle.hpp"
 #include "gearlash/motion/trajectory.hpp"
 
@@ -95,38 +95,6 @@ std::vector<double> places(const Figure& figure) {
   }
   result.back() = high;
   return result;
-}
-
-/// Where between two places the cycle begins or ends, by bisection; and its size on the hunting
-/// side.
-ChartPoint boundary(const Figure& figure, const FigureCurve& curve, double hunting, double quiet) {
-  constexpr int halvings = 60;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (hunting + quiet);
-    (exact_size(servo_at(figure, curve, middle)) ? hunting : quiet) = middle;
-  }
-  return {hunting, exact_size(servo_at(figure, curve, hunting)).value_or(0.0)};
-}
-
-void add_exact(const Figure& figure, const FigureCurve& curve, FigureCurveData& data) {
-  std::optional<double> before;
-  double place_before = 0.0;
-  bool first = true;
-  for (const double place : places(figure)) {
-    const bool no_gap = figure.along == Along::backlash && place == 0.0;
-    const std::optional<double> size =
-        no_gap ? std::optional(0.0) : exact_size(servo_at(figure, curve, place));
-    if (!first && !no_gap && size.has_value() != before.has_value() && place_before > 0.0) {
-      const ChartPoint end = size ? boundary(figure, curve, place, place_before)
-                                  : boundary(figure, curve, place_before, place);
-      data.boundaries.push_back(end);
-      data.exact.push_back(end);
-    }
-    data.exact.push_back({place, size.value_or(std::numeric_limits<double>::quiet_NaN())});
-    before = size;
-    place_before = place;
-    first = false;
-  }
 }
 
 ChartAxis axis_of(const Figure& figure) {
@@ -266,7 +234,10 @@ FigureCurveData work_out(const Figure& figure, const FigureCurve& curve,
     if (cycle.hunts) data.program.push_back({place, cycle.size});
     if (done) done(static_cast<double>(i + 1) / static_cast<double>(figure.grid.size()));
   }
-  add_exact(figure, curve, data);
+  const ExactCurve exact =
+      exact_curve(places(figure), [&](double place) { return servo_at(figure, curve, place); });
+  data.exact = exact.line;
+  data.boundaries = exact.ends;
   return data;
 }
 
@@ -282,7 +253,7 @@ LineChart chart_of(const Figure& figure, const std::vector<FigureCurveData>& dat
         std::any_of(data[i].exact.begin(), data[i].exact.end(),
                     [](const ChartPoint& point) { return point.x > 0.0 && !std::isnan(point.y); });
     ChartCurve curve;
-    curve.name = figure.curves[i].name + (hunts ? "" : ": no hunting");
+    curve.name = figure.curves[i].name + (hunts ? "" : ": rests");
     if (hunts) curve.line = data[i].exact;
     curve.marks = data[i].program;
     curve.ends = data[i].boundaries;

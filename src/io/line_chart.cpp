@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -33,6 +34,33 @@ std::string axis_text(char name, const ChartAxis& axis) {
                         axis.tics[i].second);
   }
   return text + ")\n";
+}
+
+/// The legend in as many columns as its longest name permits, and below the axis the room for its
+/// rows. Lengths in widths of a letter M, shares of the picture's height.
+std::string legend(const LineChart& chart, PictureFormat format) {
+  struct Page {
+    double width;
+    double axis;
+    double row;
+  };
+  const Page page = format == PictureFormat::svg   ? Page{54.0, 0.155, 0.039}
+                    : format == PictureFormat::png ? Page{75.0, 0.125, 0.027}
+                                                   : Page{46.0, 0.14, 0.037};
+  std::vector<std::string> names;
+  for (const ChartCurve& curve : chart.curves) names.push_back(curve.name);
+  for (const std::string& meaning : {chart.line_meaning, chart.mark_meaning, chart.end_meaning}) {
+    if (!meaning.empty()) names.push_back(meaning);
+  }
+  std::size_t longest = 0;
+  for (const std::string& name : names) longest = std::max(longest, name.size());
+  const double entry = 6.5 + 0.55 * static_cast<double>(longest);
+  const int columns = std::clamp(static_cast<int>(page.width / entry), 1, 4);
+  const int rows = (static_cast<int>(names.size()) + columns - 1) / columns;
+  return fmt::format(
+      "set bmargin screen {:.3f}\nset key at screen 0.54, 0.02 bottom center horizontal maxcols {} "
+      "Left reverse samplen 3 spacing 1.25\n",
+      page.axis + page.row * rows, columns);
 }
 
 DataBlock points(const std::string& name, const std::vector<ChartPoint>& data) {
@@ -73,11 +101,10 @@ std::string draw_line_chart(const LineChart& chart, PictureFormat format) {
                        quoted(chart.subtitle, "/*0.87") +
                        " at graph 0.5, screen 0.905 center\n"
                        "set tmargin screen 0.88\nset rmargin screen 0.97\n"
-                       "set key at screen 0.54, 0.02 bottom center horizontal maxcols 4 Left "
-                       "reverse samplen 3 spacing 1.25\n"
+                       "set offsets 0, 0, graph 0.02, 0\n"
                        "set grid linewidth 0.5 linecolor rgb '#c4c4c4'\n"
                        "set tics nomirror out\nset border linewidth 0.8\n";
-  script += axis_text('x', chart.x) + axis_text('y', chart.y);
+  script += legend(chart, format) + axis_text('x', chart.x) + axis_text('y', chart.y);
   std::vector<std::string> layers;
   for (std::size_t i = 0; i < chart.curves.size(); ++i) {
     const ChartCurve& curve = chart.curves[i];
