@@ -11,6 +11,7 @@
 #include "gearlash/heritage/chart_reading.hpp"
 #include "gearlash/heritage/extensions.hpp"
 #include "gearlash/heritage/figures.hpp"
+#include "gearlash/io/columns.hpp"
 #include "gearlash/io/output_file.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
@@ -216,8 +217,8 @@ void add_thesis_extension(CLI::App& thesis, Action& action) {
       const heritage::Extension extension = heritage::extension(
           std::stoi(options->number), [&](double share) { progress.show(share); });
       write_file(file, draw_line_chart(extension.chart, format));
-      write_file("-",
-                 fmt::format("{}. {}\n\n{}\n", extension.number, extension.wish, extension.lesson));
+      write_file("-", wrapped(fmt::format("{}. {}", extension.number, extension.wish)) + "\n" +
+                          wrapped(extension.lesson));
       return ExitStatus::done;
     };
   });

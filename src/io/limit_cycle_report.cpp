@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <sstream>
 #include <vector>
 
+#include "gearlash/io/columns.hpp"
 #include "json_values.hpp"
 
 namespace gearlash {
@@ -56,23 +56,16 @@ struct Row {
   std::string remark;
 };
 
-/// Columns of a terminal that the text takes: bytes that continue a UTF-8 character take none.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-  }));
-}
-
 std::string padded(const std::string& text, std::size_t columns) {
-  return text + std::string(columns - std::min(columns, width(text)), ' ');
+  return text + std::string(columns - std::min(columns, width_in_columns(text)), ' ');
 }
 
 std::string table(const std::vector<Row>& rows) {
   std::size_t name_width = 0;
   std::size_t value_width = 0;
   for (const Row& row : rows) {
-    name_width = std::max(name_width, width(row.name));
-    value_width = std::max(value_width, width(row.value));
+    name_width = std::max(name_width, width_in_columns(row.name));
+    value_width = std::max(value_width, width_in_columns(row.value));
   }
   std::string text;
   for (const Row& row : rows) {
@@ -275,22 +268,6 @@ std::string meaning(const LimitCycleReport& report) {
     default:
       return meaning_when_undecided(report.analysis);
   }
-}
-
-/// Lines of a paragraph, broken between words.
-std::string wrapped(const std::string& paragraph) {
-  constexpr std::size_t columns = 92;
-  std::string text;
-  std::string line;
-  std::istringstream words(paragraph);
-  for (std::string word; words >> word;) {
-    if (!line.empty() && width(line) + 1 + width(word) > columns) {
-      text += line + '\n';
-      line.clear();
-    }
-    line += (line.empty() ? "" : " ") + word;
-  }
-  return text + line + '\n';
 }
 
 // --- JSON ---

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "gearlash/io/columns.hpp"
 #include "gnuplot.hpp"
 #include "gnuplot_script.hpp"
 
@@ -53,7 +54,7 @@ std::string legend(const LineChart& chart, PictureFormat format) {
     if (!meaning.empty()) names.push_back(meaning);
   }
   std::size_t longest = 0;
-  for (const std::string& name : names) longest = std::max(longest, name.size());
+  for (const std::string& name : names) longest = std::max(longest, width_in_columns(name));
   const double entry = 6.5 + 0.55 * static_cast<double>(longest);
   const int columns = std::clamp(static_cast<int>(page.width / entry), 1, 4);
   const int rows = (static_cast<int>(names.size()) + columns - 1) / columns;

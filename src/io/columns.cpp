@@ -1,0 +1,29 @@
+#include "gearlash/io/columns.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+namespace gearlash {
+
+std::size_t width_in_columns(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+  }));
+}
+
+std::string wrapped(const std::string& paragraph) {
+  constexpr std::size_t columns = 92;
+  std::string text;
+  std::string line;
+  std::istringstream words(paragraph);
+  for (std::string word; words >> word;) {
+    if (!line.empty() && width_in_columns(line) + 1 + width_in_columns(word) > columns) {
+      text += line + '\n';
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  return text + line + '\n';
+}
+
+}  // namespace gearlash
