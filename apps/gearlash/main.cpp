@@ -82,9 +82,17 @@ void require_subcommand(const CLI::App& app, const std::string& typed,
 
 /// CLI11's own words, on one line, and where to find what is permitted.
 ExitStatus report_usage(const CLI::App& app, const CLI::ParseError& error) {
-  const auto chosen = app.get_subcommands();
-  const std::string name = chosen.empty() ? "" : " " + chosen.front()->get_name();
-  report_lines(shown(error.what(), 300) + "; see gearlash" + name + " --help");
+  std::string name = "gearlash";
+  for (auto chosen = app.get_subcommands(); !chosen.empty();
+       chosen = chosen.front()->get_subcommands()) {
+    name += " " + chosen.front()->get_name();
+  }
+  std::string fault = error.what();
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {  // CLI11 turns their order round
+    fault = "not expected:";
+    for (const std::string& word : app.remaining(true)) fault += " " + word;
+  }
+  report_lines(shown(fault, 300) + "; see " + name + " --help");
   return ExitStatus::bad_input;
 }
 

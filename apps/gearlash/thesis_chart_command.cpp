@@ -39,10 +39,15 @@ int read_figure_number(const std::string& text) {
   for (const int number : numbers) {
     if (text == std::to_string(number)) return number;
   }
-  throw InvalidInput(
-      {{"N", shown(text),
-        fmt::format("must be the number of a figure, {} to {}", numbers.front(), numbers.back()),
-        ""}});
+  std::string permitted = "must be the number of a figure:";
+  for (const int number : numbers) {
+    permitted += fmt::format("{} {}",
+                             number == numbers.front()  ? ""
+                             : number == numbers.back() ? " or"
+                                                        : ",",
+                             number);
+  }
+  throw InvalidInput({{"N", shown(text), permitted, ""}});
 }
 
 /// Works the figure out and draws it; `done` hears how far it is.
@@ -79,11 +84,14 @@ std::string chart_reading_text(const NormalizedServo& servo,
                       significant(servo.friction_ratio, 4));
   text += fmt::format("  2. The chart of the nearest friction ratio: figure {}, for {}\n",
                       reading.chart->figure, significant(reading.chart->friction_ratio, 2));
+  const auto read_text = [](double size) {
+    return size > 0.0 ? "at " + significant(size, 3) : std::string("not there (0)");
+  };
   text += fmt::format(
-      "  3. At inertia ratio {} its curve of damping {} is at {}, that of {} at {};\n"
+      "  3. At inertia ratio {} its curve of damping {} is {}, that of {} {};\n"
       "     between them at {}: ±{} rad for a backlash of 0.3 rad\n",
-      significant(servo.inertia_ratio, 4), reading.neighbours[0], significant(reading.read[0], 3),
-      reading.neighbours[1], significant(reading.read[1], 3), significant(servo.damping, 4),
+      significant(servo.inertia_ratio, 4), reading.neighbours[0], read_text(reading.read[0]),
+      reading.neighbours[1], read_text(reading.read[1]), significant(servo.damping, 4),
       significant(reading.chart_size, 3));
   text += fmt::format("  4. For this backlash: {} × {}/0.3 = ±{} rad\n",
                       significant(reading.chart_size, 3), significant(servo.backlash, 4),
@@ -93,8 +101,17 @@ std::string chart_reading_text(const NormalizedServo& servo,
     return text + fmt::format("\nExactly: no limit cycle, {}\n", name_of(exact.verdict));
   }
   const double size = exact.cycles.front().size;
-  return text + fmt::format("\nExactly: ±{} rad; reading the chart is off by {:+.1f} %\n",
-                            significant(size, 6), 100.0 * (reading.size / size - 1.0));
+  text += fmt::format("\nExactly: ±{} rad; reading the chart is off by {:+.1f} %\n",
+                      significant(size, 6), 100.0 * (reading.size / size - 1.0));
+  const auto error = heritage::reading_error(servo, reading);
+  if (!error) return text;
+  const auto row = [](const char* cause, double part) {
+    return fmt::format("  {:<56}{:+.1f} %\n", cause, 100.0 * part);
+  };
+  return text + row("another friction ratio than the chart's", error->friction_ratio) +
+         row("a straight line between the curves of two dampings", error->damping) +
+         row("curves drawn through five inertia ratios", error->inertia_ratio) +
+         row("the program's sizes", error->program);
 }
 
 // --- extensions ---

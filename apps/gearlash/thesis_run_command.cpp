@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "gearlash/heritage/chart_errors.hpp"
+#include "gearlash/heritage/mendings.hpp"
 #include "gearlash/heritage/settled_cycle.hpp"
 #include "gearlash/io/output_file.hpp"
 #include "servo_options.hpp"
@@ -22,14 +23,17 @@ constexpr char run_examples[] =
     "  gearlash thesis run --damping 0.19 --inertia-ratio 2 --friction-ratio 0.1\n"
     "  gearlash thesis run examples/elinco-fd162.toml\n"
     "  gearlash thesis run --all\n"
-    "  gearlash thesis run --all --machine\n";
+    "  gearlash thesis run --all --machine\n"
+    "  gearlash thesis run --causes\n";
 
 std::string run_text(const NormalizedServo& servo, const heritage::SettledCycle& cycle) {
   std::string text =
       fmt::format("The program of 1960, {} s of the servo's time in steps of 0.01 s (ω_n = 1):\n",
                   significant(cycle.run_time, 4));
-  if (!cycle.hunts) {
-    text += "  no limit cycle: the faces meet no more\n";
+  if (cycle.diverged) {
+    text += "  none: its step is too long for this servo, whose numbers grow without bound\n";
+  } else if (!cycle.hunts) {
+    text += "  no limit cycle: for 100 s the faces have not met\n";
   } else {
     text += fmt::format("  size    ±{} rad{}\n", significant(cycle.size, 5),
                         cycle.settled ? "" : ", still changing");
@@ -89,6 +93,35 @@ std::string errors_text(const std::vector<heritage::ChartError>& errors) {
                     sizes.back());
 }
 
+/// What each property of the program does to the size, in per cent.
+std::string causes_text() {
+  const std::vector<NormalizedServo> servos = {
+      {.damping = 0.1, .inertia_ratio = 1.0, .friction_ratio = 0.2, .backlash = 0.3},
+      {.damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3},
+      {.damping = 0.1, .inertia_ratio = 9.0, .friction_ratio = 0.1, .backlash = 0.3},
+      {.damping = 0.4, .inertia_ratio = 1.0, .friction_ratio = 0.6, .backlash = 0.3},
+      {.damping = 0.6, .inertia_ratio = 9.0, .friction_ratio = 1.0, .backlash = 0.3}};
+  const auto row = [&](const char* name, double NormalizedServo::*input) {
+    std::string text = fmt::format("  {:<54}", name);
+    for (const NormalizedServo& servo : servos) text += fmt::format("{:>7}", servo.*input);
+    return text + "\n";
+  };
+  std::string text = "Sizes of the program of 1960 against the exact ones, in per cent\n\n";
+  text += row("damping", &NormalizedServo::damping) +
+          row("inertia ratio", &NormalizedServo::inertia_ratio) +
+          row("friction ratio", &NormalizedServo::friction_ratio) + "\n";
+  for (const heritage::NamedMending& one : heritage::mendings()) {
+    text += fmt::format("  {:<54}", one.name);
+    for (const NormalizedServo& servo : servos) {
+      const double error = heritage::size_error(servo, one.mending);
+      text += std::isnan(error) ? fmt::format("{:>7}", "rests")
+                                : fmt::format("{:>+7.2f}", 100.0 * error);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
 /// All of the thesis's charts, by the port or by the emulated machine: what each of them gave, and
 /// what it took.
 struct AllRuns {
@@ -99,7 +132,12 @@ struct AllRuns {
 AllRuns run_all(bool on_machine) {
   Progress progress("Charts");
   const auto show = [&](double share) { progress.show(share); };
-  if (!on_machine) return {heritage::chart_errors(&heritage::run_until_settled, show), ""};
+  if (!on_machine) {
+    const auto run = [](const heritage::ProgramParameters& parameters) {
+      return heritage::run_until_settled(parameters);
+    };
+    return {heritage::chart_errors(run, show), ""};
+  }
   const auto start = std::chrono::steady_clock::now();
   std::size_t instructions = 0;
   const auto errors = heritage::chart_errors(
@@ -123,6 +161,7 @@ AllRuns run_all(bool on_machine) {
 struct RunOptions {
   ServoOptions servo;
   bool all = false;
+  bool causes = false;
   bool machine = false;
   std::string plot;
 };
@@ -136,6 +175,10 @@ ExitStatus run_program(const RunOptions& options) {
       write_file(options.plot, draw_cell_map(error_map(runs.errors), format));
     }
     write_file("-", errors_text(runs.errors) + runs.effort);
+    return ExitStatus::done;
+  }
+  if (options.causes) {
+    write_file("-", causes_text());
     return ExitStatus::done;
   }
   ServoOptions typed = options.servo;
@@ -158,14 +201,25 @@ void add_thesis_run(CLI::App& thesis, Action& action) {
   CLI::App* command = thesis.add_subcommand(
       "run", "the size that the program of 1960 finds for any servo, beside the exact one");
   add_servo_options(*command, options->servo);
-  command->add_flag("--all", options->all,
-                    "all servos of the thesis's charts, as a table of errors");
+  const std::vector<CLI::Option*> servo = command->get_options(
+      [&](const CLI::Option* option) { return option != command->get_help_ptr(); });
+  CLI::Option* all = command->add_flag("--all", options->all,
+                                       "all servos of the thesis's charts, as a table of errors");
   command
       ->add_option("--plot", options->plot,
                    "with --all, draw the errors as a map; FILE ends in\n.svg, .png or .pdf")
-      ->type_name("FILE");
-  command->add_flag("--machine", options->machine,
-                    "on the emulated CDC 1604 instead of by the port");
+      ->type_name("FILE")
+      ->needs(all);
+  CLI::Option* machine = command->add_flag("--machine", options->machine,
+                                           "on the emulated CDC 1604 instead of by the port");
+  CLI::Option* causes = command->add_flag(
+      "--causes", options->causes, "what each property of the program does to five of the sizes");
+  for (CLI::Option* option : servo) {
+    all->excludes(option);
+    causes->excludes(option);
+  }
+  causes->excludes(all);
+  causes->excludes(machine);
   command->footer(help_footer(run_examples));
   command->callback([options, &action] {
     action = [options](const Provenance&) { return run_program(*options); };

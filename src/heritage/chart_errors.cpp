@@ -53,10 +53,11 @@ std::vector<ChartError> chart_errors(
 
 CellMap error_map(const std::vector<ChartError>& errors) {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  constexpr double rests = std::numeric_limits<double>::infinity();
   constexpr double largest = 4.0;
   CellMap map{.title = "The charts of 1960 against the exact sizes",
               .subtitle =
-                  "error of the size in per cent; empty where the servo comes to rest, or "
+                  "error of the size in per cent; · where the servo comes to rest, empty where "
                   "the thesis has no point",
               .x_label = "inertia ratio",
               .y_label = "damping",
@@ -72,7 +73,7 @@ CellMap error_map(const std::vector<ChartError>& errors) {
       const auto column = static_cast<std::size_t>(
           std::find(inertia_ratios.begin(), inertia_ratios.end(), error.servo.inertia_ratio) -
           inertia_ratios.begin());
-      panel.values.at(row).at(column) = 100.0 * error.relative().value_or(nothing);
+      panel.values.at(row).at(column) = 100.0 * error.relative().value_or(rests);
     }
     map.panels.push_back(std::move(panel));
   }

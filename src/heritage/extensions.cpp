@@ -23,15 +23,22 @@ ChartCurve curve(std::string name, const std::vector<double>& places,
   return {.name = std::move(name), .line = std::move(exact.line), .ends = std::move(exact.ends)};
 }
 
-/// With bounces: steady swings as the line, the extent of those that do not repeat as marks.
+/// With bounces: steady swings as marks joined by a line, parted where one leaps to the next, and
+/// the extent of those that do not repeat as open circles.
 ChartCurve bouncing_curve(std::string name, const std::vector<double>& places,
                           const std::function<NormalizedServo(double)>& servo_at) {
+  constexpr double leap = 0.08;
   ChartCurve result{.name = std::move(name)};
+  double before = nothing;
   for (const double place : places) {
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servo_at(place));
     const LimitCycle* cycle = largest_stable(analysis);
-    result.line.push_back({place, cycle != nullptr ? cycle->size : nothing});
-    if (cycle == nullptr) result.marks.push_back({place, analysis.irregular_size});
+    const double size = cycle != nullptr ? cycle->size : nothing;
+    if (std::abs(size / before - 1.0) > leap) result.line.push_back({place, nothing});
+    result.line.push_back({place, size});
+    (cycle != nullptr ? result.marks : result.ends)
+        .push_back({place, cycle != nullptr ? size : analysis.irregular_size});
+    before = size;
   }
   return result;
 }
@@ -57,12 +64,12 @@ Extension zero_friction_and_inertia() {
       .number = 2,
       .wish = "Extend the program to include the zero friction and zero inertia cases.",
       .lesson =
-          "With friction all on one side the servo hunts whatever its inertias, at a friction "
-          "ratio of 0 as of 1, and the lighter the load the more. A side without inertia takes no "
-          "energy "
-          "at the impact; the servo hunts all the same, though with a motor without inertia the "
-          "swing vanishes as the friction moves to the load. The size at a friction ratio of 0 is "
-          "within four per cent of that at 0.04, which the thesis took for it.",
+          "With friction all on one side the servo hunts whatever its inertias, as long as both "
+          "sides have some; at this damping the lighter the load the more. At a friction ratio of "
+          "0 the size is, for the inertia ratios 1/4 to 4 drawn here, within four per cent of that "
+          "at 0.04, which the thesis took for it. A side without inertia takes no energy at the "
+          "impact; the servo hunts all the same. As the friction moves to the load the swing of a "
+          "motor without inertia vanishes, that of a load without inertia grows.",
       .chart = {.title = "Recommendation 2: zero friction and zero inertia",
                 .subtitle = "damping 0.2, backlash 0.3",
                 .x = {.label = "friction ratio, load friction to total friction",
@@ -91,11 +98,10 @@ Extension wide_inertia_ratios() {
       .number = 3,
       .wish = "Extend the program to include a larger range of inertia ratios.",
       .lesson =
-          "Beyond a ratio of 30 the curves are flat: a heavier load neither calms the servo nor "
-          "makes it worse, the motor's inertia then being negligible. Below 1/10 everything "
-          "depends on damping: at 0.1 the servo swings by two to three times the backlash, from "
-          "0.4 on it "
-          "comes to rest.",
+          "At a friction ratio of 0.2 the curves are flat beyond an inertia ratio of 30: for the "
+          "same damping coefficient a heavier load neither calms the servo nor makes it worse, the "
+          "motor's inertia then being negligible. Below 1/10 everything depends on damping: at 0.1 "
+          "the servo swings by two to three times the backlash, from 0.4 on it comes to rest.",
       .chart = {.title = "Recommendation 3: inertia ratios from 1/1000 to 1000",
                 .subtitle = "friction ratio 0.2, backlash 0.3",
                 .x = {.label = "inertia ratio, load to motor",
@@ -125,17 +131,21 @@ Extension elastic_contact(const std::function<void(double share)>& done) {
           "the \"lossy\" case for all types of contact between elastic contact and plastic "
           "contact.",
       .lesson =
-          "As restitution rises the swing becomes smaller on the whole, not larger. Up to a "
-          "restitution of a half the plastic charts are right within five per cent, on the safe "
-          "side. Beyond, steady swings end and begin again: where a curve is broken none was "
-          "found, and the motion goes on without repeating (marks, at half its extent).",
+          "For these servos the swing becomes smaller on the whole as restitution rises, and up to "
+          "a half the plastic charts are right within five per cent, on the safe side. Elsewhere "
+          "on "
+          "the charts a restitution of a half can take a third off the swing, add a half to it, or "
+          "keep it from repeating; up to a tenth they hold within one per cent. Beyond a half, "
+          "steady swings end and "
+          "begin again, and one gives way to another at a leap: where a curve is broken none was "
+          "found, and the motion goes on without repeating.",
       .chart = {.title = "Recommendation 4: from plastic to elastic contact",
                 .subtitle = "friction ratio 0.1, inertia ratio 2, backlash 0.3",
                 .x = {.label = "restitution", .low = 0.0, .high = 1.0},
                 .y = size_axis,
-                .line_meaning = "steady swing",
-                .mark_meaning = "does not repeat: its extent",
-                .mark_size = 0.55}};
+                .mark_meaning = "steady swing, the largest",
+                .end_meaning = "does not repeat: half its extent",
+                .mark_size = 0.3}};
   constexpr std::array dampings = {0.1, 0.19, 0.3, 0.5};
   for (const double damping : dampings) {
     const auto servo_at = [damping](double restitution) {

@@ -124,7 +124,8 @@ ChartAxis axis_of(const Figure& figure) {
 
 // --- phase trajectories ---
 
-PhaseFigure phase_figure(int number, double damping, double inertia_ratio, double friction_ratio) {
+PhaseFigure phase_figure(int number, double damping, double inertia_ratio, double friction_ratio,
+                         double mark_size) {
   constexpr double until = 25.0;
   return {number,
           fmt::format("Phase trajectory for J_L/J_M = {}, F_L/F_Total = {:.1f}, damping {:.1f} and "
@@ -135,7 +136,8 @@ PhaseFigure phase_figure(int number, double damping, double inertia_ratio, doubl
            .inertia_ratio = inertia_ratio,
            .friction_ratio = friction_ratio,
            .backlash = charted_backlash},
-          until};
+          until,
+          mark_size};
 }
 
 struct PhaseCurves {
@@ -173,7 +175,7 @@ void add_program(const PhaseFigure& figure, PhaseCurves& curves) {
   while (program.line().time < figure.until) {
     program.step([&](const PrintedLine& line) {
       curves.load.marks.push_back({line.load_position, line.load_speed});
-      if (!program.combined()) {
+      if (!program.combined() && !line.at_contact) {
         curves.motor.marks.push_back({line.motor_position, line.motor_speed});
       }
     });
@@ -184,8 +186,8 @@ void add_program(const PhaseFigure& figure, PhaseCurves& curves) {
 
 const std::vector<PhaseFigure>& thesis_phase_figures() {
   static const std::vector<PhaseFigure> figures = {
-      phase_figure(12, 0.1, 0.25, 0.2), phase_figure(13, 0.6, 4.0, 0.2),
-      phase_figure(14, 0.1, 1.0, 1.0), phase_figure(15, 0.2, 1.0, 1.0)};
+      phase_figure(12, 0.1, 0.25, 0.2, 0.45), phase_figure(13, 0.6, 4.0, 0.2, 0.2),
+      phase_figure(14, 0.1, 1.0, 1.0, 0.45), phase_figure(15, 0.2, 1.0, 1.0, 0.45)};
   return figures;
 }
 
@@ -200,7 +202,7 @@ LineChart chart_of(const PhaseFigure& figure) {
           .curves = {std::move(curves.load), std::move(curves.motor)},
           .line_meaning = "exact",
           .mark_meaning = "program of 1960",
-          .mark_size = 0.45};
+          .mark_size = figure.mark_size};
 }
 
 const std::vector<Figure>& thesis_figures() {
@@ -247,7 +249,9 @@ LineChart chart_of(const Figure& figure, const std::vector<FigureCurveData>& dat
                   .x = axis_of(figure),
                   .y = {.label = "size of limit cycle (rad)", .low = 0.0},
                   .line_meaning = "exact",
-                  .mark_meaning = "program of 1960"};
+                  .mark_meaning = "program of 1960",
+                  .mark_size = 0.65};
+  if (figure.along == Along::inertia_ratio) chart.y.high = 1.0;  // one scale for all design charts
   for (std::size_t i = 0; i < data.size(); ++i) {
     const bool hunts =
         std::any_of(data[i].exact.begin(), data[i].exact.end(),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include "gearlash/heritage/thesis_machine.hpp"
@@ -23,6 +24,8 @@ class Cycles {
   /// After each step: where the load is, and whether there has been a contact.
   void take(const PrintedLine& now, bool contact) {
     time_ = now.time;
+    motor_position_ = now.motor_position;
+    load_position_ = now.load_position;
     low_ = std::min(low_, now.load_position);
     high_ = std::max(high_, now.load_position);
     if (!contact) return;
@@ -33,6 +36,11 @@ class Cycles {
   }
 
   const std::vector<Cycle>& all() const { return cycles_; }
+  /// A servo at rest, hunting or swinging out stays within some backlashes and steps.
+  bool out_of_bounds() const {
+    constexpr double bound = 1e12;
+    return !(std::abs(motor_position_) < bound) || !(std::abs(load_position_) < bound);
+  }
   double last_contact() const { return last_contact_; }
   double time() const { return time_; }
 
@@ -41,6 +49,8 @@ class Cycles {
   std::size_t contacts_ = 0;
   double last_contact_ = 0.0;
   double time_ = 0.0;
+  double motor_position_ = 0.0;
+  double load_position_ = 0.0;
   double low_ = std::numeric_limits<double>::infinity();
   double high_ = -std::numeric_limits<double>::infinity();
 };
@@ -71,6 +81,7 @@ void describe(const std::vector<Cycle>& cycles, SettledCycle& result) {
   result.cycles = window;
 }
 
+/// step(cycles) goes on by one step; false where the arithmetic has come to its end.
 template <class Step>
 SettledCycle settle(const Step& step) {
   constexpr double longest_run = 20'000.0;
@@ -79,7 +90,8 @@ SettledCycle settle(const Step& step) {
   SettledCycle result;
   while (result.run_time < longest_run) {
     const std::size_t count = cycles.all().size();
-    step(cycles);
+    result.diverged = !step(cycles) || cycles.out_of_bounds();
+    if (result.diverged) return result;
     result.run_time = cycles.time();
     if (result.run_time - cycles.last_contact() > longest_quiet) {
       result.settled = true;
@@ -97,12 +109,13 @@ SettledCycle settle(const Step& step) {
 
 }  // namespace
 
-SettledCycle run_until_settled(const ProgramParameters& parameters) {
-  Program1960<double> program(parameters);
+SettledCycle run_until_settled(const ProgramParameters& parameters, const Mending& mending) {
+  Program1960<double> program(parameters, mending);
   return settle([&](Cycles& cycles) {
     bool contact = false;
     program.step([&](const PrintedLine& line) { contact = contact || line.at_contact; });
     cycles.take(program.line(), contact);
+    return true;
   });
 }
 
@@ -111,8 +124,13 @@ MachineRun run_machine_until_settled(const ProgramParameters& parameters) {
   machine.set(parameters);
   MachineRun run;
   run.cycle = settle([&](Cycles& cycles) {
-    const bool contact = machine.step();
-    cycles.take(machine.state(), contact);
+    try {
+      const bool contact = machine.step();
+      cycles.take(machine.state(), contact);
+      return true;
+    } catch (const std::overflow_error&) {  // the machine's exponent fault
+      return false;
+    }
   });
   run.instructions = machine.machine().registers().executed;
   return run;

@@ -18,17 +18,23 @@ std::string tics(char axis, const std::vector<std::string>& names) {
   return text + ") scale 0\n";
 }
 
-DataBlock cells_of(const CellPanel& panel, const std::string& name) {
-  DataBlock block(name);
+struct Cells {
+  DataBlock numbers;
+  DataBlock dots;
+};
+
+Cells cells_of(const CellPanel& panel, const std::string& name) {
+  Cells cells{DataBlock(name), DataBlock(name + "_dots")};
   for (std::size_t row = 0; row < panel.values.size(); ++row) {
     for (std::size_t column = 0; column < panel.values[row].size(); ++column) {
       const double value = panel.values[row][column];
-      if (!std::isnan(value)) {
-        block.row(static_cast<double>(column), static_cast<double>(row), value);
-      }
+      if (std::isnan(value)) continue;
+      const auto x = static_cast<double>(column);
+      const auto y = static_cast<double>(row);
+      std::isinf(value) ? cells.dots.row(x, y) : cells.numbers.row(x, y, value);
     }
   }
-  return block;
+  return cells;
 }
 
 }  // namespace
@@ -39,20 +45,24 @@ std::string draw_cell_map(const CellMap& map, PictureFormat format) {
   std::string plots;
   for (std::size_t i = 0; i < map.panels.size(); ++i) {
     const std::string name = fmt::format("panel{}", i);
-    const DataBlock cells = cells_of(map.panels[i], name);
-    data += cells.text();
+    const Cells cells = cells_of(map.panels[i], name);
+    data += cells.numbers.text() + cells.dots.text();
     plots += "set title " + quoted(map.panels[i].title) + " offset 0,-0.4\n";
     plots += i % panels_a_line == 0 ? "set ylabel " + quoted(map.y_label) + "\n" : "unset ylabel\n";
     plots += i + panels_a_line >= map.panels.size() ? "set xlabel " + quoted(map.x_label) + "\n"
                                                     : "unset xlabel\n";
-    // One dot outside keeps the axes where a panel has no cell at all.
-    plots += cells.is_empty()
-                 ? "plot 1/0 notitle\n"
-                 : fmt::format(
-                       "plot ${0} using 1:2:(0.48):(0.48):3 with boxxyerror fill solid "
-                       "noborder linecolor palette notitle, ${0} using "
-                       "1:2:(sprintf('{{/*0.7 %+.1f}}',$3)) with labels notitle\n",
-                       name);
+    std::vector<std::string> layers;
+    if (!cells.numbers.is_empty()) {
+      layers.push_back(fmt::format(
+          "${0} using 1:2:(0.48):(0.48):3 with boxxyerror fill solid noborder linecolor palette "
+          "notitle, ${0} using 1:2:(sprintf('{{/*0.7 %+.1f}}',$3)) with labels notitle",
+          name));
+    }
+    if (!cells.dots.is_empty()) {
+      layers.push_back(fmt::format("${}_dots using 1:2:('·') with labels notitle", name));
+    }
+    if (layers.empty()) layers.push_back("1/0 notitle");  // keeps the axes
+    plots += plot_command(layers);
   }
   std::string script = std::string(terminal(format)) + "unset bmargin\nset encoding utf8\n";
   script += fmt::format(

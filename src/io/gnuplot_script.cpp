@@ -1,17 +1,37 @@
 #include "gnuplot_script.hpp"
 
+#include <cctype>
 #include <string_view>
 
 namespace gearlash {
+namespace {
+
+/// How many letters from `place` on are a subscript: "n" after "ω_", or what follows a capital that
+/// stands by itself and "_", as in J_L and F_Total. None in names such as "my_servo".
+std::size_t subscript_length(const std::string& text, std::size_t place) {
+  const auto is_letter = [&](std::size_t i) {
+    return i < text.size() && std::isalpha(static_cast<unsigned char>(text[i])) != 0;
+  };
+  if (place < 2 || text[place - 1] != '_') return 0;
+  const bool after_omega = text.substr(0, place - 1).ends_with("ω");
+  const bool after_capital = std::isupper(static_cast<unsigned char>(text[place - 2])) != 0 &&
+                             (place == 2 || (text[place - 3] != '_' && !is_letter(place - 3)));
+  if (!after_omega && !after_capital) return 0;
+  std::size_t length = 0;
+  while (is_letter(place + length)) ++length;
+  return length;
+}
+
+}  // namespace
 
 std::string quoted(const std::string& text, const std::string& style) {
   std::string safe = style.empty() ? "'" : "'{" + style + " ";
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (static_cast<unsigned char>(c) < 0x20) continue;
-    if (text.compare(i, 2, "_n") == 0 && safe.ends_with("ω")) {
-      safe += "_{n}";
-      ++i;
+    if (const std::size_t length = subscript_length(text, i + 1); c == '_' && length > 0) {
+      safe += "_{" + text.substr(i + 1, length) + "}";
+      i += length;
       continue;
     }
     if (std::string_view("\\_^{}@&~").find(c) != std::string_view::npos) safe += '\\';

@@ -11,7 +11,7 @@
 namespace gearlash {
 
 /// gnuplot text in single quotes, wholly within `style` if there is one. Nothing in the text ends
-/// the quotes or is taken for markup, but that the n of ω_n is set low.
+/// the quotes or is taken for markup, but that the n of ω_n and the L of J_L are set low.
 std::string quoted(const std::string& text, const std::string& style = "");
 
 /// The kind of picture, its size, and the share of its height that axis and legend take.

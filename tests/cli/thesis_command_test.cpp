@@ -69,12 +69,55 @@ TEST(ThesisCommand, RunTellsWhatTheProgramWouldHaveGivenAndTheTruth) {
   EXPECT_THAT(run.out, HasSubstr("off by +2."));
 }
 
-TEST(ThesisCommand, RunSaysWhereTheFacesMeetNoMore) {
+TEST(ThesisCommand, RunSaysWhereTheFacesDoNotMeet) {
   const Outcome run = run_tool(
       {"thesis", "run", "--damping", "0.9", "--inertia-ratio", "1", "--friction-ratio", "0.5"});
   EXPECT_EQ(run.status, 0);
-  EXPECT_THAT(run.out, HasSubstr("the faces meet no more"));
+  EXPECT_THAT(run.out, HasSubstr("for 100 s the faces have not met"));
   EXPECT_THAT(run.out, HasSubstr("no limit cycle: cannot hunt"));
+}
+
+TEST(ThesisCommand, RunSaysWhereTheStepIsTooLong) {
+  for (const bool on_machine : {false, true}) {
+    std::vector<std::string> words = {"thesis",          "run",  "--damping",        "0.2",
+                                      "--inertia-ratio", "1000", "--friction-ratio", "0.2"};
+    if (on_machine) words.emplace_back("--machine");
+    const Outcome run = run_tool(words);
+    EXPECT_EQ(run.status, 1);
+    EXPECT_THAT(run.out, HasSubstr("its step is too long for this servo"));
+    EXPECT_THAT(run.out, HasSubstr("\n  size    ±0.129299"));
+    EXPECT_EQ(run.err, "");
+  }
+}
+
+TEST(ThesisCommand, WhatThePropertiesDo) {
+  const Outcome numbers = run_tool({"thesis", "table-2", "--properties"});
+  EXPECT_EQ(numbers.status, 0);
+  EXPECT_THAT(numbers.out,
+              HasSubstr("  as it was                                             188\n"));
+  EXPECT_THAT(numbers.out, HasSubstr("\n  1 mended: "));
+  const Outcome causes = run_tool({"thesis", "run", "--causes"});
+  EXPECT_EQ(causes.status, 0);
+  EXPECT_THAT(causes.out,
+              HasSubstr("\n  as it was                                               +2.80"));
+}
+
+TEST(ThesisCommand, OptionsThatWouldBeIgnoredAreRefused) {
+  const auto refused = [](const std::vector<std::string>& words, const std::string& text) {
+    const Outcome run = run_tool(words);
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(run.err, "gearlash: " + text + " --help\n");
+  };
+  refused({"thesis", "run", "--all", "--damping", "3"},
+          "--damping excludes --all; see gearlash thesis run");
+  refused({"thesis", "run", "--plot", "a.svg"}, "--plot requires --all; see gearlash thesis run");
+  refused({"thesis", "run", "--causes", "--machine"},
+          "--machine excludes --causes; see gearlash thesis run");
+  refused({"thesis", "machine", "--rules", "--listing"},
+          "--rules excludes --listing; see gearlash thesis machine");
+  refused({"thesis", "table-2", "--properties", "--arithmetic", "1604"},
+          "--arithmetic excludes --properties; see gearlash thesis table-2");
+  refused({"thesis", "run", "a.toml", "b", "c"}, "not expected: b c; see gearlash thesis run");
 }
 
 TEST(ThesisCommand, FiguresAreWritten) {
@@ -97,6 +140,11 @@ TEST(ThesisCommand, ChartReadingFollowsTheFourSteps) {
   EXPECT_EQ(run.status, 0);
   EXPECT_THAT(run.out, HasSubstr("figure 7, for 0.1\n"));
   EXPECT_THAT(run.out, HasSubstr("\nExactly: ±0.080537 rad; reading the chart is off by +"));
+  EXPECT_THAT(run.out, HasSubstr("\n  the program's sizes  "));
+  const Outcome resting = run_tool({"thesis", "chart-reading", "--damping", ".45",
+                                    "--inertia-ratio", "2", "--friction-ratio", ".4"});
+  EXPECT_EQ(resting.status, 0);
+  EXPECT_THAT(resting.out, HasSubstr("that of 0.5 not there (0);\n"));
   const Outcome outside = run_tool({"thesis", "chart-reading", "--damping", ".9", "--inertia-ratio",
                                     "20", "--friction-ratio", ".1"});
   EXPECT_EQ(outside.status, 2);
@@ -133,7 +181,10 @@ TEST(ThesisCommand, AllRunsAreComparedWithTheExactAnswer) {
 TEST(ThesisCommand, FiguresThereAre) {
   const Outcome run = run_tool({"thesis", "figure", "16"});
   EXPECT_EQ(run.status, 2);
-  EXPECT_EQ(run.err, "gearlash: N = 16: must be the number of a figure, 2 to 15\n");
+  EXPECT_EQ(
+      run.err,
+      "gearlash: N = 16: must be the number of a figure: 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, "
+      "14 or 15\n");
 }
 
 TEST(ThesisCommand, FaultsAreOneLine) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "gearlash/servo/normalized_servo.hpp"
@@ -29,9 +30,22 @@ struct ChartReading {
   double size = 0.0;                       ///< step 4: for the backlash given
 };
 
+/// Where a reading's error comes from: factors whose product is reading/exact, each less 1.
+struct ReadingError {
+  double friction_ratio = 0.0;  ///< the nearest chart's instead of the servo's
+  double damping = 0.0;         ///< a straight line between two curves
+  double inertia_ratio = 0.0;   ///< curves drawn through five points
+  double program = 0.0;         ///< the program's sizes at those points
+  double whole = 0.0;           ///< of all
+};
+
 /// Curves are drawn smoothly through the grid points over the logarithm of the inertia ratio, and
 /// between curves sizes are shared in proportion to damping. Throws InvalidInput for a damping
 /// outside 0.1 … 0.6 or an inertia ratio outside 1/9 … 9, which the charts do not have.
 ChartReading read_chart(const NormalizedServo& servo);
+
+/// Nothing where the servo, or its neighbours on the chart, do not hunt.
+std::optional<ReadingError> reading_error(const NormalizedServo& servo,
+                                          const ChartReading& reading);
 
 }  // namespace gearlash::heritage

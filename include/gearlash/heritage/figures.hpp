@@ -52,7 +52,8 @@ struct PhaseFigure {
   int number;
   std::string caption;
   NormalizedServo servo;
-  double until;  ///< s, ω_n = 1
+  double until;      ///< s, ω_n = 1
+  double mark_size;  ///< of the program's points, which lie close in a small cycle
 };
 
 const std::vector<PhaseFigure>& thesis_phase_figures();

@@ -46,8 +46,9 @@ void compare(const PrintedRow& printed, const PrintedRow& now, std::size_t line,
 
 /// The first lines that the program prints with these parameters.
 template <class Number>
-std::vector<PrintedLine> printout(const ProgramParameters& parameters, std::size_t lines) {
-  Program1960<Number> program(parameters);
+std::vector<PrintedLine> printout(const ProgramParameters& parameters, std::size_t lines,
+                                  const Mending& mending = {}) {
+  Program1960<Number> program(parameters, mending);
   std::vector<PrintedLine> printed;
   while (printed.size() < lines) {
     program.step([&](const PrintedLine& line) { printed.push_back(line); });

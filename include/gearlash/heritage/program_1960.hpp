@@ -19,6 +19,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
+#include <optional>
 
 #include "gearlash/servo/normalized_servo.hpp"
 
@@ -39,9 +41,23 @@ struct ProgramParameters {
 /// The parameters that stand in the listing, and that Table II was run with.
 inline constexpr ProgramParameters listed_parameters{};
 
-/// J_M + J_L = 1 and F_M + F_L = B, as the thesis scales every servo. Needs two masses and friction
-/// on the load (0 < inertia_ratio < ∞; the program divides by E). Throws InvalidInput otherwise.
+/// J_M + J_L = 1 and F_M + F_L = B, as the thesis scales every servo. Needs two masses
+/// (the program divides by E, its parameters by H) and plastic contact. Throws InvalidInput
+/// otherwise.
 ProgramParameters program_parameters(const NormalizedServo& servo);
+
+/// What a later hand could put right in the program, to see what each property does. As it was:
+/// nothing.
+struct Mending {
+  bool fresh_first_stage = false;        ///< 1: derivatives formed anew at the start of a step
+  bool load_derivative_its_own = false;  ///< 2: after RESET, of the load alone
+  bool shafts_together = false;          ///< 3: motor and load in one step in the gap
+  bool contact_interpolated = false;     ///< 4: back along the step to where the faces meet
+  bool new_position_at_contact = false;  ///< 4: in the motor's derivative
+  bool motor_position_in_gap = false;    ///< θ_M in the motor's equation, as section 2 writes it
+
+  bool operator==(const Mending&) const = default;
+};
 
 /// One line of the printout.
 struct PrintedLine {
@@ -56,8 +72,9 @@ struct PrintedLine {
 template <class Number>
 class Program1960 {
  public:
-  explicit Program1960(const ProgramParameters& parameters)
-      : friction_(parameters.friction),
+  explicit Program1960(const ProgramParameters& parameters, const Mending& mending = {})
+      : mending_(mending),
+        friction_(parameters.friction),
         load_rate_(parameters.load_rate),
         motor_inertia_(parameters.motor_inertia),
         motor_friction_(parameters.motor_friction),
@@ -96,11 +113,14 @@ class Program1960 {
 
   /// RUNGE: four stages, each from the derivatives as they stand (property 1).
   template <class Derivatives>
-  static void gill(Shaft& shaft, const Derivatives& derivatives) {
+  void gill(std::initializer_list<Shaft*> shafts, const Derivatives& derivatives) {
     static const Number step{0.01};
+    if (mending_.fresh_first_stage) derivatives();
     for (int stage = 0; stage < 4; ++stage) {
-      for (Variable* variable : {&shaft.speed, &shaft.position}) {
-        advance(*variable, step * variable->derivative, stage);
+      for (Shaft* shaft : shafts) {
+        for (Variable* variable : {&shaft->speed, &shaft->position}) {
+          advance(*variable, step * variable->derivative, stage);
+        }
       }
       derivatives();
     }
@@ -123,48 +143,87 @@ class Program1960 {
 
   template <class Print>
   void step_combined(const Print& print) {
-    reset_load();       // property 2
-    gill(motor_, [&] {  // DERC
+    reset_load();          // property 2
+    gill({&motor_}, [&] {  // DERC
       motor_.speed.derivative = -friction_ * motor_.speed.value - motor_.position.value + one_;
       motor_.position.derivative = motor_.speed.value;
     });
     advance_time();
-    step_load();
+    gill({&load_}, [&] { form_load_derivatives(); });
     count(print);
     if (is_ahead(load_.position.derivative - motor_.position.derivative)) combined_ = false;
   }
 
   template <class Print>
   void step_apart(const Print& print) {
-    gill(motor_, [&] {  // DERM; the load's position is that of the step before (property 3)
-      motor_.speed.derivative =
-          (-motor_friction_ * motor_.speed.value - load_.position.value + one_) / motor_inertia_;
-      motor_.position.derivative = motor_.speed.value;
-    });
-    advance_time();
-    step_load();
+    std::optional<Program1960> before;
+    if (mending_.contact_interpolated) before = *this;
+    if (mending_.shafts_together) {
+      gill({&motor_, &load_}, [&] {
+        form_motor_derivatives();
+        form_load_derivatives();
+      });
+      advance_time();
+    } else {
+      // The load's position is that of the step before (property 3).
+      gill({&motor_}, [&] { form_motor_derivatives(); });
+      advance_time();
+      gill({&load_}, [&] { form_load_derivatives(); });
+    }
     count(print);
-    const Number ahead = load_.position.value - motor_.position.value;  // TEST2, property 4
-    if (is_ahead(forward_ ? ahead - backlash_ : ahead + backlash_)) contact(print);
+    if (!is_ahead(beyond_face())) return;  // TEST2, property 4
+    if (before) go_back_to_contact(*before);
+    contact(print);
   }
 
-  void step_load() {
-    gill(load_, [&] {  // DERL
-      load_.speed.derivative = -load_rate_ * load_.speed.value;
-      load_.position.derivative = load_.speed.value;
-    });
+  /// DERM
+  void form_motor_derivatives() {
+    const Number& position =
+        mending_.motor_position_in_gap ? motor_.position.value : load_.position.value;
+    motor_.speed.derivative =
+        (-motor_friction_ * motor_.speed.value - position + one_) / motor_inertia_;
+    motor_.position.derivative = motor_.speed.value;
+  }
+
+  /// DERL
+  void form_load_derivatives() {
+    load_.speed.derivative = -load_rate_ * load_.speed.value;
+    load_.position.derivative = load_.speed.value;
+  }
+
+  /// How far the load is beyond the far face, with the sign of the direction.
+  Number beyond_face() const {
+    const Number ahead = load_.position.value - motor_.position.value;
+    return forward_ ? ahead - backlash_ : ahead + backlash_;
+  }
+
+  /// Along straight lines from the step before to where the faces meet.
+  void go_back_to_contact(const Program1960& before) {
+    const Number start = before.beyond_face();
+    const Number share = start / (start - beyond_face());
+    const auto go_back = [&](Number& value, const Number& from) {
+      value = from + share * (value - from);
+    };
+    go_back(motor_.speed.value, before.motor_.speed.value);
+    go_back(motor_.position.value, before.motor_.position.value);
+    go_back(load_.speed.value, before.load_.speed.value);
+    go_back(load_.position.value, before.load_.position.value);
+    go_back(time_, before.time_);
   }
 
   void reset_load() {
     load_ = motor_;
     load_.speed.correction = Number{0.0};
     load_.position.correction = Number{0.0};
+    if (mending_.load_derivative_its_own) form_load_derivatives();
   }
 
   template <class Print>
   void contact(const Print& print) {
     const Number speed = load_inertia_ * load_.speed.value + motor_inertia_ * motor_.speed.value;
-    motor_.speed = {-friction_ * speed - motor_.position.value + one_, speed, Number{0.0}};
+    const Number& position =
+        mending_.new_position_at_contact ? load_.position.value : motor_.position.value;
+    motor_.speed = {-friction_ * speed - position + one_, speed, Number{0.0}};
     motor_.position = {speed, load_.position.value, Number{0.0}};  // property 4
     load_.speed = {-load_rate_ * speed, speed, Number{0.0}};
     load_.position = {speed, load_.position.value, Number{0.0}};
@@ -192,6 +251,7 @@ class Program1960 {
     print(line());
   }
 
+  Mending mending_;
   Number friction_;
   Number load_rate_;
   Number motor_inertia_;

@@ -10,7 +10,8 @@ namespace gearlash::heritage {
 /// Of the load, from one contact on the same face to the next; rad, and s for ω_n = 1.
 struct SettledCycle {
   bool settled = false;   ///< false: still changing when the longest run was over
-  bool hunts = false;     ///< false: the faces met no more, the load came to rest
+  bool hunts = false;     ///< false: the faces did not meet for 100 s
+  bool diverged = false;  ///< the step is too long for this servo: the numbers grow without bound
   double size = 0.0;      ///< half peak-to-peak, mean of the last cycles
   double smallest = 0.0;  ///< of those cycles: on a grid of 0.01 s none is like the next
   double largest = 0.0;
@@ -21,8 +22,8 @@ struct SettledCycle {
 
 /// Runs the program, in double precision, until the mean size of twenty cycles differs from that of
 /// the twenty before by less than a thousandth, or the faces have not met for 100 s, or 20,000 s
-/// are over.
-SettledCycle run_until_settled(const ProgramParameters& parameters);
+/// are over, or the numbers exceed all bounds.
+SettledCycle run_until_settled(const ProgramParameters& parameters, const Mending& mending = {});
 
 /// The same by the emulated machine, in its own arithmetic; `instructions` counts what it executed.
 struct MachineRun {

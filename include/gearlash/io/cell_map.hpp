@@ -10,7 +10,8 @@ namespace gearlash {
 
 struct CellPanel {
   std::string title;
-  std::vector<std::vector<double>> values;  ///< [row][column], NaN leaves a cell empty
+  std::vector<std::vector<double>> values;  ///< [row][column]; NaN leaves a cell empty,
+                                            ///< infinity has a dot in place of a number
 };
 
 struct CellMap {
