@@ -1,20 +1,24 @@
 # What `cmake --install` lays down, so that another project can say
 #   find_package(gearlash 0.1 CONFIG REQUIRED)                  # the numerics; needs only Eigen
-#   find_package(gearlash 0.1 CONFIG REQUIRED COMPONENTS io)  # also the reader of data sheets
+#   find_package(gearlash 0.1 CONFIG REQUIRED COMPONENTS chart io)  # also many servos at once, and
+#                                                                   # the reader of data sheets
 #   target_link_libraries(... gearlash::gearlash)  # or ::servo, ::motion, ::cycle, ::chart, ::io
 
 include(CMakePackageConfigHelpers)
 set(gearlash_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/gearlash")
 
 set(layers servo motion cycle chart)
-install(TARGETS gearlash gearlash_servo gearlash_motion gearlash_cycle gearlash_chart
-        EXPORT gearlash_numerics)
+install(TARGETS gearlash gearlash_servo gearlash_motion gearlash_cycle EXPORT gearlash_numerics)
 install(EXPORT gearlash_numerics NAMESPACE gearlash:: FILE gearlashTargets.cmake
+        DESTINATION "${gearlash_package_dir}")
+
+# Sets of their own: users of the numerics alone need not have the packages that chart and io link.
+install(TARGETS gearlash_chart EXPORT gearlash_chart)
+install(EXPORT gearlash_chart NAMESPACE gearlash:: FILE gearlashChartTargets.cmake
         DESTINATION "${gearlash_package_dir}")
 
 if(GEARLASH_BUILD_IO)
   list(APPEND layers io)
-  # A set of its own: users of the numerics alone need not have the packages that io links.
   install(TARGETS gearlash_io EXPORT gearlash_io)
   install(EXPORT gearlash_io NAMESPACE gearlash:: FILE gearlashIoTargets.cmake
           DESTINATION "${gearlash_package_dir}")

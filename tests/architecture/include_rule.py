@@ -38,7 +38,8 @@ PERMITTED_LIBRARIES = {
 
 # What the public headers of the numerics may include: users of an installed Gearlash then need that
 # package too, and gearlashConfig.cmake must find it.
-PERMITTED_IN_PUBLIC_HEADERS = {"servo": (), "motion": (), "cycle": ("Eigen/",), "chart": ("Eigen/",)}
+PERMITTED_IN_PUBLIC_HEADERS = {"servo": (), "motion": (), "cycle": ("Eigen/",),
+                               "chart": ("Eigen/",)}
 
 PRINTS_OR_READS = {
     "iostream", "istream", "ostream", "fstream", "syncstream", "print", "cstdio", "stdio.h",

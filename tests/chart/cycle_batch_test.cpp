@@ -9,11 +9,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <stdexcept>
 
 #include "../servo/seeded_draws.hpp"
+#include "cycle_table.hpp"
 #include "gearlash/cycle/growth_at_rest.hpp"
 #include "gearlash/servo/range_check.hpp"
 
@@ -23,80 +23,30 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
-/// Columns of its own for each quantity, and the name of each.
-struct Table {
-  enum Column {
-    growth_at_rest,
-    size,
-    motor_size,
-    period,
-    multiplier,
-    impact_speed,
-    engaged_time,
-    separated_time,
-    motor_friction_loss,
-    load_friction_loss,
-    impact_loss,
-    residual,
-    column_count
-  };
-
-  explicit Table(std::size_t rows) : verdict(rows, Verdict::undecided) {
-    columns.fill(std::vector<double>(rows, -1.0));
-  }
-
-  CycleColumns spans() {
-    return {verdict,
-            columns[growth_at_rest],
-            columns[size],
-            columns[motor_size],
-            columns[period],
-            columns[multiplier],
-            columns[impact_speed],
-            columns[engaged_time],
-            columns[separated_time],
-            columns[motor_friction_loss],
-            columns[load_friction_loss],
-            columns[impact_loss],
-            columns[residual]};
-  }
-
-  std::vector<Verdict> verdict;
-  std::array<std::vector<double>, column_count> columns;
-};
-
-Table one_by_one(const std::vector<NormalizedServo>& servos) {
-  Table table(servos.size());
+CycleTable one_by_one(const std::vector<NormalizedServo>& servos) {
+  CycleTable table(servos.size());
   for (std::size_t row = 0; row < servos.size(); ++row) {
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servos[row]);
     const LimitCycle* found = largest_stable(analysis);
     const LimitCycle cycle = found != nullptr ? *found : LimitCycle{};
-    const std::array<double, Table::column_count> values = {analysis.growth_at_rest,
-                                                            cycle.size,
-                                                            cycle.motor_size,
-                                                            cycle.period,
-                                                            cycle.multiplier,
-                                                            cycle.impact_speed,
-                                                            cycle.engaged_time,
-                                                            cycle.separated_time,
-                                                            cycle.energy.motor_friction,
-                                                            cycle.energy.load_friction,
-                                                            cycle.energy.impacts,
-                                                            cycle.residual};
+    const std::array<double, CycleTable::column_count> values = {analysis.growth_at_rest,
+                                                                 cycle.size,
+                                                                 cycle.motor_size,
+                                                                 cycle.period,
+                                                                 cycle.multiplier,
+                                                                 cycle.impact_speed,
+                                                                 cycle.engaged_time,
+                                                                 cycle.separated_time,
+                                                                 cycle.energy.motor_friction,
+                                                                 cycle.energy.load_friction,
+                                                                 cycle.energy.impacts,
+                                                                 cycle.residual};
     table.verdict[row] = analysis.verdict;
     for (std::size_t column = 0; column < values.size(); ++column) {
-      table.columns[column][row] = values[column];
+      table.values[column][row] = values[column];
     }
   }
   return table;
-}
-
-bool same_bits(const Table& a, const Table& b, std::size_t row_in_a, std::size_t row_in_b) {
-  return a.verdict[row_in_a] == b.verdict[row_in_b] &&
-         std::equal(a.columns.begin(), a.columns.end(), b.columns.begin(),
-                    [&](const std::vector<double>& left, const std::vector<double>& right) {
-                      return std::memcmp(&left[row_in_a], &right[row_in_b], sizeof(double)) == 0;
-                    });
 }
 
 std::string described(const NormalizedServo& servo) {
@@ -108,27 +58,27 @@ std::string described(const NormalizedServo& servo) {
 /// The largest relative difference that the header states.
 double tolerance(std::size_t column) {
   switch (column) {
-    case Table::growth_at_rest:
-    case Table::engaged_time:
+    case CycleTable::growth_at_rest:
+    case CycleTable::engaged_time:
       return 2e-14;
-    case Table::motor_friction_loss:
+    case CycleTable::motor_friction_loss:
       return 5e-11;
     default:
       return 5e-13;
   }
 }
 
-void expect_near(const Table& batch, const Table& single,
+void expect_near(const CycleTable& batch, const CycleTable& single,
                  const std::vector<NormalizedServo>& servos) {
   for (std::size_t row = 0; row < servos.size(); ++row) {
     SCOPED_TRACE(described(servos[row]));
     ASSERT_EQ(batch.verdict[row], single.verdict[row]);
-    for (std::size_t column = 0; column < Table::column_count; ++column) {
-      const double value = batch.columns[column][row];
-      const double reference = single.columns[column][row];
+    for (std::size_t column = 0; column < CycleTable::column_count; ++column) {
+      const double value = batch.values[column][row];
+      const double reference = single.values[column][row];
       ASSERT_EQ(std::isnan(value), std::isnan(reference)) << "column " << column;
       if (std::isnan(value) || value == reference) continue;
-      const double scale = column == Table::residual ? 1.0 : std::abs(reference);
+      const double scale = column == CycleTable::residual ? 1.0 : std::abs(reference);
       ASSERT_NEAR(value, reference, tolerance(column) * scale) << "column " << column;
     }
   }
@@ -183,8 +133,8 @@ TEST_P(OracleCycleBatch, AgreesWithOneByOne) {
                            Kind{borderline_servo, 803, 0.1}}) {
     SCOPED_TRACE(kind.seed);
     const std::vector<NormalizedServo> servos = drawn(10'000, kind.seed, kind.draw);
-    Table table(servos.size());
-    const BatchCount count = find_limit_cycles(servos, table.spans(), GetParam());
+    CycleTable table(servos.size());
+    const BatchCount count = find_limit_cycles(servos, table.columns(), GetParam());
     EXPECT_EQ(count.side_by_side + count.one_by_one, servos.size());
     EXPECT_GT(static_cast<double>(count.side_by_side),
               kind.least_side_by_side * static_cast<double>(servos.size()));
@@ -197,33 +147,33 @@ TEST_P(OracleCycleBatch, FortyDigitNumbers) {
   const std::vector<NormalizedServo> servos = {
       {.damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3},
       {.damping = 0.1, .inertia_ratio = 0.25, .friction_ratio = 0.2, .backlash = 0.3}};
-  Table table(servos.size());
-  EXPECT_EQ(find_limit_cycles(servos, table.spans(), GetParam()).side_by_side, 2U);
-  EXPECT_NEAR(table.columns[Table::size][0], 0.241611108023074, 1e-14);
-  EXPECT_NEAR(table.columns[Table::period][0], 6.45620541393174, 1e-13);
-  EXPECT_NEAR(table.columns[Table::size][1], 0.791450654824151, 1e-14);
-  EXPECT_NEAR(table.columns[Table::period][1], 6.05991062080386, 1e-13);
+  CycleTable table(servos.size());
+  EXPECT_EQ(find_limit_cycles(servos, table.columns(), GetParam()).side_by_side, 2U);
+  EXPECT_NEAR(table.values[CycleTable::size][0], 0.241611108023074, 1e-14);
+  EXPECT_NEAR(table.values[CycleTable::period][0], 6.45620541393174, 1e-13);
+  EXPECT_NEAR(table.values[CycleTable::size][1], 0.791450654824151, 1e-14);
+  EXPECT_NEAR(table.values[CycleTable::period][1], 6.05991062080386, 1e-13);
 }
 
 TEST_P(OracleCycleBatch, AnswersDoNotDependOnNeighbours) {
   constexpr std::uint64_t seed = 804;
   SCOPED_TRACE(seed);
   const std::vector<NormalizedServo> servos = drawn(517, seed, any_servo);
-  Table together(servos.size());
-  find_limit_cycles(servos, together.spans(), GetParam());
+  CycleTable together(servos.size());
+  find_limit_cycles(servos, together.columns(), GetParam());
 
   std::vector<std::size_t> order(servos.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = 100 * i % order.size();  // 517 is 11·47
   std::vector<NormalizedServo> shuffled;
   for (const std::size_t i : order) shuffled.push_back(servos[i]);
-  Table apart(servos.size());
-  find_limit_cycles(shuffled, apart.spans(), GetParam());
+  CycleTable apart(servos.size());
+  find_limit_cycles(shuffled, apart.columns(), GetParam());
   for (std::size_t row = 0; row < order.size(); ++row) {
     ASSERT_TRUE(same_bits(apart, together, row, order[row])) << described(shuffled[row]);
   }
   for (std::size_t row = 0; row < servos.size(); row += 37) {
-    Table alone(1);
-    find_limit_cycles({&servos[row], 1}, alone.spans(), GetParam());
+    CycleTable alone(1);
+    find_limit_cycles({&servos[row], 1}, alone.columns(), GetParam());
     ASSERT_TRUE(same_bits(alone, together, 0, row)) << described(servos[row]);
   }
 }
@@ -234,10 +184,10 @@ TEST_P(OracleCycleBatch, GivesTheBaselinesBits) {
   std::vector<NormalizedServo> servos = drawn(5'000, seed, any_servo);
   const std::vector<NormalizedServo> drives = drawn(5'000, seed + 1, drive_servo);
   servos.insert(servos.end(), drives.begin(), drives.end());
-  Table wide(servos.size());
-  Table narrow(servos.size());
-  find_limit_cycles(servos, wide.spans(), GetParam());
-  find_limit_cycles(servos, narrow.spans(), VectorUnit::baseline);
+  CycleTable wide(servos.size());
+  CycleTable narrow(servos.size());
+  find_limit_cycles(servos, wide.columns(), GetParam());
+  find_limit_cycles(servos, narrow.columns(), VectorUnit::baseline);
   for (std::size_t row = 0; row < servos.size(); ++row) {
     ASSERT_TRUE(same_bits(wide, narrow, row, row)) << described(servos[row]);
   }
@@ -265,31 +215,31 @@ TEST(EdgeCycleBatch, ServosOutsideTheKernelAreSolvedOneByOne) {
        .friction_ratio = 0.5,
        .backlash = 0.3,
        .restitution = 0.4}};
-  Table table(servos.size());
-  const BatchCount count = find_limit_cycles(servos, table.spans());
+  CycleTable table(servos.size());
+  const BatchCount count = find_limit_cycles(servos, table.columns());
   EXPECT_EQ(count.side_by_side, 0U);
   EXPECT_EQ(count.one_by_one, servos.size());
-  const Table single = one_by_one(servos);
+  const CycleTable single = one_by_one(servos);
   for (std::size_t row = 0; row < servos.size(); ++row) {
     EXPECT_TRUE(same_bits(table, single, row, row)) << described(servos[row]);
   }
 }
 
 TEST(EdgeCycleBatch, NoServosAtAll) {
-  Table table(0);
-  const BatchCount count = find_limit_cycles({}, table.spans());
+  CycleTable table(0);
+  const BatchCount count = find_limit_cycles({}, table.columns());
   EXPECT_EQ(count.side_by_side + count.one_by_one, 0U);
 }
 
 TEST(EdgeCycleBatch, ServoThatCannotHuntHasNoCycle) {
   const std::vector<NormalizedServo> servos = {
       {.damping = 0.6, .inertia_ratio = 1.0, .friction_ratio = 0.5, .backlash = 0.3}};
-  Table table(1);
-  EXPECT_EQ(find_limit_cycles(servos, table.spans()).side_by_side, 1U);
+  CycleTable table(1);
+  EXPECT_EQ(find_limit_cycles(servos, table.columns()).side_by_side, 1U);
   EXPECT_EQ(table.verdict.front(), Verdict::cannot_hunt);
-  EXPECT_LT(table.columns[Table::growth_at_rest].front(), 1.0);
-  for (std::size_t column = Table::size; column < Table::column_count; ++column) {
-    EXPECT_TRUE(std::isnan(table.columns[column].front())) << "column " << column;
+  EXPECT_LT(table.values[CycleTable::growth_at_rest].front(), 1.0);
+  for (std::size_t column = CycleTable::size; column < CycleTable::column_count; ++column) {
+    EXPECT_TRUE(std::isnan(table.values[column].front())) << "column " << column;
   }
 }
 
@@ -297,12 +247,12 @@ TEST(EdgeCycleBatch, RefusesWhatItCannotDo) {
   std::vector<NormalizedServo> servos(70, {.damping = 0.1, .backlash = 0.3});
   servos[65].damping = not_known;
   servos[65].friction_ratio = 1.5;
-  Table table(servos.size());
-  EXPECT_THAT([&] { find_limit_cycles(servos, table.spans()); },
+  CycleTable table(servos.size());
+  EXPECT_THAT([&] { find_limit_cycles(servos, table.columns()); },
               testing::ThrowsMessage<InvalidInput>(testing::AllOf(
                   testing::HasSubstr("damping"), testing::HasSubstr("friction_ratio"))));
   servos[65] = servos[64];
-  CycleColumns columns = table.spans();
+  CycleColumns columns = table.columns();
   columns.impact_loss = columns.impact_loss.first(69);
   EXPECT_THAT([&] { find_limit_cycles(servos, columns); },
               testing::ThrowsMessage<std::invalid_argument>(

@@ -1,0 +1,153 @@
+#include "gearlash/chart/servo_grid.hpp"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "gearlash/servo/range_check.hpp"
+
+namespace gearlash {
+namespace {
+
+/// Points that a thread works out at a time: some tenths of a millisecond where nothing bounces,
+/// some tens of milliseconds where it does.
+std::size_t points_at_a_time(const ServoGrid& grid) {
+  const bool bounces = grid.servo.restitution != 0.0 ||
+                       std::any_of(grid.axes.begin(), grid.axes.end(), [](const Axis& axis) {
+                         return axis.input == Input::restitution;
+                       });
+  return bounces ? 8 : 4096;
+}
+
+CycleColumns rows_of(const CycleColumns& columns, std::size_t first, std::size_t count) {
+  const auto part = [&](auto column) { return column.subspan(first, count); };
+  return {.verdict = part(columns.verdict),
+          .growth_at_rest = part(columns.growth_at_rest),
+          .size = part(columns.size),
+          .motor_size = part(columns.motor_size),
+          .period = part(columns.period),
+          .multiplier = part(columns.multiplier),
+          .impact_speed = part(columns.impact_speed),
+          .engaged_time = part(columns.engaged_time),
+          .separated_time = part(columns.separated_time),
+          .motor_friction_loss = part(columns.motor_friction_loss),
+          .load_friction_loss = part(columns.load_friction_loss),
+          .impact_loss = part(columns.impact_loss),
+          .residual = part(columns.residual)};
+}
+
+void write_nothing_known(const CycleColumns& columns, std::size_t row) {
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  columns.verdict[row] = Verdict::undecided;
+  for (const auto& column :
+       {columns.growth_at_rest, columns.size, columns.motor_size, columns.period,
+        columns.multiplier, columns.impact_speed, columns.engaged_time, columns.separated_time,
+        columns.motor_friction_loss, columns.load_friction_loss, columns.impact_loss,
+        columns.residual}) {
+    column[row] = nothing;
+  }
+}
+
+GridCount evaluate_part(const ServoGrid& grid, std::size_t first, const CycleColumns& columns,
+                        VectorUnit unit) {
+  const NormalizedServo stand_in{.damping = 1.0};  // where a combination is no servo
+  std::vector<NormalizedServo> servos(columns.verdict.size());
+  std::vector<std::size_t> refused;
+  for (std::size_t row = 0; row < servos.size(); ++row) {
+    servos[row] = grid.at(first + row);
+    const double inertia_ratio = servos[row].inertia_ratio;
+    const bool two_masses = inertia_ratio > 0.0 && std::isfinite(inertia_ratio);
+    if (two_masses || validate(servos[row]).empty()) continue;  // all else the axes have settled
+    servos[row] = stand_in;
+    refused.push_back(row);
+  }
+  GridCount count;
+  count.solved = find_limit_cycles(servos, columns, unit);
+  count.solved.one_by_one -= refused.size();  // a servo without a gap is not for the lanes
+  count.refused = refused.size();
+  for (const std::size_t row : refused) write_nothing_known(columns, row);
+  return count;
+}
+
+}  // namespace
+
+std::size_t ServoGrid::size() const {
+  std::size_t points = 1;
+  for (const Axis& axis : axes) points *= axis.values.size();
+  return points;
+}
+
+NormalizedServo ServoGrid::at(std::size_t index) const {
+  NormalizedServo point = servo;
+  for (auto axis = axes.rbegin(); axis != axes.rend(); ++axis) {
+    point.*field_of(axis->input) = axis->values[index % axis->values.size()];
+    index /= axis->values.size();
+  }
+  return point;
+}
+
+std::vector<Violation> validate(const ServoGrid& grid, const std::vector<std::string>& fields) {
+  RangeCheck check;
+  double points = 1.0;
+  NormalizedServo sample = grid.servo;
+  for (std::size_t i = 0; i < grid.axes.size(); ++i) {
+    const Axis& axis = grid.axes[i];
+    check.include(validate(axis, fields.at(i)));
+    points *= static_cast<double>(axis.values.size());
+    for (std::size_t j = 0; j < i; ++j) {
+      if (grid.axes[j].input != axis.input) continue;
+      check.refuse(fields[i], name_of(axis.input),
+                   "must be another input than that of " + fields[j]);
+    }
+    sample.*field_of(axis.input) = NormalizedServo{}.*field_of(axis.input);
+  }
+  if (points > static_cast<double>(most_points_of_a_grid)) {
+    check.refuse("points", exact_text(points),
+                 "must be at most " + exact_text(static_cast<double>(most_points_of_a_grid)) +
+                     " on all axes together");
+  }
+  return check.include(validate(sample)).violations();
+}
+
+GridCount evaluate(const ServoGrid& grid, std::size_t first, std::size_t count,
+                   const CycleColumns& cycles, const GridEvaluation& how) {
+  const std::size_t part = points_at_a_time(grid);
+  GridCount total;
+  std::size_t done = 0;
+  std::mutex telling;
+  std::atomic<bool> stopped = false;
+  const auto work = [&](std::size_t index) {
+    if (stopped) return;
+    const std::size_t begin = index * part;
+    const std::size_t rows = std::min(part, count - begin);
+    const GridCount of_part =
+        evaluate_part(grid, first + begin, rows_of(cycles, begin, rows), how.unit);
+    const std::scoped_lock lock(telling);
+    total.solved.side_by_side += of_part.solved.side_by_side;
+    total.solved.one_by_one += of_part.solved.one_by_one;
+    total.refused += of_part.refused;
+    done += rows;
+    if (how.going_on && !stopped && !how.going_on(done)) stopped = true;
+  };
+  const auto threads =
+      how.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(how.threads);
+  std::optional<tbb::global_control> more_than_cores;
+  if (how.threads > 0) {
+    more_than_cores.emplace(tbb::global_control::max_allowed_parallelism, how.threads);
+  }
+  tbb::task_arena arena(threads);
+  arena.execute(
+      [&] { tbb::parallel_for(std::size_t{0}, (count + part - 1) / part, std::size_t{1}, work); });
+  total.stopped = stopped && done < count;
+  return total;
+}
+
+}  // namespace gearlash
