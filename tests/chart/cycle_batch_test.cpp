@@ -13,9 +13,9 @@
 #include <stdexcept>
 
 #include "../servo/seeded_draws.hpp"
-#include "cycle_table.hpp"
 #include "gearlash/cycle/growth_at_rest.hpp"
 #include "gearlash/servo/range_check.hpp"
+#include "same_bits.hpp"
 
 namespace gearlash {
 namespace {
@@ -29,18 +29,18 @@ CycleTable one_by_one(const std::vector<NormalizedServo>& servos) {
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servos[row]);
     const LimitCycle* found = largest_stable(analysis);
     const LimitCycle cycle = found != nullptr ? *found : LimitCycle{};
-    const std::array<double, CycleTable::column_count> values = {analysis.growth_at_rest,
-                                                                 cycle.size,
-                                                                 cycle.motor_size,
-                                                                 cycle.period,
-                                                                 cycle.multiplier,
-                                                                 cycle.impact_speed,
-                                                                 cycle.engaged_time,
-                                                                 cycle.separated_time,
-                                                                 cycle.energy.motor_friction,
-                                                                 cycle.energy.load_friction,
-                                                                 cycle.energy.impacts,
-                                                                 cycle.residual};
+    const std::array<double, quantity_count> values = {analysis.growth_at_rest,
+                                                       cycle.size,
+                                                       cycle.motor_size,
+                                                       cycle.period,
+                                                       cycle.multiplier,
+                                                       cycle.impact_speed,
+                                                       cycle.engaged_time,
+                                                       cycle.separated_time,
+                                                       cycle.energy.motor_friction,
+                                                       cycle.energy.load_friction,
+                                                       cycle.energy.impacts,
+                                                       cycle.residual};
     table.verdict[row] = analysis.verdict;
     for (std::size_t column = 0; column < values.size(); ++column) {
       table.values[column][row] = values[column];
@@ -56,12 +56,12 @@ std::string described(const NormalizedServo& servo) {
 }
 
 /// The largest relative difference that the header states.
-double tolerance(std::size_t column) {
-  switch (column) {
-    case CycleTable::growth_at_rest:
-    case CycleTable::engaged_time:
+double tolerance(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::growth_at_rest:
+    case Quantity::engaged_time:
       return 2e-14;
-    case CycleTable::motor_friction_loss:
+    case Quantity::motor_friction_loss:
       return 5e-11;
     default:
       return 5e-13;
@@ -73,13 +73,13 @@ void expect_near(const CycleTable& batch, const CycleTable& single,
   for (std::size_t row = 0; row < servos.size(); ++row) {
     SCOPED_TRACE(described(servos[row]));
     ASSERT_EQ(batch.verdict[row], single.verdict[row]);
-    for (std::size_t column = 0; column < CycleTable::column_count; ++column) {
-      const double value = batch.values[column][row];
-      const double reference = single.values[column][row];
-      ASSERT_EQ(std::isnan(value), std::isnan(reference)) << "column " << column;
+    for (const Quantity quantity : all_quantities) {
+      const double value = batch[quantity][row];
+      const double reference = single[quantity][row];
+      ASSERT_EQ(std::isnan(value), std::isnan(reference)) << name_of(quantity);
       if (std::isnan(value) || value == reference) continue;
-      const double scale = column == CycleTable::residual ? 1.0 : std::abs(reference);
-      ASSERT_NEAR(value, reference, tolerance(column) * scale) << "column " << column;
+      const double scale = quantity == Quantity::residual ? 1.0 : std::abs(reference);
+      ASSERT_NEAR(value, reference, tolerance(quantity) * scale) << name_of(quantity);
     }
   }
 }
@@ -149,10 +149,10 @@ TEST_P(OracleCycleBatch, FortyDigitNumbers) {
       {.damping = 0.1, .inertia_ratio = 0.25, .friction_ratio = 0.2, .backlash = 0.3}};
   CycleTable table(servos.size());
   EXPECT_EQ(find_limit_cycles(servos, table.columns(), GetParam()).side_by_side, 2U);
-  EXPECT_NEAR(table.values[CycleTable::size][0], 0.241611108023074, 1e-14);
-  EXPECT_NEAR(table.values[CycleTable::period][0], 6.45620541393174, 1e-13);
-  EXPECT_NEAR(table.values[CycleTable::size][1], 0.791450654824151, 1e-14);
-  EXPECT_NEAR(table.values[CycleTable::period][1], 6.05991062080386, 1e-13);
+  EXPECT_NEAR(table[Quantity::size][0], 0.241611108023074, 1e-14);
+  EXPECT_NEAR(table[Quantity::period][0], 6.45620541393174, 1e-13);
+  EXPECT_NEAR(table[Quantity::size][1], 0.791450654824151, 1e-14);
+  EXPECT_NEAR(table[Quantity::period][1], 6.05991062080386, 1e-13);
 }
 
 TEST_P(OracleCycleBatch, AnswersDoNotDependOnNeighbours) {
@@ -237,9 +237,9 @@ TEST(EdgeCycleBatch, ServoThatCannotHuntHasNoCycle) {
   CycleTable table(1);
   EXPECT_EQ(find_limit_cycles(servos, table.columns()).side_by_side, 1U);
   EXPECT_EQ(table.verdict.front(), Verdict::cannot_hunt);
-  EXPECT_LT(table.values[CycleTable::growth_at_rest].front(), 1.0);
-  for (std::size_t column = CycleTable::size; column < CycleTable::column_count; ++column) {
-    EXPECT_TRUE(std::isnan(table.values[column].front())) << "column " << column;
+  EXPECT_LT(table[Quantity::growth_at_rest].front(), 1.0);
+  for (const Quantity quantity : all_quantities) {
+    EXPECT_EQ(std::isnan(table[quantity].front()), quantity != Quantity::growth_at_rest);
   }
 }
 

@@ -1,0 +1,60 @@
+// Columns of limit cycles with memory of their own, and what each of them is called.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "gearlash/chart/cycle_batch.hpp"
+
+namespace gearlash {
+
+/// The columns of numbers; angles in rad at the load, times in units of 1/ω_n, speeds in rad ω_n,
+/// energies in K rad².
+enum class Quantity {
+  growth_at_rest,
+  size,
+  motor_size,
+  period,
+  multiplier,
+  impact_speed,
+  engaged_time,
+  separated_time,
+  motor_friction_loss,
+  load_friction_loss,
+  impact_loss,
+  residual
+};
+inline constexpr std::size_t quantity_count = 12;
+inline constexpr std::array<Quantity, quantity_count> all_quantities = {
+    Quantity::growth_at_rest,      Quantity::size,
+    Quantity::motor_size,          Quantity::period,
+    Quantity::multiplier,          Quantity::impact_speed,
+    Quantity::engaged_time,        Quantity::separated_time,
+    Quantity::motor_friction_loss, Quantity::load_friction_loss,
+    Quantity::impact_loss,         Quantity::residual};
+
+/// "growth_at_rest", "size", …
+const char* name_of(Quantity quantity);
+std::optional<Quantity> quantity_named(std::string_view name);
+/// What it is, in words: "size of limit cycle (half peak-to-peak of the load)".
+const char* description_of(Quantity quantity);
+/// "rad", "1", "1/omega_n", "rad omega_n", "K rad2".
+const char* unit_of(Quantity quantity);
+
+struct CycleTable {
+  explicit CycleTable(std::size_t rows = 0);
+
+  CycleColumns columns();
+  std::size_t rows() const { return verdict.size(); }
+  const std::vector<double>& operator[](Quantity quantity) const {
+    return values[static_cast<std::size_t>(quantity)];
+  }
+
+  std::vector<Verdict> verdict;
+  std::array<std::vector<double>, quantity_count> values;  ///< by Quantity
+};
+
+}  // namespace gearlash

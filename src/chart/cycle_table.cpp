@@ -1,0 +1,71 @@
+#include "gearlash/chart/cycle_table.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+namespace gearlash {
+namespace {
+
+struct Naming {
+  const char* name;
+  const char* description;
+  const char* unit;
+};
+
+/// By Quantity.
+constexpr std::array<Naming, quantity_count> namings = {
+    {{"growth_at_rest", "growth at rest: the servo hunts when it exceeds 1", "1"},
+     {"size", "size of limit cycle: half peak-to-peak of the load", "rad"},
+     {"motor_size", "half peak-to-peak of the motor, at the load shaft", "rad"},
+     {"period", "period of the limit cycle", "1/omega_n"},
+     {"multiplier", "Floquet multiplier over a period", "1"},
+     {"impact_speed", "relative speed before the hardest impact", "rad omega_n"},
+     {"engaged_time", "time with the faces engaged, of a period", "1/omega_n"},
+     {"separated_time", "time with the faces apart, of a period", "1/omega_n"},
+     {"motor_friction_loss", "energy lost in the motor's friction over a period", "K rad2"},
+     {"load_friction_loss", "energy lost in the load's friction over a period", "K rad2"},
+     {"impact_loss", "energy lost at impacts over a period", "K rad2"},
+     {"residual", "relative mismatch of the state after one cycle", "1"}}};
+
+const Naming& naming_of(Quantity quantity) { return namings[static_cast<std::size_t>(quantity)]; }
+
+}  // namespace
+
+const char* name_of(Quantity quantity) { return naming_of(quantity).name; }
+const char* description_of(Quantity quantity) { return naming_of(quantity).description; }
+const char* unit_of(Quantity quantity) { return naming_of(quantity).unit; }
+
+std::optional<Quantity> quantity_named(std::string_view name) {
+  std::string underscored(name);
+  std::replace(underscored.begin(), underscored.end(), '-', '_');
+  for (const Quantity quantity : all_quantities) {
+    if (underscored == name_of(quantity)) return quantity;
+  }
+  return std::nullopt;
+}
+
+CycleTable::CycleTable(std::size_t rows) : verdict(rows, Verdict::undecided) {
+  values.fill(std::vector<double>(rows, std::numeric_limits<double>::quiet_NaN()));
+}
+
+CycleColumns CycleTable::columns() {
+  const auto column = [&](Quantity quantity) {
+    return std::span<double>(values[static_cast<std::size_t>(quantity)]);
+  };
+  return {.verdict = verdict,
+          .growth_at_rest = column(Quantity::growth_at_rest),
+          .size = column(Quantity::size),
+          .motor_size = column(Quantity::motor_size),
+          .period = column(Quantity::period),
+          .multiplier = column(Quantity::multiplier),
+          .impact_speed = column(Quantity::impact_speed),
+          .engaged_time = column(Quantity::engaged_time),
+          .separated_time = column(Quantity::separated_time),
+          .motor_friction_loss = column(Quantity::motor_friction_loss),
+          .load_friction_loss = column(Quantity::load_friction_loss),
+          .impact_loss = column(Quantity::impact_loss),
+          .residual = column(Quantity::residual)};
+}
+
+}  // namespace gearlash
