@@ -26,12 +26,6 @@ constexpr NumberOption number_options[] = {
     {"backlash", &ServoOptions::backlash, &NormalizedServo::backlash, true},
     {"restitution", &ServoOptions::restitution, &NormalizedServo::restitution, false}};
 
-/// "--inertia-ratio" for inertia_ratio.
-std::string option_name(std::string field) {
-  std::replace(field.begin(), field.end(), '_', '-');
-  return "--" + field;
-}
-
 std::string permitted_without_file(std::string_view field) {
   if (field == "backlash") return "must be an angle such as 0.1 (rad) or \"12 arcmin\"";
   return "must be " + permitted_values(field);
@@ -95,6 +89,11 @@ void require_finite(std::string_view field, std::string_view text, double number
 }
 
 }  // namespace
+
+std::string option_name(std::string field) {
+  std::replace(field.begin(), field.end(), '_', '-');
+  return "--" + field;
+}
 
 void add_servo_options(CLI::App& command, ServoOptions& options) {
   command

@@ -24,6 +24,9 @@ struct ServoOptions {
   std::optional<std::string> sensor;
 };
 
+/// "--inertia-ratio" for inertia_ratio.
+std::string option_name(std::string field);
+
 void add_servo_options(CLI::App& command, ServoOptions& options);
 
 /// Collects the faults of a command line, so that all of them are told at once.

@@ -13,13 +13,15 @@ namespace {
 using detail::CycleBlock;
 
 detail::CycleKernel kernel_for(VectorUnit unit) {
+  if (unit > widest_vector_unit()) {
+    throw std::invalid_argument(std::string("vector unit ") + name_of(unit) +
+                                " is not of this machine");
+  }
 #ifdef GEARLASH_X86_VECTOR_UNITS
   if (unit == VectorUnit::avx512) return detail::solve_block_avx512;
   if (unit == VectorUnit::avx2) return detail::solve_block_avx2;
 #endif
-  if (unit == VectorUnit::baseline) return detail::solve_block_baseline;
-  throw std::invalid_argument(std::string("vector unit ") + name_of(unit) +
-                              " is not of this machine");
+  return detail::solve_block_baseline;
 }
 
 void require_rows(const CycleColumns& cycles, std::size_t rows) {
@@ -93,8 +95,19 @@ void write_from_block(const CycleColumns& cycles, std::size_t row, const CycleBl
   cycles.residual[row] = block.residual[block_row];
 }
 
+/// A servo that is refused is named by its row.
+LimitCycleAnalysis analyse_row(const NormalizedServo& servo, std::size_t row) {
+  try {
+    return analyse_limit_cycles(servo);
+  } catch (const InvalidInput& error) {
+    std::vector<Violation> violations = error.violations();
+    for (Violation& violation : violations) violation.where = "servo " + std::to_string(row);
+    throw InvalidInput(std::move(violations));
+  }
+}
+
 void solve_alone(const NormalizedServo& servo, const CycleColumns& cycles, std::size_t row) {
-  const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
+  const LimitCycleAnalysis analysis = analyse_row(servo, row);
   const LimitCycle* cycle = largest_stable(analysis);
   write_row(cycles, row, analysis.verdict, analysis.growth_at_rest,
             cycle != nullptr ? *cycle : LimitCycle{});
@@ -111,7 +124,7 @@ std::vector<VectorUnit> available_vector_units() {
 #ifdef GEARLASH_X86_VECTOR_UNITS
   // Not xsimd's own question: it asks the processor alone, not whether the operating system saves
   // the registers.
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
+  if (__builtin_cpu_supports("avx2")) {
     units.push_back(VectorUnit::avx2);
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&
         __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw")) {

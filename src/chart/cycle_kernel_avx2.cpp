@@ -2,8 +2,9 @@
 
 namespace gearlash::detail {
 
+// Named, because xsimd's default follows the user's compiler flags, and with it what is fused.
 void solve_block_avx2(CycleBlock& block, std::size_t rows) {
-  solve_block<xsimd::default_arch>(block, rows);
+  solve_block<xsimd::avx2>(block, rows);
 }
 
 }  // namespace gearlash::detail

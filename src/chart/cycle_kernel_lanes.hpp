@@ -222,52 +222,33 @@ class CycleLanes {
     return half;
   }
 
-  void take_where(const Mask<Unit>& mask, const HalfCycle& from) {
-    assign_where<Unit>(mask, half_.flight_time, from.flight_time);
-    assign_where<Unit>(mask, half_.engaged_time, from.engaged_time);
-    assign_where<Unit>(mask, half_.load_moved, from.load_moved);
-    assign_where<Unit>(mask, half_.load_position, from.load_position);
-    assign_where<Unit>(mask, half_.load_speed, from.load_speed);
-    assign_where<Unit>(mask, half_.gap_displacement, from.gap_displacement);
-    assign_where<Unit>(mask, half_.gap_speed, from.gap_speed);
-    assign_where<Unit>(mask, half_.gap_acceleration, from.gap_acceleration);
-    assign_where<Unit>(mask, half_.common_speed, from.common_speed);
-    assign_where<Unit>(mask, half_.square_change, from.square_change);
-    assign_where<Unit>(mask, half_.form, from.form);
-    assign_where<Unit>(mask, half_.log_growth_slope, from.log_growth_slope);
-  }
-
-  /// The root of ln ρ = 0, which rises; a lane that has found it waits for the others unchanged.
+  /// The root of ln ρ = 0, which rises. A lane that has found it keeps its time, and so its bits,
+  /// while others go on.
   void balance() {
     constexpr int most_steps = 6;
     found_ = sought_ && !sought_;
     if (none<Unit>(sought_)) return;
     const Real growth = xsimd::select(sought_, growth_, Real(2.0));
-    Real time = guessed_flight_time<Real>(servo_, xsimd::log(growth));
     const Real fastest_rate =
         xsimd::max(Real(1.0), xsimd::max(flight_.load_rate, flight_.motor_rate));
+    Real time = guessed_flight_time<Real>(servo_, xsimd::log(growth));
+    HalfCycle half;
+    BasicArrivalRates<Real> rates;
+    Real step;
     Mask<Unit> searching = sought_;
-    for (int count = 0; count < most_steps; ++count) {
-      const HalfCycle half = half_cycle(time);
-      const BasicArrivalRates<Real> rates = arrival_rates(servo_, flight_, half);
-      const Real step = balancing_step(half, rates);
+    for (int count = 0;; ++count) {
+      half = half_cycle(time);
+      rates = arrival_rates(servo_, flight_, half);
+      const auto at_time = growth_at(half, rates);
+      step = newton_step(at_time);
       const Real fastest = xsimd::max(fastest_rate, 1.0 / time);
-      const Mask<Unit> arrived = searching && xsimd::abs(step) * fastest <= Real(short_step);
-      if (xsimd::any(arrived)) {
-        const Real jerk = flight_.gap_drive * (half.load_speed / flight_.load_speed) -
-                          flight_.motor_rate * half.gap_acceleration;
-        const HalfCycle next = stepped(servo_, flight_, half, rates, jerk, step);
-        if (none<Unit>(found_)) {
-          half_ = next;
-        } else {
-          take_where(arrived, next);
-        }
-        found_ = found_ || arrived;
-      }
+      const Mask<Unit> arrived = searching && is_near_zero<Real>(at_time, short_step / fastest);
+      found_ = found_ || arrived;
       searching = searching && !arrived && xsimd::abs(step) < 0.5 * time;
-      if (none<Unit>(searching)) return;
+      if (none<Unit>(searching) || count + 1 == most_steps) break;
       assign_where<Unit>(searching, time, time + step);
     }
+    half_ = stepped(servo_, flight_, half, rates, gap_jerk_of_two_masses(flight_, half), step);
   }
 
   /// As motor_turning_position() of plastic_cycle.cpp; `certain` loses the lanes whose turn is not
@@ -282,10 +263,11 @@ class CycleLanes {
     const auto at_start = speed_at(flight_.load_speed, 0.0, 0.0);
     const auto at_end = speed_at(half_.load_speed, half_.gap_speed, half_.gap_acceleration);
     const Mask<Unit> turns = found_ && at_end.speed.value < Real(0.0);
-    Real turning = flight_.load_position;
+    const Real not_found = std::numeric_limits<double>::quiet_NaN();
+    Real turning = xsimd::select(turns, not_found, flight_.load_position);
     if (none<Unit>(turns)) return turning;
     const Real end = half_.flight_time;
-    const Real tolerance = end * (0.01 / (1.0 + flight_.motor_rate * end));
+    const Real tolerance = end * nearness_of_turn(flight_, end);
     Real near = quintic_root(at_start.speed, at_end.speed, end);
     const Mask<Unit> inside = near > Real(0.0) && near < end;
     near = xsimd::select(inside, near, 0.5 * end);
@@ -295,13 +277,14 @@ class CycleLanes {
       const auto here =
           speed_at(point.motion.load_speed, point.motion.gap_speed, point.motion.gap_acceleration);
       const Real step = newton_step(here.speed);
-      const Mask<Unit> arrived = searching && xsimd::abs(step) <= tolerance;
+      const Mask<Unit> arrived =
+          searching && here.speed.slope < Real(0.0) && is_near_zero(here.speed, tolerance);
       assign_where<Unit>(arrived, turning, position_at_turn(point, here));
       searching = searching && !arrived && near + step > Real(0.0) && near + step < end;
       if (none<Unit>(searching)) break;
       assign_where<Unit>(searching, near, near + step);
     }
-    certain = certain && (!turns || !xsimd::isnan(turning)) && !searching;
+    certain = certain && !xsimd::isnan(turning);
     return turning;
   }
 
@@ -367,8 +350,10 @@ class CycleLanes {
     return servo_.motor_friction * half_.flight_time * sum;
   }
 
-  /// As closing_error() of plastic_cycle.cpp, with the decay and the angle of the engaged motion.
-  Real closing_error(const Real& decay) const {
+  /// As closing_error() of plastic_cycle.cpp, with the decay over the engaged motion; `certain`
+  /// loses the lanes that do not close.
+  Real closing_error(const Real& decay, Mask<Unit>& certain) const {
+    const Real acceptable = 1e-12;
     // The angle is in (0, π]: sine and cosine of what it exceeds π/2 by.
     const Real excess = frequency_ * half_.engaged_time - 0.5 * std::numbers::pi;
     const Real square = excess * excess;
@@ -380,9 +365,11 @@ class CycleLanes {
         half_.common_speed * (even - servo_.damping * impulse) - half_.load_position * impulse;
     const Real scale =
         xsimd::max(xsimd::abs(flight_.load_position), xsimd::abs(flight_.load_speed));
-    return xsimd::max(xsimd::abs(position + flight_.load_position),
-                      xsimd::abs(speed + flight_.load_speed)) /
-           scale;
+    const Real position_error = xsimd::abs(position + flight_.load_position) / scale;
+    const Real speed_error = xsimd::abs(speed + flight_.load_speed) / scale;
+    // Each by itself: of a NaN and a number, xsimd's max is the number.
+    certain = certain && position_error <= acceptable && speed_error <= acceptable;
+    return xsimd::max(position_error, speed_error);
   }
 
   void write_properties(CycleBlock& block, std::size_t row) const {
@@ -422,8 +409,8 @@ class CycleLanes {
         servo_.motor_inertia * servo_.load_inertia * half_.gap_speed * half_.gap_speed;
 
     const Real half_map_slope = 1.0 + gap * half_.log_growth_slope / half_.gap_speed;
-    const Real residual = closing_error(xsimd::exp(-servo_.damping * half_.engaged_time));
-    certain = certain && residual <= Real(1e-12) && half_.engaged_time > Real(0.0);
+    const Real residual = closing_error(xsimd::exp(-servo_.damping * half_.engaged_time), certain);
+    certain = certain && half_.engaged_time > Real(0.0);
 
     xsimd::select(certain, Real(CycleBlock::hunts), failed).store_aligned(block.outcome + row);
     (amplitude * size).store_aligned(block.size + row);

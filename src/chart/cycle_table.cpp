@@ -13,7 +13,7 @@ struct Naming {
   const char* unit;
 };
 
-/// By Quantity.
+/// By CycleQuantity.
 constexpr std::array<Naming, quantity_count> namings = {
     {{"growth_at_rest", "growth at rest: the servo hunts when it exceeds 1", "1"},
      {"size", "size of limit cycle: half peak-to-peak of the load", "rad"},
@@ -28,18 +28,20 @@ constexpr std::array<Naming, quantity_count> namings = {
      {"impact_loss", "energy lost at impacts over a period", "K rad2"},
      {"residual", "relative mismatch of the state after one cycle", "1"}}};
 
-const Naming& naming_of(Quantity quantity) { return namings[static_cast<std::size_t>(quantity)]; }
+const Naming& naming_of(CycleQuantity quantity) {
+  return namings[static_cast<std::size_t>(quantity)];
+}
 
 }  // namespace
 
-const char* name_of(Quantity quantity) { return naming_of(quantity).name; }
-const char* description_of(Quantity quantity) { return naming_of(quantity).description; }
-const char* unit_of(Quantity quantity) { return naming_of(quantity).unit; }
+const char* name_of(CycleQuantity quantity) { return naming_of(quantity).name; }
+const char* description_of(CycleQuantity quantity) { return naming_of(quantity).description; }
+const char* unit_of(CycleQuantity quantity) { return naming_of(quantity).unit; }
 
-std::optional<Quantity> quantity_named(std::string_view name) {
+std::optional<CycleQuantity> quantity_named(std::string_view name) {
   std::string underscored(name);
   std::replace(underscored.begin(), underscored.end(), '-', '_');
-  for (const Quantity quantity : all_quantities) {
+  for (const CycleQuantity quantity : all_quantities) {
     if (underscored == name_of(quantity)) return quantity;
   }
   return std::nullopt;
@@ -50,22 +52,22 @@ CycleTable::CycleTable(std::size_t rows) : verdict(rows, Verdict::undecided) {
 }
 
 CycleColumns CycleTable::columns() {
-  const auto column = [&](Quantity quantity) {
+  const auto column = [&](CycleQuantity quantity) {
     return std::span<double>(values[static_cast<std::size_t>(quantity)]);
   };
   return {.verdict = verdict,
-          .growth_at_rest = column(Quantity::growth_at_rest),
-          .size = column(Quantity::size),
-          .motor_size = column(Quantity::motor_size),
-          .period = column(Quantity::period),
-          .multiplier = column(Quantity::multiplier),
-          .impact_speed = column(Quantity::impact_speed),
-          .engaged_time = column(Quantity::engaged_time),
-          .separated_time = column(Quantity::separated_time),
-          .motor_friction_loss = column(Quantity::motor_friction_loss),
-          .load_friction_loss = column(Quantity::load_friction_loss),
-          .impact_loss = column(Quantity::impact_loss),
-          .residual = column(Quantity::residual)};
+          .growth_at_rest = column(CycleQuantity::growth_at_rest),
+          .size = column(CycleQuantity::size),
+          .motor_size = column(CycleQuantity::motor_size),
+          .period = column(CycleQuantity::period),
+          .multiplier = column(CycleQuantity::multiplier),
+          .impact_speed = column(CycleQuantity::impact_speed),
+          .engaged_time = column(CycleQuantity::engaged_time),
+          .separated_time = column(CycleQuantity::separated_time),
+          .motor_friction_loss = column(CycleQuantity::motor_friction_loss),
+          .load_friction_loss = column(CycleQuantity::load_friction_loss),
+          .impact_loss = column(CycleQuantity::impact_loss),
+          .residual = column(CycleQuantity::residual)};
 }
 
 }  // namespace gearlash

@@ -30,8 +30,14 @@ void analyse_plastic(const ServoDynamics& dynamics, LimitCycleAnalysis& analysis
     analysis.proved = false;
     return;
   }
+  const LimitCycle cycle = plastic_cycle(dynamics, *half);
+  if (!cycle.stable) {  // growth at rest 1 + rounding: the theorem says that it is stable
+    analysis.verdict = Verdict::undecided;
+    analysis.proved = false;
+    return;
+  }
   analysis.verdict = Verdict::hunts;
-  analysis.cycles.push_back(plastic_cycle(dynamics, *half));
+  analysis.cycles.push_back(cycle);
 }
 
 Verdict bouncing_verdict(double growth, const BouncingCycles& found) {

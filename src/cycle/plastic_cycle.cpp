@@ -52,13 +52,12 @@ double motor_turning_position(const ServoDynamics& dynamics, const GapFlight& fl
                           motion.gap_acceleration);
   };
   const double time = half.flight_time;
-  // From so near Taylor's series leads to the turn: the position is stationary there, and its next
-  // term is below rounding.
-  const double tolerance = 0.01 / (1.0 + flight.motor_rate * time);
+  const double tolerance = nearness_of_turn(flight, time);
   double near = quintic_root(at_start.speed, at_end.speed, time);
   if (!(near > 0.0 && near < time)) near = 0.5 * time;
   FlightPoint point = point_in_flight(flight, near);
-  if (!(std::abs(newton_step(at(point.motion).speed)) <= tolerance * time)) {
+  const ValueAndSlope guess = at(point.motion).speed;
+  if (!(guess.slope < 0.0 && is_near_zero(guess, tolerance * time))) {
     near = bracketed_root([&](double t) { return at(motion_in_flight(flight, t)).speed; }, 0.0,
                           time, near, -1.0, tolerance);
     point = point_in_flight(flight, near);

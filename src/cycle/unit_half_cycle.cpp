@@ -24,11 +24,11 @@ UnitHalfCycle half_cycle(const ServoDynamics& dynamics, const GapFlight& flight,
   return half;
 }
 
-/// d³u/dt³: from ü e^{ct} = ü₀ + G t φ₁((c − D)t), or ü ∝ e^{−Dt} for a massless motor.
+/// A massless motor's ü goes as e^{−Dt}, and a massless load stands still.
 double gap_jerk(const ServoDynamics& dynamics, const GapFlight& flight, const UnitHalfCycle& half) {
   if (dynamics.massless_motor()) return -flight.load_rate * half.gap_acceleration;
-  const double decayed = flight.load_speed == 0.0 ? 1.0 : half.load_speed / flight.load_speed;
-  return flight.gap_drive * decayed - flight.motor_rate * half.gap_acceleration;
+  if (flight.load_speed == 0.0) return -flight.motor_rate * half.gap_acceleration;
+  return gap_jerk_of_two_masses(flight, half);
 }
 
 constexpr double time_tolerance = 1e-9;  // its square is below rounding
@@ -37,8 +37,7 @@ constexpr double time_tolerance = 1e-9;  // its square is below rounding
 double balanced_flight_time(const ServoDynamics& dynamics, const GapFlight& flight, double guess) {
   const auto log_growth = [&](double time) {
     const UnitHalfCycle half = half_cycle(dynamics, flight, time);
-    return ValueAndSlope{half.log_growth, half.log_growth_slope,
-                         arrival_rates(dynamics, flight, half).growth_curvature};
+    return growth_at(half, arrival_rates(dynamics, flight, half));
   };
   return bracketed_root(log_growth, 0.0, infinity, guess, 1.0, time_tolerance);
 }
@@ -53,10 +52,11 @@ struct LastStep {
 LastStep last_step(const ServoDynamics& dynamics, const GapFlight& flight,
                    const UnitHalfCycle& half) {
   const ArrivalRates rates = arrival_rates(dynamics, flight, half);
-  const double step = balancing_step(half, rates);
+  const ValueAndSlope growth = growth_at(half, rates);
+  const double step = newton_step(growth);
   const double fastest =
       std::max({1.0 / half.flight_time, 1.0, flight.load_rate, flight.motor_rate});
-  if (!(std::abs(step) * fastest <= short_step)) return {step, std::nullopt};
+  if (!is_near_zero(growth, short_step / fastest)) return {step, std::nullopt};
   return {step, stepped(dynamics, flight, half, rates, gap_jerk(dynamics, flight, half), step)};
 }
 
@@ -89,7 +89,7 @@ std::optional<UnitHalfCycle> balanced_half_cycle(const ServoDynamics& dynamics,
   if (!(std::abs(half.log_growth) <= acceptable)) return std::nullopt;
   const ArrivalRates rates = arrival_rates(dynamics, flight, half);
   return stepped(dynamics, flight, half, rates, gap_jerk(dynamics, flight, half),
-                 balancing_step(half, rates));
+                 newton_step(growth_at(half, rates)));
 }
 
 }  // namespace gearlash

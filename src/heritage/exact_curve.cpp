@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "gearlash/chart/hunting_end.hpp"
 #include "gearlash/cycle/limit_cycle.hpp"
 
 namespace gearlash::heritage {
@@ -26,12 +27,7 @@ ExactCurve exact_curve(const std::vector<double>& places,
                        const std::function<NormalizedServo(double place)>& servo_at) {
   const auto size_at = [&](double place) { return exact_size(servo_at(place)).value_or(nothing); };
   const auto end_between = [&](double hunting, double quiet) {
-    constexpr int halvings = 60;
-    for (int i = 0; i < halvings; ++i) {
-      const double middle = 0.5 * (hunting + quiet);
-      (std::isnan(size_at(middle)) ? quiet : hunting) = middle;
-    }
-    return ChartPoint{hunting, size_at(hunting)};
+    return ChartPoint{hunting_end(servo_at, hunting, quiet), 0.0};
   };
   ExactCurve curve;
   const ChartPoint* before = nullptr;  // the neighbour, where it has a gap

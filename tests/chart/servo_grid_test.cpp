@@ -131,7 +131,7 @@ TEST(EdgeGrid, CombinationsThatAreNoServoAreKnownOfNothing) {
   EXPECT_EQ(count.solved.side_by_side + count.solved.one_by_one, 7U);
   for (const std::size_t row : {0U, 8U}) {  // no friction on the side without inertia
     EXPECT_EQ(table.verdict[row], Verdict::undecided);
-    EXPECT_TRUE(std::isnan(table[Quantity::growth_at_rest][row]));
+    EXPECT_TRUE(std::isnan(table[CycleQuantity::growth_at_rest][row]));
   }
   EXPECT_EQ(table.verdict[4], Verdict::hunts);
 }

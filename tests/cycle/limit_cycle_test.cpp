@@ -205,10 +205,11 @@ TEST(OracleRestitution, SizesOfSettledRuns) {
         return cycle.stable && std::abs(cycle.size - late) < 2e-5 * late;
       });
   EXPECT_TRUE(seen) << "a long run ends at " << late;
-  // At 0.9 the motion does not repeat; 0.1709 is one of the sizes it passes through.
+  // At 0.9 the motion does not repeat, and the last bit of a root decides where it is after 2000 s;
+  // 0.1709 is one of the sizes it passes through, and its extent over 150 swings is not chance.
   const LimitCycleAnalysis lively = analyse_limit_cycles(sample(0.9));
-  const double range = sampled_size(long_run(sample(0.9), 0.2, 2000.0), 1960.0);
-  EXPECT_NEAR(range, 0.1709, 3e-3);
+  const double range = sampled_size(long_run(sample(0.9), 0.2, 2000.0), 1000.0);
+  EXPECT_NEAR(range, 0.1725, 2e-3);
   if (lively.verdict == Verdict::hunts_irregularly) {
     EXPECT_NEAR(lively.irregular_size, range, 5e-3);
   }

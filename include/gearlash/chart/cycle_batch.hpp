@@ -59,14 +59,14 @@ struct BatchCount {
 /// that would lose digits) is solved again one by one, as are all servos outside these ranges; how
 /// many, the count says.
 ///
-/// Every vector unit gives the same bits. analyse_limit_cycles() gives the same verdicts, the
-/// growth at rest and the engaged time to 2e-14, the motor's friction loss to 5e-11 (a small
-/// difference of large terms in either) and all else to 5e-13 (tests/chart).
+/// Every vector unit of one kind of processor gives the same bits. analyse_limit_cycles() gives the
+/// same verdicts, the growth at rest and the engaged time to 5e-14, the motor's friction loss to
+/// 5e-11 (a small difference of large terms in either) and all else to 5e-13 (tests/chart).
 ///
 /// Nothing is allocated for servos solved side by side. Throws InvalidInput, as
-/// analyse_limit_cycles() does, for a servo outside the permitted ranges, and
-/// std::invalid_argument where a column has not as many rows as there are servos, or for a vector
-/// unit that this library was not built for. Precondition: the unit is one of the machine's.
+/// analyse_limit_cycles() does, for a servo outside the permitted ranges, named by its row (those
+/// before it may have been written); and std::invalid_argument where a column has not as many rows
+/// as there are servos, or for a vector unit that is not the machine's.
 BatchCount find_limit_cycles(std::span<const NormalizedServo> servos, const CycleColumns& cycles,
                              VectorUnit unit = widest_vector_unit());
 

@@ -13,7 +13,7 @@ namespace gearlash {
 
 /// The columns of numbers; angles in rad at the load, times in units of 1/ω_n, speeds in rad ω_n,
 /// energies in K rad².
-enum class Quantity {
+enum class CycleQuantity {
   growth_at_rest,
   size,
   motor_size,
@@ -28,33 +28,33 @@ enum class Quantity {
   residual
 };
 inline constexpr std::size_t quantity_count = 12;
-inline constexpr std::array<Quantity, quantity_count> all_quantities = {
-    Quantity::growth_at_rest,      Quantity::size,
-    Quantity::motor_size,          Quantity::period,
-    Quantity::multiplier,          Quantity::impact_speed,
-    Quantity::engaged_time,        Quantity::separated_time,
-    Quantity::motor_friction_loss, Quantity::load_friction_loss,
-    Quantity::impact_loss,         Quantity::residual};
+inline constexpr std::array<CycleQuantity, quantity_count> all_quantities = {
+    CycleQuantity::growth_at_rest,      CycleQuantity::size,
+    CycleQuantity::motor_size,          CycleQuantity::period,
+    CycleQuantity::multiplier,          CycleQuantity::impact_speed,
+    CycleQuantity::engaged_time,        CycleQuantity::separated_time,
+    CycleQuantity::motor_friction_loss, CycleQuantity::load_friction_loss,
+    CycleQuantity::impact_loss,         CycleQuantity::residual};
 
 /// "growth_at_rest", "size", …
-const char* name_of(Quantity quantity);
-std::optional<Quantity> quantity_named(std::string_view name);
+const char* name_of(CycleQuantity quantity);
+std::optional<CycleQuantity> quantity_named(std::string_view name);
 /// What it is, in words: "size of limit cycle (half peak-to-peak of the load)".
-const char* description_of(Quantity quantity);
+const char* description_of(CycleQuantity quantity);
 /// "rad", "1", "1/omega_n", "rad omega_n", "K rad2".
-const char* unit_of(Quantity quantity);
+const char* unit_of(CycleQuantity quantity);
 
 struct CycleTable {
   explicit CycleTable(std::size_t rows = 0);
 
   CycleColumns columns();
   std::size_t rows() const { return verdict.size(); }
-  const std::vector<double>& operator[](Quantity quantity) const {
+  const std::vector<double>& operator[](CycleQuantity quantity) const {
     return values[static_cast<std::size_t>(quantity)];
   }
 
   std::vector<Verdict> verdict;
-  std::array<std::vector<double>, quantity_count> values;  ///< by Quantity
+  std::array<std::vector<double>, quantity_count> values;  ///< by CycleQuantity
 };
 
 }  // namespace gearlash

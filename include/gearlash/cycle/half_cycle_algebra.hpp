@@ -108,11 +108,19 @@ BasicArrivalRates<Real> arrival_rates(const BasicServoDynamics<Real>& dynamics,
   return {half.gap_acceleration + load_acceleration, load_acceleration, momentum, form, curvature};
 }
 
-/// Halley's step towards ln ρ = 0.
+/// ln ρ with its derivatives.
 template <class Real>
-Real balancing_step(const BasicUnitHalfCycle<Real>& half, const BasicArrivalRates<Real>& rates) {
-  return newton_step(
-      BasicValueAndSlope<Real>{half.log_growth, half.log_growth_slope, rates.growth_curvature});
+BasicValueAndSlope<Real> growth_at(const BasicUnitHalfCycle<Real>& half,
+                                   const BasicArrivalRates<Real>& rates) {
+  return {half.log_growth, half.log_growth_slope, rates.growth_curvature};
+}
+
+/// d³u/dt³ of two masses, from ü e^{ct} = ü₀ + G t φ₁((c − D)t) after a clean parting.
+template <class Real>
+Real gap_jerk_of_two_masses(const BasicGapFlight<Real>& flight,
+                            const BasicUnitHalfCycle<Real>& half) {
+  return flight.gap_drive * (half.load_speed / flight.load_speed) -
+         flight.motor_rate * half.gap_acceleration;
 }
 
 /// Half a cycle whose flight is `step` longer, to second order in the step; gap_jerk is d³u/dt³.
@@ -197,7 +205,8 @@ inline constexpr double short_step = 1e-5;
 template <class Real>
 struct BasicMotorSpeed {
   BasicValueAndSlope<Real> speed;
-  Real jerk_rate;
+  Real third;   ///< d³v/dt³
+  Real fourth;  ///< d⁴v/dt⁴
 };
 
 /// motor_drive is 1/J_M; and for a massless motor, whose v_M = −y/F_M, −D/F_M (and c = 0).
@@ -207,8 +216,10 @@ BasicMotorSpeed<Real> motor_speed_at(const BasicGapFlight<Real>& flight, Real mo
   const Real drive = motor_drive * load_speed;
   const Real acceleration = gap_acceleration - flight.load_rate * load_speed;
   const Real jerk = -flight.motor_rate * acceleration - drive;
-  return {{load_speed + gap_speed, acceleration, jerk},
-          flight.load_rate * drive - flight.motor_rate * jerk};
+  const Real drive_rate = -flight.load_rate * drive;
+  const Real third = -flight.motor_rate * jerk - drive_rate;
+  const Real fourth = -flight.motor_rate * third + flight.load_rate * drive_rate;
+  return {{load_speed + gap_speed, acceleration, jerk}, third, fourth};
 }
 
 /// Root of the quintic through value, slope and curvature at 0 and at `end`, values of opposite
@@ -237,15 +248,23 @@ Real quintic_root(const BasicValueAndSlope<Real>& at_start, const BasicValueAndS
   return (x + newton_step(at_x)) * end;
 }
 
-/// The motor's position, from the gap's middle line, where it turns, from a time so near that the
-/// next term of Taylor's series is below rounding (the position is stationary there).
+/// So near the motor's turn that position_at_turn() may start there, as a share of a flight of this
+/// length: the term of Taylor's series that it leaves out is below rounding.
+template <class Real>
+Real nearness_of_turn(const BasicGapFlight<Real>& flight, const Real& time) {
+  return 0.006 / (1.0 + (flight.motor_rate + flight.load_rate) * time);
+}
+
+/// The motor's position, from the gap's middle line, where it turns (and is stationary), by
+/// Taylor's series from a time next to it.
 template <class Real>
 Real position_at_turn(const BasicFlightPoint<Real>& point, const BasicMotorSpeed<Real>& here) {
   const Real step = newton_step(here.speed);
   return point.motion.load_position + point.gap_displacement +
          step * (here.speed.value +
                  step * (here.speed.slope / 2.0 +
-                         step * (here.speed.curvature / 6.0 + step * here.jerk_rate / 24.0)));
+                         step * (here.speed.curvature / 6.0 +
+                                 step * (here.third / 24.0 + step * here.fourth / 120.0))));
 }
 
 /// F_L ∫ v_L² dt over the flight, in which v_L falls in proportion to the way.

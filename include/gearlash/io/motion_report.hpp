@@ -5,6 +5,7 @@
 #include <functional>
 #include <string_view>
 
+#include "gearlash/io/output_file.hpp"
 #include "gearlash/io/report_units.hpp"
 #include "gearlash/motion/trajectory.hpp"
 
@@ -24,8 +25,6 @@ struct MotionReport {
 /// Samples are taken at 0, every, 2 every, … up to `until`, or to where the trajectory ends.
 std::size_t sample_count(const MotionReport& report);
 
-/// Takes text piece by piece: a table of ten million rows is never held in memory.
-using TextSink = std::function<void(std::string_view)>;
 /// Told the share that is done, 0 … 1, now and then.
 using ProgressSink = std::function<void(double)>;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -55,6 +56,9 @@ class OutputFile {
   int slot_ = -1;  ///< of the hidden file in the list of unfinished ones
   std::string buffer_;
 };
+
+/// Takes text piece by piece: a table of ten million rows is never held in memory.
+using TextSink = std::function<void(std::string_view)>;
 
 /// OutputFile of one text.
 void write_file(const std::filesystem::path& path, std::string_view text);

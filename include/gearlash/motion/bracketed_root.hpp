@@ -14,14 +14,29 @@ struct BasicValueAndSlope {
 };
 using ValueAndSlope = BasicValueAndSlope<double>;
 
-/// Towards the zero: Newton's step, or Halley's where the curvature is known.
+/// Towards the zero: Newton's step, or Halley's where the curvature is known. Halley's tends to 0
+/// at an extremum too, so that how short it is says nothing: is_near_zero() does.
 template <class Real>
 Real newton_step(const BasicValueAndSlope<Real>& at) {
   const Real newton = -at.value / at.slope;
   return newton / (1.0 + 0.5 * newton * at.curvature / at.slope);
 }
 
+/// Whether the zero is within `distance`, by Newton's step.
+template <class Real>
+auto is_near_zero(const BasicValueAndSlope<Real>& at, const Real& distance) {
+  using std::abs;
+  return abs(at.value) <= distance * abs(at.slope);
+}
+
 namespace detail {
+
+/// Halley's step, but not where it is much shorter than Newton's, as next to an extremum.
+inline double trusted_step(const ValueAndSlope& at) {
+  const double newton = -at.value / at.slope;
+  const double step = newton_step(at);
+  return std::abs(step) < 0.25 * std::abs(newton) ? newton : step;
+}
 
 /// A point strictly inside the bracket that halves it, or halves its exponents where it spans more
 /// than a factor of four: a root at 1e-80 is then as near as one at 1.
@@ -60,7 +75,7 @@ double bracketed_root(const Function& f, double low, double high, double guess, 
     (at_x.value * sign_at_high > 0.0 ? high : low) = x;
     const bool bracketed = !std::isinf(high);
     if (bracketed && high - low <= epsilon * std::abs(high)) return x;
-    double step = newton_step(at_x);
+    double step = detail::trusted_step(at_x);
     // Below the resolution of x a step has converged, even across the bracket's end.
     if (std::abs(step) <= tolerance * std::abs(x)) return std::fmin(std::fmax(x + step, low), high);
     const bool is_newton =
