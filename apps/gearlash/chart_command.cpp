@@ -20,6 +20,8 @@ constexpr char examples[] =
     "      --damping 0.1 --quantity period --output period.pdf\n"
     "  gearlash chart --x restitution=0:0.5:51 examples/elinco-fd162.toml --output table.csv\n";
 
+constexpr std::size_t most_points = 10'000'000;  // a gigabyte
+
 struct ChartOptions {
   ServoOptions servo;
   std::string x;
@@ -121,6 +123,12 @@ ExitStatus run(const ChartOptions& options, const Provenance& provenance) {
   const ServoGrid grid{read_fixed_inputs(options.servo, axes, fields, faults), axes};
   faults.require_none();
   require_none(validate(grid, fields));
+  if (grid.size() > most_points) {
+    throw InvalidInput({{"points", std::to_string(grid.size()),
+                         "must be at most " + std::to_string(most_points) +
+                             " on both axes together: a chart is held in memory",
+                         ""}});
+  }
 
   write({grid, work_out(grid), provenance}, kind, quantity, options.output);
   return ExitStatus::done;
