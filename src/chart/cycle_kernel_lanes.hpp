@@ -159,28 +159,21 @@ class CycleLanes {
   CycleLanes(const CycleBlock& block, std::size_t row) {
     const Real inertia_ratio = Real::load_aligned(block.inertia_ratio + row);
     const Real friction_ratio = Real::load_aligned(block.friction_ratio + row);
-    servo_.damping = Real::load_aligned(block.damping + row);
-    servo_.backlash = Real::load_aligned(block.backlash + row);
-    permitted_ = servo_.damping >= Real(1e-4) && servo_.damping <= Real(0.99) &&
-                 inertia_ratio >= Real(1e-4) && inertia_ratio <= Real(1e4) &&
-                 friction_ratio >= Real(1e-4) && friction_ratio <= Real(1.0 - 1e-4) &&
-                 servo_.backlash >= Real(1e-15) && servo_.backlash <= Real(1e6);
-    servo_.motor_inertia = 1.0 / (1.0 + inertia_ratio);
-    servo_.load_inertia = inertia_ratio / (1.0 + inertia_ratio);
-    servo_.motor_friction = 2.0 * servo_.damping * (1.0 - friction_ratio);
-    servo_.load_friction = 2.0 * servo_.damping * friction_ratio;
-    servo_.motor_rate = servo_.motor_friction / servo_.motor_inertia;
-    servo_.load_rate = servo_.load_friction / servo_.load_inertia;
-    servo_.torque_per_speed =
-        servo_.load_friction * servo_.motor_inertia - servo_.motor_friction * servo_.load_inertia;
-    const Real length = xsimd::sqrt(servo_.torque_per_speed * servo_.torque_per_speed +
-                                    servo_.load_inertia * servo_.load_inertia);
-    const Real inverse_length = 1.0 / length;
-    servo_.torque_free_line = {servo_.torque_per_speed * inverse_length,
-                               servo_.load_inertia * inverse_length};
+    const Real damping = Real::load_aligned(block.damping + row);
+    const Real backlash = Real::load_aligned(block.backlash + row);
+    // Where nothing of what follows over- or underflows; cycle_batch.hpp tells the first three.
+    permitted_ = is_within(damping, 1e-4, 0.99) && is_within(inertia_ratio, 1e-4, 1e4) &&
+                 is_within(friction_ratio, 1e-4, 1.0 - 1e-4) && is_within(backlash, 1e-15, 1e6);
+    servo_ = dynamics_of_shafts<Real>(damping, 1.0 / (1.0 + inertia_ratio),
+                                      inertia_ratio / (1.0 + inertia_ratio), friction_ratio);
+    servo_.backlash = backlash;
     frequency_ = xsimd::sqrt((1.0 - servo_.damping) * (1.0 + servo_.damping));
     flight_ = clean_parting<Real>(servo_, servo_.torque_free_line.position,
                                   servo_.torque_free_line.speed, 0.0);
+  }
+
+  static Mask<Unit> is_within(const Real& value, double low, double high) {
+    return value >= Real(low) && value <= Real(high);
   }
 
   /// first_zero() of engaged_flow.hpp below critical damping; 0 where the value is.
@@ -205,11 +198,7 @@ class CycleLanes {
     const Real position = -1.0;
     const Real contact_speed = 1.0 / servo_.motor_rate;
     const Real engaged_time = parting_time(position, contact_speed);
-    const Real start = decaying_form(servo_.damping, position, contact_speed);
-    const Real rest =
-        servo_.torque_free_line.position + servo_.torque_free_line.speed / servo_.load_rate;
-    growth_ = xsimd::sqrt(start / start_form(servo_, flight_)) *
-              xsimd::exp(-servo_.damping * engaged_time) * xsimd::abs(rest);
+    growth_ = growth_after_contact(servo_, contact_speed, engaged_time);
     permitted_ = permitted_ && xsimd::abs(growth_ - 1.0) > Real(1e-9);
     sought_ = permitted_ && growth_ > Real(1.0);
   }
@@ -400,28 +389,22 @@ class CycleLanes {
         xsimd::max(xsimd::abs(start + half_gap), xsimd::abs(motor_turning + half_gap)),
         xsimd::max(xsimd::abs(half_.load_position - half_gap), xsimd::abs(turning - half_gap)));
 
-    const Real engaged_loss = 0.5 * half_.square_change;
-    const Real load_share = servo_.load_friction / (servo_.load_friction + servo_.motor_friction);
-    const Real motor_loss = motor_friction_in_flight(certain) + (1.0 - load_share) * engaged_loss;
-    const Real load_loss =
-        load_friction_in_flight(servo_, flight_, half_) + load_share * engaged_loss;
-    const Real impact_loss =
-        servo_.motor_inertia * servo_.load_inertia * half_.gap_speed * half_.gap_speed;
-
-    const Real half_map_slope = 1.0 + gap * half_.log_growth_slope / half_.gap_speed;
+    const BasicCycleLosses<Real> losses =
+        cycle_losses(servo_, flight_, half_, motor_friction_in_flight(certain));
+    const Real slope = half_map_slope(half_);
     const Real residual = closing_error(xsimd::exp(-servo_.damping * half_.engaged_time), certain);
     certain = certain && half_.engaged_time > Real(0.0);
 
     xsimd::select(certain, Real(CycleBlock::hunts), failed).store_aligned(block.outcome + row);
     (amplitude * size).store_aligned(block.size + row);
     (amplitude * motor_size).store_aligned(block.motor_size + row);
-    (half_map_slope * half_map_slope).store_aligned(block.multiplier + row);
+    (slope * slope).store_aligned(block.multiplier + row);
     (-amplitude * half_.gap_speed).store_aligned(block.impact_speed + row);
     (2.0 * half_.engaged_time).store_aligned(block.engaged_time + row);
     (2.0 * half_.flight_time).store_aligned(block.separated_time + row);
-    (2.0 * square * motor_loss).store_aligned(block.motor_friction_loss + row);
-    (2.0 * square * load_loss).store_aligned(block.load_friction_loss + row);
-    (square * impact_loss).store_aligned(block.impact_loss + row);
+    (square * losses.motor_friction).store_aligned(block.motor_friction_loss + row);
+    (square * losses.load_friction).store_aligned(block.load_friction_loss + row);
+    (square * losses.impacts).store_aligned(block.impact_loss + row);
     residual.store_aligned(block.residual + row);
   }
 

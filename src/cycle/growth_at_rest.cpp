@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "gearlash/cycle/half_cycle_algebra.hpp"
 #include "gearlash/motion/engaged_flow.hpp"
 #include "gearlash/motion/phase.hpp"
 
@@ -32,12 +33,7 @@ double plastic_growth(const ServoDynamics& dynamics) {
       first_zero(dynamics.damping, mesh_torque(dynamics, -1.0, contact_speed),
                  mesh_torque_rate(dynamics, -1.0, contact_speed));
   if (std::isinf(engaged_time)) return 0.0;
-  const TorqueFreeLine line = dynamics.torque_free_line;
-  const double start_form = decaying_form(dynamics.damping, -1.0, contact_speed);
-  const double end_form = decaying_form(dynamics.damping, line.position, line.speed);
-  const double amplitude =
-      std::sqrt(start_form / end_form) * std::exp(-dynamics.damping * engaged_time);
-  return amplitude * std::abs(line.position + line.speed / dynamics.load_rate);
+  return growth_after_contact(dynamics, contact_speed, engaged_time);
 }
 
 /// The bounces followed one by one.

@@ -91,21 +91,6 @@ Sizes sizes(const ServoDynamics& dynamics, const GapFlight& flight, const UnitHa
                          std::abs(half.load_position - half_gap), std::abs(turning - half_gap)})};
 }
 
-/// Losses of a whole period for a unit amplitude.
-CycleEnergy losses(const ServoDynamics& dynamics, const GapFlight& flight,
-                   const UnitHalfCycle& half) {
-  const double load_in_flight = load_friction_in_flight(dynamics, flight, half);
-  const double motor_in_flight = motor_friction_in_flight(dynamics, flight, half);
-  // What the engaged motion loses, the flight and the impact have added.
-  const double engaged = 0.5 * half.square_change;
-  const double load_share =
-      dynamics.load_friction / (dynamics.load_friction + dynamics.motor_friction);
-  return {
-      .motor_friction = 2.0 * (motor_in_flight + (1.0 - load_share) * engaged),
-      .load_friction = 2.0 * (load_in_flight + load_share * engaged),
-      .impacts = dynamics.motor_inertia * dynamics.load_inertia * half.gap_speed * half.gap_speed};
-}
-
 /// Mismatch, relative to the state, after the half cycle is run through the engaged flow.
 double closing_error(const ServoDynamics& dynamics, const GapFlight& flight,
                      const UnitHalfCycle& half) {
@@ -125,13 +110,13 @@ LimitCycle plastic_cycle(const ServoDynamics& dynamics, const UnitHalfCycle& hal
   const double amplitude = dynamics.backlash / gap;
   const double square = amplitude * amplitude;
   const Sizes unit_sizes = sizes(dynamics, flight, half, 0.5 * gap);
-  const CycleEnergy unit_losses = losses(dynamics, flight, half);
-  const double half_map_slope =
-      1.0 + gap * half.log_growth_slope / half.gap_speed;  // 1 − |Δu| (J_M y + F_M P)/Q
+  const BasicCycleLosses<double> losses =
+      cycle_losses(dynamics, flight, half, motor_friction_in_flight(dynamics, flight, half));
+  const double slope = half_map_slope(half);
 
   LimitCycle cycle;
   cycle.kind = CycleKind::symmetric;
-  cycle.multiplier = half_map_slope * half_map_slope;
+  cycle.multiplier = slope * slope;
   cycle.stable = cycle.multiplier < 1.0;
   cycle.size = amplitude * unit_sizes.load;
   cycle.motor_size = amplitude * unit_sizes.motor;
@@ -142,8 +127,8 @@ LimitCycle plastic_cycle(const ServoDynamics& dynamics, const UnitHalfCycle& hal
   cycle.residual = closing_error(dynamics, flight, half);
   cycle.impacts_per_period = 2;
   cycle.settles = true;
-  cycle.energy = {square * unit_losses.motor_friction, square * unit_losses.load_friction,
-                  square * unit_losses.impacts};
+  cycle.energy = {square * losses.motor_friction, square * losses.load_friction,
+                  square * losses.impacts};
   const double load_position = amplitude * flight.load_position;
   const double load_speed = amplitude * flight.load_speed;
   cycle.start = {load_position + 0.5 * dynamics.backlash, load_speed, load_position, load_speed};

@@ -74,6 +74,21 @@ BasicUnitHalfCycle<Real> impact_at(const BasicServoDynamics<Real>& dynamics,
   return half;
 }
 
+/// The amplitude at the next parting of faces that engage with the load at rest at −1 and the motor
+/// arriving at contact_speed, and the place at which the load then comes to rest: μ₀.
+template <class Real>
+Real growth_after_contact(const BasicServoDynamics<Real>& dynamics, const Real& contact_speed,
+                          const Real& engaged_time) {
+  using std::abs;
+  using std::exp;
+  using std::sqrt;
+  const BasicTorqueFreeLine<Real>& line = dynamics.torque_free_line;
+  const Real start = decaying_form<Real>(dynamics.damping, -1.0, contact_speed);
+  const Real end = decaying_form(dynamics.damping, line.position, line.speed);
+  return sqrt(start / end) * exp(-dynamics.damping * engaged_time) *
+         abs(line.position + line.speed / dynamics.load_rate);
+}
+
 /// How the state at the impact changes with the flight time.
 template <class Real>
 struct BasicArrivalRates {
@@ -273,6 +288,35 @@ Real load_friction_in_flight(const BasicServoDynamics<Real>& dynamics,
                              const BasicGapFlight<Real>& flight,
                              const BasicUnitHalfCycle<Real>& half) {
   return 0.5 * dynamics.load_friction * half.load_moved * (flight.load_speed + half.load_speed);
+}
+
+/// Losses of a whole period for a unit amplitude, in units of K rad².
+template <class Real>
+struct BasicCycleLosses {
+  Real motor_friction;
+  Real load_friction;
+  Real impacts;
+};
+
+/// motor_in_flight is F_M ∫ v_M² dt over the flight. What the engaged motion loses, the flight and
+/// the impact have added; the shafts share it as they share the friction.
+template <class Real>
+BasicCycleLosses<Real> cycle_losses(const BasicServoDynamics<Real>& dynamics,
+                                    const BasicGapFlight<Real>& flight,
+                                    const BasicUnitHalfCycle<Real>& half,
+                                    const Real& motor_in_flight) {
+  const Real engaged = 0.5 * half.square_change;
+  const Real load_share =
+      dynamics.load_friction / (dynamics.load_friction + dynamics.motor_friction);
+  return {2.0 * (motor_in_flight + (1.0 - load_share) * engaged),
+          2.0 * (load_friction_in_flight(dynamics, flight, half) + load_share * engaged),
+          dynamics.motor_inertia * dynamics.load_inertia * half.gap_speed * half.gap_speed};
+}
+
+/// R′ = 1 − |Δu| (J_M y + F_M P)/Q of the balanced half cycle; its square is the multiplier.
+template <class Real>
+Real half_map_slope(const BasicUnitHalfCycle<Real>& half) {
+  return 1.0 - half.gap_displacement * half.log_growth_slope / half.gap_speed;
 }
 
 /// F_M ∫ v_M² dt over the flight from the balance of the motor's energy,

@@ -1,6 +1,8 @@
 // The coefficients of the equations of motion, derived once from the normalised servo.
 #pragma once
 
+#include <cmath>
+
 #include "gearlash/servo/normalized_servo.hpp"
 
 namespace gearlash {
@@ -38,6 +40,28 @@ struct BasicServoDynamics {
   bool plastic_contact() const { return restitution == 0.0 || massless_motor() || massless_load(); }
 };
 using ServoDynamics = BasicServoDynamics<double>;
+
+/// Without backlash and restitution. A shaft without inertia has an infinite rate. Precondition:
+/// each shaft has inertia or friction.
+template <class Real>
+BasicServoDynamics<Real> dynamics_of_shafts(const Real& damping, const Real& motor_inertia,
+                                            const Real& load_inertia, const Real& friction_ratio) {
+  using std::sqrt;
+  BasicServoDynamics<Real> dynamics;
+  dynamics.damping = damping;
+  dynamics.motor_inertia = motor_inertia;
+  dynamics.load_inertia = load_inertia;
+  dynamics.motor_friction = 2.0 * damping * (1.0 - friction_ratio);
+  dynamics.load_friction = 2.0 * damping * friction_ratio;
+  dynamics.motor_rate = dynamics.motor_friction / motor_inertia;
+  dynamics.load_rate = dynamics.load_friction / load_inertia;
+  dynamics.torque_per_speed =
+      dynamics.load_friction * motor_inertia - dynamics.motor_friction * load_inertia;
+  const Real length =
+      sqrt(dynamics.torque_per_speed * dynamics.torque_per_speed + load_inertia * load_inertia);
+  dynamics.torque_free_line = {dynamics.torque_per_speed / length, load_inertia / length};
+  return dynamics;
+}
 
 /// Precondition: validate(servo) is empty.
 ServoDynamics servo_dynamics(const NormalizedServo& servo);
