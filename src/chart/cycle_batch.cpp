@@ -1,7 +1,6 @@
 #include "gearlash/chart/cycle_batch.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 #include <string>
 

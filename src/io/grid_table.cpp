@@ -4,7 +4,6 @@
 
 #include <cctype>
 #include <cmath>
-#include <limits>
 #include <string_view>
 
 #include "gearlash/chart/hunting_end.hpp"
