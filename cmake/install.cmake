@@ -22,7 +22,8 @@ if(GEARLASH_BUILD_IO)
   install(TARGETS gearlash_io EXPORT gearlash_io)
   install(EXPORT gearlash_io NAMESPACE gearlash:: FILE gearlashIoTargets.cmake
           DESTINATION "${gearlash_package_dir}")
-  install(FILES cmake/FindUDUNITS2.cmake DESTINATION "${gearlash_package_dir}")
+  install(FILES cmake/FindNetCDF.cmake cmake/FindUDUNITS2.cmake
+          DESTINATION "${gearlash_package_dir}")
 endif()
 
 foreach(layer IN LISTS layers)

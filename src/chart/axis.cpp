@@ -47,6 +47,24 @@ std::optional<Input> input_named(std::string_view name) {
   return std::nullopt;
 }
 
+const char* description_of(Input input) {
+  switch (input) {
+    case Input::damping:
+      return "damping coefficient";
+    case Input::inertia_ratio:
+      return "inertia ratio, load to motor";
+    case Input::friction_ratio:
+      return "friction ratio, load to total";
+    case Input::backlash:
+      return "backlash";
+    case Input::restitution:
+      return "coefficient of restitution";
+  }
+  return "";
+}
+
+const char* unit_of(Input input) { return input == Input::backlash ? "rad" : "1"; }
+
 double NormalizedServo::*field_of(Input input) {
   switch (input) {
     case Input::damping:

@@ -19,13 +19,7 @@ namespace {
 
 /// Points that a thread works out at a time: some tenths of a millisecond where nothing bounces,
 /// some tens of milliseconds where it does.
-std::size_t points_at_a_time(const ServoGrid& grid) {
-  const bool bounces = grid.servo.restitution != 0.0 ||
-                       std::any_of(grid.axes.begin(), grid.axes.end(), [](const Axis& axis) {
-                         return axis.input == Input::restitution;
-                       });
-  return bounces ? 8 : 4096;
-}
+std::size_t points_at_a_time(const ServoGrid& grid) { return has_plastic_contact(grid) ? 4096 : 8; }
 
 CycleColumns rows_of(const CycleColumns& columns, std::size_t first, std::size_t count) {
   const auto part = [&](auto column) { return column.subspan(first, count); };
@@ -94,6 +88,12 @@ NormalizedServo ServoGrid::at(std::size_t index) const {
   return point;
 }
 
+bool has_plastic_contact(const ServoGrid& grid) {
+  return grid.servo.restitution == 0.0 &&
+         std::none_of(grid.axes.begin(), grid.axes.end(),
+                      [](const Axis& axis) { return axis.input == Input::restitution; });
+}
+
 std::vector<Violation> validate(const ServoGrid& grid, const std::vector<std::string>& fields) {
   RangeCheck check;
   double points = 1.0;
@@ -115,6 +115,17 @@ std::vector<Violation> validate(const ServoGrid& grid, const std::vector<std::st
                      " on all axes together");
   }
   return check.include(validate(sample)).violations();
+}
+
+std::size_t box_length(const ServoGrid& grid, std::size_t first, std::size_t most) {
+  std::size_t whole = 1;  // points of the axes that the box takes whole
+  for (auto axis = grid.axes.rbegin(); axis != grid.axes.rend(); ++axis) {
+    const std::size_t values = axis->values.size();
+    const std::size_t left = values - first / whole % values;
+    if (left < values || whole * values > most) return std::min(left, most / whole) * whole;
+    whole *= values;
+  }
+  return whole;
 }
 
 GridCount evaluate(const ServoGrid& grid, std::size_t first, std::size_t count,

@@ -15,11 +15,18 @@ constexpr char forms[] = "must be NAME=FROM:TO:COUNT, NAME=FROM:TO:COUNT:log or 
   throw InvalidInput({{std::string(field), shown(text), std::move(permitted), ""}});
 }
 
+std::string_view without_blanks(std::string_view text) {
+  constexpr char blanks[] = " \t";
+  const std::size_t begin = text.find_first_not_of(blanks);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
+
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   while (true) {
     const std::size_t end = text.find(separator);
-    parts.push_back(text.substr(0, end));
+    parts.push_back(without_blanks(text.substr(0, end)));
     if (end == std::string_view::npos) return parts;
     text.remove_prefix(end + 1);
   }
@@ -60,8 +67,8 @@ std::size_t read_count(std::string_view field, std::string_view text) {
 Axis read_axis(std::string_view field, std::string_view text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos) refuse(field, text, forms);
-  const Input input = read_input(field, text.substr(0, equals));
-  const std::string_view values = text.substr(equals + 1);
+  const Input input = read_input(field, without_blanks(text.substr(0, equals)));
+  const std::string_view values = without_blanks(text.substr(equals + 1));
   if (values.empty()) refuse(field, text, forms);
   const std::vector<std::string_view> parts = split(values, ':');
   if (parts.size() == 1) {

@@ -32,27 +32,10 @@ std::string in_words(const char* name) {
   return text;
 }
 
-const char* label_of(Input input) {
-  switch (input) {
-    case Input::damping:
-      return "damping coefficient";
-    case Input::inertia_ratio:
-      return "inertia ratio, load to motor";
-    case Input::friction_ratio:
-      return "friction ratio, load to total";
-    case Input::backlash:
-      return "backlash (rad)";
-    case Input::restitution:
-      return "coefficient of restitution";
-  }
-  return "";
-}
-
-bool is_plastic(const ServoGrid& grid) {
-  for (const Axis& axis : grid.axes) {
-    if (axis.input == Input::restitution) return false;
-  }
-  return grid.servo.restitution == 0.0;
+/// "backlash (rad)".
+std::string label_of(Input input) {
+  const std::string unit = unit_of(input);
+  return description_of(input) + (unit == "1" ? "" : " (" + unit + ")");
 }
 
 bool in_backlashes(const ServoGrid& grid) {
@@ -169,7 +152,7 @@ LineChart chart_of(const GridTable& table, CycleQuantity quantity) {
   const ServoGrid& grid = table.grid;
   const Axis& x = grid.axes.back();
   const bool per_backlash = in_backlashes(grid);
-  const bool plastic = is_plastic(grid);
+  const bool plastic = has_plastic_contact(grid);
   std::string title = description_of(quantity);
   title = title.substr(0, title.find(':'));
   title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));

@@ -134,6 +134,14 @@ void OutputFile::flush() {
   buffer_.clear();
 }
 
+std::filesystem::path OutputFile::hidden_file() const {
+  if (target_.empty()) {
+    throw OutputError(shown_name_ +
+                      ": must be a file: its format is not written from front to back");
+  }
+  return output_in(slot_).name.data();
+}
+
 void OutputFile::commit() {
   flush();
   if (!owns_descriptor_) return;

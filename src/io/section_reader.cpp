@@ -143,6 +143,30 @@ std::optional<std::string> SectionReader::choice(const std::string& key,
   return std::nullopt;
 }
 
+std::vector<std::string> SectionReader::texts(const std::string& key,
+                                              const std::string& permitted) {
+  const toml::node* value = permitted.empty() ? find(key) : require(key, "must be " + permitted);
+  if (value == nullptr) return {};
+  const toml::array* array = value->as_array();
+  if (array == nullptr || array->empty()) {
+    findings_.refuse(field(key), *value, "must be a list of texts: [\"…\", \"…\"]");
+    return {};
+  }
+  std::vector<std::string> list;
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    const std::string name = field(key) + "[" + std::to_string(i) + "]";
+    const toml::node& element = *array->get(i);
+    findings_.remember(name, element);
+    if (!element.is_string()) findings_.refuse(name, element, "must be a text: \"…\"");
+    list.push_back(element.value_or(std::string()));
+  }
+  return list;
+}
+
+void SectionReader::refuse(const std::string& key, const std::string& permitted) {
+  if (const toml::node* value = find(key)) findings_.refuse(field(key), *value, permitted);
+}
+
 void SectionReader::refuse_other_keys() {
   if (table_ == nullptr) return;
   for (const auto& [key, value] : *table_) {

@@ -74,10 +74,17 @@ class SectionReader {
   std::optional<std::string> choice(const std::string& key, const std::vector<std::string>& choices,
                                     bool required);
 
+  /// A list of texts, each under the name "key[0]", "key[1]", … in findings; empty where it is
+  /// missing, which is noted if `permitted` says what it must be.
+  std::vector<std::string> texts(const std::string& key, const std::string& permitted = "");
+  /// Notes the key, and the name it is told by, where it is given.
+  void refuse(const std::string& key, const std::string& permitted);
+
   /// Notes every key that has not been read.
   void refuse_other_keys();
 
   bool present() const { return table_ != nullptr; }
+  bool has(const std::string& key) const { return table_ != nullptr && table_->contains(key); }
   /// The section's header, or the beginning of the file.
   Place place() const;
 

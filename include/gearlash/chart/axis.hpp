@@ -23,6 +23,11 @@ const char* name_of(Input input);
 /// The input of that name; "inertia-ratio" is as good as "inertia_ratio".
 std::optional<Input> input_named(std::string_view name);
 
+/// "inertia ratio, load to motor", …
+const char* description_of(Input input);
+/// "rad" or "1".
+const char* unit_of(Input input);
+
 /// The field of that input.
 double NormalizedServo::*field_of(Input input);
 

@@ -20,11 +20,19 @@ struct ServoGrid {
   NormalizedServo at(std::size_t index) const;
 };
 
+/// Whether no point of it bounces: restitution 0, and on no axis.
+bool has_plastic_contact(const ServoGrid& grid);
+
 /// Every violation of the axes, of two axes with the same input, of more points than
 /// most_points_of_a_grid, and of the servo. `fields` names the axes, as many as there are.
 /// Combinations that are refused (a massless load without friction) are points of which nothing is
 /// known, not violations.
 std::vector<Violation> validate(const ServoGrid& grid, const std::vector<std::string>& fields);
+
+/// How many points from `first` on, `most` at most, are a box of the grid: some values of one axis
+/// with all values of the axes after it. Precondition: `first` is 0, or where such a box ended;
+/// most > 0.
+std::size_t box_length(const ServoGrid& grid, std::size_t first, std::size_t most);
 
 /// How a grid is worked out.
 struct GridEvaluation {

@@ -40,6 +40,9 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   void write(std::string_view text);
+  /// The hidden file, for libraries that write into a file by its name, in place of write(). Throws
+  /// OutputError where there is none, because the output is written to directly.
+  std::filesystem::path hidden_file() const;
   void commit();
 
  private:

@@ -1,0 +1,113 @@
+// gearlash sweep: limit cycles over up to six inputs, into a NetCDF file, in little memory.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "command.hpp"
+#include "gearlash/io/output_file.hpp"
+#include "gearlash/io/sweep_file.hpp"
+#include "gearlash/io/sweep_run.hpp"
+#include "gearlash/io/units.hpp"
+#include "servo_options.hpp"
+#include "stop_request.hpp"
+#include "terminal.hpp"
+
+namespace gearlash::cli {
+namespace {
+
+constexpr char examples[] =
+    "  gearlash sweep examples/sweep.toml --output sweep.nc\n"
+    "  gearlash sweep examples/sweep.toml --output sweep.nc --resume\n"
+    "  python3 -c 'import xarray; print(xarray.open_dataset(\"sweep.nc\"))'\n";
+
+constexpr char explanation[] =
+    "SWEEP.toml says what is varied, and the rest of the servo as a servo file does:\n"
+    "  [sweep]\n"
+    "  axes = [\"damping=0.05:0.6:56\", \"inertia-ratio=1/9:9:100:log\"]\n"
+    "  quantities = [\"size\", \"period\"]   # all when left out\n"
+    "  [servo]\n"
+    "  friction_ratio = 0.1              # without backlash, sizes are in backlashes\n\n"
+    "While it runs, FILE.part holds what is done and FILE.part.json how much that is. Both\n"
+    "remain when it is stopped or killed, for --resume; FILE appears when it is whole.\n\n";
+
+struct SweepOptions {
+  std::string file;
+  std::string output;
+  bool resume = false;
+};
+
+void require_netcdf(const std::string& output, Faults& faults) {
+  if (std::filesystem::path(output).extension() == ".nc") return;
+  faults.add({"--output", shown(output), "must end in .nc", ""});
+}
+
+/// The command without --resume: a resumed sweep's file is the same as any other.
+Provenance provenance_of(const SweepOptions& options, const Provenance& typed) {
+  const std::vector<std::string> words = {"gearlash", "sweep", options.file, "--output",
+                                          options.output};
+  std::vector<const char*> arguments;
+  for (const std::string& word : words) arguments.push_back(word.c_str());
+  return {typed_command(static_cast<int>(arguments.size()), arguments.data()), typed.version};
+}
+
+void report(const SweepRun& run, const std::string& output) {
+  const BatchCount& solved = run.count.solved;
+  std::string text = fmt::format("{}: {} servos, {} solved side by side, {} one by one", output,
+                                 run.points_done, solved.side_by_side, solved.one_by_one);
+  if (run.count.refused > 0) text += fmt::format(", {} refused", run.count.refused);
+  write_file("-", text + "\n");
+}
+
+void report_stop(const SweepRun& run, const SweepFile& sweep, const std::string& output) {
+  fmt::print(stderr,
+             "gearlash: stopped after {} of {} servos, which {}.part holds: --resume goes on\n",
+             run.points_done, sweep.grid.size(), shown(output, std::string::npos));
+}
+
+ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
+  Faults faults;
+  const SweepFile sweep =
+      faults.collect([&] { return read_sweep_file(options.file); }, SweepFile{});
+  require_netcdf(options.output, faults);
+  faults.require_distinct({{"SWEEP.toml", options.file}, {"--output", options.output}});
+  faults.require_none();
+
+  const StopRequest stop;
+  Progress progress("Sweep");
+  const auto points = static_cast<double>(sweep.grid.size());
+  const SweepRun done =
+      run_sweep(sweep, provenance_of(options, provenance), options.output,
+                options.resume ? SweepStart::resume : SweepStart::anew, [&](std::size_t count) {
+                  progress.show(static_cast<double>(count) / points);
+                  return !stop.is_made();
+                });
+  if (done.points_done < sweep.grid.size()) {
+    report_stop(done, sweep, options.output);
+    stop.obey();
+  }
+  report(done, options.output);
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<SweepOptions>();
+  CLI::App* command = app.add_subcommand(
+      "sweep", "limit cycles over up to six inputs, into a NetCDF file of any size");
+  command->add_option("SWEEP.toml", options->file, "what is varied, and the rest of the servo")
+      ->type_name("")
+      ->required();
+  command->add_option("--output", options->output, "NetCDF-4 file (.nc)")
+      ->type_name("FILE")
+      ->required();
+  command->add_flag("--resume", options->resume, "go on with a sweep that was stopped or killed");
+  command->footer(explanation + help_footer(examples));
+  command->callback([options, &action] {
+    action = [options](const Provenance& provenance) { return run(*options, provenance); };
+  });
+}
+
+}  // namespace gearlash::cli
