@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string>
@@ -149,5 +150,8 @@ ExitStatus guarded(int argument_count, char** arguments) {
 
 int main(int argument_count, char** arguments) {
   gearlash::cli::install_signal_handlers();
-  return static_cast<int>(gearlash::cli::guarded(argument_count, arguments));
+  const auto status = static_cast<int>(gearlash::cli::guarded(argument_count, arguments));
+  // Once a write has failed, HDF5 (1.10.8), which NetCDF writes with, crashes when the program ends.
+  if (status != 0) std::_Exit(status);
+  return status;
 }

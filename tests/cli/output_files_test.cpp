@@ -129,14 +129,14 @@ TEST(OutputFiles, ASymbolicLinkStaysOneAndPermissionsStay) {
 TEST(OutputFiles, NoneMayTakeThePlaceOfAnother) {
   const Scratch scratch;
   const std::string sheet = (scratch / "own.toml").string();
-  std::ofstream(sheet) << file_text("examples/elinco-fd162.toml");
+  std::ofstream(sheet) << file_text(GEARLASH_SOURCE_DIRECTORY "/examples/elinco-fd162.toml");
   const std::string picture = (scratch / "y.svg").string();
   const Outcome run = run_tool({"simulate", sheet, "--output", sheet, "--plot", "time=" + picture,
                                 "--plot", "phase=" + picture});
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.err, HasSubstr("--output = " + sheet + ": must not be the file of SERVO.toml"));
   EXPECT_THAT(run.err, HasSubstr("--plot = " + picture + ": must not be the file of --plot"));
-  EXPECT_EQ(file_text(sheet), file_text("examples/elinco-fd162.toml"));
+  EXPECT_EQ(file_text(sheet), file_text(GEARLASH_SOURCE_DIRECTORY "/examples/elinco-fd162.toml"));
   EXPECT_EQ(scratch.file_count(), 1U);
 }
 

@@ -1,0 +1,125 @@
+"""What gearlash writes in NetCDF opens in xarray and in ncdump, and says what limit-cycle says."""
+
+import json
+import math
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import xarray
+
+TOOL = sys.argv.pop(1)
+SEED = 1960
+INPUTS = ["damping", "inertia_ratio", "friction_ratio", "backlash", "restitution"]
+QUANTITIES = ["growth_at_rest", "size", "motor_size", "period", "multiplier", "impact_speed",
+              "engaged_time", "separated_time", "motor_friction_loss", "load_friction_loss",
+              "impact_loss", "residual"]
+SWEEP = """
+[sweep]
+axes = ["friction-ratio=0.05:0.95:7", "damping = 0.1, 0.2, 0.5", "inertia-ratio=1/9:9:11:log"]
+[servo]
+backlash = "12 arcmin"
+[contact]
+restitution = 0
+"""
+
+
+def run(*arguments):
+    done = subprocess.run(arguments, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise AssertionError(f"{arguments}: {done.stderr}")
+    return done.stdout
+
+
+def single_call(point):
+    options = [text for name in INPUTS
+               for text in ("--" + name.replace("_", "-"), repr(float(point[name])))]
+    return json.loads(run(TOOL, "limit-cycle", *options, "--format", "json"))
+
+
+class ReadBack(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def path(self, name):
+        return str(pathlib.Path(self.folder.name) / name)
+
+    def written(self, *arguments):
+        run(TOOL, *arguments, "--output", self.path("out.nc"))
+        data = xarray.open_dataset(self.path("out.nc")).load()
+        data.close()
+        return data
+
+    def swept(self):
+        pathlib.Path(self.path("sweep.toml")).write_text(SWEEP, encoding="utf-8")
+        return self.written("sweep", self.path("sweep.toml"))
+
+    def assert_points_are_single_calls(self, data, count=20):
+        names = data["verdict"].dims
+        chooser = random.Random(SEED)
+        for _ in range(count):
+            place = {name: chooser.randrange(data.sizes[name]) for name in names}
+            point = data.isel(place)
+            single = single_call(point)
+            message = f"seed {SEED}, {place}"
+            words = point["verdict"].attrs["flag_meanings"].split()
+            verdict = words[int(point["verdict"])].replace("_", " ")
+            self.assertEqual(verdict, single["verdict"], message)
+            self.assertAlmostEqual(float(point["growth_at_rest"]), single["growth_at_rest"],
+                                   delta=1e-12 * single["growth_at_rest"], msg=message)
+            if verdict == "cannot hunt":
+                self.assertTrue(math.isnan(float(point["size"])), message)
+                continue
+            cycle = single["cycles"][0]
+            for quantity in ["size", "period", "multiplier", "impact_speed"]:
+                self.assertAlmostEqual(float(point[quantity]), cycle[quantity],
+                                       delta=1e-11 * abs(cycle[quantity]), msg=message)
+
+    def test_a_sweep_has_its_axes_as_dimensions(self):
+        data = self.swept()
+        self.assertEqual(data["size"].dims, ("friction_ratio", "damping", "inertia_ratio"))
+        self.assertEqual(data["size"].shape, (7, 3, 11))
+        self.assertEqual(list(data["damping"].values), [0.1, 0.2, 0.5])
+        self.assertEqual(float(data["inertia_ratio"][-1]), 9.0)
+        self.assertAlmostEqual(float(data["backlash"]), math.radians(0.2), places=17)
+        self.assertIn("backlash", data.coords)
+        self.assertEqual(set(data.data_vars), {"verdict", *QUANTITIES})
+        self.assert_points_are_single_calls(data)
+
+    def test_a_chart_of_one_curve_and_of_many(self):
+        one = self.written("chart", "--x", "inertia-ratio=1/9:9:21:log", "--friction-ratio", "0.1",
+                           "--damping", "0.1", "--backlash", "0.3")
+        self.assertEqual(one["size"].dims, ("inertia_ratio",))
+        self.assert_points_are_single_calls(one)
+        many = self.written("chart", "--x", "friction-ratio=0:1:21", "--curves", "damping=0.1,0.6",
+                            "--inertia-ratio", "1")
+        self.assertEqual(many["size"].dims, ("damping", "friction_ratio"))
+        self.assert_points_are_single_calls(many)
+
+    def test_every_variable_is_described(self):
+        data = self.swept()
+        for name, variable in data.variables.items():
+            self.assertIn("long_name", variable.attrs, name)
+            if name != "verdict":
+                self.assertIn(variable.attrs["units"], ["1", "rad", "rad2"], name)
+        self.assertEqual(data.attrs["sweep"], SWEEP)
+        self.assertRegex(data.attrs["source"], r"^gearlash \d+\.\d+\.\d+$")
+        self.assertEqual(data.attrs["history"], "gearlash sweep " + self.path("sweep.toml") +
+                         " --output " + self.path("out.nc"))
+
+    def test_ncdump_reads_it(self):
+        self.swept()
+        header = run("ncdump", "-h", self.path("out.nc"))
+        self.assertIn("\tinertia_ratio = 11 ;", header)
+        self.assertIn("\tdouble size(friction_ratio, damping, inertia_ratio) ;", header)
+        self.assertIn('\t\tsize:units = "rad" ;', header)
+        values = run("ncdump", "-v", "damping", self.path("out.nc"))
+        self.assertIn(" damping = 0.1, 0.2, 0.5 ;", values)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,168 @@
+// gearlash sweep as a user calls it: whole or not at all, and to be gone on with.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tool.hpp"
+
+namespace gearlash {
+namespace {
+
+using test::file_text;
+using test::Outcome;
+using test::quoted;
+using test::run_shell;
+using test::run_tool;
+using test::Scratch;
+using testing::HasSubstr;
+
+void write(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path) << text;
+}
+
+/// Bouncing servos, so that it takes some seconds in several pieces.
+constexpr char long_sweep[] =
+    "[sweep]\n"
+    "axes = [\"restitution=0.1:0.3:5\", \"friction-ratio=0.1:0.9:90\", \"damping=0.1,0.2\"]\n"
+    "[servo]\ninertia_ratio = 1\n";
+
+/// Starts the sweep, and once pieces are recorded, ends it with `signal`. Prints what is recorded.
+std::string interrupted(const std::string& signal, const std::string& options) {
+  return "set +m\n\"$GEARLASH\" sweep sweep.toml --output a.nc " + options +
+         " & tool=$!\n"
+         "until grep -q '\"points_done\": [1-9]' a.nc.part.json 2>/dev/null || ! kill -0 $tool; "
+         "do\n"
+         "  sleep 0.01\ndone\n"
+         "kill -" +
+         signal + " $tool; wait $tool; echo status $?; grep points_done a.nc.part.json\n";
+}
+
+std::string in_folder(const Scratch& scratch, const std::string& script) {
+  return "cd " + quoted((scratch / "").string()) + "\n" + script;
+}
+
+TEST(SweepCommand, KilledAndGoneOnWithItGivesTheSameFile) {
+  const Scratch whole;
+  write(whole / "sweep.toml", long_sweep);
+  const Outcome run = run_shell(in_folder(whole, "\"$GEARLASH\" sweep sweep.toml --output a.nc"));
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.out, "a.nc: 900 servos, 0 solved side by side, 900 one by one\n");
+  EXPECT_EQ(whole.file_count(), 2U);  // the sweep and its file: nothing is left of the parts
+
+  const Scratch killed;
+  write(killed / "sweep.toml", long_sweep);
+  const Outcome kill = run_shell(in_folder(killed, interrupted("KILL", "")));
+  EXPECT_THAT(kill.out, HasSubstr("status 137\n")) << kill.err;
+  EXPECT_FALSE(std::filesystem::exists(killed / "a.nc"));
+  const Outcome anew = run_shell(in_folder(killed, "\"$GEARLASH\" sweep sweep.toml --output a.nc"));
+  EXPECT_EQ(anew.status, 2);
+  EXPECT_THAT(anew.err, HasSubstr("--output = a.nc: must not have an unfinished sweep beside it"));
+  const Outcome resumed =
+      run_shell(in_folder(killed, "\"$GEARLASH\" sweep sweep.toml --output a.nc --resume"));
+  EXPECT_EQ(resumed.status, 0) << resumed.err;
+  EXPECT_EQ(resumed.out, run.out);
+  EXPECT_EQ(killed.file_count(), 2U);
+  EXPECT_TRUE(file_text(killed / "a.nc") == file_text(whole / "a.nc"));
+}
+
+TEST(SweepCommand, CtrlCKeepsWhatIsDone) {
+  const Scratch scratch;
+  write(scratch / "sweep.toml", long_sweep);
+  // In the background a shell has SIGINT ignored.
+  const Outcome run = run_shell(in_folder(scratch, interrupted("TERM", "")));
+  EXPECT_THAT(run.out, HasSubstr("status 143\n")) << run.err;
+  EXPECT_THAT(run.err, HasSubstr(" of 900 servos, which a.nc.part holds: --resume goes on\n"));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "a.nc"));
+  const auto record = nlohmann::json::parse(file_text(scratch / "a.nc.part.json"));
+  EXPECT_GT(record["points_done"], 0);
+  EXPECT_LT(record["points_done"], 900);
+}
+
+TEST(SweepCommand, ResumesOnlyTheSameSweep) {
+  const Scratch scratch;
+  write(scratch / "sweep.toml", long_sweep);
+  run_shell(in_folder(scratch, interrupted("KILL", "")));
+  write(scratch / "sweep.toml", std::string(long_sweep) + "backlash = 2\n");
+  const std::string resume =
+      in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.nc --resume");
+  EXPECT_EQ(run_shell(resume).err,
+            "gearlash: --resume = a.nc.part: must be of the same sweep file; remove it to start "
+            "again\n");
+  write(scratch / "a.nc.part.json", "{}");
+  EXPECT_THAT(run_shell(resume).err, HasSubstr("must have beside it the record"));
+}
+
+TEST(SweepCommand, EveryFaultOfTheFileIsToldWithItsPlace) {
+  const Scratch scratch;
+  write(scratch / "sweep.toml",
+        "[sweep]\n"
+        "axes = [\"damping=0.6:0.1:5\", \"weight=1:2:3\", \"friction-ratio=0:1:1000000000000\",\n"
+        "        \"inertia-ratio=0:1:5:log\", \"backlash=\", 3]\n"
+        "quantities = [\"sizes\"]\n");
+  const Outcome run =
+      run_shell(in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.txt"));
+  EXPECT_EQ(run.status, 2);
+  const std::string place = "gearlash: sweep.toml:";
+  EXPECT_THAT(run.err, HasSubstr(place + "2:9: sweep.axes[0] = damping=0.6:0.1:5: must rise"));
+  EXPECT_THAT(run.err, HasSubstr(place + "2:30: sweep.axes[1] = weight=1:2:3: must name an input"));
+  EXPECT_THAT(run.err, HasSubstr("sweep.axes[2] = friction-ratio=0:1:1000000000000: must be from 1 "
+                                 "to 1000000\n"));
+  EXPECT_THAT(run.err, HasSubstr("sweep.axes[3] = inertia-ratio=0:1:5:log: must be positive"));
+  EXPECT_THAT(run.err, HasSubstr("sweep.axes[4] = backlash=: must be NAME="));
+  EXPECT_THAT(run.err, HasSubstr("sweep.axes[5] = 3: must be a text"));
+  EXPECT_THAT(run.err,
+              HasSubstr("sweep.quantities[0] = sizes: must be one of growth_at_rest, size"));
+  EXPECT_THAT(run.err, HasSubstr("(did you mean size?)"));
+  EXPECT_THAT(run.err, HasSubstr("--output = a.txt: must end in .nc"));
+
+  write(scratch / "sweep.toml",
+        "[sweep]\naxes = [\"damping=0.1:0.6:5\", \"damping=0.7:0.8:5\"]\n"
+        "[servo]\ndamping = 0.1\ninertia_ratio = 1\n");
+  const Outcome servo =
+      run_shell(in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.nc"));
+  EXPECT_THAT(servo.err, HasSubstr("sweep.axes[1] = damping=0.7:0.8:5: must be another input than "
+                                   "that of sweep.axes[0]\n"));
+  EXPECT_THAT(servo.err, HasSubstr("servo.damping = 0.1: must be left out: [sweep] varies it\n"));
+  EXPECT_THAT(servo.err, HasSubstr("servo.friction_ratio is missing: must be from 0 to 1\n"));
+  EXPECT_EQ(scratch.file_count(), 1U);
+}
+
+TEST(SweepCommand, TellsBeforehandThatTheDiskIsTooSmall) {
+  const Scratch scratch;
+  write(scratch / "sweep.toml",
+        "[sweep]\naxes = [\"damping=0.1:0.6:1000000\", \"friction-ratio=0:1:10000\"]\n"
+        "[servo]\ninertia_ratio = 1\n");
+  const Outcome run = run_shell(in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.nc"));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("a.nc: cannot be written: 970 GB are wanting, "));
+  EXPECT_EQ(scratch.file_count(), 1U);
+}
+
+TEST(SweepCommand, AFullDiskKeepsWhatIsDone) {
+  const Scratch scratch;
+  write(scratch / "sweep.toml",
+        "[sweep]\naxes = [\"damping=0.1:0.6:100\", \"friction-ratio=0.1:0.9:1000\"]\n"
+        "[servo]\ninertia_ratio = 1\n");
+  const Outcome run =
+      run_shell(in_folder(scratch, "ulimit -f 1000; \"$GEARLASH\" sweep sweep.toml --output a.nc"));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.err, "gearlash: a.nc: cannot be written: File too large\n");
+  EXPECT_FALSE(std::filesystem::exists(scratch / "a.nc"));
+  const Outcome again =
+      run_shell(in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.nc --resume"));
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(scratch.file_count(), 2U);
+}
+
+TEST(SweepCommand, TakesADataSheet) {
+  const Scratch scratch;
+  write(scratch / "sweep.toml", file_text(GEARLASH_SOURCE_DIRECTORY "/examples/elinco-fd162.toml") +
+                                    "\n[sweep]\naxes = [\"friction-ratio=0.05,0.077\"]\n");
+  const Outcome run = run_shell(in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.nc"));
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.out, "a.nc: 2 servos, 2 solved side by side, 0 one by one\n");
+}
+
+}  // namespace
+}  // namespace gearlash
