@@ -1,11 +1,12 @@
 // Whatever the bytes: parse_servo either throws InvalidInput, one line a violation, or returns a
-// sound servo.
+// sound servo; and parse_sweep a sound grid.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
 
 #include "gearlash/io/servo_file.hpp"
+#include "gearlash/io/sweep_file.hpp"
 
 namespace {
 
@@ -25,6 +26,13 @@ void require_sound(const gearlash::ServoFile& file) {
   require(file.backlash_unit.radians > 0.0 && !file.backlash_unit.name.empty());
 }
 
+void require_sound(const gearlash::SweepFile& file) {
+  const std::vector<std::string> fields(file.grid.axes.size(), "axis");
+  require(!fields.empty() && fields.size() <= gearlash::most_axes_of_a_sweep);
+  require(gearlash::validate(file.grid, fields).empty());
+  require(!file.quantities.empty());
+}
+
 void require_one_line_each(const gearlash::InvalidInput& refusal) {
   require(!refusal.violations().empty());
   for (const gearlash::Violation& violation : refusal.violations()) {
@@ -40,6 +48,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   try {
     require_sound(gearlash::parse_servo(text, "fuzz.toml"));
+  } catch (const gearlash::InvalidInput& refusal) {
+    require_one_line_each(refusal);
+  }
+  try {
+    require_sound(gearlash::parse_sweep(text, "fuzz.toml"));
   } catch (const gearlash::InvalidInput& refusal) {
     require_one_line_each(refusal);
   }
