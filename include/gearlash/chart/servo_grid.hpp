@@ -18,6 +18,7 @@ struct ServoGrid {
 
   std::size_t size() const;
   NormalizedServo at(std::size_t index) const;
+  bool may_bounce() const;  ///< whether the restitution is more than 0 anywhere
 };
 
 /// Every violation of the axes, of two axes with the same input, of more points than
