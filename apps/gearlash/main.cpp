@@ -107,6 +107,7 @@ ExitStatus parse_and_run(int argument_count, char** arguments) {
   add_simulate_command(app, action);
   add_motor_command(app, action);
   add_chart_command(app, action);
+  add_map_command(app, action);
   add_thesis_command(app, action);
   require_subcommand(app, "gearlash",
                      {arguments + std::min(argument_count, 1), arguments + argument_count});
