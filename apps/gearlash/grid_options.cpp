@@ -14,37 +14,69 @@ namespace {
 
 constexpr std::size_t most_points = 10'000'000;  // a gigabyte
 
+using TypedInput = std::optional<std::string> ServoOptions::*;
+
 /// The option of a servo's input.
-std::optional<std::string>& typed(ServoOptions& options, Input input) {
+TypedInput option_of(Input input) {
   switch (input) {
     case Input::inertia_ratio:
-      return options.inertia_ratio;
+      return &ServoOptions::inertia_ratio;
     case Input::friction_ratio:
-      return options.friction_ratio;
+      return &ServoOptions::friction_ratio;
     case Input::backlash:
-      return options.backlash;
+      return &ServoOptions::backlash;
     case Input::restitution:
-      return options.restitution;
+      return &ServoOptions::restitution;
     case Input::damping:
       break;
   }
-  return options.damping;
+  return &ServoOptions::damping;
+}
+
+/// The axes that can be read, and what the options call them.
+struct TypedAxes {
+  std::vector<Axis> axes;
+  std::vector<std::string> fields;
+  bool all_sound = true;
+};
+
+TypedAxes read_axes(const std::vector<AxisOption>& options, Faults& faults) {
+  TypedAxes typed;
+  for (const AxisOption& option : options) {
+    Axis axis = faults.collect([&] { return read_axis(option.field, option.text); }, Axis{});
+    if (axis.values.empty()) {
+      typed.all_sound = false;
+      continue;
+    }
+    typed.axes.push_back(std::move(axis));
+    typed.fields.push_back(option.field);
+  }
+  return typed;
 }
 
 /// The servo but for what stands on the axes, which no option may give besides. Sizes are in
-/// backlashes where none is given.
-NormalizedServo read_fixed_inputs(ServoOptions options, const std::vector<Axis>& axes,
-                                  const std::vector<std::string>& fields, Faults& faults) {
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    std::optional<std::string>& text = typed(options, axes[i].input);
-    if (text) {
-      faults.add({option_name(name_of(axes[i].input)), shown(*text),
-                  "must be left out: " + fields[i] + " varies it", ""});
+/// backlashes where none is given. Where an axis cannot be read it may be the one that gives what
+/// else is missing.
+NormalizedServo read_fixed_inputs(const ServoOptions& options, const TypedAxes& axes,
+                                  Faults& faults) {
+  ServoOptions completed = options;
+  const auto leave_to_axis = [&](Input input) {
+    std::optional<std::string>& text = completed.*option_of(input);
+    if (options.file.empty() && !text) text = "0.5";  // of no matter
+  };
+  for (std::size_t i = 0; i < axes.axes.size(); ++i) {
+    const Input input = axes.axes[i].input;
+    if (const std::optional<std::string>& text = options.*option_of(input)) {
+      faults.add({option_name(name_of(input)), shown(*text),
+                  "must be left out: " + axes.fields[i] + " varies it", ""});
     }
-    if (options.file.empty()) text = "0.5";  // of no matter
+    leave_to_axis(input);
   }
-  if (options.file.empty() && !options.backlash) options.backlash = "1";
-  return resolve_servo(options, faults).servo;
+  if (options.file.empty() && !completed.backlash) completed.backlash = "1";
+  if (!axes.all_sound) {
+    for (const Input input : all_inputs) leave_to_axis(input);
+  }
+  return resolve_servo(completed, faults).servo;
 }
 
 CycleQuantity read_quantity(const std::string& text, Faults& faults) {
@@ -67,11 +99,11 @@ GridFile read_grid_file(const std::string& file) {
 }
 
 /// No picture has room for infinity.
-void require_finite_axes(const std::vector<Axis>& axes, const std::vector<std::string>& fields,
-                         Faults& faults) {
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    if (std::isfinite(axes[i].values.back())) continue;
-    faults.add({fields[i], exact_text(axes[i].values.back()),
+void require_finite(const TypedAxes& axes, Faults& faults) {
+  for (std::size_t i = 0; i < axes.axes.size(); ++i) {
+    const double last = axes.axes[i].values.back();
+    if (std::isfinite(last)) continue;
+    faults.add({axes.fields[i], exact_text(last),
                 "must be finite in a picture; tables (.csv, .json) may have it", ""});
   }
 }
@@ -100,24 +132,17 @@ void add_grid_options(CLI::App& command, GridOptions& options) {
 
 GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption>& typed_axes) {
   Faults faults;
-  std::vector<Axis> axes;
-  std::vector<std::string> fields;
-  for (const AxisOption& option : typed_axes) {
-    Axis axis = faults.collect([&] { return read_axis(option.field, option.text); }, Axis{});
-    if (axis.values.empty()) continue;
-    axes.push_back(std::move(axis));
-    fields.push_back(option.field);
-  }
+  TypedAxes axes = read_axes(typed_axes, faults);
   GridTask task;
   task.file = options.output;
   task.quantity = read_quantity(options.quantity, faults);
   task.kind = faults.collect([&] { return read_grid_file(options.output); }, GridFile::csv);
-  if (task.kind == GridFile::picture) require_finite_axes(axes, fields, faults);
+  if (task.kind == GridFile::picture) require_finite(axes, faults);
   faults.require_distinct({{"SERVO.toml", options.servo.file}, {"--output", options.output}});
-  task.grid.servo = read_fixed_inputs(options.servo, axes, fields, faults);
+  task.grid.servo = read_fixed_inputs(options.servo, axes, faults);
   faults.require_none();
-  task.grid.axes = std::move(axes);
-  require_none(validate(task.grid, fields));
+  task.grid.axes = std::move(axes.axes);
+  require_none(validate(task.grid, axes.fields));
   if (task.grid.size() > most_points) {
     throw InvalidInput({{"points", std::to_string(task.grid.size()),
                          "must be at most " + std::to_string(most_points) +

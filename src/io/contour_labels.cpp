@@ -102,7 +102,9 @@ LabelPlacer::Labelled LabelPlacer::place(const PaperLine& contour, const std::st
     const double middle = first + (way.length() - 2.0 * first) * i / candidates;
     const double chord = distance(way.at(middle - half_width), way.at(middle + half_width));
     const double straightness = chord / (2.0 * half_width);
-    const double clear = clearance(way.at(middle), contour, half_width);
+    const double clear = std::min({clearance(way.at(middle), contour, half_width),
+                                   clearance(way.at(middle - half_width), contour, 0.0),
+                                   clearance(way.at(middle + half_width), contour, 0.0)});
     if (straightness < 0.96 || clear <= 0.0) continue;
     const double from_middle = std::abs(2.0 * i / candidates - 1.0);
     const double score =
