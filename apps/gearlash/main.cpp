@@ -23,6 +23,8 @@ constexpr char examples[] =
     "  gearlash limit-cycle examples/elinco-fd162.toml --plot hunting.svg\n"
     "  gearlash simulate examples/elinco-fd162.toml --plot time=step.svg > step.csv\n"
     "  gearlash motor examples/elinco-fd162.toml\n"
+    "  gearlash map --x friction-ratio=0:1:100 --y damping=0.02:0.8:100 --inertia-ratio 2 \\\n"
+    "      --output map.svg\n"
     "  gearlash limit-cycle --help\n";
 
 extern "C" void remove_outputs_and_die(int signal_number) {
