@@ -22,6 +22,7 @@ using Action = std::function<ExitStatus(const Provenance&)>;
 void add_limit_cycle_command(CLI::App& app, Action& action);
 void add_simulate_command(CLI::App& app, Action& action);
 void add_chart_command(CLI::App& app, Action& action);
+void add_map_command(CLI::App& app, Action& action);
 void add_sweep_command(CLI::App& app, Action& action);
 void add_motor_command(CLI::App& app, Action& action);
 void add_thesis_command(CLI::App& app, Action& action);

@@ -24,6 +24,8 @@ constexpr char examples[] =
     "  gearlash limit-cycle examples/elinco-fd162.toml --plot hunting.svg\n"
     "  gearlash simulate examples/elinco-fd162.toml --plot time=step.svg > step.csv\n"
     "  gearlash motor examples/elinco-fd162.toml\n"
+    "  gearlash map --x friction-ratio=0:1:100 --y damping=0.02:0.8:100 --inertia-ratio 2 \\\n"
+    "      --output map.svg\n"
     "  gearlash limit-cycle --help\n";
 
 extern "C" void remove_outputs_and_die(int signal_number) {
@@ -108,6 +110,7 @@ ExitStatus parse_and_run(int argument_count, char** arguments) {
   add_simulate_command(app, action);
   add_motor_command(app, action);
   add_chart_command(app, action);
+  add_map_command(app, action);
   add_sweep_command(app, action);
   add_thesis_command(app, action);
   require_subcommand(app, "gearlash",
@@ -151,7 +154,8 @@ ExitStatus guarded(int argument_count, char** arguments) {
 int main(int argument_count, char** arguments) {
   gearlash::cli::install_signal_handlers();
   const auto status = static_cast<int>(gearlash::cli::guarded(argument_count, arguments));
-  // Once a write has failed, HDF5 (1.10.8), which NetCDF writes with, crashes when the program ends.
+  // Once a write has failed, HDF5 (1.10.8), which NetCDF writes with, crashes when the program
+  // ends.
   if (status != 0) std::_Exit(status);
   return status;
 }

@@ -10,6 +10,7 @@
 #include "gearlash/io/sweep_file.hpp"
 #include "gearlash/io/sweep_run.hpp"
 #include "gearlash/io/units.hpp"
+#include "grid_options.hpp"
 #include "servo_options.hpp"
 #include "stop_request.hpp"
 #include "terminal.hpp"
@@ -52,14 +53,6 @@ Provenance provenance_of(const SweepOptions& options, const Provenance& typed) {
   return {typed_command(static_cast<int>(arguments.size()), arguments.data()), typed.version};
 }
 
-void report(const SweepRun& run, const std::string& output) {
-  const BatchCount& solved = run.count.solved;
-  std::string text = fmt::format("{}: {} servos, {} solved side by side, {} one by one", output,
-                                 run.points_done, solved.side_by_side, solved.one_by_one);
-  if (run.count.refused > 0) text += fmt::format(", {} refused", run.count.refused);
-  write_file("-", text + "\n");
-}
-
 void report_stop(const SweepRun& run, const SweepFile& sweep, const std::string& output) {
   fmt::print(stderr,
              "gearlash: stopped after {} of {} servos, which {}.part holds: --resume goes on\n",
@@ -75,19 +68,18 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
   faults.require_none();
 
   const StopRequest stop;
-  Progress progress("Sweep");
-  const auto points = static_cast<double>(sweep.grid.size());
+  Progress progress("Sweep", sweep.grid.size(), "servos");
   const SweepRun done =
       run_sweep(sweep, provenance_of(options, provenance), options.output,
                 options.resume ? SweepStart::resume : SweepStart::anew, [&](std::size_t count) {
-                  progress.show(static_cast<double>(count) / points);
+                  progress.show_done(count);
                   return !stop.is_made();
                 });
   if (done.points_done < sweep.grid.size()) {
     report_stop(done, sweep, options.output);
     stop.obey();
   }
-  report(done, options.output);
+  write_file("-", shown(options.output, std::string::npos) + ": " + solved_text(done.count) + "\n");
   return ExitStatus::done;
 }
 

@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
 #include <utility>
+
+#include "gearlash/io/report_units.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -28,23 +32,56 @@ std::string emphasized(const std::string& text) {
   return takes_escapes(STDOUT_FILENO) ? "\x1b[1m" + text + "\x1b[0m" : text;
 }
 
-Progress::Progress(std::string what)
+std::string progress_text(double share, double seconds, double things, const std::string& name,
+                          double begun) {
+  std::string text = fmt::format("{:3.0f} %", 100.0 * share);
+  const double worked = share - begun;
+  if (!(worked > 0.0 && seconds > 0.0)) return text;
+  if (things > 0.0) {
+    const double rate = things * worked / seconds;
+    text += rate >= 1e6 ? fmt::format(", {} million {}/s", significant(rate / 1e6, 2), name)
+                        : fmt::format(", {:.0f} {}/s", rate, name);
+  }
+  const double left = std::ceil(seconds * (1.0 - share) / worked);
+  if (left < 120.0) return text + fmt::format(", {:.0f} s left", left);
+  if (left < 7200.0) return text + fmt::format(", {:.0f} min left", std::ceil(left / 60.0));
+  return text + fmt::format(", {:.0f} h left", std::ceil(left / 3600.0));
+}
+
+Progress::Progress(std::string what) : Progress(std::move(what), 0, "") {}
+
+Progress::Progress(std::string what, std::size_t count, std::string name)
     : what_(std::move(what)),
+      count_(count),
+      name_(std::move(name)),
       is_watched_(isatty(STDERR_FILENO) == 1),
-      next_(Clock::now() + patience) {}
+      start_(Clock::now()),
+      next_(start_ + patience) {}
 
 void Progress::show(double share) {
-  if (!is_watched_ || Clock::now() < next_) return;
-  is_shown_ = true;
-  next_ = Clock::now() + refresh;
-  fmt::print(stderr, "\r{}: {:3.0f} %", what_, 100.0 * share);
+  const Clock::time_point now = Clock::now();
+  if (!is_watched_ || now < next_) return;
+  next_ = now + refresh;
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  std::string line =
+      what_ + ": " + progress_text(share, seconds, static_cast<double>(count_), name_, begun_);
+  width_ = std::max(width_, line.size());
+  line.resize(width_, ' ');  // over what was longer
+  fmt::print(stderr, "\r{}", line);
   std::fflush(stderr);
 }
 
+void Progress::show_done(std::size_t done) {
+  const double share = static_cast<double>(done) / static_cast<double>(count_);
+  if (!is_told_) begun_ = share;
+  is_told_ = true;
+  show(share);
+}
+
 Progress::~Progress() {
-  if (!is_shown_) return;
+  if (width_ == 0) return;
   // Blanks instead of an escape sequence: understood by every terminal.
-  std::fputs(("\r" + std::string(what_.size() + 8, ' ') + "\r").c_str(), stderr);
+  std::fputs(("\r" + std::string(width_, ' ') + "\r").c_str(), stderr);
 }
 
 }  // namespace gearlash::cli

@@ -110,6 +110,26 @@ Axis spaced_axis(std::string_view field, Input input, double from, double to, st
   return axis;
 }
 
+double position_on(const Axis& axis, double value) {
+  const double low = axis.values.front();
+  const double high = axis.values.back();
+  return axis.logarithmic ? std::log(value / low) / std::log(high / low)
+                          : (value - low) / (high - low);
+}
+
+double value_at(const Axis& axis, double position) {
+  const double low = axis.values.front();
+  const double high = axis.values.back();
+  const double value = axis.logarithmic ? low * std::exp(position * std::log(high / low))
+                                        : low + position * (high - low);
+  return std::clamp(value, low, high);
+}
+
+std::size_t interval_of(const Axis& axis, double value) {
+  const auto above = std::upper_bound(axis.values.begin() + 1, axis.values.end() - 1, value);
+  return static_cast<std::size_t>(above - axis.values.begin()) - 1;
+}
+
 std::vector<Violation> validate(const Axis& axis, std::string_view field) {
   RangeCheck check;
   if (axis.values.empty()) {

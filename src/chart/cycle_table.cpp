@@ -47,6 +47,28 @@ std::optional<CycleQuantity> quantity_named(std::string_view name) {
   return std::nullopt;
 }
 
+std::optional<double> limit_where_hunting_ends(CycleQuantity quantity) {
+  switch (quantity) {
+    case CycleQuantity::size:
+    case CycleQuantity::motor_size:
+    case CycleQuantity::impact_speed:
+    case CycleQuantity::motor_friction_loss:
+    case CycleQuantity::load_friction_loss:
+    case CycleQuantity::impact_loss:
+      return 0.0;
+    case CycleQuantity::multiplier:
+      return 1.0;
+    case CycleQuantity::period:
+    case CycleQuantity::separated_time:
+      return std::numeric_limits<double>::infinity();
+    case CycleQuantity::growth_at_rest:
+    case CycleQuantity::engaged_time:
+    case CycleQuantity::residual:
+      break;
+  }
+  return std::nullopt;
+}
+
 CycleTable::CycleTable(std::size_t rows) : verdict(rows, Verdict::undecided) {
   values.fill(std::vector<double>(rows, std::numeric_limits<double>::quiet_NaN()));
 }

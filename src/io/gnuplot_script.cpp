@@ -56,6 +56,30 @@ const char* terminal(PictureFormat format) {
   return "";
 }
 
+std::string heading(const std::string& title, const std::string& subtitle) {
+  return "set encoding utf8\nset title " + quoted(title, "/:Bold") + " offset 0,1.1\nset label 1 " +
+         quoted(subtitle, "/*0.87") +
+         " at graph 0.5, screen 0.905 center\n"
+         "set tmargin screen 0.88\nset rmargin screen 0.97\n"
+         "set tics nomirror out\nset border linewidth 0.8\n";
+}
+
+std::string axis_commands(char name, const ChartAxis& axis) {
+  const auto end = [](const std::optional<double>& value) {
+    return value ? fmt::format("{:.7g}", *value) : "*";
+  };
+  std::string text = fmt::format("set {}label {}\n", name, quoted(axis.label));
+  text += fmt::format("set {}range [{}:{}]\n", name, end(axis.low), end(axis.high));
+  if (axis.logarithmic) text += fmt::format("set logscale {}\n", name);
+  if (axis.tics.empty()) return text;
+  text += fmt::format("set {}tics (", name);
+  for (std::size_t i = 0; i < axis.tics.size(); ++i) {
+    text += fmt::format("{}{} {:.7g}", i == 0 ? "" : ", ", quoted(axis.tics[i].first),
+                        axis.tics[i].second);
+  }
+  return text + ")\n";
+}
+
 std::string plot_command(const std::vector<std::string>& layers) {
   std::string command = "plot ";
   for (std::size_t i = 0; i < layers.size(); ++i) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gearlash/io/picture.hpp"
+#include "gearlash/io/line_chart.hpp"
 
 namespace gearlash {
 
@@ -16,6 +16,12 @@ std::string quoted(const std::string& text, const std::string& style = "");
 
 /// The kind of picture, its size, and the share of its height that axis and legend take.
 const char* terminal(PictureFormat format);
+
+/// Title and subtitle, and the borders that every chart has.
+std::string heading(const std::string& title, const std::string& subtitle);
+
+/// Name is 'x' or 'y'.
+std::string axis_commands(char name, const ChartAxis& axis);
 
 /// "plot" with its layers, the first one lowest.
 std::string plot_command(const std::vector<std::string>& layers);

@@ -1,6 +1,8 @@
 #include "gearlash/io/grid_netcdf.hpp"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <utility>
 
 #include "gearlash/io/output_file.hpp"
@@ -84,8 +86,11 @@ class GridNetcdf::Layout {
                             std::string(description_of(quantity)) + units.remark, units.units);
       if (!fixed.empty()) file_.set_attribute(variable, "coordinates", fixed);
     }
+    const std::array<std::vector<double>, 2> boundary = columns_of(contents.hunting_boundary);
+    describe_boundary(boundary.front().size());
     file_.end_description();
     write_inputs();
+    write_boundary(boundary);
     claim_places();
   }
 
@@ -153,6 +158,45 @@ class GridNetcdf::Layout {
     }
   }
 
+  /// By axis: y, x.
+  static std::array<std::vector<double>, 2> columns_of(const std::vector<MapCurve>& curves) {
+    constexpr double gap = std::numeric_limits<double>::quiet_NaN();
+    std::array<std::vector<double>, 2> columns;
+    for (const MapCurve& curve : curves) {
+      if (&curve != &curves.front()) {
+        for (std::vector<double>& column : columns) column.push_back(gap);
+      }
+      for (const MapPoint& point : curve) {
+        columns[0].push_back(point.y);
+        columns[1].push_back(point.x);
+      }
+    }
+    return columns;
+  }
+
+  static std::string boundary_name(const Axis& axis) {
+    return std::string("hunting_boundary_") + name_of(axis.input);
+  }
+
+  void describe_boundary(std::size_t points) {
+    if (points == 0) return;
+    const NetcdfDimension dimension = file_.add_dimension("hunting_boundary_point", points);
+    for (const Axis& axis : grid_.axes) {
+      file_.add_numbers(boundary_name(axis), {dimension},
+                        std::string(description_of(axis.input)) +
+                            " where hunting ends (growth at rest 1); NaN between curves",
+                        unit_of(axis.input));
+    }
+  }
+
+  void write_boundary(const std::array<std::vector<double>, 2>& boundary) {
+    if (boundary.front().empty()) return;
+    for (std::size_t i = 0; i < boundary.size(); ++i) {
+      file_.write(file_.variable(boundary_name(grid_.axes[i])), {0}, {boundary[i].size()},
+                  boundary[i]);
+    }
+  }
+
   /// One value of each variable is written: with it the library gives the whole variable its place,
   /// so that what is written later leaves the file's structure as it is, and a program that is
   /// killed leaves it readable.
@@ -205,14 +249,15 @@ std::size_t netcdf_bytes(const GridContents& contents) {
   return contents.grid.size() * (1 + sizeof(double) * contents.quantities.size());
 }
 
-void write_grid_netcdf(const GridTable& table, const std::filesystem::path& path) {
-  OutputFile output(path);
+void write_grid_netcdf(const GridTable& table, const OutputFile& output) {
   GridNetcdf file = GridNetcdf::create(
-      output.hidden_file(), path.string(),
-      {table.grid, {all_quantities.begin(), all_quantities.end()}, table.provenance, ""});
+      output.hidden_file(), output.shown_name(),
+      {.grid = table.grid,
+       .quantities = {all_quantities.begin(), all_quantities.end()},
+       .provenance = table.provenance,
+       .hunting_boundary = table.hunting_boundary.value_or(std::vector<MapCurve>())});
   file.write(0, table.cycles);
   file.close();
-  output.commit();
 }
 
 }  // namespace gearlash

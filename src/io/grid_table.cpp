@@ -2,96 +2,48 @@
 
 #include <fmt/format.h>
 
-#include <cctype>
 #include <cmath>
-#include <string_view>
 
-#include "gearlash/chart/hunting_end.hpp"
+#include "gearlash/io/hunting_curve.hpp"
 #include "gearlash/servo/range_check.hpp"
+#include "grid_words.hpp"
 #include "json_values.hpp"
 
 namespace gearlash {
 namespace {
 
-/// "damping 0.1, backlash 0.3": the inputs that are on no axis.
-std::string fixed_inputs(const ServoGrid& grid, const char* separator) {
-  std::string text;
-  for (const Input input : all_inputs) {
-    bool varied = false;
-    for (const Axis& axis : grid.axes) varied = varied || axis.input == input;
-    if (varied) continue;
-    text += (text.empty() ? "" : ", ") + std::string(name_of(input)) + separator +
-            exact_text(grid.servo.*field_of(input));
-  }
-  return text;
-}
-
-std::string in_words(const char* name) {
-  std::string text = name;
-  for (char& c : text) c = c == '_' ? ' ' : c;
-  return text;
-}
-
-/// "backlash (rad)".
-std::string label_of(Input input) {
-  const std::string unit = unit_of(input);
-  return description_of(input) + (unit == "1" ? "" : " (" + unit + ")");
-}
-
-bool in_backlashes(const ServoGrid& grid) {
-  for (const Axis& axis : grid.axes) {
-    if (axis.input == Input::backlash) return false;
-  }
-  return grid.servo.backlash == 1.0;
-}
-
-std::string axis_label(CycleQuantity quantity, bool per_backlash) {
-  std::string unit = unit_of(quantity);
-  if (per_backlash) {
-    if (unit == "rad") unit = "backlashes";
-    if (unit == "rad omega_n") unit = "backlashes × ω_n";
-    if (unit == "K rad2") unit = "K × backlash²";
-  }
-  if (unit == "1/omega_n") unit = "1/ω_n";
-  if (unit == "rad omega_n") unit = "rad ω_n";
-  if (unit == "K rad2") unit = "K rad²";
-  return in_words(name_of(quantity)) + (unit == "1" ? "" : " (" + unit + ")");
-}
-
-/// Whether it tends to 0 where hunting ends: what is proportional to the backlash or its square.
-bool vanishes_with_the_cycle(CycleQuantity quantity) {
-  return std::string_view(unit_of(quantity)).find("rad") != std::string_view::npos;
-}
-
 /// One curve of the chart: rows `first` … of the table, over the last axis.
-ChartCurve curve_of(const GridTable& table, std::size_t first, CycleQuantity quantity,
-                    bool with_ends) {
+ChartCurve curve_of(const GridTable& table, std::size_t first, CycleQuantity quantity) {
   const Axis& x = table.grid.axes.back();
   const std::vector<double>& values = table.cycles[quantity];
-  NormalizedServo servo = table.grid.at(first);
-  const auto servo_at = [&](double place) {
-    servo.*field_of(x.input) = place;
-    return servo;
-  };
-  const auto add_end = [&](ChartCurve& curve, double hunting, double quiet) {
-    const ChartPoint end{hunting_end(servo_at, hunting, quiet), 0.0};
-    curve.ends.push_back(end);
-    curve.line.push_back(end);
-  };
-  ChartCurve curve;
+  const bool vanishes = !table.grid.may_bounce() && limit_where_hunting_ends(quantity) == 0.0;
+  std::vector<CurveServo> servos;
   for (std::size_t i = 0; i < x.values.size(); ++i) {
     const Verdict verdict = table.cycles.verdict[first + i];
-    if (with_ends && i > 0) {
-      const Verdict before = table.cycles.verdict[first + i - 1];
-      if (before == Verdict::hunts && verdict == Verdict::cannot_hunt) {
-        add_end(curve, x.values[i - 1], x.values[i]);
-      } else if (before == Verdict::cannot_hunt && verdict == Verdict::hunts) {
-        add_end(curve, x.values[i], x.values[i - 1]);
-      }
-    }
-    curve.line.push_back({x.values[i], values[first + i]});
+    CurveServo servo{x.values[i], values[first + i]};
+    if (vanishes && verdict == Verdict::hunts) servo.hunts = true;
+    if (vanishes && verdict == Verdict::cannot_hunt) servo.hunts = false;
+    servos.push_back(servo);
   }
-  return curve;
+  NormalizedServo servo = table.grid.at(first);
+  return curve_to_hunting_ends(servos, [&](double place) {
+    servo.*field_of(x.input) = place;
+    return servo;
+  });
+}
+
+/// "[[[x, y], …], …]", a curve a line.
+void write_curves(const std::vector<MapCurve>& curves, const TextSink& sink) {
+  sink("[");
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    sink(i == 0 ? "\n    [" : ",\n    [");
+    for (std::size_t j = 0; j < curves[i].size(); ++j) {
+      const MapPoint& point = curves[i][j];
+      sink((j == 0 ? "" : ", ") + Json({point.x, point.y}).dump());
+    }
+    sink("]");
+  }
+  sink(curves.empty() ? "]" : "\n  ]");
 }
 
 }  // namespace
@@ -145,29 +97,24 @@ void write_grid_json(const GridTable& table, const TextSink& sink) {
       sink((row == 0 ? "" : ", ") + json_number(values[row]).dump());
     }
   }
-  sink("]\n}\n");
+  sink("]");
+  if (table.hunting_boundary) {
+    sink(",\n  \"hunting_boundary\": ");
+    write_curves(*table.hunting_boundary, sink);
+  }
+  sink("\n}\n");
 }
 
 LineChart chart_of(const GridTable& table, CycleQuantity quantity) {
   const ServoGrid& grid = table.grid;
   const Axis& x = grid.axes.back();
-  const bool per_backlash = in_backlashes(grid);
-  const bool plastic = has_plastic_contact(grid);
-  std::string title = description_of(quantity);
-  title = title.substr(0, title.find(':'));
-  title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
-  LineChart chart{.title = title,
+  LineChart chart{.title = title_of(quantity),
                   .subtitle = in_words(fixed_inputs(grid, " ").c_str()),
-                  .x = {.label = label_of(x.input),
-                        .logarithmic = x.logarithmic,
-                        .low = x.values.front(),
-                        .high = x.values.back()},
-                  .y = {.label = axis_label(quantity, per_backlash), .low = 0.0}};
-  if (x.values.size() == 1) chart.x.low = chart.x.high = std::nullopt;
+                  .x = chart_axis(x),
+                  .y = {.label = label_of(quantity, grid), .low = 0.0}};
   const std::size_t curves = grid.axes.size() == 1 ? 1 : grid.axes.front().values.size();
   for (std::size_t i = 0; i < curves; ++i) {
-    ChartCurve curve = curve_of(table, i * x.values.size(), quantity,
-                                plastic && vanishes_with_the_cycle(quantity));
+    ChartCurve curve = curve_of(table, i * x.values.size(), quantity);
     bool any = false;
     for (const ChartPoint& point : curve.line) any = any || !std::isnan(point.y);
     if (grid.axes.size() > 1) {

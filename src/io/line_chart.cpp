@@ -21,22 +21,6 @@ constexpr std::array dashes = {"1",     "(10,4)", "(4,3)",        "(12,3,3,3)",
                                "(2,2)", "(16,4)", "(8,3,2,3,2,3)"};
 constexpr std::array marks = {5, 7, 9, 11, 13, 15, 3};
 
-std::string axis_text(char name, const ChartAxis& axis) {
-  const auto end = [](const std::optional<double>& value) {
-    return value ? fmt::format("{:.7g}", *value) : "*";
-  };
-  std::string text = fmt::format("set {}label {}\n", name, quoted(axis.label));
-  text += fmt::format("set {}range [{}:{}]\n", name, end(axis.low), end(axis.high));
-  if (axis.logarithmic) text += fmt::format("set logscale {}\n", name);
-  if (axis.tics.empty()) return text;
-  text += fmt::format("set {}tics (", name);
-  for (std::size_t i = 0; i < axis.tics.size(); ++i) {
-    text += fmt::format("{}{} {:.7g}", i == 0 ? "" : ", ", quoted(axis.tics[i].first),
-                        axis.tics[i].second);
-  }
-  return text + ")\n";
-}
-
 /// The legend in as many columns as its longest name permits, and below the axis the room for its
 /// rows. Lengths in widths of a letter M, shares of the picture's height.
 std::string legend(const LineChart& chart, PictureFormat format) {
@@ -97,15 +81,10 @@ void add_meanings(const LineChart& chart, std::vector<std::string>& layers) {
 }  // namespace
 
 std::string draw_line_chart(const LineChart& chart, PictureFormat format) {
-  std::string script = std::string(terminal(format)) + "set encoding utf8\nset title " +
-                       quoted(chart.title, "/:Bold") + " offset 0,1.1\nset label 1 " +
-                       quoted(chart.subtitle, "/*0.87") +
-                       " at graph 0.5, screen 0.905 center\n"
-                       "set tmargin screen 0.88\nset rmargin screen 0.97\n"
+  std::string script = std::string(terminal(format)) + heading(chart.title, chart.subtitle) +
                        "set offsets 0, 0, graph 0.02, 0\n"
-                       "set grid linewidth 0.5 linecolor rgb '#c4c4c4'\n"
-                       "set tics nomirror out\nset border linewidth 0.8\n";
-  script += legend(chart, format) + axis_text('x', chart.x) + axis_text('y', chart.y);
+                       "set grid linewidth 0.5 linecolor rgb '#c4c4c4'\n";
+  script += legend(chart, format) + axis_commands('x', chart.x) + axis_commands('y', chart.y);
   std::vector<std::string> layers;
   for (std::size_t i = 0; i < chart.curves.size(); ++i) {
     const ChartCurve& curve = chart.curves[i];

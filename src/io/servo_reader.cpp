@@ -229,8 +229,12 @@ class ServoReader {
   /// Whether [servo] has to give the input; if it is varied, it must not.
   bool is_given(SectionReader& section, Input input) {
     if (!is_varied(input)) return true;
-    section.refuse(name_of(input), "must be left out: [" + variation_.section + "] varies it");
+    section.refuse(name_of(input), left_out());
     return false;
+  }
+
+  std::string left_out() const {
+    return "must be left out: [" + variation_.section + "] varies it";
   }
 
   std::optional<double> read_natural_frequency(SectionReader& section) {
@@ -258,6 +262,7 @@ class ServoReader {
 
   double read_restitution() {
     SectionReader contact = section("contact", false, "with restitution");
+    if (is_varied(Input::restitution)) contact.refuse("restitution", left_out());
     const double restitution = contact.number("restitution", Contact{}.restitution);
     contact.refuse_other_keys();
     return restitution;

@@ -28,7 +28,7 @@ std::size_t points_of_a_piece(const ServoGrid& grid) {
   constexpr std::size_t plastic = std::size_t{1} << 19U;
   constexpr std::size_t bouncing_a_core = 128;
   const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-  return has_plastic_contact(grid) ? plastic : bouncing_a_core * cores;
+  return grid.may_bounce() ? bouncing_a_core * cores : plastic;
 }
 
 /// A symbolic link keeps its place.
@@ -138,6 +138,7 @@ class Sweeping {
   SweepRun run(const GoingOn& going_on) {
     const std::size_t points = sweep_.grid.size();
     std::size_t first = recorded_.points_done;
+    if (going_on && !going_on(first)) return recorded_;
     std::future<GridCount> working;
     if (first < points) working = work_out(first, tables_[0], going_on);
     for (std::size_t index = 0; first < points; index = 1 - index) {

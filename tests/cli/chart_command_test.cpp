@@ -89,7 +89,7 @@ TEST(ChartCommand, FaultsAreToldAtOnce) {
   EXPECT_THAT(run.err, HasSubstr("--curves = stiffness: must name an input: "));
   EXPECT_THAT(run.err, HasSubstr("--x = 0.6 to 0.1: must rise"));
   EXPECT_THAT(run.err, HasSubstr("--quantity = weight: must be growth_at_rest, size, "));
-  EXPECT_THAT(run.err, HasSubstr("--output = a.txt: must end in .svg, .png, .pdf, .csv or .json"));
+  EXPECT_THAT(run.err, HasSubstr("--output = a.txt: must end in .svg, .png, .pdf, .csv, .json or .nc"));
   EXPECT_THAT(run.err, HasSubstr("--friction-ratio = 2: must be from 0 to 1"));
   const Outcome twice =
       run_tool({"chart", "--x", "damping=0.1:0.6:5", "--damping", "0.2", "--inertia-ratio", "1",
@@ -98,10 +98,9 @@ TEST(ChartCommand, FaultsAreToldAtOnce) {
   const Outcome many =
       run_tool({"chart", "--x", "damping=0.1:0.6:1000000", "--curves", "backlash=1:2:1000",
                 "--inertia-ratio", "1", "--friction-ratio", "0.2", "--output", "a.csv"});
-  EXPECT_EQ(
-      many.err,
-      "gearlash: points = 1000000000: must be at most 10000000 on both axes together: a chart "
-      "is held in memory\n");
+  EXPECT_EQ(many.err,
+            "gearlash: points = 1000000000: must be at most 10000000 on both axes together: they "
+            "are held in memory\n");
   const Outcome missing = run_tool({"chart", "--output", "a.csv"});
   EXPECT_EQ(missing.status, 2);
   EXPECT_EQ(missing.err, "gearlash: --x is required; see gearlash chart --help\n");

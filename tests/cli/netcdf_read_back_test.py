@@ -69,8 +69,9 @@ class ReadBack(unittest.TestCase):
             words = point["verdict"].attrs["flag_meanings"].split()
             verdict = words[int(point["verdict"])].replace("_", " ")
             self.assertEqual(verdict, single["verdict"], message)
-            self.assertAlmostEqual(float(point["growth_at_rest"]), single["growth_at_rest"],
-                                   delta=1e-12 * single["growth_at_rest"], msg=message)
+            growth = float(single["growth_at_rest"])  # or "inf"
+            self.assertAlmostEqual(float(point["growth_at_rest"]), growth, delta=1e-12 * growth,
+                                   msg=message)
             if verdict == "cannot hunt":
                 self.assertTrue(math.isnan(float(point["size"])), message)
                 continue
@@ -99,6 +100,32 @@ class ReadBack(unittest.TestCase):
                             "--inertia-ratio", "1")
         self.assertEqual(many["size"].dims, ("damping", "friction_ratio"))
         self.assert_points_are_single_calls(many)
+
+    def test_a_map_with_its_boundary(self):
+        arguments = ["map", "--x", "inertia-ratio=0.1:10:21:log", "--y", "damping=0.05:1:20",
+                     "--friction-ratio", "0.3"]
+        data = self.written(*arguments)
+        self.assertEqual(data["size"].dims, ("damping", "inertia_ratio"))
+        self.assert_points_are_single_calls(data)
+        run(TOOL, *arguments, "--output", self.path("map.json"))
+        curves = json.loads(pathlib.Path(self.path("map.json")).read_text())["hunting_boundary"]
+        points = [point for curve in curves for point in curve]
+        x = data["hunting_boundary_inertia_ratio"].values
+        y = data["hunting_boundary_damping"].values
+        self.assertGreater(len(points), 20)
+        self.assertEqual([[float(a), float(b)] for a, b in zip(x, y) if not math.isnan(a)], points)
+        self.assertEqual(sum(map(math.isnan, x)), len(curves) - 1)
+        inertia_ratio, damping = points[len(points) // 2]
+        for factor, growing in ((0.999, True), (1.001, False)):
+            single = single_call({"damping": factor * damping, "inertia_ratio": inertia_ratio,
+                                  "friction_ratio": 0.3, "backlash": 1.0, "restitution": 0.0})
+            self.assertEqual(single["growth_at_rest"] > 1.0, growing)
+
+    def test_a_map_without_a_boundary(self):
+        data = self.written("map", "--x", "inertia-ratio=1:2:3", "--y", "damping=0.1:0.2:3",
+                            "--friction-ratio", "0.1")
+        self.assertNotIn("hunting_boundary_point", data.dims)
+        self.assertTrue((data["growth_at_rest"] > 1.0).all())
 
     def test_every_variable_is_described(self):
         data = self.swept()

@@ -84,6 +84,58 @@ TEST(OutputFiles, BeingKilledLeavesNothing) {
   }
 }
 
+/// A map or a chart that takes hours, or one whose table takes seconds to write.
+std::string long_work(const std::string& command, const std::filesystem::path& file) {
+  const std::string axes =
+      command == "map" ? " --y damping=0.05:0.8:1000" : " --curves damping=0.1,0.2";
+  const bool is_table = file.extension() == ".json";
+  return "\"$GEARLASH\" " + command + " --x friction-ratio=0.05:0.95:5000" + axes +
+         " --inertia-ratio 2 " + (is_table ? "" : "--restitution 0.3 ") + "--output " +
+         quoted(file.string());
+}
+
+TEST(OutputFiles, InterruptedMapsAndChartsLeaveNothing) {
+  for (const char* command : {"map", "chart"}) {
+    const Scratch scratch;
+    std::ofstream(scratch / "map.svg") << "old";
+    // In the middle of the work: the hidden file is there, and there is nothing in it.
+    const Outcome run = run_shell("set -m; " + long_work(command, scratch / "map.svg") +
+                                  " & tool=$!\nuntil ls -A " + quoted((scratch / "").string()) +
+                                  " | grep -q '^\\.' || ! kill -0 $tool; do :; done\n"
+                                  "kill -INT $tool; wait $tool");
+    EXPECT_EQ(run.status, 130) << command << run.err;
+    EXPECT_EQ(file_text(scratch / "map.svg"), "old");
+    EXPECT_EQ(scratch.file_count(), 1U);
+  }
+}
+
+TEST(OutputFiles, AMapInterruptedWhileItIsWrittenLeavesNothing) {
+  const Scratch scratch;
+  // As soon as there is something in the hidden file, of some gigabyte.
+  const Outcome run = run_shell("set -m; " + long_work("map", scratch / "map.json") +
+                                " & tool=$!\nuntil find " + quoted((scratch / "").string()) +
+                                " -size +0 -name '.map*' | grep -q . || ! kill -0 $tool; do :; "
+                                "done\nkill -INT $tool; wait $tool");
+  EXPECT_EQ(run.status, 130) << run.err;
+  EXPECT_EQ(scratch.file_count(), 0U);
+}
+
+TEST(OutputFiles, LongWorkTellsATerminalHowFarItIsAndEndsWithControlC) {
+  const Scratch scratch;
+  const std::string terminal = quoted((scratch / "terminal").string());
+  std::ofstream(scratch / "work") << "GEARLASH=" << quoted(GEARLASH_TOOL) << "\n"
+                                  << long_work("map", scratch / "map.svg")
+                                  << "\nstatus=$?; echo not left; exit $status\n";
+  // `script` gives it a terminal, at which Ctrl-C is typed as soon as it has told something.
+  const Outcome run = run_shell("{ until grep -qs left " + terminal +
+                                "; do sleep 0.05; done; printf '\\003'; } | script -qfec \"bash " +
+                                (scratch / "work").string() + "\" " + terminal + " >&2");
+  EXPECT_THAT(file_text(scratch / "terminal"),
+              testing::ContainsRegex("\rMap: +[0-9]+ %, [0-9]+ servos/s, [0-9]+ (s|min|h) left"));
+  EXPECT_EQ(run.status, 130) << run.err;
+  EXPECT_EQ(scratch.file_count(), 2U);  // those of this test
+}
+
 TEST(OutputFiles, AClosedPipeEndsItQuietly) {
   const Outcome run = run_shell(
       "set -o pipefail; \"$GEARLASH\" simulate examples/elinco-fd162.toml --until 1 --every 1e-4 | "

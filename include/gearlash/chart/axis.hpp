@@ -52,6 +52,13 @@ enum class Spacing { linear, logarithmic };
 Axis spaced_axis(std::string_view field, Input input, double from, double to, std::size_t count,
                  Spacing spacing);
 
+/// How far along the axis a value stands, from 0 to 1, in value or in logarithm as the axis has it;
+/// the value that stands there, between the ends; and the number of the interval between neighbours
+/// that a value lies in. Precondition: finite values, two or more.
+double position_on(const Axis& axis, double value);
+double value_at(const Axis& axis, double position);
+std::size_t interval_of(const Axis& axis, double value);
+
 /// What is wrong with an axis: no values, values that are out of the input's range, or that do not
 /// rise, each named `field`. Empty when the axis is sound.
 std::vector<Violation> validate(const Axis& axis, std::string_view field);

@@ -18,10 +18,8 @@ struct ServoGrid {
 
   std::size_t size() const;
   NormalizedServo at(std::size_t index) const;
+  bool may_bounce() const;  ///< whether the restitution is more than 0 anywhere
 };
-
-/// Whether no point of it bounces: restitution 0, and on no axis.
-bool has_plastic_contact(const ServoGrid& grid);
 
 /// Every violation of the axes, of two axes with the same input, of more points than
 /// most_points_of_a_grid, and of the servo. `fields` names the axes, as many as there are.

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "gearlash/chart/cycle_table.hpp"
+#include "gearlash/chart/region_boundary.hpp"
 #include "gearlash/chart/servo_grid.hpp"
 #include "gearlash/io/grid_table.hpp"
+#include "gearlash/io/output_file.hpp"
 #include "gearlash/io/report_units.hpp"
 
 namespace gearlash {
@@ -19,14 +21,15 @@ struct GridContents {
   std::vector<CycleQuantity> quantities;  ///< beside the verdict
   Provenance provenance;
   std::string source_text = {};  ///< of the file that asked for it; empty when there was none
+  std::vector<MapCurve> hunting_boundary = {};  ///< of a map, whose axes are y and x
 };
 
 /// A file that is being written. One dimension an axis, named as its input, with the axis's values;
 /// the other inputs as numbers; the verdict as flags and each quantity over all dimensions, NaN
 /// where it is not known, each with its long_name and with units as UDUNITS knows them, for which
 /// times, speeds and energies are normalised (ω_n = 1, K = 1); the command and the version of
-/// Gearlash. CF conventions 1.8; the same grid gives the same bytes, in whatever pieces it is
-/// written.
+/// Gearlash. The boundary is a list of points, with NaN between curves. CF conventions 1.8; the
+/// same grid gives the same bytes, in whatever pieces it is written.
 ///
 /// Every member throws OutputError, naming the file as `shown_name`, where it cannot be written.
 class GridNetcdf {
@@ -58,8 +61,8 @@ class GridNetcdf {
 /// Bytes that the values of such a file take.
 std::size_t netcdf_bytes(const GridContents& contents);
 
-/// The table as a whole file with every quantity, which appears when it is complete. Throws
-/// OutputError where it cannot be written, and for "-" and devices, into which NetCDF cannot write.
-void write_grid_netcdf(const GridTable& table, const std::filesystem::path& path);
+/// The whole table with every quantity, in place of output.write(). Throws OutputError where it
+/// cannot be written, and for "-" and devices, into which NetCDF cannot write.
+void write_grid_netcdf(const GridTable& table, const OutputFile& output);
 
 }  // namespace gearlash

@@ -1,7 +1,11 @@
 // The limit cycles of a grid of servos as text, JSON and a family of curves.
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "gearlash/chart/cycle_table.hpp"
+#include "gearlash/chart/region_boundary.hpp"
 #include "gearlash/chart/servo_grid.hpp"
 #include "gearlash/io/line_chart.hpp"
 #include "gearlash/io/output_file.hpp"
@@ -14,12 +18,14 @@ struct GridTable {
   ServoGrid grid;
   CycleTable cycles;
   Provenance provenance;
+  std::optional<std::vector<MapCurve>> hunting_boundary = std::nullopt;  ///< of a map
 };
 
 /// A line a point: the inputs on the axes, the verdict and every quantity; empty where not known.
 void write_grid_csv(const GridTable& table, const TextSink& sink);
 
-/// Axes, and each quantity as an array with the last axis fastest; null where not known.
+/// Axes, and each quantity as an array with the last axis fastest; null where not known. A map's
+/// boundary as a list of curves, each a list of points [x, y].
 void write_grid_json(const GridTable& table, const TextSink& sink);
 
 /// The quantity over the last axis, a curve for each value of the first, or one curve where there

@@ -43,6 +43,8 @@ class OutputFile {
   /// The hidden file, for libraries that write into a file by its name, in place of write(). Throws
   /// OutputError where there is none, because the output is written to directly.
   std::filesystem::path hidden_file() const;
+  /// What messages call the file.
+  const std::string& shown_name() const { return shown_name_; }
   void commit();
 
  private:

@@ -21,7 +21,8 @@ struct SweepRun {
   std::size_t points_done = 0;  ///< all of them, unless stopped; those that a resumed run finds
 };
 
-/// Heard now and then with the number of points done; false stops. From one thread at a time.
+/// Heard before the work and now and then with the number of points done; false stops. From one
+/// thread at a time.
 using GoingOn = std::function<bool(std::size_t done)>;
 
 /// Works out the sweep and writes it, piece by piece, to OUTPUT.part beside OUTPUT.part.json, which

@@ -1,0 +1,196 @@
+#include "grid_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+
+#include "gearlash/io/axis_text.hpp"
+#include "gearlash/io/grid_netcdf.hpp"
+#include "gearlash/servo/range_check.hpp"
+#include "terminal.hpp"
+
+namespace gearlash::cli {
+namespace {
+
+constexpr std::size_t most_points = 10'000'000;  // a gigabyte
+
+using TypedInput = std::optional<std::string> ServoOptions::*;
+
+/// The option of a servo's input.
+TypedInput option_of(Input input) {
+  switch (input) {
+    case Input::inertia_ratio:
+      return &ServoOptions::inertia_ratio;
+    case Input::friction_ratio:
+      return &ServoOptions::friction_ratio;
+    case Input::backlash:
+      return &ServoOptions::backlash;
+    case Input::restitution:
+      return &ServoOptions::restitution;
+    case Input::damping:
+      break;
+  }
+  return &ServoOptions::damping;
+}
+
+/// The axes that can be read, and what the options call them.
+struct TypedAxes {
+  std::vector<Axis> axes;
+  std::vector<std::string> fields;
+  bool all_sound = true;
+};
+
+TypedAxes read_axes(const std::vector<AxisOption>& options, Faults& faults) {
+  TypedAxes typed;
+  for (const AxisOption& option : options) {
+    Axis axis = faults.collect([&] { return read_axis(option.field, option.text); }, Axis{});
+    if (axis.values.empty()) {
+      typed.all_sound = false;
+      continue;
+    }
+    typed.axes.push_back(std::move(axis));
+    typed.fields.push_back(option.field);
+  }
+  return typed;
+}
+
+/// The servo but for what stands on the axes, which no option may give besides. Sizes are in
+/// backlashes where none is given. Where an axis cannot be read it may be the one that gives what
+/// else is missing.
+NormalizedServo read_fixed_inputs(const ServoOptions& options, const TypedAxes& axes,
+                                  Faults& faults) {
+  ServoOptions completed = options;
+  const auto leave_to_axis = [&](Input input) {
+    std::optional<std::string>& text = completed.*option_of(input);
+    if (options.file.empty() && !text) text = "0.5";  // of no matter
+  };
+  for (std::size_t i = 0; i < axes.axes.size(); ++i) {
+    const Input input = axes.axes[i].input;
+    if (const std::optional<std::string>& text = options.*option_of(input)) {
+      faults.add({option_name(name_of(input)), shown(*text),
+                  "must be left out: " + axes.fields[i] + " varies it", ""});
+    }
+    leave_to_axis(input);
+  }
+  if (options.file.empty() && !completed.backlash) completed.backlash = "1";
+  if (!axes.all_sound) {
+    for (const Input input : all_inputs) leave_to_axis(input);
+  }
+  return resolve_servo(completed, faults).servo;
+}
+
+CycleQuantity read_quantity(const std::string& text, Faults& faults) {
+  if (const auto quantity = quantity_named(text)) return *quantity;
+  std::vector<std::string> names;
+  for (const CycleQuantity quantity : all_quantities) names.emplace_back(name_of(quantity));
+  faults.require_choice("--quantity", text, names);
+  return CycleQuantity::size;
+}
+
+/// By the ending of its name, in small or capital letters.
+GridFile read_grid_file(const std::string& file) {
+  std::string ending = std::filesystem::path(file).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (ending == ".csv") return GridFile::csv;
+  if (ending == ".json") return GridFile::json;
+  if (ending == ".nc") return GridFile::netcdf;
+  if (ending == ".svg" || ending == ".png" || ending == ".pdf") return GridFile::picture;
+  throw InvalidInput(
+      {{"--output", shown(file), "must end in .svg, .png, .pdf, .csv, .json or .nc", ""}});
+}
+
+/// No picture has room for infinity.
+void require_finite(const TypedAxes& axes, Faults& faults) {
+  for (std::size_t i = 0; i < axes.axes.size(); ++i) {
+    const double last = axes.axes[i].values.back();
+    if (std::isfinite(last)) continue;
+    faults.add({axes.fields[i], exact_text(last),
+                "must be finite in a picture; tables (.csv, .json, .nc) may have it", ""});
+  }
+}
+
+GridCount work_out(const ServoGrid& grid, const std::string& what, CycleTable& cycles) {
+  Progress progress(what, grid.size(), "servos");
+  progress.show_done(0);
+  return evaluate(grid, 0, grid.size(), cycles.columns(), {.going_on = [&](std::size_t done) {
+                    progress.show_done(done);
+                    return true;
+                  }});
+}
+
+}  // namespace
+
+void add_grid_options(CLI::App& command, GridOptions& options) {
+  command
+      .add_option("--quantity", options.quantity,
+                  "what is drawn: size (default), period, growth_at_rest, …")
+      ->type_name("NAME");
+  command
+      .add_option("--output", options.output,
+                  "picture (.svg, .png, .pdf) or table (.csv, .json, .nc)")
+      ->type_name("FILE")
+      ->required();
+  add_servo_options(command, options.servo);
+}
+
+GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption>& typed_axes) {
+  Faults faults;
+  TypedAxes axes = read_axes(typed_axes, faults);
+  GridTask task;
+  task.file = options.output;
+  task.quantity = read_quantity(options.quantity, faults);
+  task.kind = faults.collect([&] { return read_grid_file(options.output); }, GridFile::csv);
+  if (task.kind == GridFile::picture) require_finite(axes, faults);
+  faults.require_distinct({{"SERVO.toml", options.servo.file}, {"--output", options.output}});
+  task.grid.servo = read_fixed_inputs(options.servo, axes, faults);
+  faults.require_none();
+  task.grid.axes = std::move(axes.axes);
+  require_none(validate(task.grid, axes.fields));
+  if (task.grid.size() > most_points) {
+    throw InvalidInput({{"points", std::to_string(task.grid.size()),
+                         "must be at most " + std::to_string(most_points) +
+                             " on both axes together: they are held in memory",
+                         ""}});
+  }
+  return task;
+}
+
+std::string solved_text(const GridCount& count) {
+  const BatchCount& solved = count.solved;
+  return fmt::format("{} servos, {} solved side by side, {} one by one{}",
+                     solved.side_by_side + solved.one_by_one + count.refused, solved.side_by_side,
+                     solved.one_by_one,
+                     count.refused > 0 ? fmt::format(", {} refused", count.refused) : "");
+}
+
+void make_grid_file(const GridTask& task, const std::string& what, const Provenance& provenance,
+                    const std::function<void(GridTable&)>& complete,
+                    const std::function<std::string(const GridTable&, PictureFormat)>& draw) {
+  OutputFile output(task.file);  // before the work: it may not be permitted
+  const auto sink = [&](std::string_view text) { output.write(text); };
+  GridTable table{
+      .grid = task.grid, .cycles = CycleTable(task.grid.size()), .provenance = provenance};
+  const GridCount count = work_out(task.grid, what, table.cycles);
+  complete(table);
+  switch (task.kind) {
+    case GridFile::picture:
+      output.write(draw(table, picture_format("--output", task.file)));
+      break;
+    case GridFile::csv:
+      write_grid_csv(table, sink);
+      break;
+    case GridFile::json:
+      write_grid_json(table, sink);
+      break;
+    case GridFile::netcdf:
+      write_grid_netcdf(table, output);
+      break;
+  }
+  output.commit();
+  write_file("-", output.shown_name() + ": " + solved_text(count) + "\n");
+}
+
+}  // namespace gearlash::cli

@@ -1,0 +1,31 @@
+// Maps of contours, with the hunting-free boundary and hatching, drawn by gnuplot.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gearlash/chart/contours.hpp"
+#include "gearlash/io/line_chart.hpp"
+
+namespace gearlash {
+
+/// Curves are in the axes' own values. Both axes have their ends.
+struct ContourMap {
+  std::string title = {};
+  std::string subtitle = {};
+  ChartAxis x = {};
+  ChartAxis y = {};
+  std::vector<Contour> contours = {};   ///< by rising level: from light to dark, with their numbers
+  std::vector<MapCurve> boundary = {};  ///< bold
+  std::vector<MapCurve> hatching = {};  ///< thin
+  std::string contour_meaning = {};     ///< told in the legend, like the others
+  std::string boundary_meaning = {};
+  std::string hatching_meaning = {};
+};
+
+/// Bytes of the picture; the same map gives the same SVG. Curves are thinned out as far as no eye
+/// can see, so that the finest grid makes a small file. Throws OutputError where gnuplot is missing
+/// or fails.
+std::string draw_contour_map(const ContourMap& map, PictureFormat format);
+
+}  // namespace gearlash

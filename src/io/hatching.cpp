@@ -1,0 +1,97 @@
+#include "hatching.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "gearlash/chart/hunting_boundary.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr double spacing = 0.13;  ///< of the lines, up the paper
+constexpr double step = 0.02;     ///< along them, to the right
+
+/// A line up = right + offset, and where it may begin or end.
+struct Diagonal {
+  double offset;
+  std::vector<double> rights;
+
+  PaperPoint at(double right) const { return {right, right + offset}; }
+};
+
+/// All diagonals, each from side to side of the paper and with its crossings of the boundary.
+std::vector<Diagonal> diagonals(const std::vector<MapCurve>& boundary, const Paper& paper) {
+  const auto lowest = static_cast<long>(std::ceil(-Paper::width / spacing));
+  const auto highest = static_cast<long>(std::floor(Paper::height / spacing));
+  std::map<long, Diagonal> lines;
+  for (long i = lowest; i <= highest; ++i) {
+    const double offset = spacing * static_cast<double>(i);
+    lines[i] = {offset, {std::max(0.0, -offset), std::min(Paper::width, Paper::height - offset)}};
+  }
+  for (const MapCurve& curve : boundary) {
+    const PaperLine line = paper.line_on_paper(curve);
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+      const double from = line[k].up - line[k].right;
+      const double to = line[k + 1].up - line[k + 1].right;
+      const auto first = static_cast<long>(std::ceil(std::min(from, to) / spacing));
+      for (long i = first; spacing * static_cast<double>(i) < std::max(from, to); ++i) {
+        if (!lines.contains(i)) continue;
+        const double share = (lines[i].offset - from) / (to - from);
+        lines[i].rights.push_back(line[k].right + share * (line[k + 1].right - line[k].right));
+      }
+    }
+  }
+  std::vector<Diagonal> sorted;
+  for (auto& [number, line] : lines) {
+    std::sort(line.rights.begin(), line.rights.end());
+    sorted.push_back(std::move(line));
+  }
+  return sorted;
+}
+
+/// Whether the cell round a place that is at rest speaks for it: all its points are known, and
+/// those at rest have no limit cycle.
+bool is_at_rest_for_good(const GridTable& table, const MapPoint& point) {
+  const Axis& x = table.grid.axes[1];
+  const std::size_t row = interval_of(table.grid.axes[0], point.y) * x.values.size();
+  const std::size_t first = row + interval_of(x, point.x);
+  for (const std::size_t corner :
+       {first, first + 1, first + x.values.size(), first + x.values.size() + 1}) {
+    const double growth = table.cycles[CycleQuantity::growth_at_rest][corner];
+    if (std::isnan(growth)) return false;
+    if (growth < 1.0 && table.cycles.verdict[corner] != Verdict::cannot_hunt) return false;
+  }
+  return true;
+}
+
+/// The parts from `begin` to `end`, which the boundary does not cross, that are at rest for good.
+void hatch(const GridTable& table, const Paper& paper, const Diagonal& line, double begin,
+           double end, std::vector<MapCurve>& lines) {
+  const auto map_at = [&](double right) { return paper.point_on_map(line.at(right)); };
+  if (!(end - begin > 1e-3)) return;
+  if (side_of_hunting(servo_at(table.grid, map_at(0.5 * (begin + end)))) != Side::outside) return;
+  const double steps = std::ceil((end - begin) / step);
+  const auto place = [&](double i) { return begin + (end - begin) * i / steps; };
+  double start = begin;
+  for (double i = 0.0; i < steps; i += 1.0) {
+    if (is_at_rest_for_good(table, map_at(0.5 * (place(i) + place(i + 1.0))))) continue;
+    if (start < place(i)) lines.push_back({map_at(start), map_at(place(i))});
+    start = place(i + 1.0);
+  }
+  if (start < end) lines.push_back({map_at(start), map_at(end)});
+}
+
+}  // namespace
+
+std::vector<MapCurve> hatching(const GridTable& table, const Paper& paper) {
+  std::vector<MapCurve> lines;
+  for (const Diagonal& line : diagonals(table.hunting_boundary.value(), paper)) {
+    for (std::size_t i = 0; i + 1 < line.rights.size(); ++i) {
+      hatch(table, paper, line, line.rights[i], line.rights[i + 1], lines);
+    }
+  }
+  return lines;
+}
+
+}  // namespace gearlash

@@ -1,0 +1,221 @@
+// gearlash map as a user calls it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "gearlash/cycle/growth_at_rest.hpp"
+#include "gearlash/cycle/limit_cycle.hpp"
+#include "tool.hpp"
+
+namespace gearlash {
+namespace {
+
+using test::file_text;
+using test::lines_of;
+using test::Outcome;
+using test::quoted;
+using test::run_shell;
+using test::run_tool;
+using test::Scratch;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+/// A map of damping over friction ratio, with an output and what else is asked for.
+std::vector<std::string> map_into(const std::filesystem::path& file,
+                                  const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments = {"map",
+                                        "--x",
+                                        "friction-ratio=0.05:0.95:13",
+                                        "--y",
+                                        "damping=0.1:0.8:9:log",
+                                        "--inertia-ratio",
+                                        "2",
+                                        "--output",
+                                        file.string()};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST(MapCommand, PointsAreSingleCallsAndTheBoundaryIsWhereGrowthIsOne) {
+  const Scratch scratch;
+  const Outcome run = run_tool(map_into(scratch / "map.json", {"--backlash", "0.3"}));
+  EXPECT_EQ(run.status, 0) << run.err;
+  const auto map = nlohmann::json::parse(file_text(scratch / "map.json"));
+  EXPECT_EQ(map["axes"][0]["input"], "damping");
+  EXPECT_EQ(map["axes"][1]["input"], "friction_ratio");
+  ASSERT_EQ(map["size"].size(), 9U * 13U);
+  const NormalizedServo servo{.damping = map["axes"][0]["values"][2],
+                              .inertia_ratio = 2.0,
+                              .friction_ratio = map["axes"][1]["values"][5],
+                              .backlash = 0.3};
+  const double size = map["size"][2 * 13 + 5];
+  EXPECT_NEAR(size, analyse_limit_cycles(servo).cycles.at(0).size, 1e-12 * size);
+  ASSERT_EQ(map["hunting_boundary"].size(), 1U);
+  ASSERT_GT(map["hunting_boundary"][0].size(), 20U);
+  for (const auto& point : map["hunting_boundary"][0]) {
+    NormalizedServo there = servo;
+    there.friction_ratio = point[0];
+    there.damping = point[1];
+    EXPECT_NEAR(growth_at_rest(servo_dynamics(there)), 1.0, 1e-13);
+  }
+}
+
+TEST(MapCommand, TableHasALineAPoint) {
+  const Scratch scratch;
+  EXPECT_EQ(run_tool(map_into(scratch / "map.csv")).status, 0);
+  const auto lines = lines_of(file_text(scratch / "map.csv"));
+  std::size_t points = 0;
+  for (const std::string& line : lines) points += line.starts_with("#") ? 0U : 1U;
+  EXPECT_EQ(points, 1U + 9U * 13U);
+  EXPECT_THAT(lines, testing::Contains("# inertia_ratio = 2, backlash = 1, restitution = 0"));
+  EXPECT_THAT(lines,
+              testing::Contains(StartsWith("damping,friction_ratio,verdict,growth_at_rest,")));
+}
+
+TEST(MapCommand, PicturesAreDrawn) {
+  const Scratch scratch;
+  for (const char* file : {"map.svg", "map.PNG", "map.pdf"}) {
+    const Outcome run = run_tool(map_into(scratch / file));
+    EXPECT_EQ(run.status, 0) << run.err;
+  }
+  EXPECT_THAT(file_text(scratch / "map.PNG"), StartsWith("\x89PNG\r\n"));
+  EXPECT_THAT(file_text(scratch / "map.pdf"), StartsWith("%PDF-"));
+  const std::string svg = file_text(scratch / "map.svg");
+  for (const char* text : {"Size of limit cycle (backlashes)", "friction ratio, load to total",
+                           "damping coefficient", "hunting ends", "no limit cycle", ">0.5<"}) {
+    EXPECT_THAT(svg, HasSubstr(text));
+  }
+  EXPECT_EQ(run_tool(map_into(scratch / "again.svg")).status, 0);
+  EXPECT_EQ(file_text(scratch / "again.svg"), svg);
+}
+
+TEST(MapCommand, WhatIsNotThereIsNotInTheLegend) {
+  const Scratch scratch;
+  const Outcome run = run_tool({"map", "--x", "friction-ratio=0.2:0.8:5", "--y",
+                                "damping=0.05:0.2:5", "--inertia-ratio", "1", "--quantity",
+                                "period", "--output", (scratch / "map.svg").string()});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(file_text(scratch / "map.svg"), HasSubstr("contours"));
+  EXPECT_THAT(file_text(scratch / "map.svg"), Not(HasSubstr("hunting ends")));
+  EXPECT_THAT(file_text(scratch / "map.svg"), Not(HasSubstr("no limit cycle")));
+}
+
+TEST(MapCommand, EveryQuantityAndEveryInputIsDrawn) {
+  const Scratch scratch;
+  const auto file = (scratch / "map.svg").string();
+  for (const char* quantity :
+       {"growth_at_rest", "size", "motor_size", "period", "multiplier", "impact_speed",
+        "engaged_time", "separated_time", "motor_friction_loss", "load-friction-loss",
+        "impact_loss", "residual"}) {
+    EXPECT_EQ(run_tool(map_into(file, {"--quantity", quantity})).status, 0) << quantity;
+  }
+  EXPECT_EQ(run_tool({"map", "--x", "backlash=0.1:10:5:log", "--y", "inertia_ratio=1/9,1,9",
+                      "--damping", "0.3", "--friction-ratio", "0.2", "--output", file})
+                .status,
+            0);
+  EXPECT_THAT(file_text(file), HasSubstr("Size of limit cycle (rad)"));
+  EXPECT_EQ(run_tool({"map", "--x", "restitution=0:0.4:4", "--y", "damping=0.2:0.6:4",
+                      "examples/elinco-fd162.toml", "--output", file})
+                .status,
+            0);
+}
+
+TEST(MapCommand, AFineGridMakesASmallPicture) {
+  const Scratch scratch;
+  const auto file = scratch / "map.svg";
+  const Outcome run =
+      run_tool({"map", "--x", "inertia-ratio=0.05:20:400:log", "--y", "damping=0.02:1:400",
+                "--friction-ratio", "0.2", "--output", file.string()});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_LT(std::filesystem::file_size(file), 100'000U);
+}
+
+/// The faults of a map with these axes, all else being sound, without "gearlash: ".
+std::vector<std::string> faults_of_axes(const std::string& x, const std::string& y,
+                                        const std::string& file = "never-written.csv") {
+  std::vector<std::string> arguments = {"map", "--x", x, "--y", y, "--output", file};
+  for (const std::string name : {"damping", "inertia-ratio", "friction-ratio"}) {
+    if (x.starts_with(name) || y.starts_with(name)) continue;
+    arguments.push_back("--" + name);
+    arguments.emplace_back("0.5");
+  }
+  const Outcome run = run_tool(arguments);
+  EXPECT_EQ(run.status, 2) << x << " " << y << run.out;
+  EXPECT_FALSE(std::filesystem::exists(file));
+  std::vector<std::string> faults;
+  for (const std::string& line : lines_of(run.err)) {
+    faults.push_back(line.substr(std::string("gearlash: ").size()));
+  }
+  return faults;
+}
+
+TEST(EdgeMapAxes, EachBadOneIsOneClearLine) {
+  const std::string forms = "must be NAME=FROM:TO:COUNT, NAME=FROM:TO:COUNT:log or NAME=A,B,C";
+  const struct {
+    std::string axis;
+    std::string fault;
+  } cases[] = {
+      {"", "--x = \"\": " + forms},
+      {"damping", "--x = damping: " + forms},
+      {"damping=", "--x = damping=: " + forms},
+      {"damping=0.1:0.5", "--x = damping=0.1:0.5: " + forms},
+      {"damping=0.1:0.5:5:cubic", "--x = damping=0.1:0.5:5:cubic: " + forms},
+      {"stiffness=1:2:3",
+       "--x = stiffness: must name an input: damping, inertia_ratio, friction_ratio, backlash or "
+       "restitution"},
+      {"damping=0.5:0.1:5", "--x = 0.5 to 0.1: must rise: the smaller value first"},
+      {"inertia-ratio=9:1/9:5:log",
+       "--x = 9 to 0.1111111111111111: must rise: the smaller value first"},
+      {"inertia-ratio=0:9:5:log", "--x = 0: must be positive on a logarithmic axis"},
+      {"damping=0.1:0.5:0", "--x = 0 values: must be from 1 to 1000000"},
+      {"damping=0.1:0.5:-3", "--x = -3: must be a count, a whole number from 1 to 1000000"},
+      {"damping=0.1:0.5:2.5", "--x = 2.5: must be a count, a whole number from 1 to 1000000"},
+      {"damping=0.1:0.5:1000000000000", "--x = 1000000000000 values: must be from 1 to 1000000"},
+      {"damping=0.1:0.5:99999999999999999999",
+       "--x = 99999999999999999999: must be a count, a whole number from 1 to 1000000"},
+      {"damping=0.1:0.5:1",
+       "--x = 1 values from 0.1 to 0.5: must be two or more between different ends, or one where "
+       "they are the same"},
+      {"damping=0.3,0.1", "--x = 0.3 before 0.1: must rise from value to value"},
+      {"damping=0.1,0.1", "--x = 0.1 before 0.1: must rise from value to value"},
+      {"friction-ratio=0.5,2", "--x = 2: friction_ratio must be from 0 to 1"}};
+  for (const auto& [axis, fault] : cases) {
+    EXPECT_THAT(faults_of_axes(axis, "restitution=0,0.1"), ElementsAre(fault)) << axis;
+  }
+}
+
+TEST(EdgeMapAxes, BothTogether) {
+  EXPECT_THAT(faults_of_axes("damping=0.1:0.5:1000000", "inertia-ratio=1:2:1000000"),
+              ElementsAre("points = 1e+12: must be at most 1e+10 on all axes together"));
+  EXPECT_THAT(faults_of_axes("damping=0.1:0.5:100000", "inertia-ratio=1:2:10000"),
+              ElementsAre("points = 1000000000: must be at most 10000000 on both axes together: "
+                          "they are held in memory"));
+  EXPECT_THAT(faults_of_axes("damping=0.1:0.5:5", "damping=0.1:0.5:5"),
+              ElementsAre("--x = damping: must be another input than that of --y"));
+  EXPECT_THAT(faults_of_axes("damping=0.5:0.1:5", "weight=1:2:3"),
+              ElementsAre(StartsWith("--y = weight: must name an input"),
+                          StartsWith("--x = 0.5 to 0.1: must rise")));
+  EXPECT_THAT(faults_of_axes("damping=0.5", "inertia-ratio=1:2:3"),
+              ElementsAre("--x = 1 value: must be two or more; gearlash chart draws one"));
+  EXPECT_THAT(faults_of_axes("damping=0.1:0.5:5", "inertia-ratio=1,2,inf", "never-written.svg"),
+              ElementsAre(StartsWith("--y = inf: must be finite in a picture")));
+  EXPECT_EQ(run_tool({"map", "--x", "damping=0.1:0.5:5", "--output", "a.csv"}).err,
+            "gearlash: --y is required; see gearlash map --help\n");
+}
+
+TEST(MapCommand, APlaceThatCannotBeWrittenIsToldBeforeTheWork) {
+  const Scratch scratch;
+  // Ten million servos that bounce would take hours.
+  const Outcome run = run_tool({"map", "--x", "friction-ratio=0.05:0.95:5000", "--y",
+                                "damping=0.1:0.8:2000", "--inertia-ratio", "2", "--restitution",
+                                "0.3", "--output", (scratch / "missing" / "map.svg").string()});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("missing/map.svg: cannot be written: No such file"));
+}
+
+}  // namespace
+}  // namespace gearlash
