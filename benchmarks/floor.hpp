@@ -6,7 +6,7 @@
 
 namespace gearlash::benchmarks {
 
-/// Uses the times of the grid race, which is entered before.
+/// Uses the times of the grid race and of the kernel alone, which are entered as well.
 ReportPart enter_floor();
 
 }  // namespace gearlash::benchmarks

@@ -12,6 +12,9 @@
 namespace gearlash::benchmarks {
 namespace {
 
+/// All cores are seldom idle together: many short repetitions find such a moment.
+constexpr int often = 20;
+
 /// A line of the table.
 struct Entry {
   std::string name;
@@ -35,8 +38,28 @@ Entry enter(const std::string& name, const ServoGrid& grid, const GridEvaluation
         }
       })
       ->Unit(benchmark::kMillisecond)
-      ->UseRealTime();
+      ->UseRealTime()
+      ->MinTime(0.05)
+      ->Repetitions(often);
   return {name, title, grid.size()};
+}
+
+/// The same servos, made beforehand.
+Entry enter_list(const std::string& name, const std::vector<NormalizedServo>& servos) {
+  const std::string title = "Scaling/" + name + ", as a list";
+  auto table = std::make_shared<CycleTable>(servos.size());
+  benchmark::RegisterBenchmark(
+      title.c_str(),
+      [=](benchmark::State& state) {
+        for (auto _ : state) {
+          benchmark::DoNotOptimize(find_limit_cycles(servos, table->columns()));
+        }
+      })
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime()
+      ->MinTime(0.05)
+      ->Repetitions(often);
+  return {name, title, servos.size()};
 }
 
 /// About a hundred thousand points on so many axes, in the order that maps have them. The fifth,
@@ -90,7 +113,9 @@ Entry enter_exponentials(std::size_t threads) {
                                  }
                                })
       ->Unit(benchmark::kMillisecond)
-      ->UseRealTime();
+      ->UseRealTime()
+      ->MinTime(0.05)
+      ->Repetitions(often);
   return {name, title, threads * columns * column_length};
 }
 
@@ -108,6 +133,7 @@ struct Entries {
   std::vector<Entry> cores;
   std::vector<Entry> exponentials;  ///< on as many cores
   std::vector<Entry> axes;
+  std::vector<Entry> lists;  ///< of the same servos
 };
 
 Entries enter_all() {
@@ -125,7 +151,9 @@ Entries enter_all() {
   }
   for (std::size_t axes = 1; axes <= 5; ++axes) {
     const std::string name = "1 core, grid of " + std::to_string(axes) + widest;
-    entries.axes.push_back(enter(name, grid_of_axes(axes), {.threads = 1}));
+    const ServoGrid grid = grid_of_axes(axes);
+    entries.axes.push_back(enter(name, grid, {.threads = 1}));
+    entries.lists.push_back(enter_list(name, servos_of(grid)));
   }
   return entries;
 }
@@ -143,6 +171,20 @@ void print(const char* by, const char* unit, const std::vector<Entry>& entries,
   }
 }
 
+void print_axes(const Entries& entries, const FastestTimes& times) {
+  std::printf(
+      "\n| by axes | points | ns each | find_limit_cycles() of the same, ns each | ratio |\n");
+  std::printf("|---|--:|--:|--:|--:|\n");
+  for (std::size_t i = 0; i < entries.axes.size(); ++i) {
+    const Entry& axes = entries.axes[i];
+    const double time = times.of(axes.benchmark);
+    const double of_list = times.of(entries.lists[i].benchmark);
+    const double each = 1e9 / static_cast<double>(axes.points);
+    std::printf("| %s | %zu | %.3g | %.3g | %.3g |\n", axes.name.c_str(), axes.points, each * time,
+                each * of_list, time / of_list);
+  }
+}
+
 }  // namespace
 
 ReportPart enter_scaling() {
@@ -151,7 +193,7 @@ ReportPart enter_scaling() {
     print("lanes", "points", entries.lanes, times);
     print("cores", "points", entries.cores, times);
     print("cores, sharing nothing", "evaluations", entries.exponentials, times);
-    print("axes", "points", entries.axes, times);
+    print_axes(entries, times);
   };
 }
 

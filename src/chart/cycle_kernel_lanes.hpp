@@ -1,4 +1,4 @@
-// The limit cycles of one vector's length of servos, lane by lane the algebra of
+// The limit cycles of as many servos as there are lanes, lane by lane the algebra of
 // half_cycle_algebra.
 //
 // Included by one file for each vector unit, compiled with that unit's instructions. So that no

@@ -1,4 +1,5 @@
-// The numbers that a kernel works on: a vector of doubles, a lane a servo; by the vector unit's name.
+// The numbers that a kernel works on: a vector of doubles, a lane a servo; by the vector unit's
+// name.
 #pragma once
 
 #include <xsimd/xsimd.hpp>

@@ -56,8 +56,8 @@ void write_nothing_known(const CycleColumns& columns, std::size_t row) {
   }
 }
 
-/// The points of a grid one after another. at() divides once an axis and point, which is felt beside
-/// the kernel.
+/// The points of a grid one after another. at() divides once an axis and point, which is felt
+/// beside the kernel.
 class GridWalk {
  public:
   GridWalk(const ServoGrid& grid, std::size_t first) : grid_(grid), point_(grid.at(first)) {
