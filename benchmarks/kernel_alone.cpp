@@ -64,6 +64,7 @@ detail::CycleKernel kernel_of(VectorUnit unit) {
 
 std::string name_of_kernel_benchmark(VectorUnit unit) { return title_of(name_of(unit)); }
 
+// Here, and not in a file that is compiled for the processor it asks about.
 bool has_fused_kernel() {
 #ifdef GEARLASH_X86_VECTOR_UNITS
   return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
