@@ -39,7 +39,7 @@ struct CountingMask {
     return !(!a && !b);
   }
   friend bool any(const CountingMask& a) {
-    return std::any_of(a.lane.begin(), a.lane.end(), [](bool lane) { return lane; });
+    return std::any_of(a.lane.begin(), a.lane.end(), [](bool value) { return value; });
   }
   friend bool all(const CountingMask& a) { return !any(!a); }
 };
