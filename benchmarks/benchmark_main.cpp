@@ -1,5 +1,6 @@
 // Gearlash beside Boost.odeint and SUNDIALS CVODE: every contestant does the same problems in this
-// one process, its answers are checked against ours, and the table of ratios is printed at the end.
+// one process, its answers are checked against ours, and the table of ratios is printed at the end;
+// then many servos at once, how far that is from what the machine can do, and how it scales.
 // Options are Google Benchmark's; the tables go to standard output in Markdown, the rest to
 // standard error.
 
@@ -8,13 +9,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <iostream>
-#include <limits>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "contestants.hpp"
+#include "fastest_times.hpp"
+#include "floor.hpp"
+#include "grid_race.hpp"
+#include "kernel_alone.hpp"
+#include "scaling.hpp"
 
 namespace {
 
@@ -76,30 +79,10 @@ Race enter(const std::string& title, const std::vector<Contestant>& contestants,
   return race;
 }
 
-/// Shows the runs as usual and keeps the fastest repetition of each, in seconds of processor time.
-class KeepingReporter : public benchmark::ConsoleReporter {
- public:
-  KeepingReporter() : benchmark::ConsoleReporter(OO_None) { SetOutputStream(&std::cerr); }
-
-  void ReportRuns(const std::vector<Run>& runs) override {
-    ConsoleReporter::ReportRuns(runs);
-    for (const Run& run : runs) {
-      if (run.run_type != Run::RT_Iteration) continue;
-      const double seconds = run.cpu_accumulated_time / static_cast<double>(run.iterations);
-      const auto [entry, first] = fastest.emplace(run.run_name.function_name, seconds);
-      if (!first) entry->second = std::min(entry->second, seconds);
-    }
-  }
-
-  std::map<std::string, double> fastest;
-};
-
-void print_race(const Race& race, const std::map<std::string, double>& fastest) {
+void print_race(const Race& race, const FastestTimes& times) {
   std::printf("\n**%s** (%zu problems)\n\n", race.title.c_str(), race.entries.front().problems);
   const auto microseconds = [&](const Entry& entry) {
-    const auto measured = fastest.find(entry.benchmark);
-    return measured == fastest.end() ? std::numeric_limits<double>::quiet_NaN()
-                                     : measured->second * 1e6 / static_cast<double>(entry.problems);
+    return times.of(entry.benchmark) * 1e6 / static_cast<double>(entry.problems);
   };
   std::vector<double> yardsticks;
   std::printf("| | one problem, µs |");
@@ -142,8 +125,10 @@ std::vector<Race> all_races() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // Interleaved, so that no contestant has a busy neighbour on the machine for all its repetitions.
   std::vector<std::string> words = {argv[0], "--benchmark_min_time=0.2",
-                                    "--benchmark_repetitions=5"};
+                                    "--benchmark_repetitions=5",
+                                    "--benchmark_enable_random_interleaving=true"};
   words.insert(words.end(), argv + 1, argv + argc);  // the user's own come later and prevail
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
@@ -152,12 +137,15 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
 
   const std::vector<Race> races = all_races();
-  KeepingReporter reporter;
-  benchmark::RunSpecifiedBenchmarks(&reporter);
+  const std::vector<ReportPart> parts = {enter_grid_race(), enter_floor(), enter_kernel_alone(),
+                                         enter_scaling()};
+  FastestTimes times;
+  benchmark::RunSpecifiedBenchmarks(&times);
   std::printf(
       "Processor time on one core, the fastest of the repetitions; rivals at tolerance "
       "%.0e, cycles converged to %.0e (with restitution %.0e).\n",
       rival_tolerance, cycle_tolerance, bouncing_cycle_tolerance);
-  for (const Race& race : races) print_race(race, reporter.fastest);
+  for (const Race& race : races) print_race(race, times);
+  for (const ReportPart& print : parts) print(times);
   return 0;
 }

@@ -7,6 +7,7 @@
 #include "gearlash/cycle/growth_at_rest.hpp"
 #include "gearlash/cycle/limit_cycle.hpp"
 #include "gearlash/cycle/unit_half_cycle.hpp"
+#include "gearlash/heritage/settled_cycle.hpp"
 #include "gearlash/motion/phase.hpp"
 #include "gearlash/motion/trajectory.hpp"
 #include "odeint_rival.hpp"
@@ -158,7 +159,26 @@ SingleTask prepare_phases(const Problem& problem) {
   };
 }
 
+SingleTask prepare_program_of_1960(const Problem& problem) {
+  return [parameters = heritage::program_parameters(problem.servo)] {
+    const heritage::SettledCycle cycle = heritage::run_until_settled(parameters);
+    return RivalCycle{cycle.size, cycle.period, 2 * cycle.cycles, cycle.settled && cycle.hunts};
+  };
+}
+
+std::vector<Contestant> integrators(Start start) {
+  return {cycle_rival<OdeintRival>("Boost.odeint, dopri5 dense output", start),
+          cycle_rival<CvodeRival>("SUNDIALS CVODE, Adams", start, CvodeMethod::adams),
+          cycle_rival<CvodeRival>("SUNDIALS CVODE, BDF dense", start, CvodeMethod::bdf)};
+}
+
 }  // namespace
+
+std::vector<Contestant> settling_contestants() {
+  std::vector<Contestant> contestants = integrators(Start::from_rest);
+  contestants.push_back(one_by_one("Program of 1960 in C++", false, prepare_program_of_1960));
+  return contestants;
+}
 
 std::vector<Contestant> limit_cycle_contestants(Start start, Contact contact) {
   std::vector<Contestant> contestants;
@@ -173,12 +193,7 @@ std::vector<Contestant> limit_cycle_contestants(Start start, Contact contact) {
     contestants.push_back(
         one_by_one("Gearlash, balanced_half_cycle()", false, prepare_scalar_equation));
   }
-  for (const Contestant& rival :
-       {cycle_rival<OdeintRival>("Boost.odeint, dopri5 dense output", start),
-        cycle_rival<CvodeRival>("SUNDIALS CVODE, Adams", start, CvodeMethod::adams),
-        cycle_rival<CvodeRival>("SUNDIALS CVODE, BDF dense", start, CvodeMethod::bdf)}) {
-    contestants.push_back(rival);
-  }
+  for (const Contestant& rival : integrators(start)) contestants.push_back(rival);
   return contestants;
 }
 

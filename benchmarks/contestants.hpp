@@ -34,6 +34,11 @@ struct Contestant {
 /// out.
 std::vector<Contestant> limit_cycle_contestants(Start start, Contact contact);
 
+/// Those who follow a motion until it settles, from rest: the rivals, and the program of 1960, in
+/// C++ and double precision and with its own step, for as long as its cycles still change by a
+/// thousandth.
+std::vector<Contestant> settling_contestants();
+
 /// Following the exact cycle from one separation to the next: flight, impacts, engagement.
 std::vector<Contestant> half_cycle_contestants();
 

@@ -34,9 +34,18 @@ struct CycleBlock {
   static constexpr double hunts = 2.0;
 };
 
-/// Solves the first rows of the block (and those that fill up the last vector). Plastic contact is
+/// Solves the first rows of the block (and those that fill up the last vectors). Plastic contact is
 /// taken for granted.
 using CycleKernel = void (*)(CycleBlock& block, std::size_t rows);
+
+/// All that a kernel calls becomes one function with it: what functions pass to one another in
+/// memory, dozens of vectors, is felt. Not in debug builds: with sanitizers such a function takes
+/// minutes to compile.
+#ifdef NDEBUG
+#define GEARLASH_INLINED_WHOLE [[gnu::flatten]]
+#else
+#define GEARLASH_INLINED_WHOLE
+#endif
 
 void solve_block_baseline(CycleBlock& block, std::size_t rows);
 void solve_block_avx2(CycleBlock& block, std::size_t rows);

@@ -3,8 +3,8 @@
 namespace gearlash::detail {
 
 // Named, because xsimd's default follows the user's compiler flags, and with it what is fused.
-void solve_block_avx512(CycleBlock& block, std::size_t rows) {
-  solve_block<xsimd::avx512bw>(block, rows);
+GEARLASH_INLINED_WHOLE void solve_block_avx512(CycleBlock& block, std::size_t rows) {
+  solve_block<Twin<xsimd::avx512bw>>(block, rows);
 }
 
 }  // namespace gearlash::detail

@@ -1,4 +1,4 @@
-// The limit cycles of one vector's length of servos, lane by lane the algebra of
+// The limit cycles of as many servos as there are lanes, lane by lane the algebra of
 // half_cycle_algebra.
 //
 // Included by one file for each vector unit, compiled with that unit's instructions. So that no
@@ -9,27 +9,23 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
-#include <xsimd/xsimd.hpp>
 
 #include "cycle_kernel.hpp"
 #include "gearlash/cycle/half_cycle_algebra.hpp"
+#include "lanes.hpp"
+#include "twin_lanes.hpp"
 
 namespace gearlash::detail {
 
 template <class Unit>
-using Lanes = xsimd::batch<double, Unit>;
-template <class Unit>
-using Mask = xsimd::batch_bool<double, Unit>;
-
-template <class Unit>
 bool none(const Mask<Unit>& mask) {
-  return !xsimd::any(mask);
+  return !any(mask);
 }
 
 /// Where a lane is finished or hopeless its value stays.
 template <class Unit>
 void assign_where(const Mask<Unit>& mask, Lanes<Unit>& to, const Lanes<Unit>& from) {
-  to = xsimd::select(mask, from, to);
+  to = select(mask, from, to);
 }
 
 /// exp[0, 0, −x] for x < 1, see decay_integral.hpp: even and odd terms apart.
@@ -74,14 +70,14 @@ BasicDecay<Lanes<Unit>> decay_lanes(const Lanes<Unit>& exponent) {
   using Real = Lanes<Unit>;
   const Mask<Unit> small = exponent < Real(series_limit);
   BasicDecay<Real> result{exponent, 0.0, 0.0, 0.0};
-  if (xsimd::any(small)) {
+  if (any(small)) {
     result.double_integral = single_rate_series_lanes<Unit>(exponent);
     result.integral = 1.0 - exponent * result.double_integral;
     result.factor = 1.0 - exponent * result.integral;
   }
-  if (!xsimd::all(small)) {
+  if (!all(small)) {
     const Real inverse = 1.0 / exponent;
-    const Real factor = xsimd::exp(-exponent);
+    const Real factor = exp(-exponent);
     const Real integral = (1.0 - factor) * inverse;
     assign_where<Unit>(!small, result.factor, factor);
     assign_where<Unit>(!small, result.integral, integral);
@@ -96,10 +92,10 @@ BasicConvolution<Lanes<Unit>> convolution_lanes(const BasicDecay<Lanes<Unit>>& x
   using Real = Lanes<Unit>;
   const Mask<Unit> in_order = x.exponent <= y.exponent;
   const auto slow = [&](Real BasicDecay<Real>::*part) {
-    return xsimd::select(in_order, x.*part, y.*part);
+    return select(in_order, x.*part, y.*part);
   };
   const auto fast = [&](Real BasicDecay<Real>::*part) {
-    return xsimd::select(in_order, y.*part, x.*part);
+    return select(in_order, y.*part, x.*part);
   };
   const Real slow_exponent = slow(&BasicDecay<Real>::exponent);
   const Real slow_factor = slow(&BasicDecay<Real>::factor);
@@ -108,17 +104,17 @@ BasicConvolution<Lanes<Unit>> convolution_lanes(const BasicDecay<Lanes<Unit>>& x
   const Real fast_exponent = fast(&BasicDecay<Real>::exponent);
   const Mask<Unit> small = fast_exponent < Real(series_limit);
   BasicConvolution<Real> result{0.0, 0.0, 0.0};
-  if (xsimd::any(small)) {
+  if (any(small)) {
     result.double_integral = two_rate_series_lanes<Unit>(slow_exponent, fast_exponent);
     result.integral = slow_double_integral - fast_exponent * result.double_integral;
     result.value = slow_integral - fast_exponent * result.integral;
   }
-  if (!xsimd::all(small)) {
+  if (!all(small)) {
     const Real difference = fast_exponent - slow_exponent;
     const Mask<Unit> apart = difference > Real(0.5);
     const Real inverse = 1.0 / fast_exponent;
     Real value = (slow_factor - fast(&BasicDecay<Real>::factor)) / difference;
-    if (!xsimd::all(apart)) {
+    if (!all(apart)) {
       const Real integral = 1.0 - difference * single_rate_series_lanes<Unit>(difference);
       assign_where<Unit>(!apart, value, slow_factor * integral);
     }
@@ -167,7 +163,7 @@ class CycleLanes {
     servo_ = dynamics_of_shafts<Real>(damping, 1.0 / (1.0 + inertia_ratio),
                                       inertia_ratio / (1.0 + inertia_ratio), friction_ratio);
     servo_.backlash = backlash;
-    frequency_ = xsimd::sqrt((1.0 - servo_.damping) * (1.0 + servo_.damping));
+    frequency_ = sqrt((1.0 - servo_.damping) * (1.0 + servo_.damping));
     flight_ = clean_parting<Real>(servo_, servo_.torque_free_line.position,
                                   servo_.torque_free_line.speed, 0.0);
   }
@@ -178,8 +174,8 @@ class CycleLanes {
 
   /// first_zero() of engaged_flow.hpp below critical damping; 0 where the value is.
   Real first_zero_after(const Real& value, const Real& slope) const {
-    const Real cosine_part = xsimd::copysign(Real(1.0), value) * -(slope + servo_.damping * value);
-    return xsimd::atan2(xsimd::abs(value) * frequency_, cosine_part) / frequency_;
+    const Real cosine_part = copysign(Real(1.0), value) * -(slope + servo_.damping * value);
+    return atan2(abs(value) * frequency_, cosine_part) / frequency_;
   }
 
   Real parting_time(const Real& position, const Real& speed) const {
@@ -199,14 +195,14 @@ class CycleLanes {
     const Real contact_speed = 1.0 / servo_.motor_rate;
     const Real engaged_time = parting_time(position, contact_speed);
     growth_ = growth_after_contact(servo_, contact_speed, engaged_time);
-    permitted_ = permitted_ && xsimd::abs(growth_ - 1.0) > Real(1e-9);
+    permitted_ = permitted_ && abs(growth_ - 1.0) > Real(1e-9);
     sought_ = permitted_ && growth_ > Real(1.0);
   }
 
   HalfCycle half_cycle(const Real& time) const {
     HalfCycle half = impact_at(servo_, flight_, time, point_at(time));
     half.engaged_time = parting_time(half.load_position, half.common_speed);
-    half.log_growth = 0.5 * xsimd::log1p(half.form_change / start_form(servo_, flight_)) -
+    half.log_growth = 0.5 * log1p(half.form_change / start_form(servo_, flight_)) -
                       servo_.damping * half.engaged_time;
     return half;
   }
@@ -217,10 +213,9 @@ class CycleLanes {
     constexpr int most_steps = 6;
     found_ = sought_ && !sought_;
     if (none<Unit>(sought_)) return;
-    const Real growth = xsimd::select(sought_, growth_, Real(2.0));
-    const Real fastest_rate =
-        xsimd::max(Real(1.0), xsimd::max(flight_.load_rate, flight_.motor_rate));
-    Real time = guessed_flight_time<Real>(servo_, xsimd::log(growth));
+    const Real growth = select(sought_, growth_, Real(2.0));
+    const Real fastest_rate = max(Real(1.0), max(flight_.load_rate, flight_.motor_rate));
+    Real time = guessed_flight_time<Real>(servo_, log(growth));
     HalfCycle half;
     BasicArrivalRates<Real> rates;
     Real step;
@@ -230,10 +225,10 @@ class CycleLanes {
       rates = arrival_rates(servo_, flight_, half);
       const auto at_time = growth_at(half, rates);
       step = newton_step(at_time);
-      const Real fastest = xsimd::max(fastest_rate, 1.0 / time);
+      const Real fastest = max(fastest_rate, 1.0 / time);
       const Mask<Unit> arrived = searching && is_near_zero<Real>(at_time, short_step / fastest);
       found_ = found_ || arrived;
-      searching = searching && !arrived && xsimd::abs(step) < 0.5 * time;
+      searching = searching && !arrived && abs(step) < 0.5 * time;
       if (none<Unit>(searching) || count + 1 == most_steps) break;
       assign_where<Unit>(searching, time, time + step);
     }
@@ -253,13 +248,13 @@ class CycleLanes {
     const auto at_end = speed_at(half_.load_speed, half_.gap_speed, half_.gap_acceleration);
     const Mask<Unit> turns = found_ && at_end.speed.value < Real(0.0);
     const Real not_found = std::numeric_limits<double>::quiet_NaN();
-    Real turning = xsimd::select(turns, not_found, flight_.load_position);
+    Real turning = select(turns, not_found, flight_.load_position);
     if (none<Unit>(turns)) return turning;
     const Real end = half_.flight_time;
     const Real tolerance = end * nearness_of_turn(flight_, end);
     Real near = quintic_root(at_start.speed, at_end.speed, end);
     const Mask<Unit> inside = near > Real(0.0) && near < end;
-    near = xsimd::select(inside, near, 0.5 * end);
+    near = select(inside, near, 0.5 * end);
     Mask<Unit> searching = turns;
     for (int count = 0; count < most_steps; ++count) {
       const FlightPointLanes point = point_at(near);
@@ -273,7 +268,7 @@ class CycleLanes {
       if (none<Unit>(searching)) break;
       assign_where<Unit>(searching, near, near + step);
     }
-    certain = certain && !xsimd::isnan(turning);
+    certain = certain && !isnan(turning);
     return turning;
   }
 
@@ -286,14 +281,14 @@ class CycleLanes {
     const Mask<Unit> coasting_load = load_decay <= slight;
     const MotorFrictionBalance<Real> balance(servo_, flight_, half_);
     Real loss = balance.of_braked_load(flight_);
-    if (xsimd::any(coasting_load)) {
+    if (any(coasting_load)) {
       const BasicDecay<Real> once = decay_lanes<Unit>(load_decay);
       const BasicDecay<Real> twice = decay_lanes<Unit>(2.0 * load_decay);
       assign_where<Unit>(coasting_load, loss,
                          balance.of_coasting_load(servo_, flight_, time, once,
                                                   convolution_lanes<Unit>(once, twice)));
     }
-    if (xsimd::any(found_ && coasting_motor)) {
+    if (any(found_ && coasting_motor)) {
       assign_where<Unit>(coasting_motor, loss, friction_of_coasting_motor());
       certain = certain && (!coasting_motor || load_decay <= Real(2.0));
     }
@@ -352,19 +347,18 @@ class CycleLanes {
         half_.load_position * (even + servo_.damping * impulse) + half_.common_speed * impulse;
     const Real speed =
         half_.common_speed * (even - servo_.damping * impulse) - half_.load_position * impulse;
-    const Real scale =
-        xsimd::max(xsimd::abs(flight_.load_position), xsimd::abs(flight_.load_speed));
-    const Real position_error = xsimd::abs(position + flight_.load_position) / scale;
-    const Real speed_error = xsimd::abs(speed + flight_.load_speed) / scale;
+    const Real scale = max(abs(flight_.load_position), abs(flight_.load_speed));
+    const Real position_error = abs(position + flight_.load_position) / scale;
+    const Real speed_error = abs(speed + flight_.load_speed) / scale;
     // Each by itself: of a NaN and a number, xsimd's max is the number.
     certain = certain && position_error <= acceptable && speed_error <= acceptable;
-    return xsimd::max(position_error, speed_error);
+    return max(position_error, speed_error);
   }
 
   void write_properties(CycleBlock& block, std::size_t row) const {
     growth_.store_aligned(block.growth_at_rest + row);
-    const Real failed = xsimd::select(permitted_ && !sought_, Real(CycleBlock::cannot_hunt),
-                                      Real(CycleBlock::uncertain));
+    const Real failed =
+        select(permitted_ && !sought_, Real(CycleBlock::cannot_hunt), Real(CycleBlock::uncertain));
     if (none<Unit>(found_)) {
       failed.store_aligned(block.outcome + row);
       return;
@@ -378,24 +372,21 @@ class CycleLanes {
 
     const Real turning_time = first_zero_after(
         half_.common_speed, -2.0 * servo_.damping * half_.common_speed - half_.load_position);
-    const Real turned = xsimd::copysign(
-        xsimd::sqrt(half_.form) * xsimd::exp(-servo_.damping * turning_time), half_.common_speed);
-    const Real turning =
-        xsimd::select(turning_time < half_.engaged_time, turned, half_.load_position);
+    const Real turned =
+        copysign(sqrt(half_.form) * exp(-servo_.damping * turning_time), half_.common_speed);
+    const Real turning = select(turning_time < half_.engaged_time, turned, half_.load_position);
     const Real motor_turning = motor_turning_position(certain);
-    const Real size = xsimd::max(xsimd::abs(start),
-                                 xsimd::max(xsimd::abs(half_.load_position), xsimd::abs(turning)));
-    const Real motor_size = xsimd::max(
-        xsimd::max(xsimd::abs(start + half_gap), xsimd::abs(motor_turning + half_gap)),
-        xsimd::max(xsimd::abs(half_.load_position - half_gap), xsimd::abs(turning - half_gap)));
+    const Real size = max(abs(start), max(abs(half_.load_position), abs(turning)));
+    const Real motor_size = max(max(abs(start + half_gap), abs(motor_turning + half_gap)),
+                                max(abs(half_.load_position - half_gap), abs(turning - half_gap)));
 
     const BasicCycleLosses<Real> losses =
         cycle_losses(servo_, flight_, half_, motor_friction_in_flight(certain));
     const Real slope = half_map_slope(half_);
-    const Real residual = closing_error(xsimd::exp(-servo_.damping * half_.engaged_time), certain);
+    const Real residual = closing_error(exp(-servo_.damping * half_.engaged_time), certain);
     certain = certain && half_.engaged_time > Real(0.0);
 
-    xsimd::select(certain, Real(CycleBlock::hunts), failed).store_aligned(block.outcome + row);
+    select(certain, Real(CycleBlock::hunts), failed).store_aligned(block.outcome + row);
     (amplitude * size).store_aligned(block.size + row);
     (amplitude * motor_size).store_aligned(block.motor_size + row);
     (slope * slope).store_aligned(block.multiplier + row);
@@ -415,7 +406,7 @@ class CycleLanes {
   Mask<Unit> sought_;     ///< permitted, and has a cycle
   Mask<Unit> found_;      ///< sought, and the half cycle balances
   Real growth_;
-  HalfCycle half_;
+  HalfCycle half_{};
 };
 
 template <class Unit>

@@ -50,13 +50,44 @@ void write_nothing_known(const CycleColumns& columns, std::size_t row) {
   }
 }
 
+/// The points of a grid one after another. at() divides once an axis and point, which is felt
+/// beside the kernel.
+class GridWalk {
+ public:
+  GridWalk(const ServoGrid& grid, std::size_t first) : grid_(grid), point_(grid.at(first)) {
+    places_.resize(grid.axes.size());
+    for (std::size_t i = places_.size(); i-- > 0;) {
+      places_[i] = first % grid.axes[i].values.size();
+      first /= grid.axes[i].values.size();
+    }
+  }
+
+  const NormalizedServo& point() const { return point_; }
+
+  void go_on() {
+    for (std::size_t i = places_.size(); i-- > 0;) {
+      const Axis& axis = grid_.axes[i];
+      const bool carries = ++places_[i] == axis.values.size();
+      if (carries) places_[i] = 0;
+      point_.*field_of(axis.input) = axis.values[places_[i]];
+      if (!carries) return;
+    }
+  }
+
+ private:
+  const ServoGrid& grid_;
+  NormalizedServo point_;
+  std::vector<std::size_t> places_;  ///< of the point on the axes
+};
+
 GridCount evaluate_part(const ServoGrid& grid, std::size_t first, const CycleColumns& columns,
                         VectorUnit unit) {
   const NormalizedServo stand_in{.damping = 1.0};  // where a combination is no servo
   std::vector<NormalizedServo> servos(columns.verdict.size());
   std::vector<std::size_t> refused;
-  for (std::size_t row = 0; row < servos.size(); ++row) {
-    servos[row] = grid.at(first + row);
+  GridWalk walk(grid, first);
+  for (std::size_t row = 0; row < servos.size(); ++row, walk.go_on()) {
+    servos[row] = walk.point();
     const double inertia_ratio = servos[row].inertia_ratio;
     const bool two_masses = inertia_ratio > 0.0 && std::isfinite(inertia_ratio);
     if (two_masses || validate(servos[row]).empty()) continue;  // all else the axes have settled

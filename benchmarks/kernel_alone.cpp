@@ -1,0 +1,100 @@
+#include "kernel_alone.hpp"
+
+#include <cstdio>
+#include <memory>
+
+#include "cycle_kernel.hpp"
+#include "fused_kernel.hpp"
+#include "servo_lists.hpp"
+
+namespace gearlash::benchmarks {
+namespace {
+
+using detail::CycleBlock;
+
+struct Entry {
+  std::string benchmark;
+  std::string name;
+};
+
+/// Blocks from all over the thesis's grid, few enough for the second cache.
+std::vector<CycleBlock> blocks_of_grid() {
+  constexpr std::size_t count =
+      static_cast<std::size_t>(servos_of_kernel_benchmark) / CycleBlock::rows;
+  const ServoGrid grid = thesis_grid();
+  const std::size_t stride = grid.size() / count;
+  std::vector<CycleBlock> blocks(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t row = 0; row < CycleBlock::rows; ++row) {
+      const NormalizedServo servo = grid.at(i * stride + row);
+      blocks[i].damping[row] = servo.damping;
+      blocks[i].inertia_ratio[row] = servo.inertia_ratio;
+      blocks[i].friction_ratio[row] = servo.friction_ratio;
+      blocks[i].backlash[row] = servo.backlash;
+    }
+  }
+  return blocks;
+}
+
+std::string title_of(const std::string& name) { return "Kernel alone/" + name; }
+
+using Blocks = std::shared_ptr<std::vector<CycleBlock>>;
+
+Entry enter(const std::string& name, detail::CycleKernel kernel, const Blocks& blocks) {
+  const std::string title = title_of(name);
+  benchmark::RegisterBenchmark(title.c_str(), [=](benchmark::State& state) {
+    for (auto _ : state) {
+      for (CycleBlock& block : *blocks) kernel(block, CycleBlock::rows);
+      benchmark::ClobberMemory();
+    }
+  })->Unit(benchmark::kMicrosecond);
+  return {title, name};
+}
+
+detail::CycleKernel kernel_of(VectorUnit unit) {
+#ifdef GEARLASH_X86_VECTOR_UNITS
+  if (unit == VectorUnit::avx512) return detail::solve_block_avx512;
+  if (unit == VectorUnit::avx2) return detail::solve_block_avx2;
+#endif
+  static_cast<void>(unit);
+  return detail::solve_block_baseline;
+}
+
+}  // namespace
+
+std::string name_of_kernel_benchmark(VectorUnit unit) { return title_of(name_of(unit)); }
+
+// Here, and not in a file that is compiled for the processor it asks about.
+bool has_fused_kernel() {
+#ifdef GEARLASH_X86_VECTOR_UNITS
+  return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+#else
+  return false;
+#endif
+}
+
+ReportPart enter_kernel_alone() {
+  const auto blocks = std::make_shared<std::vector<CycleBlock>>(blocks_of_grid());
+  std::vector<Entry> entries;
+  for (const VectorUnit unit : available_vector_units()) {
+    entries.push_back(enter(name_of(unit), kernel_of(unit), blocks));
+#ifdef GEARLASH_X86_VECTOR_UNITS
+    if (unit == VectorUnit::avx2 && has_fused_kernel()) {
+      entries.push_back(enter("avx2, fused", solve_block_fused_avx2, blocks));
+    }
+#endif
+  }
+  return [entries](const FastestTimes& times) {
+    std::printf("\n**The kernel alone** (%.0f servos from all over the thesis's grid)\n\n",
+                servos_of_kernel_benchmark);
+    std::printf("| | ns a servo | times the first |\n|---|--:|--:|\n");
+    for (const Entry& entry : entries) {
+      const double time = times.of(entry.benchmark);
+      std::printf("| %s | %.3g | %.3g |\n", entry.name.c_str(),
+                  1e9 * time / servos_of_kernel_benchmark,
+                  times.of(entries.front().benchmark) / time);
+    }
+  };
+}
+
+}  // namespace gearlash::benchmarks
