@@ -272,8 +272,8 @@ class CycleLanes {
     return turning;
   }
 
-  /// F_M ∫ v_M² dt over the flight; `certain` loses the lanes where no form keeps its digits.
-  Real motor_friction_in_flight(Mask<Unit>& certain) const {
+  /// F_M ∫ v_M² dt over the flight.
+  Real motor_friction_in_flight() const {
     const Real slight = 0.1;
     const Real time = half_.flight_time;
     const Real load_decay = flight_.load_rate * time;
@@ -288,11 +288,54 @@ class CycleLanes {
                          balance.of_coasting_load(servo_, flight_, time, once,
                                                   convolution_lanes<Unit>(once, twice)));
     }
-    if (any(found_ && coasting_motor)) {
+    if (!any(found_ && coasting_motor)) return loss;
+    const Mask<Unit> long_decay = coasting_motor && load_decay > Real(2.0);
+    if (any(found_ && coasting_motor && !long_decay)) {
       assign_where<Unit>(coasting_motor, loss, friction_of_coasting_motor());
-      certain = certain && (!coasting_motor || load_decay <= Real(2.0));
+    }
+    if (any(found_ && long_decay)) {
+      assign_where<Unit>(long_decay, loss, friction_of_coasting_motor_and_braked_load(load_decay));
     }
     return loss;
+  }
+
+  /// F_M ∫ v_M² dt of a flight in which the motor all but coasts and the load all but comes to
+  /// rest:
+  ///   v_M = P + B e^{−Dt},  B = −v₀/(J_M D (D − c)),  Ṗ = −c P − q,  q = y∞/J_M.
+  /// P is nearly straight: about the flight's middle, h from either end, with ε = c h,
+  ///   P = P_m + h Ṗ_m (1 − e^{−εx})/ε,  −1 ≤ x ≤ 1,
+  /// whose mean and mean square are series in ε; and by parts
+  ///   (D + c) ∫ P e^{−Dt} = P(0) − P(T) e^{−DT} − (q/D)(1 − e^{−DT}).
+  Real friction_of_coasting_motor_and_braked_load(const Real& load_decay) const {
+    const Real time = half_.flight_time;
+    const Real middle = 0.5 * time;
+    const Real drive =
+        (flight_.load_position + flight_.load_speed / flight_.load_rate) / servo_.motor_inertia;
+    const Real fading = -flight_.load_speed / (servo_.motor_inertia * flight_.load_rate *
+                                               (flight_.load_rate - flight_.motor_rate));
+    const BasicDecay<Real> motor = decay_lanes<Unit>(flight_.motor_rate * middle);
+    const Real step = drive * middle * motor.integral;
+    const Real at_start = flight_.load_speed - fading;
+    const Real at_middle = at_start * motor.factor - step;
+    const Real at_end = at_middle * motor.factor - step;
+    const Real rise = -middle * (flight_.motor_rate * at_middle + drive);
+    const Real square = motor.exponent * motor.exponent;
+    const Real mean =
+        -motor.exponent *
+        (inverse_factorials[3] +
+         square * (inverse_factorials[5] +
+                   square * (inverse_factorials[7] + square * inverse_factorials[9])));
+    const Real mean_square =
+        2.0 * inverse_factorials[3] +
+        square * (14.0 * inverse_factorials[5] +
+                  square * (62.0 * inverse_factorials[7] + square * 254.0 * inverse_factorials[9]));
+    const Real straight =
+        time * (at_middle * (at_middle + 2.0 * rise * mean) + rise * rise * mean_square);
+    const Real left = exp(-load_decay);
+    const Real mixed = (at_start - at_end * left - drive / flight_.load_rate * (1.0 - left)) /
+                       (flight_.load_rate + flight_.motor_rate);
+    const Real faded = fading * (1.0 - left * left) / (2.0 * flight_.load_rate);
+    return servo_.motor_friction * (straight + fading * (2.0 * mixed + faded));
   }
 
   /// F_M ∫ v_M² dt of a flight no longer than two time constants of either shaft: Taylor's series
@@ -381,7 +424,7 @@ class CycleLanes {
                                 max(abs(half_.load_position - half_gap), abs(turning - half_gap)));
 
     const BasicCycleLosses<Real> losses =
-        cycle_losses(servo_, flight_, half_, motor_friction_in_flight(certain));
+        cycle_losses(servo_, flight_, half_, motor_friction_in_flight());
     const Real slope = half_map_slope(half_);
     const Real residual = closing_error(exp(-servo_.damping * half_.engaged_time), certain);
     certain = certain && half_.engaged_time > Real(0.0);

@@ -99,6 +99,14 @@ NormalizedServo drive_servo(SeededDraws& draws) {
           .backlash = 0.3};
 }
 
+/// In its flights the motor all but coasts and the load all but comes to rest.
+NormalizedServo light_friction_at_the_motor(SeededDraws& draws) {
+  return {.damping = draws.log_uniform(1e-3, 0.9),
+          .inertia_ratio = draws.log_uniform(1e-3, 10.0),
+          .friction_ratio = 1.0 - draws.log_uniform(1e-4, 0.05),
+          .backlash = 1.0};
+}
+
 /// Growth at rest next to 1: just hunting, or just not.
 NormalizedServo borderline_servo(SeededDraws& draws) {
   NormalizedServo servo = drive_servo(draws);
@@ -129,8 +137,9 @@ TEST_P(OracleCycleBatch, AgreesWithOneByOne) {
     std::uint64_t seed;
     double least_side_by_side;  // of all: the kernel does the work, not its fallback
   };
-  for (const Kind& kind : {Kind{any_servo, 801, 0.5}, Kind{drive_servo, 802, 0.95},
-                           Kind{borderline_servo, 803, 0.1}}) {
+  for (const Kind& kind :
+       {Kind{any_servo, 801, 0.5}, Kind{drive_servo, 802, 0.99},
+        Kind{light_friction_at_the_motor, 804, 0.99}, Kind{borderline_servo, 803, 0.1}}) {
     SCOPED_TRACE(kind.seed);
     const std::vector<NormalizedServo> servos = drawn(10'000, kind.seed, kind.draw);
     CycleTable table(servos.size());

@@ -55,8 +55,8 @@ struct BatchCount {
 /// Side by side are solved servos with two masses and plastic contact, with damping in [1e-4,
 /// 0.99], inertia ratio in [1e-4, 1e4] and friction ratio in [1e-4, 1 − 1e-4]; each lane by itself,
 /// so that an answer does not depend on a servo's neighbours. A lane whose answer is not certain
-/// (growth at rest 1 to within 1e-9, no convergence in six steps, a residual above 1e-12, losses
-/// that would lose digits) is solved again one by one, as are all servos outside these ranges; how
+/// (growth at rest 1 to within 1e-9, no convergence in six steps, a residual above
+/// 1e-12) is solved again one by one, as are all servos outside these ranges; how
 /// many, the count says.
 ///
 /// Every vector unit of one kind of processor gives the same bits. analyse_limit_cycles() gives the
