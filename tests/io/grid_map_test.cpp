@@ -108,6 +108,17 @@ TEST(GridMap, ACellThatMayHuntOrIsNotKnownIsNotHatched) {
   }
 }
 
+TEST(EdgeGridMap, WhatIsSmallerThanACellIsNotHatched) {
+  // Friction on one side only hunts, at either end: the quiet servos between are missed altogether.
+  const ServoGrid grid{{.inertia_ratio = 2.0, .backlash = 1.0},
+                       {{Input::damping, {0.5, 1.0}}, {Input::friction_ratio, {0.0, 1.0}}}};
+  GridTable table{.grid = grid, .cycles = CycleTable(4), .provenance = {}};
+  evaluate(grid, 0, 4, table.cycles.columns());
+  table.hunting_boundary = hunting_boundary(grid, table.cycles[CycleQuantity::growth_at_rest]);
+  EXPECT_TRUE(table.hunting_boundary->empty());
+  EXPECT_TRUE(map_of(table, CycleQuantity::size).hatching.empty());
+}
+
 TEST(GridMap, TheBoundaryIsNoContour) {
   const GridTable table = worked_out(0.0);
   const ContourMap map = map_of(table, CycleQuantity::growth_at_rest);
