@@ -1,4 +1,5 @@
 // gearlash map: contours over two inputs of the servo, and where hunting ends.
+#include <array>
 #include <memory>
 
 #include "command.hpp"
@@ -25,8 +26,8 @@ struct MapOptions {
 
 void require_an_area(const GridTask& task) {
   Faults faults;
-  const char* const fields[] = {"--y", "--x"};
-  for (std::size_t i = 0; i < 2; ++i) {
+  constexpr std::array fields = {"--y", "--x"};
+  for (std::size_t i = 0; i < fields.size(); ++i) {
     if (task.grid.axes[i].values.size() > 1) continue;
     faults.add({fields[i], "1 value", "must be two or more; gearlash chart draws one", ""});
   }

@@ -8,6 +8,8 @@
 #include <optional>
 #include <unordered_map>
 
+#include "side_bisection.hpp"
+
 namespace gearlash {
 namespace {
 
@@ -78,16 +80,10 @@ class BoundaryFinder {
   /// other side turns out to be what is unknown.
   template <class At>
   std::optional<double> between(const At& at, double inside, double outside) const {
-    Side beyond = Side::outside;
-    for (int i = 0; i < accuracy_.halvings; ++i) {
-      const double middle = 0.5 * (inside + outside);
-      if (middle == inside || middle == outside) break;
-      const Side side = side_at_(at(middle));
-      if (side != Side::inside) beyond = side;
-      (side == Side::inside ? inside : outside) = middle;
-    }
-    if (beyond == Side::unknown) return std::nullopt;
-    return inside;
+    const SideChange change = bisect_sides([&](double place) { return side_at_(at(place)); },
+                                           inside, outside, accuracy_.halvings);
+    if (change.beyond == Side::unknown) return std::nullopt;
+    return change.place;
   }
 
   const Axis& x_;

@@ -50,19 +50,22 @@ std::vector<Diagonal> diagonals(const std::vector<MapCurve>& boundary, const Pap
   return sorted;
 }
 
-/// Whether the cell round a place that is at rest speaks for it: all its points are known, and
-/// those at rest have no limit cycle.
+/// Whether the cell round a place that is at rest speaks for it: all its points are known, some are
+/// at rest, and those have no limit cycle.
 bool is_at_rest_for_good(const GridTable& table, const MapPoint& point) {
   const Axis& x = table.grid.axes[1];
   const std::size_t row = interval_of(table.grid.axes[0], point.y) * x.values.size();
   const std::size_t first = row + interval_of(x, point.x);
+  bool any = false;
   for (const std::size_t corner :
        {first, first + 1, first + x.values.size(), first + x.values.size() + 1}) {
     const double growth = table.cycles[CycleQuantity::growth_at_rest][corner];
     if (std::isnan(growth)) return false;
-    if (growth < 1.0 && table.cycles.verdict[corner] != Verdict::cannot_hunt) return false;
+    if (growth > 1.0) continue;
+    if (table.cycles.verdict[corner] != Verdict::cannot_hunt) return false;
+    any = true;
   }
-  return true;
+  return any;
 }
 
 /// The parts from `begin` to `end`, which the boundary does not cross, that are at rest for good.

@@ -9,9 +9,9 @@
 namespace gearlash {
 
 /// Lines at 45° on paper, each of two points, cut off where they meet the boundary: over places
-/// whose growth at rest is at most 1, but not in cells of the grid of which nothing is known, or
-/// with a point that hunts none the less (where faces bounce, rest and a limit cycle can both be
-/// stable). Precondition: `table` has its hunting boundary and two axes.
+/// whose growth at rest is at most 1, but not in cells of the grid of which nothing is known, whose
+/// points all lie on the other side, or of which one hunts none the less (where faces bounce, rest
+/// and a limit cycle can both be stable). Precondition: `table` has its hunting boundary, two axes.
 std::vector<MapCurve> hatching(const GridTable& table, const Paper& paper);
 
 }  // namespace gearlash

@@ -89,9 +89,10 @@ TEST(EdgeRegionBoundary, ASaddleIsJoinedAsItsMiddleSays) {
       });
       ASSERT_EQ(curves.size(), 2U);
       for (const MapCurve& curve : curves) {
-        // Neither goes through the middle: each stays in one corner, inside or outside.
-        const double corner = (curve.front().x - 0.5) * (curve.front().y - 0.5) * turn;
-        EXPECT_EQ(corner < 0.0, middle_inside);
+        // Neither goes through the middle: each goes round one corner, inside or outside.
+        const double along = 0.5 * (curve.front().x + curve.back().x) - 0.5;
+        const double up = 0.5 * (curve.front().y + curve.back().y) - 0.5;
+        EXPECT_EQ(turn * along * up < 0.0, middle_inside);
         for (const MapPoint& point : curve) {
           EXPECT_NEAR(turn * (point.x - 0.5) * (point.y - 0.5), middle_inside ? -0.01 : 0.01,
                       1e-15);
