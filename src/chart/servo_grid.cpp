@@ -1,18 +1,14 @@
 #include "gearlash/chart/servo_grid.hpp"
 
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
 #include <mutex>
-#include <optional>
 #include <string>
 
 #include "gearlash/servo/range_check.hpp"
+#include "on_threads.hpp"
 
 namespace gearlash {
 namespace {
@@ -181,15 +177,7 @@ GridCount evaluate(const ServoGrid& grid, std::size_t first, std::size_t count,
     done += rows;
     if (how.going_on && !stopped && !how.going_on(done)) stopped = true;
   };
-  const auto threads =
-      how.threads == 0 ? tbb::task_arena::automatic : static_cast<int>(how.threads);
-  std::optional<tbb::global_control> more_than_cores;
-  if (how.threads > 0) {
-    more_than_cores.emplace(tbb::global_control::max_allowed_parallelism, how.threads);
-  }
-  tbb::task_arena arena(threads);
-  arena.execute(
-      [&] { tbb::parallel_for(std::size_t{0}, (count + part - 1) / part, std::size_t{1}, work); });
+  detail::on_threads(how.threads, (count + part - 1) / part, work);
   total.stopped = stopped && done < count;
   return total;
 }

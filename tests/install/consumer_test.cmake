@@ -24,6 +24,7 @@ execute_process(COMMAND "${CMAKE_COMMAND}" --build "${WORK}/build" COMMAND_ERROR
 execute_process(COMMAND "${WORK}/build/consumer" COMMAND_ERROR_IS_FATAL ANY)
 if("chart" IN_LIST COMPONENTS)
   execute_process(COMMAND "${WORK}/build/batch_consumer" COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND "${WORK}/build/design_chart_consumer" COMMAND_ERROR_IS_FATAL ANY)
 endif()
 if("io" IN_LIST COMPONENTS)
   execute_process(COMMAND "${WORK}/build/data_sheet_consumer" "${DATA_SHEET}"

@@ -1,0 +1,311 @@
+#include "chart_cells.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "on_threads.hpp"
+
+namespace gearlash::detail {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+using Position = std::array<std::size_t, CubicTable::most_axes>;
+
+/// Points, nodes or cells: numbered with the last axis fastest.
+struct Box {
+  std::vector<std::size_t> sizes;
+
+  std::size_t size() const {
+    std::size_t all = 1;
+    for (const std::size_t size : sizes) all *= size;
+    return all;
+  }
+  std::size_t index_of(const Position& position) const {
+    std::size_t index = 0;
+    for (std::size_t axis = 0; axis < sizes.size(); ++axis) {
+      index = index * sizes[axis] + position[axis];
+    }
+    return index;
+  }
+  Position position_of(std::size_t index) const {
+    Position position = {};
+    for (std::size_t axis = sizes.size(); axis-- > 0;) {
+      position[axis] = index % sizes[axis];
+      index /= sizes[axis];
+    }
+    return position;
+  }
+};
+
+Box points_of(const ServoGrid& halved_grid) {
+  Box box;
+  for (const Axis& axis : halved_grid.axes) box.sizes.push_back(axis.values.size());
+  return box;
+}
+
+Box nodes_of(const ServoGrid& halved_grid) {
+  Box box = points_of(halved_grid);
+  for (std::size_t& size : box.sizes) size = (size + 1) / 2;
+  return box;
+}
+
+Box cells_of(const ServoGrid& halved_grid) {
+  Box box = points_of(halved_grid);
+  for (std::size_t& size : box.sizes) size /= 2;
+  return box;
+}
+
+double half_way(double one, double next, bool logarithmic) {
+  return logarithmic ? std::sqrt(one) * std::sqrt(next) : 0.5 * one + 0.5 * next;
+}
+
+/// As ChartAnswer::error has it; 0 of two infinities.
+double error_of(CycleQuantity quantity, double value, double exact) {
+  if (value == exact) return 0.0;
+  const double least_scale = quantity == CycleQuantity::growth_at_rest ? 1.0 : 0.0;
+  return std::abs(value - exact) / std::max(std::abs(exact), least_scale);
+}
+
+/// What the points of a cell have in common, seen one after the other.
+class Likeness {
+ public:
+  void add(Verdict verdict, double growth_at_rest, double value) {
+    if (points_ == 0) verdict_ = verdict;
+    same_verdict_ &= verdict == verdict_;
+    if (!std::isnan(value)) ++values_;
+    if (value == 0.0) ++zeros_;
+    ++points_;
+    const double place = straightened(CycleQuantity::growth_at_rest, growth_at_rest);
+    least_place_ = std::min(least_place_, place);
+    greatest_place_ = std::max(greatest_place_, place);
+  }
+
+  Verdict verdict() const { return verdict_; }
+  bool has_value() const { return values_ > 0; }
+
+  bool all_alike() const {
+    return same_verdict_ && verdict_ != Verdict::undecided && all_or_none(values_) &&
+           all_or_none(zeros_) && far_from_end_of_hunting();
+  }
+
+ private:
+  bool all_or_none(std::size_t count) const { return count == 0 || count == points_; }
+
+  /// Farther than growth at rest varies: nowhere between the points does hunting end.
+  bool far_from_end_of_hunting() const {
+    constexpr double end = 0.5;
+    const double distance = std::max(least_place_ - end, end - greatest_place_);
+    return distance > greatest_place_ - least_place_;
+  }
+
+  std::size_t points_ = 0;
+  std::size_t values_ = 0;
+  std::size_t zeros_ = 0;  // where growth at rest ends, no derivative need tell of it
+  Verdict verdict_ = Verdict::undecided;
+  bool same_verdict_ = true;
+  double least_place_ = infinity;  // of growth at rest, straightened
+  double greatest_place_ = -infinity;
+};
+
+/// Compares a table with the points of its cells, one cell at a time.
+class CellExamination {
+ public:
+  CellExamination(const CubicTable& table, const ServoGrid& halved_grid, CycleQuantity quantity,
+                  const SolvedPoints& solved)
+      : table_(table),
+        grid_(halved_grid),
+        quantity_(quantity),
+        solved_(solved),
+        points_(points_of(halved_grid)),
+        points_of_a_cell_{std::vector<std::size_t>(halved_grid.axes.size(), 3)} {}
+
+  /// The largest error found in the cell: infinite where its points are not alike, NaN where a
+  /// value about it is missing.
+  ChartCell examined(const Position& cell) const {
+    Likeness likeness;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < points_of_a_cell_.size(); ++i) {
+      const Position offset = points_of_a_cell_.position_of(i);
+      const std::size_t row = row_of(cell, offset);
+      likeness.add(solved_.verdict[row], solved_.growth_at_rest[row], solved_.value[row]);
+      if (is_node(offset) || std::isnan(solved_.value[row]) || std::isnan(largest)) continue;
+      const double error = error_of(quantity_, interpolated(cell, offset), solved_.value[row]);
+      largest = error <= largest ? largest : error;  // NaN, too
+    }
+    return {likeness.all_alike() ? largest : infinity, likeness.verdict(), likeness.has_value()};
+  }
+
+  /// Those compared in a cell.
+  std::size_t checked_points() const {
+    return points_of_a_cell_.size() - (std::size_t{1} << points_of_a_cell_.sizes.size());
+  }
+
+ private:
+  static bool is_node(const Position& offset) {
+    return std::none_of(offset.begin(), offset.end(), [](std::size_t o) { return o == 1; });
+  }
+
+  std::size_t row_of(const Position& cell, const Position& offset) const {
+    Position point = {};
+    for (std::size_t axis = 0; axis < cell.size(); ++axis) {
+      point[axis] = 2 * cell[axis] + offset[axis];
+    }
+    return points_.index_of(point);
+  }
+
+  double interpolated(const Position& cell, const Position& offset) const {
+    std::array<CubicPlace, CubicTable::most_axes> places;
+    const std::size_t axes = table_.axes().size();
+    for (std::size_t axis = 0; axis < axes; ++axis) {
+      const double value = grid_.axes[axis].values[2 * cell[axis] + offset[axis]];
+      places[axis] = table_.axes()[axis].at(value, cell[axis]);
+    }
+    return unstraightened(quantity_, table_.at({places.data(), axes}));
+  }
+
+  const CubicTable& table_;
+  const ServoGrid& grid_;
+  CycleQuantity quantity_;
+  const SolvedPoints& solved_;
+  Box points_;
+  Box points_of_a_cell_;
+};
+
+/// For each cell the largest of its own error and those of the two beside it on one axis, as far as
+/// they are known.
+std::vector<double> largest_beside(const std::vector<double>& errors, const Box& cells,
+                                   std::size_t axis) {
+  std::size_t stride = 1;
+  for (std::size_t i = axis + 1; i < cells.sizes.size(); ++i) stride *= cells.sizes[i];
+  std::vector<double> largest = errors;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const std::size_t along = i / stride % cells.sizes[axis];
+    if (along > 0) largest[i] = std::fmax(largest[i], errors[i - stride]);
+    if (along + 1 < cells.sizes[axis]) largest[i] = std::fmax(largest[i], errors[i + stride]);
+  }
+  return largest;
+}
+
+/// The error stated of each cell, from the largest found in it and in those that touch it. A smooth
+/// quantity's is nowhere much more than 1.3 times as large; the factor is that of a quantity whose
+/// slope jumps, at the worst of places, in the first or last cell of an axis.
+std::vector<double> stated_errors(const std::vector<ChartCell>& found, const Box& cells) {
+  constexpr double safety = 3.2;
+  std::vector<double> errors;
+  errors.reserve(found.size());
+  for (const ChartCell& cell : found) errors.push_back(cell.error);
+  for (std::size_t axis = 0; axis < cells.sizes.size(); ++axis) {
+    errors = largest_beside(errors, cells, axis);
+  }
+  for (double& error : errors) error *= safety;
+  return errors;
+}
+
+/// The median; 0 of none.
+double typical(std::vector<double> errors) {
+  if (errors.empty()) return 0.0;
+  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+  std::nth_element(errors.begin(), middle, errors.end());
+  return *middle;
+}
+
+/// Of cells whose servos are solved where the error is NaN; `found` are the errors found in them.
+ChartAccuracy accuracy_of(const std::vector<ChartCell>& cells, const std::vector<ChartCell>& found,
+                          std::size_t checked_in_a_cell) {
+  ChartAccuracy accuracy;
+  std::vector<double> errors;
+  std::size_t solved = 0;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (std::isnan(cells[i].error)) {
+      ++solved;
+    } else if (cells[i].has_value) {
+      errors.push_back(found[i].error);
+      accuracy.stated_error = std::max(accuracy.stated_error, cells[i].error);
+      accuracy.largest_error = std::max(accuracy.largest_error, found[i].error);
+    }
+  }
+  accuracy.checked_points = errors.size() * checked_in_a_cell;
+  accuracy.typical_error = typical(std::move(errors));
+  accuracy.solved_share = static_cast<double>(solved) / static_cast<double>(cells.size());
+  return accuracy;
+}
+
+}  // namespace
+
+double straightened(CycleQuantity quantity, double value) {
+  return quantity == CycleQuantity::growth_at_rest ? 1.0 / (1.0 + value) : value;
+}
+
+double unstraightened(CycleQuantity quantity, double value) {
+  return quantity == CycleQuantity::growth_at_rest ? std::max(1.0 / value - 1.0, 0.0) : value;
+}
+
+ServoGrid halved(const ServoGrid& grid) {
+  ServoGrid finer = grid;
+  for (Axis& axis : finer.axes) {
+    const std::vector<double> values = axis.values;
+    axis.values.clear();
+    for (const double value : values) {
+      if (!axis.values.empty()) {
+        axis.values.push_back(half_way(axis.values.back(), value, axis.logarithmic));
+      }
+      axis.values.push_back(value);
+    }
+  }
+  return finer;
+}
+
+SolvedPoints solve_points(const ServoGrid& halved_grid, CycleQuantity quantity,
+                          std::size_t threads) {
+  constexpr std::size_t points_at_a_time = 1 << 18;  // a table of them takes 30 megabytes
+  SolvedPoints solved;
+  const std::size_t points = halved_grid.size();
+  solved.verdict.reserve(points);
+  solved.growth_at_rest.reserve(points);
+  solved.value.reserve(points);
+  for (std::size_t first = 0; first < points; first += points_at_a_time) {
+    CycleTable part(std::min(points_at_a_time, points - first));
+    evaluate(halved_grid, first, part.rows(), part.columns(), {.threads = threads});
+    solved.verdict.insert(solved.verdict.end(), part.verdict.begin(), part.verdict.end());
+    const std::vector<double>& growth = part[CycleQuantity::growth_at_rest];
+    solved.growth_at_rest.insert(solved.growth_at_rest.end(), growth.begin(), growth.end());
+    solved.value.insert(solved.value.end(), part[quantity].begin(), part[quantity].end());
+  }
+  return solved;
+}
+
+std::vector<double> values_of_nodes(const ServoGrid& halved_grid, CycleQuantity quantity,
+                                    const std::vector<double>& values) {
+  const Box points = points_of(halved_grid);
+  const Box nodes = nodes_of(halved_grid);
+  std::vector<double> of_nodes(nodes.size());
+  for (std::size_t i = 0; i < of_nodes.size(); ++i) {
+    Position point = nodes.position_of(i);
+    for (std::size_t& along : point) along *= 2;
+    of_nodes[i] = straightened(quantity, values[points.index_of(point)]);
+  }
+  return of_nodes;
+}
+
+ExaminedCells examine_cells(const CubicTable& table, const ServoGrid& halved_grid,
+                            CycleQuantity quantity, const SolvedPoints& points,
+                            const DesignChartOptions& options) {
+  const CellExamination examination(table, halved_grid, quantity, points);
+  const Box cells = cells_of(halved_grid);
+  std::vector<ChartCell> found(cells.size());
+  on_threads(options.threads, found.size(),
+             [&](std::size_t i) { found[i] = examination.examined(cells.position_of(i)); });
+  const std::vector<double> stated = stated_errors(found, cells);
+  std::vector<ChartCell> decided = found;
+  for (std::size_t i = 0; i < decided.size(); ++i) {
+    double& error = decided[i].error;
+    if (decided[i].has_value && !std::isnan(error)) error = stated[i];
+    if (!(error <= options.tolerance)) error = std::numeric_limits<double>::quiet_NaN();
+  }
+  return {decided, accuracy_of(decided, found, examination.checked_points())};
+}
+
+}  // namespace gearlash::detail
