@@ -45,9 +45,11 @@ void require_rows(const CycleColumns& cycles, std::size_t rows) {
   require("residual", cycles.residual.size());
 }
 
-/// The last servo fills up a block that is not full.
+/// The last servo fills up the last lanes.
 void load(CycleBlock& block, std::span<const NormalizedServo> servos) {
-  for (std::size_t row = 0; row < CycleBlock::rows; ++row) {
+  constexpr std::size_t lanes = CycleBlock::most_lanes;
+  const std::size_t rows = (servos.size() + lanes - 1) / lanes * lanes;
+  for (std::size_t row = 0; row < rows; ++row) {
     const NormalizedServo& servo = servos[std::min(row, servos.size() - 1)];
     block.damping[row] = servo.damping;
     block.inertia_ratio[row] = servo.inertia_ratio;

@@ -9,6 +9,7 @@ namespace gearlash::detail {
 /// A block of servos, a column a quantity; a multiple of every vector's length.
 struct CycleBlock {
   static constexpr std::size_t rows = 64;
+  static constexpr std::size_t most_lanes = 16;  ///< of any kernel: two vectors of eight
   using Column = double[rows];
 
   alignas(64) Column damping;

@@ -454,7 +454,8 @@ class CycleLanes {
 
 template <class Unit>
 void solve_block(CycleBlock& block, std::size_t rows) {
-  static_assert(CycleBlock::rows % Lanes<Unit>::size == 0);
+  static_assert(CycleBlock::rows % CycleBlock::most_lanes == 0);
+  static_assert(CycleBlock::most_lanes % Lanes<Unit>::size == 0);
   for (std::size_t row = 0; row < rows; row += Lanes<Unit>::size) {
     CycleLanes<Unit>::solve(block, row);
   }
