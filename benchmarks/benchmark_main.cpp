@@ -1,6 +1,7 @@
 // Gearlash beside Boost.odeint and SUNDIALS CVODE: every contestant does the same problems in this
 // one process, its answers are checked against ours, and the table of ratios is printed at the end;
-// then many servos at once, how far that is from what the machine can do, and how it scales.
+// then many servos at once, how far that is from what the machine can do, and how it scales; a map
+// from command to file; and charts for programs.
 // Options are Google Benchmark's; the tables go to standard output in Markdown, the rest to
 // standard error.
 
@@ -12,11 +13,13 @@
 #include <string>
 #include <vector>
 
+#include "chart_lookups.hpp"
 #include "contestants.hpp"
 #include "fastest_times.hpp"
 #include "floor.hpp"
 #include "grid_race.hpp"
 #include "kernel_alone.hpp"
+#include "map_to_file.hpp"
 #include "scaling.hpp"
 
 namespace {
@@ -137,8 +140,9 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
 
   const std::vector<Race> races = all_races();
-  const std::vector<ReportPart> parts = {enter_grid_race(), enter_floor(), enter_kernel_alone(),
-                                         enter_scaling()};
+  const std::vector<ReportPart> parts = {enter_grid_race(),    enter_floor(),
+                                         enter_kernel_alone(), enter_scaling(),
+                                         enter_map_to_file(),  enter_chart_lookups()};
   FastestTimes times;
   benchmark::RunSpecifiedBenchmarks(&times);
   std::printf(

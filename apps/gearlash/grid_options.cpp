@@ -9,6 +9,7 @@
 
 #include "gearlash/io/axis_text.hpp"
 #include "gearlash/io/grid_netcdf.hpp"
+#include "gearlash/io/large_table.hpp"
 #include "gearlash/servo/range_check.hpp"
 #include "terminal.hpp"
 
@@ -172,7 +173,7 @@ void make_grid_file(const GridTask& task, const std::string& what, const Provena
   OutputFile output(task.file);  // before the work: it may not be permitted
   const auto sink = [&](std::string_view text) { output.write(text); };
   GridTable table{
-      .grid = task.grid, .cycles = CycleTable(task.grid.size()), .provenance = provenance};
+      .grid = task.grid, .cycles = large_cycle_table(task.grid.size()), .provenance = provenance};
   const GridCount count = work_out(task.grid, what, table.cycles);
   complete(table);
   switch (task.kind) {

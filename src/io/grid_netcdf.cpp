@@ -109,6 +109,7 @@ class GridNetcdf::Layout {
     file_.write(verdict_, box.start, box.extent, flags_);
     for (std::size_t i = 0; i < quantities_.size(); ++i) {
       file_.write(variables_[i], box.start, box.extent, cycles[quantities_[i]]);
+      file_.begin_flush();  // while the next is written
     }
   }
 

@@ -131,6 +131,15 @@ void NetcdfFile::write(NetcdfVariable variable, const std::vector<std::size_t>& 
   require(nc_put_vara_schar, variable, start.data(), extent.data(), flags.data());
 }
 
+void NetcdfFile::begin_flush() const {
+#ifdef SYNC_FILE_RANGE_WRITE  // Linux
+  const int descriptor = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  static_cast<void>(sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE));  // to the end
+  ::close(descriptor);
+#endif
+}
+
 void NetcdfFile::flush() {
   require(nc_sync);
   const int descriptor = open(path_.c_str(), O_RDONLY | O_CLOEXEC);

@@ -47,6 +47,9 @@ class NetcdfFile {
   void write(NetcdfVariable variable, const std::vector<std::size_t>& start,
              const std::vector<std::size_t>& extent, std::span<const signed char> flags);
 
+  /// Lets the system begin to bring to the disk what was written, and does not wait for it: what
+  /// is left to flush(), or to another fsync, is then short. No more than an advice.
+  void begin_flush() const;
   /// Brings everything to the disk (fsync).
   void flush();
   void close();

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "gearlash/io/grid_netcdf.hpp"
+#include "gearlash/io/large_table.hpp"
 #include "gearlash/io/output_file.hpp"
 #include "gearlash/io/units.hpp"
 #include "json_values.hpp"
@@ -168,7 +169,7 @@ class Sweeping {
   /// The piece that starts with point `first`, into a table of as many rows as it has points.
   std::future<GridCount> work_out(std::size_t first, CycleTable& table, const GoingOn& going_on) {
     const std::size_t count = box_length(sweep_.grid, first, points_of_a_piece(sweep_.grid));
-    if (table.rows() != count) table = CycleTable(count);
+    if (table.rows() != count) table = large_cycle_table(count);
     return std::async(std::launch::async, [this, first, count, &table, &going_on] {
       return evaluate(
           sweep_.grid, first, count, table.columns(),
