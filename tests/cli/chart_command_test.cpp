@@ -89,7 +89,8 @@ TEST(ChartCommand, FaultsAreToldAtOnce) {
   EXPECT_THAT(run.err, HasSubstr("--curves = stiffness: must name an input: "));
   EXPECT_THAT(run.err, HasSubstr("--x = 0.6 to 0.1: must rise"));
   EXPECT_THAT(run.err, HasSubstr("--quantity = weight: must be growth_at_rest, size, "));
-  EXPECT_THAT(run.err, HasSubstr("--output = a.txt: must end in .svg, .png, .pdf, .csv, .json or .nc"));
+  EXPECT_THAT(run.err,
+              HasSubstr("--output = a.txt: must end in .svg, .png, .pdf, .csv, .json or .nc"));
   EXPECT_THAT(run.err, HasSubstr("--friction-ratio = 2: must be from 0 to 1"));
   const Outcome twice =
       run_tool({"chart", "--x", "damping=0.1:0.6:5", "--damping", "0.2", "--inertia-ratio", "1",

@@ -18,10 +18,10 @@ Side side_of_hunting(const NormalizedServo& servo);
 
 /// The curves on which the growth at rest is 1 to the last bits, servos that hunt on their left.
 /// With plastic contact there is no limit cycle on the other side, and the cycle's size tends to 0
-/// towards the curve. Where faces bounce the growth can also jump past 1, from one number of bounces
-/// to the next, and a limit cycle may go on existing beside a stable rest. `growth_at_rest` is that
-/// of the grid's points, as evaluate() wrote it. There are no curves where an axis has less than two
-/// values, or one that is infinite. Precondition: two axes, y and x.
+/// towards the curve. Where faces bounce the growth can also jump past 1, from one number of
+/// bounces to the next, and a limit cycle may go on existing beside a stable rest. `growth_at_rest`
+/// is that of the grid's points, as evaluate() wrote it. There are no curves where an axis has less
+/// than two values, or one that is infinite. Precondition: two axes, y and x.
 std::vector<MapCurve> hunting_boundary(const ServoGrid& grid,
                                        std::span<const double> growth_at_rest);
 
