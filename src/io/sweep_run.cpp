@@ -1,14 +1,16 @@
 #include "gearlash/io/sweep_run.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
 #include <future>
-#include <optional>
+#include <memory>
 #include <system_error>
 #include <thread>
 
@@ -80,12 +82,35 @@ SweepRun read_record(const PartFiles& part, const SweepFile& sweep, const Proven
     if (record.at("sweep") != sweep.text || record.at("points") != sweep.grid.size()) {
       refuse_part(part, "must be of the same sweep file");
     }
+    if (record.at("points_done") > sweep.grid.size()) {
+      refuse_part(part, "must not be said to have more points than there are");
+    }
     return {.count = {.solved = {record.at("side_by_side"), record.at("one_by_one")},
                       .refused = record.at("refused")},
             .points_done = record.at("points_done")};
   } catch (const Json::exception&) {
     refuse_part(part, "must have beside it the record of how far it has come");
   }
+}
+
+/// Makes the unfinished file, of which there must be none yet: another program may be at it.
+void claim(const PartFiles& part) {
+  constexpr mode_t permissions = 0666;
+  const int descriptor =
+      open(part.data.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, permissions);
+  if (descriptor >= 0) {
+    close(descriptor);
+    return;
+  }
+  if (errno == EEXIST) {
+    throw InvalidInput({{"--output", shown(part.whole.string(), std::string::npos),
+                         "must not have " + part.shown_data() +
+                             " beside it, of which no record says how far it has come: if no other "
+                             "sweep is writing it, remove it",
+                         ""}});
+  }
+  throw OutputError(part.shown_data() +
+                    ": cannot be written: " + std::generic_category().message(errno));
 }
 
 void require_room(const fs::path& output, const PartFiles& part, std::size_t bytes) {
@@ -192,6 +217,18 @@ class Sweeping {
   std::array<CycleTable, 2> tables_;
 };
 
+std::unique_ptr<Sweeping> begin_anew(const SweepFile& sweep, const Provenance& provenance,
+                                     const PartFiles& part, const std::string& shown_name) {
+  claim(part);
+  try {
+    return std::make_unique<Sweeping>(sweep, provenance, part, shown_name, SweepRun{}, false);
+  } catch (...) {
+    std::error_code ignored;
+    if (!fs::exists(part.record, ignored)) fs::remove(part.data, ignored);
+    throw;
+  }
+}
+
 }  // namespace
 
 SweepRun run_sweep(const SweepFile& sweep, const Provenance& provenance, const fs::path& output,
@@ -207,8 +244,10 @@ SweepRun run_sweep(const SweepFile& sweep, const Provenance& provenance, const f
   }
   if (resumed) begun = read_record(part, sweep, provenance);
   require_room(output, part, netcdf_bytes({sweep.grid, sweep.quantities, provenance, ""}));
-  Sweeping sweeping(sweep, provenance, part, output.string(), begun, resumed);
-  const SweepRun run = sweeping.run(going_on);
+  const auto sweeping =
+      resumed ? std::make_unique<Sweeping>(sweep, provenance, part, output.string(), begun, true)
+              : begin_anew(sweep, provenance, part, output.string());
+  const SweepRun run = sweeping->run(going_on);
   if (run.points_done == sweep.grid.size()) rename_whole(part, output);
   return run;
 }
