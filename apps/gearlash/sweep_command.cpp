@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "command.hpp"
 #include "gearlash/io/output_file.hpp"
@@ -68,13 +69,15 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
   faults.require_none();
 
   const StopRequest stop;
-  Progress progress("Sweep", sweep.grid.size(), "servos");
+  std::optional<Progress> progress;
+  progress.emplace("Sweep", sweep.grid.size(), "servos");
   const SweepRun done =
       run_sweep(sweep, provenance_of(options, provenance), options.output,
                 options.resume ? SweepStart::resume : SweepStart::anew, [&](std::size_t count) {
-                  progress.show_done(count);
+                  progress->show_done(count);
                   return !stop.is_made();
                 });
+  progress.reset();  // wiped before anything is said
   if (done.points_done < sweep.grid.size()) {
     report_stop(done, sweep, options.output);
     stop.obey();

@@ -100,12 +100,15 @@ Axis spaced_axis(std::string_view field, Input input, double from, double to, st
   }
   Axis axis{input, {}, logarithmic};
   axis.values.reserve(count);
-  const double steps = static_cast<double>(count) - 1.0;
+  const double steps = std::max(1.0, static_cast<double>(count) - 1.0);
   for (std::size_t i = 0; i < count; ++i) {
-    const double share = count == 1 ? 0.0 : static_cast<double>(i) / steps;
-    axis.values.push_back(logarithmic ? from * std::exp(share * std::log(to / from))
-                                      : from + share * (to - from));
+    const auto step = static_cast<double>(i);
+    // By powers of ten, so that whole ones are met exactly.
+    const double exponent = (std::log10(from) * (steps - step) + std::log10(to) * step) / steps;
+    axis.values.push_back(logarithmic ? std::pow(10.0, exponent)
+                                      : from + step / steps * (to - from));
   }
+  axis.values.front() = from;
   axis.values.back() = to;
   return axis;
 }
@@ -135,10 +138,12 @@ std::vector<Violation> validate(const Axis& axis, std::string_view field) {
   if (axis.values.empty()) {
     check.refuse(field, "no value", "must be at least one");
   }
-  for (const double value : axis.values) {
-    if (is_permitted(axis.input, value)) continue;
+  const auto refused = [&](double value) { return !is_permitted(axis.input, value); };
+  const auto first = std::find_if(axis.values.begin(), axis.values.end(), refused);
+  if (first != axis.values.end()) {
+    const auto others = std::count_if(std::next(first), axis.values.end(), refused);
     check.refuse(
-        field, exact_text(value),
+        field, exact_text(*first) + (others > 0 ? " and " + std::to_string(others) + " more" : ""),
         std::string(name_of(axis.input)) + " must be " + permitted_values(name_of(axis.input)));
   }
   const auto fall = std::adjacent_find(axis.values.begin(), axis.values.end(),

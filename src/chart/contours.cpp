@@ -48,13 +48,18 @@ double interpolated(const ServoGrid& grid, const std::vector<double>& values,
   return sum;
 }
 
+double limit_beside(const NormalizedServo& servo, CycleQuantity quantity) {
+  return limit_where_hunting_ends(quantity, servo.backlash).value_or(nothing);
+}
+
 /// The quantity of a servo with plastic contact, or its limit where it does not hunt.
-double worked_out(const NormalizedServo& servo, CycleQuantity quantity, double limit) {
+double worked_out(const NormalizedServo& servo, CycleQuantity quantity) {
   if (!validate(servo).empty()) return nothing;
   CycleTable row(1);
   find_limit_cycles({&servo, 1}, row.columns());
   const double value = row[quantity][0];
-  return std::isnan(value) && row.verdict[0] == Verdict::cannot_hunt ? limit : value;
+  return std::isnan(value) && row.verdict[0] == Verdict::cannot_hunt ? limit_beside(servo, quantity)
+                                                                     : value;
 }
 
 Side side_of(double value, double level) {
@@ -126,11 +131,12 @@ std::vector<double> round_levels(std::vector<double> values) {
 
 std::vector<Contour> contours_of(const ServoGrid& grid, const CycleTable& cycles,
                                  CycleQuantity quantity, const std::vector<double>& levels) {
-  const double limit = limit_where_hunting_ends(quantity).value_or(nothing);
   const bool plastic = !grid.may_bounce();
   std::vector<double> values = cycles[quantity];
   for (std::size_t row = 0; plastic && row < values.size(); ++row) {
-    if (std::isnan(values[row]) && cycles.verdict[row] == Verdict::cannot_hunt) values[row] = limit;
+    if (std::isnan(values[row]) && cycles.verdict[row] == Verdict::cannot_hunt) {
+      values[row] = limit_beside(grid.at(row), quantity);
+    }
   }
   std::vector<Contour> contours;
   for (const double level : levels) {
@@ -138,9 +144,9 @@ std::vector<Contour> contours_of(const ServoGrid& grid, const CycleTable& cycles
     corners.reserve(values.size());
     for (const double value : values) corners.push_back(side_of(value, level));
     const auto side_at = [&](const MapPoint& point) {
-      return side_of(plastic ? worked_out(servo_at(grid, point), quantity, limit)
-                             : interpolated(grid, values, point),
-                     level);
+      return side_of(
+          plastic ? worked_out(servo_at(grid, point), quantity) : interpolated(grid, values, point),
+          level);
     };
     contours.push_back({level, boundary_of_region(grid.axes[1], grid.axes[0], corners, side_at,
                                                   picture_accuracy)});

@@ -47,10 +47,11 @@ std::optional<CycleQuantity> quantity_named(std::string_view name) {
   return std::nullopt;
 }
 
-std::optional<double> limit_where_hunting_ends(CycleQuantity quantity) {
+std::optional<double> limit_where_hunting_ends(CycleQuantity quantity, double backlash) {
   switch (quantity) {
-    case CycleQuantity::size:
     case CycleQuantity::motor_size:
+      return 0.5 * backlash;
+    case CycleQuantity::size:
     case CycleQuantity::impact_speed:
     case CycleQuantity::motor_friction_loss:
     case CycleQuantity::load_friction_loss:

@@ -35,7 +35,7 @@ ExactCurve exact_curve(const std::vector<double>& places,
       servos.push_back({place, servo.backlash == 0.0 ? 0.0 : nothing});
     }
   }
-  ChartCurve curve = curve_to_hunting_ends(servos, servo_at);
+  ChartCurve curve = curve_to_hunting_ends(servos, servo_at, 0.0);
   return {std::move(curve.line), std::move(curve.ends)};
 }
 

@@ -84,6 +84,7 @@ class GridNetcdf::Layout {
       const NetcdfVariable variable =
           file_.add_numbers(name_of(quantity), dimensions,
                             std::string(description_of(quantity)) + units.remark, units.units);
+      file_.declare_nan_missing(variable);
       if (!fixed.empty()) file_.set_attribute(variable, "coordinates", fixed);
     }
     const std::array<std::vector<double>, 2> boundary = columns_of(contents.hunting_boundary);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "gearlash/io/hunting_curve.hpp"
 #include "gearlash/servo/range_check.hpp"
@@ -16,20 +17,23 @@ namespace {
 ChartCurve curve_of(const GridTable& table, std::size_t first, CycleQuantity quantity) {
   const Axis& x = table.grid.axes.back();
   const std::vector<double>& values = table.cycles[quantity];
-  const bool vanishes = !table.grid.may_bounce() && limit_where_hunting_ends(quantity) == 0.0;
+  NormalizedServo servo_on_curve = table.grid.at(first);
+  const double limit = limit_where_hunting_ends(quantity, servo_on_curve.backlash)
+                           .value_or(std::numeric_limits<double>::infinity());
+  const bool ends = !table.grid.may_bounce() && std::isfinite(limit);
   std::vector<CurveServo> servos;
   for (std::size_t i = 0; i < x.values.size(); ++i) {
     const Verdict verdict = table.cycles.verdict[first + i];
     CurveServo servo{x.values[i], values[first + i]};
-    if (vanishes && verdict == Verdict::hunts) servo.hunts = true;
-    if (vanishes && verdict == Verdict::cannot_hunt) servo.hunts = false;
+    if (ends && verdict == Verdict::hunts) servo.hunts = true;
+    if (ends && verdict == Verdict::cannot_hunt) servo.hunts = false;
     servos.push_back(servo);
   }
-  NormalizedServo servo = table.grid.at(first);
-  return curve_to_hunting_ends(servos, [&](double place) {
-    servo.*field_of(x.input) = place;
-    return servo;
-  });
+  const auto servo_at = [&](double place) {
+    servo_on_curve.*field_of(x.input) = place;
+    return servo_on_curve;
+  };
+  return curve_to_hunting_ends(servos, servo_at, limit);
 }
 
 /// "[[[x, y], …], …]", a curve a line.
@@ -79,7 +83,9 @@ void write_grid_json(const GridTable& table, const TextSink& sink) {
                  {"servo", json_servo(table.grid.servo)}};
   Json axes = Json::array();
   for (const Axis& axis : table.grid.axes) {
-    axes.push_back({{"input", name_of(axis.input)}, {"values", axis.values}});
+    Json values = Json::array();
+    for (const double value : axis.values) values.push_back(json_number(value));
+    axes.push_back({{"input", name_of(axis.input)}, {"values", std::move(values)}});
     header["servo"].erase(name_of(axis.input));
   }
   header["axes"] = std::move(axes);

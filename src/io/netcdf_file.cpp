@@ -43,9 +43,8 @@ NetcdfFile NetcdfFile::create(const std::filesystem::path& path, std::string sho
 
 NetcdfFile NetcdfFile::reopen(const std::filesystem::path& path, std::string shown_name) {
   int id = closed;
-  errno = 0;
   const int status = nc_open(path.c_str(), NC_WRITE, &id);
-  if (status != NC_NOERR) refuse(shown_name, status, errno);
+  if (status != NC_NOERR) refuse(shown_name, status, 0);
   return {id, path, std::move(shown_name)};
 }
 
@@ -73,12 +72,15 @@ NetcdfVariable NetcdfFile::add_numbers(const std::string& name,
   if (!dimensions.empty()) {
     require(nc_def_var_chunking, variable, NC_CONTIGUOUS, nullptr);
     require(nc_def_var_fill, variable, NC_NOFILL, nullptr);
-    const double missing = std::numeric_limits<double>::quiet_NaN();
-    require(nc_put_att_double, variable, "missing_value", NC_DOUBLE, std::size_t{1}, &missing);
   }
   set_attribute(variable, "long_name", long_name);
   set_attribute(variable, "units", units);
   return variable;
+}
+
+void NetcdfFile::declare_nan_missing(NetcdfVariable variable) {
+  const double missing = std::numeric_limits<double>::quiet_NaN();
+  require(nc_put_att_double, variable, "missing_value", NC_DOUBLE, std::size_t{1}, &missing);
 }
 
 NetcdfVariable NetcdfFile::add_flags(const std::string& name,

@@ -27,12 +27,14 @@ class NetcdfFile {
 
   // Description, before the first values.
   NetcdfDimension add_dimension(const std::string& name, std::size_t length);
-  /// Doubles, NaN where there is no value; one number without dimensions. Stored without gaps in
+  /// Doubles; one number without dimensions. Stored without gaps in
   /// the order of the indices, so that what is written does not depend on the pieces it is written
   /// in.
   NetcdfVariable add_numbers(const std::string& name,
                              const std::vector<NetcdfDimension>& dimensions,
                              const std::string& long_name, const std::string& units);
+  /// Of numbers: that NaN stands for none. (Of coordinates there are all.)
+  void declare_nan_missing(NetcdfVariable variable);
   /// Whole numbers from 0 on that stand for words (the conventions' "flags").
   NetcdfVariable add_flags(const std::string& name, const std::vector<NetcdfDimension>& dimensions,
                            const std::string& long_name, const std::vector<std::string>& meanings);

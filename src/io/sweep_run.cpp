@@ -1,143 +1,62 @@
 #include "gearlash/io/sweep_run.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
+#include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstdio>
-#include <fstream>
+#include <chrono>
 #include <future>
-#include <memory>
 #include <system_error>
 #include <thread>
 
 #include "gearlash/io/grid_netcdf.hpp"
 #include "gearlash/io/large_table.hpp"
 #include "gearlash/io/output_file.hpp"
-#include "gearlash/io/units.hpp"
-#include "json_values.hpp"
+#include "sweep_part.hpp"
 
 namespace gearlash {
 namespace {
 
-namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
 
-/// Points that are held in memory, written and recorded at a time: 50 MB; where faces bounce, as
-/// many as keep every core busy for about a second.
-std::size_t points_of_a_piece(const ServoGrid& grid) {
-  constexpr std::size_t plastic = std::size_t{1} << 19U;
-  constexpr std::size_t bouncing_a_core = 128;
-  const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
-  return grid.may_bounce() ? bouncing_a_core * cores : plastic;
-}
-
-/// A symbolic link keeps its place.
-fs::path target_of(const fs::path& output) {
-  std::error_code error;
-  const fs::path resolved = fs::weakly_canonical(output, error);
-  return error ? output : resolved;
-}
-
-/// The unfinished file, and the record of how far it has come.
-struct PartFiles {
-  explicit PartFiles(const fs::path& output)
-      : whole(target_of(output)), data(whole), record(whole) {
-    data += ".part";
-    record += ".part.json";
+/// How many points are held in memory, written and recorded at a time: 50 MB; where faces bounce,
+/// as many as take about a second, which is found by and by.
+class PieceLength {
+ public:
+  explicit PieceLength(const ServoGrid& grid) : may_change_(grid.may_bounce()) {
+    constexpr std::size_t at_first_a_core = 8;
+    if (may_change_) points_ = at_first_a_core * std::max(1U, std::thread::hardware_concurrency());
   }
-  bool exist() const { return fs::exists(data) && fs::exists(record); }
-  std::string shown_data() const { return shown(data.string(), std::string::npos); }
 
-  fs::path whole;
-  fs::path data;
-  fs::path record;
+  std::size_t points() const { return points_; }
+
+  void heed(Clock::duration of_a_piece) {
+    constexpr auto aim = std::chrono::seconds(1);
+    if (!may_change_) return;
+    if (of_a_piece < aim / 2) points_ = std::min(2 * points_, longest);
+    if (of_a_piece > 2 * aim) points_ = std::max<std::size_t>(1, points_ / 2);
+  }
+
+ private:
+  static constexpr std::size_t longest = std::size_t{1} << 19U;
+  std::size_t points_ = longest;
+  bool may_change_;
 };
 
-std::string record_of(const SweepFile& sweep, const Provenance& provenance, const SweepRun& run) {
-  const Json record = {{"provenance", json_provenance(provenance)},
-                       {"points", sweep.grid.size()},
-                       {"points_done", run.points_done},
-                       {"side_by_side", run.count.solved.side_by_side},
-                       {"one_by_one", run.count.solved.one_by_one},
-                       {"refused", run.count.refused},
-                       {"sweep", sweep.text}};
-  return record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+struct Piece {
+  GridCount count;
+  Clock::duration duration;
+};
 
-[[noreturn]] void refuse_part(const PartFiles& part, const std::string& problem) {
-  throw InvalidInput({{"--resume", part.shown_data(), problem + "; remove it to start again", ""}});
-}
-
-/// How far the unfinished sweep has come.
-SweepRun read_record(const PartFiles& part, const SweepFile& sweep, const Provenance& provenance) {
-  std::ifstream stream(part.record, std::ios::binary);
-  const Json record = Json::parse(stream, nullptr, false);
-  try {
-    if (record.at("provenance").at("version") != provenance.version) {
-      refuse_part(part, "must be of the same version of gearlash");
-    }
-    if (record.at("sweep") != sweep.text || record.at("points") != sweep.grid.size()) {
-      refuse_part(part, "must be of the same sweep file");
-    }
-    if (record.at("points_done") > sweep.grid.size()) {
-      refuse_part(part, "must not be said to have more points than there are");
-    }
-    return {.count = {.solved = {record.at("side_by_side"), record.at("one_by_one")},
-                      .refused = record.at("refused")},
-            .points_done = record.at("points_done")};
-  } catch (const Json::exception&) {
-    refuse_part(part, "must have beside it the record of how far it has come");
-  }
-}
-
-/// Makes the unfinished file, of which there must be none yet: another program may be at it.
-void claim(const PartFiles& part) {
-  constexpr mode_t permissions = 0666;
-  const int descriptor =
-      open(part.data.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, permissions);
-  if (descriptor >= 0) {
-    close(descriptor);
-    return;
-  }
-  if (errno == EEXIST) {
-    throw InvalidInput({{"--output", shown(part.whole.string(), std::string::npos),
-                         "must not have " + part.shown_data() +
-                             " beside it, of which no record says how far it has come: if no other "
-                             "sweep is writing it, remove it",
-                         ""}});
-  }
-  throw OutputError(part.shown_data() +
-                    ": cannot be written: " + std::generic_category().message(errno));
-}
-
-void require_room(const fs::path& output, const PartFiles& part, std::size_t bytes) {
-  struct stat begun {};
-  std::size_t taken = 0;
-  if (stat(part.data.c_str(), &begun) == 0) {
-    constexpr std::size_t block = 512;  // as stat counts
-    taken = static_cast<std::size_t>(begun.st_blocks) * block;
-  }
+void require_room(const SweepPart& part, std::size_t bytes) {
   std::error_code error;
-  const fs::space_info space = fs::space(fs::absolute(part.whole).parent_path(), error);
+  const std::filesystem::space_info space = std::filesystem::space(part.data(), error);
+  const std::size_t taken = part.bytes();
   if (error || bytes <= taken || bytes - taken <= space.available) return;
   constexpr double gigabyte = 1e9;
   throw OutputError(fmt::format("{}: cannot be written: {:.3g} GB are wanting, {:.3g} GB are free",
-                                shown(output.string(), std::string::npos),
-                                static_cast<double>(bytes - taken) / gigabyte,
+                                part.shown_output(), static_cast<double>(bytes - taken) / gigabyte,
                                 static_cast<double>(space.available) / gigabyte));
-}
-
-void rename_whole(const PartFiles& part, const fs::path& output) {
-  std::error_code error;
-  fs::rename(part.data, part.whole, error);
-  if (error) {
-    throw OutputError(shown(output.string(), std::string::npos) +
-                      ": cannot be written: " + error.message());
-  }
-  fs::remove(part.record, error);
 }
 
 void add(GridCount& total, const GridCount& piece) {
@@ -150,14 +69,15 @@ void add(GridCount& total, const GridCount& piece) {
 /// that writes, because HDF5 prints its errors in all but the thread in which NetCDF was started.
 class Sweeping {
  public:
-  Sweeping(const SweepFile& sweep, const Provenance& provenance, const PartFiles& part,
-           const std::string& shown_name, const SweepRun& begun, bool resumed)
+  Sweeping(const SweepFile& sweep, const Provenance& provenance, SweepPart& part,
+           const SweepRun& begun)
       : sweep_(sweep),
         provenance_(provenance),
         part_(part),
-        file_(open(shown_name, resumed)),
+        file_(open()),
+        length_(sweep.grid),
         recorded_(begun) {
-    if (!resumed) record(begun);
+    if (!part.is_begun()) record(begun);
   }
 
   /// What was written and recorded in the end.
@@ -165,17 +85,18 @@ class Sweeping {
     const std::size_t points = sweep_.grid.size();
     std::size_t first = recorded_.points_done;
     if (going_on && !going_on(first)) return recorded_;
-    std::future<GridCount> working;
+    std::future<Piece> working;
     if (first < points) working = work_out(first, tables_[0], going_on);
     for (std::size_t index = 0; first < points; index = 1 - index) {
-      const GridCount piece = working.get();
-      if (piece.stopped) return recorded_;
+      const Piece piece = working.get();
+      if (piece.count.stopped) return recorded_;
+      length_.heed(piece.duration);
       const CycleTable& table = tables_[index];
       const std::size_t next = first + table.rows();
       if (next < points) working = work_out(next, tables_[1 - index], going_on);
       file_.write(first, table);
       SweepRun run = recorded_;
-      add(run.count, piece);
+      add(run.count, piece.count);
       run.points_done = next;
       record(run);
       first = next;
@@ -185,70 +106,64 @@ class Sweeping {
   }
 
  private:
-  GridNetcdf open(const std::string& shown_name, bool resumed) const {
+  GridNetcdf open() {
     const GridContents contents{sweep_.grid, sweep_.quantities, provenance_, sweep_.text};
-    return resumed ? GridNetcdf::reopen(part_.data, shown_name, contents)
-                   : GridNetcdf::create(part_.data, shown_name, contents);
+    if (part_.is_begun()) {
+      try {
+        return GridNetcdf::reopen(part_.data(), part_.shown_output(), contents);
+      } catch (const OutputError&) {
+        part_.refuse("must be the whole files that an unfinished sweep leaves");
+      }
+    }
+    part_.remove_record();  // it would be taken for that of the new data
+    return GridNetcdf::create(part_.data(), part_.shown_output(), contents);
   }
 
   /// The piece that starts with point `first`, into a table of as many rows as it has points.
-  std::future<GridCount> work_out(std::size_t first, CycleTable& table, const GoingOn& going_on) {
-    const std::size_t count = box_length(sweep_.grid, first, points_of_a_piece(sweep_.grid));
+  std::future<Piece> work_out(std::size_t first, CycleTable& table, const GoingOn& going_on) {
+    const std::size_t count = box_length(sweep_.grid, first, length_.points());
     if (table.rows() != count) table = large_cycle_table(count);
     return std::async(std::launch::async, [this, first, count, &table, &going_on] {
-      return evaluate(
+      const Clock::time_point start = Clock::now();
+      const GridCount solved = evaluate(
           sweep_.grid, first, count, table.columns(),
           {.going_on = [&](std::size_t done) { return !going_on || going_on(first + done); }});
+      return Piece{solved, Clock::now() - start};
     });
   }
 
   /// In this order, so that a record never tells of what is not on the disk.
   void record(const SweepRun& run) {
     file_.flush();
-    write_file(part_.record, record_of(sweep_, provenance_, run));
+    part_.write_record(sweep_, provenance_, run);
     recorded_ = run;
   }
 
   const SweepFile& sweep_;
   const Provenance& provenance_;
-  const PartFiles& part_;
+  SweepPart& part_;
   GridNetcdf file_;
+  PieceLength length_;
   SweepRun recorded_;
   std::array<CycleTable, 2> tables_;
 };
 
-std::unique_ptr<Sweeping> begin_anew(const SweepFile& sweep, const Provenance& provenance,
-                                     const PartFiles& part, const std::string& shown_name) {
-  claim(part);
-  try {
-    return std::make_unique<Sweeping>(sweep, provenance, part, shown_name, SweepRun{}, false);
-  } catch (...) {
-    std::error_code ignored;
-    if (!fs::exists(part.record, ignored)) fs::remove(part.data, ignored);
-    throw;
-  }
-}
-
 }  // namespace
 
-SweepRun run_sweep(const SweepFile& sweep, const Provenance& provenance, const fs::path& output,
-                   SweepStart start, const GoingOn& going_on) {
-  const PartFiles part(output);
-  const bool resumed = part.exist();
-  SweepRun begun;
-  if (resumed && start == SweepStart::anew) {
-    throw InvalidInput({{"--output", shown(output.string(), std::string::npos),
+SweepRun run_sweep(const SweepFile& sweep, const Provenance& provenance,
+                   const std::filesystem::path& output, SweepStart start, const GoingOn& going_on) {
+  SweepPart part(output);
+  if (part.is_begun() && start == SweepStart::anew) {
+    throw InvalidInput({{"--output", part.shown_output(),
                          "must not have an unfinished sweep beside it: --resume goes on with " +
-                             part.shown_data() + ", or remove it to start again",
+                             part.shown_files() + ", or remove both to start again",
                          ""}});
   }
-  if (resumed) begun = read_record(part, sweep, provenance);
-  require_room(output, part, netcdf_bytes({sweep.grid, sweep.quantities, provenance, ""}));
-  const auto sweeping =
-      resumed ? std::make_unique<Sweeping>(sweep, provenance, part, output.string(), begun, true)
-              : begin_anew(sweep, provenance, part, output.string());
-  const SweepRun run = sweeping->run(going_on);
-  if (run.points_done == sweep.grid.size()) rename_whole(part, output);
+  const SweepRun begun = part.is_begun() ? part.read_record(sweep, provenance) : SweepRun{};
+  require_room(part, netcdf_bytes({sweep.grid, sweep.quantities, provenance, ""}));
+  Sweeping sweeping(sweep, provenance, part, begun);
+  const SweepRun run = sweeping.run(going_on);
+  if (run.points_done == sweep.grid.size()) part.finish();
   return run;
 }
 

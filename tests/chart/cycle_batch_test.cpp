@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "../servo/seeded_draws.hpp"
+#include "gearlash/chart/hunting_end.hpp"
 #include "gearlash/cycle/growth_at_rest.hpp"
 #include "gearlash/servo/range_check.hpp"
 #include "same_bits.hpp"
@@ -149,6 +150,25 @@ TEST_P(OracleCycleBatch, AgreesWithOneByOne) {
               kind.least_side_by_side * static_cast<double>(servos.size()));
     expect_near(table, one_by_one(servos), servos);
   }
+}
+
+/// Half the backlash: the motor goes from face to face, however small the load's swing.
+TEST(CycleTableLimits, TheMotorsSizeIsHalfTheBacklashWhereHuntingEnds) {
+  const auto servo_at = [](double damping) {
+    return NormalizedServo{
+        .damping = damping, .inertia_ratio = 2.0, .friction_ratio = 0.3, .backlash = 0.2};
+  };
+  const double end = hunting_end(servo_at, 0.1, 0.9);
+  const NormalizedServo servo = servo_at(end * (1.0 - 1e-6));
+  CycleTable table(1);
+  find_limit_cycles({&servo, 1}, table.columns());
+  const auto limit = [&](CycleQuantity quantity) {
+    return limit_where_hunting_ends(quantity, servo.backlash).value();
+  };
+  EXPECT_NEAR(table[CycleQuantity::motor_size][0], limit(CycleQuantity::motor_size), 1e-3);
+  EXPECT_NEAR(table[CycleQuantity::multiplier][0], limit(CycleQuantity::multiplier), 0.1);
+  EXPECT_NEAR(table[CycleQuantity::size][0], limit(CycleQuantity::size), 0.01);
+  EXPECT_NEAR(table[CycleQuantity::impact_loss][0], limit(CycleQuantity::impact_loss), 1e-4);
 }
 
 /// The numbers of the plastic cycle's own oracle, worked out in forty digits.

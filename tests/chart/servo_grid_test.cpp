@@ -45,6 +45,36 @@ TEST(Axis, IsSpacedBetweenItsEndsExactly) {
   EXPECT_EQ(spaced_axis("x", Input::damping, 0.1, 0.1, 1, Spacing::linear).values.size(), 1U);
 }
 
+TEST(Axis, MeetsWholePowersOfTen) {
+  const Axis axis = spaced_axis("x", Input::inertia_ratio, 1e-9, 1e9, 37, Spacing::logarithmic);
+  for (int power = -9; power <= 9; ++power) {
+    const auto index = static_cast<std::size_t>(2 * (power + 9));
+    EXPECT_EQ(axis.values[index], std::stod("1e" + std::to_string(power)));
+  }
+}
+
+TEST(EdgeAxis, ManyBadValuesAreOneLine) {
+  const std::vector<Violation> violations =
+      validate({Input::restitution, {0.5, 1.5, 2.0, 2.5}}, "--x");
+  ASSERT_EQ(violations.size(), 1U);
+  EXPECT_EQ(to_string(violations[0]), "--x = 1.5 and 2 more: restitution must be from 0 to 1");
+}
+
+TEST(EdgeGrid, AMasslessSideMayStandBesideAnyAxis) {
+  const Axis damping = spaced_axis("x", Input::damping, 0.0, 0.9, 10, Spacing::linear);
+  for (const double inertia_ratio : {0.0, infinity}) {
+    const ServoGrid grid{.servo = {.inertia_ratio = inertia_ratio, .backlash = 1.0},
+                         .axes = {damping}};
+    EXPECT_TRUE(validate(grid, {"--x"}).empty());
+    CycleTable table(grid.size());
+    const GridCount count = evaluate(grid, 0, grid.size(), table.columns());
+    EXPECT_EQ(count.refused, 1U);  // no damping: no friction
+  }
+  const ServoGrid none{.servo = {.inertia_ratio = 0.0, .backlash = 1.0},
+                       .axes = {{Input::friction_ratio, {0.0}}}};
+  EXPECT_FALSE(validate(none, {"--x"}).empty());
+}
+
 TEST(EdgeAxis, EachFaultIsOneLine) {
   const auto fault = [](double from, double to, std::size_t count, Spacing spacing) {
     try {

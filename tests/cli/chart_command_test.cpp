@@ -81,6 +81,16 @@ TEST(ChartCommand, PicturesAreDrawn) {
   EXPECT_THAT(svg, HasSubstr("size (backlashes)"));
 }
 
+TEST(ChartCommand, InfinityIsToldInWords) {
+  const test::Scratch scratch;
+  const auto file = scratch / "chart.json";
+  const Outcome run = run_tool({"chart", "--x", "inertia-ratio=0,1,inf", "--damping", "0.1",
+                                "--friction-ratio", "0.5", "--output", file.string()});
+  EXPECT_EQ(run.status, 0) << run.err;
+  const auto chart = nlohmann::json::parse(content(file));
+  EXPECT_EQ(chart["axes"][0]["values"], nlohmann::json({0.0, 1.0, "inf"}));
+}
+
 TEST(ChartCommand, FaultsAreToldAtOnce) {
   const Outcome run = run_tool({"chart", "--x", "damping=0.6:0.1:5", "--curves", "stiffness=1",
                                 "--inertia-ratio", "1", "--friction-ratio", "2", "--quantity",

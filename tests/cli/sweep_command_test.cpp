@@ -87,10 +87,79 @@ TEST(SweepCommand, ResumesOnlyTheSameSweep) {
   const std::string resume =
       in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.nc --resume");
   EXPECT_EQ(run_shell(resume).err,
-            "gearlash: --resume = a.nc.part: must be of the same sweep file; remove it to start "
-            "again\n");
+            "gearlash: --resume = a.nc.part and a.nc.part.json: must be of the same sweep file; "
+            "remove both to start again\n");
   write(scratch / "a.nc.part.json", "{}");
-  EXPECT_THAT(run_shell(resume).err, HasSubstr("must have beside it the record"));
+  EXPECT_THAT(run_shell(resume).err, HasSubstr("must say how far the sweep has come; remove both"));
+}
+
+TEST(SweepCommand, ARecordThatMakesNoSenseIsRefused) {
+  const Scratch scratch;
+  write(scratch / "sweep.toml", long_sweep);
+  run_shell(in_folder(scratch, interrupted("KILL", "")));
+  const auto record = nlohmann::json::parse(file_text(scratch / "a.nc.part.json"));
+  for (const int points : {-5, 901}) {
+    auto other = record;
+    other["points_done"] = points;
+    other["one_by_one"] = points;
+    write(scratch / "a.nc.part.json", other.dump());
+    const Outcome run =
+        run_shell(in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.nc --resume"));
+    EXPECT_EQ(run.status, 2) << points;
+    EXPECT_THAT(run.err, HasSubstr("must say how far the sweep has come; remove both"));
+  }
+  write(scratch / "a.nc.part.json", record.dump());
+  write(scratch / "a.nc.part", "garbage");
+  const Outcome run =
+      run_shell(in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.nc --resume"));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.err,
+            "gearlash: --resume = a.nc.part and a.nc.part.json: must be the whole files that an "
+            "unfinished sweep leaves; remove both to start again\n");
+}
+
+/// One is left when the program is killed after the finished file was given its name, or where only
+/// the data were removed.
+TEST(SweepCommand, TheRecordOfAnEarlierSweepIsNotTakenForThatOfANewOne) {
+  const Scratch scratch;
+  write(scratch / "sweep.toml", long_sweep);
+  run_shell(in_folder(scratch, interrupted("KILL", "")));
+  std::filesystem::remove(scratch / "a.nc.part");
+  // The new sweep can make its data, and cannot make a record of its own.
+  const Outcome run = run_shell(
+      in_folder(scratch, "ulimit -f 1; \"$GEARLASH\" sweep sweep.toml --output a.nc --resume"));
+  EXPECT_EQ(run.status, 2);
+  EXPECT_FALSE(std::filesystem::exists(scratch / "a.nc.part.json"));
+  EXPECT_FALSE(std::filesystem::exists(scratch / "a.nc.part"));
+}
+
+TEST(SweepCommand, OnlyOneOfTwoAtTheSameTimeWritesTheFile) {
+  const Scratch scratch;
+  write(scratch / "sweep.toml", long_sweep);
+  const std::string one = "\"$GEARLASH\" sweep sweep.toml --output a.nc --resume >/dev/null & ";
+  const Outcome run =
+      run_shell(in_folder(scratch, one + "first=$!; " + one +
+                                       "second=$!; wait $first; echo $?; wait $second; echo $?; "
+                                       "ncdump -h a.nc | head -n 1"));
+  EXPECT_THAT(run.out, testing::AnyOf(HasSubstr("0\n2\n"), HasSubstr("2\n0\n"))) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("netcdf a {\n"));
+  EXPECT_EQ(run.err,
+            "gearlash: --output = a.nc: must not be written by another sweep at the same time\n");
+  EXPECT_EQ(scratch.file_count(), 2U);
+}
+
+TEST(SweepCommand, NeedsARegularFile) {
+  const Scratch scratch;
+  write(scratch / "sweep.toml", long_sweep);
+  std::filesystem::create_directory(scratch / "a.nc");
+  const std::string sweep = "\"$GEARLASH\" sweep sweep.toml --output ";
+  EXPECT_EQ(run_shell(in_folder(scratch, sweep + "a.nc")).err,
+            "gearlash: --output = a.nc: must be a regular file, or a new one\n");
+  EXPECT_EQ(run_shell(in_folder(scratch, sweep + "missing/a.nc")).err.substr(0, 10), "gearlash: ");
+  EXPECT_THAT(run_shell(in_folder(scratch, sweep + "missing/a.nc")).err,
+              HasSubstr("missing/a.nc.part: cannot be written: No such file or directory\n"));
+  EXPECT_THAT(run_shell(in_folder(scratch, sweep + std::string(255, 'a') + ".nc")).err,
+              HasSubstr("cannot be written: File name too long\n"));
 }
 
 TEST(SweepCommand, EveryFaultOfTheFileIsToldWithItsPlace) {

@@ -18,10 +18,11 @@ struct CurveServo {
 };
 
 /// The line through the servos, whose places rise. Between two neighbours of which one hunts and
-/// the other does not, the value goes to 0 at the place where hunting ends, which bisection finds
-/// and `ends` lists. Precondition: plastic contact where an end is sought, and a value that
-/// vanishes with the cycle.
+/// the other does not, the value goes to `limit` at the place where hunting ends, which bisection
+/// finds and `ends` lists. Precondition: plastic contact where an end is sought, and a value that
+/// has this limit there.
 ChartCurve curve_to_hunting_ends(const std::vector<CurveServo>& servos,
-                                 const std::function<NormalizedServo(double place)>& servo_at);
+                                 const std::function<NormalizedServo(double place)>& servo_at,
+                                 double limit);
 
 }  // namespace gearlash

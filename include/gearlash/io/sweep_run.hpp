@@ -29,7 +29,7 @@ using GoingOn = std::function<bool(std::size_t done)>;
 /// says how far it has come; when all is there, OUTPUT.part is renamed. Whenever the program is
 /// stopped, killed, or fails because the disk is full, the two files remain, and SweepStart::resume
 /// goes on from the last piece: the finished file has the same bytes as one of an uninterrupted
-/// run. Memory: some 200 MB for any number of points.
+/// run. Memory: some 130 MB for any number of points.
 ///
 /// The command of `provenance` is written into the file as it is. Throws InvalidInput for an
 /// unfinished sweep that is not to be gone on with, or that is of another sweep file or version;
