@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -153,6 +155,29 @@ TEST(Picture, DegenerateMotionsCanBeDrawn) {
       }
     }
   }
+}
+
+TEST(EdgePicture, AChartOfNothingHasItsAxesAndSaysWhy) {
+  LineChart chart{.title = "the title",
+                  .x = {.label = "across", .low = 0.7, .high = 0.9},
+                  .y = {.label = "upwards"},
+                  .curves = {{.name = "servo: rests"}},
+                  .empty_meaning = "no limit cycle"};
+  for (const auto low : {std::optional<double>{}, std::optional<double>{0.0}}) {
+    chart.y.low = low;
+    for (const double nothing : {NAN, INFINITY, -INFINITY}) {
+      chart.curves.front().line = {{0.7, nothing}, {0.9, nothing}};
+      const std::string text = visible_text(draw_line_chart(chart, PictureFormat::svg));
+      for (const char* word : {"the title", "across", "upwards", "no limit cycle", "0.75"}) {
+        EXPECT_THAT(text, HasSubstr(word));
+      }
+    }
+  }
+  chart.curves.front().line.clear();
+  chart.y = {.label = "upwards", .logarithmic = true};
+  EXPECT_THAT(visible_text(draw_line_chart(chart, PictureFormat::svg)), HasSubstr("servo: rests"));
+  EXPECT_THAT(draw_line_chart(chart, PictureFormat::png), StartsWith("\x89PNG"));
+  EXPECT_THAT(draw_line_chart(chart, PictureFormat::pdf), StartsWith("%PDF-"));
 }
 
 /// What stands below the x axis, from its ends given.
