@@ -113,6 +113,30 @@ TEST(EdgeChartCommand, OneServoIsAMark) {
   EXPECT_THAT(svg, HasSubstr("> 0.3<"));
 }
 
+TEST(EdgeChartCommand, WhatNoPictureShowsIsRefusedInPicturesOnly) {
+  const test::Scratch scratch;
+  const struct {
+    const char* x;
+    const char* curves;
+    const char* fault;
+  } cases[] = {{"damping=0.3:0.300000001:20", "inertia-ratio=1,2",
+                "--x = 0.3 to 0.300000001: must span 0.001 of itself or more"},
+               {"damping=0.1:0.6:5", "inertia-ratio=0.1:10:60:log",
+                "--curves = 60 values: must be at most 16"}};
+  for (const auto& [x, curves, fault] : cases) {
+    for (const char* ending : {"svg", "csv"}) {
+      const auto file = scratch / (std::string("chart.") + ending);
+      const Outcome run = run_tool({"chart", "--x", x, "--curves", curves, "--friction-ratio",
+                                    "0.3", "--output", file.string()});
+      const bool is_table = ending == std::string("csv");
+      EXPECT_EQ(run.status, is_table ? 0 : 2);
+      EXPECT_EQ(run.err, is_table ? ""
+                                  : std::string("gearlash: ") + fault +
+                                        " in a picture; tables (.csv, .json, .nc) may have it\n");
+    }
+  }
+}
+
 /// How many bands of ink lie one above another from the x axis of a PNG down, in the middle third
 /// of its width.
 std::size_t bands_below_axis(const std::filesystem::path& png) {
@@ -137,7 +161,7 @@ TEST(ChartCommand, TheLegendOfAPngIsClearOfTheAxis) {
   const struct {
     const char* curves;
     std::size_t rows;
-  } cases[] = {{"3", 2}, {"5", 2}, {"6", 3}, {"9", 4}};
+  } cases[] = {{"3", 2}, {"5", 2}, {"6", 3}, {"9", 4}, {"16", 6}};
   for (const auto& [curves, rows] : cases) {
     const Outcome run = run_tool({"chart", "--x", "damping=0.1:0.6:50", "--curves",
                                   std::string("inertia-ratio=0.1:10:") + curves + ":log",
