@@ -103,13 +103,30 @@ GridFile read_grid_file(const std::string& file) {
       {{"--output", shown(file), "must end in .svg, .png, .pdf, .csv, .json or .nc", ""}});
 }
 
-/// No picture has room for infinity.
-void require_finite(const TypedAxes& axes, Faults& faults) {
+/// No picture has room for infinity, for very many curves, or for the digits that tell the ends of
+/// a very narrow axis apart.
+void require_drawable(const TypedAxes& axes, Faults& faults) {
+  constexpr std::size_t most_curves = 16;  // a longer legend leaves no room for them
+  constexpr double narrowest_share =
+      1e-3;  // of the larger end: else its numbers have too many digits
   for (std::size_t i = 0; i < axes.axes.size(); ++i) {
-    const double last = axes.axes[i].values.back();
-    if (std::isfinite(last)) continue;
-    faults.add({axes.fields[i], exact_text(last),
-                "must be finite in a picture; tables (.csv, .json, .nc) may have it", ""});
+    const std::vector<double>& values = axes.axes[i].values;
+    const double first = values.front();
+    const double last = values.back();
+    const auto refuse = [&](const std::string& value, const std::string& permitted) {
+      faults.add({axes.fields[i], value,
+                  "must " + permitted + " in a picture; tables (.csv, .json, .nc) may have it",
+                  ""});
+    };
+    const bool is_curves = axes.fields[i] == "--curves";
+    if (!std::isfinite(last)) {
+      refuse(exact_text(last), "be finite");
+    } else if (is_curves && values.size() > most_curves) {
+      refuse(fmt::format("{} values", values.size()), fmt::format("be at most {}", most_curves));
+    } else if (!is_curves && values.size() > 1 && last - first < narrowest_share * last) {
+      refuse(exact_text(first) + " to " + exact_text(last),
+             fmt::format("span {:g} of itself or more", narrowest_share));
+    }
   }
 }
 
@@ -144,7 +161,7 @@ GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption
   task.file = options.output;
   task.quantity = read_quantity(options.quantity, faults);
   task.kind = faults.collect([&] { return read_grid_file(options.output); }, GridFile::csv);
-  if (task.kind == GridFile::picture) require_finite(axes, faults);
+  if (task.kind == GridFile::picture) require_drawable(axes, faults);
   faults.require_distinct({{"SERVO.toml", options.servo.file}, {"--output", options.output}});
   task.grid.servo = read_fixed_inputs(options.servo, axes, faults);
   faults.require_none();

@@ -1,6 +1,9 @@
 #include "gnuplot_script.hpp"
 
+#include <fmt/ranges.h>
+
 #include <cctype>
+#include <cmath>
 #include <string_view>
 
 namespace gearlash {
@@ -20,6 +23,68 @@ std::size_t subscript_length(const std::string& text, std::size_t place) {
   std::size_t length = 0;
   while (is_letter(place + length)) ++length;
   return length;
+}
+
+constexpr double rounding = 1e-9;
+
+/// Whether gnuplot would write out so many zeros that the numbers run into one another.
+bool needs_powers(const ChartAxis& axis) {
+  if (!axis.tics.empty() || !axis.low || !axis.high) return false;
+  return axis.logarithmic ? *axis.low < 0.99e-4 || *axis.high > 1.01e6 : *axis.high < 0.99e-4;
+}
+
+std::string tics_command(char name, const std::vector<std::string>& tics) {
+  return fmt::format("set {}tics ({})\n", name, fmt::join(tics, ", "));
+}
+
+/// Of 1, 2 or 5 times a power of ten, for no more than six of them.
+double round_step(double length) {
+  const double least = length / 6.0;
+  const double power = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double digit : {1.0, 2.0, 5.0}) {
+    if (digit * power >= least) return digit * power;
+  }
+  return 10.0 * power;
+}
+
+/// Equal steps, numbered as multiples of the same power of ten. Beside the right end of an axis
+/// there is no room for half a number.
+std::string even_tics(char name, double low, double high) {
+  const int power = static_cast<int>(std::floor(std::log10(high)));
+  const double step = round_step(high - low);
+  const double last = name == 'x' ? high - 0.03 * (high - low) : high * (1.0 + rounding);
+  std::vector<std::string> tics;
+  for (double i = std::ceil(low / step - rounding); i * step <= last; ++i) {
+    const std::string number = fmt::format("{:.6g}", i * step / std::pow(10.0, power));
+    const std::string label = i == 0.0 ? "0" : fmt::format("{}·10^{{{}}}", number, power);
+    tics.push_back(fmt::format("'{}' {:.7g}", label, i * step));
+  }
+  return tics_command(name, tics);
+}
+
+/// Powers of ten with their numbers, as many as there is room for, and short tics between them;
+/// less than two decades also have their 2 and 5.
+std::string power_tics(char name, double low, double high) {
+  constexpr int most_numbers = 9;
+  const int first = static_cast<int>(std::floor(std::log10(low)));
+  const int last = static_cast<int>(std::floor(std::log10(high) + rounding));
+  const int step = (last - first) / most_numbers + 1;
+  const bool is_short = std::log10(high / low) < 2.0;
+  std::size_t numbers = 0;
+  std::vector<std::string> tics;
+  const auto add = [&](int digit, int power) {
+    const double value = digit * std::pow(10.0, power);
+    if (value < low * (1.0 - rounding) || value > high * (1.0 + rounding)) return;
+    const bool has_number = digit == 1 ? power % step == 0 : is_short && (digit == 2 || digit == 5);
+    if (has_number) ++numbers;
+    const std::string factor = digit == 1 ? "" : fmt::format("{}·", digit);
+    tics.push_back(has_number ? fmt::format("'{}10^{{{}}}' {:.7g}", factor, power, value)
+                              : fmt::format("'' {:.7g} 1", value));
+  };
+  for (int power = first; power <= last; ++power) {
+    for (int digit = 1; digit <= (step == 1 ? 9 : 1); ++digit) add(digit, power);
+  }
+  return numbers < 2 ? even_tics(name, low, high) : tics_command(name, tics);
 }
 
 }  // namespace
@@ -71,13 +136,15 @@ std::string axis_commands(char name, const ChartAxis& axis) {
   std::string text = fmt::format("set {}label {}\n", name, quoted(axis.label));
   text += fmt::format("set {}range [{}:{}]\n", name, end(axis.low), end(axis.high));
   if (axis.logarithmic) text += fmt::format("set logscale {}\n", name);
-  if (axis.tics.empty()) return text;
-  text += fmt::format("set {}tics (", name);
-  for (std::size_t i = 0; i < axis.tics.size(); ++i) {
-    text += fmt::format("{}{} {:.7g}", i == 0 ? "" : ", ", quoted(axis.tics[i].first),
-                        axis.tics[i].second);
+  if (needs_powers(axis)) {
+    return text + (axis.logarithmic ? power_tics : even_tics)(name, *axis.low, *axis.high);
   }
-  return text + ")\n";
+  if (axis.tics.empty()) return text;
+  std::vector<std::string> tics;
+  for (const auto& [label, value] : axis.tics) {
+    tics.push_back(fmt::format("{} {:.7g}", quoted(label), value));
+  }
+  return text + tics_command(name, tics);
 }
 
 std::string plot_command(const std::vector<std::string>& layers) {

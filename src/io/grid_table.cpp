@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -34,6 +35,28 @@ ChartCurve curve_of(const GridTable& table, std::size_t first, CycleQuantity qua
     return servo_on_curve;
   };
   return curve_to_hunting_ends(servos, servo_at, limit);
+}
+
+/// Why nothing of these rows of the table is drawn.
+std::string word_for_nothing(const GridTable& table, std::size_t first, std::size_t count,
+                             CycleQuantity quantity) {
+  bool all_rest = true;
+  for (std::size_t row = first; row < first + count; ++row) {
+    if (std::isinf(table.cycles[quantity][row])) return "infinite";
+    all_rest = all_rest && table.cycles.verdict[row] == Verdict::cannot_hunt;
+  }
+  return all_rest ? "rests" : "not known";
+}
+
+/// A line of one point does not show.
+void mark_lone_points(ChartCurve& curve) {
+  const auto is_drawn = [&](std::size_t i) {
+    return i < curve.line.size() && std::isfinite(curve.line[i].y);
+  };
+  for (std::size_t i = 0; i < curve.line.size(); ++i) {
+    const bool has_neighbour = is_drawn(i + 1) || (i > 0 && is_drawn(i - 1));
+    if (is_drawn(i) && !has_neighbour) curve.marks.push_back(curve.line[i]);
+  }
 }
 
 /// "[[[x, y], …], …]", a curve a line.
@@ -119,17 +142,29 @@ LineChart chart_of(const GridTable& table, CycleQuantity quantity) {
                   .x = chart_axis(x),
                   .y = {.label = label_of(quantity, grid), .low = 0.0}};
   const std::size_t curves = grid.axes.size() == 1 ? 1 : grid.axes.front().values.size();
+  bool nothing_drawn = true;
   for (std::size_t i = 0; i < curves; ++i) {
-    ChartCurve curve = curve_of(table, i * x.values.size(), quantity);
-    bool any = false;
-    for (const ChartPoint& point : curve.line) any = any || !std::isnan(point.y);
+    const std::size_t first = i * x.values.size();
+    ChartCurve curve = curve_of(table, first, quantity);
+    const bool is_drawn = std::any_of(curve.line.begin(), curve.line.end(),
+                                      [](const auto& point) { return std::isfinite(point.y); });
     if (grid.axes.size() > 1) {
-      curve.name = in_words(name_of(grid.axes.front().input)) + " " +
-                   fmt::format("{:.4g}", grid.axes.front().values[i]) + (any ? "" : ": rests");
+      curve.name = in_words(name_of(grid.axes.front().input)) +
+                   fmt::format(" {:.4g}", grid.axes.front().values[i]);
+      if (!is_drawn) curve.name += ": " + word_for_nothing(table, first, x.values.size(), quantity);
     }
-    if (!any) curve.line.clear();
+    if (!is_drawn) curve.line.clear();
+    nothing_drawn = nothing_drawn && !is_drawn;
+    mark_lone_points(curve);
+    for (const ChartPoint& point : curve.line) {
+      if (point.y < 0.0) chart.y.low.reset();
+    }
     if (!curve.ends.empty()) chart.end_meaning = "hunting ends";
     chart.curves.push_back(std::move(curve));
+  }
+  if (nothing_drawn) {
+    const std::string word = word_for_nothing(table, 0, table.cycles.rows(), quantity);
+    chart.empty_meaning = word == "rests" ? "no limit cycle" : word;
   }
   return chart;
 }

@@ -1,5 +1,7 @@
 #include "grid_words.hpp"
 
+#include <fmt/format.h>
+
 #include <cctype>
 
 #include "gearlash/servo/range_check.hpp"
@@ -66,9 +68,15 @@ std::string label_of(CycleQuantity quantity, const ServoGrid& grid) {
 
 ChartAxis chart_axis(const Axis& axis) {
   ChartAxis drawn{.label = label_of(axis.input), .logarithmic = axis.logarithmic};
-  if (axis.values.size() > 1) {
-    drawn.low = axis.values.front();
-    drawn.high = axis.values.back();
+  drawn.low = axis.values.front();
+  drawn.high = axis.values.back();
+  if (axis.values.size() == 1) {  // in the middle
+    const double value = axis.values.front();
+    const double room = value > 0.0 ? 0.1 * value : 0.1;
+    drawn = {.label = drawn.label,
+             .low = value - room,
+             .high = value + room,
+             .tics = {{fmt::format("{:.7g}", value), value}}};
   }
   return drawn;
 }

@@ -22,16 +22,17 @@ constexpr std::array dashes = {"1",     "(10,4)", "(4,3)",        "(12,3,3,3)",
 constexpr std::array marks = {5, 7, 9, 11, 13, 15, 3};
 
 /// The legend in as many columns as its longest name permits, and below the axis the room for its
-/// rows. Lengths in widths of a letter M, shares of the picture's height.
+/// rows. Widths in letters as gnuplot lays them out, no more columns than it finds room for: else
+/// there were more rows. Heights in shares of the picture's.
 std::string legend(const LineChart& chart, PictureFormat format) {
   struct Page {
     double width;
     double axis;
     double row;
   };
-  const Page page = format == PictureFormat::svg   ? Page{54.0, 0.155, 0.039}
-                    : format == PictureFormat::png ? Page{75.0, 0.125, 0.027}
-                                                   : Page{46.0, 0.14, 0.037};
+  const Page page = format == PictureFormat::svg   ? Page{77.0, 0.155, 0.039}
+                    : format == PictureFormat::png ? Page{86.0, 0.125, 0.029}
+                                                   : Page{98.0, 0.14, 0.037};
   std::vector<std::string> names;
   for (const ChartCurve& curve : chart.curves) names.push_back(curve.name);
   for (const std::string& meaning : {chart.line_meaning, chart.mark_meaning, chart.end_meaning}) {
@@ -39,7 +40,8 @@ std::string legend(const LineChart& chart, PictureFormat format) {
   }
   std::size_t longest = 0;
   for (const std::string& name : names) longest = std::max(longest, width_in_columns(name));
-  const double entry = 6.5 + 0.55 * static_cast<double>(longest);
+  constexpr double sample = 5.5;
+  const double entry = sample + static_cast<double>(longest);
   const int columns = std::clamp(static_cast<int>(page.width / entry), 1, 4);
   const int rows = (static_cast<int>(names.size()) + columns - 1) / columns;
   return fmt::format(
@@ -51,13 +53,55 @@ std::string legend(const LineChart& chart, PictureFormat format) {
 DataBlock points(const std::string& name, const std::vector<ChartPoint>& data) {
   DataBlock block(name);
   for (const ChartPoint& point : data) {
-    if (std::isnan(point.y)) {
-      block.gap();
-    } else {
+    if (std::isfinite(point.y)) {
       block.row(point.x, point.y);
+    } else {
+      block.gap();
     }
   }
   return block;
+}
+
+/// Data and layers, bottom to top.
+struct Drawing {
+  std::string data = {};
+  std::vector<std::string> layers = {};
+};
+
+void add_curve(const ChartCurve& curve, std::size_t number, double mark_size, Drawing& drawing) {
+  const std::size_t style = number % colours.size();
+  // Past the last colour the same ones come with other dashes.
+  const std::size_t dash = (number + number / colours.size()) % dashes.size();
+  const auto add = [&](const std::string& part, const std::vector<ChartPoint>& data,
+                       const std::string& how, const std::string& title) {
+    const DataBlock block = points(fmt::format("curve{}{}", number, part), data);
+    if (block.is_empty()) return;
+    drawing.data += block.text();
+    drawing.layers.push_back(fmt::format("$curve{}{} using 1:2 {} linecolor rgb '{}' {}", number,
+                                         part, how, colours[style], title));
+  };
+  const std::string line_style = fmt::format("with lines linewidth 1.8 dashtype {}", dashes[dash]);
+  add("_line", curve.line, line_style, "title " + quoted(curve.name));
+  if (curve.line.empty() && !curve.name.empty()) {
+    drawing.layers.push_back(fmt::format("keyentry {} linecolor rgb '{}' title {}", line_style,
+                                         colours[style], quoted(curve.name)));
+  }
+  add("_marks", curve.marks,
+      fmt::format("with points pointtype {} pointsize {}", marks[style], mark_size), "notitle");
+  add("_ends", curve.ends, "with points pointtype 6 pointsize 1.1", "notitle");
+}
+
+/// With both its ends: gnuplot has no data to take them from.
+ChartAxis bounded(ChartAxis axis) {
+  if (!axis.low) axis.low = axis.logarithmic ? 0.5 * axis.high.value_or(2.0) : 0.0;
+  if (!axis.high) axis.high = axis.logarithmic ? 2.0 * *axis.low : *axis.low + 1.0;
+  return axis;
+}
+
+/// The axes alone, for which gnuplot wants a curve.
+void add_nothing(const std::string& meaning, Drawing& drawing) {
+  drawing.layers.emplace_back("1/0 notitle");
+  drawing.data = "set label 2 " + quoted(meaning) + " at graph 0.5, graph 0.5 center\n";
 }
 
 /// What lines, marks and circles are, without a curve of their own.
@@ -81,37 +125,20 @@ void add_meanings(const LineChart& chart, std::vector<std::string>& layers) {
 }  // namespace
 
 std::string draw_line_chart(const LineChart& chart, PictureFormat format) {
-  std::string script = std::string(terminal(format)) + heading(chart.title, chart.subtitle) +
-                       "set offsets 0, 0, graph 0.02, 0\n"
-                       "set grid linewidth 0.5 linecolor rgb '#c4c4c4'\n";
-  script += legend(chart, format) + axis_commands('x', chart.x) + axis_commands('y', chart.y);
-  std::vector<std::string> layers;
+  Drawing drawing;
   for (std::size_t i = 0; i < chart.curves.size(); ++i) {
-    const ChartCurve& curve = chart.curves[i];
-    const std::size_t style = i % colours.size();
-    const std::string name = fmt::format("curve{}", i);
-    const auto add = [&](const std::string& part, const std::vector<ChartPoint>& data,
-                         const std::string& how, const std::string& title) {
-      const DataBlock block = points(name + part, data);
-      if (block.is_empty()) return;
-      script += block.text();
-      layers.push_back(fmt::format("${}{} using 1:2 {} linecolor rgb '{}' {}", name, part, how,
-                                   colours[style], title));
-    };
-    const std::string line_style =
-        fmt::format("with lines linewidth 1.8 dashtype {}", dashes[style]);
-    add("_line", curve.line, line_style, "title " + quoted(curve.name));
-    if (curve.line.empty()) {
-      layers.push_back(fmt::format("keyentry {} linecolor rgb '{}' title {}", line_style,
-                                   colours[style], quoted(curve.name)));
-    }
-    add("_marks", curve.marks,
-        fmt::format("with points pointtype {} pointsize {}", marks[style], chart.mark_size),
-        "notitle");
-    add("_ends", curve.ends, "with points pointtype 6 pointsize 1.1", "notitle");
+    add_curve(chart.curves[i], i, chart.mark_size, drawing);
   }
-  add_meanings(chart, layers);
-  return run_gnuplot(script + plot_command(layers));
+  const bool is_empty = drawing.data.empty();
+  if (is_empty) add_nothing(chart.empty_meaning, drawing);
+  add_meanings(chart, drawing.layers);
+  return run_gnuplot(std::string(terminal(format)) + heading(chart.title, chart.subtitle) +
+                     "set offsets 0, 0, graph 0.02, 0\n"
+                     "set grid linewidth 0.5 linecolor rgb '#c4c4c4'\n" +
+                     legend(chart, format) +
+                     axis_commands('x', is_empty ? bounded(chart.x) : chart.x) +
+                     axis_commands('y', is_empty ? bounded(chart.y) : chart.y) + drawing.data +
+                     plot_command(drawing.layers));
 }
 
 }  // namespace gearlash

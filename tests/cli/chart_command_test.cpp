@@ -91,6 +91,96 @@ TEST(ChartCommand, InfinityIsToldInWords) {
   EXPECT_EQ(chart["axes"][0]["values"], nlohmann::json({0.0, 1.0, "inf"}));
 }
 
+/// The picture of a chart over this axis.
+std::string chart_over(const std::string& x, const std::vector<std::string>& more = {}) {
+  const test::Scratch scratch;
+  const auto file = scratch / "chart.svg";
+  std::vector<std::string> arguments = {"chart", "--x", x, "--output", file.string()};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  const Outcome run = run_tool(arguments);
+  EXPECT_EQ(run.status, 0) << run.err;
+  return content(file);
+}
+
+TEST(EdgeChartCommand, WhereNothingHuntsThePictureSaysSo) {
+  EXPECT_THAT(chart_over("damping=0.7:0.9:5", {"--inertia-ratio", "1", "--friction-ratio", "0.5"}),
+              testing::AllOf(HasSubstr("no limit cycle"), HasSubstr("damping coefficient")));
+  EXPECT_THAT(chart_over("backlash=0",
+                         {"--inertia-ratio", "1", "--friction-ratio", "0.5", "--damping", "0.2"}),
+              HasSubstr("no limit cycle"));
+  EXPECT_THAT(chart_over("friction-ratio=0,1", {"--inertia-ratio", "1", "--damping", "0.2",
+                                                "--quantity", "growth_at_rest"}),
+              testing::AllOf(HasSubstr("infinite"), testing::Not(HasSubstr("no limit cycle"))));
+  const std::string family =
+      chart_over("damping=0.7:0.9:5", {"--curves", "inertia-ratio=1,2", "--friction-ratio", "0.5"});
+  EXPECT_THAT(family, testing::AllOf(HasSubstr("no limit cycle"), HasSubstr("ratio 2: rests")));
+}
+
+TEST(EdgeChartCommand, OneServoIsAMark) {
+  const std::string svg =
+      chart_over("damping=0.3", {"--inertia-ratio", "1", "--friction-ratio", "0.1"});
+  EXPECT_THAT(svg, HasSubstr("<use xlink:href='#gpPt4'"));
+  EXPECT_THAT(svg, HasSubstr("> 0.3<"));
+}
+
+TEST(EdgeChartCommand, WhatNoPictureShowsIsRefusedInPicturesOnly) {
+  const test::Scratch scratch;
+  const struct {
+    const char* x;
+    const char* curves;
+    const char* fault;
+  } cases[] = {{"damping=0.3:0.300000001:20", "inertia-ratio=1,2",
+                "--x = 0.3 to 0.300000001: must span 0.001 of itself or more"},
+               {"damping=0.1:0.6:5", "inertia-ratio=0.1:10:60:log",
+                "--curves = 60 values: must be at most 16"}};
+  for (const auto& [x, curves, fault] : cases) {
+    for (const char* ending : {"svg", "csv"}) {
+      const auto file = scratch / (std::string("chart.") + ending);
+      const Outcome run = run_tool({"chart", "--x", x, "--curves", curves, "--friction-ratio",
+                                    "0.3", "--output", file.string()});
+      const bool is_table = ending == std::string("csv");
+      EXPECT_EQ(run.status, is_table ? 0 : 2);
+      EXPECT_EQ(run.err, is_table ? ""
+                                  : std::string("gearlash: ") + fault +
+                                        " in a picture; tables (.csv, .json, .nc) may have it\n");
+    }
+  }
+}
+
+/// How many bands of ink lie one above another from the x axis of a PNG down, in the middle third
+/// of its width.
+std::size_t bands_below_axis(const std::filesystem::path& png) {
+  const Outcome pixels = test::run_shell(
+      "exec gnuplot -d -e \"set table; plot '" + png.string() +
+      "' binary filetype=png every 2:1:600:0:1200 using 1 with image\" | awk '$3 ~ /^[0-9]+$/ && "
+      "NF == 4 { if ($3 < 200) ink[$2]++ } END { for (y = 0; y < 1400; ++y) print ink[y] + 0 }'");
+  std::size_t bands = 0;
+  bool was_ink = false;
+  for (const std::string& row : test::lines_of(pixels.out)) {
+    const int ink = std::stoi(row);
+    if (ink > 250) return bands;  // the axis
+    if (ink > 0 && !was_ink) ++bands;
+    was_ink = ink > 0;
+  }
+  return 0;
+}
+
+TEST(ChartCommand, TheLegendOfAPngIsClearOfTheAxis) {
+  const test::Scratch scratch;
+  const auto file = scratch / "chart.png";
+  const struct {
+    const char* curves;
+    std::size_t rows;
+  } cases[] = {{"3", 2}, {"5", 2}, {"6", 3}, {"9", 4}, {"16", 6}};
+  for (const auto& [curves, rows] : cases) {
+    const Outcome run = run_tool({"chart", "--x", "damping=0.1:0.6:50", "--curves",
+                                  std::string("inertia-ratio=0.1:10:") + curves + ":log",
+                                  "--friction-ratio", "0.3", "--output", file.string()});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(bands_below_axis(file), rows + 3) << curves;  // tics, numbers and label
+  }
+}
+
 TEST(ChartCommand, FaultsAreToldAtOnce) {
   const Outcome run = run_tool({"chart", "--x", "damping=0.6:0.1:5", "--curves", "stiffness=1",
                                 "--inertia-ratio", "1", "--friction-ratio", "2", "--quantity",

@@ -203,6 +203,9 @@ TEST(EdgeMapAxes, BothTogether) {
               ElementsAre("--x = 1 value: must be two or more; gearlash chart draws one"));
   EXPECT_THAT(faults_of_axes("damping=0.1:0.5:5", "inertia-ratio=1,2,inf", "never-written.svg"),
               ElementsAre(StartsWith("--y = inf: must be finite in a picture")));
+  EXPECT_THAT(
+      faults_of_axes("damping=0.3:0.300000001:20", "inertia-ratio=1,2", "never-written.svg"),
+      ElementsAre(StartsWith("--x = 0.3 to 0.300000001: must span 0.001 of itself or more in a")));
   EXPECT_EQ(run_tool({"map", "--x", "damping=0.1:0.5:5", "--output", "a.csv"}).err,
             "gearlash: --y is required; see gearlash map --help\n");
 }

@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cctype>
+#include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "gearlash/io/line_chart.hpp"
 
 namespace gearlash {
 namespace {
@@ -151,6 +155,62 @@ TEST(Picture, DegenerateMotionsCanBeDrawn) {
       }
     }
   }
+}
+
+TEST(EdgePicture, AChartOfNothingHasItsAxesAndSaysWhy) {
+  LineChart chart{.title = "the title",
+                  .x = {.label = "across", .low = 0.7, .high = 0.9},
+                  .y = {.label = "upwards"},
+                  .curves = {{.name = "servo: rests"}},
+                  .empty_meaning = "no limit cycle"};
+  for (const auto low : {std::optional<double>{}, std::optional<double>{0.0}}) {
+    chart.y.low = low;
+    for (const double nothing : {NAN, INFINITY, -INFINITY}) {
+      chart.curves.front().line = {{0.7, nothing}, {0.9, nothing}};
+      const std::string text = visible_text(draw_line_chart(chart, PictureFormat::svg));
+      for (const char* word : {"the title", "across", "upwards", "no limit cycle", "0.75"}) {
+        EXPECT_THAT(text, HasSubstr(word));
+      }
+    }
+  }
+  chart.curves.front().line.clear();
+  chart.y = {.label = "upwards", .logarithmic = true};
+  EXPECT_THAT(visible_text(draw_line_chart(chart, PictureFormat::svg)), HasSubstr("servo: rests"));
+  EXPECT_THAT(draw_line_chart(chart, PictureFormat::png), StartsWith("\x89PNG"));
+  EXPECT_THAT(draw_line_chart(chart, PictureFormat::pdf), StartsWith("%PDF-"));
+}
+
+/// What stands below the x axis, from its ends given.
+std::string numbers_of_axis(double low, double high, bool logarithmic) {
+  const LineChart chart{.x = {.logarithmic = logarithmic, .low = low, .high = high},
+                        .y = {.low = 0.0, .high = 1.0},
+                        .curves = {{.line = {{low, 0.0}, {high, 1.0}}}}};
+  std::string text;
+  for (const char c : visible_text(draw_line_chart(chart, PictureFormat::svg))) {
+    if (std::isspace(static_cast<unsigned char>(c)) == 0) text += c;
+  }
+  return text;
+}
+
+TEST(EdgePicture, NumbersOfSmallAndWideAxesArePowersOfTen) {
+  const struct {
+    double low;
+    double high;
+    bool logarithmic;
+    const char* numbers;
+  } cases[] = {{1e-6, 1e3, true, "10-610-410-2100102"},
+               {1e-7, 1.0, true, "10-710-610-510-410-310-210-1100"},
+               {2e-5, 1.0, true, "10-410-310-210-1100"},
+               {1.0, 1e7, true, "100101102103104105106107"},
+               {2e-5, 9e-5, true, "2·10-55·10-5"},
+               {2e-5, 2.4e-5, true, "2·10-52.1·10-52.2·10-52.3·10-5"},
+               {1e-7, 2e-7, false, "1·10-71.2·10-71.4·10-71.6·10-71.8·10-7"}};
+  for (const auto& [low, high, logarithmic, numbers] : cases) {
+    const std::string text = numbers_of_axis(low, high, logarithmic);
+    EXPECT_THAT(text, HasSubstr(numbers));
+    EXPECT_THAT(text, Not(HasSubstr("0.000")));
+  }
+  EXPECT_THAT(numbers_of_axis(1e-4, 10.0, true), HasSubstr("0.00010.001"));
 }
 
 TEST(Picture, WhatCouldNotBeReadIsRefused) {

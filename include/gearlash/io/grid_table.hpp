@@ -30,8 +30,8 @@ void write_grid_json(const GridTable& table, const TextSink& sink);
 
 /// The quantity over the last axis, a curve for each value of the first, or one curve where there
 /// is one axis. With plastic contact the curves of what vanishes with the cycle are drawn on to
-/// where hunting ends. With the backlash 1 and on no axis the angles are told in backlashes.
-/// Precondition: one axis or two.
+/// where hunting ends. A servo without neighbours is a mark. With the backlash 1 and on no axis the
+/// angles are told in backlashes. Precondition: one axis or two.
 LineChart chart_of(const GridTable& table, CycleQuantity quantity);
 
 }  // namespace gearlash

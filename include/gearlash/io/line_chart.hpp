@@ -25,7 +25,7 @@ struct ChartAxis {
 /// One curve: a line, marks on it that belong to it, and open circles where it ends.
 struct ChartCurve {
   std::string name = {};              ///< in the legend
-  std::vector<ChartPoint> line = {};  ///< NaN parts it
+  std::vector<ChartPoint> line = {};  ///< what is not finite parts it
   std::vector<ChartPoint> marks = {};
   std::vector<ChartPoint> ends = {};
 };
@@ -39,7 +39,8 @@ struct LineChart {
   std::string line_meaning = {};  ///< what lines, marks and open circles are, told in the legend
   std::string mark_meaning = {};
   std::string end_meaning = {};
-  double mark_size = 0.8;  ///< in gnuplot's units
+  std::string empty_meaning = {};  ///< told amid the axes where there is nothing to draw
+  double mark_size = 0.8;          ///< in gnuplot's units
 };
 
 /// Bytes of the picture; the same chart gives the same SVG. Curves differ in colour, dash and mark.
