@@ -62,12 +62,28 @@ double half_way(double one, double next, bool logarithmic) {
   return logarithmic ? std::sqrt(one) * std::sqrt(next) : 0.5 * one + 0.5 * next;
 }
 
-/// As ChartAnswer::error has it; 0 of two infinities.
-double error_of(CycleQuantity quantity, double value, double exact) {
-  if (value == exact) return 0.0;
-  const double least_scale = quantity == CycleQuantity::growth_at_rest ? 1.0 : 0.0;
-  return std::abs(value - exact) / std::max(std::abs(exact), least_scale);
+/// As ChartAnswer::error has it, of a value so much in error once both are straightened.
+double relative_error(CycleQuantity quantity, double error, double value) {
+  if (error == 0.0) return 0.0;
+  if (quantity != CycleQuantity::growth_at_rest) return error / value;
+  // Of 1/place − 1, where it is below 1 of 1, that belongs to the place which is in error.
+  const double least_place = value - error;
+  if (least_place <= 0.0) return infinity;
+  return error / (least_place * std::max(value, 1.0 - value));
 }
+
+struct Range {
+  double least = infinity;
+  double greatest = -infinity;
+
+  /// Any number; NaN adds nothing.
+  void add(double value) {
+    least = std::fmin(least, value);
+    greatest = std::fmax(greatest, value);
+  }
+  /// 0 where there are numbers of either sign.
+  double least_magnitude() const { return std::max({least, -greatest, 0.0}); }
+};
 
 /// What the points of a cell have in common, seen one after the other.
 class Likeness {
@@ -78,9 +94,7 @@ class Likeness {
     if (!std::isnan(value)) ++values_;
     if (value == 0.0) ++zeros_;
     ++points_;
-    const double place = straightened(CycleQuantity::growth_at_rest, growth_at_rest);
-    least_place_ = std::min(least_place_, place);
-    greatest_place_ = std::max(greatest_place_, place);
+    place_.add(straightened(CycleQuantity::growth_at_rest, growth_at_rest));
   }
 
   Verdict verdict() const { return verdict_; }
@@ -97,8 +111,8 @@ class Likeness {
   /// Farther than growth at rest varies: nowhere between the points does hunting end.
   bool far_from_end_of_hunting() const {
     constexpr double end = 0.5;
-    const double distance = std::max(least_place_ - end, end - greatest_place_);
-    return distance > greatest_place_ - least_place_;
+    const double distance = std::max(place_.least - end, end - place_.greatest);
+    return distance > place_.greatest - place_.least;
   }
 
   std::size_t points_ = 0;
@@ -106,8 +120,7 @@ class Likeness {
   std::size_t zeros_ = 0;  // where growth at rest ends, no derivative need tell of it
   Verdict verdict_ = Verdict::undecided;
   bool same_verdict_ = true;
-  double least_place_ = infinity;  // of growth at rest, straightened
-  double greatest_place_ = -infinity;
+  Range place_;  // of growth at rest, straightened
 };
 
 /// Compares a table with the points of its cells, one cell at a time.
@@ -122,20 +135,25 @@ class CellExamination {
         points_(points_of(halved_grid)),
         points_of_a_cell_{std::vector<std::size_t>(halved_grid.axes.size(), 3)} {}
 
-  /// The largest error found in the cell: infinite where its points are not alike, NaN where a
-  /// value about it is missing.
+  /// The largest error found in the cell, as if the least value in it had it: an error is largest
+  /// about half-way, and relative to the value it may be many times larger towards a corner where
+  /// the value is small. Infinite where the points are not alike, NaN where a value is missing.
   ChartCell examined(const Position& cell) const {
     Likeness likeness;
-    double largest = 0.0;
+    Range values;          // straightened
+    double largest = 0.0;  // error of what is interpolated
     for (std::size_t i = 0; i < points_of_a_cell_.size(); ++i) {
       const Position offset = points_of_a_cell_.position_of(i);
       const std::size_t row = row_of(cell, offset);
+      const double exact = straightened(quantity_, solved_.value[row]);
       likeness.add(solved_.verdict[row], solved_.growth_at_rest[row], solved_.value[row]);
-      if (is_node(offset) || std::isnan(solved_.value[row]) || std::isnan(largest)) continue;
-      const double error = error_of(quantity_, interpolated(cell, offset), solved_.value[row]);
+      values.add(exact);
+      if (is_node(offset) || std::isnan(exact) || std::isnan(largest)) continue;
+      const double error = std::abs(interpolated(cell, offset) - exact);
       largest = error <= largest ? largest : error;  // NaN, too
     }
-    return {likeness.all_alike() ? largest : infinity, likeness.verdict(), likeness.has_value()};
+    const double error = relative_error(quantity_, largest, values.least_magnitude());
+    return {likeness.all_alike() ? error : infinity, likeness.verdict(), likeness.has_value()};
   }
 
   /// Those compared in a cell.
@@ -163,7 +181,7 @@ class CellExamination {
       const double value = grid_.axes[axis].values[2 * cell[axis] + offset[axis]];
       places[axis] = table_.axes()[axis].at(value, cell[axis]);
     }
-    return unstraightened(quantity_, table_.at({places.data(), axes}));
+    return table_.at({places.data(), axes});
   }
 
   const CubicTable& table_;
