@@ -83,14 +83,15 @@ std::vector<double> values_between(double one, double next, std::size_t parts, b
   return {half_way(one, middle, logarithmic), middle, half_way(middle, next, logarithmic)};
 }
 
-/// As ChartAnswer::error has it, of a value so much in error once both are straightened.
+/// As ChartAnswer::error has it; both the error, not negative, and the value are straightened.
 double relative_error(CycleQuantity quantity, double error, double value) {
   if (error == 0.0) return 0.0;
   if (quantity != CycleQuantity::growth_at_rest) return error / value;
-  // Of 1/place − 1, where it is below 1 of 1, that belongs to the place which is in error.
-  const double least_place = value - error;
-  if (least_place <= 0.0) return infinity;
-  return error / (least_place * std::max(value, 1.0 - value));
+  // Growth is 1/value − 1. Too small a value errs more than too large a one.
+  const double too_small = value - error;
+  if (too_small <= 0.0) return infinity;
+  const double error_of_growth = error / (too_small * value);
+  return error_of_growth / std::max(1.0 / value - 1.0, 1.0);
 }
 
 struct Range {
