@@ -40,21 +40,35 @@ struct Box {
   }
 };
 
-Box points_of(const ServoGrid& halved_grid) {
+/// Parts of an interval, the points between which are compared. Beyond the first and the last there
+/// is no cell whose error would tell of one that is by chance small half-way.
+std::size_t parts_of(std::size_t interval, std::size_t intervals) {
+  return interval == 0 || interval + 1 == intervals ? 4 : 2;
+}
+
+/// Where an interval begins among the points of its axis, or the last one ends.
+std::size_t point_of_node(std::size_t node, std::size_t intervals) {
+  if (node == 0) return 0;
+  return 2 * node + (node < intervals ? 2 : 4);
+}
+
+std::size_t intervals_of(std::size_t points) { return (points - 5) / 2; }
+
+Box points_of(const ServoGrid& refined_grid) {
   Box box;
-  for (const Axis& axis : halved_grid.axes) box.sizes.push_back(axis.values.size());
+  for (const Axis& axis : refined_grid.axes) box.sizes.push_back(axis.values.size());
   return box;
 }
 
-Box nodes_of(const ServoGrid& halved_grid) {
-  Box box = points_of(halved_grid);
-  for (std::size_t& size : box.sizes) size = (size + 1) / 2;
+Box nodes_of(const ServoGrid& refined_grid) {
+  Box box = points_of(refined_grid);
+  for (std::size_t& size : box.sizes) size = intervals_of(size) + 1;
   return box;
 }
 
-Box cells_of(const ServoGrid& halved_grid) {
-  Box box = points_of(halved_grid);
-  for (std::size_t& size : box.sizes) size /= 2;
+Box cells_of(const ServoGrid& refined_grid) {
+  Box box = points_of(refined_grid);
+  for (std::size_t& size : box.sizes) size = intervals_of(size);
   return box;
 }
 
@@ -62,12 +76,36 @@ double half_way(double one, double next, bool logarithmic) {
   return logarithmic ? std::sqrt(one) * std::sqrt(next) : 0.5 * one + 0.5 * next;
 }
 
-/// As ChartAnswer::error has it; 0 of two infinities.
-double error_of(CycleQuantity quantity, double value, double exact) {
-  if (value == exact) return 0.0;
-  const double least_scale = quantity == CycleQuantity::growth_at_rest ? 1.0 : 0.0;
-  return std::abs(value - exact) / std::max(std::abs(exact), least_scale);
+/// The values that divide an interval into two parts or four.
+std::vector<double> values_between(double one, double next, std::size_t parts, bool logarithmic) {
+  const double middle = half_way(one, next, logarithmic);
+  if (parts == 2) return {middle};
+  return {half_way(one, middle, logarithmic), middle, half_way(middle, next, logarithmic)};
 }
+
+/// As ChartAnswer::error has it; both the error, not negative, and the value are straightened.
+double relative_error(CycleQuantity quantity, double error, double value) {
+  if (error == 0.0) return 0.0;
+  if (quantity != CycleQuantity::growth_at_rest) return error / value;
+  // Growth is 1/value − 1. Too small a value errs more than too large a one.
+  const double too_small = value - error;
+  if (too_small <= 0.0) return infinity;
+  const double error_of_growth = error / (too_small * value);
+  return error_of_growth / std::max(1.0 / value - 1.0, 1.0);
+}
+
+struct Range {
+  double least = infinity;
+  double greatest = -infinity;
+
+  /// Any number; NaN adds nothing.
+  void add(double value) {
+    least = std::fmin(least, value);
+    greatest = std::fmax(greatest, value);
+  }
+  /// 0 where there are numbers of either sign.
+  double least_magnitude() const { return std::max({least, -greatest, 0.0}); }
+};
 
 /// What the points of a cell have in common, seen one after the other.
 class Likeness {
@@ -78,9 +116,7 @@ class Likeness {
     if (!std::isnan(value)) ++values_;
     if (value == 0.0) ++zeros_;
     ++points_;
-    const double place = straightened(CycleQuantity::growth_at_rest, growth_at_rest);
-    least_place_ = std::min(least_place_, place);
-    greatest_place_ = std::max(greatest_place_, place);
+    place_.add(straightened(CycleQuantity::growth_at_rest, growth_at_rest));
   }
 
   Verdict verdict() const { return verdict_; }
@@ -97,8 +133,8 @@ class Likeness {
   /// Farther than growth at rest varies: nowhere between the points does hunting end.
   bool far_from_end_of_hunting() const {
     constexpr double end = 0.5;
-    const double distance = std::max(least_place_ - end, end - greatest_place_);
-    return distance > greatest_place_ - least_place_;
+    const double distance = std::max(place_.least - end, end - place_.greatest);
+    return distance > place_.greatest - place_.least;
   }
 
   std::size_t points_ = 0;
@@ -106,64 +142,81 @@ class Likeness {
   std::size_t zeros_ = 0;  // where growth at rest ends, no derivative need tell of it
   Verdict verdict_ = Verdict::undecided;
   bool same_verdict_ = true;
-  double least_place_ = infinity;  // of growth at rest, straightened
-  double greatest_place_ = -infinity;
+  Range place_;  // of growth at rest, straightened
 };
 
 /// Compares a table with the points of its cells, one cell at a time.
 class CellExamination {
  public:
-  CellExamination(const CubicTable& table, const ServoGrid& halved_grid, CycleQuantity quantity,
+  CellExamination(const CubicTable& table, const ServoGrid& refined_grid, CycleQuantity quantity,
                   const SolvedPoints& solved)
       : table_(table),
-        grid_(halved_grid),
+        grid_(refined_grid),
         quantity_(quantity),
         solved_(solved),
-        points_(points_of(halved_grid)),
-        points_of_a_cell_{std::vector<std::size_t>(halved_grid.axes.size(), 3)} {}
+        points_(points_of(refined_grid)) {}
 
-  /// The largest error found in the cell: infinite where its points are not alike, NaN where a
-  /// value about it is missing.
+  /// The largest error found in the cell, as if the least value in it had it: an error is largest
+  /// about half-way, and relative to the value it may be many times larger towards a corner where
+  /// the value is small. Infinite where the points are not alike, NaN where a value is missing.
   ChartCell examined(const Position& cell) const {
+    const Box points = points_of_cell(cell);
     Likeness likeness;
-    double largest = 0.0;
-    for (std::size_t i = 0; i < points_of_a_cell_.size(); ++i) {
-      const Position offset = points_of_a_cell_.position_of(i);
-      const std::size_t row = row_of(cell, offset);
+    Range values;          // straightened
+    double largest = 0.0;  // error of what is interpolated
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Position offset = points.position_of(i);
+      const Position point = point_at(cell, offset);
+      const std::size_t row = points_.index_of(point);
+      const double exact = straightened(quantity_, solved_.value[row]);
       likeness.add(solved_.verdict[row], solved_.growth_at_rest[row], solved_.value[row]);
-      if (is_node(offset) || std::isnan(solved_.value[row]) || std::isnan(largest)) continue;
-      const double error = error_of(quantity_, interpolated(cell, offset), solved_.value[row]);
+      values.add(exact);
+      if (is_node(offset, points) || std::isnan(exact) || std::isnan(largest)) continue;
+      const double error = std::abs(interpolated(cell, point) - exact);
       largest = error <= largest ? largest : error;  // NaN, too
     }
-    return {likeness.all_alike() ? largest : infinity, likeness.verdict(), likeness.has_value()};
+    const double error = relative_error(quantity_, largest, values.least_magnitude());
+    return {likeness.all_alike() ? error : infinity, likeness.verdict(), likeness.has_value()};
   }
 
   /// Those compared in a cell.
-  std::size_t checked_points() const {
-    return points_of_a_cell_.size() - (std::size_t{1} << points_of_a_cell_.sizes.size());
+  std::size_t checked_points(const Position& cell) const {
+    const Box points = points_of_cell(cell);
+    return points.size() - (std::size_t{1} << points.sizes.size());
   }
 
  private:
-  static bool is_node(const Position& offset) {
-    return std::none_of(offset.begin(), offset.end(), [](std::size_t o) { return o == 1; });
-  }
-
-  std::size_t row_of(const Position& cell, const Position& offset) const {
-    Position point = {};
-    for (std::size_t axis = 0; axis < cell.size(); ++axis) {
-      point[axis] = 2 * cell[axis] + offset[axis];
+  Box points_of_cell(const Position& cell) const {
+    Box box;
+    for (std::size_t axis = 0; axis < points_.sizes.size(); ++axis) {
+      box.sizes.push_back(parts_of(cell[axis], intervals_of(points_.sizes[axis])) + 1);
     }
-    return points_.index_of(point);
+    return box;
   }
 
-  double interpolated(const Position& cell, const Position& offset) const {
+  static bool is_node(const Position& offset, const Box& points_of_cell) {
+    for (std::size_t axis = 0; axis < points_of_cell.sizes.size(); ++axis) {
+      if (offset[axis] != 0 && offset[axis] + 1 != points_of_cell.sizes[axis]) return false;
+    }
+    return true;
+  }
+
+  Position point_at(const Position& cell, const Position& offset) const {
+    Position point = {};
+    for (std::size_t axis = 0; axis < points_.sizes.size(); ++axis) {
+      point[axis] = point_of_node(cell[axis], intervals_of(points_.sizes[axis])) + offset[axis];
+    }
+    return point;
+  }
+
+  double interpolated(const Position& cell, const Position& point) const {
     std::array<CubicPlace, CubicTable::most_axes> places;
     const std::size_t axes = table_.axes().size();
     for (std::size_t axis = 0; axis < axes; ++axis) {
-      const double value = grid_.axes[axis].values[2 * cell[axis] + offset[axis]];
+      const double value = grid_.axes[axis].values[point[axis]];
       places[axis] = table_.axes()[axis].at(value, cell[axis]);
     }
-    return unstraightened(quantity_, table_.at({places.data(), axes}));
+    return table_.at({places.data(), axes});
   }
 
   const CubicTable& table_;
@@ -171,7 +224,6 @@ class CellExamination {
   CycleQuantity quantity_;
   const SolvedPoints& solved_;
   Box points_;
-  Box points_of_a_cell_;
 };
 
 /// For each cell the largest of its own error and those of the two beside it on one axis, as far as
@@ -214,7 +266,7 @@ double typical(std::vector<double> errors) {
 
 /// Of cells whose servos are solved where the error is NaN; `found` are the errors found in them.
 ChartAccuracy accuracy_of(const std::vector<ChartCell>& cells, const std::vector<ChartCell>& found,
-                          std::size_t checked_in_a_cell) {
+                          const CellExamination& examination, const Box& box) {
   ChartAccuracy accuracy;
   std::vector<double> errors;
   std::size_t solved = 0;
@@ -223,11 +275,11 @@ ChartAccuracy accuracy_of(const std::vector<ChartCell>& cells, const std::vector
       ++solved;
     } else if (cells[i].has_value) {
       errors.push_back(found[i].error);
+      accuracy.checked_points += examination.checked_points(box.position_of(i));
       accuracy.stated_error = std::max(accuracy.stated_error, cells[i].error);
       accuracy.largest_error = std::max(accuracy.largest_error, found[i].error);
     }
   }
-  accuracy.checked_points = errors.size() * checked_in_a_cell;
   accuracy.typical_error = typical(std::move(errors));
   accuracy.solved_share = static_cast<double>(solved) / static_cast<double>(cells.size());
   return accuracy;
@@ -243,32 +295,33 @@ double unstraightened(CycleQuantity quantity, double value) {
   return quantity == CycleQuantity::growth_at_rest ? std::max(1.0 / value - 1.0, 0.0) : value;
 }
 
-ServoGrid halved(const ServoGrid& grid) {
+ServoGrid refined(const ServoGrid& grid) {
   ServoGrid finer = grid;
   for (Axis& axis : finer.axes) {
-    const std::vector<double> values = axis.values;
-    axis.values.clear();
-    for (const double value : values) {
-      if (!axis.values.empty()) {
-        axis.values.push_back(half_way(axis.values.back(), value, axis.logarithmic));
-      }
-      axis.values.push_back(value);
+    const std::vector<double> nodes = axis.values;
+    const std::size_t intervals = nodes.size() - 1;
+    axis.values = {nodes.front()};
+    for (std::size_t i = 0; i < intervals; ++i) {
+      const std::vector<double> between =
+          values_between(nodes[i], nodes[i + 1], parts_of(i, intervals), axis.logarithmic);
+      axis.values.insert(axis.values.end(), between.begin(), between.end());
+      axis.values.push_back(nodes[i + 1]);
     }
   }
   return finer;
 }
 
-SolvedPoints solve_points(const ServoGrid& halved_grid, CycleQuantity quantity,
+SolvedPoints solve_points(const ServoGrid& refined_grid, CycleQuantity quantity,
                           std::size_t threads) {
   constexpr std::size_t points_at_a_time = 1 << 18;  // a table of them takes 30 megabytes
   SolvedPoints solved;
-  const std::size_t points = halved_grid.size();
+  const std::size_t points = refined_grid.size();
   solved.verdict.reserve(points);
   solved.growth_at_rest.reserve(points);
   solved.value.reserve(points);
   for (std::size_t first = 0; first < points; first += points_at_a_time) {
     CycleTable part(std::min(points_at_a_time, points - first));
-    evaluate(halved_grid, first, part.rows(), part.columns(), {.threads = threads});
+    evaluate(refined_grid, first, part.rows(), part.columns(), {.threads = threads});
     solved.verdict.insert(solved.verdict.end(), part.verdict.begin(), part.verdict.end());
     const std::vector<double>& growth = part[CycleQuantity::growth_at_rest];
     solved.growth_at_rest.insert(solved.growth_at_rest.end(), growth.begin(), growth.end());
@@ -277,24 +330,26 @@ SolvedPoints solve_points(const ServoGrid& halved_grid, CycleQuantity quantity,
   return solved;
 }
 
-std::vector<double> values_of_nodes(const ServoGrid& halved_grid, CycleQuantity quantity,
+std::vector<double> values_of_nodes(const ServoGrid& refined_grid, CycleQuantity quantity,
                                     const std::vector<double>& values) {
-  const Box points = points_of(halved_grid);
-  const Box nodes = nodes_of(halved_grid);
+  const Box points = points_of(refined_grid);
+  const Box nodes = nodes_of(refined_grid);
   std::vector<double> of_nodes(nodes.size());
   for (std::size_t i = 0; i < of_nodes.size(); ++i) {
     Position point = nodes.position_of(i);
-    for (std::size_t& along : point) along *= 2;
+    for (std::size_t axis = 0; axis < points.sizes.size(); ++axis) {
+      point[axis] = point_of_node(point[axis], nodes.sizes[axis] - 1);
+    }
     of_nodes[i] = straightened(quantity, values[points.index_of(point)]);
   }
   return of_nodes;
 }
 
-ExaminedCells examine_cells(const CubicTable& table, const ServoGrid& halved_grid,
+ExaminedCells examine_cells(const CubicTable& table, const ServoGrid& refined_grid,
                             CycleQuantity quantity, const SolvedPoints& points,
                             const DesignChartOptions& options) {
-  const CellExamination examination(table, halved_grid, quantity, points);
-  const Box cells = cells_of(halved_grid);
+  const CellExamination examination(table, refined_grid, quantity, points);
+  const Box cells = cells_of(refined_grid);
   std::vector<ChartCell> found(cells.size());
   on_threads(options.threads, found.size(),
              [&](std::size_t i) { found[i] = examination.examined(cells.position_of(i)); });
@@ -305,7 +360,7 @@ ExaminedCells examine_cells(const CubicTable& table, const ServoGrid& halved_gri
     if (decided[i].has_value && !std::isnan(error)) error = stated[i];
     if (!(error <= options.tolerance)) error = std::numeric_limits<double>::quiet_NaN();
   }
-  return {decided, accuracy_of(decided, found, examination.checked_points())};
+  return {decided, accuracy_of(decided, found, examination, cells)};
 }
 
 }  // namespace gearlash::detail

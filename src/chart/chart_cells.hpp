@@ -14,22 +14,23 @@ double straightened(CycleQuantity quantity, double value);
 /// The quantity again.
 double unstraightened(CycleQuantity quantity, double value);
 
-/// The axes with a value half-way, in the axis's own scale, between each two.
-ServoGrid halved(const ServoGrid& grid);
+/// The axes with a value half-way, in the axis's own scale, between each two, and with three
+/// between the first two and the last two.
+ServoGrid refined(const ServoGrid& grid);
 
-/// What is known of the points of a halved grid, the last axis fastest.
+/// What is known of the points of a refined grid, the last axis fastest.
 struct SolvedPoints {
   std::vector<Verdict> verdict;
   std::vector<double> growth_at_rest;
   std::vector<double> value;  ///< of the chart's quantity
 };
 
-/// Precondition: validate(halved_grid) is empty.
-SolvedPoints solve_points(const ServoGrid& halved_grid, CycleQuantity quantity,
+/// Precondition: validate(refined_grid) is empty.
+SolvedPoints solve_points(const ServoGrid& refined_grid, CycleQuantity quantity,
                           std::size_t threads);
 
 /// The straightened values of the points of the grid itself.
-std::vector<double> values_of_nodes(const ServoGrid& halved_grid, CycleQuantity quantity,
+std::vector<double> values_of_nodes(const ServoGrid& refined_grid, CycleQuantity quantity,
                                     const std::vector<double>& values);
 
 /// The cells of a table and how well it does in them.
@@ -38,7 +39,7 @@ struct ExaminedCells {
   ChartAccuracy accuracy;
 };
 
-ExaminedCells examine_cells(const CubicTable& table, const ServoGrid& halved_grid,
+ExaminedCells examine_cells(const CubicTable& table, const ServoGrid& refined_grid,
                             CycleQuantity quantity, const SolvedPoints& points,
                             const DesignChartOptions& options);
 

@@ -33,9 +33,9 @@ void check_axis(RangeCheck& check, const Axis& axis, const std::string& name) {
   }
 }
 
-double points_with_those_half_way(const ServoGrid& grid) {
+double points_with_those_between(const ServoGrid& grid) {
   double points = 1.0;
-  for (const Axis& axis : grid.axes) points *= 2.0 * static_cast<double>(axis.values.size()) - 1.0;
+  for (const Axis& axis : grid.axes) points *= 2.0 * static_cast<double>(axis.values.size()) + 3.0;
   return points;
 }
 
@@ -45,15 +45,15 @@ void require_sound(const ServoGrid& grid, double tolerance) {
   check.include(validate(grid, names));
   for (std::size_t i = 0; i < grid.axes.size(); ++i) check_axis(check, grid.axes[i], names[i]);
   if (grid.axes.empty()) check.refuse("axes", "none", "must be at least one");
-  const double points = points_with_those_half_way(grid);
+  const double points = points_with_those_between(grid);
   if (points > static_cast<double>(most_points_of_a_design_chart)) {
     check.refuse("points", exact_text(points),
                  "must be at most " + std::to_string(most_points_of_a_design_chart) +
-                     ", those half-way included: a chart is held in memory");
+                     ", those between the values included: a chart is held in memory");
   }
   require_none(check.within("tolerance", tolerance, 0.0, 1.0).violations());
   // Half-way to a damping of 0 may be a damping that is refused.
-  require_none(validate(detail::halved(grid), names));
+  require_none(validate(detail::refined(grid), names));
 }
 
 }  // namespace
@@ -73,11 +73,11 @@ const char* name_of(ChartSource source) {
 DesignChart::DesignChart(ServoGrid grid, CycleQuantity quantity, const DesignChartOptions& options)
     : grid_(std::move(grid)), quantity_(quantity) {
   require_sound(grid_, options.tolerance);
-  const ServoGrid halved_grid = detail::halved(grid_);
-  const detail::SolvedPoints points = detail::solve_points(halved_grid, quantity, options.threads);
-  table_ = CubicTable(grid_.axes, detail::values_of_nodes(halved_grid, quantity, points.value));
+  const ServoGrid refined_grid = detail::refined(grid_);
+  const detail::SolvedPoints points = detail::solve_points(refined_grid, quantity, options.threads);
+  table_ = CubicTable(grid_.axes, detail::values_of_nodes(refined_grid, quantity, points.value));
   detail::ExaminedCells examined =
-      detail::examine_cells(table_, halved_grid, quantity, points, options);
+      detail::examine_cells(table_, refined_grid, quantity, points, options);
   cells_ = std::move(examined.cells);
   accuracy_ = examined.accuracy;
 }

@@ -34,8 +34,8 @@ struct ChartAnswer {
   bool operator==(const ChartAnswer&) const = default;
 };
 
-/// How well a chart interpolates; errors as in ChartAnswer, 0 for a chart that interpolates
-/// nowhere.
+/// How well a chart interpolates; errors as in ChartAnswer, those found relative to the least value
+/// in their cell, 0 for a chart that interpolates nowhere.
 struct ChartAccuracy {
   double stated_error = 0.0;       ///< largest of any answer; at most the tolerance
   double largest_error = 0.0;      ///< that was found at a checked point
@@ -51,8 +51,8 @@ struct DesignChartOptions {
   std::size_t threads = 0;  ///< to build with; 0: as many as the machine has cores
 };
 
-/// Values on all axes of a chart together, those half-way between them included, are at most so
-/// many: they are held in memory.
+/// Points of a chart, those compared between the values of its axes included, are at most so many:
+/// they are held in memory.
 inline constexpr std::size_t most_points_of_a_design_chart = 100'000'000;
 
 namespace detail {
@@ -70,9 +70,15 @@ struct ChartCell {
 /// Interpolation is by a cubic along each axis (cubic_table.hpp), of growth at rest as 1/(1 + μ₀),
 /// which stays smooth where μ₀ grows to infinity. When the chart is built, every cell is compared
 /// with servos solved half-way between the axes' values: 3ⁿ − 2ⁿ of them for n axes, in the middles
-/// of its edges, of its faces and of itself. The error stated of a cell is 3.2 times the largest
-/// found in it and in the cells that touch it, which covers a jump of the slope anywhere on one
-/// axis. It is an estimate, not a bound; docs/design-charts.md says how well it did.
+/// of its edges, of its faces and of itself. At both ends of an axis, where no cell beyond tells of
+/// an error that is by chance small half-way, they are solved at the quarters, too.
+///
+/// An error is largest about half-way, but the value may be many times smaller towards a corner,
+/// and there the same error is relatively larger. So the largest that is found in a cell is taken
+/// of the least value found in it, growth at rest as it is interpolated. The error stated of a cell
+/// is 3.2 times the largest such one of it and of the cells that touch it, which covers a jump of
+/// the slope anywhere on one axis. It is an estimate, not a bound; docs/design-charts.md says how
+/// well it did.
 ///
 /// A cell is interpolated where the error stated is within the tolerance and its points are alike,
 /// as are those of each cell that touches it: with one verdict, with values or without, and with μ₀
