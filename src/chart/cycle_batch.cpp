@@ -1,6 +1,8 @@
 #include "gearlash/chart/cycle_batch.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -75,25 +77,32 @@ void write_row(const CycleColumns& cycles, std::size_t row, Verdict verdict, dou
   cycles.residual[row] = cycle.residual;
 }
 
-void write_from_block(const CycleColumns& cycles, std::size_t row, const CycleBlock& block,
-                      std::size_t block_row) {
-  if (block.outcome[block_row] == CycleBlock::cannot_hunt) {
-    write_row(cycles, row, Verdict::cannot_hunt, block.growth_at_rest[block_row], LimitCycle{});
-    return;
+/// The rows of the block, those that are not certain included.
+void write_from_block(const CycleColumns& cycles, std::size_t begin, const CycleBlock& block,
+                      std::size_t rows) {
+  for (std::size_t row = 0; row < rows; ++row) {
+    cycles.verdict[begin + row] =
+        block.outcome[row] == CycleBlock::hunts ? Verdict::hunts : Verdict::cannot_hunt;
   }
-  cycles.verdict[row] = Verdict::hunts;
-  cycles.growth_at_rest[row] = block.growth_at_rest[block_row];
-  cycles.size[row] = block.size[block_row];
-  cycles.motor_size[row] = block.motor_size[block_row];
-  cycles.period[row] = block.engaged_time[block_row] + block.separated_time[block_row];
-  cycles.multiplier[row] = block.multiplier[block_row];
-  cycles.impact_speed[row] = block.impact_speed[block_row];
-  cycles.engaged_time[row] = block.engaged_time[block_row];
-  cycles.separated_time[row] = block.separated_time[block_row];
-  cycles.motor_friction_loss[row] = block.motor_friction_loss[block_row];
-  cycles.load_friction_loss[row] = block.load_friction_loss[block_row];
-  cycles.impact_loss[row] = block.impact_loss[block_row];
-  cycles.residual[row] = block.residual[block_row];
+  const auto copy = [&](const CycleBlock::Column& from, std::span<double> to) {
+    std::copy_n(from, rows, to.begin() + static_cast<std::ptrdiff_t>(begin));
+  };
+  copy(block.growth_at_rest, cycles.growth_at_rest);
+  const std::span<double> properties[] = {cycles.size,
+                                          cycles.motor_size,
+                                          cycles.period,
+                                          cycles.multiplier,
+                                          cycles.impact_speed,
+                                          cycles.engaged_time,
+                                          cycles.separated_time,
+                                          cycles.motor_friction_loss,
+                                          cycles.load_friction_loss,
+                                          cycles.impact_loss,
+                                          cycles.residual};
+  static_assert(std::size(properties) == CycleBlock::property_count);
+  for (std::size_t i = 0; i < CycleBlock::property_count; ++i) {
+    copy(block.properties[i], properties[i]);
+  }
 }
 
 /// A servo that is refused is named by its row.
@@ -163,16 +172,16 @@ BatchCount find_limit_cycles(std::span<const NormalizedServo> servos, const Cycl
     const std::size_t rows = std::min(CycleBlock::rows, servos.size() - begin);
     load(block, servos.subspan(begin, rows));
     solve(block, rows);
+    write_from_block(cycles, begin, block, rows);
+    std::size_t alone = 0;
     for (std::size_t row = 0; row < rows; ++row) {
       const NormalizedServo& servo = servos[begin + row];
-      if (for_kernel(servo) && block.outcome[row] != CycleBlock::uncertain) {
-        write_from_block(cycles, begin + row, block, row);
-        ++count.side_by_side;
-      } else {
-        solve_alone(servo, cycles, begin + row);
-        ++count.one_by_one;
-      }
+      if (for_kernel(servo) && block.outcome[row] != CycleBlock::uncertain) continue;
+      solve_alone(servo, cycles, begin + row);
+      ++alone;
     }
+    count.side_by_side += rows - alone;
+    count.one_by_one += alone;
   }
   return count;
 }

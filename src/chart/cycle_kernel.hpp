@@ -19,16 +19,10 @@ struct CycleBlock {
 
   alignas(64) Column outcome;  ///< of the values below
   alignas(64) Column growth_at_rest;
-  alignas(64) Column size;
-  alignas(64) Column motor_size;
-  alignas(64) Column multiplier;
-  alignas(64) Column impact_speed;
-  alignas(64) Column engaged_time;
-  alignas(64) Column separated_time;
-  alignas(64) Column motor_friction_loss;
-  alignas(64) Column load_friction_loss;
-  alignas(64) Column impact_loss;
-  alignas(64) Column residual;
+  /// Size, motor's size, period, multiplier, impact speed, engaged and separated time, the losses
+  /// in the motor's friction, the load's and at impacts, and residual; NaN where there is no cycle.
+  static constexpr std::size_t property_count = 11;
+  alignas(64) Column properties[property_count];
 
   static constexpr double uncertain = 0.0;  ///< to be solved one by one
   static constexpr double cannot_hunt = 1.0;

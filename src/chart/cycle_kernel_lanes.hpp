@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -404,6 +405,8 @@ class CycleLanes {
         select(permitted_ && !sought_, Real(CycleBlock::cannot_hunt), Real(CycleBlock::uncertain));
     if (none<Unit>(found_)) {
       failed.store_aligned(block.outcome + row);
+      const Real nothing = std::numeric_limits<double>::quiet_NaN();
+      for (CycleBlock::Column& column : block.properties) nothing.store_aligned(column + row);
       return;
     }
     Mask<Unit> certain = found_;
@@ -430,16 +433,22 @@ class CycleLanes {
     certain = certain && half_.engaged_time > Real(0.0);
 
     select(certain, Real(CycleBlock::hunts), failed).store_aligned(block.outcome + row);
-    (amplitude * size).store_aligned(block.size + row);
-    (amplitude * motor_size).store_aligned(block.motor_size + row);
-    (slope * slope).store_aligned(block.multiplier + row);
-    (-amplitude * half_.gap_speed).store_aligned(block.impact_speed + row);
-    (2.0 * half_.engaged_time).store_aligned(block.engaged_time + row);
-    (2.0 * half_.flight_time).store_aligned(block.separated_time + row);
-    (square * losses.motor_friction).store_aligned(block.motor_friction_loss + row);
-    (square * losses.load_friction).store_aligned(block.load_friction_loss + row);
-    (square * losses.impacts).store_aligned(block.impact_loss + row);
-    residual.store_aligned(block.residual + row);
+    const Real values[] = {amplitude * size,
+                           amplitude * motor_size,
+                           2.0 * half_.engaged_time + 2.0 * half_.flight_time,
+                           slope * slope,
+                           -amplitude * half_.gap_speed,
+                           2.0 * half_.engaged_time,
+                           2.0 * half_.flight_time,
+                           square * losses.motor_friction,
+                           square * losses.load_friction,
+                           square * losses.impacts,
+                           residual};
+    static_assert(std::size(values) == CycleBlock::property_count);
+    const Real nothing = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t i = 0; i < CycleBlock::property_count; ++i) {
+      select(certain, values[i], nothing).store_aligned(block.properties[i] + row);
+    }
   }
 
   BasicServoDynamics<Real> servo_;
