@@ -106,7 +106,8 @@ struct Floor {
   double other;      ///< arithmetic
   double in_step;    ///< all of it, in the lanes
   double kernel;     ///< measured
-  double batch;      ///< likewise, with copying
+  double small;      ///< likewise, of the same servos by find_limit_cycles(), which copies
+  double batch;      ///< likewise, of more than the cache holds
 
   double transcendental() const { return functions + series; }
   double arithmetic() const { return transcendental() + divisions + other; }
@@ -123,6 +124,7 @@ Floor floor_of(const FastestTimes& times, VectorUnit unit, const ByOperation<dou
   floor.other = of_alone(all) - floor.functions - floor.series - floor.divisions;
   floor.in_step = cost(times, unit, in_step, all);
   floor.kernel = 1e9 * times.of(name_of_kernel_benchmark(unit)) / servos_of_kernel_benchmark;
+  floor.small = 1e9 * times.of(name_of_small_batch_benchmark(unit)) / servos_of_kernel_benchmark;
   floor.batch =
       1e9 * times.of(name_of_grid_benchmark(unit)) / static_cast<double>(thesis_grid().size());
   return floor;
@@ -153,13 +155,17 @@ void print_floors(const std::vector<VectorUnit>& units, const std::vector<Floor>
   print_line("the same with what neighbours in the lanes need", floors,
              [](In floor) { return floor.in_step; });
   print_line("measured: the kernel alone", floors, [](In floor) { return floor.kernel; });
-  print_line("measured: find_limit_cycles(), which copies servos in and answers out", floors,
+  print_line("measured: find_limit_cycles() of these servos, which copies in and out", floors,
+             [](In floor) { return floor.small; });
+  print_line("measured: find_limit_cycles() of the whole grid, beyond the second cache", floors,
              [](In floor) { return floor.batch; });
   print_line("the kernel alone, times the floor", floors,
              [](In floor) { return floor.kernel / floor.transcendental(); });
-  print_line("find_limit_cycles(), times the floor", floors,
+  print_line("find_limit_cycles() of these servos, times the floor", floors,
+             [](In floor) { return floor.small / floor.transcendental(); });
+  print_line("find_limit_cycles() of the whole grid, times the floor", floors,
              [](In floor) { return floor.batch / floor.transcendental(); });
-  print_line("find_limit_cycles(), times exp, log, log1p, atan2 alone", floors,
+  print_line("the same, times exp, log, log1p, atan2 alone", floors,
              [](In floor) { return floor.batch / floor.functions; });
   print_line("the kernel alone, times all arithmetic in the lanes", floors,
              [](In floor) { return floor.kernel / floor.in_step; });

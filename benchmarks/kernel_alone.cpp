@@ -5,6 +5,7 @@
 
 #include "cycle_kernel.hpp"
 #include "fused_kernel.hpp"
+#include "gearlash/chart/cycle_table.hpp"
 #include "servo_lists.hpp"
 
 namespace gearlash::benchmarks {
@@ -17,16 +18,26 @@ struct Entry {
   std::string name;
 };
 
-/// Blocks from all over the thesis's grid, few enough for the second cache.
-std::vector<CycleBlock> blocks_of_grid() {
+/// From all over the thesis's grid, neighbours by blocks, and few enough for the second cache.
+std::vector<NormalizedServo> servos_of_grid() {
   constexpr std::size_t count =
       static_cast<std::size_t>(servos_of_kernel_benchmark) / CycleBlock::rows;
   const ServoGrid grid = thesis_grid();
   const std::size_t stride = grid.size() / count;
-  std::vector<CycleBlock> blocks(count);
+  std::vector<NormalizedServo> servos;
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t row = 0; row < CycleBlock::rows; ++row) {
-      const NormalizedServo servo = grid.at(i * stride + row);
+      servos.push_back(grid.at(i * stride + row));
+    }
+  }
+  return servos;
+}
+
+std::vector<CycleBlock> blocks_of(const std::vector<NormalizedServo>& servos) {
+  std::vector<CycleBlock> blocks(servos.size() / CycleBlock::rows);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    for (std::size_t row = 0; row < CycleBlock::rows; ++row) {
+      const NormalizedServo& servo = servos[i * CycleBlock::rows + row];
       blocks[i].damping[row] = servo.damping;
       blocks[i].inertia_ratio[row] = servo.inertia_ratio;
       blocks[i].friction_ratio[row] = servo.friction_ratio;
@@ -51,6 +62,19 @@ Entry enter(const std::string& name, detail::CycleKernel kernel, const Blocks& b
   return {title, name};
 }
 
+/// The same servos as a list.
+void enter_batch(VectorUnit unit, const std::vector<NormalizedServo>& servos) {
+  const auto table = std::make_shared<CycleTable>(servos.size());
+  benchmark::RegisterBenchmark(name_of_small_batch_benchmark(unit).c_str(),
+                               [=](benchmark::State& state) {
+                                 for (auto _ : state) {
+                                   find_limit_cycles(servos, table->columns(), unit);
+                                   benchmark::ClobberMemory();
+                                 }
+                               })
+      ->Unit(benchmark::kMicrosecond);
+}
+
 detail::CycleKernel kernel_of(VectorUnit unit) {
 #ifdef GEARLASH_X86_VECTOR_UNITS
   if (unit == VectorUnit::avx512) return detail::solve_block_avx512;
@@ -64,6 +88,10 @@ detail::CycleKernel kernel_of(VectorUnit unit) {
 
 std::string name_of_kernel_benchmark(VectorUnit unit) { return title_of(name_of(unit)); }
 
+std::string name_of_small_batch_benchmark(VectorUnit unit) {
+  return std::string("Small batch/") + name_of(unit);
+}
+
 // Here, and not in a file that is compiled for the processor it asks about.
 bool has_fused_kernel() {
 #ifdef GEARLASH_X86_VECTOR_UNITS
@@ -74,9 +102,11 @@ bool has_fused_kernel() {
 }
 
 ReportPart enter_kernel_alone() {
-  const auto blocks = std::make_shared<std::vector<CycleBlock>>(blocks_of_grid());
+  const std::vector<NormalizedServo> servos = servos_of_grid();
+  const auto blocks = std::make_shared<std::vector<CycleBlock>>(blocks_of(servos));
   std::vector<Entry> entries;
   for (const VectorUnit unit : available_vector_units()) {
+    enter_batch(unit, servos);
     entries.push_back(enter(name_of(unit), kernel_of(unit), blocks));
 #ifdef GEARLASH_X86_VECTOR_UNITS
     if (unit == VectorUnit::avx2 && has_fused_kernel()) {

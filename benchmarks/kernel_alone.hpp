@@ -11,6 +11,8 @@ namespace gearlash::benchmarks {
 
 /// The benchmark of that unit's kernel, and on how many servos.
 std::string name_of_kernel_benchmark(VectorUnit unit);
+/// That of find_limit_cycles() on the same servos.
+std::string name_of_small_batch_benchmark(VectorUnit unit);
 inline constexpr double servos_of_kernel_benchmark = 4096.0;
 
 ReportPart enter_kernel_alone();

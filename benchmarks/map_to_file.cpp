@@ -176,7 +176,11 @@ void print(const MapTimes& map, double command) {
   line("**all**", map.sum());
   line("computing: servos and boundary", map.of(Step::servos) + map.of(Step::boundary));
   line("writing: NetCDF and disk", map.of(Step::writing) + map.of(Step::commit));
-  if (!std::isnan(command)) line("the whole command as a process", command);
+  if (!std::isnan(command)) {
+    line("the whole command as a process", command);
+    std::printf("| of which writing | | %.0f |\n",
+                100.0 * (map.of(Step::writing) + map.of(Step::commit)) / command);
+  }
   std::printf("\n`%s`\n", command_text);
 }
 
