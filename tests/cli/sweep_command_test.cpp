@@ -24,7 +24,7 @@ void write(const std::filesystem::path& path, const std::string& text) {
 /// Bouncing servos, so that it takes some seconds in several pieces.
 constexpr char long_sweep[] =
     "[sweep]\n"
-    "axes = [\"restitution=0.1:0.3:5\", \"friction-ratio=0.1:0.9:90\", \"damping=0.1,0.2\"]\n"
+    "axes = [\"restitution=0.1:0.3:5\", \"friction-ratio=0.1:0.9:40\", \"damping=0.1,0.2\"]\n"
     "[servo]\ninertia_ratio = 1\n";
 
 /// Starts the sweep, and once pieces are recorded, ends it with `signal`. Prints what is recorded.
@@ -47,7 +47,7 @@ TEST(SweepCommand, KilledAndGoneOnWithItGivesTheSameFile) {
   write(whole / "sweep.toml", long_sweep);
   const Outcome run = run_shell(in_folder(whole, "\"$GEARLASH\" sweep sweep.toml --output a.nc"));
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_EQ(run.out, "a.nc: 900 servos, 0 solved side by side, 900 one by one\n");
+  EXPECT_EQ(run.out, "a.nc: 400 servos, 0 solved side by side, 400 one by one\n");
   EXPECT_EQ(whole.file_count(), 2U);  // the sweep and its file: nothing is left of the parts
 
   const Scratch killed;
@@ -72,11 +72,11 @@ TEST(SweepCommand, CtrlCKeepsWhatIsDone) {
   // In the background a shell has SIGINT ignored.
   const Outcome run = run_shell(in_folder(scratch, interrupted("TERM", "")));
   EXPECT_THAT(run.out, HasSubstr("status 143\n")) << run.err;
-  EXPECT_THAT(run.err, HasSubstr(" of 900 servos, which a.nc.part holds: --resume goes on\n"));
+  EXPECT_THAT(run.err, HasSubstr(" of 400 servos, which a.nc.part holds: --resume goes on\n"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "a.nc"));
   const auto record = nlohmann::json::parse(file_text(scratch / "a.nc.part.json"));
   EXPECT_GT(record["points_done"], 0);
-  EXPECT_LT(record["points_done"], 900);
+  EXPECT_LT(record["points_done"], 400);
 }
 
 TEST(SweepCommand, ResumesOnlyTheSameSweep) {
@@ -98,7 +98,7 @@ TEST(SweepCommand, ARecordThatMakesNoSenseIsRefused) {
   write(scratch / "sweep.toml", long_sweep);
   run_shell(in_folder(scratch, interrupted("KILL", "")));
   const auto record = nlohmann::json::parse(file_text(scratch / "a.nc.part.json"));
-  for (const int points : {-5, 901}) {
+  for (const int points : {-5, 401}) {
     auto other = record;
     other["points_done"] = points;
     other["one_by_one"] = points;
