@@ -45,9 +45,9 @@ const char* description_of(CycleQuantity quantity);
 const char* unit_of(CycleQuantity quantity);
 
 /// What it tends to where hunting ends, with plastic contact: 0 for the load's size, the speed and
-/// the losses, half the backlash for the motor's size, 1 for the multiplier, infinity for the period
-/// and the time apart. Nothing where that is another number from place to place, or where there is
-/// no such end.
+/// the losses, half the backlash for the motor's size, 1 for the multiplier, infinity for the
+/// period and the time apart. Nothing where that is another number from place to place, or where
+/// there is no such end.
 std::optional<double> limit_where_hunting_ends(CycleQuantity quantity, double backlash);
 
 struct CycleTable {
