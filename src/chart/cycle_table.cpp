@@ -74,9 +74,10 @@ CycleTable::CycleTable(std::size_t rows) : verdict(rows, Verdict::undecided) {
   values.fill(std::vector<double>(rows, std::numeric_limits<double>::quiet_NaN()));
 }
 
-CycleColumns CycleTable::columns() {
+CycleColumns columns_of(std::span<Verdict> verdict,
+                        const std::array<std::span<double>, quantity_count>& numbers) {
   const auto column = [&](CycleQuantity quantity) {
-    return std::span<double>(values[static_cast<std::size_t>(quantity)]);
+    return numbers[static_cast<std::size_t>(quantity)];
   };
   return {.verdict = verdict,
           .growth_at_rest = column(CycleQuantity::growth_at_rest),
@@ -91,6 +92,12 @@ CycleColumns CycleTable::columns() {
           .load_friction_loss = column(CycleQuantity::load_friction_loss),
           .impact_loss = column(CycleQuantity::impact_loss),
           .residual = column(CycleQuantity::residual)};
+}
+
+CycleColumns CycleTable::columns() {
+  std::array<std::span<double>, quantity_count> numbers;
+  for (std::size_t i = 0; i < quantity_count; ++i) numbers[i] = values[i];
+  return columns_of(verdict, numbers);
 }
 
 }  // namespace gearlash

@@ -113,22 +113,9 @@ ChartAnswer DesignChart::solved(std::span<const double> place) const {
   if (!validate(servo).empty()) return {};
   Verdict verdict = Verdict::undecided;
   std::array<double, quantity_count> values;
-  const auto column = [&](CycleQuantity quantity) {
-    return std::span<double>(&values[static_cast<std::size_t>(quantity)], 1);
-  };
-  find_limit_cycles({&servo, 1}, {.verdict = {&verdict, 1},
-                                  .growth_at_rest = column(CycleQuantity::growth_at_rest),
-                                  .size = column(CycleQuantity::size),
-                                  .motor_size = column(CycleQuantity::motor_size),
-                                  .period = column(CycleQuantity::period),
-                                  .multiplier = column(CycleQuantity::multiplier),
-                                  .impact_speed = column(CycleQuantity::impact_speed),
-                                  .engaged_time = column(CycleQuantity::engaged_time),
-                                  .separated_time = column(CycleQuantity::separated_time),
-                                  .motor_friction_loss = column(CycleQuantity::motor_friction_loss),
-                                  .load_friction_loss = column(CycleQuantity::load_friction_loss),
-                                  .impact_loss = column(CycleQuantity::impact_loss),
-                                  .residual = column(CycleQuantity::residual)});
+  std::array<std::span<double>, quantity_count> numbers;
+  for (std::size_t i = 0; i < quantity_count; ++i) numbers[i] = {&values[i], 1};
+  find_limit_cycles({&servo, 1}, columns_of({&verdict, 1}, numbers));
   return {.value = values[static_cast<std::size_t>(quantity_)],
           .verdict = verdict,
           .error = 0.0,

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -49,6 +50,10 @@ const char* unit_of(CycleQuantity quantity);
 /// period and the time apart. Nothing where that is another number from place to place, or where
 /// there is no such end.
 std::optional<double> limit_where_hunting_ends(CycleQuantity quantity, double backlash);
+
+/// The columns of numbers by CycleQuantity.
+CycleColumns columns_of(std::span<Verdict> verdict,
+                        const std::array<std::span<double>, quantity_count>& numbers);
 
 struct CycleTable {
   explicit CycleTable(std::size_t rows = 0);
