@@ -1,11 +1,12 @@
 #include "map_to_file.hpp"
 
 #include <stdlib.h>
+#include <sys/resource.h>
+#include <sys/time.h>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
 
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -15,14 +16,14 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "gearlash/chart/hunting_boundary.hpp"
 #include "gearlash/io/grid_netcdf.hpp"
-#include "gearlash/io/large_table.hpp"
+#include "gearlash/io/grid_pieces.hpp"
 #include "gearlash/version.hpp"
 
 namespace gearlash::benchmarks {
@@ -31,8 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* steps_title = "Map/steps";
-constexpr const char* command_title = "Map/command";
+constexpr const char* title = "Map/to file";
 constexpr const char* file_name = "map.nc";
 constexpr const char* command_text =
     "gearlash map --x inertia-ratio=0.1111111111111111:9:1000:log --y damping=0.05:0.6:1000 "
@@ -71,127 +71,148 @@ class TemporaryFolder {
   fs::path path_;
 };
 
-enum class Step { memory, servos, boundary, writing, commit };
-constexpr std::size_t step_count = 5;
-constexpr std::array<const char*, step_count> step_names = {
-    "memory for the answers, large_cycle_table()", "the servos, evaluate()",
-    "the boundary, hunting_boundary()", "writing, write_grid_netcdf()",
-    "to the disk and renaming, OutputFile::commit()"};
+/// What something took, in seconds: by the clock, and of all processors together.
+struct Spent {
+  double clock = std::numeric_limits<double>::infinity();
+  double processors = 0.0;
 
-/// How long each step took, in seconds, when all of them together took least.
-struct MapTimes {
-  std::array<double, step_count> seconds = {};
-  std::uintmax_t bytes = 0;  ///< of the file
-
-  double of(Step step) const { return seconds[static_cast<std::size_t>(step)]; }
-  double sum() const { return std::accumulate(seconds.begin(), seconds.end(), 0.0); }
+  Spent operator+(const Spent& other) const {
+    return {clock + other.clock, processors + other.processors};
+  }
+  Spent operator-(const Spent& other) const {
+    return {clock - other.clock, processors - other.processors};
+  }
 };
 
-/// Memory that the map before has left is new again to the next one, as it is to a new process.
+double seconds_of(const timeval& time) {
+  constexpr double microsecond = 1e-6;
+  return static_cast<double>(time.tv_sec) + microsecond * static_cast<double>(time.tv_usec);
+}
+
+/// `whose`: RUSAGE_SELF, or RUSAGE_CHILDREN for the processes that it has waited for.
+template <class Work>
+Spent spent_on(const Work& work, int whose = RUSAGE_SELF) {
+  const auto of_processors = [&] {
+    rusage usage{};
+    getrusage(whose, &usage);
+    return seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+  };
+  const double processors = of_processors();
+  const Clock::time_point begin = Clock::now();
+  work();
+  const std::chrono::duration<double> clock = Clock::now() - begin;
+  return {clock.count(), of_processors() - processors};
+}
+
+/// The fastest of several, each by itself.
+struct MapTimes {
+  Spent servos;    ///< all pieces, which nobody writes
+  Spent boundary;  ///< hunting_boundary() of them
+  Spent file;      ///< make_grid_netcdf(): both and writing
+  Spent commit;    ///< to the disk, and renaming
+  Spent command;   ///< the tool itself, from its start to its end
+  std::uintmax_t bytes = 0;
+
+  Spent computing() const { return servos + boundary; }
+  Spent whole() const { return file + commit; }
+};
+
+/// What the map before has left is given back, so that it is new again to the next one, as it is
+/// to a new process.
 void give_memory_back() {
 #ifdef __GLIBC__
   malloc_trim(0);
 #endif
 }
 
-/// As apps/gearlash/grid_options.cpp does it.
-MapTimes make_map(const ServoGrid& grid) {
+void keep_faster(Spent& fastest, const Spent& other) {
+  if (other.clock < fastest.clock) fastest = other;
+}
+
+void compute_only(const ServoGrid& grid, MapTimes& fastest) {
+  constexpr std::size_t points_at_a_time = std::size_t{1} << 15U;  // as make_grid_netcdf() does
+  give_memory_back();
+  std::vector<double> growth;
+  growth.reserve(grid.size());
+  keep_faster(fastest.servos, spent_on([&] {
+                evaluate_in_pieces(grid, 0, points_at_a_time, [&](const GridPiece& piece) {
+                  const auto& column = piece.cycles[CycleQuantity::growth_at_rest];
+                  growth.insert(growth.end(), column.begin(), column.end());
+                });
+              }));
+  keep_faster(fastest.boundary,
+              spent_on([&] { benchmark::DoNotOptimize(hunting_boundary(grid, growth)); }));
+}
+
+void make_file(const ServoGrid& grid, MapTimes& fastest) {
   give_memory_back();
   const TemporaryFolder folder;
-  MapTimes times;
-  Clock::time_point begin = Clock::now();
-  const auto finish = [&](Step step) {
-    const Clock::time_point end = Clock::now();
-    times.seconds[static_cast<std::size_t>(step)] =
-        std::chrono::duration<double>(end - begin).count();
-    begin = end;
-  };
   OutputFile output(folder.path() / file_name);
-  GridTable table{.grid = grid,
-                  .cycles = large_cycle_table(grid.size()),
-                  .provenance = {command_text, version}};
-  finish(Step::memory);
-  evaluate(grid, 0, grid.size(), table.cycles.columns());
-  finish(Step::servos);
-  table.hunting_boundary = hunting_boundary(grid, table.cycles[CycleQuantity::growth_at_rest]);
-  finish(Step::boundary);
-  write_grid_netcdf(table, output);
-  finish(Step::writing);
-  output.commit();
-  finish(Step::commit);
-  times.bytes = fs::file_size(folder.path() / file_name);
-  return times;
+  const Spent file = spent_on([&] {
+    make_grid_netcdf(grid, GridBoundary::hunting, {command_text, version}, output);
+  });
+  const Spent commit = spent_on([&] { output.commit(); });
+  if ((file + commit).clock < fastest.whole().clock) {
+    fastest.file = file;
+    fastest.commit = commit;
+  }
+  fastest.bytes = fs::file_size(folder.path() / file_name);
 }
 
-std::shared_ptr<const MapTimes> enter_steps() {
-  const auto fastest = std::make_shared<MapTimes>();
-  fastest->seconds.fill(std::numeric_limits<double>::infinity());
-  benchmark::RegisterBenchmark(steps_title,
-                               [fastest, grid = grid_of_map()](benchmark::State& state) {
-                                 for (auto _ : state) {
-                                   const MapTimes times = make_map(grid);
-                                   state.SetIterationTime(times.sum());
-                                   if (times.sum() < fastest->sum()) *fastest = times;
-                                 }
-                               })
-      ->Unit(benchmark::kMillisecond)
-      ->UseManualTime()
-      ->Iterations(1)
-      ->Repetitions(often);
-  return fastest;
-}
-
-/// The tool itself, from its start to its end.
-double seconds_of_command() {
+void call_tool(MapTimes& fastest) {
   const TemporaryFolder folder;
   const std::string line = "cd '" + folder.path().string() +
                            "' && PATH='" GEARLASH_TOOL_FOLDER "' " + command_text + " > /dev/null";
-  const Clock::time_point begin = Clock::now();
-  const int status = std::system(line.c_str());
-  const Clock::time_point end = Clock::now();
-  if (status != 0) throw std::runtime_error(line + ": failed");
-  return std::chrono::duration<double>(end - begin).count();
+  keep_faster(fastest.command, spent_on(
+                                   [&] {
+                                     if (std::system(line.c_str()) != 0) {
+                                       throw std::runtime_error(line + ": failed");
+                                     }
+                                   },
+                                   RUSAGE_CHILDREN));
 }
 
-void enter_command() {
-  benchmark::RegisterBenchmark(command_title,
-                               [](benchmark::State& state) {
-                                 for (auto _ : state) state.SetIterationTime(seconds_of_command());
-                               })
-      ->Unit(benchmark::kMillisecond)
-      ->UseManualTime()
-      ->Iterations(1)
-      ->Repetitions(often);
-}
-
-void print(const MapTimes& map, double command) {
+void print(const MapTimes& map) {
   constexpr double megabyte = 1e6;
-  std::printf("\n**A map, from command to file** (1000 × 1000 servos, %.1f MB; by the clock)\n\n",
+  std::printf("\n**A map, from command to file** (1000 × 1000 servos, %.1f MB)\n\n",
               static_cast<double>(map.bytes) / megabyte);
-  std::printf("| | ms | share, %% |\n|---|--:|--:|\n");
-  const auto line = [&](const char* name, double seconds) {
-    std::printf("| %s | %.1f | %.0f |\n", name, 1e3 * seconds, 100.0 * seconds / map.sum());
+  std::printf(
+      "| | by the clock, ms | share, %% | of processors, ms | share, %% |\n"
+      "|---|--:|--:|--:|--:|\n");
+  const auto line = [&](const char* name, const Spent& spent) {
+    constexpr double percent = 100.0;
+    std::printf("| %s | %.1f | %.0f | %.1f | %.0f |\n", name, 1e3 * spent.clock,
+                percent * spent.clock / map.whole().clock, 1e3 * spent.processors,
+                percent * spent.processors / map.whole().processors);
   };
-  for (std::size_t i = 0; i < step_count; ++i) line(step_names[i], map.seconds[i]);
-  line("**all**", map.sum());
-  line("computing: servos and boundary", map.of(Step::servos) + map.of(Step::boundary));
-  line("writing: NetCDF and disk", map.of(Step::writing) + map.of(Step::commit));
-  if (!std::isnan(command)) {
-    line("the whole command as a process", command);
-    std::printf("| of which writing | | %.0f |\n",
-                100.0 * (map.of(Step::writing) + map.of(Step::commit)) / command);
-  }
+  line("the servos, evaluate_in_pieces()", map.servos);
+  line("the boundary, hunting_boundary()", map.boundary);
+  line("**computing**, both", map.computing());
+  line("the same while it is written, make_grid_netcdf()", map.file);
+  line("to the disk and renaming, OutputFile::commit()", map.commit);
+  line("**the whole map**, both", map.whole());
+  line("**writing**: what it takes longer than computing", map.whole() - map.computing());
+  line("the whole command as a process", map.command);
   std::printf("\n`%s`\n", command_text);
 }
 
 }  // namespace
 
 ReportPart enter_map_to_file() {
-  const std::shared_ptr<const MapTimes> fastest = enter_steps();
-  enter_command();
+  const auto fastest = std::make_shared<MapTimes>();
+  benchmark::RegisterBenchmark(title,
+                               [fastest, grid = grid_of_map()](benchmark::State& state) {
+                                 for (auto _ : state) {
+                                   compute_only(grid, *fastest);
+                                   make_file(grid, *fastest);
+                                   call_tool(*fastest);
+                                 }
+                               })
+      ->Unit(benchmark::kMillisecond)
+      ->Iterations(1)
+      ->Repetitions(often);
   return [fastest](const FastestTimes& times) {
-    if (std::isnan(times.of(steps_title))) return;
-    print(*fastest, times.of(command_title));
+    if (!std::isnan(times.of(title))) print(*fastest);
   };
 }
 

@@ -25,11 +25,9 @@ ExitStatus run(const ChartOptions& options, const Provenance& provenance) {
   if (!options.curves.empty()) axes.push_back({"--curves", options.curves});
   axes.push_back({"--x", options.x});
   const GridTask task = read_grid_task(options.grid, axes);
-  make_grid_file(
-      task, "Chart", provenance, [](GridTable&) {},
-      [&](const GridTable& table, PictureFormat format) {
-        return draw_line_chart(chart_of(table, task.quantity), format);
-      });
+  make_grid_file(task, "Chart", provenance, [&](const GridTable& table, PictureFormat format) {
+    return draw_line_chart(chart_of(table, task.quantity), format);
+  });
   return ExitStatus::done;
 }
 

@@ -6,10 +6,10 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
+#include "gearlash/chart/hunting_boundary.hpp"
 #include "gearlash/io/axis_text.hpp"
-#include "gearlash/io/grid_netcdf.hpp"
-#include "gearlash/io/large_table.hpp"
 #include "gearlash/servo/range_check.hpp"
 #include "terminal.hpp"
 
@@ -130,13 +130,22 @@ void require_drawable(const TypedAxes& axes, Faults& faults) {
   }
 }
 
-GridCount work_out(const ServoGrid& grid, const std::string& what, CycleTable& cycles) {
-  Progress progress(what, grid.size(), "servos");
-  progress.show_done(0);
-  return evaluate(grid, 0, grid.size(), cycles.columns(), {.going_on = [&](std::size_t done) {
-                    progress.show_done(done);
-                    return true;
-                  }});
+void write_table(const GridTask& task, const GridTable& table, const GridPicture& draw,
+                 OutputFile& output) {
+  const auto sink = [&](std::string_view text) { output.write(text); };
+  switch (task.kind) {
+    case GridFile::picture:
+      output.write(draw(table, picture_format("--output", task.file)));
+      break;
+    case GridFile::csv:
+      write_grid_csv(table, sink);
+      break;
+    case GridFile::json:
+      write_grid_json(table, sink);
+      break;
+    case GridFile::netcdf:  // written as it is worked out
+      break;
+  }
 }
 
 }  // namespace
@@ -170,7 +179,7 @@ GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption
   if (task.grid.size() > most_points) {
     throw InvalidInput({{"points", std::to_string(task.grid.size()),
                          "must be at most " + std::to_string(most_points) +
-                             " on both axes together: they are held in memory",
+                             " on both axes together; gearlash sweep has room for more",
                          ""}});
   }
   return task;
@@ -185,29 +194,31 @@ std::string solved_text(const GridCount& count) {
 }
 
 void make_grid_file(const GridTask& task, const std::string& what, const Provenance& provenance,
-                    const std::function<void(GridTable&)>& complete,
-                    const std::function<std::string(const GridTable&, PictureFormat)>& draw) {
+                    const GridPicture& draw) {
   OutputFile output(task.file);  // before the work: it may not be permitted
-  const auto sink = [&](std::string_view text) { output.write(text); };
-  GridTable table{
-      .grid = task.grid, .cycles = large_cycle_table(task.grid.size()), .provenance = provenance};
-  const GridCount count = work_out(task.grid, what, table.cycles);
-  complete(table);
-  switch (task.kind) {
-    case GridFile::picture:
-      output.write(draw(table, picture_format("--output", task.file)));
-      break;
-    case GridFile::csv:
-      write_grid_csv(table, sink);
-      break;
-    case GridFile::json:
-      write_grid_json(table, sink);
-      break;
-    case GridFile::netcdf:
-      write_grid_netcdf(table, output);
-      break;
+  std::optional<Progress> progress;
+  progress.emplace(what, task.grid.size(), "servos");
+  progress->show_done(0);
+  const GoingOn going_on = [&](std::size_t done) {
+    progress->show_done(done);
+    return true;
+  };
+  GridCount count;
+  if (task.kind == GridFile::netcdf) {
+    count = make_grid_netcdf(task.grid, task.boundary, provenance, output, going_on);
+  } else {
+    GridTable table{
+        .grid = task.grid, .cycles = CycleTable(task.grid.size()), .provenance = provenance};
+    count =
+        evaluate(task.grid, 0, task.grid.size(), table.cycles.columns(), {.going_on = going_on});
+    if (task.boundary == GridBoundary::hunting) {
+      table.hunting_boundary =
+          hunting_boundary(task.grid, table.cycles[CycleQuantity::growth_at_rest]);
+    }
+    write_table(task, table, draw, output);
   }
   output.commit();
+  progress.reset();  // wiped before anything is said
   write_file("-", output.shown_name() + ": " + solved_text(count) + "\n");
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gearlash/io/grid_netcdf.hpp"
 #include "gearlash/io/grid_table.hpp"
 #include "servo_options.hpp"
 
@@ -34,6 +35,7 @@ struct GridTask {
   ServoGrid grid;
   CycleQuantity quantity = CycleQuantity::size;
   GridFile kind = GridFile::csv;
+  GridBoundary boundary = GridBoundary::none;
   std::string file;
 };
 
@@ -44,11 +46,11 @@ GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption
 /// "20 servos, 18 solved side by side, 2 one by one"
 std::string solved_text(const GridCount& count);
 
+using GridPicture = std::function<std::string(const GridTable&, PictureFormat)>;
+
 /// Works the grid out, with progress under the name `what`, and writes its file: the table, or the
-/// picture drawn of it. `complete` adds to the table before that. Prints how the servos were
-/// solved.
+/// picture drawn of it. Prints how the servos were solved.
 void make_grid_file(const GridTask& task, const std::string& what, const Provenance& provenance,
-                    const std::function<void(GridTable&)>& complete,
-                    const std::function<std::string(const GridTable&, PictureFormat)>& draw);
+                    const GridPicture& draw);
 
 }  // namespace gearlash::cli

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "command.hpp"
-#include "gearlash/chart/hunting_boundary.hpp"
 #include "gearlash/io/grid_map.hpp"
 #include "grid_options.hpp"
 
@@ -35,17 +34,12 @@ void require_an_area(const GridTask& task) {
 }
 
 ExitStatus run(const MapOptions& options, const Provenance& provenance) {
-  const GridTask task = read_grid_task(options.grid, {{"--y", options.y}, {"--x", options.x}});
+  GridTask task = read_grid_task(options.grid, {{"--y", options.y}, {"--x", options.x}});
+  task.boundary = GridBoundary::hunting;
   require_an_area(task);
-  make_grid_file(
-      task, "Map", provenance,
-      [](GridTable& table) {
-        table.hunting_boundary =
-            hunting_boundary(table.grid, table.cycles[CycleQuantity::growth_at_rest]);
-      },
-      [&](const GridTable& table, PictureFormat format) {
-        return draw_contour_map(map_of(table, task.quantity), format);
-      });
+  make_grid_file(task, "Map", provenance, [&](const GridTable& table, PictureFormat format) {
+    return draw_contour_map(map_of(table, task.quantity), format);
+  });
   return ExitStatus::done;
 }
 

@@ -178,6 +178,12 @@ std::size_t box_length(const ServoGrid& grid, std::size_t first, std::size_t mos
   return whole;
 }
 
+void GridCount::add(const GridCount& others) {
+  solved.side_by_side += others.solved.side_by_side;
+  solved.one_by_one += others.solved.one_by_one;
+  refused += others.refused;
+}
+
 GridCount evaluate(const ServoGrid& grid, std::size_t first, std::size_t count,
                    const CycleColumns& cycles, const GridEvaluation& how) {
   const std::size_t part = points_at_a_time(grid);
@@ -192,9 +198,7 @@ GridCount evaluate(const ServoGrid& grid, std::size_t first, std::size_t count,
     const GridCount of_part =
         evaluate_part(grid, first + begin, rows_of(cycles, begin, rows), how.unit);
     const std::scoped_lock lock(telling);
-    total.solved.side_by_side += of_part.solved.side_by_side;
-    total.solved.one_by_one += of_part.solved.one_by_one;
-    total.refused += of_part.refused;
+    total.add(of_part);
     done += rows;
     if (how.going_on && !stopped && !how.going_on(done)) stopped = true;
   };

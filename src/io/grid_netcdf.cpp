@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "gearlash/chart/hunting_boundary.hpp"
 #include "gearlash/io/output_file.hpp"
 #include "netcdf_file.hpp"
 
@@ -12,6 +13,9 @@ namespace gearlash {
 namespace {
 
 constexpr char verdict_name[] = "verdict";
+
+/// Two pieces of 3 MB, which caches hold.
+constexpr std::size_t points_at_a_time = std::size_t{1} << 15U;
 
 /// "cannot_hunt", "hunts", …: by the number of each verdict.
 std::vector<std::string> verdict_words() {
@@ -87,11 +91,8 @@ class GridNetcdf::Layout {
       file_.declare_nan_missing(variable);
       if (!fixed.empty()) file_.set_attribute(variable, "coordinates", fixed);
     }
-    const std::array<std::vector<double>, 2> boundary = columns_of(contents.hunting_boundary);
-    describe_boundary(boundary.front().size());
     file_.end_description();
     write_inputs();
-    write_boundary(boundary);
     claim_places();
   }
 
@@ -102,15 +103,26 @@ class GridNetcdf::Layout {
     }
   }
 
-  void write(std::size_t first, const CycleTable& cycles) {
-    const GridBox box = box_of(grid_, first, cycles.rows());
+  void write(const GridPiece& piece) {
+    const CycleTable& cycles = piece.cycles;
+    const GridBox box = box_of(grid_, piece.first, cycles.rows());
     flags_.resize(cycles.rows());
     std::transform(cycles.verdict.begin(), cycles.verdict.end(), flags_.begin(),
                    [](Verdict verdict) { return static_cast<signed char>(verdict); });
     file_.write(verdict_, box.start, box.extent, flags_);
     for (std::size_t i = 0; i < quantities_.size(); ++i) {
       file_.write(variables_[i], box.start, box.extent, cycles[quantities_[i]]);
-      file_.begin_flush();  // while the next is written
+    }
+    begin_flush_now_and_then(piece);
+  }
+
+  void write_boundary(const std::vector<MapCurve>& curves) {
+    if (curves.empty()) return;
+    const std::array<std::vector<double>, 2> boundary = columns_of(curves);
+    describe_boundary(boundary.front().size());
+    for (std::size_t i = 0; i < boundary.size(); ++i) {
+      file_.write(file_.variable(boundary_name(grid_.axes[i])), {0}, {boundary[i].size()},
+                  boundary[i]);
     }
   }
 
@@ -181,7 +193,7 @@ class GridNetcdf::Layout {
   }
 
   void describe_boundary(std::size_t points) {
-    if (points == 0) return;
+    file_.resume_description();
     const NetcdfDimension dimension = file_.add_dimension("hunting_boundary_point", points);
     for (const Axis& axis : grid_.axes) {
       file_.add_numbers(boundary_name(axis), {dimension},
@@ -189,14 +201,17 @@ class GridNetcdf::Layout {
                             " where hunting ends (growth at rest 1); NaN between curves",
                         unit_of(axis.input));
     }
+    file_.end_description();
   }
 
-  void write_boundary(const std::array<std::vector<double>, 2>& boundary) {
-    if (boundary.front().empty()) return;
-    for (std::size_t i = 0; i < boundary.size(); ++i) {
-      file_.write(file_.variable(boundary_name(grid_.axes[i])), {0}, {boundary[i].size()},
-                  boundary[i]);
-    }
+  /// So that the disk is at work while the next points are worked out; seldom enough that it has
+  /// long pieces of each variable to take.
+  void begin_flush_now_and_then(const GridPiece& piece) {
+    constexpr std::size_t often_enough = std::size_t{1} << 18U;
+    const std::size_t written = piece.first + piece.cycles.rows();
+    if (written - flushed_ < often_enough && written < grid_.size()) return;
+    file_.begin_flush();
+    flushed_ = written;
   }
 
   /// One value of each variable is written: with it the library gives the whole variable its place,
@@ -220,6 +235,7 @@ class GridNetcdf::Layout {
   NetcdfVariable verdict_ = 0;
   std::vector<NetcdfVariable> variables_;  ///< of the quantities
   std::vector<signed char> flags_;
+  std::size_t flushed_ = 0;  ///< points written before the last begin_flush()
 };
 
 GridNetcdf::GridNetcdf(std::unique_ptr<Layout> layout) : layout_(std::move(layout)) {}
@@ -240,8 +256,9 @@ GridNetcdf GridNetcdf::reopen(const std::filesystem::path& path, const std::stri
   return GridNetcdf(std::move(layout));
 }
 
-void GridNetcdf::write(std::size_t first, const CycleTable& cycles) {
-  layout_->write(first, cycles);
+void GridNetcdf::write(const GridPiece& piece) { layout_->write(piece); }
+void GridNetcdf::write_boundary(const std::vector<MapCurve>& boundary) {
+  layout_->write_boundary(boundary);
 }
 
 void GridNetcdf::flush() { layout_->file().flush(); }
@@ -251,15 +268,30 @@ std::size_t netcdf_bytes(const GridContents& contents) {
   return contents.grid.size() * (1 + sizeof(double) * contents.quantities.size());
 }
 
-void write_grid_netcdf(const GridTable& table, const OutputFile& output) {
-  GridNetcdf file = GridNetcdf::create(
-      output.hidden_file(), output.shown_name(),
-      {.grid = table.grid,
-       .quantities = {all_quantities.begin(), all_quantities.end()},
-       .provenance = table.provenance,
-       .hunting_boundary = table.hunting_boundary.value_or(std::vector<MapCurve>())});
-  file.write(0, table.cycles);
+GridCount make_grid_netcdf(const ServoGrid& grid, GridBoundary boundary,
+                           const Provenance& provenance, const OutputFile& output,
+                           const GoingOn& going_on) {
+  GridNetcdf file =
+      GridNetcdf::create(output.hidden_file(), output.shown_name(),
+                         {.grid = grid,
+                          .quantities = {all_quantities.begin(), all_quantities.end()},
+                          .provenance = provenance});
+  std::vector<double> growth_at_rest;
+  if (boundary == GridBoundary::hunting) growth_at_rest.reserve(grid.size());
+  const GridCount count = evaluate_in_pieces(
+      grid, 0, points_at_a_time,
+      [&](const GridPiece& piece) {
+        file.write(piece);
+        if (boundary == GridBoundary::none) return;
+        const std::vector<double>& growth = piece.cycles[CycleQuantity::growth_at_rest];
+        growth_at_rest.insert(growth_at_rest.end(), growth.begin(), growth.end());
+      },
+      going_on);
+  if (boundary == GridBoundary::hunting && !count.stopped) {
+    file.write_boundary(hunting_boundary(grid, growth_at_rest));
+  }
   file.close();
+  return count;
 }
 
 }  // namespace gearlash

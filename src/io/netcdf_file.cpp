@@ -116,6 +116,7 @@ void NetcdfFile::set_attribute_of_file(const std::string& name, const std::strin
 }
 
 void NetcdfFile::end_description() { require(nc_enddef); }
+void NetcdfFile::resume_description() { require(nc_redef); }
 
 NetcdfVariable NetcdfFile::variable(const std::string& name) const {
   NetcdfVariable variable = 0;

@@ -25,7 +25,7 @@ class NetcdfFile {
   NetcdfFile(NetcdfFile&& other) noexcept;
   NetcdfFile& operator=(NetcdfFile&&) = delete;
 
-  // Description, before the first values.
+  // Description, before the first values, or after resume_description().
   NetcdfDimension add_dimension(const std::string& name, std::size_t length);
   /// Doubles; one number without dimensions. Stored without gaps in
   /// the order of the indices, so that what is written does not depend on the pieces it is written
@@ -41,6 +41,7 @@ class NetcdfFile {
   void set_attribute(NetcdfVariable variable, const std::string& name, const std::string& text);
   void set_attribute_of_file(const std::string& name, const std::string& text);
   void end_description();
+  void resume_description();
 
   NetcdfVariable variable(const std::string& name) const;
   /// The values of a box of indices, the last index fastest.

@@ -2,52 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <chrono>
-#include <future>
 #include <system_error>
-#include <thread>
 
 #include "gearlash/io/grid_netcdf.hpp"
-#include "gearlash/io/large_table.hpp"
+#include "gearlash/io/grid_pieces.hpp"
 #include "gearlash/io/output_file.hpp"
 #include "sweep_part.hpp"
 
 namespace gearlash {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-/// How many points are held in memory, written and recorded at a time: 50 MB; where faces bounce,
-/// as many as take about a second, which is found by and by.
-class PieceLength {
- public:
-  explicit PieceLength(const ServoGrid& grid) : may_change_(grid.may_bounce()) {
-    if (may_change_) points_ = shortest_;
-  }
-
-  std::size_t points() const { return points_; }
-
-  void heed(Clock::duration of_a_piece) {
-    constexpr auto aim = std::chrono::seconds(1);
-    if (!may_change_) return;
-    if (of_a_piece < aim / 2) points_ = std::min(2 * points_, longest);
-    if (of_a_piece > 2 * aim) points_ = std::max(shortest_, points_ / 2);
-  }
-
- private:
-  static constexpr std::size_t longest = std::size_t{1} << 19U;
-  /// evaluate() gives a core eight servos that bounce at a time.
-  std::size_t shortest_ = 8 * std::max(1U, std::thread::hardware_concurrency());
-  std::size_t points_ = longest;
-  bool may_change_;
-};
-
-struct Piece {
-  GridCount count;
-  Clock::duration duration;
-};
+/// Points that are held in memory, written and recorded at a time: 50 MB.
+constexpr std::size_t longest_piece = std::size_t{1} << 19U;
 
 void require_room(const SweepPart& part, std::size_t bytes) {
   std::error_code error;
@@ -60,51 +26,29 @@ void require_room(const SweepPart& part, std::size_t bytes) {
                                 static_cast<double>(space.available) / gigabyte));
 }
 
-void add(GridCount& total, const GridCount& piece) {
-  total.solved.side_by_side += piece.solved.side_by_side;
-  total.solved.one_by_one += piece.solved.one_by_one;
-  total.refused += piece.refused;
-}
-
-/// One sweep under way: while a piece is written, the next is worked out. It is the calling thread
-/// that writes, because HDF5 prints its errors in all but the thread in which NetCDF was started.
+/// One sweep under way. It is the calling thread that writes, because HDF5 prints its errors in all
+/// but the thread in which NetCDF was started.
 class Sweeping {
  public:
   Sweeping(const SweepFile& sweep, const Provenance& provenance, SweepPart& part,
            const SweepRun& begun)
-      : sweep_(sweep),
-        provenance_(provenance),
-        part_(part),
-        file_(open()),
-        length_(sweep.grid),
-        recorded_(begun) {
+      : sweep_(sweep), provenance_(provenance), part_(part), file_(open()), recorded_(begun) {
     if (!part.is_begun()) record(begun);
   }
 
   /// What was written and recorded in the end.
   SweepRun run(const GoingOn& going_on) {
-    const std::size_t points = sweep_.grid.size();
-    std::size_t first = recorded_.points_done;
-    if (going_on && !going_on(first)) return recorded_;
-    std::future<Piece> working;
-    if (first < points) working = work_out(first, tables_[0], going_on);
-    for (std::size_t index = 0; first < points; index = 1 - index) {
-      const Piece piece = working.get();
-      if (piece.count.stopped) return recorded_;
-      length_.heed(piece.duration);
-      const CycleTable& table = tables_[index];
-      const std::size_t next = first + table.rows();
-      if (next < points) working = work_out(next, tables_[1 - index], going_on);
-      file_.write(first, table);
-      SweepRun run = recorded_;
-      add(run.count, piece.count);
-      run.points_done = next;
-      record(run);
-      first = next;
-      // A piece that a core works out at one go ends without asking.
-      if (first < points && going_on && !going_on(first)) return recorded_;
-    }
-    file_.close();
+    const GridCount count = evaluate_in_pieces(
+        sweep_.grid, recorded_.points_done, longest_piece,
+        [&](const GridPiece& piece) {
+          file_.write(piece);
+          SweepRun run = recorded_;
+          run.count.add(piece.count);
+          run.points_done += piece.cycles.rows();
+          record(run);
+        },
+        going_on);
+    if (!count.stopped) file_.close();
     return recorded_;
   }
 
@@ -122,19 +66,6 @@ class Sweeping {
     return GridNetcdf::create(part_.data(), part_.shown_output(), contents);
   }
 
-  /// The piece that starts with point `first`, into a table of as many rows as it has points.
-  std::future<Piece> work_out(std::size_t first, CycleTable& table, const GoingOn& going_on) {
-    const std::size_t count = box_length(sweep_.grid, first, length_.points());
-    if (table.rows() != count) table = large_cycle_table(count);
-    return std::async(std::launch::async, [this, first, count, &table, &going_on] {
-      const Clock::time_point start = Clock::now();
-      const GridCount solved = evaluate(
-          sweep_.grid, first, count, table.columns(),
-          {.going_on = [&](std::size_t done) { return !going_on || going_on(first + done); }});
-      return Piece{solved, Clock::now() - start};
-    });
-  }
-
   /// In this order, so that a record never tells of what is not on the disk.
   void record(const SweepRun& run) {
     file_.flush();
@@ -146,9 +77,7 @@ class Sweeping {
   const Provenance& provenance_;
   SweepPart& part_;
   GridNetcdf file_;
-  PieceLength length_;
   SweepRun recorded_;
-  std::array<CycleTable, 2> tables_;
 };
 
 }  // namespace

@@ -32,18 +32,23 @@ std::vector<Violation> validate(const ServoGrid& grid, const std::vector<std::st
 /// most > 0.
 std::size_t box_length(const ServoGrid& grid, std::size_t first, std::size_t most);
 
+/// Heard from one thread at a time, now and then, with the number of points done; false stops.
+using GoingOn = std::function<bool(std::size_t done)>;
+
 /// How a grid is worked out.
 struct GridEvaluation {
   std::size_t threads = 0;  ///< 0: as many as the machine has cores
   VectorUnit unit = widest_vector_unit();
-  /// Heard from one thread at a time, now and then, with the number of points done; false stops.
-  std::function<bool(std::size_t done)> going_on = {};
+  GoingOn going_on = {};
 };
 
 struct GridCount {
   BatchCount solved;
   std::size_t refused = 0;  ///< combinations that are no servo: verdict undecided, all else NaN
   bool stopped = false;     ///< before all points were done
+
+  /// Of other points: how they were solved.
+  void add(const GridCount& others);
 };
 
 /// The limit cycles of `count` points from `first` on, into the columns' rows 0 … count − 1. The

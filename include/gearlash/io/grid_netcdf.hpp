@@ -9,7 +9,7 @@
 #include "gearlash/chart/cycle_table.hpp"
 #include "gearlash/chart/region_boundary.hpp"
 #include "gearlash/chart/servo_grid.hpp"
-#include "gearlash/io/grid_table.hpp"
+#include "gearlash/io/grid_pieces.hpp"
 #include "gearlash/io/output_file.hpp"
 #include "gearlash/io/report_units.hpp"
 
@@ -21,7 +21,6 @@ struct GridContents {
   std::vector<CycleQuantity> quantities;  ///< beside the verdict
   Provenance provenance;
   std::string source_text = {};  ///< of the file that asked for it; empty when there was none
-  std::vector<MapCurve> hunting_boundary = {};  ///< of a map, whose axes are y and x
 };
 
 /// A file that is being written. One dimension an axis, named as its input, with the axis's values;
@@ -44,9 +43,9 @@ class GridNetcdf {
   GridNetcdf(GridNetcdf&& other) noexcept;
   GridNetcdf& operator=(GridNetcdf&& other) = delete;
 
-  /// The points from `first` on, as many as the table has rows. Precondition: they are a box of the
-  /// grid, see box_length().
-  void write(std::size_t first, const CycleTable& cycles);
+  void write(const GridPiece& piece);
+  /// Of a map, whose axes are y and x, once; no curve: nothing is written.
+  void write_boundary(const std::vector<MapCurve>& boundary);
   /// Brings what was written to the disk (fsync).
   void flush();
   void close();
@@ -61,8 +60,15 @@ class GridNetcdf {
 /// Bytes that the values of such a file take.
 std::size_t netcdf_bytes(const GridContents& contents);
 
-/// The whole table with every quantity, in place of output.write(). Throws OutputError where it
-/// cannot be written, and for "-" and devices, into which NetCDF cannot write.
-void write_grid_netcdf(const GridTable& table, const OutputFile& output);
+/// What a file of a grid says besides: where hunting ends, which a map tells.
+enum class GridBoundary { none, hunting };
+
+/// Works out the grid with every quantity and writes it, in place of output.write(): while one
+/// piece is written, the next is worked out. `going_on` as in evaluate_in_pieces(); where it stops,
+/// the file is not whole. Throws OutputError where it cannot be written, and for "-" and devices,
+/// into which NetCDF cannot write.
+GridCount make_grid_netcdf(const ServoGrid& grid, GridBoundary boundary,
+                           const Provenance& provenance, const OutputFile& output,
+                           const GoingOn& going_on = {});
 
 }  // namespace gearlash

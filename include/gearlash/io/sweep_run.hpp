@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <functional>
 
 #include "gearlash/chart/servo_grid.hpp"
 #include "gearlash/io/report_units.hpp"
@@ -21,15 +20,11 @@ struct SweepRun {
   std::size_t points_done = 0;  ///< all of them, unless stopped; those that a resumed run finds
 };
 
-/// Heard before the work and now and then with the number of points done; false stops. From one
-/// thread at a time.
-using GoingOn = std::function<bool(std::size_t done)>;
-
 /// Works out the sweep and writes it, piece by piece, to OUTPUT.part beside OUTPUT.part.json, which
 /// says how far it has come; when all is there, OUTPUT.part is renamed. Whenever the program is
 /// stopped, killed, or fails because the disk is full, the two files remain, and SweepStart::resume
 /// goes on from the last piece: the finished file has the same bytes as one of an uninterrupted
-/// run. Memory: some 130 MB for any number of points.
+/// run. Memory: some 130 MB for any number of points. `going_on` as in evaluate_in_pieces().
 ///
 /// The command of `provenance` is written into the file as it is. Throws InvalidInput for an
 /// unfinished sweep that is not to be gone on with, or that is of another sweep file or version;
