@@ -1,19 +1,20 @@
 # What `cmake --install` lays down, so that another project can say
 #   find_package(gearlash 0.1 CONFIG REQUIRED)                  # the numerics; needs only Eigen
-#   find_package(gearlash 0.1 CONFIG REQUIRED COMPONENTS chart io)  # also many servos at once, and
-#                                                                   # the reader of data sheets
-#   target_link_libraries(... gearlash::gearlash)  # or ::servo, ::motion, ::cycle, ::chart, ::io
+#   find_package(gearlash 0.1 CONFIG REQUIRED COMPONENTS chart design io)  # also many servos at
+#                                                  # once, what must change, the reader of data sheets
+#   target_link_libraries(... gearlash::gearlash)  # or ::servo, ::motion, ::cycle, ::chart,
+#                                                  # ::design, ::io
 
 include(CMakePackageConfigHelpers)
 set(gearlash_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/gearlash")
 
-set(layers servo motion cycle chart)
+set(layers servo motion cycle chart design)
 install(TARGETS gearlash gearlash_servo gearlash_motion gearlash_cycle EXPORT gearlash_numerics)
 install(EXPORT gearlash_numerics NAMESPACE gearlash:: FILE gearlashTargets.cmake
         DESTINATION "${gearlash_package_dir}")
 
 # Sets of their own: users of the numerics alone need not have the packages that chart and io link.
-install(TARGETS gearlash_chart EXPORT gearlash_chart)
+install(TARGETS gearlash_chart gearlash_design EXPORT gearlash_chart)
 install(EXPORT gearlash_chart NAMESPACE gearlash:: FILE gearlashChartTargets.cmake
         DESTINATION "${gearlash_package_dir}")
 

@@ -1,0 +1,45 @@
+// The values of one parameter with which a drive meets its target, all others as they are.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "gearlash/design/changeable_drive.hpp"
+#include "gearlash/design/target.hpp"
+
+namespace gearlash {
+
+/// How sure it is that no feasible value is missing.
+enum class SearchKind {
+  certified,  ///< proved by bounds over every part of the range, but for slivers at its boundaries
+  scanned     ///< looked for at many values, and refined between them: with bounces, or where a
+              ///< shaft has no mass
+};
+
+struct FeasibleValues {
+  Parameter parameter = Parameter::backlash;
+  double present = 0.0;
+  Bounds searched;
+  SearchKind kind = SearchKind::certified;
+  /// All values that meet the target, as intervals from the smallest on. Their ends are the last
+  /// numbers that meet it, to a double's last bits, or the ends of the range.
+  std::vector<Bounds> intervals;
+  /// Parts of the range, at most some 1e-9 of their own value wide, within which limits are touched
+  /// or crossed twice, as far as is known: they are feasible if both of their ends are.
+  std::vector<Bounds> undecided;
+  std::size_t evaluations = 0;  ///< of servos and of boxes
+
+  bool contains(double value) const;
+  /// The value that is nearest to the present one, by ratio; NaN where there is none.
+  double nearest() const;
+};
+
+/// A feasible value is never skipped by certified search: the range is cut into boxes until the
+/// limit cycles of each are proved to keep the target all, or none (bound_cycles()), or it is a
+/// billionth wide; between two that differ the end of the interval is bisected with
+/// performance_of(), so that each end put back meets the target.
+/// Precondition: validate(target) is empty.
+FeasibleValues feasible_values(const ChangeableDrive& drive, Parameter parameter,
+                               const Target& target);
+
+}  // namespace gearlash

@@ -1,0 +1,228 @@
+#include "gearlash/cycle/cycle_bounds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/numeric/interval.hpp>
+#include <cmath>
+
+#include "gearlash/motion/decay_integral.hpp"
+#include "gearlash/motion/engaged_flow.hpp"
+
+namespace gearlash {
+namespace {
+
+namespace numeric = boost::numeric;
+
+/// Rounding to nearest: the last bits are covered by widened(), once, at the end.
+using Rounding = numeric::interval_lib::rounded_transc_exact<double>;
+using Policies =
+    numeric::interval_lib::policies<numeric::interval_lib::save_state_nothing<Rounding>,
+                                    numeric::interval_lib::checking_base<double>>;
+using Interval = numeric::interval<double, Policies>;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Interval interval_of(const Bounds& bounds) { return {bounds.low, bounds.high}; }
+
+/// More than what is lost to rounding in some hundred operations.
+Bounds widened(const Interval& interval) {
+  constexpr double share = 1e-12;
+  return {interval.lower() - share * std::abs(interval.lower()),
+          interval.upper() + share * std::abs(interval.upper())};
+}
+
+/// What a flight is made of. All increase with the time and decrease with the rates.
+struct FlightParts {
+  double way;    ///< t exp[0, −Dt]
+  double speed;  ///< t² exp[0, −Dt, −ct]
+  double gap;    ///< t³ exp[0, 0, −Dt, −ct]
+};
+
+/// The exponent of a decay; nothing decays at the rate 0, however long it takes.
+double exponent_of(double rate, double time) { return rate == 0.0 ? 0.0 : rate * time; }
+
+FlightParts flight_parts(double load_rate, double motor_rate, double time) {
+  if (std::isinf(time)) {
+    return {1.0 / load_rate, 1.0 / (load_rate * motor_rate), infinity};
+  }
+  const Decay load = decay(load_rate * time);
+  const Convolution both = convolution(load, decay(motor_rate * time));
+  return {time * load.integral, time * time * both.integral,
+          time * time * time * both.double_integral};
+}
+
+/// First zero of x with x(0) = −1: later, the more damping there is and the less x rises at first.
+Interval first_zero_from_below(const Interval& damping, const Interval& slope) {
+  return {first_zero(damping.lower(), -1.0, slope.upper()),
+          first_zero(damping.upper(), -1.0, slope.lower())};
+}
+
+/// e^{−ζt}, with t from a closed form to infinity.
+Interval decayed(const Interval& damping, const Interval& time) {
+  const double least = std::isinf(time.upper()) ? 0.0 : std::exp(-damping.upper() * time.upper());
+  return {least, std::exp(-damping.lower() * time.lower())};
+}
+
+/// λ₁ = ζ − √(ζ²−1) and λ₂ = 1/λ₁ of overdamped servos.
+struct DecayRates {
+  Interval slow;
+  Interval fast;
+};
+
+DecayRates decay_rates(const Interval& damping) {
+  const auto fast = [](double zeta) { return zeta + std::sqrt((zeta - 1.0) * (zeta + 1.0)); };
+  const Interval rate(fast(damping.lower()), fast(damping.upper()));
+  return {1.0 / rate, rate};
+}
+
+/// Q(y, v) = y² + 2ζyv + v²: a sum of squares, or, overdamped, the product of the two motions that
+/// decay by themselves.
+Interval form_of(const Interval& position, const Interval& speed, const Interval& damping) {
+  if (damping.lower() >= 1.0) {
+    const DecayRates rates = decay_rates(damping);
+    return (position + rates.slow * speed) * (position + rates.fast * speed);
+  }
+  return numeric::square(position + damping * speed) +
+         (1.0 - damping) * (1.0 + damping) * numeric::square(speed);
+}
+
+/// The servos of a box, and a half cycle of all of them that parts with v = 1.
+class BoxedHalfCycle {
+ public:
+  explicit BoxedHalfCycle(const ServoBox& box)
+      : damping_(interval_of(box.damping)),
+        motor_inertia_(interval_of(box.motor_inertia)),
+        load_inertia_(interval_of(box.load_inertia)),
+        motor_rate_(interval_of(box.motor_rate)),
+        load_rate_(interval_of(box.load_rate)),
+        torque_rate_(motor_inertia_ * (load_rate_ - motor_rate_)),
+        form_at_parting_(form_of(-load_rate_, Interval(1.0), damping_)) {}
+
+  /// Q at parting; nobody hunts where it is not positive (docs/mathematics.md, One cycle or none).
+  const Interval& form_at_parting() const { return form_at_parting_; }
+
+  Interval growth_at_rest() const {
+    if (form_at_parting_.upper() <= 0.0) return 0.0;
+    const Interval form_of_motor = form_of(-motor_rate_, Interval(1.0), damping_);
+    if (form_of_motor.upper() <= 0.0) return 0.0;  // by the exchange of motor and load
+    if (motor_rate_.upper() == 0.0 || load_rate_.upper() == 0.0) return {infinity, infinity};
+    if (motor_rate_.lower() == 0.0 || load_rate_.lower() == 0.0) return {0.0, infinity};
+    // μ₀² = Q_c Q_D e^{−2ζt₁}/(cD)²
+    const Interval contact_torque = load_inertia_ + motor_inertia_ * load_rate_ / motor_rate_;
+    const Interval arrival = 1.0 / motor_rate_;
+    const Interval torque_slope = torque_rate_ * (2.0 * damping_ * arrival - 1.0) + arrival;
+    const Interval engaged = first_zero_from_below(damping_, torque_slope / contact_torque);
+    const auto share = [](const Interval& form, const Interval& rate) {
+      return not_negative(form) / numeric::square(rate);
+    };
+    const Interval square = share(form_of_motor, motor_rate_) *
+                            share(form_at_parting_, load_rate_) *
+                            numeric::square(decayed(damping_, engaged));
+    return {std::sqrt(square.lower()), std::sqrt(square.upper())};
+  }
+
+  /// After a flight of this time.
+  struct End {
+    Interval gap;       ///< |u − u₀|
+    Interval position;  ///< y at impact
+    Interval speed;     ///< P
+    Interval form;      ///< Q just after impact
+    Interval engaged;   ///< t₁
+    Interval growth;    ///< ρ
+  };
+
+  /// Precondition: form_at_parting() > 0, time > 0.
+  End end(const Interval& time) const {
+    const FlightParts least = flight_parts(load_rate_.upper(), motor_rate_.upper(), time.lower());
+    const FlightParts most = flight_parts(load_rate_.lower(), motor_rate_.lower(), time.upper());
+    const Interval way(least.way, most.way);
+    const Interval factor(std::exp(-exponent_of(load_rate_.upper(), time.upper())),
+                          std::exp(-exponent_of(load_rate_.lower(), time.lower())));
+    End end;
+    end.gap = form_at_parting_ / motor_inertia_ * Interval(least.gap, most.gap);
+    end.position = load_rate_ - 2.0 * damping_ + way;
+    end.speed = factor - form_at_parting_ * Interval(least.speed, most.speed);
+    end.form = form_of(end.position, end.speed, damping_);
+    // The impact engages: the mesh torque is negative. Where its bounds say nothing, t₁ > 0.
+    const Interval torque = torque_rate_ * end.speed - end.position;
+    const Interval slope = -torque_rate_ * (2.0 * damping_ * end.speed + end.position) - end.speed;
+    end.engaged = torque.upper() < 0.0 ? first_zero_from_below(damping_, slope / -torque)
+                                       : Interval(0.0, infinity);
+    end.form = not_negative(end.form);  // Q/Q at parting is ρ² times a positive number
+    end.growth = numeric::sqrt(end.form / form_at_parting_) * decayed(damping_, end.engaged);
+    return end;
+  }
+
+  /// Half peak-to-peak of the load, for v = 1 at parting: where it parts, where it meets, and where
+  /// it turns while engaged.
+  Interval size(const End& end) const {
+    Interval most =
+        numeric::max(numeric::abs(load_rate_ - 2.0 * damping_), numeric::abs(end.position));
+    const Interval turning = turning_time(end);
+    const Interval turned = numeric::sqrt(end.form) * decayed(damping_, turning);
+    if (turning.lower() < end.engaged.upper()) {
+      most.assign(most.lower(), std::max(most.upper(), turned.upper()));
+    }
+    if (turning.upper() < end.engaged.lower()) {
+      most.assign(std::max(most.lower(), turned.lower()), most.upper());
+    }
+    return most;
+  }
+
+ private:
+  static Interval not_negative(const Interval& x) {
+    return {std::max(0.0, x.lower()), std::max(0.0, x.upper())};
+  }
+
+  /// The first zero of ẏ while engaged, from (y, P).
+  Interval turning_time(const End& end) const {
+    const Interval slope = 2.0 * damping_ * end.speed + end.position;
+    if (numeric::zero_in(end.speed)) return {0.0, infinity};
+    return first_zero_from_below(damping_, slope / end.speed);
+  }
+
+  Interval damping_;
+  Interval motor_inertia_;
+  Interval load_inertia_;
+  Interval motor_rate_;
+  Interval load_rate_;
+  Interval torque_rate_;  ///< (F_L J_M − F_M J_L)/J_L = J_M (D − c)
+  Interval form_at_parting_;
+};
+
+/// A flight time that is shorter (sign −1), or longer (+1), than that of the cycle of every servo
+/// of the box: there ρ is below 1, or above, for all of them. 0, or infinity, where none is found.
+double bounding_flight_time(const BoxedHalfCycle& half, double guess, double sign) {
+  const auto is_bounding = [&](double time) {
+    const Bounds growth = widened(half.end(Interval(time)).growth);
+    return sign < 0.0 ? growth.high < 1.0 : growth.low > 1.0;
+  };
+  // In ever longer steps from where the cycle was guessed, down to a 4096th, up to a 4096-fold.
+  constexpr std::array exponents = {1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 3e-4, 1e-3, 3e-3,
+                                    0.01,  0.03, 0.1,  0.3,  1.0,  3.0,  12.0};
+  const auto* found = std::find_if(exponents.begin(), exponents.end(), [&](double exponent) {
+    return is_bounding(guess * std::exp2(sign * exponent));
+  });
+  if (found == exponents.end()) return sign < 0.0 ? 0.0 : infinity;
+  return guess * std::exp2(sign * *found);
+}
+
+}  // namespace
+
+CycleBounds bound_cycles(const ServoBox& box, double guessed_flight_time) {
+  const BoxedHalfCycle half(box);
+  CycleBounds bounds;
+  bounds.growth_at_rest = widened(half.growth_at_rest());
+  if (bounds.none_hunt() || !(guessed_flight_time > 0.0)) return bounds;
+  if (!(half.form_at_parting().lower() > 0.0)) return bounds;
+  const double shortest = bounding_flight_time(half, guessed_flight_time, -1.0);
+  const double longest =
+      bounds.all_hunt() ? bounding_flight_time(half, guessed_flight_time, 1.0) : infinity;
+  const Interval time(shortest, longest);
+  const BoxedHalfCycle::End end = half.end(time);
+  bounds.period = widened(2.0 * (time + end.engaged));
+  if (end.gap.lower() > 0.0) bounds.size = widened(half.size(end) / end.gap);
+  return bounds;
+}
+
+}  // namespace gearlash

@@ -1,0 +1,195 @@
+#include "gearlash/design/feasible_values.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gearlash/motion/bracketed_root.hpp"
+
+namespace gearlash {
+namespace {
+
+/// A part of the range, and what is known of it.
+struct Part {
+  Bounds values;
+  Judgement judgement;
+};
+
+class Search {
+ public:
+  Search(const ChangeableDrive& drive, Parameter parameter, const Target& target)
+      : drive_(drive), parameter_(parameter), target_(target) {}
+
+  std::size_t evaluations() const { return evaluations_; }
+
+  Performance performance_at(double value) {
+    ++evaluations_;
+    return performance_of(drive_.with(parameter_, value));
+  }
+  bool is_met_at(double value) { return is_met(target_, performance_at(value)); }
+
+  /// The range in parts, in order: proved ones, and slivers of which nothing is known.
+  std::vector<Part> certified(const Bounds& range) {
+    parts_.clear();
+    cut(range, range.high);
+    return parts_;
+  }
+
+  /// The parts of a scan: none is a sliver, and each is judged by its ends.
+  std::vector<Part> scanned(const Bounds& range);
+
+  /// Of two values, the one that meets the target and one that does not, the last to meet it.
+  double last_met(double met, double unmet) {
+    for (;;) {
+      const double middle = middle_of(std::min(met, unmet), std::max(met, unmet));
+      if (middle == met || middle == unmet) return met;
+      (is_met_at(middle) ? met : unmet) = middle;
+    }
+  }
+
+ private:
+  static double middle_of(double low, double high) {
+    return low == 0.0 && high < least ? 0.5 * high : detail::middle_of(low, high);
+  }
+
+  void cut(const Bounds& values, double top) {
+    const Judgement judgement = judge_part(values);
+    if (judgement != Judgement::some || is_sliver(values, top)) {
+      parts_.push_back({values, judgement});
+      return;
+    }
+    const double middle = middle_of(values.low, values.high);
+    cut({values.low, middle}, top);
+    cut({middle, values.high}, top);
+  }
+
+  Judgement judge_part(const Bounds& values) {
+    ++evaluations_;
+    const Drivetrain low = drive_.with(parameter_, values.low);
+    const Drivetrain high = drive_.with(parameter_, values.high);
+    return judge(target_, box_between(low, high), guessed_flight_time(values));
+  }
+
+  /// Of a servo in the middle, or at an end.
+  double guessed_flight_time(const Bounds& values) {
+    for (const double value : {middle_of(values.low, values.high), values.low, values.high}) {
+      const double time = performance_at(value).flight_time;
+      if (!std::isnan(time)) return time;
+    }
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+
+  static bool is_sliver(const Bounds& values, double top) {
+    constexpr double width = 1e-9;
+    return values.high - values.low <= width * values.high || values.high <= width * width * top;
+  }
+
+  static constexpr double least = 1e-300;
+
+  const ChangeableDrive& drive_;
+  Parameter parameter_;
+  const Target& target_;
+  std::vector<Part> parts_;
+  std::size_t evaluations_ = 0;
+};
+
+std::vector<Part> Search::scanned(const Bounds& range) {
+  constexpr std::size_t count = 64;
+  std::vector<Part> parts;
+  const bool by_ratio = range.low > 0.0 && range.high > 4.0 * range.low;
+  const auto value_at = [&](std::size_t i) {
+    if (i == count) return range.high;
+    const double share = static_cast<double>(i) / static_cast<double>(count);
+    return by_ratio ? range.low * std::pow(range.high / range.low, share)
+                    : range.low + share * (range.high - range.low);
+  };
+  bool met = is_met_at(value_at(0));
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool next_met = is_met_at(value_at(i + 1));
+    const Bounds between{value_at(i), value_at(i + 1)};
+    const Judgement alike = met ? Judgement::all : Judgement::none;
+    parts.push_back({between, met == next_met ? alike : Judgement::some});
+    met = next_met;
+  }
+  return parts;
+}
+
+/// Neighbours that are judged alike are one.
+std::vector<Part> joined(const std::vector<Part>& parts) {
+  std::vector<Part> all;
+  for (const Part& part : parts) {
+    if (!all.empty() && all.back().judgement == part.judgement) {
+      all.back().values.high = part.values.high;
+    } else {
+      all.push_back(part);
+    }
+  }
+  return all;
+}
+
+bool can_be_certified(const ChangeableDrive& drive, Parameter parameter) {
+  const Drivetrain& present = drive.drivetrain();
+  return present.motor_inertia > 0.0 && present.load_inertia > 0.0 && present.restitution == 0.0 &&
+         parameter != Parameter::restitution;
+}
+
+}  // namespace
+
+bool FeasibleValues::contains(double value) const {
+  return std::any_of(intervals.begin(), intervals.end(), [&](const Bounds& interval) {
+    return value >= interval.low && value <= interval.high;
+  });
+}
+
+double FeasibleValues::nearest() const {
+  double nearest = std::numeric_limits<double>::quiet_NaN();
+  const auto distance = [&](double value) {
+    return present > 0.0 && value > 0.0 ? std::abs(std::log(value / present))
+                                        : std::abs(value - present);
+  };
+  for (const Bounds& interval : intervals) {
+    const double here = std::clamp(present, interval.low, interval.high);
+    if (std::isnan(nearest) || distance(here) < distance(nearest)) nearest = here;
+  }
+  return nearest;
+}
+
+FeasibleValues feasible_values(const ChangeableDrive& drive, Parameter parameter,
+                               const Target& target) {
+  FeasibleValues found;
+  found.parameter = parameter;
+  found.present = drive.present_value(parameter);
+  found.searched = drive.range(parameter);
+  found.kind = can_be_certified(drive, parameter) ? SearchKind::certified : SearchKind::scanned;
+  Search search(drive, parameter, target);
+  const std::vector<Part> parts =
+      joined(found.kind == SearchKind::certified ? search.certified(found.searched)
+                                                 : search.scanned(found.searched));
+  const auto add = [&](double low, double high) {
+    if (!found.intervals.empty() && found.intervals.back().high >= low) {
+      found.intervals.back().high = high;
+    } else {
+      found.intervals.push_back({low, high});
+    }
+  };
+  for (const Part& part : parts) {
+    const Bounds& values = part.values;
+    if (part.judgement == Judgement::all) add(values.low, values.high);
+    if (part.judgement != Judgement::some) continue;
+    // What its ends are is what its neighbours are.
+    const bool low_met = search.is_met_at(values.low);
+    const bool high_met = search.is_met_at(values.high);
+    if (low_met == high_met) {
+      if (values.low > 0.0) found.undecided.push_back(values);  // at 0 the range ends
+      if (low_met) add(values.low, values.high);
+    } else if (low_met) {
+      add(values.low, search.last_met(values.low, values.high));
+    } else {
+      add(search.last_met(values.high, values.low), values.high);
+    }
+  }
+  found.evaluations = search.evaluations();
+  return found;
+}
+
+}  // namespace gearlash

@@ -1,0 +1,96 @@
+#include "gearlash/design/target.hpp"
+
+#include <algorithm>
+
+#include "gearlash/servo/range_check.hpp"
+
+namespace gearlash {
+namespace {
+
+bool includes(const Bounds& limits, double value) {
+  return value >= limits.low && value <= limits.high;
+}
+
+/// Of numbers that lie within `bounds`.
+Judgement judge(const Bounds& limits, const Bounds& bounds) {
+  if (bounds.low >= limits.low && bounds.high <= limits.high) return Judgement::all;
+  if (bounds.high < limits.low || bounds.low > limits.high) return Judgement::none;
+  return Judgement::some;
+}
+
+Judgement both(Judgement a, Judgement b) { return std::min(a, b); }
+Judgement either(Judgement a, Judgement b) { return a == b ? a : Judgement::some; }
+
+/// Drives that hunt, if there are any.
+Judgement judge_hunting(const Target& target, const DriveBox& box, const CycleBounds& cycles) {
+  if (target.no_hunting) return Judgement::none;
+  const Bounds size{box.backlash.low * cycles.size.low, box.backlash.high * cycles.size.high};
+  const Bounds frequency{1.0 / (cycles.period.high * box.time_unit.high),
+                         1.0 / (cycles.period.low * box.time_unit.low)};
+  return both(judge(target.size, size), judge(target.frequency, frequency));
+}
+
+Judgement judge_quiet(const Target& target) {
+  return includes(target.size, 0.0) ? Judgement::all : Judgement::none;
+}
+
+}  // namespace
+
+Performance performance_of(const Drivetrain& drive) {
+  const LimitCycleAnalysis analysis = analyse_limit_cycles(normalize(drive));
+  Performance performance{.verdict = analysis.verdict, .growth_at_rest = analysis.growth_at_rest};
+  if (analysis.verdict == Verdict::cannot_hunt) performance.size = 0.0;
+  if (const LimitCycle* cycle = largest_stable(analysis)) {
+    performance.size = cycle->size;
+    performance.frequency = natural_frequency(drive) / cycle->period;
+    performance.flight_time = 0.5 * cycle->separated_time;
+  }
+  return performance;
+}
+
+bool is_met(const Target& target, const Performance& performance) {
+  const bool is_quiet = performance.verdict == Verdict::cannot_hunt;
+  if (target.no_hunting && !is_quiet) return false;
+  if (target.growth_at_rest != Target{}.growth_at_rest &&
+      !includes(target.growth_at_rest, performance.growth_at_rest)) {
+    return false;
+  }
+  return includes(target.size, performance.size) &&
+         (is_quiet || includes(target.frequency, performance.frequency));
+}
+
+Judgement judge(const Target& target, const DriveBox& box, double guessed_flight_time) {
+  const CycleBounds cycles = bound_cycles(box.servo, guessed_flight_time);
+  const Judgement growth = judge(target.growth_at_rest, cycles.growth_at_rest);
+  if (growth == Judgement::none) return growth;
+  if (cycles.none_hunt() || box.backlash.high == 0.0) return both(growth, judge_quiet(target));
+  const Judgement hunting = judge_hunting(target, box, cycles);
+  if (cycles.all_hunt()) return both(growth, hunting);
+  return both(growth, either(hunting, judge_quiet(target)));
+}
+
+std::vector<Violation> validate(const Target& target) {
+  RangeCheck check;
+  const auto require_room = [&](const char* quantity, const Bounds& limits) {
+    if (limits.low <= limits.high) return;
+    check.refuse("target",
+                 std::string(quantity) + " >= " + exact_text(limits.low) + " and " + quantity +
+                     " <= " + exact_text(limits.high),
+                 "must not contradict itself");
+  };
+  require_room("size", target.size);
+  require_room("frequency", target.frequency);
+  require_room("growth-at-rest", target.growth_at_rest);
+  if (target.no_hunting && target.size.low > 0.0) {
+    check.refuse("target", "no-hunting and size >= " + exact_text(target.size.low),
+                 "must not contradict itself");
+  }
+  if (target.no_hunting && target.growth_at_rest.low > 1.0) {
+    check.refuse("target",
+                 "no-hunting and growth-at-rest >= " + exact_text(target.growth_at_rest.low),
+                 "must not contradict itself: a servo hunts whose growth at rest is above 1");
+  }
+  return check.violations();
+}
+
+}  // namespace gearlash

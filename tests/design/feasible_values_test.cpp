@@ -1,0 +1,167 @@
+// Feasible values: put back they meet the target, and a scan finds no others.
+#include "gearlash/design/feasible_values.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "../servo/seeded_draws.hpp"
+
+namespace gearlash {
+namespace {
+
+/// The servo of the thesis's sample problem, about.
+ChangeableDrive sample_drive() {
+  return ChangeableDrive(NormalizedServo{
+      .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3});
+}
+
+Target at_most(double size) {
+  Target target;
+  target.size.high = size;
+  return target;
+}
+Target no_hunting() {
+  Target target;
+  target.no_hunting = true;
+  return target;
+}
+Target at_least_as_fast_as(double frequency) {
+  Target target;
+  target.frequency.low = frequency;
+  return target;
+}
+
+TEST(FeasibleValues, OfBacklashAreInProportionToTheSize) {
+  const FeasibleValues found = feasible_values(sample_drive(), Parameter::backlash, at_most(0.1));
+  ASSERT_EQ(found.intervals.size(), 1U);
+  const double size = performance_of(sample_drive().drivetrain()).size;
+  EXPECT_NEAR(found.intervals[0].high, 0.3 * 0.1 / size, 1e-15);
+  EXPECT_EQ(found.nearest(), found.intervals[0].high);
+  EXPECT_FALSE(found.contains(0.3));
+}
+
+TEST(FeasibleValues, NoBacklashEndsHunting) {
+  const FeasibleValues found = feasible_values(sample_drive(), Parameter::backlash, no_hunting());
+  EXPECT_TRUE(found.intervals.empty());
+  EXPECT_TRUE(std::isnan(found.nearest()));
+  EXPECT_EQ(found.kind, SearchKind::certified);
+}
+
+TEST(FeasibleValues, MayBeSeveralIntervals) {
+  const FeasibleValues ratio = feasible_values(sample_drive(), Parameter::gear_ratio, no_hunting());
+  EXPECT_EQ(ratio.intervals.size(), 2U);  // a very small one, and a very large one
+  const FeasibleValues inertia =
+      feasible_values(sample_drive(), Parameter::load_inertia, at_least_as_fast_as(0.16));
+  EXPECT_EQ(inertia.intervals.size(), 2U);  // no hunting at all, and hunting fast
+}
+
+TEST(FeasibleValues, AMetTargetHasThePresentValue) {
+  const FeasibleValues found = feasible_values(sample_drive(), Parameter::error_gain, at_most(1.0));
+  EXPECT_TRUE(found.contains(1.0));
+  EXPECT_EQ(found.nearest(), 1.0);
+}
+
+TEST(FeasibleValues, WithBouncesAreScannedAndSayIt) {
+  const ChangeableDrive drive(NormalizedServo{.damping = 0.3,
+                                              .inertia_ratio = 2.0,
+                                              .friction_ratio = 0.3,
+                                              .backlash = 0.3,
+                                              .restitution = 0.1});
+  const double size = performance_of(drive.drivetrain()).size;
+  const FeasibleValues found = feasible_values(drive, Parameter::backlash, at_most(0.5 * size));
+  EXPECT_EQ(found.kind, SearchKind::scanned);
+  ASSERT_EQ(found.intervals.size(), 1U);
+  EXPECT_NEAR(found.intervals[0].high, 0.15, 1e-9);
+}
+
+/// A drive, a parameter and a target, all at random.
+struct Task {
+  NormalizedServo servo;
+  Parameter parameter;
+  Target target;
+};
+
+Task drawn_task(SeededDraws& draws) {
+  Task task{.servo = {.damping = draws.log_uniform(0.02, 2.0),
+                      .inertia_ratio = draws.log_uniform(0.03, 30.0),
+                      .friction_ratio = draws.uniform(0.02, 0.98),
+                      .backlash = draws.log_uniform(1e-3, 1.0)},
+            .parameter = all_parameters[static_cast<std::size_t>(draws.uniform(0.0, 8.0))],
+            .target = {}};
+  switch (static_cast<int>(draws.uniform(0.0, 4.0))) {
+    case 0:
+      task.target.no_hunting = true;
+      break;
+    case 1:
+      task.target.size.high = task.servo.backlash * draws.log_uniform(0.01, 3.0);
+      break;
+    case 2:
+      task.target.frequency.low = draws.uniform(0.02, 0.2);
+      break;
+    default:
+      task.target.frequency.low = draws.uniform(0.02, 0.15);
+      task.target.size.high = task.servo.backlash * draws.log_uniform(0.03, 3.0);
+  }
+  return task;
+}
+
+TEST(PropertyFeasibleValues, AScanFindsNoOthers) {
+  constexpr std::uint64_t seed = 500;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  constexpr int tasks = 500;
+  constexpr int scanned = 400;
+  int met = 0;
+  int slivers = 0;
+  for (int i = 0; i < tasks; ++i) {
+    SCOPED_TRACE(i);
+    const Task task = drawn_task(draws);
+    const ChangeableDrive drive(task.servo);
+    const FeasibleValues found = feasible_values(drive, task.parameter, task.target);
+    for (const Bounds& sliver : found.undecided) {
+      EXPECT_LT(sliver.high - sliver.low, 1e-8 * sliver.high);
+      ++slivers;
+    }
+    const auto is_met_at = [&](double value) {
+      return is_met(task.target, performance_of(drive.with(task.parameter, value)));
+    };
+    for (const Bounds& interval : found.intervals) {
+      EXPECT_TRUE(is_met_at(interval.low)) << interval.low;
+      EXPECT_TRUE(is_met_at(interval.high)) << interval.high;
+      // The next number beyond does not, but for rounding.
+      constexpr double step = 1e-8;
+      if (interval.low > found.searched.low * (1.0 + step) && interval.low > 0.0) {
+        EXPECT_FALSE(is_met_at(interval.low * (1.0 - step)));
+      }
+      if (interval.high < found.searched.high * (1.0 - step)) {
+        EXPECT_FALSE(is_met_at(interval.high * (1.0 + step)));
+      }
+    }
+    const double low = std::max(found.searched.low, 1e-6 * found.searched.high);
+    for (int k = 0; k <= scanned; ++k) {
+      const double value =
+          low * std::pow(found.searched.high / low, static_cast<double>(k) / scanned);
+      if (value > found.searched.high) continue;
+      ASSERT_EQ(found.contains(value), is_met_at(value)) << name_of(task.parameter) << value;
+      met += found.contains(value) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(met, tasks * scanned / 10);
+  EXPECT_LT(slivers, tasks / 20);
+}
+
+TEST(EdgeTarget, ContradictionsAreFaults) {
+  Target target = at_most(0.1);
+  target.size.low = 0.2;
+  target.frequency = {5.0, 4.0};
+  EXPECT_EQ(validate(target).size(), 2U);
+  target = no_hunting();
+  target.size.low = 0.1;
+  EXPECT_EQ(validate(target).size(), 1U);
+  EXPECT_TRUE(validate(no_hunting()).empty());
+}
+
+}  // namespace
+}  // namespace gearlash
