@@ -1,7 +1,6 @@
 #include "gearlash/cycle/cycle_bounds.hpp"
 
 #include <algorithm>
-#include <array>
 #include <boost/numeric/interval.hpp>
 #include <cmath>
 
@@ -193,18 +192,21 @@ class BoxedHalfCycle {
 /// A flight time that is shorter (sign −1), or longer (+1), than that of the cycle of every servo
 /// of the box: there ρ is below 1, or above, for all of them. 0, or infinity, where none is found.
 double bounding_flight_time(const BoxedHalfCycle& half, double guess, double sign) {
-  const auto is_bounding = [&](double time) {
-    const Bounds growth = widened(half.end(Interval(time)).growth);
-    return sign < 0.0 ? growth.high < 1.0 : growth.low > 1.0;
-  };
-  // In ever longer steps from where the cycle was guessed, down to a 4096th, up to a 4096-fold.
-  constexpr std::array exponents = {1e-10, 1e-8, 1e-6, 1e-5, 1e-4, 3e-4, 1e-3, 3e-3,
-                                    0.01,  0.03, 0.1,  0.3,  1.0,  3.0,  12.0};
-  const auto* found = std::find_if(exponents.begin(), exponents.end(), [&](double exponent) {
-    return is_bounding(guess * std::exp2(sign * exponent));
-  });
-  if (found == exponents.end()) return sign < 0.0 ? 0.0 : infinity;
-  return guess * std::exp2(sign * *found);
+  const auto growth_after = [&](double time) { return half.end(Interval(time)).growth; };
+  // How far ρ may be off at the guess, and how fast it grows there, say how far to go.
+  constexpr double nearby = 1e-3;
+  const Interval here = growth_after(guess);
+  const double slope =
+      (numeric::median(growth_after(guess * std::exp(nearby))) - numeric::median(here)) / nearby;
+  const double off = sign < 0.0 ? here.upper() - 1.0 : 1.0 - here.lower();
+  double step = std::clamp(std::isfinite(off / slope) ? off / slope : 0.0, 1e-11, 1.0);
+  constexpr double longest_step = 12.0;
+  for (step *= 1.1; step < longest_step; step *= 1.6) {
+    const double time = guess * std::exp(sign * step);
+    const Bounds growth = widened(growth_after(time));
+    if (sign < 0.0 ? growth.high < 1.0 : growth.low > 1.0) return time;
+  }
+  return sign < 0.0 ? 0.0 : infinity;
 }
 
 }  // namespace

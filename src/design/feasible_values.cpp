@@ -28,11 +28,33 @@ class Search {
   }
   bool is_met_at(double value) { return is_met(target_, performance_at(value)); }
 
-  /// The range in parts, in order: proved ones, and slivers of which nothing is known.
+  /// The range in parts, in order: proved ones, and slivers of which nothing is known. What is not
+  /// proved is halved, all of it by turns, so that a stretch that resists leaves no other
+  /// unsearched.
   std::vector<Part> certified(const Bounds& range) {
-    parts_.clear();
-    cut(range, range.high);
-    return parts_;
+    std::vector<Part> proved;
+    std::vector<Bounds> open = {range};
+    while (!open.empty()) {
+      std::vector<Bounds> halves;
+      for (const Bounds& values : open) {
+        const Judgement judgement = judge_part(values);
+        if (judgement != Judgement::some || is_sliver(values, range.high)) {
+          proved.push_back({values, judgement});
+          continue;
+        }
+        const double middle = middle_of(values.low, values.high);
+        halves.push_back({values.low, middle});
+        halves.push_back({middle, values.high});
+      }
+      open = std::move(halves);
+      constexpr std::size_t most_open = 20'000;
+      if (open.size() <= most_open) continue;
+      for (const Bounds& values : open) proved.push_back({values, Judgement::some});
+      break;
+    }
+    std::sort(proved.begin(), proved.end(),
+              [](const Part& a, const Part& b) { return a.values.low < b.values.low; });
+    return proved;
   }
 
   /// The parts of a scan: none is a sliver, and each is judged by its ends.
@@ -52,17 +74,6 @@ class Search {
     return low == 0.0 && high < least ? 0.5 * high : detail::middle_of(low, high);
   }
 
-  void cut(const Bounds& values, double top) {
-    const Judgement judgement = judge_part(values);
-    if (judgement != Judgement::some || is_sliver(values, top)) {
-      parts_.push_back({values, judgement});
-      return;
-    }
-    const double middle = middle_of(values.low, values.high);
-    cut({values.low, middle}, top);
-    cut({middle, values.high}, top);
-  }
-
   Judgement judge_part(const Bounds& values) {
     ++evaluations_;
     const Drivetrain low = drive_.with(parameter_, values.low);
@@ -80,7 +91,7 @@ class Search {
   }
 
   static bool is_sliver(const Bounds& values, double top) {
-    constexpr double width = 1e-9;
+    constexpr double width = 1e-10;
     return values.high - values.low <= width * values.high || values.high <= width * width * top;
   }
 
@@ -89,7 +100,6 @@ class Search {
   const ChangeableDrive& drive_;
   Parameter parameter_;
   const Target& target_;
-  std::vector<Part> parts_;
   std::size_t evaluations_ = 0;
 };
 

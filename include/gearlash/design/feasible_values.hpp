@@ -24,8 +24,8 @@ struct FeasibleValues {
   /// All values that meet the target, as intervals from the smallest on. Their ends are the last
   /// numbers that meet it, to a double's last bits, or the ends of the range.
   std::vector<Bounds> intervals;
-  /// Parts of the range, at most some 1e-9 of their own value wide, within which limits are touched
-  /// or crossed twice, as far as is known: they are feasible if both of their ends are.
+  /// Parts of the range, as a rule a billionth of their own value wide, within which limits are
+  /// touched or crossed twice, as far as is known: they are feasible if both of their ends are.
   std::vector<Bounds> undecided;
   std::size_t evaluations = 0;  ///< of servos and of boxes
 
@@ -35,9 +35,9 @@ struct FeasibleValues {
 };
 
 /// A feasible value is never skipped by certified search: the range is cut into boxes until the
-/// limit cycles of each are proved to keep the target all, or none (bound_cycles()), or it is a
-/// billionth wide; between two that differ the end of the interval is bisected with
-/// performance_of(), so that each end put back meets the target.
+/// limit cycles of each are proved to keep the target all, or none (bound_cycles()), or it is too
+/// narrow to matter (1e-10, more where limits are nearly touched); between two that differ the end
+/// of the interval is bisected with performance_of(), so that each end put back meets the target.
 /// Precondition: validate(target) is empty.
 FeasibleValues feasible_values(const ChangeableDrive& drive, Parameter parameter,
                                const Target& target);
