@@ -48,8 +48,8 @@ clang:  ## build everything with clang 16, warnings being errors, and run every 
 	$(BUILD) clang-16
 	ctest --preset clang-16
 
-sanitize:  ## run every test under AddressSanitizer and UndefinedBehaviorSanitizer
-	@$(INSTALL) test
+sanitize:  ## as `make clang`, under AddressSanitizer and UndefinedBehaviorSanitizer
+	@$(INSTALL) test clang
 	cmake --preset asan-ubsan
 	$(BUILD) asan-ubsan
 	ctest --preset asan-ubsan

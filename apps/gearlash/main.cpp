@@ -108,6 +108,7 @@ ExitStatus parse_and_run(int argument_count, char** arguments) {
   app.get_formatter()->column_width(30);
   add_limit_cycle_command(app, action);
   add_simulate_command(app, action);
+  add_design_command(app, action);
   add_motor_command(app, action);
   add_chart_command(app, action);
   add_map_command(app, action);

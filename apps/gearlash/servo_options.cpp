@@ -43,9 +43,9 @@ void apply(const ServoOptions& options, const NumberOption& option, ServoFile& f
   }
   double& number = file.servo.*option.number;
   if (option.typed == &ServoOptions::backlash) {
-    const Angle angle = faults.collect([&] { return read_angle(name, *typed); }, Angle{});
-    number = angle.radians;
-    file.backlash_unit = angle.unit;
+    const Quantity angle = faults.collect([&] { return read_angle(name, *typed); }, Quantity{});
+    number = angle.si;
+    file.backlash_unit = {.name = angle.unit, .radians = angle.unit_in_si};
   } else {
     number = faults.collect([&] { return read_number(name, *typed); }, number);
   }
@@ -158,15 +158,6 @@ double read_scaled(std::string_view field, std::string_view text, const Dimensio
                        "must be a number, in " + std::string(unit) +
                            ": the servo has no natural_frequency to go by",
                        ""}});
-}
-
-Angle read_angle(std::string_view field, std::string_view text) {
-  if (const std::optional<double> number = read_bare_number(field, text)) {
-    require_finite(field, text, *number);
-    return {.radians = *number, .unit = {}};
-  }
-  const Quantity quantity = read_quantity(field, text, dimensions::angle);
-  return {.radians = quantity.si, .unit = {.name = quantity.unit, .radians = quantity.unit_in_si}};
 }
 
 ServoFile resolve_servo(const ServoOptions& options, Faults& faults) {

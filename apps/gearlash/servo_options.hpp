@@ -58,13 +58,6 @@ class Faults {
   std::vector<Violation> violations_;
 };
 
-/// A finite angle in rad: a number of radians, or a number with its unit ("12 arcmin").
-struct Angle {
-  double radians = 0.0;
-  AngleUnit unit = {};
-};
-Angle read_angle(std::string_view field, std::string_view text);
-
 /// A finite number in the unit of a report, SI with a natural frequency and normalised without; or
 /// one with its unit ("50 ms"), which only a natural frequency gives a meaning.
 double read_scaled(std::string_view field, std::string_view text, const Dimension& dimension,

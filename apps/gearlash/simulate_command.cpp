@@ -119,8 +119,8 @@ struct Start {
 /// The gap as it is to be at the start; nothing where the faces are to touch.
 std::optional<double> read_gap(const SimulateOptions& options, double backlash, Faults& faults) {
   if (!options.initial_gap) return std::nullopt;
-  const double gap = faults.collect(
-      [&] { return read_angle("--initial-gap", *options.initial_gap).radians; }, 0.0);
+  const double gap =
+      faults.collect([&] { return read_angle("--initial-gap", *options.initial_gap).si; }, 0.0);
   // An angle written in another unit may miss the face by its rounding.
   if (std::abs(gap) <= 0.5 * backlash * (1.0 + 1e-12)) {
     return std::clamp(gap, -0.5 * backlash, 0.5 * backlash);
@@ -135,7 +135,7 @@ std::optional<double> read_gap(const SimulateOptions& options, double backlash, 
 Start read_start(const SimulateOptions& options, const NormalizedServo& servo,
                  const ReportUnits& units, Faults& faults) {
   const auto angle = [&](const char* field, const std::string& text) {
-    return faults.collect([&] { return read_angle(field, text).radians; }, 0.0);
+    return faults.collect([&] { return read_angle(field, text).si; }, 0.0);
   };
   const auto speed = [&](const char* field, const std::string& text) {
     return units.normalized_speed(faults.collect(

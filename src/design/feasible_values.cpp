@@ -1,5 +1,7 @@
 #include "gearlash/design/feasible_values.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -103,25 +105,59 @@ class Search {
   std::size_t evaluations_ = 0;
 };
 
-std::vector<Part> Search::scanned(const Bounds& range) {
+/// Values all over a range: by ratio where that is wide and has no 0.
+std::vector<double> spread_over(const Bounds& range) {
   constexpr std::size_t count = 64;
-  std::vector<Part> parts;
   const bool by_ratio = range.low > 0.0 && range.high > 4.0 * range.low;
-  const auto value_at = [&](std::size_t i) {
-    if (i == count) return range.high;
-    const double share = static_cast<double>(i) / static_cast<double>(count);
-    return by_ratio ? range.low * std::pow(range.high / range.low, share)
-                    : range.low + share * (range.high - range.low);
-  };
-  bool met = is_met_at(value_at(0));
+  std::vector<double> values;
   for (std::size_t i = 0; i < count; ++i) {
-    const bool next_met = is_met_at(value_at(i + 1));
-    const Bounds between{value_at(i), value_at(i + 1)};
+    const double share = static_cast<double>(i) / static_cast<double>(count);
+    values.push_back(by_ratio ? range.low * std::pow(range.high / range.low, share)
+                              : range.low + share * (range.high - range.low));
+  }
+  values.push_back(range.high);
+  return values;
+}
+
+/// At each value, on all cores: with bounces a servo takes some hundredths of a second.
+std::vector<Performance> performances_at(const ChangeableDrive& drive, Parameter parameter,
+                                         const std::vector<double>& values) {
+  std::vector<Performance> performances(values.size());
+  tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
+    performances[i] = performance_of(drive.with(parameter, values[i]));
+  });
+  return performances;
+}
+
+std::vector<Part> Search::scanned(const Bounds& range) {
+  const std::vector<double> values = spread_over(range);
+  const std::vector<Performance> performances = performances_at(drive_, parameter_, values);
+  evaluations_ += values.size();
+  std::vector<Part> parts;
+  for (std::size_t i = 0; i + 1 < values.size(); ++i) {
+    const bool met = is_met(target_, performances[i]);
     const Judgement alike = met ? Judgement::all : Judgement::none;
-    parts.push_back({between, met == next_met ? alike : Judgement::some});
-    met = next_met;
+    parts.push_back({{values[i], values[i + 1]},
+                     met == is_met(target_, performances[i + 1]) ? alike : Judgement::some});
   }
   return parts;
+}
+
+/// How far beyond its limits, as a logarithm; infinite where that is not known.
+double excess(const Target& target, const Performance& performance) {
+  const auto beyond = [](const Bounds& limits, double value) {
+    if (limits.low == 0.0 && std::isinf(limits.high)) return 0.0;
+    if (std::isnan(value)) return std::numeric_limits<double>::infinity();
+    const double above = std::isinf(limits.high) ? 0.0 : std::log(value / limits.high);
+    const double below = limits.low == 0.0 ? 0.0 : std::log(limits.low / value);
+    return std::max({0.0, above, below});
+  };
+  const bool is_quiet = performance.verdict == Verdict::cannot_hunt;
+  const double sum = beyond(target.growth_at_rest, performance.growth_at_rest) +
+                     (target.no_hunting && !is_quiet ? std::log(performance.growth_at_rest) : 0.0) +
+                     beyond(target.size, performance.size) +
+                     (is_quiet ? 0.0 : beyond(target.frequency, performance.frequency));
+  return std::isnan(sum) ? std::numeric_limits<double>::infinity() : sum;  // growth not known
 }
 
 /// Neighbours that are judged alike are one.
@@ -162,6 +198,18 @@ double FeasibleValues::nearest() const {
     if (std::isnan(nearest) || distance(here) < distance(nearest)) nearest = here;
   }
   return nearest;
+}
+
+ClosestValue closest_value(const ChangeableDrive& drive, Parameter parameter,
+                           const Target& target) {
+  std::vector<double> values = spread_over(drive.range(parameter));
+  values.push_back(drive.present_value(parameter));
+  const std::vector<Performance> performances = performances_at(drive, parameter, values);
+  std::size_t closest = values.size() - 1;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (excess(target, performances[i]) < excess(target, performances[closest])) closest = i;
+  }
+  return {values[closest], performances[closest]};
 }
 
 FeasibleValues feasible_values(const ChangeableDrive& drive, Parameter parameter,

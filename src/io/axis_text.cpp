@@ -43,13 +43,8 @@ Input read_input(std::string_view field, std::string_view name) {
 }
 
 double read_value(std::string_view field, Input input, std::string_view text) {
-  try {
-    return read_number(field, text);
-  } catch (const InvalidInput&) {
-    const bool may_have_unit = input == Input::backlash && !text.empty();
-    if (!may_have_unit) throw;
-    return to_si(field, text, dimensions::angle);
-  }
+  return input == Input::backlash && !text.empty() ? read_angle(field, text).si
+                                                   : read_number(field, text);
 }
 
 std::size_t read_count(std::string_view field, std::string_view text) {

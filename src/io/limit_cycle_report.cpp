@@ -56,25 +56,10 @@ struct Row {
   std::string remark;
 };
 
-std::string padded(const std::string& text, std::size_t columns) {
-  return text + std::string(columns - std::min(columns, width_in_columns(text)), ' ');
-}
-
 std::string table(const std::vector<Row>& rows) {
-  std::size_t name_width = 0;
-  std::size_t value_width = 0;
-  for (const Row& row : rows) {
-    name_width = std::max(name_width, width_in_columns(row.name));
-    value_width = std::max(value_width, width_in_columns(row.value));
-  }
-  std::string text;
-  for (const Row& row : rows) {
-    std::string line =
-        "  " + padded(row.name, name_width + 2) + padded(row.value, value_width + 2) + row.remark;
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + '\n';
-  }
-  return text;
+  std::vector<std::vector<std::string>> cells;
+  for (const Row& row : rows) cells.push_back({row.name, row.value, row.remark});
+  return table_text(cells);
 }
 
 std::string number(double value) { return significant(value, table_digits); }

@@ -159,6 +159,17 @@ double read_number(std::string_view field, std::string_view text) {
   return value + 0.0;
 }
 
+Quantity read_angle(std::string_view field, std::string_view text) {
+  std::optional<double> bare;
+  try {
+    bare = read_number(field, text);
+  } catch (const InvalidInput&) {  // its unit decides, if it has one
+    return read_quantity(field, text, dimensions::angle);
+  }
+  if (!std::isfinite(*bare)) refuse(field, text, "must be finite");
+  return {.si = *bare, .unit_in_si = 1.0, .unit = "rad"};
+}
+
 std::string shown(std::string_view text, std::size_t limit) {
   if (trimmed(text).empty()) return "\"" + std::string(text.substr(0, limit)) + "\"";
   std::string result;

@@ -34,6 +34,13 @@ struct FeasibleValues {
   double nearest() const;
 };
 
+/// Where nothing meets the target: the value that comes closest to it, of many that were looked at.
+struct ClosestValue {
+  double value = 0.0;
+  Performance performance;
+};
+ClosestValue closest_value(const ChangeableDrive& drive, Parameter parameter, const Target& target);
+
 /// A feasible value is never skipped by certified search: the range is cut into boxes until the
 /// limit cycles of each are proved to keep the target all, or none (bound_cycles()), or it is too
 /// narrow to matter (1e-10, more where limits are nearly touched); between two that differ the end

@@ -109,6 +109,10 @@ double to_si(std::string_view field, std::string_view text, const Dimension& exp
 /// InvalidInput with one violation, of `field`, for anything else (NaN, hexadecimal, 1e999, 1/0).
 double read_number(std::string_view field, std::string_view text);
 
+/// A finite angle: a number of radians, or a number with its unit ("12 arcmin"). Throws as
+/// read_number() and read_quantity() do.
+Quantity read_angle(std::string_view field, std::string_view text);
+
 /// Author's text made fit for one line of an error: control characters and invalid UTF-8 escaped,
 /// an empty or blank text quoted, at most `limit` characters and then "…".
 std::string shown(std::string_view text, std::size_t limit = 60);

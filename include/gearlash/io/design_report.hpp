@@ -1,0 +1,36 @@
+// The answer to "what must change?", for a person and for a program.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gearlash/design/feasible_values.hpp"
+#include "gearlash/io/report_units.hpp"
+
+namespace gearlash {
+
+/// What one parameter can do by itself.
+struct DesignAnswer {
+  FeasibleValues values;
+  ClosestValue closest;  ///< to the target; meaningful where no value meets it
+};
+
+struct DesignReport {
+  ChangeableDrive drive;
+  std::string target_text;  ///< as its author wrote it
+  Target target;
+  std::vector<DesignAnswer> answers;
+  ReportUnits units = {};
+  Provenance provenance = {};
+};
+
+DesignAnswer design_answer(const ChangeableDrive& drive, Parameter parameter, const Target& target);
+
+/// A table with a line for every interval of values that meets the target, what it changes besides,
+/// and why others cannot. Limits are rounded towards the side that meets it. Ends with a newline.
+std::string design_text(const DesignReport& report);
+
+/// The contract of docs/command-line.md, ending with a newline; numbers read back exactly.
+std::string design_json(const DesignReport& report);
+
+}  // namespace gearlash

@@ -1,0 +1,136 @@
+// gearlash design as a user calls it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tool.hpp"
+
+namespace gearlash {
+namespace {
+
+using test::file_text;
+using test::lines_of;
+using test::Outcome;
+using test::run_tool;
+using test::Scratch;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// The parameters that are certified, and so found at once.
+constexpr char quick_parameters[] =
+    "backlash,gear_ratio,error_gain,load-friction,motor-friction,tachometer,load_inertia,"
+    "motor_inertia";
+
+nlohmann::json design_of(const std::string& file, const std::string& target) {
+  const Outcome run = run_tool(
+      {"design", file, "--target", target, "--parameters", quick_parameters, "--format", "json"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  return nlohmann::json::parse(run.out);
+}
+
+/// examples/elinco-fd162.toml with another number in place of one.
+std::string changed_sheet(const Scratch& scratch, const std::string& was, const std::string& is) {
+  std::string text =
+      file_text(std::filesystem::path(GEARLASH_SOURCE_DIRECTORY) / "examples/elinco-fd162.toml");
+  const std::size_t place = text.find(was);
+  EXPECT_NE(place, std::string::npos) << was;
+  text.replace(place, was.size(), is);
+  const auto path = scratch / "changed.toml";
+  std::ofstream(path) << text;
+  return path.string();
+}
+
+nlohmann::json limit_cycle_of(const std::string& file) {
+  return nlohmann::json::parse(run_tool({"limit-cycle", file, "--format", "json"}).out);
+}
+
+std::string exactly(const nlohmann::json& number, const std::string& unit) {
+  return "\"" + number.dump() + " " + unit + "\"";
+}
+
+TEST(DesignCommand, AnswersPutIntoTheDataSheetMeetTheTarget) {
+  const Scratch scratch;
+  const auto design = design_of("examples/elinco-fd162.toml", "size <= 1 deg");
+  EXPECT_EQ(design["met"], false);
+  const double limit = std::acos(-1.0) / 180.0;
+  const auto answer_of = [&](const std::string& parameter) {
+    for (const auto& answer : design["answers"]) {
+      if (answer["parameter"] == parameter) return answer;
+    }
+    return nlohmann::json();
+  };
+  struct Change {
+    const char* parameter;
+    const char* was;
+    const char* key;
+    const char* unit;
+  };
+  for (const Change& change :
+       {Change{"backlash", "backlash = \"0.1 rad\"", "backlash", "rad"},
+        Change{"error_gain", "error_gain = \"10 V/rad\"", "error_gain", "V/rad"},
+        Change{"load_friction", "friction = \"0.002 ozf in/(rad/s)\"", "friction", "N m s/rad"},
+        Change{"motor_friction", "friction = \"0.00064 ozf in/(rad/s)\"", "friction", "N m s/rad"},
+        Change{"load_inertia", "inertia = \"16.4e-6 slug ft2\"", "inertia", "kg m2"}}) {
+    const auto answer = answer_of(change.parameter);
+    ASSERT_FALSE(answer["intervals"].empty()) << change.parameter;
+    const std::string value = exactly(answer["nearest"]["value"], change.unit);
+    const auto then =
+        limit_cycle_of(changed_sheet(scratch, change.was, std::string(change.key) + " = " + value));
+    ASSERT_FALSE(then["cycles"].empty()) << change.parameter;
+    EXPECT_NEAR(then["physical"]["size"], limit, 1e-10 * limit) << change.parameter;
+  }
+  for (const auto& interval : answer_of("gear_ratio")["intervals"]) {
+    const double end = interval["from"] == answer_of("gear_ratio")["searched"]["from"]
+                           ? interval["to"].get<double>()
+                           : interval["from"].get<double>();
+    const auto then = limit_cycle_of(
+        changed_sheet(scratch, "ratio = 1 ", "ratio = " + nlohmann::json(end).dump() + " "));
+    EXPECT_NEAR(then["physical"]["size"], limit, 1e-10 * limit);
+  }
+}
+
+TEST(DesignCommand, SaysWhatItCostsAndWhyNot) {
+  const Outcome run = run_tool({"design", "examples/elinco-fd162.toml", "--target", "no-hunting",
+                                "--parameters", quick_parameters});
+  EXPECT_EQ(run.status, 0) << run.err;
+  const auto lines = lines_of(run.out);
+  EXPECT_EQ(lines.at(0), "target: no-hunting");
+  EXPECT_THAT(lines.at(1), HasSubstr("not met"));
+  EXPECT_THAT(lines, Contains(StartsWith("  gear_ratio ")));
+  EXPECT_THAT(lines, Contains(StartsWith("    or ")));
+  EXPECT_THAT(lines,
+              Contains("  backlash: however small, it leaves the hunting; only its size follows"));
+  EXPECT_THAT(lines, Contains(StartsWith("  motor_inertia: no value from ")));
+  EXPECT_THAT(run.out, HasSubstr("is proved by bounds"));
+}
+
+TEST(DesignCommand, TakesANormalizedServo) {
+  const Outcome run =
+      run_tool({"design", "--damping", "0.19", "--inertia-ratio", "2", "--friction-ratio", "1/10",
+                "--backlash", "0.3", "--target", "size <= 0.1", "--parameters", "backlash"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("  backlash   0.3 rad  at most 0.124166 rad  −58.6 %"));
+}
+
+TEST(EdgeDesignCommand, FaultsAreToldAtOnce) {
+  const Outcome run =
+      run_tool({"design", "examples/elinco-fd162.toml", "--target", "speed <= 1 and size <= 2 kg",
+                "--parameters", "backlash,colour", "--damping", "0.2", "--format", "xml"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(lines_of(run.err),
+              ElementsAre("gearlash: --format = xml: must be text or json",
+                          StartsWith("gearlash: --damping = 0.2: must be left out"),
+                          StartsWith("gearlash: --target = speed <= 1: must be no-hunting"),
+                          StartsWith("gearlash: --target = 2 kg: must be"),
+                          StartsWith("gearlash: --parameters = colour: must be backlash, ")));
+  const Outcome missing = run_tool({"design", "examples/elinco-fd162.toml"});
+  EXPECT_EQ(missing.status, 2);
+}
+
+}  // namespace
+}  // namespace gearlash
