@@ -6,6 +6,7 @@
 #include "command.hpp"
 #include "gearlash/io/design_report.hpp"
 #include "gearlash/io/output_file.hpp"
+#include "gearlash/io/region_map.hpp"
 #include "gearlash/io/target_text.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
@@ -19,6 +20,8 @@ constexpr char examples[] =
     "Hz\"\n"
     "  gearlash design examples/elinco-fd162.toml --target \"size <= 30 arcmin\" \\\n"
     "      --parameters backlash,error_gain --format json | jq .answers[0].nearest\n"
+    "  gearlash design examples/elinco-fd162.toml --target no-hunting \\\n"
+    "      --vary load_friction,error_gain --plot region.svg\n"
     "  gearlash design --damping 0.19 --inertia-ratio 2 --friction-ratio 1/10 --backlash 0.3 \\\n"
     "      --target \"size <= 0.1\"\n";
 
@@ -26,6 +29,9 @@ struct DesignOptions {
   ServoOptions servo;
   std::string target;
   std::vector<std::string> parameters;
+  std::vector<std::string> vary;
+  std::string cost = "bandwidth";
+  std::string plot;
   std::string format = "text";
 };
 
@@ -53,7 +59,9 @@ ChangeableDrive changeable_drive(const ServoFile& file) {
   return ChangeableDrive(datasheet);
 }
 
-std::vector<Parameter> read_parameters(const std::vector<std::string>& names, Faults& faults) {
+/// "gear-ratio" is as good as "gear_ratio".
+std::vector<Parameter> read_parameters(const std::string& field,
+                                       const std::vector<std::string>& names, Faults& faults) {
   std::vector<Parameter> parameters;
   std::vector<std::string> choices;
   for (const Parameter parameter : all_parameters) choices.emplace_back(name_of(parameter));
@@ -63,11 +71,64 @@ std::vector<Parameter> read_parameters(const std::vector<std::string>& names, Fa
     if (const auto parameter = parameter_named(underscored)) {
       parameters.push_back(*parameter);
     } else {
-      faults.require_choice("--parameters", name, choices);
+      faults.require_choice(field, name, choices);
     }
   }
-  if (names.empty()) return {all_parameters.begin(), all_parameters.end()};
   return parameters;
+}
+
+/// What is drawn, if anything: the two parameters of --vary, y over x.
+struct Picture {
+  std::vector<Parameter> axes;
+  Cost cost = Cost::bandwidth;
+  PictureFormat format = PictureFormat::svg;
+};
+
+Picture read_picture(const DesignOptions& options, Faults& faults) {
+  Picture picture{.axes = read_parameters("--vary", options.vary, faults)};
+  faults.require_choice("--cost", options.cost, {"bandwidth", "damping", "stiffness"});
+  for (const Cost cost : {Cost::bandwidth, Cost::damping, Cost::stiffness}) {
+    if (options.cost == name_of(cost)) picture.cost = cost;
+  }
+  if (options.plot.empty() != options.vary.empty()) {
+    faults.add(
+        options.plot.empty()
+            ? Violation{"--plot", "", "must name a picture of what --vary varies", ""}
+            : Violation{"--vary", "", "must name two parameters, over which --plot draws", ""});
+  }
+  const bool are_two = options.vary.size() == 2 && options.vary[0] != options.vary[1];
+  if (!options.vary.empty() && !are_two) {
+    faults.add({"--vary", std::to_string(options.vary.size()) + " names",
+                "must be two different parameters, with a comma between", ""});
+  }
+  if (!options.plot.empty()) {
+    picture.format =
+        faults.collect([&] { return picture_format("--plot", options.plot); }, PictureFormat::svg);
+  }
+  return picture;
+}
+
+/// A parameter that is 0 and may only be multiplied has no axis.
+void require_ranges(const ChangeableDrive& drive, const Picture& picture) {
+  Faults faults;
+  for (const Parameter parameter : picture.axes) {
+    const Bounds range = range_to_draw(drive, parameter);
+    if (range.low < range.high) continue;
+    faults.add(
+        {"--vary", name_of(parameter), "must not be 0, of which there are no multiples", ""});
+  }
+  faults.require_none();
+}
+
+void draw(const RegionMapTask& task, const Picture& picture, const std::string& file) {
+  OutputFile output(file);
+  const std::size_t count = values_to_draw(task.drive, picture.axes[0], picture.axes[1]);
+  const auto axis = [&](Parameter parameter) {
+    return parameter_axis(parameter, range_to_draw(task.drive, parameter), count);
+  };
+  output.write(
+      draw_contour_map(map_of(task, axis(picture.axes[0]), axis(picture.axes[1])), picture.format));
+  output.commit();
 }
 
 std::vector<DesignAnswer> work_out(const ChangeableDrive& drive, const Target& target,
@@ -89,16 +150,29 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
   const TimeScale time_scale = file.natural_frequency ? TimeScale::known : TimeScale::unknown;
   const Target target =
       faults.collect([&] { return read_target("--target", options.target, time_scale); }, Target{});
-  const std::vector<Parameter> parameters = read_parameters(options.parameters, faults);
+  std::vector<Parameter> parameters = read_parameters("--parameters", options.parameters, faults);
+  const Picture picture = read_picture(options, faults);
+  faults.require_distinct({{"SERVO.toml", options.servo.file}, {"--plot", options.plot}});
   faults.require_none();
+  if (parameters.empty()) parameters = picture.axes;
+  if (parameters.empty()) parameters = {all_parameters.begin(), all_parameters.end()};
 
   const ChangeableDrive drive = changeable_drive(file);
+  require_ranges(drive, picture);
   const DesignReport report{.drive = drive,
                             .target_text = options.target,
                             .target = target,
                             .answers = work_out(drive, target, parameters),
                             .units = report_units(file),
                             .provenance = provenance};
+  if (!options.plot.empty()) {
+    draw({.drive = drive,
+          .target = target,
+          .target_text = options.target,
+          .cost = picture.cost,
+          .angle = report.units.angle},
+         picture, options.plot);
+  }
   write_file("-", options.format == "json" ? design_json(report) : design_text(report));
   return ExitStatus::done;
 }
@@ -118,11 +192,22 @@ void add_design_command(CLI::App& app, Action& action) {
       ->required();
   command
       ->add_option("--parameters", options->parameters,
-                   "which may change, with commas between; all when left out: backlash,\n"
+                   "which may change, with commas between; all when left out, or those\n"
+                   "of --vary: backlash,\n"
                    "gear_ratio, error_gain, load_friction, motor_friction, tachometer,\n"
                    "load_inertia, motor_inertia, restitution")
       ->type_name("NAMES")
       ->delimiter(',');
+  command
+      ->add_option("--vary", options->vary,
+                   "two of them, with a comma between: --plot draws where both together\n"
+                   "meet the target, over lines of equal cost")
+      ->type_name("X,Y")
+      ->delimiter(',');
+  command->add_option("--cost", options->cost, "bandwidth (default), damping or stiffness")
+      ->type_name("COST");
+  command->add_option("--plot", options->plot, "picture; FILE ends in .svg, .png or .pdf")
+      ->type_name("FILE");
   command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");
   command->footer(help_footer(examples));
   command->callback([options, &action] {

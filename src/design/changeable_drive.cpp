@@ -64,6 +64,13 @@ Drivetrain drivetrain_of(const NormalizedServo& servo, double natural_frequency)
           .sensor = servo.sensor};
 }
 
+/// When a parameter is changed among others: feedback adds to the motor's friction as it then is,
+/// and gears carry all of it to the load.
+int turn_of(Parameter parameter) {
+  if (parameter == Parameter::gear_ratio) return 2;
+  return parameter == Parameter::tachometer ? 1 : 0;
+}
+
 Bounds between(double a, double b) { return {std::min(a, b), std::max(a, b)}; }
 
 }  // namespace
@@ -113,6 +120,21 @@ const char* ChangeableDrive::unit_of(Parameter parameter) const {
 
 Drivetrain ChangeableDrive::with(Parameter parameter, double value) const {
   Drivetrain drive = drivetrain_;
+  change(drive, parameter, value);
+  return drive;
+}
+
+Drivetrain ChangeableDrive::with(Parameter parameter, double value, Parameter other,
+                                 double other_value) const {
+  Drivetrain drive = drivetrain_;
+  const bool comes_first = turn_of(parameter) <= turn_of(other);
+  if (comes_first) change(drive, parameter, value);
+  change(drive, other, other_value);
+  if (!comes_first) change(drive, parameter, value);
+  return drive;
+}
+
+void ChangeableDrive::change(Drivetrain& drive, Parameter parameter, double value) const {
   const double factor = value / present_value(parameter);
   switch (parameter) {
     case Parameter::backlash:
@@ -145,7 +167,6 @@ Drivetrain ChangeableDrive::with(Parameter parameter, double value) const {
       drive.restitution = value;
       break;
   }
-  return drive;
 }
 
 Bounds ChangeableDrive::range(Parameter parameter) const {

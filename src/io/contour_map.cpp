@@ -31,6 +31,7 @@ std::string line_style(double width, const std::string& colour) {
   return fmt::format("linewidth {} linecolor rgb '{}'", width, colour);
 }
 std::string boundary_style() { return line_style(3.0, "#d55e00"); }
+std::string mark_style() { return "pointtype 7 pointsize 1 linecolor rgb '#000000'"; }
 std::string hatching_style() { return line_style(0.6, "#a8a8a8"); }
 
 /// From light to dark blue.
@@ -124,8 +125,10 @@ std::string legend(const ContourMap& map, PictureFormat format) {
   constexpr double half_height = 0.013;
   constexpr double slant = 2.0 * half_height * 7.0 / 9.0;
   const double letter = letter_size(format).width / label_scale / 9.0;
-  const std::array shown = {!map.contours.empty(), !map.boundary.empty(), !map.hatching.empty()};
-  const std::array meanings = {map.contour_meaning, map.boundary_meaning, map.hatching_meaning};
+  const std::array shown = {!map.contours.empty(), !map.boundary.empty(), !map.hatching.empty(),
+                            map.mark.has_value()};
+  const std::array meanings = {map.contour_meaning, map.boundary_meaning, map.hatching_meaning,
+                               map.mark_meaning};
   double width = -between;
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const double text = letter * static_cast<double>(width_in_columns(meanings[i]));
@@ -142,6 +145,10 @@ std::string legend(const ContourMap& map, PictureFormat format) {
     for (double place = 0.0; i == 2 && place + slant <= sample; place += 0.0085) {
       commands += screen_line(right + place, middle - half_height, right + place + slant,
                               middle + half_height, hatching_style());
+    }
+    if (i == 3) {
+      commands += fmt::format("set label '' at screen {:.4f}, {:.4f} point {}\n",
+                              right + 0.5 * sample, middle, mark_style());
     }
     commands += fmt::format("set label {} at screen {:.4f}, {:.4f} left\n", quoted(meanings[i]),
                             right + sample + space, middle);
@@ -163,6 +170,12 @@ std::string draw_contour_map(const ContourMap& map, PictureFormat format) {
   drawing.add(curves_block("hatching", map.hatching, paper), "hatching", hatching_style());
   add_contours(map, paper, format, drawing);
   drawing.add(curves_block("boundary", map.boundary, paper), "boundary", boundary_style());
+  if (map.mark) {
+    DataBlock block("mark");
+    block.row(map.mark->x, map.mark->y);
+    drawing.commands += block.text();
+    drawing.layers.push_back("$mark using 1:2 with points " + mark_style() + " notitle");
+  }
   if (drawing.layers.empty()) drawing.layers.emplace_back("1/0 notitle");  // keeps the axes
   return run_gnuplot(drawing.commands + plot_command(drawing.layers));
 }

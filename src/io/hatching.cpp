@@ -68,17 +68,16 @@ bool is_at_rest_for_good(const GridTable& table, const MapPoint& point) {
   return any;
 }
 
-/// The parts from `begin` to `end`, which the boundary does not cross, that are at rest for good.
-void hatch(const GridTable& table, const Paper& paper, const Diagonal& line, double begin,
+/// The parts from `begin` to `end`, which the boundary does not cross.
+void hatch(const Hatched& hatched, const Paper& paper, const Diagonal& line, double begin,
            double end, std::vector<MapCurve>& lines) {
   const auto map_at = [&](double right) { return paper.point_on_map(line.at(right)); };
-  if (!(end - begin > 1e-3)) return;
-  if (side_of_hunting(servo_at(table.grid, map_at(0.5 * (begin + end)))) != Side::outside) return;
-  const double steps = std::ceil((end - begin) / step);
+  if (!(end - begin > 1e-3) || !hatched.stretch(map_at(0.5 * (begin + end)))) return;
+  const double steps = hatched.left_out ? std::ceil((end - begin) / step) : 0.0;
   const auto place = [&](double i) { return begin + (end - begin) * i / steps; };
   double start = begin;
   for (double i = 0.0; i < steps; i += 1.0) {
-    if (is_at_rest_for_good(table, map_at(0.5 * (place(i) + place(i + 1.0))))) continue;
+    if (!hatched.left_out(map_at(0.5 * (place(i) + place(i + 1.0))))) continue;
     if (start < place(i)) lines.push_back({map_at(start), map_at(place(i))});
     start = place(i + 1.0);
   }
@@ -87,14 +86,25 @@ void hatch(const GridTable& table, const Paper& paper, const Diagonal& line, dou
 
 }  // namespace
 
-std::vector<MapCurve> hatching(const GridTable& table, const Paper& paper) {
+std::vector<MapCurve> hatching(const std::vector<MapCurve>& boundary, const Paper& paper,
+                               const Hatched& hatched) {
   std::vector<MapCurve> lines;
-  for (const Diagonal& line : diagonals(table.hunting_boundary.value(), paper)) {
+  for (const Diagonal& line : diagonals(boundary, paper)) {
     for (std::size_t i = 0; i + 1 < line.rights.size(); ++i) {
-      hatch(table, paper, line, line.rights[i], line.rights[i + 1], lines);
+      hatch(hatched, paper, line, line.rights[i], line.rights[i + 1], lines);
     }
   }
   return lines;
+}
+
+std::vector<MapCurve> hatching(const GridTable& table, const Paper& paper) {
+  return hatching(
+      table.hunting_boundary.value(), paper,
+      {.stretch =
+           [&](const MapPoint& middle) {
+             return side_of_hunting(servo_at(table.grid, middle)) == Side::outside;
+           },
+       .left_out = [&](const MapPoint& middle) { return !is_at_rest_for_good(table, middle); }});
 }
 
 }  // namespace gearlash

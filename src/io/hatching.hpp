@@ -1,6 +1,7 @@
-// Hatching over the servos of a map that have no limit cycle.
+// Hatching over a part of a map.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "gearlash/io/grid_table.hpp"
@@ -8,10 +9,22 @@
 
 namespace gearlash {
 
-/// Lines at 45° on paper, each of two points, cut off where they meet the boundary: over places
-/// whose growth at rest is at most 1, but not in cells of the grid of which nothing is known, whose
-/// points all lie on the other side, or of which one hunts none the less (where faces bounce, rest
-/// and a limit cycle can both be stable). Precondition: `table` has its hunting boundary, two axes.
+/// What is to be hatched, between lines that are cut where they meet the boundary.
+struct Hatched {
+  /// Whether a stretch is, told by its middle: it does not cross the boundary.
+  std::function<bool(const MapPoint& middle)> stretch;
+  /// Whether a short part of such a stretch is to be left out, told likewise; may be empty.
+  std::function<bool(const MapPoint& middle)> left_out = {};
+};
+
+/// Lines at 45° on paper, each of two points.
+std::vector<MapCurve> hatching(const std::vector<MapCurve>& boundary, const Paper& paper,
+                               const Hatched& hatched);
+
+/// Over places of a map whose growth at rest is at most 1, but not in cells of the grid of which
+/// nothing is known, whose points all lie on the other side, or of which one hunts none the less
+/// (where faces bounce, rest and a limit cycle can both be stable). Precondition: `table` has its
+/// hunting boundary, two axes.
 std::vector<MapCurve> hatching(const GridTable& table, const Paper& paper);
 
 }  // namespace gearlash

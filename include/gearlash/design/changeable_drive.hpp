@@ -58,10 +58,13 @@ class ChangeableDrive {
   /// critically; restitution from 0 to 1. Less where that is not permitted (validate(Drivetrain)).
   Bounds range(Parameter parameter) const;
 
-  /// The drive with another value of one parameter; it need not be sound.
+  /// The drive with another value of one parameter, or of two; it need not be sound.
   Drivetrain with(Parameter parameter, double value) const;
+  Drivetrain with(Parameter parameter, double value, Parameter other, double other_value) const;
 
  private:
+  void change(Drivetrain& drive, Parameter parameter, double value) const;
+
   Drivetrain drivetrain_;
   std::array<double, parameter_count> present_values_{};
   bool is_normalized_ = false;

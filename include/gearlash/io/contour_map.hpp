@@ -1,6 +1,7 @@
 // Maps of contours, with the hunting-free boundary and hatching, drawn by gnuplot.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,11 @@ struct ContourMap {
   std::vector<Contour> contours = {};   ///< by rising level: from light to dark, with their numbers
   std::vector<MapCurve> boundary = {};  ///< bold
   std::vector<MapCurve> hatching = {};  ///< thin
-  std::string contour_meaning = {};     ///< told in the legend, like the others
+  std::optional<MapPoint> mark = std::nullopt;
+  std::string contour_meaning = {};  ///< told in the legend, like the others
   std::string boundary_meaning = {};
   std::string hatching_meaning = {};
+  std::string mark_meaning = {};
 };
 
 /// Bytes of the picture; the same map gives the same SVG. Curves are thinned out as far as no eye
