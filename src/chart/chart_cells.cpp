@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "on_threads.hpp"
+#include "gearlash/chart/on_threads.hpp"
 
 namespace gearlash::detail {
 namespace {

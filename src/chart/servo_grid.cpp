@@ -7,8 +7,8 @@
 #include <mutex>
 #include <string>
 
+#include "gearlash/chart/on_threads.hpp"
 #include "gearlash/servo/range_check.hpp"
-#include "on_threads.hpp"
 
 namespace gearlash {
 namespace {
@@ -202,7 +202,7 @@ GridCount evaluate(const ServoGrid& grid, std::size_t first, std::size_t count,
     done += rows;
     if (how.going_on && !stopped && !how.going_on(done)) stopped = true;
   };
-  detail::on_threads(how.threads, (count + part - 1) / part, work);
+  on_threads(how.threads, (count + part - 1) / part, work);
   total.stopped = stopped && done < count;
   return total;
 }

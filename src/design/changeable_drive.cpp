@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "overloaded.hpp"
+
 namespace gearlash {
 namespace {
 
@@ -27,13 +29,6 @@ constexpr std::array<Naming, parameter_count> namings = {
 const Naming& naming_of(Parameter parameter) {
   return namings[static_cast<std::size_t>(parameter)];
 }
-
-template <class... Visitors>
-struct Overloaded : Visitors... {
-  using Visitors::operator()...;
-};
-template <class... Visitors>
-Overloaded(Visitors...) -> Overloaded<Visitors...>;
 
 double torque_per_volt(const Motor& motor) {
   return std::visit(Overloaded{[](const TwoPhaseMotor& of) { return of.torque_per_volt; },

@@ -1,9 +1,9 @@
 #include "gearlash/design/feasible_region.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <functional>
+
+#include "gearlash/chart/on_threads.hpp"
 
 namespace gearlash {
 namespace {
@@ -31,7 +31,7 @@ std::vector<Value> at_all_points(const ParameterAxis& x, const ParameterAxis& y,
                                  const std::function<Value(const MapPoint&)>& value_at) {
   const std::size_t row = x.values.values.size();
   std::vector<Value> values(row * y.values.values.size());
-  tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
+  on_threads(0, values.size(), [&](std::size_t i) {
     values[i] = value_at({x.values.values[i % row], y.values.values[i / row]});
   });
   return values;

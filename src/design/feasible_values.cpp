@@ -1,11 +1,10 @@
 #include "gearlash/design/feasible_values.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "gearlash/chart/on_threads.hpp"
 #include "gearlash/motion/bracketed_root.hpp"
 
 namespace gearlash {
@@ -123,7 +122,7 @@ std::vector<double> spread_over(const Bounds& range) {
 std::vector<Performance> performances_at(const ChangeableDrive& drive, Parameter parameter,
                                          const std::vector<double>& values) {
   std::vector<Performance> performances(values.size());
-  tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
+  on_threads(0, values.size(), [&](std::size_t i) {
     performances[i] = performance_of(drive.with(parameter, values[i]));
   });
   return performances;

@@ -1,0 +1,19 @@
+// A drawn drive whose backlash is taken apart: sizes are in proportion to it.
+#pragma once
+
+#include <span>
+
+#include "gearlash/design/toleranced_drive.hpp"
+
+namespace gearlash::detail {
+
+struct DrivePerBacklash {
+  TimedServo drive;       ///< with a backlash of 1 rad, if it has any
+  double backlash = 0.0;  ///< rad
+};
+
+/// Throws InvalidInput where the values make no drive. Precondition: as many values as there are
+/// varied numbers, all of the drive.
+DrivePerBacklash drive_per_backlash(const TolerancedDrive& drive, std::span<const double> values);
+
+}  // namespace gearlash::detail
