@@ -187,17 +187,13 @@ class Climb {
     return top;
   }
 
-  void take_worst(Candidate& top, const std::vector<Values>& all,
-                  const std::vector<Badness>& badness) const {
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (top.badness < badness[i]) top = {all[i], badness[i]};
-    }
-  }
-
   void try_choices(Candidate& top, std::size_t number) {
     std::vector<Values> all(coordinates_[number].choices.size(), top.values);
     for (std::size_t i = 0; i < all.size(); ++i) all[i][number] = coordinates_[number].choices[i];
-    take_worst(top, all, evaluate(all));
+    const std::vector<Badness> badness = evaluate(all);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (top.badness < badness[i]) top = {all[i], badness[i]};
+    }
   }
 
   /// Lots stay as they are.
@@ -253,27 +249,31 @@ class Climb {
     refine_line(top, along, reach);
   }
 
+  /// Zooms in on the worst place known, again and again.
   void refine_line(Candidate& top, const Values& along, const Bounds& reach) {
     constexpr int points = 17;
     constexpr int most_refinements = 14;
+    constexpr int enough_at_end = 6;  // of them, after which the worst place is taken to be the end
     const Values origin = top.values;
+    double worst_way = 0.0;
     Bounds part = reach;
+    int at_end = 0;
     for (int refinement = 0; refinement < most_refinements; ++refinement) {
       const double spacing = (part.high - part.low) / (points - 1);
       std::vector<Values> all;
       for (int k = 0; k < points; ++k) {
-        all.push_back(
-            point_of(origin, along, k + 1 == points ? part.high : part.low + k * spacing));
+        all.push_back(point_of(origin, along, k + 1 < points ? part.low + k * spacing : part.high));
       }
       const std::vector<Badness> badness = evaluate(all);
-      const auto best = std::max_element(badness.begin(), badness.end());
-      take_worst(top, all, badness);
-      const double place = part.low + static_cast<double>(best - badness.begin()) * spacing;
-      const bool at_end = best == badness.begin() || best == badness.end() - 1;
-      const bool is_flat =
-          !is_notably_worse(*best, *std::min_element(badness.begin(), badness.end()));
-      if (is_flat || (at_end && refinement > 0)) return;
-      part = {std::max(reach.low, place - spacing), std::min(reach.high, place + spacing)};
+      const auto [least, worst] = std::minmax_element(badness.begin(), badness.end());
+      if (top.badness < *worst) {
+        const auto k = worst - badness.begin();
+        top = {all[static_cast<std::size_t>(k)], *worst};
+        worst_way = k + 1 < points ? part.low + static_cast<double>(k) * spacing : part.high;
+      }
+      at_end = worst_way == reach.low || worst_way == reach.high ? at_end + 1 : 0;
+      if (!is_notably_worse(top.badness, *least) || at_end == enough_at_end) return;
+      part = {std::max(reach.low, worst_way - spacing), std::min(reach.high, worst_way + spacing)};
     }
   }
 
