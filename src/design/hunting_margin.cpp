@@ -1,6 +1,6 @@
 #include "gearlash/design/hunting_margin.hpp"
 
-#include <Eigen/Core>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -165,26 +165,59 @@ std::optional<Change> on_boundary(const LogGrowth& growth, Change at) {
   return std::nullopt;
 }
 
-/// A point of the boundary next to which none is nearer; nothing where the steps do not end.
+/// Second derivatives of ln μ₀ by differences of its exact gradient.
+Eigen::Matrix<double, 5, 5> curvature(const LogGrowth& growth, const Change& at) {
+  constexpr double step = 1e-5;
+  Eigen::Matrix<double, 5, 5> second;
+  for (Eigen::Index i = 0; i < 5; ++i) {
+    const Change aside = step * Change::Unit(i);
+    second.col(i) =
+        (growth.with_gradient(at + aside).gradient - growth.with_gradient(at - aside).gradient) /
+        (2.0 * step);
+  }
+  return 0.5 * (second + second.transpose());
+}
+
+/// Newton's method on x = λg, ln μ₀ = 0, from near a solution: where the boundary bends as much as
+/// the sphere about the present drive, the steps above go to and fro.
+std::optional<Change> stationary_change(const LogGrowth& growth, Change at) {
+  double multiplier = nan;
+  for (int i = 0; i < 30; ++i) {
+    const auto here = growth.with_gradient(at);
+    if (!std::isfinite(here.value) || !(here.gradient.squaredNorm() > 0.0)) return std::nullopt;
+    if (i == 0) multiplier = at.dot(here.gradient) / here.gradient.squaredNorm();
+    Eigen::Matrix<double, 6, 6> slope = Eigen::Matrix<double, 6, 6>::Zero();
+    slope.topLeftCorner<5, 5>().setIdentity();
+    slope.topLeftCorner<5, 5>() -= multiplier * curvature(growth, at);
+    slope.topRightCorner<5, 1>() = -here.gradient;
+    slope.bottomLeftCorner<1, 5>() = here.gradient.transpose();
+    Eigen::Matrix<double, 6, 1> residual;
+    residual << at - multiplier * here.gradient, here.value;
+    const Eigen::Matrix<double, 6, 1> step = slope.partialPivLu().solve(-residual);
+    if (!step.allFinite()) return std::nullopt;
+    at += step.head<5>();
+    multiplier += step(5);
+    constexpr double short_step = 1e-11;
+    if (step.head<5>().norm() <= short_step * (1.0 + at.norm())) return on_boundary(growth, at);
+  }
+  return std::nullopt;
+}
+
+/// A point of the boundary where it is square to the change, as next to every least one; nothing
+/// where the steps do not end in one.
 std::optional<Change> least_change(const LogGrowth& growth, Change at) {
-  constexpr int most_steps = 300;
+  constexpr int most_steps = 30;
   for (int i = 0; i < most_steps; ++i) {
     const auto here = growth.with_gradient(at);
     if (!std::isfinite(here.value) || !(here.gradient.squaredNorm() > 0.0)) return std::nullopt;
     const auto next = improved(growth, at, here);
-    constexpr double short_step = 1e-9;  // its square is what the distance is wrong by
-    const bool ended = !next || (*next - at).norm() <= short_step * (1.0 + at.norm());
-    if (next) at = *next;
-    if (!ended) continue;
-    const auto end = on_boundary(growth, at);
-    if (!end) return std::nullopt;
-    // The change is along the gradient, but for what one short step leaves.
-    const Change gradient = growth.with_gradient(*end).gradient.normalized();
-    constexpr double least_cosine = 1.0 - 1e-8;
-    const bool is_least = std::abs(gradient.dot(*end)) >= least_cosine * end->norm();
-    return is_least ? end : std::nullopt;
+    if (!next) break;
+    constexpr double short_step = 1e-4;
+    const bool is_near = (*next - at).norm() <= short_step * (1.0 + at.norm());
+    at = *next;
+    if (is_near) break;
   }
-  return std::nullopt;
+  return stationary_change(growth, at);
 }
 
 void accept(OverallMargin& margin, const LogGrowth& growth, const Drivetrain& drive,

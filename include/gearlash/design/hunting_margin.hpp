@@ -64,11 +64,11 @@ struct OverallMargin {
 /// The smallest change of all numbers together that brings growth at rest to 1:
 ///   min |x|  subject to  ln μ₀(J_M e^{x₁}, J_L e^{x₂}, F_M e^{x₃}, F_L e^{x₄}, K e^{x₅}) = 0.
 /// By the steps x ← g (g·x − ln μ₀)/|g|², g the exact gradient of ln μ₀, cut short where they do
-/// not lower ½|x|² + k|ln μ₀| (Hasofer & Lind 1974; Rackwitz & Fiessler 1978; Zhang & Der
-/// Kiureghian 1995: it is their design point). μ₀ does not depend on the units of torque and time,
-/// so that x lies in a space of three dimensions; the search starts from no change and from the
-/// first crossings of the boundary along 128 directions spread over that space and 10 along the
-/// axes, the nearest eight of them.
+/// not lower ½|x|² + k|ln μ₀|, and at last by Newton's method on x = λg, ln μ₀ = 0 (Hasofer & Lind
+/// 1974; Rackwitz & Fiessler 1978; Zhang & Der Kiureghian 1995: it is their design point). μ₀ does
+/// not depend on the units of torque and time, so that x lies in a space of three dimensions; the
+/// search starts from no change and from the nearest eight of the first crossings of the boundary
+/// along 128 directions spread over that space and 10 along the axes.
 ///
 /// Guaranteed: the drive given has |μ₀ − 1| < 1e-10, and no crossing nearer than the distance was
 /// met along those 138 rays, followed in steps of 0.02. Not guaranteed: that no other part of the
