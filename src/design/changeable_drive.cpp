@@ -164,6 +164,33 @@ void ChangeableDrive::change(Drivetrain& drive, Parameter parameter, double valu
   }
 }
 
+DrivetrainSlopes ChangeableDrive::slopes(Parameter parameter) const {
+  const double present = present_value(parameter);
+  switch (parameter) {
+    case Parameter::backlash:
+      return {.backlash = 1.0};
+    case Parameter::gear_ratio:
+      return {.motor_inertia = 2.0 * drivetrain_.motor_inertia / present,
+              .motor_friction = 2.0 * drivetrain_.motor_friction / present,
+              .stiffness = drivetrain_.stiffness / present};
+    case Parameter::error_gain:
+      return {.stiffness = drivetrain_.stiffness / present};
+    case Parameter::load_friction:
+      return {.load_friction = load_friction_unit_};
+    case Parameter::motor_friction:
+      return {.motor_friction = motor_friction_unit_};
+    case Parameter::tachometer:
+      return {.motor_friction = tachometer_unit_};
+    case Parameter::load_inertia:
+      return {.load_inertia = 1.0};
+    case Parameter::motor_inertia:
+      return {.motor_inertia = motor_inertia_unit_};
+    case Parameter::restitution:
+      return {.restitution = 1.0};
+  }
+  return {};
+}
+
 Bounds ChangeableDrive::range(Parameter parameter) const {
   constexpr double factor = 1e3;
   constexpr double times_critical = 10.0;

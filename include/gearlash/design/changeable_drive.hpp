@@ -37,6 +37,17 @@ std::optional<Parameter> parameter_named(std::string_view name);
 /// "gear ratio", "added tachometer feedback", …
 const char* description_of(Parameter parameter);
 
+/// One derivative for each number of a Drivetrain: of it, or by it.
+struct DrivetrainSlopes {
+  double motor_inertia = 0.0;
+  double load_inertia = 0.0;
+  double motor_friction = 0.0;
+  double load_friction = 0.0;
+  double stiffness = 0.0;
+  double backlash = 0.0;
+  double restitution = 0.0;
+};
+
 /// A data sheet, or a normalised servo, and what becomes of it when a parameter is changed.
 class ChangeableDrive {
  public:
@@ -61,6 +72,10 @@ class ChangeableDrive {
   /// The drive with another value of one parameter, or of two; it need not be sound.
   Drivetrain with(Parameter parameter, double value) const;
   Drivetrain with(Parameter parameter, double value, Parameter other, double other_value) const;
+
+  /// How the drive's numbers change with a parameter: the derivatives of with() at its present
+  /// value.
+  DrivetrainSlopes slopes(Parameter parameter) const;
 
  private:
   void change(Drivetrain& drive, Parameter parameter, double value) const;

@@ -1,0 +1,68 @@
+// How the limit cycle of a servo, and its verdict, change with each of its normalised numbers:
+// exact derivatives.
+#pragma once
+
+#include <limits>
+
+#include "gearlash/servo/normalized_servo.hpp"
+
+namespace gearlash {
+
+/// Partial derivatives by the numbers of a NormalizedServo. NaN where there is none.
+struct ServoGradient {
+  double damping = std::numeric_limits<double>::quiet_NaN();         ///< by ζ
+  double inertia_ratio = std::numeric_limits<double>::quiet_NaN();   ///< by J_L/J_M
+  double friction_ratio = std::numeric_limits<double>::quiet_NaN();  ///< by F_L/(F_M+F_L)
+  double backlash = std::numeric_limits<double>::quiet_NaN();        ///< by b, rad
+  double restitution = std::numeric_limits<double>::quiet_NaN();     ///< by e, from above at e = 0
+};
+
+struct SensitiveValue {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  ServoGradient slope;
+};
+
+enum class SensitivityOutcome {
+  available,  ///< all is set
+  no_cycle,   ///< it does not hunt (or has no backlash); only the growth at rest is set
+  undecided,  ///< on the boundary of hunting to within rounding; only the growth at rest is set
+  undamped,   ///< ζ = 0: no cycle, and growth at rest is infinite; nothing is set
+  massless,   ///< a shaft without inertia: not worked out, nothing is set
+  bounces     ///< e > 0: not worked out, nothing is set
+};
+
+/// Times in units of 1/ω_n, angles in rad at the load's shaft.
+struct CycleSensitivity {
+  SensitivityOutcome outcome = SensitivityOutcome::no_cycle;
+  SensitiveValue growth_at_rest;  ///< μ₀; where it is infinite it has no derivatives
+  SensitiveValue size;            ///< of the cycle that is seen in practice, largest_stable()
+  SensitiveValue period;
+  SensitiveValue multiplier;
+
+  bool available() const { return outcome == SensitivityOutcome::available; }
+};
+
+/// Growth at rest and the plastic cycle with their exact derivatives.
+///
+/// The flight time t₂(p) is defined by ln ρ(t₂; p) = 0 (unit_half_cycle.hpp), hence
+///   dt₂/dp = −(∂ ln ρ/∂p)/(∂ ln ρ/∂t₂),
+/// and everything else is a closed form of t₂ and p, differentiated by forward automatic
+/// differentiation (Griewank & Walther, Evaluating Derivatives, 2008, ch. 3 and 15) with divided
+/// differences that keep their digits where rates meet (decay_slopes.hpp). Values are those of
+/// analyse_limit_cycles().
+///
+/// Error: 64 epsilons × (1 + Σ|∂ ln μ₀/∂ ln p|/ln μ₀) of max(|derivative|, |value/p|) for ζ ≥ 0.01,
+/// some hundred times that at ζ = 1e-6 (tests/cycle, against 70 digits). The factor is the
+/// problem's own: t₂ grows as ln(1/ln μ₀) towards the boundary of hunting, so that a change of a
+/// parameter in its last bit changes the derivatives as much.
+///
+/// Restitution: bounces end after a time of order e with the faces engaged in the state of the
+/// engaged motion, to third order in e (docs/mathematics.md, Settling: over whole bounces ∫u̇ dt =
+/// 0, so only the standing off of height ½e²u̇²/a over a time 2e|u̇|/a acts). At e = 0 size, period,
+/// multiplier and growth at rest thus have the derivative 0 from above, which is what is given.
+///
+/// A size is the largest of three extremes of the load; where two of them tie, the derivative is
+/// that of one side. Throws InvalidInput.
+CycleSensitivity cycle_sensitivity(const NormalizedServo& servo);
+
+}  // namespace gearlash
