@@ -43,6 +43,16 @@ std::optional<std::string> nearest(const std::vector<std::string>& known,
   return best;
 }
 
+/// A number without unit: of TOML, or in text (a fraction).
+double exact_number(const std::string& field, const toml::node& value) {
+  if (const auto* integer = value.as_integer()) return static_cast<double>(integer->get());
+  if (const auto* floating = value.as_floating_point()) {
+    return floating->get() + 0.0;  // no negative zero
+  }
+  if (const auto* text = value.as_string()) return read_number(field, text->get());
+  throw InvalidInput({{field, "", "must be a number without unit, such as 0.25 or \"1/9\"", ""}});
+}
+
 }  // namespace
 
 std::string one_of(const std::vector<std::string>& known, std::string_view written) {
@@ -193,42 +203,46 @@ const toml::node* SectionReader::require(const std::string& key, const std::stri
 
 Quantity SectionReader::read(const std::string& key, const toml::node& value,
                              const Dimension& expected) {
-  const std::optional<std::string> text = value.value_exact<std::string>();
-  if (!text && bare_numbers_ && value.is_number()) {
-    return {.si = read(key, value), .unit = std::string(expected.unit)};
-  }
-  if (!text) {
-    findings_.refuse(field(key), value,
-                     "must be text of a number and a unit of " + std::string(expected.name) +
-                         ", such as \"1 " + std::string(expected.unit) + "\"");
-    return {.si = placeholder_quantity};
-  }
-  try {
-    const Quantity quantity = read_quantity(field(key), *text, expected);
-    findings_.remember(field(key), value);
-    return quantity;
-  } catch (const InvalidInput& problem) {
-    findings_.refuse(field(key), value, problem.violations().front().permitted);
-    return {.si = placeholder_quantity};
-  }
+  const auto read_exact = [&](const std::string& name, const toml::node& node) -> Quantity {
+    if (bare_numbers_ && node.is_number()) {
+      return {.si = exact_number(name, node), .unit = std::string(expected.unit)};
+    }
+    const std::optional<std::string> text = node.value_exact<std::string>();
+    if (text) return read_quantity(name, *text, expected);
+    throw InvalidInput({{name, "",
+                         "must be text of a number and a unit of " + std::string(expected.name) +
+                             ", such as \"1 " + std::string(expected.unit) + "\"",
+                         ""}});
+  };
+  return read(key, value, read_exact, placeholder_quantity);
 }
 
 double SectionReader::read(const std::string& key, const toml::node& value) {
-  std::optional<double> number;
-  if (const auto* integer = value.as_integer()) number = static_cast<double>(integer->get());
-  if (const auto* floating = value.as_floating_point()) number = floating->get();
+  const auto read_exact = [](const std::string& name, const toml::node& node) -> Quantity {
+    return {.si = exact_number(name, node)};
+  };
+  return read(key, value, read_exact, placeholder_number).si;
+}
+
+Quantity SectionReader::read(const std::string& key, const toml::node& value,
+                             const ExactReader& read_exact, double placeholder) {
   try {
-    if (const auto* text = value.as_string()) number = read_number(field(key), text->get());
+    const std::string name = field(key);
+    const TolerancedValue read = varied_ != nullptr
+                                     ? read_toleranced(name, value, read_exact)
+                                     : TolerancedValue{read_exact(name, value), std::nullopt};
+    if (read.distribution) {
+      const std::optional<DriveNumber> number = drive_number_named(name);
+      if (!number) throw InvalidInput({{name, "", "must not carry a tolerance", ""}});
+      require_none(validate(*read.distribution, name));
+      varied_->push_back({*number, *read.distribution});
+    }
+    findings_.remember(name, value);
+    return read.nominal;
   } catch (const InvalidInput& problem) {
     findings_.refuse(field(key), value, problem.violations().front().permitted);
-    return placeholder_number;
+    return {.si = placeholder};
   }
-  if (!number) {
-    findings_.refuse(field(key), value, "must be a number without unit, such as 0.25 or \"1/9\"");
-    return placeholder_number;
-  }
-  findings_.remember(field(key), value);
-  return *number + 0.0;  // no negative zero
 }
 
 }  // namespace gearlash

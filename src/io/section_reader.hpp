@@ -9,8 +9,10 @@
 #include <string_view>
 #include <vector>
 
+#include "gearlash/design/toleranced_drive.hpp"
 #include "gearlash/io/units.hpp"
 #include "gearlash/servo/violation.hpp"
+#include "toleranced_value.hpp"
 #include "toml_document.hpp"
 
 namespace gearlash {
@@ -63,6 +65,9 @@ class SectionReader {
   /// From now on a quantity may be a bare number, in its dimension's SI unit.
   void accept_bare_numbers() { bare_numbers_ = true; }
 
+  /// From now on numbers of a drive may carry tolerances, which are added to `varied`.
+  void collect_tolerances(std::vector<VariedNumber>& varied) { varied_ = &varied; }
+
   /// A number with a unit, in text.
   Quantity quantity(const std::string& key, const Dimension& expected);
   std::optional<Quantity> optional_quantity(const std::string& key, const Dimension& expected);
@@ -93,12 +98,15 @@ class SectionReader {
   const toml::node* require(const std::string& key, const std::string& permitted);
   Quantity read(const std::string& key, const toml::node& value, const Dimension& expected);
   double read(const std::string& key, const toml::node& value);
+  Quantity read(const std::string& key, const toml::node& value, const ExactReader& read_exact,
+                double placeholder);
   std::string field(const std::string& key) const { return name_ + "." + key; }
 
   const TomlDocument& document_;
   Findings& findings_;
   std::string name_;
   bool bare_numbers_ = false;
+  std::vector<VariedNumber>* varied_ = nullptr;
   const toml::table* table_ = nullptr;
   std::vector<std::string> known_;
 };

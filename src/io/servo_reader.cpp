@@ -56,7 +56,9 @@ class ServoReader {
   }
 
   SectionReader section(std::string name, bool required, std::string contents) {
-    return SectionReader(document_, findings_, std::move(name), required, std::move(contents));
+    SectionReader section(document_, findings_, std::move(name), required, std::move(contents));
+    section.collect_tolerances(file_.varied);
+    return section;
   }
 
   void refuse_other_sections() {
@@ -193,6 +195,7 @@ class ServoReader {
           "must be from 1e-308 to 1e308 rad/s: stiffness and inertias are too far apart");
       return;
     }
+    check_tolerances({.nominal = datasheet, .varied = file_.varied}, motor);
     file_.servo = normalize(drivetrain);
     file_.natural_frequency = frequency;
     file_.datasheet = datasheet;
@@ -224,6 +227,28 @@ class ServoReader {
     servo.restitution = read_restitution();
     findings_.take(validate(servo), &name_in_normalized, section.place());
     file_.servo = servo;
+    for (VariedNumber& varied : file_.varied) {
+      if (varied.number == DriveNumber::contact_restitution) {
+        varied.number = DriveNumber::servo_restitution;
+      }
+    }
+    if (findings_.none()) {
+      check_tolerances({.nominal = servo,
+                        .natural_frequency = file_.natural_frequency.value_or(1.0),
+                        .varied = file_.varied},
+                       section.place());
+    }
+  }
+
+  void check_tolerances(const TolerancedDrive& drive, Place otherwise) {
+    if (!drive.varied.empty()) findings_.take(validate(drive), &name_in_file, otherwise);
+  }
+
+  /// "gearbox.backlash.min" is found at "gearbox.backlash".
+  static std::string name_in_file(const std::string& field) {
+    if (field.starts_with("servo.restitution")) return "contact.restitution";
+    const std::size_t second = field.find('.', field.find('.') + 1);
+    return field.substr(0, second);
   }
 
   /// Whether [servo] has to give the input; if it is varied, it must not.

@@ -353,8 +353,63 @@ TEST(ServoFileRefusal, NumbersAtTheLoadSayWhatTheyAreMadeOf) {
                        "finite; it is motor.inertia * gearbox.ratio^2"));
 }
 
+/// The sample with another value in place of its resistance.
+std::vector<VariedNumber> varied_by(const std::string& value) {
+  return parse_servo(replaced(sample, "\"282 ohm\"", value), "s.toml").varied;
+}
+
+TEST(ServoFileTolerances, AreReadInEveryForm) {
+  const auto is = [](const std::string& value, const Distribution& distribution) {
+    const std::vector<VariedNumber> varied = varied_by(value);
+    ASSERT_EQ(varied.size(), 1U) << value;
+    EXPECT_EQ(varied[0].number, DriveNumber::motor_resistance);
+    EXPECT_TRUE(varied[0].distribution == distribution) << value;
+  };
+  EXPECT_TRUE(varied_by("\"282 ohm\"").empty());
+  is("\"200 ohm ± 10 %\"", UniformAbout{200.0, 20.0});
+  is("\"200 ohm +- 10%\"", UniformAbout{200.0, 20.0});
+  is("\"200 ohm +/- 8 ohm\"", UniformAbout{200.0, 8.0});
+  is("\"200 ± 8 ohm\"", UniformAbout{200.0, 8.0});
+  is("{ value = \"200 ohm\", tolerance = \"8 ohm\" }", UniformAbout{200.0, 8.0});
+  is("{ value = \"200 ohm\", normal = \"10 %\" }", Normal{200.0, 20.0, {}, {}});
+  is("{ value = \"200 ohm\", normal = \"0.02 kohm\", min = \"150 ohm\" }",
+     Normal{200.0, 20.0, 150.0, {}});
+  is("{ min = \"200 ohm\", max = \"300 ohm\" }", UniformBetween{200.0, 300.0});
+  is("{ lots = [\"200 ohm\", { value = \"300 ohm\", weight = 3 }] }",
+     DiscreteLots{{{200.0, 1.0}, {300.0, 3.0}}});
+}
+
+TEST(ServoFileTolerances, LeaveTheNominalServo) {
+  const auto nominal = [](const std::string& value) {
+    return parse_servo(replaced(sample, "\"282 ohm\"", value), "s.toml").servo;
+  };
+  EXPECT_EQ(nominal("\"282 ohm ± 10 %\""), nominal("\"282 ohm\""));
+  EXPECT_EQ(nominal("{ min = \"280 ohm\", max = \"284 ohm\" }"), nominal("\"282 ohm\""));
+  EXPECT_EQ(nominal("{ lots = [\"200 ohm\", { value = \"282 ohm\", weight = 3 }] }"),
+            nominal("\"282 ohm\""));
+}
+
+TEST(ServoFileRefusal, OfTolerancesThatAreNone) {
+  const auto fault = [](const std::string& value) {
+    const auto lines = refusals(replaced(sample, "\"282 ohm\"", value));
+    return lines.size() == 1 ? lines.front() : std::to_string(lines.size()) + " lines";
+  };
+  const std::string start = "s.toml:7:14: motor.resistance = ";
+  EXPECT_EQ(fault("\"282 ohm ± -5 %\""),
+            start + "282 ohm ± -5 %: must not have a tolerance below zero");
+  EXPECT_THAT(fault("\"282 ohm ± 5 V\""), HasSubstr("must be "));
+  EXPECT_EQ(fault("\"282 ohm ± 100 %\""), start + "282 ohm ± 100 %: must stay positive");
+  EXPECT_THAT(fault("{ value = \"282 ohm\", normal = \"40 %\" }"),
+              HasSubstr("must stay positive: give it a min"));
+  EXPECT_THAT(fault("{ value = \"282 ohm\" }"), HasSubstr("must be { value, tolerance }, "));
+  EXPECT_THAT(fault("{ ohm = 1 }"), HasSubstr("must not have this key: must be one of value, "));
+  EXPECT_THAT(fault("{ min = \"3 ohm\", max = \"2 ohm\" }"), HasSubstr("must be at least min"));
+  EXPECT_THAT(fault("{ lots = [] }"), HasSubstr("must be { value, tolerance }, "));
+  EXPECT_THAT(fault("{ lots = [{ value = \"3 ohm\", weight = -1 }] }"), HasSubstr("must be"));
+}
+
 TEST(ServoFileRefusal, OfAnotherType) {
-  for (const char* value : {"true", "3.0", "1979-05-27", "[\"1 ohm\"]", "{ohm = 1}"}) {
+  for (const char* value : {"true", "3.0", "1979-05-27", "[\"1 ohm\"]"}) {
     EXPECT_THAT(refusals(replaced(sample, "\"282 ohm\"", value)),
                 ElementsAre("s.toml:7:14: motor.resistance = " + std::string(value) +
                             ": must be text of a number and a unit of electrical resistance, such "

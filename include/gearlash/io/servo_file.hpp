@@ -6,7 +6,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "gearlash/design/toleranced_drive.hpp"
 #include "gearlash/servo/datasheet.hpp"
 #include "gearlash/servo/drivetrain.hpp"
 #include "gearlash/servo/normalized_servo.hpp"
@@ -32,6 +34,8 @@ struct ServoFile {
   std::optional<Datasheet> datasheet;       ///< with [motor], sound
   std::optional<Drivetrain> drivetrain;     ///< with [motor], that of the data sheet
   AngleUnit backlash_unit;                  ///< in which the file gives the backlash
+  /// Numbers with tolerances, in the order of the file; all else here is of nominal values.
+  std::vector<VariedNumber> varied = {};
 
   bool operator==(const ServoFile&) const = default;
 };

@@ -1,0 +1,173 @@
+// gearlash tolerance: what will a production run do?
+#include <charconv>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include "command.hpp"
+#include "gearlash/io/output_file.hpp"
+#include "gearlash/io/target_text.hpp"
+#include "gearlash/io/tolerance_report.hpp"
+#include "servo_options.hpp"
+#include "terminal.hpp"
+
+namespace gearlash::cli {
+namespace {
+
+constexpr char examples[] =
+    "  gearlash tolerance examples/toleranced.toml\n"
+    "  gearlash tolerance examples/toleranced.toml --target \"size <= 1 deg\" --yield \"95 %\"\n"
+    "  gearlash tolerance examples/toleranced.toml --samples 10000000 --format json | jq "
+    ".hunting\n";
+
+constexpr char explanation[] =
+    "Numbers of SERVO.toml carry their tolerances:\n"
+    "  inertia = \"0.61 oz in2 ± 10 %\"                       uniform\n"
+    "  backlash = { min = \"5 arcmin\", max = \"12 arcmin\" }   uniform\n"
+    "  friction = { value = \"2 mN m s/rad\", normal = \"5 %\", min = \"1 mN m s/rad\" }\n"
+    "  ratio = { lots = [40, { value = 50, weight = 3 }] }\n\n";
+
+struct ToleranceOptions {
+  std::string file;
+  std::string samples = "65536";
+  std::string seed = "1960";
+  std::string target;
+  std::string yield;
+  std::string format = "text";
+};
+
+/// Without sign, fraction or exponent.
+template <class Whole>
+Whole read_whole(const std::string& field, const std::string& text, Whole least, Whole most,
+                 Faults& faults) {
+  Whole number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_whole = error == std::errc() && end == text.data() + text.size();
+  if (is_whole && number >= least && number <= most) return number;
+  faults.add(
+      {field, shown(text),
+       "must be a whole number from " + std::to_string(least) + " to " + std::to_string(most), ""});
+  return least;
+}
+
+/// "95 %" or 0.95.
+double read_share(const std::string& field, std::string text, Faults& faults) {
+  const bool in_percent = text.ends_with('%');
+  if (in_percent) text.pop_back();
+  const double number = faults.collect([&] { return read_number(field, text); }, 0.5);
+  const double share = in_percent ? 0.01 * number : number;
+  if (!(share > 0.0 && share <= 1.0)) {
+    faults.add({field, shown(text), "must be a share above 0 and up to 1, or \"95 %\"", ""});
+  }
+  return share;
+}
+
+struct Task {
+  TolerancedDrive drive;
+  ReportUnits units;
+  Sampling sampling;
+  StudyQuestions questions;
+  double yield = 0.0;  ///< demanded; 0: none
+};
+
+TolerancedDrive toleranced_drive(const ServoFile& file) {
+  TolerancedDrive drive{.nominal = file.servo,
+                        .natural_frequency = file.natural_frequency.value_or(1.0),
+                        .varied = file.varied};
+  if (file.datasheet) drive.nominal = *file.datasheet;
+  return drive;
+}
+
+Task read_task(const ToleranceOptions& options, Faults& faults) {
+  Task task;
+  faults.require_choice("--format", options.format, {"text", "json"});
+  const ServoFile file = faults.collect([&] { return read_servo_file(options.file); }, ServoFile{});
+  task.drive = toleranced_drive(file);
+  task.units = report_units(file);
+  task.sampling =
+      sampling_of(read_whole<std::size_t>("--samples", options.samples, 32, most_samples, faults));
+  task.sampling.seed =
+      read_whole<std::uint64_t>("--seed", options.seed, 0, std::uint64_t{1} << 53U, faults);
+  if (!options.target.empty()) {
+    const TimeScale scale = file.natural_frequency ? TimeScale::known : TimeScale::unknown;
+    task.questions.target =
+        faults.collect([&] { return read_target("--target", options.target, scale); }, Target{});
+  }
+  if (!options.yield.empty()) {
+    task.yield = read_share("--yield", options.yield, faults);
+    if (options.target.empty()) {
+      faults.add({"--target", "", "must say what --yield is to be a share of", ""});
+    }
+  }
+  faults.require_none();
+  if (file.varied.empty()) {
+    throw InvalidInput(
+        {{"SERVO.toml", shown(options.file),
+          "must have a number with a tolerance, such as \"0.61 oz in2 ± 10 %\"", ""}});
+  }
+  return task;
+}
+
+ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
+  Faults faults;
+  const Task task = read_task(options, faults);
+  std::optional<Progress> progress;
+  const auto begin = [&](const char* what, std::size_t drives) {
+    progress.reset();
+    progress.emplace(what, drives, "drives");
+    return GridEvaluation{.going_on = [&](std::size_t done) {
+      progress->show_done(done);
+      return true;
+    }};
+  };
+  ToleranceReport report{.drive = task.drive,
+                         .target_text = options.target,
+                         .demanded_yield = task.yield,
+                         .units = task.units,
+                         .provenance = provenance};
+  const std::size_t samples = task.sampling.samples();
+  report.study =
+      study_tolerances(task.drive, task.sampling, task.questions, begin("Study", samples));
+  report.sensitivities = study_sensitivities(
+      task.drive, task.sampling, begin("Indices", samples * (task.drive.varied.size() + 2)));
+  if (task.yield > 0.0) {
+    report.backlash =
+        widest_backlash(task.drive, {.target = task.questions.target, .yield = task.yield},
+                        task.sampling, begin("Backlash", samples));
+  }
+  progress.reset();
+  report.worst = worst_corner(task.drive);
+  write_file("-", options.format == "json" ? tolerance_json(report) : tolerance_text(report));
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+void add_tolerance_command(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<ToleranceOptions>();
+  CLI::App* command =
+      app.add_subcommand("tolerance", "how many of a production run hunt, how big, and why?");
+  command->add_option("SERVO.toml", options->file, "servo whose numbers carry tolerances")
+      ->type_name("")
+      ->required();
+  command
+      ->add_option("--samples", options->samples,
+                   "pieces, at least (default 65536): 16 times a power of two")
+      ->type_name("N");
+  command->add_option("--seed", options->seed, "of the random shifts (default 1960)")
+      ->type_name("N");
+  command->add_option("--target", options->target, "of which the yield is told, as design has it")
+      ->type_name("TARGET");
+  command
+      ->add_option("--yield", options->yield,
+                   "how much backlash may be let through so that this share meets\n"
+                   "the target: \"95 %\" or 0.95")
+      ->type_name("SHARE");
+  command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");
+  command->footer(explanation + help_footer(examples));
+  command->callback([options, &action] {
+    action = [options](const Provenance& provenance) { return run(*options, provenance); };
+  });
+}
+
+}  // namespace gearlash::cli
