@@ -33,7 +33,7 @@ double size_per_backlash(double load_friction) {
   return performance_of(to_drivetrain(datasheet)).size;
 }
 
-constexpr Sampling fixed_sampling{.points = 1024, .replicates = 16, .seed = 41};
+constexpr Sampling fixed_sampling{.points = 4096, .replicates = 16, .seed = 41};
 
 class OracleToleranceOfBacklash : public testing::TestWithParam<Distribution> {};
 
