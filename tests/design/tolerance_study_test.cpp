@@ -333,6 +333,7 @@ TEST(EdgeToleranceStudy, NoFrictionGrowsWithoutBound) {
   EXPECT_EQ(study.yield.value, 0.0);
   EXPECT_TRUE(std::isinf(study.size.front().value.value));
   EXPECT_EQ(study.histogram.unknown, 8U);
+  EXPECT_TRUE(std::isnan(study.mean_size.value));
 }
 
 TEST(EdgeToleranceStudy, BouncesAreFollowed) {
