@@ -54,15 +54,15 @@ DrawnCycles solve(const TolerancedDrive& drive, std::size_t rows, std::span<cons
   std::vector<std::size_t> refused;
   const std::size_t width = drive.varied.size();
   for (std::size_t row = 0; row < rows; ++row) {
-    try {
-      const DrivePerBacklash drawn = drive_per_backlash(drive, values.subspan(row * width, width));
-      servos[row] = drawn.drive.servo;
-      natural_frequency[row] = drawn.drive.natural_frequency;
-      cycles.backlash[row] = drawn.backlash;
-    } catch (const InvalidInput&) {
+    const auto drawn = sound_drive_per_backlash(drive, values.subspan(row * width, width));
+    if (!drawn) {
       servos[row] = stand_in;
       refused.push_back(row);
+      continue;
     }
+    servos[row] = drawn->drive.servo;
+    natural_frequency[row] = drawn->drive.natural_frequency;
+    cycles.backlash[row] = drawn->backlash;
   }
   CycleTable table(rows);
   cycles.solved = find_limit_cycles(servos, table.columns(), unit);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "drawn_cycles.hpp"
@@ -187,8 +188,8 @@ SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const Samplin
     return nothing;
   }
   const detail::DrawnValues values(drive, sampling, 2);
-  const std::size_t at_a_time =
-      std::max<std::size_t>(1, detail::drives_at_a_time(drive) / (numbers + 2));
+  // A quarter of the usual number: each point is numbers + 2 drives, each block a set of sums.
+  const std::size_t at_a_time = detail::drives_at_a_time(drive) / 4;
   const double usual_size = size_of_mean_drive(drive, how.unit);
   std::vector<BlockSums> blocks(detail::block_count(sampling, at_a_time),
                                 {Sums(numbers), Sums(numbers)});

@@ -22,6 +22,7 @@ struct Counts {
   std::size_t meeting = 0;
   std::size_t undecided = 0;
   std::size_t unknown_sizes = 0;
+  std::size_t finite_sizes = 0;
   std::size_t refused = 0;
   BatchCount solved;
   double sum_of_sizes = 0.0;
@@ -31,6 +32,7 @@ struct Counts {
     meeting += others.meeting;
     undecided += others.undecided;
     unknown_sizes += others.unknown_sizes;
+    finite_sizes += others.finite_sizes;
     refused += others.refused;
     solved.side_by_side += others.solved.side_by_side;
     solved.one_by_one += others.solved.one_by_one;
@@ -54,7 +56,10 @@ Counts count_block(const detail::DrawnCycles& cycles, const Target& target, std:
     if (is_met(target, cycles.performance(row))) ++counts.meeting;
     if (cycles.verdict[row] == Verdict::undecided) ++counts.undecided;
     if (std::isnan(size)) ++counts.unknown_sizes;
-    if (std::isfinite(size)) counts.sum_of_sizes += size;
+    if (std::isfinite(size)) {
+      ++counts.finite_sizes;
+      counts.sum_of_sizes += size;
+    }
     columns.size[place + row] = std::isnan(size) ? infinity : size;
     columns.frequency[place + row] = std::isnan(frequency) ? no_cycle : frequency;
   }
@@ -105,17 +110,16 @@ SizeHistogram histogram_of(const detail::SortedReplicates& sizes, std::size_t bi
   return histogram;
 }
 
-/// Of counts or sums over each replicate's points.
-template <class Quantity>
-Estimate mean_of_replicates(const std::vector<Counts>& replicates, std::size_t points,
-                            Quantity quantity) {
-  std::vector<double> each;
-  double sum = 0.0;
+/// Σ quantity/Σ all, over the replicates.
+template <class Quantity, class All>
+Estimate share_of(const std::vector<Counts>& replicates, Quantity quantity, All all) {
+  std::vector<double> quantities;
+  std::vector<double> wholes;
   for (const Counts& counts : replicates) {
-    each.push_back(quantity(counts) / static_cast<double>(points));
-    sum += each.back();
+    quantities.push_back(static_cast<double>(quantity(counts)));
+    wholes.push_back(static_cast<double>(all(counts)));
   }
-  return detail::estimate_of(sum / static_cast<double>(each.size()), each);
+  return detail::ratio_of(quantities, wholes);
 }
 
 /// What counting alone tells.
@@ -126,14 +130,16 @@ ToleranceStudy counted(const Sampling& sampling, const std::vector<Counts>& bloc
     replicates[i / (blocks.size() / sampling.replicates)].add(blocks[i]);
     total.add(blocks[i]);
   }
-  const auto mean = [&](auto quantity) {
-    return mean_of_replicates(replicates, sampling.points, quantity);
-  };
+  const auto points = [&](const Counts&) { return sampling.points; };
   ToleranceStudy study;
   study.sampling = sampling;
-  study.hunting = mean([](const Counts& c) { return static_cast<double>(c.hunting); });
-  study.yield = mean([](const Counts& c) { return static_cast<double>(c.meeting); });
-  study.mean_size = mean([](const Counts& c) { return c.sum_of_sizes; });
+  study.hunting = share_of(
+      replicates, [](const Counts& c) { return c.hunting; }, points);
+  study.yield = share_of(
+      replicates, [](const Counts& c) { return c.meeting; }, points);
+  study.mean_size = share_of(
+      replicates, [](const Counts& c) { return c.sum_of_sizes; },
+      [](const Counts& c) { return c.finite_sizes; });
   study.undecided = total.undecided;
   study.unknown_sizes = total.unknown_sizes;
   study.refused = total.refused;

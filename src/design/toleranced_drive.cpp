@@ -320,14 +320,40 @@ TimedServo drive_with(const TolerancedDrive& drive, std::span<const double> valu
 }
 
 namespace detail {
+namespace {
 
-DrivePerBacklash drive_per_backlash(const TolerancedDrive& drive, std::span<const double> values) {
+/// A backlash of 1 rad for that of the drive, which is returned.
+double take_backlash(Nominal& nominal) {
   constexpr double most_backlash = 1e6;  // rad: more is refused
-  Nominal nominal = nominal_with(drive, values);
   double& place = *place_in(nominal, backlash_of(nominal));
   const double backlash = place;
   if (backlash > 0.0 && backlash <= most_backlash) place = 1.0;
+  return backlash;
+}
+
+TimedServo timed_sound(const Nominal& nominal, double natural_frequency) {
+  if (const NormalizedServo* servo = std::get_if<NormalizedServo>(&nominal)) {
+    return {*servo, natural_frequency};
+  }
+  const Drivetrain drivetrain = to_drivetrain_sound(std::get<Datasheet>(nominal));
+  return {normalize_sound(drivetrain), gearlash::natural_frequency(drivetrain)};
+}
+
+}  // namespace
+
+DrivePerBacklash drive_per_backlash(const TolerancedDrive& drive, std::span<const double> values) {
+  Nominal nominal = nominal_with(drive, values);
+  const double backlash = take_backlash(nominal);
   return {timed(nominal, drive.natural_frequency), backlash};
+}
+
+std::optional<DrivePerBacklash> sound_drive_per_backlash(const TolerancedDrive& drive,
+                                                         std::span<const double> values) {
+  Nominal nominal = nominal_with(drive, values);
+  const double backlash = take_backlash(nominal);
+  const TimedServo timed = timed_sound(nominal, drive.natural_frequency);
+  if (!validate(timed.servo).empty()) return std::nullopt;
+  return DrivePerBacklash{timed, backlash};
 }
 
 }  // namespace detail

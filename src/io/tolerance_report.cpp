@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "gearlash/io/columns.hpp"
@@ -25,11 +26,6 @@ std::string percent_text(const Estimate& estimate) {
   if (std::isnan(estimate.value)) return "not known";
   return fmt::format("{} ± {} %", significant(100.0 * estimate.value, digits),
                      significant(100.0 * bar * estimate.standard_error, 2));
-}
-
-std::string share_text(const Estimate& estimate) {
-  if (std::isnan(estimate.value)) return "";
-  return fmt::format("{:.3f} ± {}", estimate.value, significant(bar * estimate.standard_error, 2));
 }
 
 std::string angle_text(double angle, const ToleranceReport& report) {
@@ -71,7 +67,8 @@ std::vector<Row> quantile_rows(const ToleranceReport& report) {
 }
 
 std::string index_text(const Estimate& estimate) {
-  return std::isnan(estimate.value) ? "–" : share_text(estimate);
+  if (std::isnan(estimate.value)) return "–";
+  return fmt::format("{:.3f}", std::max(0.0, estimate.value));  // below 0 only by its error
 }
 
 /// Angles in the author's unit, all else in its own.
@@ -81,14 +78,62 @@ std::string number_text(DriveNumber number, double value, const ToleranceReport&
   return significant(value, digits) + (unit == "1" ? "" : " " + unit);
 }
 
+template <class... Visitors>
+struct Overloaded : Visitors... {
+  using Visitors::operator()...;
+};
+template <class... Visitors>
+Overloaded(Visitors...) -> Overloaded<Visitors...>;
+
+/// "± 5 %", "0.05 rad to 0.15 rad", "normal, 3 %", "2 lots".
+std::string spread_text(const VariedNumber& varied, const ToleranceReport& report) {
+  const auto share = [](double spread, double nominal) {
+    return significant(100.0 * spread / std::abs(nominal), digits) + " %";
+  };
+  const auto value = [&](double number) { return number_text(varied.number, number, report); };
+  return std::visit(
+      Overloaded{
+          [&](const ExactValue& exact) { return value(exact.value); },
+          [&](const UniformBetween& between) {
+            return value(between.min) + " to " + value(between.max);
+          },
+          [&](const UniformAbout& about) {
+            return "± " + (about.nominal == 0.0 ? value(about.tolerance)
+                                                : share(about.tolerance, about.nominal));
+          },
+          [&](const Normal& normal) {
+            std::string text =
+                "normal, " + (normal.mean == 0.0 ? value(normal.standard_deviation)
+                                                 : share(normal.standard_deviation, normal.mean));
+            if (normal.min) text += ", from " + value(*normal.min);
+            if (normal.max) text += ", to " + value(*normal.max);
+            return text;
+          },
+          [&](const DiscreteLots& lots) { return fmt::format("{} lots", lots.lots.size()); }},
+      varied.distribution);
+}
+
+/// Two standard errors of the least certain index.
+double widest_bar(const SensitivityStudy& study) {
+  double widest = 0.0;
+  for (const NumberSensitivity& number : study.numbers) {
+    for (const SensitivityIndices& indices : {number.of_size, number.of_hunting}) {
+      for (const Estimate& estimate : {indices.first_order, indices.total}) {
+        widest = std::fmax(widest, bar * estimate.standard_error);
+      }
+    }
+  }
+  return widest;
+}
+
 std::vector<Row> number_rows(const ToleranceReport& report) {
-  std::vector<Row> rows = {{"number", "varies", "of size, alone", "with others",
-                            "of hunting, alone", "with others", "worst piece"}};
+  std::vector<Row> rows = {
+      {"number", "varies", "size", "in all", "hunting", "in all", "worst piece"}};
   for (std::size_t i = 0; i < report.drive.varied.size(); ++i) {
     const VariedNumber& varied = report.drive.varied[i];
     const NumberSensitivity& indices = report.sensitivities.numbers[i];
     const WorstNumber& worst = report.worst.numbers[i];
-    rows.push_back({name_of(varied.number), text_of(varied.distribution),
+    rows.push_back({name_of(varied.number), spread_text(varied, report),
                     index_text(indices.of_size.first_order), index_text(indices.of_size.total),
                     index_text(indices.of_hunting.first_order),
                     index_text(indices.of_hunting.total),
@@ -210,7 +255,11 @@ Json json_backlash(const ToleranceReport& report) {
 std::string tolerance_text(const ToleranceReport& report) {
   return "Of all pieces\n" + table_text(headline_rows(report)) + "\n" +
          table_text(quantile_rows(report)) +
-         "\nWhat decides: shares of the variance of size and of hunting (Sobol's indices)\n" +
+         fmt::format(
+             "\nWhat decides: the share of the variance of size and of hunting that goes with "
+             "a number\nalone, and in all, with what it does together with others (Sobol's "
+             "indices, ± {})\n",
+             significant(widest_bar(report.sensitivities), 1)) +
          table_text(number_rows(report)) + "\n" + wrapped(worst_text(report)) +
          backlash_text(report) + "\n" + counts_text(report);
 }

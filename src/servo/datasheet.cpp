@@ -42,18 +42,6 @@ std::vector<Violation> validate(const Motor& motor) {
   return check.violations();
 }
 
-Drivetrain assemble(const Datasheet& datasheet) {
-  const ReferredMotor motor = refer_to_load(datasheet);
-  return {.motor_inertia = motor.inertia,
-          .load_inertia = datasheet.load.inertia,
-          .motor_friction = motor.mechanical_friction + motor.electrical_friction,
-          .load_friction = datasheet.load.friction,
-          .stiffness = motor.stiffness,
-          .backlash = datasheet.gearbox.backlash,
-          .restitution = datasheet.contact.restitution,
-          .sensor = datasheet.loop.sensor};
-}
-
 /// What the numbers at the load shaft are made of, for an author who has given none of them.
 struct Origin {
   std::string_view field;
@@ -95,7 +83,7 @@ std::vector<Violation> validate(const Datasheet& datasheet) {
     check.refuse("loop.sensor", "motor", "must be " + permitted_values("sensor"));
   }
   if (!check.violations().empty()) return check.violations();
-  return named_for_datasheet(validate(assemble(datasheet)));
+  return named_for_datasheet(validate(to_drivetrain_sound(datasheet)));
 }
 
 ReferredMotor refer_to_load(const Datasheet& datasheet) {
@@ -123,7 +111,19 @@ ReferredMotor refer_to_load(const Datasheet& datasheet) {
 
 Drivetrain to_drivetrain(const Datasheet& datasheet) {
   require_none(validate(datasheet));
-  return assemble(datasheet);
+  return to_drivetrain_sound(datasheet);
+}
+
+Drivetrain to_drivetrain_sound(const Datasheet& datasheet) {
+  const ReferredMotor motor = refer_to_load(datasheet);
+  return {.motor_inertia = motor.inertia,
+          .load_inertia = datasheet.load.inertia,
+          .motor_friction = motor.mechanical_friction + motor.electrical_friction,
+          .load_friction = datasheet.load.friction,
+          .stiffness = motor.stiffness,
+          .backlash = datasheet.gearbox.backlash,
+          .restitution = datasheet.contact.restitution,
+          .sensor = datasheet.loop.sensor};
 }
 
 }  // namespace gearlash

@@ -26,7 +26,22 @@ std::vector<Violation> validate_masses_and_stiffness(const Drivetrain& drivetrai
   return check.violations();
 }
 
-NormalizedServo ratios(const Drivetrain& drivetrain) {
+}  // namespace
+
+std::vector<Violation> validate(const Drivetrain& drivetrain) {
+  RangeCheck check;
+  check.include(validate_masses_and_stiffness(drivetrain));
+  // Ratios of unsound masses mean nothing; the fields that are passed on are checked all the same.
+  const bool sound = check.violations().empty();
+  NormalizedServo servo = sound ? normalize_sound(drivetrain) : NormalizedServo{};
+  servo.backlash = drivetrain.backlash;
+  servo.restitution = drivetrain.restitution;
+  servo.sensor = drivetrain.sensor;
+  check.include(validate(servo));
+  return check.violations();
+}
+
+NormalizedServo normalize_sound(const Drivetrain& drivetrain) {
   const double inertia = drivetrain.motor_inertia + drivetrain.load_inertia;
   const double friction = drivetrain.motor_friction + drivetrain.load_friction;
   NormalizedServo servo;
@@ -40,21 +55,6 @@ NormalizedServo ratios(const Drivetrain& drivetrain) {
   return servo;
 }
 
-}  // namespace
-
-std::vector<Violation> validate(const Drivetrain& drivetrain) {
-  RangeCheck check;
-  check.include(validate_masses_and_stiffness(drivetrain));
-  // Ratios of unsound masses mean nothing; the fields that are passed on are checked all the same.
-  const bool sound = check.violations().empty();
-  NormalizedServo servo = sound ? ratios(drivetrain) : NormalizedServo{};
-  servo.backlash = drivetrain.backlash;
-  servo.restitution = drivetrain.restitution;
-  servo.sensor = drivetrain.sensor;
-  check.include(validate(servo));
-  return check.violations();
-}
-
 double natural_frequency(const Drivetrain& drivetrain) {
   return std::sqrt(drivetrain.stiffness) /
          std::sqrt(drivetrain.motor_inertia + drivetrain.load_inertia);
@@ -62,7 +62,7 @@ double natural_frequency(const Drivetrain& drivetrain) {
 
 NormalizedServo normalize(const Drivetrain& drivetrain) {
   require_none(validate(drivetrain));
-  return ratios(drivetrain);
+  return normalize_sound(drivetrain);
 }
 
 }  // namespace gearlash

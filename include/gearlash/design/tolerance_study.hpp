@@ -38,7 +38,7 @@ struct SizeHistogram {
 
 /// A drive hunts when it can go on oscillating, by itself or after a disturbance (any verdict but
 /// cannot_hunt and undecided). Where a size is not known (irregular hunting, undecided) it counts
-/// as infinite in quantiles and is left out of the mean; such a drive meets no target.
+/// as infinite in quantiles; such a drive meets no target. The mean is that of finite sizes.
 struct ToleranceStudy {
   Sampling sampling;
   Estimate hunting = {};                          ///< probability
@@ -56,8 +56,9 @@ struct ToleranceStudy {
 };
 
 /// By quasi-Monte-Carlo over all varied numbers. The same bits for any number of threads; 16 bytes
-/// a sample are kept (size and frequency, for the quantiles). Throws InvalidInput with every
-/// violation of the drive, the sampling and the questions.
+/// a sample are kept (size and frequency, for the quantiles). Drives that bounce (restitution above
+/// 0) are followed one by one, some milliseconds each: ask for few samples of these. Throws
+/// InvalidInput with every violation of the drive, the sampling and the questions.
 ToleranceStudy study_tolerances(const TolerancedDrive& drive, const Sampling& sampling = {},
                                 const StudyQuestions& questions = {},
                                 const GridEvaluation& how = {});

@@ -15,7 +15,7 @@ struct BacklashDemand {
   double yield = 0.95;  ///< share of pieces that are to meet the target, above 0 to 1
   /// The lower limit of the backlash's tolerance, rad, ≥ 0. Without it: the lowest value of the
   /// backlash where it varies (drawn_range_of()), its nominal value where it does not.
-  std::optional<double> min;
+  std::optional<double> min = {};
 };
 
 /// Every violation of the ranges above.

@@ -16,10 +16,10 @@ struct ToleranceReport {
   TolerancedDrive drive;
   std::string target_text;  ///< as its author wrote it; empty where there was none
   double demanded_yield = 0.0;
-  ToleranceStudy study;
-  SensitivityStudy sensitivities;
-  WorstCorner worst;
-  std::optional<WidestBacklash> backlash;  ///< where a yield was demanded and can be had
+  ToleranceStudy study = {};
+  SensitivityStudy sensitivities = {};
+  WorstCorner worst = {};
+  std::optional<WidestBacklash> backlash = {};  ///< where a yield was demanded and can be had
   ReportUnits units = {};
   Provenance provenance = {};
 };

@@ -97,4 +97,7 @@ ReferredMotor refer_to_load(const Datasheet& datasheet);
 /// The drivetrain of a sound data sheet. Throws InvalidInput with every violation.
 Drivetrain to_drivetrain(const Datasheet& datasheet);
 
+/// to_drivetrain() without its checks, for a data sheet that is known to be sound.
+Drivetrain to_drivetrain_sound(const Datasheet& datasheet);
+
 }  // namespace gearlash

@@ -29,4 +29,7 @@ double natural_frequency(const Drivetrain& drivetrain);
 /// drivetrain without friction is reported as 0. Throws InvalidInput.
 NormalizedServo normalize(const Drivetrain& drivetrain);
 
+/// normalize() without its checks, for a drivetrain that is known to be sound.
+NormalizedServo normalize_sound(const Drivetrain& drivetrain);
+
 }  // namespace gearlash
