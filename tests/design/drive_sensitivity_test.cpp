@@ -255,18 +255,30 @@ TEST(DriveSensitivity, OfSizeByBacklashIsOneForOne) {
 
 // ---- edges --------------------------------------------------------------------------------------
 
-TEST(EdgeDriveSensitivity, WithoutACycleOrWithBouncesSaysSo) {
-  NormalizedServo servo{
+TEST(EdgeDriveSensitivity, WithoutACycleSaysSo) {
+  const NormalizedServo servo{
       .damping = 0.9, .inertia_ratio = 2.0, .friction_ratio = 0.5, .backlash = 0.1};
-  DriveSensitivity found = drive_sensitivity(ChangeableDrive(servo));
+  const DriveSensitivity found = drive_sensitivity(ChangeableDrive(servo));
   EXPECT_EQ(found.outcome, SensitivityOutcome::no_cycle);
   EXPECT_TRUE(std::isnan(found.values[Quantity::size]));
   EXPECT_TRUE(std::isnan(found.find("gear_ratio")->of[Quantity::period].slope));
   EXPECT_TRUE(std::isfinite(found.find("gear_ratio")->of[Quantity::growth_at_rest].elasticity));
-  servo.restitution = 0.5;
-  found = drive_sensitivity(ChangeableDrive(servo));
-  EXPECT_EQ(found.outcome, SensitivityOutcome::bounces);
-  EXPECT_TRUE(std::isnan(found.find("gear_ratio")->of[Quantity::growth_at_rest].slope));
+}
+
+TEST(DriveSensitivity, WithBouncesAgreesWithDifferencesToo) {
+  const ChangeableDrive drive(NormalizedServo{.damping = 0.3,
+                                              .inertia_ratio = 2.0,
+                                              .friction_ratio = 0.2,
+                                              .backlash = 0.1,
+                                              .restitution = 0.4});
+  expect_slopes(drive, 1e-7);
+  const Sensitivity by_restitution =
+      drive_sensitivity(drive).find("restitution")->of[Quantity::size];
+  const double exact = difference(
+      [&](double value) { return performance_of(drive.with(Parameter::restitution, value)).size; },
+      0.4, 0.4);
+  EXPECT_NEAR(by_restitution.slope, exact, 1e-8);
+  EXPECT_NE(by_restitution.slope, 0.0);
 }
 
 }  // namespace
