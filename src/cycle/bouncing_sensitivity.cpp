@@ -282,7 +282,10 @@ NormalizedServo shifted(NormalizedServo servo, Eigen::Index number, double step)
   return servo;
 }
 
-/// Central differences, extrapolated once; NaN where a neighbour has no such cycle.
+/// Central differences, extrapolated once. The map of a settling cycle steps by some 1e-8 where one
+/// bounce more is followed before the rest are summed up: a step across such a place shows in that
+/// two differences disagree, and a shorter one is taken. NaN where none will do, or where a
+/// neighbour has no such cycle.
 double multiplier_slope(const NormalizedServo& servo, const Orbit& orbit, Eigen::Index number,
                         const Arrival& arrival_slope) {
   const double present = std::array{servo.damping, servo.inertia_ratio, servo.friction_ratio,
@@ -296,9 +299,16 @@ double multiplier_slope(const NormalizedServo& servo, const Orbit& orbit, Eigen:
     return multiplier_of(iterated(dynamics, *arrival, orbit.order)->slope, orbit.order);
   };
   const auto difference = [&](double step) { return (at(step) - at(-step)) / (2.0 * step); };
-  const double step = 1e-4 * room;
-  if (!(step > 0.0)) return nan;
-  return (4.0 * difference(0.5 * step) - difference(step)) / 3.0;
+  if (!(room > 0.0)) return nan;
+  for (const double share : {1e-4, 1e-5, 1e-6}) {
+    const double whole = difference(share * room);
+    const double half = difference(0.5 * share * room);
+    constexpr double agreement = 1e-6;
+    if (std::abs(half - whole) <= agreement * (std::abs(half) + 1.0 / present)) {
+      return (4.0 * half - whole) / 3.0;
+    }
+  }
+  return nan;
 }
 
 }  // namespace

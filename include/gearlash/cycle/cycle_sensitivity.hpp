@@ -63,7 +63,8 @@ struct CycleSensitivity {
 /// e > 0. The cycle is run again event by event, with derivatives by p and by the arrival x that it
 /// starts from (return_map.hpp); each event's time follows from the condition that ends its phase,
 /// and with F(x, p) the arrival that closes the period, dx/dp = (I − ∂F/∂x)⁻¹ ∂F/∂p. Derivatives of
-/// the multiplier are differences of the exact ∂F/∂x along x(p), good to some 1e-8. They hold while
+/// the multiplier are differences of the exact ∂F/∂x along x(p), good to some 1e-6 and NaN where
+/// differences do not agree. All hold while
 /// no event grazes: where a bounce comes or goes, they are those of the sequence at hand. Against
 /// differences of analyse_limit_cycles(): within 1e-7 (tests/cycle). Costs what
 /// analyse_limit_cycles() costs.
