@@ -1,107 +1,28 @@
 #include "gearlash/cycle/cycle_sensitivity.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <unsupported/Eigen/AutoDiff>
 
+#include "bouncing_sensitivity.hpp"
+#include "dual_numbers.hpp"
 #include "gearlash/cycle/growth_at_rest.hpp"
 #include "gearlash/cycle/half_cycle_algebra.hpp"
 #include "gearlash/cycle/plastic_cycle.hpp"
-#include "gearlash/motion/decay_slopes.hpp"
 #include "gearlash/motion/engaged_flow.hpp"
 
 namespace gearlash {
 namespace {
 
-/// A number with its derivatives by damping, inertia ratio and friction ratio. The backlash is but
-/// the scale of the motion.
-using Gradient = Eigen::Vector3d;
-using Dual = Eigen::AutoDiffScalar<Gradient>;
+/// With derivatives by damping, inertia ratio and friction ratio: the backlash is but the scale of
+/// the motion.
+using Dual = BasicDual<servo_numbers>;
+using Gradient = Dual::DerType;
 using DualDynamics = BasicServoDynamics<Dual>;
 using DualFlight = BasicGapFlight<Dual>;
 using DualHalfCycle = BasicUnitHalfCycle<Dual>;
 
-Dual chained(double value, double slope, const Dual& of) {
-  return {value, slope * of.derivatives()};
-}
-
-// ---- the functions that are not algebra ---------------------------------------------------------
-
-BasicDecay<Dual> dual_decay(const Dual& exponent) {
-  const Decay at = decay(exponent.value());
-  const DecaySlope slope = decay_slope(at);
-  return {exponent, chained(at.factor, slope.factor, exponent),
-          chained(at.integral, slope.integral, exponent),
-          chained(at.double_integral, slope.double_integral, exponent)};
-}
-
-Decay value_of(const BasicDecay<Dual>& decay) {
-  return {decay.exponent.value(), decay.factor.value(), decay.integral.value(),
-          decay.double_integral.value()};
-}
-
-BasicConvolution<Dual> dual_convolution(const BasicDecay<Dual>& x, const BasicDecay<Dual>& y) {
-  const Decay at_x = value_of(x);
-  const Decay at_y = value_of(y);
-  const Convolution at = convolution(at_x, at_y);
-  const ConvolutionSlope by_x = convolution_slope(at_x, at_y);
-  const ConvolutionSlope by_y = convolution_slope(at_y, at_x);
-  const auto joined = [&](double value, double slope_x, double slope_y) -> Dual {
-    return {value, slope_x * x.exponent.derivatives() + slope_y * y.exponent.derivatives()};
-  };
-  return {joined(at.value, by_x.value, by_y.value),
-          joined(at.integral, by_x.integral, by_y.integral),
-          joined(at.double_integral, by_x.double_integral, by_y.double_integral)};
-}
-
-BasicFlightDecays<Dual> dual_decays(const DualFlight& flight, const Dual& time) {
-  const BasicDecay<Dual> load = dual_decay(flight.load_rate * time);
-  const BasicDecay<Dual> motor = dual_decay(flight.motor_rate * time);
-  return {load, motor, dual_convolution(load, motor)};
-}
-
-Dual dual_log1p(const Dual& x) {
-  return chained(std::log1p(x.value()), 1.0 / (1.0 + x.value()), x);
-}
-
-/// ∂t/∂s of t = artanh(√s q)/√s, s = ζ² − 1, where q = n/d: (q/(1 − s q²) − t)/(2s), which near
-/// s = 0 is the series q³ Σ k z^{k−1}/(2k + 1), z = s q².
-double zero_by_split(double split, double n, double d, double form, double time) {
-  const double q = n / d;
-  const double z = split * q * q;
-  constexpr double near = 0.05;
-  if (!(q > 0.0 && std::abs(z) < near)) return (n * d / form - time) / (2.0 * split);
-  constexpr int terms = 14;
-  double sum = 0.0;
-  for (int k = terms; k > 0; --k) sum = sum * z + k / (2.0 * k + 1.0);
-  return q * q * q * sum;
-}
-
-/// first_zero(), which is finite: tan(wt)/w = n/d with n = −x, d = ẋ + ζx, hence, with
-/// d² − (ζ² − 1)n² = Q(x, ẋ),  dt = (d dn − n dd)/Q + ∂t/∂s · 2ζ dζ.
-Dual dual_first_zero(const Dual& damping, const Dual& value, const Dual& slope) {
-  const double zeta = damping.value();
-  const double time = first_zero(zeta, value.value(), slope.value());
-  const Dual d = slope + damping * value;
-  const double n = -value.value();
-  const double form = decaying_form(zeta, value.value(), slope.value());
-  const double by_split =
-      zero_by_split((zeta - 1.0) * (zeta + 1.0), n, d.value(), form, time) * 2.0 * zeta;
-  return {time, (-d.value() * value.derivatives() - n * d.derivatives()) / form +
-                    by_split * damping.derivatives()};
-}
-
 // ---- the half cycle -----------------------------------------------------------------------------
-
-DualDynamics dual_dynamics(const NormalizedServo& servo) {
-  const double ratio = servo.inertia_ratio;
-  const double motor = 1.0 / (1.0 + ratio);
-  const Gradient by_ratio = motor * motor * Gradient::UnitY();
-  return dynamics_of_shafts<Dual>(Dual(servo.damping, 3, 0), Dual(motor, -by_ratio),
-                                  Dual(ratio / (1.0 + ratio), by_ratio),
-                                  Dual(servo.friction_ratio, 3, 2));
-}
 
 DualFlight dual_flight(const DualDynamics& dynamics) {
   const Dual gap = 0.0;
@@ -132,7 +53,7 @@ DualHalfCycle dual_half_cycle(const DualDynamics& dynamics, const DualFlight& fl
   half.engaged_time = dual_first_zero(
       dynamics.damping, mesh_torque(dynamics, half.load_position, half.common_speed),
       mesh_torque_rate(dynamics, half.load_position, half.common_speed));
-  half.log_growth = 0.5 * dual_log1p(half.form_change / start_form(dynamics, flight)) -
+  half.log_growth = 0.5 * dual_log1p<Dual>(half.form_change / start_form(dynamics, flight)) -
                     dynamics.damping * half.engaged_time;
   return half;
 }
@@ -215,6 +136,45 @@ void add_cycle(CycleSensitivity& sensitivity, const DualDynamics& dynamics,
   sensitivity.multiplier = sensitive(cycle.multiplier, multiplier.derivatives());
 }
 
+// ---- with bounces -------------------------------------------------------------------------------
+
+SensitiveValue sensitive(double value, const BouncingGradient& slope, double by_backlash) {
+  return {value,
+          {.damping = slope(0),
+           .inertia_ratio = slope(1),
+           .friction_ratio = slope(2),
+           .backlash = by_backlash,
+           .restitution = slope(3)}};
+}
+
+CycleSensitivity bouncing_sensitivity(const NormalizedServo& servo) {
+  CycleSensitivity sensitivity;
+  const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
+  const double growth = analysis.growth_at_rest;
+  sensitivity.growth_at_rest.value = growth;
+  if (std::isfinite(growth) && growth > 0.0) {
+    const auto gradient = bouncing_log_growth_gradient(servo);
+    if (gradient)
+      sensitivity.growth_at_rest = sensitive(growth, BouncingGradient(growth * *gradient), 0.0);
+  }
+  const LimitCycle* cycle = largest_stable(analysis);
+  if (cycle == nullptr) {
+    sensitivity.outcome = analysis.verdict == Verdict::undecided ? SensitivityOutcome::undecided
+                                                                 : SensitivityOutcome::no_cycle;
+    return sensitivity;
+  }
+  const auto slopes = bouncing_slopes(servo, *cycle);
+  if (!slopes) {
+    sensitivity.outcome = SensitivityOutcome::bounces;
+    return sensitivity;
+  }
+  sensitivity.outcome = SensitivityOutcome::available;
+  sensitivity.size = sensitive(cycle->size, slopes->size, cycle->size / servo.backlash);
+  sensitivity.period = sensitive(cycle->period, slopes->period, 0.0);
+  sensitivity.multiplier = sensitive(cycle->multiplier, slopes->multiplier, 0.0);
+  return sensitivity;
+}
+
 }  // namespace
 
 CycleSensitivity cycle_sensitivity(const NormalizedServo& servo) {
@@ -229,9 +189,9 @@ CycleSensitivity cycle_sensitivity(const NormalizedServo& servo) {
     return ended(SensitivityOutcome::massless);
   }
   if (servo.damping == 0.0) return ended(SensitivityOutcome::undamped);
-  if (servo.restitution > 0.0) return ended(SensitivityOutcome::bounces);
+  if (servo.restitution > 0.0) return bouncing_sensitivity(servo);
 
-  const DualDynamics dual = dual_dynamics(servo);
+  const DualDynamics dual = dual_dynamics<Dual>(servo);
   const double growth = growth_at_rest(dynamics);
   sensitivity.growth_at_rest = sensitive_growth(dual, growth);
   if (growth <= 1.0 || servo.backlash == 0.0) return ended(SensitivityOutcome::no_cycle);

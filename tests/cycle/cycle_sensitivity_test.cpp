@@ -121,7 +121,7 @@ class Servo {
     Real last = guess * (1 + Real(1e-8));
     Real t = guess;
     Real last_value = log(growth(last));
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < 25; ++i) {
       const Real value = log(growth(t));
       if (value == last_value) break;
       const Real next = t - value * (t - last) / (value - last_value);
@@ -474,6 +474,103 @@ TEST(PropertyCycleSensitivity, SmallRestitutionActsToThirdOrder) {
     expect_third_order(rest.multiplier, near.multiplier, far.multiplier);
     expect_third_order(plastic.growth_at_rest, fine.growth_at_rest, coarse.growth_at_rest);
   }
+}
+
+// ---- with bounces -------------------------------------------------------------------------------
+
+const Field restitution_field = {"restitution", nullptr, &NormalizedServo::restitution,
+                                 &ServoGradient::restitution};
+
+/// Differences of analyse_limit_cycles(), extrapolated once, where its neighbours have a cycle of
+/// the same kind.
+void expect_agrees_with_differences(const NormalizedServo& servo, const Field& field,
+                                    const CycleSensitivity& found) {
+  const double present = servo.*field.present;
+  const double step = 1e-4 * std::min(present, 1.0 - servo.friction_ratio);
+  std::array<LimitCycleAnalysis, 4> neighbours;
+  const LimitCycleAnalysis here = analyse_limit_cycles(servo);
+  for (std::size_t i = 0; i < 4; ++i) {
+    NormalizedServo changed = servo;
+    changed.*field.present += std::array{-step, -0.5 * step, 0.5 * step, step}[i];
+    neighbours[i] = analyse_limit_cycles(changed);
+  }
+  const auto slope_of = [&](const auto& quantity) {
+    const double whole = (quantity(neighbours[3]) - quantity(neighbours[0])) / (2.0 * step);
+    const double half = (quantity(neighbours[2]) - quantity(neighbours[1])) / step;
+    return (4.0 * half - whole) / 3.0;
+  };
+  const auto expect_near = [&](const SensitiveValue& value, const auto& quantity,
+                               double tolerance = 1e-7) {
+    const double exact = slope_of(quantity);
+    EXPECT_NEAR(value.slope.*field.slope, exact,
+                tolerance * (std::abs(exact) + std::abs(value.value) / present))
+        << field.name;
+  };
+  expect_near(found.growth_at_rest,
+              [](const LimitCycleAnalysis& analysis) { return analysis.growth_at_rest; });
+  if (!found.available()) return;
+  for (const LimitCycleAnalysis& neighbour : neighbours) {
+    const LimitCycle* cycle = largest_stable(neighbour);
+    if (cycle == nullptr || cycle->impacts_per_period != largest_stable(here)->impacts_per_period) {
+      return;
+    }
+  }
+  const auto of_cycle = [](double LimitCycle::*quantity) {
+    return [quantity](const LimitCycleAnalysis& analysis) {
+      return largest_stable(analysis)->*quantity;
+    };
+  };
+  expect_near(found.size, of_cycle(&LimitCycle::size));
+  expect_near(found.period, of_cycle(&LimitCycle::period));
+  expect_near(found.multiplier, of_cycle(&LimitCycle::multiplier), 1e-4);
+}
+
+TEST(PropertyCycleSensitivity, WithBouncesAgreesWithDifferences) {
+  constexpr std::uint64_t seed = 2105;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  int available = 0;
+  for (int i = 0; i < 25; ++i) {
+    const NormalizedServo servo{.damping = draws.uniform(0.05, 0.5),
+                                .inertia_ratio = draws.log_uniform(0.2, 5.0),
+                                .friction_ratio = draws.uniform(0.1, 0.9),
+                                .backlash = draws.log_uniform(0.01, 1.0),
+                                .restitution = draws.uniform(0.02, 0.8)};
+    SCOPED_TRACE(describe(servo) + " restitution " + exact_text(servo.restitution));
+    const CycleSensitivity found = cycle_sensitivity(servo);
+    EXPECT_NE(found.outcome, SensitivityOutcome::bounces);
+    available += found.available();
+    for (const Field& field : fields) expect_agrees_with_differences(servo, field, found);
+    expect_agrees_with_differences(servo, restitution_field, found);
+    if (!found.available()) continue;
+    EXPECT_EQ(found.size.slope.backlash, found.size.value / servo.backlash);
+    EXPECT_TRUE(std::isfinite(found.multiplier.slope.damping));
+  }
+  EXPECT_GE(available, 12);
+}
+
+TEST(CycleSensitivity, OfAnAsymmetricCycleWhoseBouncesDoNotSettle) {
+  NormalizedServo servo = sample;
+  servo.restitution = 0.6;
+  const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
+  const LimitCycle& cycle = *largest_stable(analysis);
+  ASSERT_EQ(cycle.kind, CycleKind::asymmetric);
+  ASSERT_FALSE(cycle.settles);
+  const CycleSensitivity found = cycle_sensitivity(servo);
+  ASSERT_TRUE(found.available());
+  EXPECT_EQ(found.size.value, cycle.size);
+  // It begins as a fork next by: a short step, and so a rough difference.
+  const double slope = numerical_slope(servo, &NormalizedServo::damping, 1e-7, &LimitCycle::period);
+  EXPECT_NEAR(found.period.slope.damping, slope, 1e-4 * std::abs(slope));
+}
+
+TEST(EdgeCycleSensitivity, AnIrregularMotionHasTheGrowthAlone) {
+  NormalizedServo servo = sample;
+  servo.restitution = 0.9;
+  const CycleSensitivity found = cycle_sensitivity(servo);
+  EXPECT_EQ(found.outcome, SensitivityOutcome::no_cycle);
+  EXPECT_TRUE(std::isnan(found.size.value));
+  EXPECT_TRUE(std::isfinite(found.growth_at_rest.slope.restitution));
 }
 
 }  // namespace

@@ -72,21 +72,27 @@ double difference(const std::function<double(double)>& value_at, double present,
 
 using WithNumber = std::function<Drivetrain(double)>;
 
+struct Tolerances {
+  double general, of_multiplier;
+};
+
 void expect_slopes(const DriveSensitivity& found, const ParameterSensitivity& parameter,
-                   const WithNumber& with, double scale, double tolerance) {
+                   const WithNumber& with, double scale, const Tolerances& tolerances) {
   for (const Quantity quantity : all_quantities) {
     const double exact =
         difference([&](double value) { return quantities_of(with(value))[quantity]; },
                    parameter.present, scale);
     const Sensitivity& sensitivity = parameter.of[quantity];
     const double value = found.values[quantity];
+    const double tolerance =
+        quantity == Quantity::multiplier ? tolerances.of_multiplier : tolerances.general;
     EXPECT_NEAR(sensitivity.slope, exact, tolerance * (std::abs(exact) + std::abs(value) / scale))
         << parameter.name << ": " << name_of(quantity);
     EXPECT_DOUBLE_EQ(sensitivity.elasticity * value, sensitivity.slope * parameter.present);
   }
 }
 
-void expect_slopes(const ChangeableDrive& drive, double tolerance) {
+void expect_slopes(const ChangeableDrive& drive, const Tolerances& tolerances) {
   const DriveSensitivity found = drive_sensitivity(drive);
   ASSERT_EQ(found.outcome, SensitivityOutcome::available);
   ASSERT_EQ(found.parameters.size(), parameter_count);
@@ -99,13 +105,13 @@ void expect_slopes(const ChangeableDrive& drive, double tolerance) {
                              : drive.present_value(parameter);
     expect_slopes(
         found, *found.find(name_of(parameter)),
-        [&](double value) { return drive.with(parameter, value); }, scale, tolerance);
+        [&](double value) { return drive.with(parameter, value); }, scale, tolerances);
   }
 }
 
 TEST(DriveSensitivity, OfEachMotorAgreesWithDifferences) {
   for (const Datasheet& sheet : {armature_sheet(), field_sheet(), two_phase_sheet()}) {
-    expect_slopes(ChangeableDrive(sheet), 1e-9);
+    expect_slopes(ChangeableDrive(sheet), {1e-9, 1e-9});
   }
 }
 
@@ -120,7 +126,7 @@ TEST(PropertyDriveSensitivity, OfRandomServosAgreesWithDifferences) {
                                 .backlash = draws.log_uniform(1e-3, 1.0)};
     if (growth_at_rest(servo_dynamics(servo)) < 1.2) continue;  // where it is steep
     ++compared;
-    expect_slopes(ChangeableDrive(servo, draws.log_uniform(1.0, 100.0)), 1e-8);
+    expect_slopes(ChangeableDrive(servo, draws.log_uniform(1.0, 100.0)), {1e-8, 1e-8});
   }
 }
 
@@ -170,7 +176,7 @@ TEST(DriveSensitivity, OfEachNumberOfADataSheetAgreesWithDifferences) {
         number_of(changed, parameter.name) = value;
         return to_drivetrain(changed);
       };
-      expect_slopes(found, parameter, with, parameter.present, 1e-9);
+      expect_slopes(found, parameter, with, parameter.present, {1e-9, 1e-9});
     }
   }
   EXPECT_EQ(numbers, 11U + 10U + 10U);
@@ -255,18 +261,32 @@ TEST(DriveSensitivity, OfSizeByBacklashIsOneForOne) {
 
 // ---- edges --------------------------------------------------------------------------------------
 
-TEST(EdgeDriveSensitivity, WithoutACycleOrWithBouncesSaysSo) {
-  NormalizedServo servo{
+TEST(EdgeDriveSensitivity, WithoutACycleSaysSo) {
+  const NormalizedServo servo{
       .damping = 0.9, .inertia_ratio = 2.0, .friction_ratio = 0.5, .backlash = 0.1};
-  DriveSensitivity found = drive_sensitivity(ChangeableDrive(servo));
+  const DriveSensitivity found = drive_sensitivity(ChangeableDrive(servo));
   EXPECT_EQ(found.outcome, SensitivityOutcome::no_cycle);
   EXPECT_TRUE(std::isnan(found.values[Quantity::size]));
   EXPECT_TRUE(std::isnan(found.find("gear_ratio")->of[Quantity::period].slope));
   EXPECT_TRUE(std::isfinite(found.find("gear_ratio")->of[Quantity::growth_at_rest].elasticity));
-  servo.restitution = 0.5;
-  found = drive_sensitivity(ChangeableDrive(servo));
-  EXPECT_EQ(found.outcome, SensitivityOutcome::bounces);
-  EXPECT_TRUE(std::isnan(found.find("gear_ratio")->of[Quantity::growth_at_rest].slope));
+}
+
+/// The multiplier of bouncing cycles steps by some 1e-8 from place to place, which differences
+/// show.
+TEST(DriveSensitivity, WithBouncesAgreesWithDifferencesToo) {
+  const ChangeableDrive drive(NormalizedServo{.damping = 0.3,
+                                              .inertia_ratio = 2.0,
+                                              .friction_ratio = 0.2,
+                                              .backlash = 0.1,
+                                              .restitution = 0.4});
+  expect_slopes(drive, {1e-7, 1e-3});
+  const Sensitivity by_restitution =
+      drive_sensitivity(drive).find("restitution")->of[Quantity::size];
+  const double exact = difference(
+      [&](double value) { return performance_of(drive.with(Parameter::restitution, value)).size; },
+      0.4, 0.4);
+  EXPECT_NEAR(by_restitution.slope, exact, 1e-8);
+  EXPECT_NE(by_restitution.slope, 0.0);
 }
 
 }  // namespace

@@ -24,17 +24,18 @@ struct SensitiveValue {
 
 enum class SensitivityOutcome {
   available,  ///< all is set
-  no_cycle,   ///< it does not hunt (or has no backlash); only the growth at rest is set
-  undecided,  ///< on the boundary of hunting to within rounding; only the growth at rest is set
+  no_cycle,   ///< no stable limit cycle (or no backlash); only the growth at rest is set
+  undecided,  ///< on the boundary of hunting to within rounding, or more bounces than can be
+              ///< followed; only the growth at rest is set
   undamped,   ///< ζ = 0: no cycle, and growth at rest is infinite; nothing is set
   massless,   ///< a shaft without inertia: not worked out, nothing is set
-  bounces     ///< e > 0: not worked out, nothing is set
+  bounces     ///< a cycle with bounces that could not be run again; only the growth at rest is set
 };
 
 /// Times in units of 1/ω_n, angles in rad at the load's shaft.
 struct CycleSensitivity {
   SensitivityOutcome outcome = SensitivityOutcome::no_cycle;
-  SensitiveValue growth_at_rest;  ///< μ₀; where it is infinite it has no derivatives
+  SensitiveValue growth_at_rest;  ///< μ₀; where it is infinite it has no derivatives (NaN)
   SensitiveValue size;            ///< of the cycle that is seen in practice, largest_stable()
   SensitiveValue period;
   SensitiveValue multiplier;
@@ -42,26 +43,33 @@ struct CycleSensitivity {
   bool available() const { return outcome == SensitivityOutcome::available; }
 };
 
-/// Growth at rest and the plastic cycle with their exact derivatives.
+/// Growth at rest and the cycle with their exact derivatives. Values are those of
+/// analyse_limit_cycles(). Method: forward automatic differentiation (Griewank & Walther,
+/// Evaluating Derivatives, 2008, ch. 3 and 15) with divided differences that keep their digits
+/// where rates meet (decay_slopes.hpp).
 ///
-/// The flight time t₂(p) is defined by ln ρ(t₂; p) = 0 (unit_half_cycle.hpp), hence
+/// e = 0. The flight time t₂(p) is defined by ln ρ(t₂; p) = 0 (unit_half_cycle.hpp), hence
 ///   dt₂/dp = −(∂ ln ρ/∂p)/(∂ ln ρ/∂t₂),
-/// and everything else is a closed form of t₂ and p, differentiated by forward automatic
-/// differentiation (Griewank & Walther, Evaluating Derivatives, 2008, ch. 3 and 15) with divided
-/// differences that keep their digits where rates meet (decay_slopes.hpp). Values are those of
-/// analyse_limit_cycles().
+/// and everything else is a closed form of t₂ and p. Error: 64 epsilons ×
+/// (1 + Σ|∂ ln μ₀/∂ ln p|/ln μ₀) of max(|derivative|, |value/p|) for ζ ≥ 0.01, some hundred times
+/// that at ζ = 1e-6 (tests/cycle, against 70 digits). The factor is the problem's own: t₂ grows as
+/// ln(1/ln μ₀) towards the boundary of hunting, so that a change of a parameter in its last bit
+/// changes the derivatives as much.
+///   By e they are 0 from above: bounces end after a time of order e with the faces engaged in the
+/// state of the engaged motion, to third order in e (docs/mathematics.md, Settling: over whole
+/// bounces ∫u̇ dt = 0, so only the standing off of height ½e²u̇²/a over a time 2e|u̇|/a acts). Size,
+/// period, multiplier and growth at rest thus change as e³.
 ///
-/// Error: 64 epsilons × (1 + Σ|∂ ln μ₀/∂ ln p|/ln μ₀) of max(|derivative|, |value/p|) for ζ ≥ 0.01,
-/// some hundred times that at ζ = 1e-6 (tests/cycle, against 70 digits). The factor is the
-/// problem's own: t₂ grows as ln(1/ln μ₀) towards the boundary of hunting, so that a change of a
-/// parameter in its last bit changes the derivatives as much.
+/// e > 0. The cycle is run again event by event, with derivatives by p and by the arrival x that it
+/// starts from (return_map.hpp); each event's time follows from the condition that ends its phase,
+/// and with F(x, p) the arrival that closes the period, dx/dp = (I − ∂F/∂x)⁻¹ ∂F/∂p. Derivatives of
+/// the multiplier are differences of the exact ∂F/∂x along x(p), good to some 1e-6 and NaN where
+/// differences do not agree. All hold while
+/// no event grazes: where a bounce comes or goes, they are those of the sequence at hand. Against
+/// differences of analyse_limit_cycles(): within 1e-7 (tests/cycle). Costs what
+/// analyse_limit_cycles() costs.
 ///
-/// Restitution: bounces end after a time of order e with the faces engaged in the state of the
-/// engaged motion, to third order in e (docs/mathematics.md, Settling: over whole bounces ∫u̇ dt =
-/// 0, so only the standing off of height ½e²u̇²/a over a time 2e|u̇|/a acts). At e = 0 size, period,
-/// multiplier and growth at rest thus have the derivative 0 from above, which is what is given.
-///
-/// A size is the largest of three extremes of the load; where two of them tie, the derivative is
+/// A size is the difference of two extremes of the load; where two of a kind tie, the derivative is
 /// that of one side. Throws InvalidInput.
 CycleSensitivity cycle_sensitivity(const NormalizedServo& servo);
 

@@ -33,10 +33,11 @@ ParameterMargin parameter_margin(const ChangeableDrive& drive, Parameter paramet
 
 enum class MarginOutcome {
   found,
-  out_of_reach,    ///< no boundary met within a factor exp(10) in any direction
-  always_hunts,    ///< a shaft without friction: no change by a ratio ends its hunting
-  never_hunts,     ///< no backlash
-  not_worked_out,  ///< e > 0, or a shaft without inertia: derivatives are not available
+  out_of_reach,   ///< no boundary met within a factor exp(10) in any direction
+  always_hunts,   ///< a shaft without friction: no change by a ratio ends its hunting
+  never_hunts,    ///< no backlash
+  not_worked_out  ///< e > 0, where growth at rest alone does not decide (hunts_if_disturbed), or a
+                  ///< shaft without inertia
 };
 
 /// Natural logarithms of ratios, number by number.
