@@ -8,6 +8,7 @@
 
 #include "gearlash/cycle/limit_cycle.hpp"
 #include "gearlash/io/limit_cycle_report.hpp"
+#include "gearlash/servo/overloaded.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -15,13 +16,6 @@ namespace {
 constexpr double chart_backlash = 0.3;  ///< rad, for which the charts of the thesis are drawn
 
 std::string number(double value) { return significant(value, 6); }
-
-template <class... Visitors>
-struct Overloaded : Visitors... {
-  using Visitors::operator()...;
-};
-template <class... Visitors>
-Overloaded(Visitors...) -> Overloaded<Visitors...>;
 
 // --- the data sheet ---
 

@@ -213,7 +213,9 @@ class Search {
   bool try_from(const Arrival& start, int order) {
     const std::optional<FixedPoint> point = newton(course_, start, order);
     if (!point || distance_to_known(point->arrival, false) < 1e-7) return false;
-    if (!is_isolated(*point)) {
+    // On the boundary of hunting the motor creeps for ever: such a cycle is not told from rest.
+    const bool is_endless = 2.0 * point->map.duration > longest_simulation;
+    if (is_endless || !is_isolated(*point)) {
       result_.any_neutral = true;
       return false;
     }

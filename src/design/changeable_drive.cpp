@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "overloaded.hpp"
+#include "gearlash/servo/overloaded.hpp"
 
 namespace gearlash {
 namespace {

@@ -5,8 +5,8 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 
+#include "gearlash/servo/overloaded.hpp"
 #include "gearlash/servo/range_check.hpp"
-#include "overloaded.hpp"
 
 namespace gearlash {
 namespace {

@@ -6,8 +6,8 @@
 namespace gearlash {
 namespace {
 
-constexpr std::array<const char*, quantity_count> quantity_names = {"size", "period", "frequency",
-                                                                    "multiplier", "growth_at_rest"};
+constexpr std::array<const char*, cycle_measure_count> quantity_names = {
+    "size", "period", "frequency", "multiplier", "growth_at_rest"};
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -78,7 +78,7 @@ DriveSensitivity empty_sensitivity(const DrivetrainSensitivity& drive) {
 void add(DriveSensitivity& sensitivity, const DrivetrainSensitivity& drive, const std::string& name,
          double present, const DrivetrainSlopes& numbers) {
   ParameterSensitivity parameter{.name = name, .present = present, .of = {}};
-  for (const Quantity quantity : all_quantities) {
+  for (const CycleMeasure quantity : all_cycle_measures) {
     const double slope = chained(numbers, drive.slopes[quantity]);
     parameter.of[quantity] = {slope, present * slope / drive.values[quantity]};
   }
@@ -158,7 +158,7 @@ std::vector<SheetNumber> numbers_of(const Datasheet& sheet) {
 
 }  // namespace
 
-const char* name_of(Quantity quantity) {
+const char* name_of(CycleMeasure quantity) {
   return quantity_names[static_cast<std::size_t>(quantity)];
 }
 
@@ -169,24 +169,24 @@ DrivetrainSensitivity drivetrain_sensitivity(const Drivetrain& drive) {
   sensitivity.values.values.fill(nan);
   sensitivity.slopes.values.fill(no_slopes);
   const Normalization normalization(drive, servo);
-  const auto set = [&](Quantity quantity, const SensitiveValue& value) {
+  const auto set = [&](CycleMeasure quantity, const SensitiveValue& value) {
     if (std::isnan(value.value)) return;
     sensitivity.values[quantity] = value.value;
     sensitivity.slopes[quantity] = normalization.slopes_of(value.slope);
   };
-  set(Quantity::growth_at_rest, cycle.growth_at_rest);
-  set(Quantity::size, cycle.size);
-  set(Quantity::multiplier, cycle.multiplier);
-  set(Quantity::period, cycle.period);
+  set(CycleMeasure::growth_at_rest, cycle.growth_at_rest);
+  set(CycleMeasure::size, cycle.size);
+  set(CycleMeasure::multiplier, cycle.multiplier);
+  set(CycleMeasure::period, cycle.period);
   if (!cycle.available()) return sensitivity;
   // In seconds: T = T′/ω_n, dT = (dT′ − T′ d ln ω_n)/ω_n; and f = 1/T.
   const double unit = 1.0 / natural_frequency(drive);
-  double& period = sensitivity.values[Quantity::period];
-  DrivetrainSlopes& slopes = sensitivity.slopes[Quantity::period];
+  double& period = sensitivity.values[CycleMeasure::period];
+  DrivetrainSlopes& slopes = sensitivity.slopes[CycleMeasure::period];
   slopes = scaled(unit, sum(slopes, scaled(-period, normalization.log_frequency())));
   period *= unit;
-  sensitivity.values[Quantity::frequency] = 1.0 / period;
-  sensitivity.slopes[Quantity::frequency] = scaled(-1.0 / (period * period), slopes);
+  sensitivity.values[CycleMeasure::frequency] = 1.0 / period;
+  sensitivity.slopes[CycleMeasure::frequency] = scaled(-1.0 / (period * period), slopes);
   return sensitivity;
 }
 

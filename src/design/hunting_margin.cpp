@@ -46,8 +46,8 @@ class LogGrowth {
     const Drivetrain here = changed(drive_, change);
     if (!validate(here).empty()) return {};
     const DrivetrainSensitivity found = drivetrain_sensitivity(here);
-    const double growth = found.values[Quantity::growth_at_rest];
-    const DrivetrainSlopes& slopes = found.slopes[Quantity::growth_at_rest];
+    const double growth = found.values[CycleMeasure::growth_at_rest];
+    const DrivetrainSlopes& slopes = found.slopes[CycleMeasure::growth_at_rest];
     Change gradient;
     gradient << slopes.motor_inertia * here.motor_inertia, slopes.load_inertia * here.load_inertia,
         slopes.motor_friction * here.motor_friction, slopes.load_friction * here.load_friction,

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "drive_per_backlash.hpp"
+#include "gearlash/servo/overloaded.hpp"
 #include "gearlash/servo/range_check.hpp"
-#include "overloaded.hpp"
 
 namespace gearlash {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "gearlash/io/columns.hpp"
+#include "gearlash/servo/overloaded.hpp"
 #include "json_values.hpp"
 
 namespace gearlash {
@@ -77,13 +78,6 @@ std::string number_text(DriveNumber number, double value, const ToleranceReport&
   if (unit == "rad") return angle_text(value, report);
   return significant(value, digits) + (unit == "1" ? "" : " " + unit);
 }
-
-template <class... Visitors>
-struct Overloaded : Visitors... {
-  using Visitors::operator()...;
-};
-template <class... Visitors>
-Overloaded(Visitors...) -> Overloaded<Visitors...>;
 
 /// "± 5 %", "0.05 rad to 0.15 rad", "normal, 3 %", "2 lots".
 std::string spread_text(const VariedNumber& varied, const ToleranceReport& report) {

@@ -4,17 +4,11 @@
 #include <string>
 #include <string_view>
 
+#include "gearlash/servo/overloaded.hpp"
 #include "gearlash/servo/range_check.hpp"
 
 namespace gearlash {
 namespace {
-
-template <class... Visitors>
-struct Overloaded : Visitors... {
-  using Visitors::operator()...;
-};
-template <class... Visitors>
-Overloaded(Visitors...) -> Overloaded<Visitors...>;
 
 std::vector<Violation> validate(const Motor& motor) {
   RangeCheck check("motor.");

@@ -41,16 +41,16 @@ Datasheet two_phase_sheet() {
 }
 
 /// The quantities of a drive, without derivatives.
-ByQuantity<double> quantities_of(const Drivetrain& drive) {
+ByCycleMeasure<double> quantities_of(const Drivetrain& drive) {
   const LimitCycleAnalysis analysis = analyse_limit_cycles(normalize(drive));
-  ByQuantity<double> values;
+  ByCycleMeasure<double> values;
   values.values.fill(std::numeric_limits<double>::quiet_NaN());
-  values[Quantity::growth_at_rest] = analysis.growth_at_rest;
+  values[CycleMeasure::growth_at_rest] = analysis.growth_at_rest;
   if (const LimitCycle* cycle = largest_stable(analysis)) {
-    values[Quantity::size] = cycle->size;
-    values[Quantity::period] = cycle->period / natural_frequency(drive);
-    values[Quantity::frequency] = performance_of(drive).frequency;
-    values[Quantity::multiplier] = cycle->multiplier;
+    values[CycleMeasure::size] = cycle->size;
+    values[CycleMeasure::period] = cycle->period / natural_frequency(drive);
+    values[CycleMeasure::frequency] = performance_of(drive).frequency;
+    values[CycleMeasure::multiplier] = cycle->multiplier;
   }
   return values;
 }
@@ -78,14 +78,14 @@ struct Tolerances {
 
 void expect_slopes(const DriveSensitivity& found, const ParameterSensitivity& parameter,
                    const WithNumber& with, double scale, const Tolerances& tolerances) {
-  for (const Quantity quantity : all_quantities) {
+  for (const CycleMeasure quantity : all_cycle_measures) {
     const double exact =
         difference([&](double value) { return quantities_of(with(value))[quantity]; },
                    parameter.present, scale);
     const Sensitivity& sensitivity = parameter.of[quantity];
     const double value = found.values[quantity];
     const double tolerance =
-        quantity == Quantity::multiplier ? tolerances.of_multiplier : tolerances.general;
+        quantity == CycleMeasure::multiplier ? tolerances.of_multiplier : tolerances.general;
     EXPECT_NEAR(sensitivity.slope, exact, tolerance * (std::abs(exact) + std::abs(value) / scale))
         << parameter.name << ": " << name_of(quantity);
     EXPECT_DOUBLE_EQ(sensitivity.elasticity * value, sensitivity.slope * parameter.present);
@@ -169,7 +169,7 @@ TEST(DriveSensitivity, OfEachNumberOfADataSheetAgreesWithDifferences) {
       Datasheet changed = sheet;
       EXPECT_EQ(number_of(changed, parameter.name), parameter.present) << parameter.name;
       if (parameter.name == "contact.restitution") {
-        EXPECT_EQ(parameter.of[Quantity::size].slope, 0.0);
+        EXPECT_EQ(parameter.of[CycleMeasure::size].slope, 0.0);
         continue;
       }
       const auto with = [&](double value) {
@@ -192,7 +192,7 @@ TEST(DriveSensitivity, OfADataSheetAndOfItsChangeableDriveAgree) {
       {"motor.friction", "motor_friction"}, {"load.inertia", "load_inertia"},
       {"motor.inertia", "motor_inertia"},   {"contact.restitution", "restitution"}};
   for (const auto& [dotted, plain] : names) {
-    for (const Quantity quantity : all_quantities) {
+    for (const CycleMeasure quantity : all_cycle_measures) {
       EXPECT_DOUBLE_EQ(sheet.find(dotted)->of[quantity].slope,
                        drive.find(plain)->of[quantity].slope)
           << dotted;
@@ -227,7 +227,7 @@ TEST(PropertyDriveSensitivity, KnowsTheScalesOfTorqueTimeAndAngle) {
     ++compared;
     const DrivetrainSensitivity found = drivetrain_sensitivity(drive);
     ASSERT_EQ(found.outcome, SensitivityOutcome::available);
-    for (const Quantity quantity : all_quantities) {
+    for (const CycleMeasure quantity : all_cycle_measures) {
       const DrivetrainSlopes& slopes = found.slopes[quantity];
       const double value = found.values[quantity];
       const double parts = std::abs(slopes.motor_inertia * drive.motor_inertia) +
@@ -239,13 +239,13 @@ TEST(PropertyDriveSensitivity, KnowsTheScalesOfTorqueTimeAndAngle) {
       // The unit of torque.
       EXPECT_NEAR(directional(slopes, drive, 1.0, 1.0, 1.0), 0.0, rounding) << name_of(quantity);
       // The unit of time: inertia as its square, friction with it.
-      const double power = quantity == Quantity::period      ? 1.0
-                           : quantity == Quantity::frequency ? -1.0
-                                                             : 0.0;
+      const double power = quantity == CycleMeasure::period      ? 1.0
+                           : quantity == CycleMeasure::frequency ? -1.0
+                                                                 : 0.0;
       EXPECT_NEAR(directional(slopes, drive, 2.0, 1.0, 0.0), power * value, rounding)
           << name_of(quantity);
       // The unit of angle.
-      const double by_size = quantity == Quantity::size ? 1.0 : 0.0;
+      const double by_size = quantity == CycleMeasure::size ? 1.0 : 0.0;
       EXPECT_NEAR(slopes.backlash * drive.backlash, by_size * value, rounding) << name_of(quantity);
     }
   }
@@ -253,10 +253,10 @@ TEST(PropertyDriveSensitivity, KnowsTheScalesOfTorqueTimeAndAngle) {
 
 TEST(DriveSensitivity, OfSizeByBacklashIsOneForOne) {
   const DriveSensitivity found = datasheet_sensitivity(armature_sheet());
-  EXPECT_DOUBLE_EQ(found.find("gearbox.backlash")->of[Quantity::size].elasticity, 1.0);
-  EXPECT_EQ(found.find("gearbox.backlash")->of[Quantity::frequency].elasticity, 0.0);
-  EXPECT_EQ(found.find("gearbox.backlash")->of[Quantity::growth_at_rest].elasticity, 0.0);
-  EXPECT_EQ(found.find("contact.restitution")->of[Quantity::size].elasticity, 0.0);
+  EXPECT_DOUBLE_EQ(found.find("gearbox.backlash")->of[CycleMeasure::size].elasticity, 1.0);
+  EXPECT_EQ(found.find("gearbox.backlash")->of[CycleMeasure::frequency].elasticity, 0.0);
+  EXPECT_EQ(found.find("gearbox.backlash")->of[CycleMeasure::growth_at_rest].elasticity, 0.0);
+  EXPECT_EQ(found.find("contact.restitution")->of[CycleMeasure::size].elasticity, 0.0);
 }
 
 // ---- edges --------------------------------------------------------------------------------------
@@ -266,9 +266,9 @@ TEST(EdgeDriveSensitivity, WithoutACycleSaysSo) {
       .damping = 0.9, .inertia_ratio = 2.0, .friction_ratio = 0.5, .backlash = 0.1};
   const DriveSensitivity found = drive_sensitivity(ChangeableDrive(servo));
   EXPECT_EQ(found.outcome, SensitivityOutcome::no_cycle);
-  EXPECT_TRUE(std::isnan(found.values[Quantity::size]));
-  EXPECT_TRUE(std::isnan(found.find("gear_ratio")->of[Quantity::period].slope));
-  EXPECT_TRUE(std::isfinite(found.find("gear_ratio")->of[Quantity::growth_at_rest].elasticity));
+  EXPECT_TRUE(std::isnan(found.values[CycleMeasure::size]));
+  EXPECT_TRUE(std::isnan(found.find("gear_ratio")->of[CycleMeasure::period].slope));
+  EXPECT_TRUE(std::isfinite(found.find("gear_ratio")->of[CycleMeasure::growth_at_rest].elasticity));
 }
 
 /// The multiplier of bouncing cycles steps by some 1e-8 from place to place, which differences
@@ -281,7 +281,7 @@ TEST(DriveSensitivity, WithBouncesAgreesWithDifferencesToo) {
                                               .restitution = 0.4});
   expect_slopes(drive, {1e-7, 1e-3});
   const Sensitivity by_restitution =
-      drive_sensitivity(drive).find("restitution")->of[Quantity::size];
+      drive_sensitivity(drive).find("restitution")->of[CycleMeasure::size];
   const double exact = difference(
       [&](double value) { return performance_of(drive.with(Parameter::restitution, value)).size; },
       0.4, 0.4);

@@ -14,28 +14,28 @@
 
 namespace gearlash {
 
-enum class Quantity {
+enum class CycleMeasure {
   size,           ///< rad at the load's shaft, half peak-to-peak
   period,         ///< s
   frequency,      ///< Hz
   multiplier,     ///< Floquet's, over a period
   growth_at_rest  ///< μ₀
 };
-inline constexpr std::size_t quantity_count = 5;
-inline constexpr std::array<Quantity, quantity_count> all_quantities = {
-    Quantity::size, Quantity::period, Quantity::frequency, Quantity::multiplier,
-    Quantity::growth_at_rest};
+inline constexpr std::size_t cycle_measure_count = 5;
+inline constexpr std::array<CycleMeasure, cycle_measure_count> all_cycle_measures = {
+    CycleMeasure::size, CycleMeasure::period, CycleMeasure::frequency, CycleMeasure::multiplier,
+    CycleMeasure::growth_at_rest};
 
 /// "size", "period", …, "growth_at_rest".
-const char* name_of(Quantity quantity);
+const char* name_of(CycleMeasure quantity);
 
 /// One of something for each quantity.
 template <class Value>
-struct ByQuantity {
-  std::array<Value, quantity_count> values{};
+struct ByCycleMeasure {
+  std::array<Value, cycle_measure_count> values{};
 
-  Value& operator[](Quantity quantity) { return values[static_cast<std::size_t>(quantity)]; }
-  const Value& operator[](Quantity quantity) const {
+  Value& operator[](CycleMeasure quantity) { return values[static_cast<std::size_t>(quantity)]; }
+  const Value& operator[](CycleMeasure quantity) const {
     return values[static_cast<std::size_t>(quantity)];
   }
 };
@@ -43,8 +43,8 @@ struct ByQuantity {
 /// By the numbers of a drivetrain. Numbers that do not exist (outcome) are NaN.
 struct DrivetrainSensitivity {
   SensitivityOutcome outcome = SensitivityOutcome::no_cycle;
-  ByQuantity<double> values;
-  ByQuantity<DrivetrainSlopes> slopes;
+  ByCycleMeasure<double> values;
+  ByCycleMeasure<DrivetrainSlopes> slopes;
 };
 
 /// cycle_sensitivity() of the normalised servo and, by the chain rule, with J = J_M + J_L,
@@ -64,12 +64,12 @@ struct Sensitivity {
 struct ParameterSensitivity {
   std::string name;      ///< "gear_ratio", or of a data sheet's numbers "gearbox.ratio"
   double present = 0.0;  ///< p, in SI units or as a share (ChangeableDrive)
-  ByQuantity<Sensitivity> of;
+  ByCycleMeasure<Sensitivity> of;
 };
 
 struct DriveSensitivity {
   SensitivityOutcome outcome = SensitivityOutcome::no_cycle;
-  ByQuantity<double> values;
+  ByCycleMeasure<double> values;
   std::vector<ParameterSensitivity> parameters;
 
   /// nullptr if there is none of that name.
