@@ -48,17 +48,6 @@ void refuse_normalized_options(const ServoOptions& options, const ServoFile& fil
   }
 }
 
-/// Precondition: nothing is at fault.
-ChangeableDrive changeable_drive(const ServoFile& file) {
-  if (!file.datasheet) {
-    return ChangeableDrive(file.servo, file.natural_frequency.value_or(1.0));
-  }
-  Datasheet datasheet = *file.datasheet;  // with what options say of it
-  datasheet.gearbox.backlash = file.servo.backlash;
-  datasheet.contact.restitution = file.servo.restitution;
-  return ChangeableDrive(datasheet);
-}
-
 /// "gear-ratio" is as good as "gear_ratio".
 std::vector<Parameter> read_parameters(const std::string& field,
                                        const std::vector<std::string>& names, Faults& faults) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "command.hpp"
+#include "gearlash/io/change_report.hpp"
 #include "gearlash/io/limit_cycle_report.hpp"
 #include "gearlash/io/output_file.hpp"
 #include "gearlash/io/picture.hpp"
@@ -19,13 +20,22 @@ constexpr char examples[] =
     "  gearlash limit-cycle examples/elinco-fd162.toml --plot hunting.svg\n"
     "  gearlash limit-cycle examples/elinco-fd162.toml --backlash \"12 arcmin\"\n"
     "  gearlash limit-cycle --damping 0.19 --inertia-ratio 2 --friction-ratio 1/10 --backlash 0.3\n"
+    "  gearlash limit-cycle examples/elinco-fd162.toml --sensitivities --plot tornado=size.svg\n"
     "  gearlash limit-cycle examples/normalized.toml --format json | jq .cycles[0].size\n";
 
 struct LimitCycleOptions {
   ServoOptions servo;
   std::string format = "text";
   std::string plot;
+  bool sensitivities = false;
 };
+
+constexpr std::string_view tornado = "tornado=";
+
+/// The file of --plot without what is drawn into it.
+std::string plot_file(const LimitCycleOptions& options) {
+  return options.plot.starts_with(tornado) ? options.plot.substr(tornado.size()) : options.plot;
+}
 
 /// A number that is easily said, not far above `value`.
 double round_up(double value) {
@@ -110,23 +120,62 @@ bool is_decided(const LimitCycleAnalysis& analysis) {
   }
 }
 
+/// Margins and sensitivities rest on the closed form: plastic contact, and two masses.
+bool has_closed_form(const NormalizedServo& servo) {
+  return servo.restitution == 0.0 && servo.damping > 0.0 && servo.inertia_ratio > 0.0 &&
+         std::isfinite(servo.inertia_ratio);
+}
+
+/// Options that change normalised numbers leave a data sheet behind.
+ChangeableDrive drive_of(ServoFile file, const ServoOptions& options) {
+  if (options.damping || options.inertia_ratio || options.friction_ratio) file.datasheet.reset();
+  return changeable_drive(file);
+}
+
+DriveSensitivity sensitivity_of(const ServoFile& file, const ChangeableDrive& drive) {
+  if (drive.is_normalized()) return drive_sensitivity(drive);
+  Datasheet datasheet = *file.datasheet;
+  datasheet.gearbox.backlash = file.servo.backlash;
+  datasheet.contact.restitution = file.servo.restitution;
+  return datasheet_sensitivity(datasheet);
+}
+
+std::string draw(const LimitCycleReport& report, const LimitCycleOptions& options,
+                 PictureFormat format) {
+  if (!options.plot.starts_with(tornado)) return draw(report, format);
+  const BarChart chart = tornado_of(*report.sensitivity);
+  if (chart.bars.empty()) {
+    throw InvalidInput({{"--plot", shown(options.plot),
+                         "must be left out: there are no sensitivities of this servo", ""}});
+  }
+  return draw_bar_chart(chart, format);
+}
+
 ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "json"});
   const PictureFormat picture_kind = faults.collect(
       [&] {
-        return options.plot.empty() ? PictureFormat::svg : picture_format("--plot", options.plot);
+        return options.plot.empty() ? PictureFormat::svg
+                                    : picture_format("--plot", plot_file(options));
       },
       PictureFormat::svg);
-  faults.require_distinct({{"SERVO.toml", options.servo.file}, {"--plot", options.plot}});
+  faults.require_distinct({{"SERVO.toml", options.servo.file}, {"--plot", plot_file(options)}});
   const ServoFile file = resolve_servo(options.servo, faults);
   faults.require_none();
 
-  const LimitCycleReport report{.servo = file.servo,
-                                .analysis = analyse_limit_cycles(file.servo),
-                                .units = report_units(file),
-                                .provenance = provenance};
-  if (!options.plot.empty()) write_file(options.plot, draw(report, picture_kind));
+  LimitCycleReport report{.servo = file.servo,
+                          .analysis = analyse_limit_cycles(file.servo),
+                          .units = report_units(file),
+                          .provenance = provenance};
+  if (has_closed_form(file.servo)) {
+    report.drive = drive_of(file, options.servo);
+    report.margin = hunting_margin(*report.drive);
+  }
+  if (options.sensitivities || options.plot.starts_with(tornado)) {
+    report.sensitivity = sensitivity_of(file, drive_of(file, options.servo));
+  }
+  if (!options.plot.empty()) write_file(plot_file(options), draw(report, options, picture_kind));
   write_file("-", options.format == "json" ? limit_cycle_json(report) : text_for_terminal(report));
   if (is_decided(report.analysis)) return ExitStatus::done;
   std::fputs(("gearlash: " + verdict_line(report) + "\n").c_str(), stderr);
@@ -143,8 +192,11 @@ void add_limit_cycle_command(CLI::App& app, Action& action) {
   command
       ->add_option("--plot", options->plot,
                    "draw the cycle in the phase plane, over a step response\n"
-                   "that leads to it; FILE ends in .svg, .png or .pdf")
+                   "that leads to it; or, after tornado=, what its size depends on;\n"
+                   "FILE ends in .svg, .png or .pdf")
       ->type_name("FILE");
+  command->add_flag("--sensitivities", options->sensitivities,
+                    "exact sensitivities to every number, in per cent for one per cent");
   command->footer(help_footer(examples));
   command->callback([options, &action] {
     action = [options](const Provenance& provenance) { return run(*options, provenance); };

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gearlash/design/changeable_drive.hpp"
 #include "gearlash/io/report_units.hpp"
 #include "gearlash/io/servo_file.hpp"
 #include "gearlash/io/units.hpp"
@@ -67,5 +68,9 @@ double read_scaled(std::string_view field, std::string_view text, const Dimensio
 /// leaves the natural frequency and the stiffness of a data sheet as they are. Faults of the file
 /// and of the options go to `faults`; the result is sound if there are none.
 ServoFile resolve_servo(const ServoOptions& options, Faults& faults);
+
+/// The drive that the file describes, with a data sheet in its own numbers. Precondition: sound,
+/// and no option has changed a number that a data sheet has not.
+ChangeableDrive changeable_drive(const ServoFile& file);
 
 }  // namespace gearlash::cli

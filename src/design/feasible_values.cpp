@@ -16,6 +16,12 @@ struct Part {
   Judgement judgement;
 };
 
+/// Undecided where there is no such drive: beside a shaft without friction a little on the other is
+/// less than a servo may have.
+Performance performance_if_sound(const Drivetrain& drive) {
+  return validate(drive).empty() ? performance_of(drive) : Performance{};
+}
+
 class Search {
  public:
   Search(const ChangeableDrive& drive, Parameter parameter, const Target& target)
@@ -25,7 +31,7 @@ class Search {
 
   Performance performance_at(double value) {
     ++evaluations_;
-    return performance_of(drive_.with(parameter_, value));
+    return performance_if_sound(drive_.with(parameter_, value));
   }
   bool is_met_at(double value) { return is_met(target_, performance_at(value)); }
 
@@ -123,7 +129,7 @@ std::vector<Performance> performances_at(const ChangeableDrive& drive, Parameter
                                          const std::vector<double>& values) {
   std::vector<Performance> performances(values.size());
   on_threads(0, values.size(), [&](std::size_t i) {
-    performances[i] = performance_of(drive.with(parameter, values[i]));
+    performances[i] = performance_if_sound(drive.with(parameter, values[i]));
   });
   return performances;
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "gearlash/io/change_report.hpp"
 #include "gearlash/io/columns.hpp"
 #include "json_values.hpp"
 
@@ -328,8 +329,11 @@ std::string verdict_line(const LimitCycleReport& report) {
 }
 
 std::string limit_cycle_text(const LimitCycleReport& report) {
-  return verdict_line(report) + "\n" + cycle_tables(report) + "\nServo\n" + servo_table(report) +
-         "\n" + wrapped(meaning(report));
+  std::string text =
+      verdict_line(report) + "\n" + cycle_tables(report) + "\nServo\n" + servo_table(report) + "\n";
+  if (report.margin) text += margin_text(*report.drive, *report.margin, report.units) + "\n";
+  if (report.sensitivity) text += sensitivity_text(*report.sensitivity) + "\n";
+  return text + wrapped(meaning(report));
 }
 
 std::string limit_cycle_json(const LimitCycleReport& report) {
@@ -347,6 +351,8 @@ std::string limit_cycle_json(const LimitCycleReport& report) {
     json["irregular_size"] = json_number(analysis.irregular_size);
   }
   if (report.units.natural_frequency) json["physical"] = json_physical(report);
+  if (report.margin) json["margin"] = margin_json(*report.drive, *report.margin);
+  if (report.sensitivity) json["sensitivities"] = sensitivity_json(*report.sensitivity);
   json["provenance"] = json_provenance(report.provenance);
   return json.dump(2) + "\n";
 }

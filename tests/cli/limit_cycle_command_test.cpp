@@ -154,5 +154,26 @@ TEST(LimitCycleCommand, TextHasNoEscapesWhereItIsNoTerminal) {
               testing::Not(HasSubstr("\x1b")));
 }
 
+TEST(LimitCycleCommand, TellsHowFarHuntingIsAndWhatItDependsOn) {
+  const test::Scratch scratch;
+  const Outcome run =
+      run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--sensitivities", "--format", "json",
+                "--plot", "tornado=" + (scratch / "tornado.svg").string()});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto answer = nlohmann::json::parse(run.out);
+  EXPECT_EQ(answer["margin"]["parameters"].size(), 8U);
+  EXPECT_GT(answer["margin"]["overall"]["distance"], 1.0);
+  EXPECT_EQ(answer["sensitivities"]["available"], true);
+  for (const auto& number : answer["sensitivities"]["numbers"]) {
+    if (number["name"] != "gearbox.backlash") continue;
+    EXPECT_EQ(number["size"]["elasticity"], 1.0);
+    EXPECT_EQ(number["period"]["elasticity"], 0.0);
+  }
+  EXPECT_THAT(test::file_text(scratch / "tornado.svg"), testing::HasSubstr("motor.inertia"));
+  const Outcome text = run_tool({"limit-cycle", "examples/elinco-fd162.toml"});
+  EXPECT_THAT(text.out, testing::HasSubstr("Where hunting ends, one change by itself\n"));
+  EXPECT_THAT(text.out, testing::HasSubstr("The least change of all together: "));
+}
+
 }  // namespace
 }  // namespace gearlash

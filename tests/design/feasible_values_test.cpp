@@ -152,6 +152,17 @@ TEST(PropertyFeasibleValues, AScanFindsNoOthers) {
   EXPECT_LT(slivers, tasks / 20);
 }
 
+TEST(EdgeFeasibleValues, BesideAShaftWithoutFrictionAreFound) {
+  const ChangeableDrive drive(NormalizedServo{
+      .damping = 0.2, .inertia_ratio = 2.0, .friction_ratio = 0.0, .backlash = 0.3});
+  for (const Parameter parameter : all_parameters) {
+    if (parameter == Parameter::restitution) continue;
+    const FeasibleValues found = feasible_values(drive, parameter, no_hunting());
+    EXPECT_EQ(found.intervals.empty(), parameter != Parameter::load_friction)
+        << name_of(parameter);  // without friction at the load nothing else ends it
+  }
+}
+
 TEST(EdgeTarget, ContradictionsAreFaults) {
   Target target = at_most(0.1);
   target.size.low = 0.2;

@@ -17,5 +17,16 @@ TEST(RegressionLimitCycle, ASoundServoIsNeverRefused) {
   EXPECT_NO_THROW(analyse_limit_cycles(servo));
 }
 
+/// Newton's method had reached a cycle whose period is some 1e14, next to the boundary of hunting.
+TEST(RegressionLimitCycle, NorOneOnTheBoundaryOfHunting) {
+  const NormalizedServo servo{.damping = 0.4128341770004393,
+                              .inertia_ratio = 0.4724670411963044,
+                              .friction_ratio = 0.5405594067837346,
+                              .backlash = 0.1,
+                              .restitution = 0.29205037164501846};
+  ASSERT_TRUE(validate(servo).empty());
+  EXPECT_NO_THROW(analyse_limit_cycles(servo));
+}
+
 }  // namespace
 }  // namespace gearlash

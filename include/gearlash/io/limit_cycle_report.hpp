@@ -1,9 +1,12 @@
 // The answer to "does it hunt?", for a person and for a program.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "gearlash/cycle/limit_cycle.hpp"
+#include "gearlash/design/drive_sensitivity.hpp"
+#include "gearlash/design/hunting_margin.hpp"
 #include "gearlash/io/report_units.hpp"
 
 namespace gearlash {
@@ -13,6 +16,10 @@ struct LimitCycleReport {
   LimitCycleAnalysis analysis = {};
   ReportUnits units = {};
   Provenance provenance = {};
+  /// What its margins and sensitivities are told of; nothing where they are not asked for.
+  std::optional<ChangeableDrive> drive = std::nullopt;
+  std::optional<HuntingMargin> margin = std::nullopt;
+  std::optional<DriveSensitivity> sensitivity = std::nullopt;
 };
 
 /// The verdict in one line, numbers and all: "hunts: ±0.0814 rad (4.67°) at 2.25 Hz", "cannot hunt:
