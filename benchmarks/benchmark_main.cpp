@@ -1,7 +1,7 @@
 // Gearlash beside Boost.odeint and SUNDIALS CVODE: every contestant does the same problems in this
 // one process, its answers are checked against ours, and the table of ratios is printed at the end;
 // then many servos at once, how far that is from what the machine can do, and how it scales; a map
-// from command to file; and charts for programs.
+// from command to file; charts for programs; and what must change.
 // Options are Google Benchmark's; the tables go to standard output in Markdown, the rest to
 // standard error.
 
@@ -15,6 +15,7 @@
 
 #include "chart_lookups.hpp"
 #include "contestants.hpp"
+#include "design_race.hpp"
 #include "fastest_times.hpp"
 #include "floor.hpp"
 #include "grid_race.hpp"
@@ -140,9 +141,9 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
 
   const std::vector<Race> races = all_races();
-  const std::vector<ReportPart> parts = {enter_grid_race(),    enter_floor(),
-                                         enter_kernel_alone(), enter_scaling(),
-                                         enter_map_to_file(),  enter_chart_lookups()};
+  const std::vector<ReportPart> parts = {
+      enter_grid_race(),   enter_floor(),         enter_kernel_alone(), enter_scaling(),
+      enter_map_to_file(), enter_chart_lookups(), enter_design_race()};
   FastestTimes times;
   benchmark::RunSpecifiedBenchmarks(&times);
   std::printf(

@@ -1,4 +1,5 @@
 // gearlash tolerance: what will a production run do?
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -7,6 +8,7 @@
 #include "command.hpp"
 #include "gearlash/io/output_file.hpp"
 #include "gearlash/io/target_text.hpp"
+#include "gearlash/io/tolerance_pictures.hpp"
 #include "gearlash/io/tolerance_report.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
@@ -34,7 +36,28 @@ struct ToleranceOptions {
   std::string target;
   std::string yield;
   std::string format = "text";
+  std::vector<std::string> plots;
 };
+
+/// "yield=FILE", as typed.
+struct Plot {
+  TolerancePicture picture = TolerancePicture::distribution;
+  std::string file;
+  PictureFormat format = PictureFormat::svg;
+};
+
+Plot read_plot(const std::string& text) {
+  const std::size_t equals = std::min(text.find('='), text.size());
+  const std::string kind = text.substr(0, equals);
+  const std::string file = text.substr(std::min(equals + 1, text.size()));
+  for (const auto& [name, picture] : {std::pair("distribution", TolerancePicture::distribution),
+                                      std::pair("yield", TolerancePicture::yield),
+                                      std::pair("indices", TolerancePicture::indices)}) {
+    if (kind == name && !file.empty()) return {picture, file, picture_format("--plot", file)};
+  }
+  throw InvalidInput(
+      {{"--plot", shown(text), "must be distribution=FILE, yield=FILE or indices=FILE", ""}});
+}
 
 /// Without sign, fraction or exponent.
 template <class Whole>
@@ -68,6 +91,7 @@ struct Task {
   Sampling sampling;
   StudyQuestions questions;
   double yield = 0.0;  ///< demanded; 0: none
+  std::vector<Plot> plots;
 };
 
 TolerancedDrive toleranced_drive(const ServoFile& file) {
@@ -99,6 +123,12 @@ Task read_task(const ToleranceOptions& options, Faults& faults) {
       faults.add({"--target", "", "must say what --yield is to be a share of", ""});
     }
   }
+  std::vector<std::pair<std::string, std::string>> files = {{"SERVO.toml", options.file}};
+  for (const std::string& text : options.plots) {
+    task.plots.push_back(faults.collect([&] { return read_plot(text); }, Plot{}));
+    files.emplace_back("--plot", task.plots.back().file);
+  }
+  faults.require_distinct(files);
   faults.require_none();
   if (file.varied.empty()) {
     throw InvalidInput(
@@ -137,6 +167,9 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
   }
   progress.reset();
   report.worst = worst_corner(task.drive);
+  for (const Plot& plot : task.plots) {
+    write_file(plot.file, draw_tolerances(report, plot.picture, plot.format));
+  }
   write_file("-", options.format == "json" ? tolerance_json(report) : tolerance_text(report));
   return ExitStatus::done;
 }
@@ -163,6 +196,11 @@ void add_tolerance_command(CLI::App& app, Action& action) {
                    "how much backlash may be let through so that this share meets\n"
                    "the target: \"95 %\" or 0.95")
       ->type_name("SHARE");
+  command
+      ->add_option("--plot", options->plots,
+                   "distribution=FILE, yield=FILE or indices=FILE, a picture each; may be\n"
+                   "given several times; FILE ends in .svg, .png or .pdf")
+      ->type_name("KIND=FILE");
   command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");
   command->footer(explanation + help_footer(examples));
   command->callback([options, &action] {

@@ -66,6 +66,22 @@ TEST(ToleranceCommand, TheSameSeedGivesTheSameStudy) {
   EXPECT_THAT(lines_of(once.out), Contains(StartsWith("  load.friction ")));
 }
 
+TEST(ToleranceCommand, PicturesAreDrawn) {
+  const Scratch scratch;
+  const auto file = [&](const char* name) { return (scratch / name).string(); };
+  const Outcome run = run_tool({"tolerance", "examples/toleranced.toml", "--samples", "2000",
+                                "--plot", "distribution=" + file("a.svg"), "--plot",
+                                "yield=" + file("b.pdf"), "--plot", "indices=" + file("c.svg")});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(test::file_text(scratch / "a.svg"), HasSubstr("Sizes of a production run"));
+  EXPECT_THAT(test::file_text(scratch / "b.pdf"), StartsWith("%PDF-"));
+  EXPECT_THAT(test::file_text(scratch / "c.svg"), HasSubstr("load.friction"));
+  const Outcome bad = run_tool({"tolerance", "examples/toleranced.toml", "--plot", "size=a.svg"});
+  EXPECT_EQ(bad.err,
+            "gearlash: --plot = size=a.svg: must be distribution=FILE, yield=FILE or "
+            "indices=FILE\n");
+}
+
 TEST(EdgeToleranceCommand, FaultsAreToldAtOnce) {
   const Outcome run =
       run_tool({"tolerance", "examples/toleranced.toml", "--samples", "1e6", "--seed", "-1",

@@ -1,0 +1,94 @@
+#include "design_race.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "gearlash/cycle/cycle_sensitivity.hpp"
+#include "gearlash/cycle/limit_cycle.hpp"
+#include "gearlash/design/feasible_values.hpp"
+#include "gearlash/design/hunting_margin.hpp"
+#include "gearlash/design/tolerance_study.hpp"
+
+namespace gearlash::benchmarks {
+namespace {
+
+constexpr NormalizedServo sample{
+    .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3};
+
+/// Ten million pieces, of which three numbers and the backlash vary.
+constexpr Sampling sampling{.points = 625'000, .replicates = 16};
+
+TolerancedDrive toleranced() {
+  return {.nominal = sample,
+          .varied = {{DriveNumber::servo_damping, within_share(sample.damping, 0.1)},
+                     {DriveNumber::servo_inertia_ratio, within_share(sample.inertia_ratio, 0.1)},
+                     {DriveNumber::servo_friction_ratio, within_share(sample.friction_ratio, 0.5)},
+                     {DriveNumber::servo_backlash, within_share(sample.backlash, 0.5)}}};
+}
+
+Target target_of(bool no_hunting) {
+  Target target;
+  target.no_hunting = no_hunting;
+  if (!no_hunting) target.size.high = 0.1;
+  return target;
+}
+
+struct Line {
+  std::string title;
+  const char* name;
+  double things;  ///< of an iteration
+};
+
+template <class Work>
+Line enter(const char* name, double things, const Work& work) {
+  const std::string title = std::string("Design/") + name;
+  benchmark::RegisterBenchmark(title.c_str(),
+                               [work](benchmark::State& state) {
+                                 for (auto _ : state) benchmark::DoNotOptimize(work());
+                               })
+      ->UseRealTime()
+      ->MinTime(0.05);
+  // As Google Benchmark names what is measured by the clock, with a time of its own.
+  return {title + "/min_time:0.050/real_time", name, things};
+}
+
+}  // namespace
+
+ReportPart enter_design_race() {
+  const ChangeableDrive drive(sample);
+  const TolerancedDrive pieces = toleranced();
+  const auto search = [drive](Parameter parameter, bool no_hunting) {
+    return feasible_values(drive, parameter, target_of(no_hunting)).intervals.size();
+  };
+  std::vector<Line> lines;
+  lines.push_back(enter("one limit cycle, analyse_limit_cycles()", 1.0,
+                        [] { return analyse_limit_cycles(sample).cycles.size(); }));
+  lines.push_back(enter("a piece of ten million, study_tolerances(), all cores",
+                        static_cast<double>(sampling.samples()),
+                        [pieces] { return study_tolerances(pieces, sampling).hunting.value; }));
+  lines.push_back(enter("exact sensitivities, cycle_sensitivity()", 1.0,
+                        [] { return cycle_sensitivity(sample).size.value; }));
+  lines.push_back(enter("certified search of the gain for no hunting, feasible_values()", 1.0,
+                        [search] { return search(Parameter::error_gain, true); }));
+  lines.push_back(enter("certified search of the gain for a size, feasible_values()", 1.0,
+                        [search] { return search(Parameter::error_gain, false); }));
+  lines.push_back(enter("margins of all parameters, hunting_margin()", 1.0,
+                        [drive] { return hunting_margin(drive).overall.distance; }));
+  return [lines](const FastestTimes& times) {
+    const double yardstick = times.of(lines.front().title);
+    if (std::isnan(yardstick)) return;
+    std::printf(
+        "\n**What must change** (the thesis's sample servo; by the clock)\n\n"
+        "| | µs | a second | times the first |\n|---|--:|--:|--:|\n");
+    for (const Line& line : lines) {
+      const double seconds = times.of(line.title) / line.things;
+      if (std::isnan(seconds)) continue;
+      std::printf("| %s | %.4g | %.3g | %.3g |\n", line.name, 1e6 * seconds, 1.0 / seconds,
+                  seconds / yardstick);
+    }
+  };
+}
+
+}  // namespace gearlash::benchmarks
