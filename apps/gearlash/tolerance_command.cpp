@@ -8,6 +8,7 @@
 #include "command.hpp"
 #include "gearlash/io/output_file.hpp"
 #include "gearlash/io/target_text.hpp"
+#include "gearlash/io/tolerance_data.hpp"
 #include "gearlash/io/tolerance_pictures.hpp"
 #include "gearlash/io/tolerance_report.hpp"
 #include "servo_options.hpp"
@@ -37,7 +38,21 @@ struct ToleranceOptions {
   std::string yield;
   std::string format = "text";
   std::vector<std::string> plots;
+  std::string output;
 };
+
+/// By the ending of its name: .csv, .json or .nc.
+void write_data(const ToleranceReport& report, const std::string& file) {
+  OutputFile output(file);
+  if (file.ends_with(".nc")) {
+    write_tolerance_netcdf(report, output);
+  } else if (file.ends_with(".csv")) {
+    write_tolerance_csv(report, [&](std::string_view text) { output.write(text); });
+  } else {
+    output.write(tolerance_json(report));
+  }
+  output.commit();
+}
 
 /// "yield=FILE", as typed.
 struct Plot {
@@ -128,6 +143,11 @@ Task read_task(const ToleranceOptions& options, Faults& faults) {
     task.plots.push_back(faults.collect([&] { return read_plot(text); }, Plot{}));
     files.emplace_back("--plot", task.plots.back().file);
   }
+  const auto ends_in = [&](const char* ending) { return options.output.ends_with(ending); };
+  if (!options.output.empty() && !ends_in(".csv") && !ends_in(".json") && !ends_in(".nc")) {
+    faults.add({"--output", shown(options.output), "must end in .csv, .json or .nc", ""});
+  }
+  files.emplace_back("--output", options.output);
   faults.require_distinct(files);
   faults.require_none();
   if (file.varied.empty()) {
@@ -167,6 +187,7 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
   }
   progress.reset();
   report.worst = worst_corner(task.drive);
+  if (!options.output.empty()) write_data(report, options.output);
   for (const Plot& plot : task.plots) {
     write_file(plot.file, draw_tolerances(report, plot.picture, plot.format));
   }
@@ -201,6 +222,8 @@ void add_tolerance_command(CLI::App& app, Action& action) {
                    "distribution=FILE, yield=FILE or indices=FILE, a picture each; may be\n"
                    "given several times; FILE ends in .svg, .png or .pdf")
       ->type_name("KIND=FILE");
+  command->add_option("--output", options->output, "data too (.csv, .json, .nc)")
+      ->type_name("FILE");
   command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");
   command->footer(explanation + help_footer(examples));
   command->callback([options, &action] {
