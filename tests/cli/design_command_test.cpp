@@ -85,8 +85,9 @@ TEST(DesignCommand, AnswersPutIntoTheDataSheetMeetTheTarget) {
     ASSERT_FALSE(then["cycles"].empty()) << change.parameter;
     EXPECT_NEAR(then["physical"]["size"], limit, 1e-10 * limit) << change.parameter;
   }
-  for (const auto& interval : answer_of("gear_ratio")["intervals"]) {
-    const double end = interval["from"] == answer_of("gear_ratio")["searched"]["from"]
+  const auto ratio = answer_of("gear_ratio");
+  for (const auto& interval : ratio["intervals"]) {
+    const double end = interval["from"] == ratio["searched"]["from"]
                            ? interval["to"].get<double>()
                            : interval["from"].get<double>();
     const auto then = limit_cycle_of(
