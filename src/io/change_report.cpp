@@ -13,14 +13,6 @@ namespace {
 
 constexpr int digits = 4;
 
-/// "−96.3 %", "×33".
-std::string ratio_text(double ratio) {
-  constexpr double most_told_in_percent = 10.0;
-  if (ratio > most_told_in_percent) return "×" + significant(ratio, 3);
-  const double percent = 100.0 * (ratio - 1.0);
-  return (percent < 0.0 ? "−" : "+") + significant(std::abs(percent), 3) + " %";
-}
-
 std::string value_text(const ChangeableDrive& drive, Parameter parameter, double value,
                        const ReportUnits& units) {
   if (parameter == Parameter::backlash) {
@@ -34,7 +26,7 @@ std::string boundary_text(const ChangeableDrive& drive, const ParameterMargin& m
                           const ReportUnits& units) {
   if (std::isnan(value)) return "–";
   const std::string text = value_text(drive, margin.parameter, value, units);
-  return margin.present > 0.0 ? text + " (" + ratio_text(value / margin.present) + ")" : text;
+  return margin.present > 0.0 ? text + " (" + change_text(value / margin.present) + ")" : text;
 }
 
 std::string overall_text(const OverallMargin& overall) {
@@ -55,9 +47,9 @@ std::string overall_text(const OverallMargin& overall) {
       "The least change of all together: motor inertia {}, load inertia {}, motor friction {}, "
       "load "
       "friction {}, stiffness {} ({} as the root of the sum of squares of the logarithms).",
-      ratio_text(std::exp(change.motor_inertia)), ratio_text(std::exp(change.load_inertia)),
-      ratio_text(std::exp(change.motor_friction)), ratio_text(std::exp(change.load_friction)),
-      ratio_text(std::exp(change.stiffness)), significant(overall.distance, 3));
+      change_text(std::exp(change.motor_inertia)), change_text(std::exp(change.load_inertia)),
+      change_text(std::exp(change.motor_friction)), change_text(std::exp(change.load_friction)),
+      change_text(std::exp(change.stiffness)), significant(overall.distance, 3));
 }
 
 std::string reason(SensitivityOutcome outcome) {

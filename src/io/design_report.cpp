@@ -47,15 +47,10 @@ std::string interval_text(const Bounds& interval, const Bounds& searched, const 
   return low + " to " + high + unit.name;
 }
 
-/// "+12.3 %", "−40 %", "×26".
+/// Nothing where there was none of it.
 std::string change_text(double value, double present) {
   if (value == present) return "0 %";
-  if (present == 0.0) return "";
-  const double ratio = value / present;
-  constexpr double most_told_in_percent = 10.0;
-  if (ratio > most_told_in_percent) return "×" + significant(ratio, 3);
-  const double percent = 100.0 * (ratio - 1.0);
-  return (percent < 0.0 ? "−" : "+") + significant(std::abs(percent), 3) + " %";
+  return present == 0.0 ? "" : gearlash::change_text(value / present);
 }
 
 std::string performance_text(const Performance& performance, const DesignReport& report) {

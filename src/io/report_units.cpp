@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <numbers>
 
 namespace gearlash {
@@ -13,6 +14,13 @@ ReportUnits report_units(const ServoFile& file) {
 }
 
 std::string significant(double value, int digits) { return fmt::format("{:.{}g}", value, digits); }
+
+std::string change_text(double ratio) {
+  constexpr double most_told_in_percent = 10.0;
+  if (ratio > most_told_in_percent) return "×" + significant(ratio, 3);
+  const double percent = 100.0 * (ratio - 1.0);
+  return (percent < 0.0 ? "−" : "+") + significant(std::abs(percent), 3) + " %";
+}
 
 std::string swing_text(double size, const AngleUnit& unit, int digits) {
   const std::string radians = significant(size, digits) + " rad";
