@@ -32,7 +32,7 @@ constexpr char explanation[] =
 
 struct ToleranceOptions {
   std::string file;
-  std::string samples = "65536";
+  std::string samples;
   std::string seed = "1960";
   std::string target;
   std::string yield;
@@ -117,14 +117,26 @@ TolerancedDrive toleranced_drive(const ServoFile& file) {
   return drive;
 }
 
+/// A fraction of a second's work, or, where faces bounce, of some ten minutes'.
+std::string usual_samples(const ServoFile& file) {
+  const bool may_bounce =
+      file.servo.restitution > 0.0 ||
+      std::any_of(file.varied.begin(), file.varied.end(), [](const VariedNumber& varied) {
+        return varied.number == DriveNumber::contact_restitution ||
+               varied.number == DriveNumber::servo_restitution;
+      });
+  return may_bounce ? "512" : "65536";
+}
+
 Task read_task(const ToleranceOptions& options, Faults& faults) {
   Task task;
   faults.require_choice("--format", options.format, {"text", "json"});
   const ServoFile file = faults.collect([&] { return read_servo_file(options.file); }, ServoFile{});
   task.drive = toleranced_drive(file);
   task.units = report_units(file);
-  task.sampling =
-      sampling_of(read_whole<std::size_t>("--samples", options.samples, 32, most_samples, faults));
+  task.sampling = sampling_of(read_whole<std::size_t>(
+      "--samples", options.samples.empty() ? usual_samples(file) : options.samples, 32,
+      most_samples, faults));
   task.sampling.seed =
       read_whole<std::uint64_t>("--seed", options.seed, 0, std::uint64_t{1} << 53U, faults);
   if (!options.target.empty()) {
@@ -206,7 +218,8 @@ void add_tolerance_command(CLI::App& app, Action& action) {
       ->required();
   command
       ->add_option("--samples", options->samples,
-                   "pieces, at least (default 65536): 16 times a power of two")
+                   "pieces, at least (default 65536; 512 where faces bounce): 16 times a\n"
+                   "power of two")
       ->type_name("N");
   command->add_option("--seed", options->seed, "of the random shifts (default 1960)")
       ->type_name("N");
