@@ -133,11 +133,8 @@ ChangeableDrive drive_of(ServoFile file, const ServoOptions& options) {
 }
 
 DriveSensitivity sensitivity_of(const ServoFile& file, const ChangeableDrive& drive) {
-  if (drive.is_normalized()) return drive_sensitivity(drive);
-  Datasheet datasheet = *file.datasheet;
-  datasheet.gearbox.backlash = file.servo.backlash;
-  datasheet.contact.restitution = file.servo.restitution;
-  return datasheet_sensitivity(datasheet);
+  return drive.is_normalized() ? drive_sensitivity(drive)
+                               : datasheet_sensitivity(datasheet_of(file));
 }
 
 std::string draw(const LimitCycleReport& report, const LimitCycleOptions& options,

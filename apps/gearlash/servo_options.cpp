@@ -160,14 +160,16 @@ double read_scaled(std::string_view field, std::string_view text, const Dimensio
                        ""}});
 }
 
-ChangeableDrive changeable_drive(const ServoFile& file) {
-  if (!file.datasheet) {
-    return ChangeableDrive(file.servo, file.natural_frequency.value_or(1.0));
-  }
-  Datasheet datasheet = *file.datasheet;  // with what options say of it
+Datasheet datasheet_of(const ServoFile& file) {
+  Datasheet datasheet = *file.datasheet;
   datasheet.gearbox.backlash = file.servo.backlash;
   datasheet.contact.restitution = file.servo.restitution;
-  return ChangeableDrive(datasheet);
+  return datasheet;
+}
+
+ChangeableDrive changeable_drive(const ServoFile& file) {
+  if (file.datasheet) return ChangeableDrive(datasheet_of(file));
+  return ChangeableDrive(file.servo, file.natural_frequency.value_or(1.0));
 }
 
 ServoFile resolve_servo(const ServoOptions& options, Faults& faults) {

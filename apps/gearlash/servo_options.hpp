@@ -69,6 +69,10 @@ double read_scaled(std::string_view field, std::string_view text, const Dimensio
 /// and of the options go to `faults`; the result is sound if there are none.
 ServoFile resolve_servo(const ServoOptions& options, Faults& faults);
 
+/// The data sheet with what options say of it: its backlash and restitution. Precondition: there is
+/// one.
+Datasheet datasheet_of(const ServoFile& file);
+
 /// The drive that the file describes, with a data sheet in its own numbers. Precondition: sound,
 /// and no option has changed a number that a data sheet has not.
 ChangeableDrive changeable_drive(const ServoFile& file);
