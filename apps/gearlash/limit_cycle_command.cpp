@@ -165,12 +165,15 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
                           .analysis = analyse_limit_cycles(file.servo),
                           .units = report_units(file),
                           .provenance = provenance};
-  if (has_closed_form(file.servo)) {
-    report.drive = drive_of(file, options.servo);
-    report.margin = hunting_margin(*report.drive);
+  const ChangeableDrive drive = drive_of(file, options.servo);
+  // At the very ends of the ranges rounding may put the drive's ratios beyond them.
+  const bool is_sound = validate(drive.drivetrain()).empty();
+  if (is_sound && has_closed_form(file.servo)) {
+    report.drive = drive;
+    report.margin = hunting_margin(drive);
   }
   if (options.sensitivities || options.plot.starts_with(tornado)) {
-    report.sensitivity = sensitivity_of(file, drive_of(file, options.servo));
+    report.sensitivity = is_sound ? sensitivity_of(file, drive) : DriveSensitivity{};
   }
   if (!options.plot.empty()) write_file(plot_file(options), draw(report, options, picture_kind));
   write_file("-", options.format == "json" ? limit_cycle_json(report) : text_for_terminal(report));

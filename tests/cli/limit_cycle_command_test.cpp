@@ -175,5 +175,16 @@ TEST(LimitCycleCommand, TellsHowFarHuntingIsAndWhatItDependsOn) {
   EXPECT_THAT(text.out, testing::HasSubstr("The least change of all together: "));
 }
 
+TEST(LimitCycleCommand, AnswersAtTheEndsOfTheRanges) {
+  for (const auto& [damping, inertia_ratio] :
+       {std::pair("1000", "1e9"), std::pair("1000", "1e-9"), std::pair("1e-15", "1"),
+        std::pair("0.5", "inf"), std::pair("0.5", "0"), std::pair("0", "1")}) {
+    const Outcome run =
+        run_tool({"limit-cycle", "--damping", damping, "--inertia-ratio", inertia_ratio,
+                  "--friction-ratio", "0.5", "--backlash", "0.1", "--sensitivities"});
+    EXPECT_EQ(run.status, 0) << damping << " " << inertia_ratio << " " << run.err;
+  }
+}
+
 }  // namespace
 }  // namespace gearlash
