@@ -120,13 +120,13 @@ void draw(const RegionMapTask& task, const Picture& picture, const std::string& 
   output.commit();
 }
 
-std::vector<DesignAnswer> work_out(const ChangeableDrive& drive, const Target& target,
+std::vector<FeasibleValues> work_out(const ChangeableDrive& drive, const Target& target,
                                    const std::vector<Parameter>& parameters) {
   Progress progress("Design");
-  std::vector<DesignAnswer> answers;
+  std::vector<FeasibleValues> answers;
   for (const Parameter parameter : parameters) {
     progress.show(static_cast<double>(answers.size()) / static_cast<double>(parameters.size()));
-    answers.push_back(design_answer(drive, parameter, target));
+    answers.push_back(feasible_values(drive, parameter, target));
   }
   return answers;
 }

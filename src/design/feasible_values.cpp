@@ -1,10 +1,13 @@
 #include "gearlash/design/feasible_values.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "gearlash/chart/on_threads.hpp"
+#include "gearlash/cycle/growth_at_rest.hpp"
 #include "gearlash/motion/bracketed_root.hpp"
 
 namespace gearlash {
@@ -16,24 +19,48 @@ struct Part {
   Judgement judgement;
 };
 
-/// Undecided where there is no such drive: beside a shaft without friction a little on the other is
-/// less than a servo may have.
-Performance performance_if_sound(const Drivetrain& drive) {
-  return validate(drive).empty() ? performance_of(drive) : Performance{};
+/// Values all over a range: by ratio where that is wide and has no 0.
+std::vector<double> spread_over(const Bounds& range, std::size_t count) {
+  const bool by_ratio = range.low > 0.0 && range.high > 4.0 * range.low;
+  std::vector<double> values;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(count);
+    values.push_back(by_ratio ? range.low * std::pow(range.high / range.low, share)
+                              : range.low + share * (range.high - range.low));
+  }
+  values.push_back(range.high);
+  return values;
+}
+
+void sort_by_value(std::vector<TriedValue>& tried) {
+  std::sort(tried.begin(), tried.end(),
+            [](const TriedValue& a, const TriedValue& b) { return a.value < b.value; });
+}
+
+bool has_two_masses(const ChangeableDrive& drive) {
+  return drive.drivetrain().motor_inertia > 0.0 && drive.drivetrain().load_inertia > 0.0;
+}
+
+bool has_bounces(const ChangeableDrive& drive, Parameter parameter) {
+  return has_two_masses(drive) &&
+         (parameter == Parameter::restitution || drive.drivetrain().restitution > 0.0);
 }
 
 class Search {
  public:
   Search(const ChangeableDrive& drive, Parameter parameter, const Target& target)
-      : drive_(drive), parameter_(parameter), target_(target) {}
+      : drive_(drive), parameter_(parameter), target_(target) {
+    if (parameter == Parameter::backlash && has_bounces(drive, parameter)) {
+      at_present_ = performance_of(drive.drivetrain());
+    }
+  }
 
   std::size_t evaluations() const { return evaluations_; }
 
-  Performance performance_at(double value) {
+  bool is_met_at(double value) {
     ++evaluations_;
-    return performance_if_sound(drive_.with(parameter_, value));
+    return is_met(target_, performance_at(value));
   }
-  bool is_met_at(double value) { return is_met(target_, performance_at(value)); }
 
   /// The range in parts, in order: proved ones, and slivers of which nothing is known. What is not
   /// proved is halved, all of it by turns, so that a stretch that resists leaves no other
@@ -65,20 +92,160 @@ class Search {
   }
 
   /// The parts of a scan: none is a sliver, and each is judged by its ends.
-  std::vector<Part> scanned(const Bounds& range);
+  std::vector<Part> scanned(const Bounds& range) {
+    std::vector<Part> parts;
+    const std::vector<TriedValue> tried = tried_values(range);
+    for (std::size_t i = 0; i + 1 < tried.size(); ++i) {
+      const bool met = is_met(target_, tried[i].performance);
+      const Judgement alike = met ? Judgement::all : Judgement::none;
+      parts.push_back({{tried[i].value, tried[i + 1].value},
+                       met == is_met(target_, tried[i + 1].performance) ? alike : Judgement::some});
+    }
+    return parts;
+  }
 
   /// Of two values, the one that meets the target and one that does not, the last to meet it.
   double last_met(double met, double unmet) {
-    for (;;) {
-      const double middle = middle_of(std::min(met, unmet), std::max(met, unmet));
-      if (middle == met || middle == unmet) return met;
-      (is_met_at(middle) ? met : unmet) = middle;
+    if (has_bounces(drive_, parameter_)) {
+      // Growth at rest is soon worked out, and what it does not rule out is met as a rule.
+      const double allowed = last_allowed_by_growth(met, unmet);
+      if (allowed == met || is_met_at(allowed)) return allowed;
+      unmet = allowed;
     }
+    const auto signed_excess = [&](double value) {
+      ++evaluations_;
+      const Performance performance = performance_at(value);
+      const bool here = is_met(target_, performance);
+      (here ? met : unmet) = value;
+      // Its size makes the way shorter, its sign alone counts.
+      const double size = std::abs(excess(target_, performance));
+      const double usable = std::clamp(std::isnan(size) ? 1.0 : size, least, 1.0);
+      return here ? -usable : usable;
+    };
+    constexpr double resolution = 4.0 * std::numeric_limits<double>::epsilon();
+    const auto is_close = [](double low, double high) { return high - low <= resolution * high; };
+    const double low = std::min(met, unmet);
+    const double high = std::max(met, unmet);
+    if (is_close(low, high)) return met;
+    const double at_low = signed_excess(low);
+    const double at_high = signed_excess(high);
+    std::uintmax_t most = 400;
+    boost::math::tools::toms748_solve(signed_excess, low, high, at_low, at_high, is_close, most);
+    return met;
+  }
+
+  /// The value that comes closest to the target.
+  TriedValue closest(const Bounds& range) {
+    std::vector<TriedValue> tried = tried_values(range);
+    tried.push_back(at(drive_.present_value(parameter_)));
+    const auto beyond = [&](const TriedValue& one) { return excess(target_, one.performance); };
+    return *std::min_element(tried.begin(), tried.end(), [&](const auto& a, const auto& b) {
+      return beyond(a) < beyond(b);
+    });
   }
 
  private:
   static double middle_of(double low, double high) {
     return low == 0.0 && high < least ? 0.5 * high : detail::middle_of(low, high);
+  }
+
+  /// Undecided where there is no such drive: beside a shaft without friction a little on the other
+  /// is less than a servo may have.
+  Performance performance_at(double value) const {
+    if (at_present_) {
+      Performance scaled = *at_present_;
+      scaled.size *= value / drive_.drivetrain().backlash;
+      return scaled;
+    }
+    const Drivetrain drive = drive_.with(parameter_, value);
+    return validate(drive).empty() ? performance_for(target_, drive) : Performance{};
+  }
+
+  TriedValue at(double value) const { return {value, performance_at(value)}; }
+
+  std::vector<TriedValue> at_all(const std::vector<double>& values) {
+    std::vector<TriedValue> tried(values.size());
+    on_threads(0, values.size(), [&](std::size_t i) { tried[i] = at(values[i]); });
+    evaluations_ += values.size();
+    return tried;
+  }
+
+  /// All over the range, in order, and the nearer the closer a limit is.
+  const std::vector<TriedValue>& tried_values(const Bounds& range) {
+    if (!tried_.empty()) return tried_;
+    tried_ = at_all(first_values(range));
+    constexpr int most_halvings = 6;
+    for (int i = 0; i < most_halvings; ++i) {
+      const std::vector<TriedValue> between = at_all(middles_to_try());
+      if (between.empty()) break;
+      tried_.insert(tried_.end(), between.begin(), between.end());
+      sort_by_value(tried_);
+    }
+    return tried_;
+  }
+
+  std::vector<double> first_values(const Bounds& range) {
+    const bool bounces = has_bounces(drive_, parameter_);
+    std::vector<double> values = spread_over(range, bounces ? coarse : fine);
+    if (!bounces) return values;
+    // Growth at rest is soon worked out: between these values it passes 1, or a limit.
+    const std::vector<double> looked_at = spread_over(range, fine);
+    std::vector<double> growths(looked_at.size());
+    on_threads(0, looked_at.size(), [&](std::size_t i) { growths[i] = growth_at(looked_at[i]); });
+    const auto differ = [&](double a, double b) {
+      return (a > 1.0) != (b > 1.0) || is_ruled_out(target_, a) != is_ruled_out(target_, b);
+    };
+    for (std::size_t i = 0; i + 1 < looked_at.size(); ++i) {
+      if (!differ(growths[i], growths[i + 1])) continue;
+      values.push_back(looked_at[i]);
+      values.push_back(looked_at[i + 1]);
+    }
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return values;
+  }
+
+  /// NaN where there is no such drive.
+  double growth_at(double value) const {
+    const Drivetrain drive = drive_.with(parameter_, value);
+    if (!validate(drive).empty()) return std::numeric_limits<double>::quiet_NaN();
+    return growth_at_rest(servo_dynamics(normalize(drive)));
+  }
+
+  /// The last value, from one that meets the target on, that growth at rest does not rule out; nor
+  /// is it so near 1 there that the search for cycles cannot tell rest from hunting.
+  double last_allowed_by_growth(double met, double unmet) const {
+    constexpr double told_apart = 1e-9;
+    const auto is_allowed = [&](double value) {
+      const double growth = growth_at(value);
+      return !is_ruled_out(target_, growth) && !(target_.no_hunting && growth > 1.0 - told_apart);
+    };
+    if (is_allowed(unmet)) return unmet;
+    for (;;) {
+      const double middle = middle_of(std::min(met, unmet), std::max(met, unmet));
+      if (middle == met || middle == unmet) return met;
+      (is_allowed(middle) ? met : unmet) = middle;
+    }
+  }
+
+  /// Between neighbours on one side of a limit of the cycle which is no farther than they, or one
+  /// of them and the next, are from each other.
+  std::vector<double> middles_to_try() const {
+    const Target of_cycles{.size = target_.size, .frequency = target_.frequency};
+    std::vector<double> beyond;
+    for (const TriedValue& one : tried_) beyond.push_back(excess(of_cycles, one.performance));
+    const auto change = [&](std::size_t i) {
+      return i + 1 < beyond.size() ? std::abs(beyond[i + 1] - beyond[i]) : 0.0;
+    };
+    std::vector<double> middles;
+    for (std::size_t i = 0; i + 1 < beyond.size(); ++i) {
+      const bool is_crossed = (beyond[i] > 0.0) != (beyond[i + 1] > 0.0);
+      const double distance = std::min(std::abs(beyond[i]), std::abs(beyond[i + 1]));
+      const double steepest = std::max({change(i), i > 0 ? change(i - 1) : 0.0, change(i + 1)});
+      if (is_crossed || !std::isfinite(distance) || !(steepest > distance)) continue;
+      middles.push_back(middle_of(tried_[i].value, tried_[i + 1].value));
+    }
+    return middles;
   }
 
   Judgement judge_part(const Bounds& values) {
@@ -103,67 +270,16 @@ class Search {
   }
 
   static constexpr double least = 1e-300;
+  static constexpr std::size_t coarse = 64;  ///< with bounces a servo takes milliseconds
+  static constexpr std::size_t fine = 1024;
 
   const ChangeableDrive& drive_;
   Parameter parameter_;
   const Target& target_;
+  std::optional<Performance> at_present_;  ///< of backlash, to which sizes are in proportion
+  std::vector<TriedValue> tried_;
   std::size_t evaluations_ = 0;
 };
-
-/// Values all over a range: by ratio where that is wide and has no 0.
-std::vector<double> spread_over(const Bounds& range) {
-  constexpr std::size_t count = 64;
-  const bool by_ratio = range.low > 0.0 && range.high > 4.0 * range.low;
-  std::vector<double> values;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(count);
-    values.push_back(by_ratio ? range.low * std::pow(range.high / range.low, share)
-                              : range.low + share * (range.high - range.low));
-  }
-  values.push_back(range.high);
-  return values;
-}
-
-/// At each value, on all cores: with bounces a servo takes some hundredths of a second.
-std::vector<Performance> performances_at(const ChangeableDrive& drive, Parameter parameter,
-                                         const std::vector<double>& values) {
-  std::vector<Performance> performances(values.size());
-  on_threads(0, values.size(), [&](std::size_t i) {
-    performances[i] = performance_if_sound(drive.with(parameter, values[i]));
-  });
-  return performances;
-}
-
-std::vector<Part> Search::scanned(const Bounds& range) {
-  const std::vector<double> values = spread_over(range);
-  const std::vector<Performance> performances = performances_at(drive_, parameter_, values);
-  evaluations_ += values.size();
-  std::vector<Part> parts;
-  for (std::size_t i = 0; i + 1 < values.size(); ++i) {
-    const bool met = is_met(target_, performances[i]);
-    const Judgement alike = met ? Judgement::all : Judgement::none;
-    parts.push_back({{values[i], values[i + 1]},
-                     met == is_met(target_, performances[i + 1]) ? alike : Judgement::some});
-  }
-  return parts;
-}
-
-/// How far beyond its limits, as a logarithm; infinite where that is not known.
-double excess(const Target& target, const Performance& performance) {
-  const auto beyond = [](const Bounds& limits, double value) {
-    if (limits.low == 0.0 && std::isinf(limits.high)) return 0.0;
-    if (std::isnan(value)) return std::numeric_limits<double>::infinity();
-    const double above = std::isinf(limits.high) ? 0.0 : std::log(value / limits.high);
-    const double below = limits.low == 0.0 ? 0.0 : std::log(limits.low / value);
-    return std::max({0.0, above, below});
-  };
-  const bool is_quiet = performance.verdict == Verdict::cannot_hunt;
-  const double sum = beyond(target.growth_at_rest, performance.growth_at_rest) +
-                     (target.no_hunting && !is_quiet ? std::log(performance.growth_at_rest) : 0.0) +
-                     beyond(target.size, performance.size) +
-                     (is_quiet ? 0.0 : beyond(target.frequency, performance.frequency));
-  return std::isnan(sum) ? std::numeric_limits<double>::infinity() : sum;  // growth not known
-}
 
 /// Neighbours that are judged alike are one.
 std::vector<Part> joined(const std::vector<Part>& parts) {
@@ -176,12 +292,6 @@ std::vector<Part> joined(const std::vector<Part>& parts) {
     }
   }
   return all;
-}
-
-bool can_be_certified(const ChangeableDrive& drive, Parameter parameter) {
-  const Drivetrain& present = drive.drivetrain();
-  return present.motor_inertia > 0.0 && present.load_inertia > 0.0 && present.restitution == 0.0 &&
-         parameter != Parameter::restitution;
 }
 
 }  // namespace
@@ -205,25 +315,14 @@ double FeasibleValues::nearest() const {
   return nearest;
 }
 
-ClosestValue closest_value(const ChangeableDrive& drive, Parameter parameter,
-                           const Target& target) {
-  std::vector<double> values = spread_over(drive.range(parameter));
-  values.push_back(drive.present_value(parameter));
-  const std::vector<Performance> performances = performances_at(drive, parameter, values);
-  std::size_t closest = values.size() - 1;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (excess(target, performances[i]) < excess(target, performances[closest])) closest = i;
-  }
-  return {values[closest], performances[closest]};
-}
-
 FeasibleValues feasible_values(const ChangeableDrive& drive, Parameter parameter,
                                const Target& target) {
   FeasibleValues found;
   found.parameter = parameter;
   found.present = drive.present_value(parameter);
   found.searched = drive.range(parameter);
-  found.kind = can_be_certified(drive, parameter) ? SearchKind::certified : SearchKind::scanned;
+  found.kind = has_two_masses(drive) && !has_bounces(drive, parameter) ? SearchKind::certified
+                                                                       : SearchKind::scanned;
   Search search(drive, parameter, target);
   const std::vector<Part> parts =
       joined(found.kind == SearchKind::certified ? search.certified(found.searched)
@@ -251,6 +350,7 @@ FeasibleValues feasible_values(const ChangeableDrive& drive, Parameter parameter
       add(search.last_met(values.high, values.low), values.high);
     }
   }
+  if (found.intervals.empty()) found.closest = search.closest(found.searched);
   found.evaluations = search.evaluations();
   return found;
 }

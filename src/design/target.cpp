@@ -1,7 +1,9 @@
 #include "gearlash/design/target.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "gearlash/cycle/growth_at_rest.hpp"
 #include "gearlash/servo/range_check.hpp"
 
 namespace gearlash {
@@ -16,6 +18,16 @@ Judgement judge(const Bounds& limits, const Bounds& bounds) {
   if (bounds.low >= limits.low && bounds.high <= limits.high) return Judgement::all;
   if (bounds.high < limits.low || bounds.low > limits.high) return Judgement::none;
   return Judgement::some;
+}
+
+/// Of one quantity.
+double excess_of(const Bounds& limits, double value) {
+  const bool has_low = limits.low > 0.0;
+  const bool has_high = !std::isinf(limits.high);
+  if ((has_low || has_high) && std::isnan(value)) return Target::infinity;
+  const double above = has_high ? std::log(value / limits.high) : -Target::infinity;
+  const double below = has_low ? std::log(limits.low / value) : -Target::infinity;
+  return std::max(above, below);
 }
 
 Judgement both(Judgement a, Judgement b) { return std::min(a, b); }
@@ -48,15 +60,41 @@ Performance performance_of(const Drivetrain& drive) {
   return performance;
 }
 
+bool is_ruled_out(const Target& target, double growth_at_rest) {
+  if (target.no_hunting && growth_at_rest > 1.0) return true;
+  return target.growth_at_rest != Target{}.growth_at_rest &&
+         !includes(target.growth_at_rest, growth_at_rest);
+}
+
+Performance performance_for(const Target& target, const Drivetrain& drive) {
+  const NormalizedServo servo = normalize(drive);
+  if (servo.restitution == 0.0 || servo.backlash == 0.0) return performance_of(drive);
+  require_none(validate(servo));
+  const double growth = growth_at_rest(servo_dynamics(servo));
+  if (!is_ruled_out(target, growth)) return performance_of(drive);
+  return {.verdict = growth > 1.0 ? Verdict::hunts : Verdict::undecided, .growth_at_rest = growth};
+}
+
 bool is_met(const Target& target, const Performance& performance) {
   const bool is_quiet = performance.verdict == Verdict::cannot_hunt;
   if (target.no_hunting && !is_quiet) return false;
-  if (target.growth_at_rest != Target{}.growth_at_rest &&
-      !includes(target.growth_at_rest, performance.growth_at_rest)) {
-    return false;
-  }
-  return includes(target.size, performance.size) &&
+  return !is_ruled_out(target, performance.growth_at_rest) &&
+         includes(target.size, performance.size) &&
          (is_quiet || includes(target.frequency, performance.frequency));
+}
+
+double excess(const Target& target, const Performance& performance) {
+  const bool is_quiet = performance.verdict == Verdict::cannot_hunt;
+  double worst = excess_of(target.growth_at_rest, performance.growth_at_rest);
+  if (target.no_hunting) {
+    // Beside a rest that is stable a cycle is as far from the target as can be said.
+    const double growth = std::log(performance.growth_at_rest);
+    const bool is_disturbed = !is_quiet && !(growth > 0.0);
+    worst = std::max(worst, is_disturbed ? 1.0 : growth);
+  }
+  worst = std::max(worst, excess_of(target.size, performance.size));
+  if (!is_quiet) worst = std::max(worst, excess_of(target.frequency, performance.frequency));
+  return worst;
 }
 
 Judgement judge(const Target& target, const DriveBox& box, double guessed_flight_time) {

@@ -95,8 +95,7 @@ std::vector<std::string> interval_row(const DesignReport& report, const Feasible
 }
 
 /// Why no value does it, as far as one line can say.
-std::string reason(const DesignReport& report, const DesignAnswer& answer) {
-  const FeasibleValues& values = answer.values;
+std::string reason(const DesignReport& report, const FeasibleValues& values) {
   const ShownUnit unit = shown_unit(report, values.parameter);
   const auto shown = [&](double value) {
     return significant(value / unit.size, digits) + unit.name;
@@ -110,25 +109,26 @@ std::string reason(const DesignReport& report, const DesignAnswer& answer) {
   text += fmt::format("no value from {} to {}", shown(values.searched.low),
                       shown(values.searched.high));
   text += values.kind == SearchKind::certified ? "" : " that was looked at";
-  const Performance& closest = answer.closest.performance;
+  const Performance closest =
+      performance_of(report.drive.with(values.parameter, values.closest->value));
   return text + fmt::format("; closest is {} with {} (growth at rest {})",
-                            shown(answer.closest.value), performance_text(closest, report),
+                            shown(values.closest->value), performance_text(closest, report),
                             significant(closest.growth_at_rest, 3));
 }
 
 std::string certainty(const DesignReport& report) {
   const bool all_certified = std::all_of(
       report.answers.begin(), report.answers.end(),
-      [](const DesignAnswer& answer) { return answer.values.kind == SearchKind::certified; });
+      [](const FeasibleValues& answer) { return answer.kind == SearchKind::certified; });
   const std::string ranges =
       "That these are all values within what was searched (a thousandth to a thousand times the "
       "present one; friction and feedback up to ten times what damps critically) is proved by "
       "bounds over the whole range";
   if (all_certified) return ranges + ".";
   std::string scanned;
-  for (const DesignAnswer& answer : report.answers) {
-    if (answer.values.kind == SearchKind::certified) continue;
-    scanned += (scanned.empty() ? "" : ", ") + std::string(name_of(answer.values.parameter));
+  for (const FeasibleValues& answer : report.answers) {
+    if (answer.kind == SearchKind::certified) continue;
+    scanned += (scanned.empty() ? "" : ", ") + std::string(name_of(answer.parameter));
   }
   return ranges + ", but not of: " + scanned +
          ". There, with bounces or without mass on a side, many values were looked at.";
@@ -152,8 +152,7 @@ Json json_bounds(const Bounds& bounds) {
   return {{"from", json_number(bounds.low)}, {"to", json_number(bounds.high)}};
 }
 
-Json json_answer(const DesignReport& report, const DesignAnswer& answer) {
-  const FeasibleValues& values = answer.values;
+Json json_answer(const DesignReport& report, const FeasibleValues& values) {
   const bool has_frequency = report.units.natural_frequency.has_value();
   Json intervals = Json::array();
   for (const Bounds& interval : values.intervals) intervals.push_back(json_bounds(interval));
@@ -169,9 +168,9 @@ Json json_answer(const DesignReport& report, const DesignAnswer& answer) {
                {"undecided", std::move(undecided)}};
   const double nearest = values.nearest();
   if (std::isnan(nearest)) {
-    json["closest"] = {
-        {"value", json_number(answer.closest.value)},
-        {"performance", json_performance(answer.closest.performance, has_frequency)}};
+    const Drivetrain closest = report.drive.with(values.parameter, values.closest->value);
+    json["closest"] = {{"value", json_number(values.closest->value)},
+                       {"performance", json_performance(performance_of(closest), has_frequency)}};
     return json;
   }
   const Drivetrain changed = report.drive.with(values.parameter, nearest);
@@ -184,13 +183,6 @@ Json json_answer(const DesignReport& report, const DesignAnswer& answer) {
 
 }  // namespace
 
-DesignAnswer design_answer(const ChangeableDrive& drive, Parameter parameter,
-                           const Target& target) {
-  DesignAnswer answer{.values = feasible_values(drive, parameter, target), .closest = {}};
-  if (answer.values.intervals.empty()) answer.closest = closest_value(drive, parameter, target);
-  return answer;
-}
-
 std::string design_text(const DesignReport& report) {
   const Performance present = performance_of(report.drive.drivetrain());
   std::string text = fmt::format("target: {}\nat present: {}, {}\n\n", report.target_text,
@@ -198,11 +190,11 @@ std::string design_text(const DesignReport& report) {
                                  is_met(report.target, present) ? "met" : "not met");
   std::vector<std::vector<std::string>> rows = {header()};
   std::string reasons;
-  for (const DesignAnswer& answer : report.answers) {
-    for (std::size_t i = 0; i < answer.values.intervals.size(); ++i) {
-      rows.push_back(interval_row(report, answer.values, i));
+  for (const FeasibleValues& answer : report.answers) {
+    for (std::size_t i = 0; i < answer.intervals.size(); ++i) {
+      rows.push_back(interval_row(report, answer, i));
     }
-    if (answer.values.intervals.empty()) reasons += "  " + reason(report, answer) + "\n";
+    if (answer.intervals.empty()) reasons += "  " + reason(report, answer) + "\n";
   }
   if (rows.size() > 1) {
     text += "One change by itself, all else as it is; ω_n, ζ and K are what it costs\n" +
@@ -215,7 +207,7 @@ std::string design_text(const DesignReport& report) {
 std::string design_json(const DesignReport& report) {
   const Performance present = performance_of(report.drive.drivetrain());
   Json answers = Json::array();
-  for (const DesignAnswer& answer : report.answers) answers.push_back(json_answer(report, answer));
+  for (const FeasibleValues& answer : report.answers) answers.push_back(json_answer(report, answer));
   const Json json = {
       {"target", report.target_text},
       {"met", is_met(report.target, present)},

@@ -34,8 +34,21 @@ struct Performance {
 /// By analyse_limit_cycles(). Throws InvalidInput.
 Performance performance_of(const Drivetrain& drive);
 
+/// Whether a drive of this growth at rest misses the target whatever cycles it has.
+bool is_ruled_out(const Target& target, double growth_at_rest);
+
+/// As performance_of(), as far as the target asks for it: with bounces the search for cycles, which
+/// takes milliseconds, is left out where the growth at rest rules the drive out. The verdict is
+/// then `hunts` or `undecided`, and the rest NaN. Throws InvalidInput.
+Performance performance_for(const Target& target, const Drivetrain& drive);
+
 /// Whether all limits are kept. What is not known keeps none.
 bool is_met(const Target& target, const Performance& performance);
+
+/// ln(value/limit) of the limit that is kept least, but for rounding ≤ 0 where all are kept;
+/// growth at rest stands for no-hunting, whose limit is 1. −∞ where nothing comes near a limit, ∞
+/// where a limit cannot be compared with.
+double excess(const Target& target, const Performance& performance);
 
 /// How many of the drives of a box keep all limits; `some`: that is not known.
 enum class Judgement { none, some, all };

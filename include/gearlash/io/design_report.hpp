@@ -9,22 +9,14 @@
 
 namespace gearlash {
 
-/// What one parameter can do by itself.
-struct DesignAnswer {
-  FeasibleValues values;
-  ClosestValue closest;  ///< to the target; meaningful where no value meets it
-};
-
 struct DesignReport {
   ChangeableDrive drive;
   std::string target_text;  ///< as its author wrote it
   Target target;
-  std::vector<DesignAnswer> answers;
+  std::vector<FeasibleValues> answers;  ///< of the parameters asked for
   ReportUnits units = {};
   Provenance provenance = {};
 };
-
-DesignAnswer design_answer(const ChangeableDrive& drive, Parameter parameter, const Target& target);
 
 /// A table with a line for every interval of values that meets the target, what it changes besides,
 /// and why others cannot. Limits are rounded towards the side that meets it. Ends with a newline.
