@@ -128,7 +128,7 @@ class Servo {
       last = t;
       last_value = value;
       t = next;
-      if (abs(t - last) < Real("1e-45") * t) break;
+      if (abs(t - last) < Real("1e-50") * t) break;
     }
     return t;
   }
@@ -169,7 +169,7 @@ std::string describe(const NormalizedServo& s) {
          " friction_ratio " + exact_text(s.friction_ratio) + " backlash " + exact_text(s.backlash);
 }
 
-/// The derivatives by one number: central differences of relative step 1e-16, good to 1e-20 or
+/// The derivatives by one number: central differences of relative step 1e-20, good to 1e-18 or
 /// better next to the boundary.
 struct Differences {
   Servo::Cycle value, slope;
@@ -179,7 +179,7 @@ Differences differences(const NormalizedServo& servo, Real Numbers::*number, dou
   const Numbers here{servo.damping, servo.inertia_ratio, servo.friction_ratio};
   Numbers low = here;
   Numbers high = here;
-  const Real step = here.*number * Real("1e-16");
+  const Real step = here.*number * Real("1e-20");
   low.*number -= step;
   high.*number += step;
   const Servo::Cycle at_low = Servo(low).cycle(flight_time);
@@ -207,7 +207,7 @@ const Field fields[] = {
 
 /// Of errors, as shares of max(|derivative|, |value/parameter|).
 constexpr double growth_tolerance = 64.0 * epsilon;
-constexpr double cycle_tolerance = 64.0 * epsilon;
+constexpr double cycle_tolerance = 512.0 * epsilon;
 
 /// The largest error met, by quantity, as a share of its tolerance.
 struct Worst {
@@ -219,16 +219,6 @@ double error_of(const SensitiveValue& found, const Field& field, double present,
   const Real scale = std::max<Real>(abs(slope), abs(value / present));
   if (scale == 0) return std::abs(found.slope.*field.slope);
   return static_cast<double>(abs(found.slope.*field.slope - slope) / scale);
-}
-
-/// By how much a change of all numbers by one epsilon may change the derivatives of a cycle, as a
-/// share: they go as 1/ln μ₀ near the boundary.
-double condition_of(const NormalizedServo& servo, const SensitiveValue& growth) {
-  double elasticity = 0.0;
-  for (const Field& field : fields) {
-    elasticity += std::abs(growth.slope.*field.slope * servo.*field.present / growth.value);
-  }
-  return 1.0 + elasticity / std::log(growth.value);
 }
 
 void compare(const NormalizedServo& servo, Worst& worst, double allowance = 1.0) {
@@ -254,8 +244,7 @@ void compare(const NormalizedServo& servo, Worst& worst, double allowance = 1.0)
                                    exact.slope.growth_at_rest);
     expect_near("growth", growth, growth_tolerance, worst.growth);
     if (!found.available()) continue;
-    const double tolerance =
-        allowance * cycle_tolerance * condition_of(servo, found.growth_at_rest);
+    const double tolerance = allowance * cycle_tolerance;
     const double size = error_of(found.size, field, present, exact.value.size * servo.backlash,
                                  exact.slope.size * servo.backlash);
     const double period =
@@ -317,6 +306,8 @@ std::optional<NormalizedServo> with_growth(NormalizedServo servo, double growth)
   return servo;
 }
 
+/// The derivatives, as 1/ln μ₀ there, are asked for to 1e-9; what is allowed is below 1e-12. The
+/// farther a rate, or the share of a friction, is from the other's, the more of it is needed.
 TEST(OracleCycleSensitivity, DerivativesNextToTheBoundaryInSeventyDigits) {
   constexpr std::uint64_t seed = 2102;
   SCOPED_TRACE(seed);
@@ -324,11 +315,11 @@ TEST(OracleCycleSensitivity, DerivativesNextToTheBoundaryInSeventyDigits) {
   Worst worst;
   int compared = 0;
   while (compared < 200) {
-    const double excess = draws.log_uniform(1e-6, 1e-1);
+    const double excess = draws.log_uniform(1e-10, 1e-1);
     const auto servo = with_growth(drawn_servo(draws), 1.0 + excess);
     if (!servo) continue;
     ++compared;
-    compare(*servo, worst);
+    compare(*servo, worst, 8.0);
   }
   record(worst);
 }
@@ -342,7 +333,7 @@ TEST(OracleCycleSensitivity, LightDampingKeepsItsDigits) {
   for (int i = 0; i < 100; ++i) {
     NormalizedServo servo = drawn_servo(draws);
     servo.damping = draws.log_uniform(1e-6, 1e-2);
-    compare(servo, worst, 64.0);
+    compare(servo, worst, 8.0);
   }
   record(worst);
 }
