@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <functional>
 #include <optional>
 
@@ -12,11 +11,10 @@
 #include "gearlash/cycle/growth_at_rest.hpp"
 #include "gearlash/cycle/limit_cycle.hpp"
 #include "gearlash/servo/range_check.hpp"
+#include "seventy_digits.hpp"
 
 namespace gearlash {
 namespace {
-
-using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<70>>;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
@@ -25,39 +23,6 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 struct Numbers {
   Real damping, inertia_ratio, friction_ratio;
-};
-
-/// ẍ + 2ζẋ + x = 0 from (position, speed).
-struct Oscillation {
-  Real damping, position, speed;
-
-  Real split() const { return sqrt(abs(damping * damping - 1)); }
-
-  /// First time > 0 at which a position + b speed is zero; nothing if there is none.
-  std::optional<Real> first_zero(const Real& a, const Real& b) const {
-    const Real value = a * position + b * speed;
-    const Real slope = a * speed - b * (2 * damping * speed + position);
-    const Real w = split();
-    if (damping < 1) {
-      Real angle = atan2(-value * w, slope + damping * value);
-      if (angle <= 0) angle += boost::math::constants::pi<Real>();
-      return angle / w;
-    }
-    // x = p e^{−(ζ−w)t} + q e^{−(ζ+w)t}
-    const Real p = (slope + (damping + w) * value) / (2 * w);
-    const Real q = value - p;
-    if (!(-q / p > 1)) return std::nullopt;
-    return log(-q / p) / (2 * w);
-  }
-
-  Oscillation at(const Real& time) const {
-    const Real w = split();
-    const Real decay = exp(-damping * time);
-    const Real c = decay * (damping < 1 ? Real(cos(w * time)) : Real(cosh(w * time)));
-    const Real s = decay * (damping < 1 ? Real(sin(w * time)) : Real(sinh(w * time))) / w;
-    return {damping, position * (c + damping * s) + speed * s,
-            speed * (c - damping * s) - position * s};
-  }
 };
 
 class Servo {
@@ -490,11 +455,10 @@ void expect_agrees_with_differences(const NormalizedServo& servo, const Field& f
     const double half = (quantity(neighbours[2]) - quantity(neighbours[1])) / step;
     return (4.0 * half - whole) / 3.0;
   };
-  const auto expect_near = [&](const SensitiveValue& value, const auto& quantity,
-                               double tolerance = 1e-7) {
+  const auto expect_near = [&](const SensitiveValue& value, const auto& quantity) {
     const double exact = slope_of(quantity);
     EXPECT_NEAR(value.slope.*field.slope, exact,
-                tolerance * (std::abs(exact) + std::abs(value.value) / present))
+                1e-7 * (std::abs(exact) + std::abs(value.value) / present))
         << field.name;
   };
   expect_near(found.growth_at_rest,
@@ -513,7 +477,7 @@ void expect_agrees_with_differences(const NormalizedServo& servo, const Field& f
   };
   expect_near(found.size, of_cycle(&LimitCycle::size));
   expect_near(found.period, of_cycle(&LimitCycle::period));
-  expect_near(found.multiplier, of_cycle(&LimitCycle::multiplier), 1e-4);
+  expect_near(found.multiplier, of_cycle(&LimitCycle::multiplier));
 }
 
 TEST(PropertyCycleSensitivity, WithBouncesAgreesWithDifferences) {

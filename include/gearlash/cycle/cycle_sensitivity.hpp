@@ -62,12 +62,14 @@ struct CycleSensitivity {
 ///
 /// e > 0. The cycle is run again event by event, with derivatives by p and by the arrival x that it
 /// starts from (return_map.hpp); each event's time follows from the condition that ends its phase,
-/// and with F(x, p) the arrival that closes the period, dx/dp = (I − ∂F/∂x)⁻¹ ∂F/∂p. Derivatives of
-/// the multiplier are differences of the exact ∂F/∂x along x(p), good to some 1e-6 and NaN where
-/// differences do not agree. All hold while
-/// no event grazes: where a bounce comes or goes, they are those of the sequence at hand. Against
-/// differences of analyse_limit_cycles(): within 1e-7 (tests/cycle). Costs what
-/// analyse_limit_cycles() costs.
+/// and with F(x, p) the arrival that closes the period, dx/dp = (I − ∂F/∂x)⁻¹ ∂F/∂p. Disturbances
+/// are carried along in the same numbers, which gives M = ∂F/∂x with its derivatives; those of a
+/// multiplier λ, an eigenvalue of M, are l dM r/(l r) with its eigenvectors, and NaN where λ is
+/// double. All hold while no event grazes: where a bounce comes or goes, they are those of the
+/// sequence at hand. Error, of max(|derivative|, |value/p|): 1024 epsilons/(1 − |λ|) (tests/cycle,
+/// against 70 digits), also where bounces settle: what their sum leaves out is below rounding.
+/// Where e > 0.999 and bounces too many to follow are left out, it is what fading_rattle() says.
+/// Costs what analyse_limit_cycles() costs.
 ///
 /// A size is the difference of two extremes of the load; where two of a kind tie, the derivative is
 /// that of one side. Throws InvalidInput.
