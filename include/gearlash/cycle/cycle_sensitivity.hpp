@@ -66,8 +66,9 @@ struct CycleSensitivity {
 /// are carried along in the same numbers, which gives M = ∂F/∂x with its derivatives; those of a
 /// multiplier λ, an eigenvalue of M, are l dM r/(l r) with its eigenvectors, and NaN where λ is
 /// double. All hold while no event grazes: where a bounce comes or goes, they are those of the
-/// sequence at hand. Error, of max(|derivative|, |value/p|): 1024 epsilons/(1 − |λ|) (tests/cycle,
-/// against 70 digits), also where bounces settle: what their sum leaves out is below rounding.
+/// sequence at hand. Error, of max(|derivative|, |value/p|): some 1e-12, ten times that where the
+/// cycle hardly resists disturbances (1 − |λ| below 0.01) or an event nearly grazes (tests/cycle,
+/// against 70 digits); also where bounces settle: what their sum leaves out is below rounding.
 /// Where e > 0.999 and bounces too many to follow are left out, it is what fading_rattle() says.
 /// Costs what analyse_limit_cycles() costs.
 ///
