@@ -4,8 +4,10 @@
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <limits>
 
+#include "disturbances.hpp"
 #include "dual_numbers.hpp"
 #include "gearlash/cycle/half_cycle_algebra.hpp"
 #include "gearlash/cycle/return_map.hpp"
@@ -30,13 +32,13 @@ DualDynamics dynamics_with_restitution(const NormalizedServo& servo) {
   return dynamics;
 }
 
+using DualSlope = BasicDisturbances<Dual>::Slope;
+
 /// (y, P, u̇) before an impact on the forward face.
 using DualArrival = std::array<Dual, 3>;
 
 /// The shafts on the forward face, or in the gap.
-struct DualState {
-  Dual load_position, load_speed, gap, gap_speed;
-};
+using DualState = BasicGapState<Dual>;
 
 Arrival values_of(const DualArrival& arrival) {
   return {arrival[0].value(), arrival[1].value(), arrival[2].value()};
@@ -55,41 +57,11 @@ struct DualRange {
 
 // ---- the phases ---------------------------------------------------------------------------------
 
-/// See flight_from().
-DualFlight flight_from(const DualDynamics& dynamics, const DualState& state) {
-  return {.load_position = state.load_position,
-          .load_speed = state.load_speed,
-          .gap = state.gap,
-          .gap_speed = state.gap_speed,
-          .motor_acceleration = -dynamics.motor_rate * (state.load_speed + state.gap_speed) -
-                                state.load_position / dynamics.motor_inertia,
-          .load_deceleration = dynamics.load_rate * state.load_speed,
-          .coupling = -state.load_speed / dynamics.motor_inertia,
-          .load_rate = dynamics.load_rate,
-          .motor_rate = dynamics.motor_rate};
-}
-
-DualState state_after(const DualFlight& flight, const Dual& time) {
-  const BasicFlightDecays<Dual> decays = dual_decays(flight, time);
-  const BasicFlightMotion<Dual> motion = motion_after(flight, time, decays);
-  return {motion.load_position, motion.load_speed,
-          flight.gap + displacement_after(flight, time, decays), motion.gap_speed};
-}
-
 /// When a flight meets the face that it meets after `time`: u(t) does not change.
 Dual time_of_contact(const DualFlight& flight, double time) {
-  const DualState at = state_after(flight, time);
+  const Dual fixed = time;
+  const DualState at = state_after(flight, fixed, dual_decays(flight, fixed));
   return {time, -at.gap.derivatives() / at.gap_speed.value()};
-}
-
-/// Newton's law, momentum kept (J_M + J_L = 1); the face does not move.
-DualState after_impact(const DualDynamics& dynamics, const DualState& before) {
-  DualState after = before;
-  after.gap = before.gap.value();
-  after.load_speed =
-      before.load_speed + dynamics.motor_inertia * (1.0 + dynamics.restitution) * before.gap_speed;
-  after.gap_speed = -dynamics.restitution * before.gap_speed;
-  return after;
 }
 
 /// Faces together, from (y, P) until N falls through zero: how long, where the load turns, and the
@@ -138,11 +110,15 @@ struct Rerun {
   DualFlight flight{};
   Dual duration = 0.0;
   DualRange range{};
+  BasicDisturbances<Dual> disturbances{dynamics};
 
   void add_impact() {
     range.include(state.load_position);
-    state = after_impact(dynamics, state);
-    flight = flight_from(dynamics, state);
+    const DualState before = state;
+    state = after_impact(dynamics, before);
+    state.gap = before.gap.value();  // the face does not move
+    disturbances.meet(before, state);
+    flight = flight_of_two_masses(dynamics, state);
   }
 
   void engage() {
@@ -150,13 +126,16 @@ struct Rerun {
     const DualEngagement engaged = engagement(dynamics, state.load_position, speed);
     duration += engaged.duration;
     if (engaged.turning) range.include(*engaged.turning);
+    disturbances.part(state, {engaged.load_position, engaged.load_speed, state.gap, 0.0});
     flight = clean_parting<Dual>(dynamics, engaged.load_position, engaged.load_speed, state.gap);
   }
 
   void fly(double time) {
     const Dual flying = time_of_contact(flight, time);
+    const BasicFlightDecays<Dual> decays = dual_decays(flight, flying);
     duration += flying;
-    state = state_after(flight, flying);
+    disturbances.fly(flying, decays);
+    state = state_after(flight, flying, decays);
   }
 
   /// To the next arrival at the other face, or to the flight that never comes back to this one.
@@ -199,6 +178,9 @@ struct Rerun {
     return {-state.load_position, -(state.load_speed + dynamics.motor_inertia * state.gap_speed),
             -state.gap_speed};
   }
+
+  /// By the arrival that it began with.
+  DualSlope slope() const { return disturbances.arrive(state); }
 };
 
 // ---- the cycle as a fixed point -----------------------------------------------------------------
@@ -264,51 +246,37 @@ std::optional<Orbit> orbit_of(const ServoDynamics& dynamics, const LimitCycle& c
   return std::nullopt;
 }
 
-/// As LimitCycle has it: the real one of largest modulus, or the modulus of a pair.
-double multiplier_of(const Eigen::Matrix3d& slope, int order) {
+/// Of that eigenvalue λ of M which is largest, or of its modulus where it is one of a pair. With
+/// B(λ) the adjugate of λI − M, of rank one (right times left eigenvector) where λ is simple,
+///   dλ = tr(B dM)/tr B,   tr B = (λ − λ₂)(λ − λ₃).
+/// NaN's for dλ where λ is double.
+Dual largest_eigenvalue(const DualSlope& dual) {
+  Eigen::Matrix3d slope;
+  for (Eigen::Index i = 0; i < slope.size(); ++i) slope(i) = dual(i).value();
   const Eigen::Vector3cd eigenvalues =
       Eigen::EigenSolver<Eigen::Matrix3d>(slope, false).eigenvalues();
   Eigen::Index largest = 0;
   eigenvalues.cwiseAbs().maxCoeff(&largest);
-  const auto value = eigenvalues(largest);
-  const double multiplier = value.imag() == 0.0 ? value.real() : std::abs(value);
-  return repeats_of(order) == 2 ? multiplier * multiplier : multiplier;
-}
+  const std::complex<double> value = eigenvalues(largest);
 
-NormalizedServo shifted(NormalizedServo servo, Eigen::Index number, double step) {
-  double* const fields[] = {&servo.damping, &servo.inertia_ratio, &servo.friction_ratio,
-                            &servo.restitution};
-  *fields[number] += step;
-  return servo;
-}
-
-/// Central differences, extrapolated once. The map of a settling cycle steps by some 1e-8 where one
-/// bounce more is followed before the rest are summed up: a step across such a place shows in that
-/// two differences disagree, and a shorter one is taken. NaN where none will do, or where a
-/// neighbour has no such cycle.
-double multiplier_slope(const NormalizedServo& servo, const Orbit& orbit, Eigen::Index number,
-                        const Arrival& arrival_slope) {
-  const double present = std::array{servo.damping, servo.inertia_ratio, servo.friction_ratio,
-                                    servo.restitution}[static_cast<std::size_t>(number)];
-  const double room = number >= by_friction_ratio ? std::min(present, 1.0 - present) : present;
-  const auto at = [&](double step) {
-    const NormalizedServo here = shifted(servo, number, step);
-    const ServoDynamics dynamics = servo_dynamics(here);
-    const auto arrival = fixed_point(dynamics, orbit.arrival + step * arrival_slope, orbit.order);
-    if (!arrival) return nan;
-    return multiplier_of(iterated(dynamics, *arrival, orbit.order)->slope, orbit.order);
-  };
-  const auto difference = [&](double step) { return (at(step) - at(-step)) / (2.0 * step); };
-  if (!(room > 0.0)) return nan;
-  for (const double share : {1e-4, 1e-5, 1e-6}) {
-    const double whole = difference(share * room);
-    const double half = difference(0.5 * share * room);
-    constexpr double agreement = 1e-6;
-    if (std::abs(half - whole) <= agreement * (std::abs(half) + 1.0 / present)) {
-      return (4.0 * half - whole) / 3.0;
-    }
+  const double trace = slope.trace();
+  const Eigen::Matrix3d square = slope * slope;
+  const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d linear = slope - trace * identity;
+  const Eigen::Matrix3d constant =
+      square - trace * slope + 0.5 * (trace * trace - square.trace()) * identity;
+  const Eigen::Matrix3cd adjugate = value * value * identity + value * linear + constant;
+  const bool is_real = value.imag() == 0.0;
+  const double modulus = std::abs(value);
+  const std::complex<double> direction = is_real ? 1.0 : std::conj(value) / modulus;
+  const Eigen::Matrix3d by_entry = (direction * adjugate.transpose() / adjugate.trace()).real();
+  constexpr double told_apart = 1e-6;  // rounding parts a double one by 1e-8
+  Gradient gradient = Gradient::Constant(nan);
+  if (std::abs(adjugate.trace()) > told_apart * modulus * modulus) {
+    gradient.setZero();
+    for (Eigen::Index i = 0; i < slope.size(); ++i) gradient += by_entry(i) * dual(i).derivatives();
   }
-  return nan;
+  return {is_real ? value.real() : modulus, gradient};
 }
 
 }  // namespace
@@ -325,11 +293,13 @@ std::optional<BouncingSlopes> bouncing_slopes(const NormalizedServo& servo,
   }
   Dual duration = 0.0;
   DualRange range;
+  DualSlope slope = DualSlope::Identity();  // of as many traversals as the cycle repeats after
   double side = 1.0;
   for (int i = 0; i < repeats_of(orbit->order) * orbit->order; ++i, side = -side) {
     Rerun rerun{.plain = plain, .dynamics = dynamics};
     if (rerun.run(arrival) != Course::arrived) return std::nullopt;
     arrival = rerun.next();
+    if (i < orbit->order) slope = (rerun.slope() * slope).eval();
     duration += rerun.duration;
     range.include(side * rerun.range.largest);
     range.include(side * rerun.range.smallest);
@@ -339,16 +309,15 @@ std::optional<BouncingSlopes> bouncing_slopes(const NormalizedServo& servo,
   // Over a whole period, which for an odd order is two runs of the cycle.
   const Eigen::Matrix<double, 3, 4> arrival_slopes =
       (Eigen::Matrix3d::Identity() - map.rightCols<3>()).fullPivLu().solve(map.leftCols<4>());
-  const auto total = [&](const Dual& of) -> BouncingGradient {
-    return of.derivatives().head<4>() + arrival_slopes.transpose() * of.derivatives().tail<3>();
+  const auto total = [&](const Gradient& of) -> BouncingGradient {
+    return of.head<4>() + arrival_slopes.transpose() * of.tail<3>();
   };
-  BouncingSlopes slopes{.size = total(0.5 * (range.largest - range.smallest)),
-                        .period = total(duration),
-                        .multiplier = {}};
-  for (Eigen::Index number = 0; number < 4; ++number) {
-    slopes.multiplier(number) = multiplier_slope(servo, *orbit, number, arrival_slopes.col(number));
-  }
-  return slopes;
+  const Dual size = 0.5 * (range.largest - range.smallest);
+  const Dual root = largest_eigenvalue(slope);
+  const Dual multiplier = repeats_of(orbit->order) == 2 ? Dual(root * root) : root;
+  return BouncingSlopes{.size = total(size.derivatives()),
+                        .period = total(duration.derivatives()),
+                        .multiplier = total(multiplier.derivatives())};
 }
 
 std::optional<BouncingGradient> bouncing_log_growth_gradient(const NormalizedServo& servo) {

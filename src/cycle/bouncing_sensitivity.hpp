@@ -19,10 +19,10 @@ struct BouncingSlopes {
 
 /// The motion of the cycle is run again, event by event, with derivatives by the parameters p and
 /// by the arrival x that it starts from (return_map.hpp); each event's time follows from the
-/// condition that ends its phase. With F(x, p) the k-th arrival, dx/dp = (I − ∂F/∂x)⁻¹ ∂F/∂p.
-/// The multiplier's derivatives alone are differences, of the exact ∂F/∂x along that x(p). Nothing
-/// where the cycle cannot be run again. Precondition: two masses, b > 0, e > 0; a cycle of
-/// analyse_limit_cycles(servo).
+/// condition that ends its phase. With F(x, p) the k-th arrival, dx/dp = (I − ∂F/∂x)⁻¹ ∂F/∂p; the
+/// multiplier is an eigenvalue of ∂F/∂x, which is carried along likewise (disturbances.hpp), and
+/// has no derivatives (NaN) where it is double. Nothing where the cycle cannot be run again.
+/// Precondition: two masses, b > 0, e > 0; a cycle of analyse_limit_cycles(servo).
 std::optional<BouncingSlopes> bouncing_slopes(const NormalizedServo& servo,
                                               const LimitCycle& cycle);
 

@@ -10,6 +10,7 @@
 #include "gearlash/cycle/half_cycle_algebra.hpp"
 #include "gearlash/cycle/plastic_cycle.hpp"
 #include "gearlash/motion/engaged_flow.hpp"
+#include "refined_flight_time.hpp"
 
 namespace gearlash {
 namespace {
@@ -23,12 +24,6 @@ using DualFlight = BasicGapFlight<Dual>;
 using DualHalfCycle = BasicUnitHalfCycle<Dual>;
 
 // ---- the half cycle -----------------------------------------------------------------------------
-
-DualFlight dual_flight(const DualDynamics& dynamics) {
-  const Dual gap = 0.0;
-  return clean_parting<Dual>(dynamics, dynamics.torque_free_line.position,
-                             dynamics.torque_free_line.speed, gap);
-}
 
 /// J_M y + F_M P, which dies away as the motor comes to creep, without cancellation:
 ///   q = y + cP,  q e^{ct} = q₀ + (1 + c J_L(c − D)) v₀ t φ₁((c − D)t),  q₀ = (D J_M + c J_L) v₀.
@@ -64,6 +59,9 @@ Dual dual_flight_time(const DualDynamics& dynamics, const DualFlight& flight, do
   const DualHalfCycle half = dual_half_cycle(dynamics, flight, fixed);
   return {flight_time, -half.log_growth.derivatives() / half.log_growth_slope.value()};
 }
+
+/// Below this ln μ₀ the flight time is refined: doubles know it to some epsilons over ln μ₀.
+constexpr double ill_conditioned = 1.0;
 
 // ---- what is asked ------------------------------------------------------------------------------
 
@@ -121,10 +119,10 @@ SensitiveValue sensitive_growth(const DualDynamics& dynamics, double growth) {
   return sensitive(growth, growth * log_growth_gradient(dynamics));
 }
 
-void add_cycle(CycleSensitivity& sensitivity, const DualDynamics& dynamics,
-               const UnitHalfCycle& balanced, const LimitCycle& cycle, double backlash) {
-  const DualFlight flight = dual_flight(dynamics);
-  const Dual time = dual_flight_time(dynamics, flight, balanced.flight_time);
+void add_cycle(CycleSensitivity& sensitivity, const DualDynamics& dynamics, double flight_time,
+               const LimitCycle& cycle, double backlash) {
+  const DualFlight flight = unit_flight_of_two_masses(dynamics);
+  const Dual time = dual_flight_time(dynamics, flight, flight_time);
   const DualHalfCycle half = dual_half_cycle(dynamics, flight, time);
   const Dual gap = -half.gap_displacement;
   const Dual size = backlash * dual_unit_size(dynamics, flight, half) / gap;
@@ -199,7 +197,9 @@ CycleSensitivity cycle_sensitivity(const NormalizedServo& servo) {
   if (!balanced) return ended(SensitivityOutcome::undecided);
   const LimitCycle cycle = plastic_cycle(dynamics, *balanced);
   if (!cycle.stable) return ended(SensitivityOutcome::undecided);
-  add_cycle(sensitivity, dual, *balanced, cycle, servo.backlash);
+  double flight_time = balanced->flight_time;
+  if (std::log(growth) < ill_conditioned) flight_time = refined_flight_time(servo, flight_time);
+  add_cycle(sensitivity, dual, flight_time, cycle, servo.backlash);
   return ended(SensitivityOutcome::available);
 }
 

@@ -31,35 +31,13 @@ GapFlight of_massless_motor(const ServoDynamics& dynamics, const GapState& state
           .gap_acceleration = acceleration};
 }
 
-double motor_acceleration(const ServoDynamics& dynamics, const GapState& state) {
-  return -dynamics.motor_rate * (state.load_speed + state.gap_speed) -
-         state.load_position / dynamics.motor_inertia;
-}
-
-/// Two masses. The shafts' own accelerations are not taken from the gap's: of a light load that
-/// would lose digits.
-GapFlight of_two_masses(const ServoDynamics& dynamics, const GapState& state,
-                        double gap_acceleration) {
-  return {.load_position = state.load_position,
-          .load_speed = state.load_speed,
-          .gap = state.gap,
-          .gap_speed = state.gap_speed,
-          .motor_acceleration = motor_acceleration(dynamics, state),
-          .load_deceleration = dynamics.load_rate * state.load_speed,
-          .coupling = -state.load_speed / dynamics.motor_inertia,
-          .load_rate = dynamics.load_rate,
-          .motor_rate = dynamics.motor_rate,
-          .gap_acceleration = gap_acceleration,
-          .gap_drive = gap_drive(dynamics, state.load_speed)};
-}
+}  // namespace
 
 BasicFlightDecays<double> decays_at(const GapFlight& flight, double time) {
   const Decay load = decay(flight.load_rate * time);
   const Decay motor = decay(flight.motor_rate * time);
   return {load, motor, convolution(load, motor)};
 }
-
-}  // namespace
 
 FlightMotion motion_in_flight(const GapFlight& flight, double time) {
   return motion_after(flight, time, decays_at(flight, time));
@@ -79,8 +57,7 @@ GapFlight flight_from(const ServoDynamics& dynamics, const GapState& state) {
     const double driven_speed = -state.load_position / dynamics.motor_friction;
     return of_massless_motor(dynamics, state, driven_speed - state.load_speed);
   }
-  return of_two_masses(dynamics, state,
-                       motor_acceleration(dynamics, state) + dynamics.load_rate * state.load_speed);
+  return flight_of_two_masses(dynamics, state);
 }
 
 GapFlight flight_from_separation(const ServoDynamics& dynamics, double load_position,
@@ -100,7 +77,9 @@ GapFlight flight_from_pull(const ServoDynamics& dynamics, double load_position, 
   const GapState state{load_position, load_speed, gap, 0.0};
   if (dynamics.massless_load() || dynamics.massless_motor()) return flight_from(dynamics, state);
   const double torque = mesh_torque(dynamics, load_position, load_speed);
-  return of_two_masses(dynamics, state, torque / (dynamics.motor_inertia * dynamics.load_inertia));
+  GapFlight flight = flight_of_two_masses(dynamics, state);
+  flight.gap_acceleration = torque / (dynamics.motor_inertia * dynamics.load_inertia);
+  return flight;
 }
 
 }  // namespace gearlash

@@ -28,9 +28,7 @@ Phase engaged_phase(const ServoDynamics& dynamics, FaceSign face, double positio
 }
 
 GapState state_in_flight(const GapFlight& flight, double time) {
-  const FlightPoint point = point_in_flight(flight, time);
-  return {point.motion.load_position, point.motion.load_speed, flight.gap + point.gap_displacement,
-          point.motion.gap_speed};
+  return state_after(flight, time, decays_at(flight, time));
 }
 
 PhaseEnd no_event() {

@@ -31,7 +31,8 @@ PERMITTED_LAYERS = {
 PERMITTED_LIBRARIES = {
     "servo": (),
     "motion": ("boost/math/",),
-    "cycle": ("boost/math/", "boost/numeric/interval", "Eigen/", "unsupported/Eigen/AutoDiff"),
+    "cycle": ("boost/math/", "boost/multiprecision/", "boost/numeric/interval", "Eigen/",
+              "unsupported/Eigen/AutoDiff"),
     "chart": ("boost/math/", "Eigen/", "xsimd/", "tbb/", "oneapi/tbb"),
     "design": ("boost/math/", "boost/random/", "Eigen/", "tbb/", "oneapi/tbb"),
     "hybrid": ("boost/math/", "Eigen/"),

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <functional>
 #include <optional>
 
@@ -12,11 +11,10 @@
 #include "gearlash/cycle/growth_at_rest.hpp"
 #include "gearlash/cycle/limit_cycle.hpp"
 #include "gearlash/servo/range_check.hpp"
+#include "seventy_digits.hpp"
 
 namespace gearlash {
 namespace {
-
-using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<70>>;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
@@ -25,39 +23,6 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 struct Numbers {
   Real damping, inertia_ratio, friction_ratio;
-};
-
-/// ẍ + 2ζẋ + x = 0 from (position, speed).
-struct Oscillation {
-  Real damping, position, speed;
-
-  Real split() const { return sqrt(abs(damping * damping - 1)); }
-
-  /// First time > 0 at which a position + b speed is zero; nothing if there is none.
-  std::optional<Real> first_zero(const Real& a, const Real& b) const {
-    const Real value = a * position + b * speed;
-    const Real slope = a * speed - b * (2 * damping * speed + position);
-    const Real w = split();
-    if (damping < 1) {
-      Real angle = atan2(-value * w, slope + damping * value);
-      if (angle <= 0) angle += boost::math::constants::pi<Real>();
-      return angle / w;
-    }
-    // x = p e^{−(ζ−w)t} + q e^{−(ζ+w)t}
-    const Real p = (slope + (damping + w) * value) / (2 * w);
-    const Real q = value - p;
-    if (!(-q / p > 1)) return std::nullopt;
-    return log(-q / p) / (2 * w);
-  }
-
-  Oscillation at(const Real& time) const {
-    const Real w = split();
-    const Real decay = exp(-damping * time);
-    const Real c = decay * (damping < 1 ? Real(cos(w * time)) : Real(cosh(w * time)));
-    const Real s = decay * (damping < 1 ? Real(sin(w * time)) : Real(sinh(w * time))) / w;
-    return {damping, position * (c + damping * s) + speed * s,
-            speed * (c - damping * s) - position * s};
-  }
 };
 
 class Servo {
@@ -128,7 +93,7 @@ class Servo {
       last = t;
       last_value = value;
       t = next;
-      if (abs(t - last) < Real("1e-45") * t) break;
+      if (abs(t - last) < Real("1e-50") * t) break;
     }
     return t;
   }
@@ -169,7 +134,7 @@ std::string describe(const NormalizedServo& s) {
          " friction_ratio " + exact_text(s.friction_ratio) + " backlash " + exact_text(s.backlash);
 }
 
-/// The derivatives by one number: central differences of relative step 1e-16, good to 1e-20 or
+/// The derivatives by one number: central differences of relative step 1e-20, good to 1e-18 or
 /// better next to the boundary.
 struct Differences {
   Servo::Cycle value, slope;
@@ -179,7 +144,7 @@ Differences differences(const NormalizedServo& servo, Real Numbers::*number, dou
   const Numbers here{servo.damping, servo.inertia_ratio, servo.friction_ratio};
   Numbers low = here;
   Numbers high = here;
-  const Real step = here.*number * Real("1e-16");
+  const Real step = here.*number * Real("1e-20");
   low.*number -= step;
   high.*number += step;
   const Servo::Cycle at_low = Servo(low).cycle(flight_time);
@@ -207,7 +172,7 @@ const Field fields[] = {
 
 /// Of errors, as shares of max(|derivative|, |value/parameter|).
 constexpr double growth_tolerance = 64.0 * epsilon;
-constexpr double cycle_tolerance = 64.0 * epsilon;
+constexpr double cycle_tolerance = 512.0 * epsilon;
 
 /// The largest error met, by quantity, as a share of its tolerance.
 struct Worst {
@@ -219,16 +184,6 @@ double error_of(const SensitiveValue& found, const Field& field, double present,
   const Real scale = std::max<Real>(abs(slope), abs(value / present));
   if (scale == 0) return std::abs(found.slope.*field.slope);
   return static_cast<double>(abs(found.slope.*field.slope - slope) / scale);
-}
-
-/// By how much a change of all numbers by one epsilon may change the derivatives of a cycle, as a
-/// share: they go as 1/ln μ₀ near the boundary.
-double condition_of(const NormalizedServo& servo, const SensitiveValue& growth) {
-  double elasticity = 0.0;
-  for (const Field& field : fields) {
-    elasticity += std::abs(growth.slope.*field.slope * servo.*field.present / growth.value);
-  }
-  return 1.0 + elasticity / std::log(growth.value);
 }
 
 void compare(const NormalizedServo& servo, Worst& worst, double allowance = 1.0) {
@@ -254,8 +209,7 @@ void compare(const NormalizedServo& servo, Worst& worst, double allowance = 1.0)
                                    exact.slope.growth_at_rest);
     expect_near("growth", growth, growth_tolerance, worst.growth);
     if (!found.available()) continue;
-    const double tolerance =
-        allowance * cycle_tolerance * condition_of(servo, found.growth_at_rest);
+    const double tolerance = allowance * cycle_tolerance;
     const double size = error_of(found.size, field, present, exact.value.size * servo.backlash,
                                  exact.slope.size * servo.backlash);
     const double period =
@@ -317,6 +271,8 @@ std::optional<NormalizedServo> with_growth(NormalizedServo servo, double growth)
   return servo;
 }
 
+/// The derivatives, as 1/ln μ₀ there, are asked for to 1e-9; what is allowed is below 1e-12. The
+/// farther a rate, or the share of a friction, is from the other's, the more of it is needed.
 TEST(OracleCycleSensitivity, DerivativesNextToTheBoundaryInSeventyDigits) {
   constexpr std::uint64_t seed = 2102;
   SCOPED_TRACE(seed);
@@ -324,11 +280,11 @@ TEST(OracleCycleSensitivity, DerivativesNextToTheBoundaryInSeventyDigits) {
   Worst worst;
   int compared = 0;
   while (compared < 200) {
-    const double excess = draws.log_uniform(1e-6, 1e-1);
+    const double excess = draws.log_uniform(1e-10, 1e-1);
     const auto servo = with_growth(drawn_servo(draws), 1.0 + excess);
     if (!servo) continue;
     ++compared;
-    compare(*servo, worst);
+    compare(*servo, worst, 8.0);
   }
   record(worst);
 }
@@ -342,7 +298,7 @@ TEST(OracleCycleSensitivity, LightDampingKeepsItsDigits) {
   for (int i = 0; i < 100; ++i) {
     NormalizedServo servo = drawn_servo(draws);
     servo.damping = draws.log_uniform(1e-6, 1e-2);
-    compare(servo, worst, 64.0);
+    compare(servo, worst, 8.0);
   }
   record(worst);
 }
@@ -499,11 +455,10 @@ void expect_agrees_with_differences(const NormalizedServo& servo, const Field& f
     const double half = (quantity(neighbours[2]) - quantity(neighbours[1])) / step;
     return (4.0 * half - whole) / 3.0;
   };
-  const auto expect_near = [&](const SensitiveValue& value, const auto& quantity,
-                               double tolerance = 1e-7) {
+  const auto expect_near = [&](const SensitiveValue& value, const auto& quantity) {
     const double exact = slope_of(quantity);
     EXPECT_NEAR(value.slope.*field.slope, exact,
-                tolerance * (std::abs(exact) + std::abs(value.value) / present))
+                1e-7 * (std::abs(exact) + std::abs(value.value) / present))
         << field.name;
   };
   expect_near(found.growth_at_rest,
@@ -522,7 +477,7 @@ void expect_agrees_with_differences(const NormalizedServo& servo, const Field& f
   };
   expect_near(found.size, of_cycle(&LimitCycle::size));
   expect_near(found.period, of_cycle(&LimitCycle::period));
-  expect_near(found.multiplier, of_cycle(&LimitCycle::multiplier), 1e-4);
+  expect_near(found.multiplier, of_cycle(&LimitCycle::multiplier));
 }
 
 TEST(PropertyCycleSensitivity, WithBouncesAgreesWithDifferences) {

@@ -36,10 +36,11 @@ struct Traversal {
 /// at the other face, with its derivative. Each flow being linear, a disturbance is carried by the
 /// flow itself; across an impact at a disturbed time by the saltation matrix
 ///   δ⁺ = R δ⁻ + (R ẋ⁻ − ẋ⁺) δt,  δt = −δu/u̇,
-/// across a separation by the identity (u̇ = ü = 0 there), across a settling by momentum and centre
-/// of mass. Source: Müller, Chaos, Solitons & Fractals 5 (1995) 1671; Leine & Nijmeijer, Dynamics
-/// and Bifurcations of Non-Smooth Mechanical Systems (2004), ch. 7.
-/// Precondition: two masses (0 < J_M < 1) and b > 0. `slope` is computed only where it is wanted.
+/// across a separation by the identity (u̇ = ü = 0 there), across a settling by centre of mass and
+/// momentum, less what friction takes of it until the gap is closed. Source: Müller, Chaos,
+/// Solitons & Fractals 5 (1995) 1671; Leine & Nijmeijer, Dynamics and Bifurcations of Non-Smooth
+/// Mechanical Systems (2004), ch. 7. Precondition: two masses (0 < J_M < 1) and b > 0. `slope` is
+/// computed only where it is wanted.
 enum class Derivative { wanted, not_wanted };
 inline constexpr std::size_t traversal_event_limit = 200'000;
 Traversal traverse(const ServoDynamics& dynamics, const Arrival& arrival,

@@ -1,6 +1,9 @@
 // Both shafts as one: ÿ + 2ζẏ + y = 0, its closed form and its certified zeros.
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 namespace gearlash {
 
 /// A damped oscillation given by its state at time 0. Closed form, for every ζ ≥ 0 and continuous
@@ -33,6 +36,27 @@ Real decaying_form(Real damping, Real position, Real speed) {
 /// atan2(|x₀| w, ∓(ẋ₀ + ζx₀)), for ζ ≥ 1 there is at most one, where
 /// (e^{2ωt} − 1)/(2ω) = −x₀/(ẋ₀ + λ₂x₀), ω = √(ζ²−1), λ₂ = ζ + ω. Nothing is searched, so nothing
 /// can be missed; a double zero exists only where x vanishes identically.
-double first_zero(double damping, double value, double slope);
+template <class Real>
+Real first_zero(Real damping, Real value, Real slope) {
+  using std::abs;
+  using std::acos;
+  using std::atan2;
+  using std::isinf;
+  using std::log1p;
+  using std::sqrt;
+  const Real never = std::numeric_limits<Real>::infinity();
+  if (damping < 1.0) {
+    const Real frequency = sqrt((1.0 - damping) * (1.0 + damping));
+    if (value == 0.0) return slope == 0.0 ? never : Real(acos(Real(-1.0)) / frequency);
+    const Real rising = slope + damping * value;
+    return atan2(abs(value) * frequency, value > 0.0 ? Real(-rising) : rising) / frequency;
+  }
+  const Real half_split = sqrt((damping - 1.0) * (damping + 1.0));
+  const Real fast = damping + half_split;
+  const Real quotient = -value / (slope + fast * value);
+  if (!(quotient > 0.0) || isinf(quotient)) return never;
+  if (half_split == 0.0) return quotient;
+  return log1p(2.0 * half_split * quotient) / (2.0 * half_split);
+}
 
 }  // namespace gearlash

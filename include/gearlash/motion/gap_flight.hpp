@@ -93,16 +93,48 @@ Real displacement_after(const BasicGapFlight<Real>& flight, Real time,
                                      flight.coupling * time * decays.coupled.double_integral));
 }
 
+BasicFlightDecays<double> decays_at(const GapFlight& flight, double time);
 FlightMotion motion_in_flight(const GapFlight& flight, double time);
 FlightPoint point_in_flight(const GapFlight& flight, double time);
 
 /// The shafts just after parting (or as given): positions and speeds about the reference.
-struct GapState {
-  double load_position;
-  double load_speed;
-  double gap;
-  double gap_speed;
+template <class Real>
+struct BasicGapState {
+  Real load_position;
+  Real load_speed;
+  Real gap;
+  Real gap_speed;
 };
+using GapState = BasicGapState<double>;
+
+template <class Real>
+BasicGapState<Real> state_after(const BasicGapFlight<Real>& flight, const Real& time,
+                                const BasicFlightDecays<Real>& decays) {
+  const BasicFlightMotion<Real> motion = motion_after(flight, time, decays);
+  return {motion.load_position, motion.load_speed,
+          flight.gap + displacement_after(flight, time, decays), motion.gap_speed};
+}
+
+/// Flight of two masses from any state in the gap. The shafts' own accelerations are not taken from
+/// the gap's: of a light load that would lose digits.
+template <class Real>
+BasicGapFlight<Real> flight_of_two_masses(const BasicServoDynamics<Real>& dynamics,
+                                          const BasicGapState<Real>& state) {
+  const Real motor_acceleration = -dynamics.motor_rate * (state.load_speed + state.gap_speed) -
+                                  state.load_position / dynamics.motor_inertia;
+  const Real load_deceleration = dynamics.load_rate * state.load_speed;
+  return {.load_position = state.load_position,
+          .load_speed = state.load_speed,
+          .gap = state.gap,
+          .gap_speed = state.gap_speed,
+          .motor_acceleration = motor_acceleration,
+          .load_deceleration = load_deceleration,
+          .coupling = -state.load_speed / dynamics.motor_inertia,
+          .load_rate = dynamics.load_rate,
+          .motor_rate = dynamics.motor_rate,
+          .gap_acceleration = motor_acceleration + load_deceleration,
+          .gap_drive = gap_drive(dynamics, state.load_speed)};
+}
 
 /// Flight from any state in the gap. A massless load stops at once (its speed is ignored), a
 /// massless motor takes at once the speed −y/F_M that the loop drives it at.
