@@ -51,6 +51,7 @@ struct Course {
 
 /// `order` traversals in a row.
 struct Iterate {
+  std::array<Arrival, longest_order> visited{};  ///< the arrivals that they start from
   Arrival end;
   Eigen::Matrix3d slope = Eigen::Matrix3d::Identity();
   double duration = 0.0;
@@ -67,6 +68,7 @@ std::optional<Iterate> iterate(Course& course, const Arrival& start, int order) 
     if (!(result.end(2) > 0.0)) return std::nullopt;
     const Traversal traversal = course.traverse(result.end, Derivative::wanted);
     if (!arrives(traversal)) return std::nullopt;
+    result.visited[static_cast<std::size_t>(step)] = result.end;
     result.end = traversal.next;
     result.slope = traversal.slope * result.slope;
     result.duration += traversal.duration;
@@ -99,8 +101,40 @@ bool is_isolated(const FixedPoint& point) {
   return std::max(point.residual, map_rounding) < displacement_allowed * least_pivot;
 }
 
-/// Newton's method with halved steps where the mismatch does not fall.
-std::optional<FixedPoint> newton(Course& course, Arrival arrival, int order) {
+/// A cycle that was found before.
+struct KnownCycle {
+  FixedPoint point;
+  bool stable;
+
+  /// Relative distance to the nearest of its arrivals.
+  double distance_to(const Arrival& arrival) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int step = 0; step < point.order; ++step) {
+      const Arrival& visited = point.map.visited[static_cast<std::size_t>(step)];
+      nearest = std::min(nearest, (arrival - visited).norm() / visited.norm());
+    }
+    return nearest;
+  }
+};
+
+/// Whether a step of Newton's method on `order` traversals leads so straight and so near to a known
+/// cycle that those to follow, each nearer by a square, end in it. (Cycles a few 1e-6 apart occur;
+/// nearer ones were not seen.)
+bool leads_to_known(const std::vector<KnownCycle>& known, const Arrival& from, const Arrival& step,
+                    int order) {
+  constexpr double near = 1e-6;
+  constexpr double straight = 0.01;
+  const Arrival to = from + step;
+  const double limit = std::min(near, straight * step.norm() / to.norm());
+  return std::any_of(known.begin(), known.end(), [&](const KnownCycle& cycle) {
+    return order % cycle.point.order == 0 && cycle.distance_to(to) < limit;
+  });
+}
+
+/// Newton's method with halved steps where the mismatch does not fall. Empty where it does not
+/// converge, or on the way to a cycle that is known.
+std::optional<FixedPoint> newton(Course& course, const std::vector<KnownCycle>& known,
+                                 Arrival arrival, int order) {
   constexpr int step_limit = 25;
   constexpr double converged = 1e-13;
   constexpr double acceptable = 1e-10;
@@ -109,6 +143,7 @@ std::optional<FixedPoint> newton(Course& course, Arrival arrival, int order) {
   for (int step = 0; step < step_limit && mismatch(*map, arrival) > converged; ++step) {
     const Arrival full =
         (map->slope - Eigen::Matrix3d::Identity()).fullPivLu().solve(arrival - map->end);
+    if (leads_to_known(known, arrival, full, order)) return std::nullopt;
     std::optional<Iterate> better;
     double share = 1.0;
     for (; share > 1e-3 && !better; share *= 0.5) {
@@ -199,8 +234,8 @@ class Search {
     try_plastic_cycle();
     scan_amplitudes();
     follow_starts();
-    for (const FixedPoint& point : found_) {
-      result_.cycles.push_back(describe(servo_, dynamics_, point));
+    for (const KnownCycle& known : known_) {
+      result_.cycles.push_back(describe(servo_, dynamics_, known.point));
     }
     std::sort(result_.cycles.begin(), result_.cycles.end(),
               [](const LimitCycle& a, const LimitCycle& b) { return a.size > b.size; });
@@ -211,8 +246,8 @@ class Search {
  private:
   /// Adds the cycle that Newton's method reaches, unless it is known.
   bool try_from(const Arrival& start, int order) {
-    const std::optional<FixedPoint> point = newton(course_, start, order);
-    if (!point || distance_to_known(point->arrival, false) < 1e-7) return false;
+    const std::optional<FixedPoint> point = newton(course_, known_, start, order);
+    if (!point || distance_to_known(point->arrival) < 1e-7) return false;
     // On the boundary of hunting the motor creeps for ever: such a cycle is not told from rest.
     const bool is_endless = 2.0 * point->map.duration > longest_simulation;
     if (is_endless || !is_isolated(*point)) {
@@ -220,7 +255,7 @@ class Search {
       return false;
     }
     if (repeats_earlier(course_, *point)) return false;
-    found_.push_back(*point);
+    known_.push_back({*point, spectral_radius(point->map.slope) < 1.0});
     return true;
   }
 
@@ -265,16 +300,19 @@ class Search {
     }
   }
 
-  /// Relative distance to the nearest known cycle, at any of its arrivals.
-  double distance_to_known(const Arrival& arrival, bool only_stable) {
+  /// Relative distance to the nearest known cycle.
+  double distance_to_known(const Arrival& arrival) const {
     double nearest = std::numeric_limits<double>::infinity();
-    for (const FixedPoint& point : found_) {
-      if (only_stable && !(spectral_radius(point.map.slope) < 1.0)) continue;
-      Arrival visited = point.arrival;
-      for (int step = 0; step < point.order; ++step) {
-        nearest = std::min(nearest, (arrival - visited).norm() / visited.norm());
-        visited = course_.traverse(visited, Derivative::not_wanted).next;
-      }
+    for (const KnownCycle& known : known_) {
+      nearest = std::min(nearest, known.distance_to(arrival));
+    }
+    return nearest;
+  }
+
+  double distance_to_stable(const Arrival& arrival) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const KnownCycle& known : known_) {
+      if (known.stable) nearest = std::min(nearest, known.distance_to(arrival));
     }
     return nearest;
   }
@@ -298,12 +336,12 @@ class Search {
       double& so_far = largest[static_cast<std::size_t>(8 * (count - 1) / traversal_limit)];
       so_far = std::max(so_far, arrival.norm());
       if (count % between_attempts != 0) continue;
-      const double distance = distance_to_known(arrival, true);
+      const double distance = distance_to_stable(arrival);
       if (distance < captured) return;
       if (count <= traversal_limit / 2) distance_halfway = distance;
       attempt(arrival, recent, count);
     }
-    if (distance_to_known(arrival, true) < 0.9 * distance_halfway) return;
+    if (distance_to_stable(arrival) < 0.9 * distance_halfway) return;
     // Motion that is still dying away does not last, and motion that is still growing has not shown
     // how far.
     const auto never = largest.end();
@@ -318,7 +356,7 @@ class Search {
 
   void attempt(const Arrival& arrival, const std::array<Arrival, longest_order>& recent,
                int count) {
-    if (found_.size() >= most_cycles) return;
+    if (known_.size() >= most_cycles) return;
     for (const int order : orders) {
       const auto slot =
           static_cast<std::size_t>((count - order + 1 + longest_order) % longest_order);
@@ -342,7 +380,7 @@ class Search {
   const NormalizedServo& servo_;
   const ServoDynamics& dynamics_;
   Course course_;
-  std::vector<FixedPoint> found_;
+  std::vector<KnownCycle> known_;
   bool still_growing_ = false;
   BouncingCycles result_;
 };

@@ -2,19 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "gearlash/motion/bracketed_root.hpp"
+#include "gearlash/motion/phase.hpp"
 
 namespace gearlash {
 namespace {
 
-void include(Extremes& so_far, const ServoState& state) {
-  so_far.load_lowest = std::min(so_far.load_lowest, state.load_position);
-  so_far.load_highest = std::max(so_far.load_highest, state.load_position);
-  so_far.motor_lowest = std::min(so_far.motor_lowest, state.motor_position);
-  so_far.motor_highest = std::max(so_far.motor_highest, state.motor_position);
-}
+/// Extremes so far, of states about the reference.
+struct Range {
+  double reference;
+  Extremes extremes;
+
+  void include(const GapState& state) {
+    const double load = reference + state.load_position;
+    const double motor = load + state.gap;
+    extremes.load_lowest = std::min(extremes.load_lowest, load);
+    extremes.load_highest = std::max(extremes.load_highest, load);
+    extremes.motor_lowest = std::min(extremes.motor_lowest, motor);
+    extremes.motor_highest = std::max(extremes.motor_highest, motor);
+  }
+};
 
 std::vector<double> engaged_turning_times(const EngagedFlow& flow, double from, double to) {
   std::vector<double> times;
@@ -58,32 +68,56 @@ std::vector<double> motor_turning_times(const GapFlight& flight, double from, do
   return times;
 }
 
-std::vector<double> turning_times(const Phase& phase, double from, double to) {
-  if (phase.mode == Mode::settling) return {};
-  if (phase.mode == Mode::separated) return motor_turning_times(phase.flight, from, to);
-  return engaged_turning_times(phase.engaged, from, to);
+/// A motion of one closed form, from `from` on; its end is the next one's start.
+void include(Range& range, const ServoDynamics& dynamics, const Phase& phase, double from,
+             double to) {
+  if (!(from < to)) return;
+  range.include(state_in_phase(dynamics, phase, from));
+  for (const double time : phase.mode == Mode::separated
+                               ? motor_turning_times(phase.flight, from, to)
+                               : engaged_turning_times(phase.engaged, from, to)) {
+    range.include(state_in_phase(dynamics, phase, time));
+  }
+}
+
+/// Whether a bounce moves the shafts by more than rounding does.
+bool matters(const Bounce& bounce) {
+  const double height = 0.25 * std::abs(bounce.flight.gap_speed) * bounce.duration;
+  return height > std::numeric_limits<double>::epsilon() *
+                      (std::abs(bounce.flight.load_position) + std::abs(bounce.flight.gap));
+}
+
+void include_settling(Range& range, const ServoDynamics& dynamics, const Phase& phase, double from,
+                      double to) {
+  Bounce bounce = first_bounce(dynamics, phase);
+  for (; bounce.start < to && matters(bounce); bounce = bounce_after(dynamics, bounce)) {
+    include(range, dynamics, {.mode = Mode::separated, .flight = bounce.flight},
+            std::max(from - bounce.start, 0.0), std::min(to - bounce.start, bounce.duration));
+  }
+  Phase together = phase;
+  together.mode = phase.face > 0.0 ? Mode::engaged_forward : Mode::engaged_backward;
+  include(range, dynamics, together, std::max(from, bounce.start), to);
 }
 
 }  // namespace
 
 Extremes extremes(const Trajectory& trajectory, double from, double to) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   const double first = std::clamp(from, trajectory.start_time(), trajectory.end_time());
   const double last = std::clamp(to, first, trajectory.end_time());
-  const ServoState start = trajectory.at(first);
-  Extremes result{start.load_position, start.load_position, start.motor_position,
-                  start.motor_position};
-  include(result, trajectory.at(last));
-  for (const Segment& segment : trajectory.segments()) {
-    const double low = std::max(first, segment.start);
-    const double high = std::min(last, segment.end);
-    if (!(low < high)) continue;
-    include(result, trajectory.at(low));
-    for (const double time :
-         turning_times(segment.phase, low - segment.start, high - segment.start)) {
-      include(result, trajectory.at(segment.start + time));
-    }
+  const ServoDynamics& dynamics = trajectory.dynamics_;
+  Range range{trajectory.reference_, {infinity, -infinity, infinity, -infinity}};
+  for (const double end : {first, last}) {
+    const Segment& segment = trajectory.segment_at(end);
+    range.include(state_in_phase(dynamics, segment.phase, end - segment.start));
   }
-  return result;
+  for (const Segment& segment : trajectory.segments()) {
+    const double low = std::max(first, segment.start) - segment.start;
+    const double high = std::min(last, segment.end) - segment.start;
+    const bool settling = segment.phase.mode == Mode::settling;
+    (settling ? include_settling : include)(range, dynamics, segment.phase, low, high);
+  }
+  return range.extremes;
 }
 
 }  // namespace gearlash

@@ -59,30 +59,39 @@ struct TurningPoints {
 };
 
 TurningPoints turning_points(const GapFlight& flight) {
+  // The gap is stationary there: so small an error of the time does not show in it.
+  constexpr double tolerance = 1e-11;
   TurningPoints turning;
+  // The rate of ü is G e^{−Dt} − cü.
+  const double drive_per_speed =
+      flight.load_speed == 0.0 ? 0.0 : flight.gap_drive / flight.load_speed;
   const auto speed = [&](double t) {
     const FlightMotion motion = motion_in_flight(flight, t);
-    return ValueAndSlope{motion.gap_speed, motion.gap_acceleration};
+    return ValueAndSlope{
+        motion.gap_speed, motion.gap_acceleration,
+        drive_per_speed * motion.load_speed - flight.motor_rate * motion.gap_acceleration};
   };
   const std::array<double, 2> ends = {inflection_time(flight), infinity};
   const std::array<double, 2> bends = {initial_bend(flight), sign_of(flight.gap_drive)};
   double start = 0.0;
+  // Exact for a constant acceleration, and beyond its zero for a constant rate of it.
+  double guess = -flight.gap_speed / flight.gap_acceleration;
   double direction = initial_direction(flight);
   for (std::size_t piece = 0; piece < ends.size() && start < infinity; ++piece) {
     const double end = ends[piece];
+    const ValueAndSlope at_end =
+        std::isinf(end) ? ValueAndSlope{final_direction(flight), 0.0} : speed(end);
+    const double end_direction = sign_of(at_end.value);
     // Where u̇ and ü have the same sign u̇ cannot turn.
     if (direction * bends[piece] < 0.0) {
-      const double end_direction =
-          std::isinf(end) ? final_direction(flight) : sign_of(speed(end).value);
       if (end_direction * direction < 0.0) {
-        // The guess is exact for a constant acceleration.
-        const double guess =
-            start == 0.0 ? -flight.gap_speed / flight.gap_acceleration : 2.0 * start;
-        turning.times[turning.count++] = bracketed_root(speed, start, end, guess, end_direction);
+        turning.times[turning.count++] =
+            bracketed_root(speed, start, end, guess, end_direction, tolerance);
       }
       if (end_direction != 0.0) direction = end_direction;
     }
     start = end;
+    guess = start + std::sqrt(std::abs(2.0 * at_end.value / at_end.curvature));
   }
   return turning;
 }
@@ -96,11 +105,15 @@ double finite_bound(double from, const Predicate& reached) {
   return bound;
 }
 
-/// The least of the times that each of the gap's first three derivatives would take alone; after a
-/// clean parting with the next order, u = G t³/6 (1 − (c + D) t/4 + …). For a return to the same
-/// face exact under a constant acceleration.
+/// From a turning point exact under a constant acceleration. Else the least of the times that each
+/// of the gap's first three derivatives would take alone; after a clean parting with the next
+/// order, u = G t³/6 (1 − (c + D) t/4 + …).
 double crossing_guess(const GapFlight& flight, double start, double target) {
-  if (start > 0.0) return 2.0 * start;
+  if (start > 0.0) {
+    const FlightPoint turning = point_in_flight(flight, start);
+    const double distance = target - turning.gap_displacement;
+    return start + std::sqrt(std::abs(2.0 * distance / turning.motion.gap_acceleration));
+  }
   const double cubic = std::cbrt(std::abs(6.0 * target / flight.gap_drive));
   const double drag = (flight.motor_rate + flight.load_rate) * cubic;
   return std::min({std::abs(target / flight.gap_speed),
@@ -137,9 +150,41 @@ double crossing(const GapFlight& flight, double start, double end, double target
   return time <= horizon ? time : infinity;
 }
 
+/// When a bounce is over: a flight off its face that is bent back to it all the while, and too low
+/// for the other face. Infinity for any other flight, and where the bend's end comes first.
+double bounce_duration(const GapFlight& flight, double backlash) {
+  const double toward = sign_of(flight.gap_acceleration);
+  if (std::abs(flight.gap) != 0.5 * backlash || !(toward * flight.gap > 0.0) ||
+      !(toward * flight.gap_speed < 0.0)) {
+    return infinity;
+  }
+  const double under_constant_acceleration = -2.0 * flight.gap_speed / flight.gap_acceleration;
+  if (!(std::abs(flight.gap_speed) * under_constant_acceleration < backlash)) return infinity;
+  const double bend_end = inflection_time(flight);
+  // (u − u₀)/t, which is monotone as long as the bend lasts.
+  const auto mean_speed = [&](double t) {
+    const FlightPoint point = point_in_flight(flight, t);
+    const double speed = point.gap_displacement / t;
+    const double slope = (point.motion.gap_speed - speed) / t;
+    return ValueAndSlope{speed, slope, (point.motion.gap_acceleration - 2.0 * slope) / t};
+  };
+  const bool returns = std::isinf(bend_end) ? final_direction(flight) == toward
+                                            : mean_speed(bend_end).value * toward > 0.0;
+  if (!returns) return infinity;
+  const double duration =
+      bracketed_root(mean_speed, 0.0, bend_end, under_constant_acceleration, toward);
+  // u stays below its first tangent.
+  return std::abs(flight.gap_speed) * duration < backlash ? duration : infinity;
+}
+
 }  // namespace
 
 FirstContact first_contact(const GapFlight& flight, double backlash, double horizon) {
+  const double bounce = bounce_duration(flight, backlash);
+  if (bounce < infinity) {
+    return bounce <= horizon ? FirstContact{bounce, sign_of(flight.gap)}
+                             : FirstContact{infinity, 0.0};
+  }
   const double to_forward = 0.5 * backlash - flight.gap;
   const double to_backward = -0.5 * backlash - flight.gap;
   const TurningPoints turning = turning_points(flight);

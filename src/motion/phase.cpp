@@ -133,21 +133,21 @@ PhaseEnd end_of_settling(const ServoDynamics& dynamics, const Phase& phase, doub
           .next = engaged_phase(dynamics, phase.face, state.position, state.speed)};
 }
 
+Bounce bounce_from(const ServoDynamics& dynamics, const GapFlight& flight, double start) {
+  return {flight, start, first_contact(flight, dynamics.backlash, infinity).time};
+}
+
 /// Follows the bounces of a settling phase one by one until `time`, or until what is left of them
 /// is below a double's resolution of it.
 GapState state_while_settling(const ServoDynamics& dynamics, const Phase& phase, double time) {
   const double resolution = std::numeric_limits<double>::epsilon() * time;
-  GapFlight bounce = phase.flight;
-  double start = 0.0;
-  while (phase.bounces.duration - start > resolution) {
-    const FirstContact contact = first_contact(bounce, dynamics.backlash, infinity);
-    if (start + contact.time > time) return state_in_flight(bounce, time - start);
-    if (!(contact.time > resolution)) break;
-    start += contact.time;
-    GapState state = state_in_flight(bounce, contact.time);
-    const ImpactOutcome outcome = impact(dynamics, state.load_speed, state.gap_speed);
-    bounce = flight_from(dynamics,
-                         {state.load_position, outcome.load_speed, bounce.gap, outcome.gap_speed});
+  for (Bounce bounce = first_bounce(dynamics, phase);
+       phase.bounces.duration - bounce.start > resolution;
+       bounce = bounce_after(dynamics, bounce)) {
+    if (bounce.start + bounce.duration > time) {
+      return state_in_flight(bounce.flight, time - bounce.start);
+    }
+    if (!(bounce.duration > resolution)) break;
   }
   const EngagedFlow::State common = phase.engaged.at(time);
   return {common.position, common.speed, gap_on(dynamics, phase.face), 0.0};
@@ -226,6 +226,18 @@ GapState state_in_phase(const ServoDynamics& dynamics, const Phase& phase, doubl
   if (phase.mode == Mode::settling) return state_while_settling(dynamics, phase, time);
   const EngagedFlow::State state = phase.engaged.at(time);
   return {state.position, state.speed, gap_on(dynamics, phase.face), 0.0};
+}
+
+Bounce first_bounce(const ServoDynamics& dynamics, const Phase& phase) {
+  return bounce_from(dynamics, phase.flight, 0.0);
+}
+
+Bounce bounce_after(const ServoDynamics& dynamics, const Bounce& bounce) {
+  const GapState state = state_in_flight(bounce.flight, bounce.duration);
+  const ImpactOutcome outcome = impact(dynamics, state.load_speed, state.gap_speed);
+  const GapState after = {state.load_position, outcome.load_speed, bounce.flight.gap,
+                          outcome.gap_speed};
+  return bounce_from(dynamics, flight_from(dynamics, after), bounce.start + bounce.duration);
 }
 
 }  // namespace gearlash

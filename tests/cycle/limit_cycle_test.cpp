@@ -462,14 +462,16 @@ TEST(EdgeRestitution, IrregularMotionBesideAStableCycleIsTold) {
   const NormalizedServo servo{0.1, 2.0, 0.1, 0.3, 0.95};
   const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
   EXPECT_EQ(analysis.verdict, Verdict::hunts);
-  ASSERT_TRUE(analysis.cycles.at(0).stable);
+  // Unstable cycles beside it, which the irregular motion passes by, may be larger.
+  const LimitCycle* const stable = largest_stable(analysis);
+  ASSERT_NE(stable, nullptr);
   // What two step responses end in.
   const auto final_size = [&](double step) {
     const Trajectory motion =
         simulate(servo, engaged_start(servo, 0.0, 0.0, step), {.until = 3000.0, .reference = step});
     return extremes(motion, 2500.0, 3000.0).load_size();
   };
-  EXPECT_NEAR(final_size(0.2), analysis.cycles[0].size, 1e-9);
+  EXPECT_NEAR(final_size(0.2), stable->size, 1e-9);
   EXPECT_NEAR(final_size(0.02), analysis.irregular_size, 2e-3);
 }
 

@@ -23,6 +23,10 @@ struct FirstContact {
 /// t → ∞ is that of a closed form too. Between those at most two turning points u is monotone, so
 /// each of these at most three intervals reaches a given face at most once, exactly when the face
 /// lies between the values of u at the ends; on the last, for certain when u̇ does not die out.
+/// A flight that rebounds from a face and is bent back to it is first taken for a bounce: until ü
+/// vanishes (u − u₀)/t is monotone, so that it has one zero there, exactly when its sign at the end
+/// is not that of u̇₀; and u stays below its first tangent, so that where |u̇₀| times that zero is
+/// less than b the other face was not reached before.
 /// Every root is thus bracketed on an interval of monotonicity before it is refined
 /// (bracketed_root.hpp); one beyond the horizon is not counted. What rounding can change is only
 /// whether a turning point within a few epsilons of a face touches it (grazing); both answers are

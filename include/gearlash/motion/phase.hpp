@@ -72,6 +72,17 @@ PhaseEnd end_of_phase(const ServoDynamics& dynamics, const Phase& phase, double 
 /// State at `time` within the phase. Within a settling phase the bounces are followed one by one.
 GapState state_in_phase(const ServoDynamics& dynamics, const Phase& phase, double time);
 
+/// One of the bounces of a settling phase: a flight away from the face and back to it.
+struct Bounce {
+  GapFlight flight;
+  double start = 0.0;  ///< from the phase's start
+  double duration = 0.0;
+};
+
+/// The bounces of a settling phase, one by one; there is always a next one.
+Bounce first_bounce(const ServoDynamics& dynamics, const Phase& phase);
+Bounce bounce_after(const ServoDynamics& dynamics, const Bounce& bounce);
+
 /// Phase that starts at the torque-free line with the faces parting cleanly from `face`.
 Phase parted_phase(const ServoDynamics& dynamics, FaceSign face, double load_position,
                    double load_speed);

@@ -65,6 +65,8 @@ struct Segment {
   Phase phase;
 };
 
+struct Extremes;
+
 class Trajectory {
  public:
   double start_time() const { return 0.0; }
@@ -84,6 +86,7 @@ class Trajectory {
  private:
   const Segment& segment_at(double time) const;
   friend Trajectory simulate(const NormalizedServo&, const ServoState&, const SimulationOptions&);
+  friend Extremes extremes(const Trajectory&, double, double);
   ServoDynamics dynamics_;
   double reference_ = 0.0;
   StopReason stop_reason_ = StopReason::reached_end;
