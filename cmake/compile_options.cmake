@@ -23,3 +23,11 @@ endif()
 if(GEARLASH_WARNINGS_AS_ERRORS)
   add_compile_options(-Werror)
 endif()
+
+# Heavy headers of others, read once for all files of a target. Not with gcc, which forgets that a
+# precompiled header is a system's and warns of what is in it.
+function(gearlash_read_once target)
+  if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+  endif()
+endfunction()

@@ -121,7 +121,7 @@ void draw(const RegionMapTask& task, const Picture& picture, const std::string& 
 }
 
 std::vector<FeasibleValues> work_out(const ChangeableDrive& drive, const Target& target,
-                                   const std::vector<Parameter>& parameters) {
+                                     const std::vector<Parameter>& parameters) {
   Progress progress("Design");
   std::vector<FeasibleValues> answers;
   for (const Parameter parameter : parameters) {

@@ -27,6 +27,7 @@ struct LimitCycleOptions {
   ServoOptions servo;
   std::string format = "text";
   std::string plot;
+  bool margins = false;
   bool sensitivities = false;
 };
 
@@ -120,7 +121,7 @@ bool is_decided(const LimitCycleAnalysis& analysis) {
   }
 }
 
-/// Margins and sensitivities rest on the closed form: plastic contact, and two masses.
+/// Then margins take no time: plastic contact, and two masses.
 bool has_closed_form(const NormalizedServo& servo) {
   return servo.restitution == 0.0 && servo.damping > 0.0 && servo.inertia_ratio > 0.0 &&
          std::isfinite(servo.inertia_ratio);
@@ -168,9 +169,10 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   const ChangeableDrive drive = drive_of(file, options.servo);
   // At the very ends of the ranges rounding may put the drive's ratios beyond them.
   const bool is_sound = validate(drive.drivetrain()).empty();
-  if (is_sound && has_closed_form(file.servo)) {
+  if (is_sound && (options.margins || has_closed_form(file.servo))) {
+    Progress progress("Margins");
     report.drive = drive;
-    report.margin = hunting_margin(drive);
+    report.margin = hunting_margin(drive, [&](double share) { progress.show(share); });
   }
   if (options.sensitivities || options.plot.starts_with(tornado)) {
     report.sensitivity = is_sound ? sensitivity_of(file, drive) : DriveSensitivity{};
@@ -195,6 +197,9 @@ void add_limit_cycle_command(CLI::App& app, Action& action) {
                    "that leads to it; or, after tornado=, what its size depends on;\n"
                    "FILE ends in .svg, .png or .pdf")
       ->type_name("FILE");
+  command->add_flag("--margins", options->margins,
+                    "how far each number may change until hunting ends or begins; shown\n"
+                    "anyway but with bounces, where it takes a minute or more");
   command->add_flag("--sensitivities", options->sensitivities,
                     "exact sensitivities to every number, in per cent for one per cent");
   command->footer(help_footer(examples));

@@ -228,7 +228,10 @@ double spectral_radius(const Eigen::Matrix3d& slope) {
 class Search {
  public:
   Search(const NormalizedServo& servo, const ServoDynamics& dynamics)
-      : servo_(servo), dynamics_(dynamics), course_{dynamics} {}
+      : servo_(servo),
+        dynamics_(dynamics),
+        growth_at_rest_(growth_at_rest(dynamics)),
+        course_{dynamics} {}
 
   BouncingCycles run() {
     try_plastic_cycle();
@@ -283,9 +286,24 @@ class Search {
     }
   }
 
+  /// Whether the load has come to rest and the motor creeps at the speed that the loop and its
+  /// friction balance at: then the next traversals differ by the factor μ₀ alone, the slower the
+  /// smaller they are, and there is no cycle. Not told where μ₀ is 1 to nine digits.
+  bool grows_as_at_rest(const Arrival& arrival) const {
+    constexpr double rounding = 1e-13;
+    constexpr double told_apart = 1e-9;
+    if (!std::isfinite(growth_at_rest_)) return false;
+    if (std::abs(growth_at_rest_ - 1.0) <= told_apart) return false;
+    const double creeping_speed = -arrival(0) / dynamics_.motor_friction;
+    const double load_speed = arrival(1) - dynamics_.motor_inertia * arrival(2);
+    return std::abs(arrival(2) - creeping_speed) <= rounding * creeping_speed &&
+           std::abs(load_speed) <= rounding * std::abs(arrival(1));
+  }
+
   void try_amplitude(double per_backlash) {
     const Traversal first = course_.first_arrival(servo_.backlash * per_backlash);
     if (!arrives(first)) return;
+    if (grows_as_at_rest(first.next)) return;
     const Traversal second = course_.traverse(first.next, Derivative::not_wanted);
     if (!arrives(second)) return;
     if ((second.next - first.next).norm() < 0.5 * first.next.norm()) try_from(first.next, 1);
@@ -331,6 +349,7 @@ class Search {
     for (int count = 1; count <= traversal_limit; ++count) {
       const Traversal traversal = course_.traverse(arrival, Derivative::not_wanted);
       if (!arrives(traversal) || traversal.next.norm() < negligible * servo_.backlash) return;
+      if (grows_as_at_rest(traversal.next) && growth_at_rest_ < 1.0) return;
       recent[static_cast<std::size_t>(count % longest_order)] = arrival;
       arrival = traversal.next;
       double& so_far = largest[static_cast<std::size_t>(8 * (count - 1) / traversal_limit)];
@@ -379,6 +398,7 @@ class Search {
 
   const NormalizedServo& servo_;
   const ServoDynamics& dynamics_;
+  double growth_at_rest_;
   Course course_;
   std::vector<KnownCycle> known_;
   bool still_growing_ = false;

@@ -113,12 +113,6 @@ SensitiveValue sensitive(double value, const Gradient& slope, double by_backlash
            .restitution = 0.0}};
 }
 
-SensitiveValue sensitive_growth(const DualDynamics& dynamics, double growth) {
-  if (std::isinf(growth)) return {growth, {}};
-  if (growth == 0.0) return sensitive(growth, Gradient::Zero());  // as are its neighbours
-  return sensitive(growth, growth * log_growth_gradient(dynamics));
-}
-
 void add_cycle(CycleSensitivity& sensitivity, const DualDynamics& dynamics, double flight_time,
                const LimitCycle& cycle, double backlash) {
   const DualFlight flight = unit_flight_of_two_masses(dynamics);
@@ -147,14 +141,8 @@ SensitiveValue sensitive(double value, const BouncingGradient& slope, double by_
 
 CycleSensitivity bouncing_sensitivity(const NormalizedServo& servo) {
   CycleSensitivity sensitivity;
+  sensitivity.growth_at_rest = growth_sensitivity(servo);
   const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
-  const double growth = analysis.growth_at_rest;
-  sensitivity.growth_at_rest.value = growth;
-  if (std::isfinite(growth) && growth > 0.0) {
-    const auto gradient = bouncing_log_growth_gradient(servo);
-    if (gradient)
-      sensitivity.growth_at_rest = sensitive(growth, BouncingGradient(growth * *gradient), 0.0);
-  }
   const LimitCycle* cycle = largest_stable(analysis);
   if (cycle == nullptr) {
     sensitivity.outcome = analysis.verdict == Verdict::undecided ? SensitivityOutcome::undecided
@@ -175,6 +163,21 @@ CycleSensitivity bouncing_sensitivity(const NormalizedServo& servo) {
 
 }  // namespace
 
+SensitiveValue growth_sensitivity(const NormalizedServo& servo) {
+  require_none(validate(servo));
+  const ServoDynamics dynamics = servo_dynamics(servo);
+  if (dynamics.massless_motor() || dynamics.massless_load() || servo.damping == 0.0) return {};
+  const double growth = growth_at_rest(dynamics);
+  if (!std::isfinite(growth)) return {growth, {}};
+  if (servo.restitution == 0.0) {
+    if (growth == 0.0) return sensitive(growth, Gradient::Zero());  // as are its neighbours
+    return sensitive(growth, growth * log_growth_gradient(dual_dynamics<Dual>(servo)));
+  }
+  const auto gradient = growth > 0.0 ? bouncing_log_growth_gradient(servo) : std::nullopt;
+  if (!gradient) return {growth, {}};
+  return sensitive(growth, BouncingGradient(growth * *gradient), 0.0);
+}
+
 CycleSensitivity cycle_sensitivity(const NormalizedServo& servo) {
   require_none(validate(servo));
   const ServoDynamics dynamics = servo_dynamics(servo);
@@ -190,8 +193,8 @@ CycleSensitivity cycle_sensitivity(const NormalizedServo& servo) {
   if (servo.restitution > 0.0) return bouncing_sensitivity(servo);
 
   const DualDynamics dual = dual_dynamics<Dual>(servo);
-  const double growth = growth_at_rest(dynamics);
-  sensitivity.growth_at_rest = sensitive_growth(dual, growth);
+  sensitivity.growth_at_rest = growth_sensitivity(servo);
+  const double growth = sensitivity.growth_at_rest.value;
   if (growth <= 1.0 || servo.backlash == 0.0) return ended(SensitivityOutcome::no_cycle);
   const auto balanced = balanced_half_cycle(dynamics, growth);
   if (!balanced) return ended(SensitivityOutcome::undecided);

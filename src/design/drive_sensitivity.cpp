@@ -162,6 +162,12 @@ const char* name_of(CycleMeasure quantity) {
   return quantity_names[static_cast<std::size_t>(quantity)];
 }
 
+DrivetrainGrowth drivetrain_growth(const Drivetrain& drive) {
+  const NormalizedServo servo = normalize(drive);
+  const SensitiveValue growth = growth_sensitivity(servo);
+  return {growth.value, Normalization(drive, servo).slopes_of(growth.slope)};
+}
+
 DrivetrainSensitivity drivetrain_sensitivity(const Drivetrain& drive) {
   const NormalizedServo servo = normalize(drive);
   const CycleSensitivity cycle = cycle_sensitivity(servo);

@@ -106,12 +106,15 @@ class Search {
 
   /// Of two values, the one that meets the target and one that does not, the last to meet it.
   double last_met(double met, double unmet) {
-    if (has_bounces(drive_, parameter_)) {
+    const bool bounces = has_bounces(drive_, parameter_);
+    if (bounces) {
       // Growth at rest is soon worked out, and what it does not rule out is met as a rule.
       const double allowed = last_allowed_by_growth(met, unmet);
       if (allowed == met || is_met_at(allowed)) return allowed;
       unmet = allowed;
     }
+    double met_by = 1.0;
+    double missed_by = 1.0;
     const auto signed_excess = [&](double value) {
       ++evaluations_;
       const Performance performance = performance_at(value);
@@ -120,10 +123,18 @@ class Search {
       // Its size makes the way shorter, its sign alone counts.
       const double size = std::abs(excess(target_, performance));
       const double usable = std::clamp(std::isnan(size) ? 1.0 : size, least, 1.0);
+      (here ? met_by : missed_by) = usable;
       return here ? -usable : usable;
     };
-    constexpr double resolution = 4.0 * std::numeric_limits<double>::epsilon();
-    const auto is_close = [](double low, double high) { return high - low <= resolution * high; };
+    // A jump need not be known so well that each step to it is worth a search for cycles.
+    const auto resolution = [&] {
+      constexpr double near = 1e-3;
+      const bool jumps = bounces && !(met_by < near && missed_by < near);
+      return jumps ? 1e-6 : 4.0 * std::numeric_limits<double>::epsilon();
+    };
+    const auto is_close = [&](double low, double high) {
+      return high - low <= resolution() * high;
+    };
     const double low = std::min(met, unmet);
     const double high = std::max(met, unmet);
     if (is_close(low, high)) return met;
@@ -139,9 +150,8 @@ class Search {
     std::vector<TriedValue> tried = tried_values(range);
     tried.push_back(at(drive_.present_value(parameter_)));
     const auto beyond = [&](const TriedValue& one) { return excess(target_, one.performance); };
-    return *std::min_element(tried.begin(), tried.end(), [&](const auto& a, const auto& b) {
-      return beyond(a) < beyond(b);
-    });
+    return *std::min_element(tried.begin(), tried.end(),
+                             [&](const auto& a, const auto& b) { return beyond(a) < beyond(b); });
   }
 
  private:
@@ -215,7 +225,7 @@ class Search {
   /// The last value, from one that meets the target on, that growth at rest does not rule out; nor
   /// is it so near 1 there that the search for cycles cannot tell rest from hunting.
   double last_allowed_by_growth(double met, double unmet) const {
-    constexpr double told_apart = 1e-9;
+    constexpr double told_apart = 1e-6;
     const auto is_allowed = [&](double value) {
       const double growth = growth_at(value);
       return !is_ruled_out(target_, growth) && !(target_.no_hunting && growth > 1.0 - told_apart);
@@ -324,9 +334,9 @@ FeasibleValues feasible_values(const ChangeableDrive& drive, Parameter parameter
   found.kind = has_two_masses(drive) && !has_bounces(drive, parameter) ? SearchKind::certified
                                                                        : SearchKind::scanned;
   Search search(drive, parameter, target);
-  const std::vector<Part> parts =
-      joined(found.kind == SearchKind::certified ? search.certified(found.searched)
-                                                 : search.scanned(found.searched));
+  const std::vector<Part> parts = found.kind == SearchKind::certified
+                                      ? joined(search.certified(found.searched))
+                                      : search.scanned(found.searched);
   const auto add = [&](double low, double high) {
     if (!found.intervals.empty() && found.intervals.back().high >= low) {
       found.intervals.back().high = high;

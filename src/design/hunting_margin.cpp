@@ -45,9 +45,7 @@ class LogGrowth {
   ValueAndGradient with_gradient(const Change& change) const {
     const Drivetrain here = changed(drive_, change);
     if (!validate(here).empty()) return {};
-    const DrivetrainSensitivity found = drivetrain_sensitivity(here);
-    const double growth = found.values[CycleMeasure::growth_at_rest];
-    const DrivetrainSlopes& slopes = found.slopes[CycleMeasure::growth_at_rest];
+    const auto [growth, slopes] = drivetrain_growth(here);
     Change gradient;
     gradient << slopes.motor_inertia * here.motor_inertia, slopes.load_inertia * here.load_inertia,
         slopes.motor_friction * here.motor_friction, slopes.load_friction * here.load_friction,
@@ -236,9 +234,7 @@ void accept(OverallMargin& margin, const LogGrowth& growth, const Drivetrain& dr
 
 std::optional<MarginOutcome> outcome_without_search(const Drivetrain& drive) {
   if (drive.backlash == 0.0) return MarginOutcome::never_hunts;
-  if (drive.motor_inertia == 0.0 || drive.load_inertia == 0.0 || drive.restitution > 0.0) {
-    return MarginOutcome::not_worked_out;
-  }
+  if (drive.motor_inertia == 0.0 || drive.load_inertia == 0.0) return MarginOutcome::not_worked_out;
   if (drive.motor_friction == 0.0 || drive.load_friction == 0.0) return MarginOutcome::always_hunts;
   return std::nullopt;
 }
@@ -291,12 +287,14 @@ ParameterMargin parameter_margin(const ChangeableDrive& drive, Parameter paramet
   return margin;
 }
 
-HuntingMargin hunting_margin(const ChangeableDrive& drive) {
+HuntingMargin hunting_margin(const ChangeableDrive& drive,
+                             const std::function<void(double share)>& hear) {
   HuntingMargin margin;
   margin.growth_at_rest = growth_at_rest(servo_dynamics(normalize(drive.drivetrain())));
   for (const Parameter parameter : all_parameters) {
-    if (parameter == Parameter::restitution) continue;
+    if (parameter == Parameter::restitution && drive.drivetrain().restitution == 0.0) continue;
     margin.parameters.push_back(parameter_margin(drive, parameter));
+    if (hear) hear(static_cast<double>(margin.parameters.size()) / (parameter_count + 1));
   }
   margin.overall = overall_margin(drive.drivetrain());
   return margin;

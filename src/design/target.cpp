@@ -20,6 +20,11 @@ Judgement judge(const Bounds& limits, const Bounds& bounds) {
   return Judgement::some;
 }
 
+bool keeps_growth(const Target& target, double growth_at_rest) {
+  return target.growth_at_rest == Target{}.growth_at_rest ||
+         includes(target.growth_at_rest, growth_at_rest);
+}
+
 /// Of one quantity.
 double excess_of(const Bounds& limits, double value) {
   const bool has_low = limits.low > 0.0;
@@ -61,9 +66,7 @@ Performance performance_of(const Drivetrain& drive) {
 }
 
 bool is_ruled_out(const Target& target, double growth_at_rest) {
-  if (target.no_hunting && growth_at_rest > 1.0) return true;
-  return target.growth_at_rest != Target{}.growth_at_rest &&
-         !includes(target.growth_at_rest, growth_at_rest);
+  return (target.no_hunting && growth_at_rest > 1.0) || !keeps_growth(target, growth_at_rest);
 }
 
 Performance performance_for(const Target& target, const Drivetrain& drive) {
@@ -78,7 +81,7 @@ Performance performance_for(const Target& target, const Drivetrain& drive) {
 bool is_met(const Target& target, const Performance& performance) {
   const bool is_quiet = performance.verdict == Verdict::cannot_hunt;
   if (target.no_hunting && !is_quiet) return false;
-  return !is_ruled_out(target, performance.growth_at_rest) &&
+  return keeps_growth(target, performance.growth_at_rest) &&
          includes(target.size, performance.size) &&
          (is_quiet || includes(target.frequency, performance.frequency));
 }

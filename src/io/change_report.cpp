@@ -100,8 +100,15 @@ std::string margin_text(const ChangeableDrive& drive, const HuntingMargin& margi
   std::string text =
       what + ", one change by itself" +
       (rows.size() == 1 ? ": nowhere within a factor of a thousand\n" : "\n" + table_text(rows));
-  const std::string overall = overall_text(margin.overall);
-  return overall.empty() ? text : text + wrapped(overall);
+  std::string rest = overall_text(margin.overall);
+  if (drive.drivetrain().restitution > 0.0) {
+    rest += (rest.empty() ? "" : " ") +
+            std::string(
+                "With bounces the values above were looked for at many places, not proved "
+                "to be the nearest; and the least change is that after which rest ") +
+            (hunts ? "is stable, beside which swings may be left." : "is unstable.");
+  }
+  return rest.empty() ? text : text + wrapped(rest);
 }
 
 std::string sensitivity_text(const DriveSensitivity& sensitivity) {

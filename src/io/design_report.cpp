@@ -207,7 +207,8 @@ std::string design_text(const DesignReport& report) {
 std::string design_json(const DesignReport& report) {
   const Performance present = performance_of(report.drive.drivetrain());
   Json answers = Json::array();
-  for (const FeasibleValues& answer : report.answers) answers.push_back(json_answer(report, answer));
+  for (const FeasibleValues& answer : report.answers)
+    answers.push_back(json_answer(report, answer));
   const Json json = {
       {"target", report.target_text},
       {"met", is_met(report.target, present)},

@@ -154,6 +154,21 @@ TEST(LimitCycleCommand, TextHasNoEscapesWhereItIsNoTerminal) {
               testing::Not(HasSubstr("\x1b")));
 }
 
+TEST(LimitCycleCommand, LooksForMarginsWhereTheyAreNotProvedWhenAsked) {
+  const std::vector<std::string> massless = {
+      "limit-cycle", "--damping",  "0.3", "--inertia-ratio", "0",   "--friction-ratio",
+      "0.4",         "--backlash", "0.3", "--format",        "json"};
+  EXPECT_FALSE(nlohmann::json::parse(run_tool(massless).out).contains("margin"));
+  std::vector<std::string> asked = massless;
+  asked.emplace_back("--margins");
+  const Outcome run = run_tool(asked);
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto margin = nlohmann::json::parse(run.out)["margin"];
+  EXPECT_EQ(margin["parameters"].size(), 8U);
+  for (const auto& one : margin["parameters"]) EXPECT_EQ(one["certified"], false);
+  EXPECT_FALSE(margin.contains("overall"));
+}
+
 TEST(LimitCycleCommand, TellsHowFarHuntingIsAndWhatItDependsOn) {
   const test::Scratch scratch;
   const Outcome run =

@@ -63,17 +63,49 @@ TEST(FeasibleValues, AMetTargetHasThePresentValue) {
   EXPECT_EQ(found.nearest(), 1.0);
 }
 
-TEST(FeasibleValues, WithBouncesAreScannedAndSayIt) {
-  const ChangeableDrive drive(NormalizedServo{.damping = 0.3,
-                                              .inertia_ratio = 2.0,
-                                              .friction_ratio = 0.3,
-                                              .backlash = 0.3,
-                                              .restitution = 0.1});
-  const double size = performance_of(drive.drivetrain()).size;
-  const FeasibleValues found = feasible_values(drive, Parameter::backlash, at_most(0.5 * size));
+ChangeableDrive bouncing_drive() {
+  return ChangeableDrive(NormalizedServo{.damping = 0.3,
+                                         .inertia_ratio = 2.0,
+                                         .friction_ratio = 0.3,
+                                         .backlash = 0.3,
+                                         .restitution = 0.1});
+}
+
+TEST(FeasibleValues, OfBacklashWithBouncesAreInProportionToTheSizeToo) {
+  const double size = performance_of(bouncing_drive().drivetrain()).size;
+  const FeasibleValues found =
+      feasible_values(bouncing_drive(), Parameter::backlash, at_most(0.5 * size));
   EXPECT_EQ(found.kind, SearchKind::scanned);
   ASSERT_EQ(found.intervals.size(), 1U);
-  EXPECT_NEAR(found.intervals[0].high, 0.15, 1e-9);
+  EXPECT_NEAR(found.intervals[0].high, 0.15, 1e-14);
+}
+
+TEST(FeasibleValues, WithBouncesEndWhereGrowthAtRestPassesOne) {
+  const FeasibleValues found =
+      feasible_values(bouncing_drive(), Parameter::load_friction, no_hunting());
+  ASSERT_FALSE(found.intervals.empty());
+  const double end = found.intervals[0].low;
+  const auto growth_at = [](double value) {
+    return performance_of(bouncing_drive().with(Parameter::load_friction, value)).growth_at_rest;
+  };
+  EXPECT_LT(growth_at(end), 1.0);
+  EXPECT_GT(growth_at(end), 1.0 - 2e-6);
+  EXPECT_TRUE(found.contains(end));
+}
+
+TEST(FeasibleValues, ThatDoNotExistHaveAClosestOne) {
+  Target enormous;
+  enormous.size.low = 100.0;
+  const FeasibleValues found = feasible_values(sample_drive(), Parameter::load_inertia, enormous);
+  EXPECT_TRUE(found.intervals.empty());
+  ASSERT_TRUE(found.closest.has_value());
+  const auto size_at = [](double value) {
+    return performance_of(sample_drive().with(Parameter::load_inertia, value)).size;
+  };
+  EXPECT_EQ(found.closest->performance.size, size_at(found.closest->value));
+  for (const double value : {found.searched.low, 0.01, 0.1, 1.0, 10.0, found.searched.high}) {
+    EXPECT_GE(found.closest->performance.size, size_at(value)) << value;
+  }
 }
 
 /// A drive, a parameter and a target, all at random.
@@ -150,6 +182,43 @@ TEST(PropertyFeasibleValues, AScanFindsNoOthers) {
   }
   EXPECT_GT(met, tasks * scanned / 10);
   EXPECT_LT(slivers, tasks / 20);
+}
+
+TEST(PropertyFeasibleValues, AScanFindsNoOthersWithBounces) {
+  constexpr std::uint64_t seed = 45;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  constexpr int tasks = 5;
+  constexpr int scanned = 30;
+  int met = 0;
+  for (int i = 0; i < tasks; ++i) {
+    SCOPED_TRACE(i);
+    Task task = drawn_task(draws);
+    task.servo.damping = draws.log_uniform(0.1, 0.6);
+    task.servo.inertia_ratio = draws.log_uniform(0.3, 3.0);
+    task.servo.restitution = draws.uniform(0.05, 0.3);
+    task.parameter = all_parameters[2 * static_cast<std::size_t>(i)];
+    const ChangeableDrive drive(task.servo);
+    const FeasibleValues found = feasible_values(drive, task.parameter, task.target);
+    EXPECT_TRUE(found.undecided.empty());
+    const auto is_met_at = [&](double value) {
+      return is_met(task.target, performance_of(drive.with(task.parameter, value)));
+    };
+    for (const Bounds& interval : found.intervals) {
+      EXPECT_TRUE(is_met_at(interval.low)) << interval.low;
+      EXPECT_TRUE(is_met_at(interval.high)) << interval.high;
+    }
+    // Within a factor of ten of the present value: farther off a search for cycles takes long.
+    const double low = std::max(found.searched.low, 0.1 * found.present);
+    const double high = std::min(found.searched.high, 10.0 * found.present + 0.5);
+    for (int k = 0; k <= scanned; ++k) {
+      const double value = low + (high - low) * k / scanned;
+      ASSERT_EQ(found.contains(value), is_met_at(value)) << name_of(task.parameter) << value;
+      met += found.contains(value) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(met, tasks * scanned / 10);
+  EXPECT_LT(met, tasks * scanned * 9 / 10);
 }
 
 TEST(EdgeFeasibleValues, BesideAShaftWithoutFrictionAreFound) {

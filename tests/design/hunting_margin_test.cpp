@@ -220,6 +220,44 @@ TEST(PropertyHuntingMargin, OfAllTogetherIsShorterThanOfOne) {
   }
 }
 
+ChangeableDrive bouncing_drive() {
+  return ChangeableDrive(NormalizedServo{.damping = 0.3,
+                                         .inertia_ratio = 2.0,
+                                         .friction_ratio = 0.3,
+                                         .backlash = 0.3,
+                                         .restitution = 0.2});
+}
+
+TEST(HuntingMargin, WithBouncesOfAllTogetherIsWhereRestTurnsStable) {
+  const Drivetrain drive = bouncing_drive().drivetrain();
+  const OverallMargin margin = overall_margin(drive);
+  ASSERT_EQ(margin.outcome, MarginOutcome::found);
+  EXPECT_TRUE(margin.hunts);
+  EXPECT_NEAR(growth_of(margin.at_boundary), 1.0, 1e-10);
+  const Direction along = direction_of(margin);
+  EXPECT_EQ(performance_of(changed(drive, along, margin.distance + 1e-3)).verdict,
+            Verdict::cannot_hunt);
+  EXPECT_EQ(performance_of(changed(drive, along, margin.distance - 1e-3)).verdict, Verdict::hunts);
+  constexpr std::uint64_t seed = 2405;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  for (int k = 0; k < 500; ++k) {
+    EXPECT_EQ(crossed(drive, drawn_direction(draws), margin.distance - 1e-6, 8), 0);
+  }
+}
+
+TEST(HuntingMargin, WithBouncesOfOneIsWhereTheVerdictChanges) {
+  const ParameterMargin margin = parameter_margin(bouncing_drive(), Parameter::load_friction);
+  EXPECT_EQ(margin.kind, SearchKind::scanned);
+  EXPECT_TRUE(margin.hunts);
+  EXPECT_TRUE(std::isnan(margin.below));
+  const auto verdict_at = [](double value) {
+    return performance_of(bouncing_drive().with(Parameter::load_friction, value)).verdict;
+  };
+  EXPECT_EQ(verdict_at(margin.above), Verdict::cannot_hunt);
+  EXPECT_EQ(verdict_at(margin.above * (1.0 - 1e-4)), Verdict::hunts);
+}
+
 TEST(EdgeHuntingMargin, SaysWhatItIsNotWorkedOutFor) {
   const auto outcome_of = [](NormalizedServo servo) {
     return overall_margin(ChangeableDrive(servo).drivetrain()).outcome;
@@ -227,9 +265,6 @@ TEST(EdgeHuntingMargin, SaysWhatItIsNotWorkedOutFor) {
   const NormalizedServo sample{
       .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3};
   NormalizedServo servo = sample;
-  servo.restitution = 0.3;
-  EXPECT_EQ(outcome_of(servo), MarginOutcome::not_worked_out);
-  servo = sample;
   servo.inertia_ratio = 0.0;
   EXPECT_EQ(outcome_of(servo), MarginOutcome::not_worked_out);
   servo = sample;

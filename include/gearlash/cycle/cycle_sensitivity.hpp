@@ -76,4 +76,8 @@ struct CycleSensitivity {
 /// that of one side. Throws InvalidInput.
 CycleSensitivity cycle_sensitivity(const NormalizedServo& servo);
 
+/// Growth at rest alone, which takes no search for cycles. NaN where a shaft has no inertia or ζ =
+/// 0. Throws InvalidInput.
+SensitiveValue growth_sensitivity(const NormalizedServo& servo);
+
 }  // namespace gearlash

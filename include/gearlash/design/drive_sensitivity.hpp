@@ -53,6 +53,13 @@ struct DrivetrainSensitivity {
 /// Throws InvalidInput.
 DrivetrainSensitivity drivetrain_sensitivity(const Drivetrain& drive);
 
+/// Growth at rest alone, by the numbers of a drivetrain: growth_sensitivity(). Throws InvalidInput.
+struct DrivetrainGrowth {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  DrivetrainSlopes slopes;
+};
+DrivetrainGrowth drivetrain_growth(const Drivetrain& drive);
+
 /// By one number p of the drive, of a quantity q.
 struct Sensitivity {
   double slope = std::numeric_limits<double>::quiet_NaN();  ///< ∂q/∂p, SI units

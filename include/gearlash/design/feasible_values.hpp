@@ -29,7 +29,8 @@ struct FeasibleValues {
   Bounds searched;
   SearchKind kind = SearchKind::certified;
   /// All values that meet the target, as intervals from the smallest on. Their ends are the last
-  /// numbers that meet it, to some 1e-15 of themselves, or the ends of the range.
+  /// numbers that meet it, to some 1e-15 of themselves (with bounces
+  /// 1e-6 where the cycle ends at once), or the ends of the range.
   std::vector<Bounds> intervals;
   /// Parts of the range, as a rule a billionth of their own value wide, within which limits are
   /// touched or crossed twice, as far as is known: they are feasible if both of their ends are.
@@ -46,13 +47,15 @@ struct FeasibleValues {
 /// A feasible value is never skipped by certified search: the range is cut into boxes until the
 /// limit cycles of each are proved to keep the target all, or none (bound_cycles()), or it is too
 /// narrow to matter (1e-10, more where limits are nearly touched); between two that differ the end
-/// of the interval is closed in on with performance_of(), so that each end put back meets the target.
+/// of the interval is closed in on with performance_of(), so that each end put back meets the
+/// target.
 ///
-/// A scan tries 65 values (1,025 where contact is plastic), halves what lies between two of them for
-/// as long as the distance to a limit changes there by more than it is, and with bounces follows
-/// growth at rest, which is soon worked out, at 1,025 values. It can miss what is narrower than the
-/// first of these steps; and with bounces it knows those cycles that analyse_limit_cycles() finds.
-/// Backlash is not scanned: sizes are in proportion to it, and nothing else depends on it.
+/// A scan tries 65 values (1,025 where contact is plastic), halves what lies between two of them
+/// for as long as the distance to a limit changes there by more than it is, and with bounces
+/// follows growth at rest, which is soon worked out, at 1,025 values. It can miss what is narrower
+/// than the first of these steps; and with bounces it knows those cycles that
+/// analyse_limit_cycles() finds. Backlash is not scanned: sizes are in proportion to it, and
+/// nothing else depends on it.
 ///
 /// Precondition: validate(target) is empty.
 FeasibleValues feasible_values(const ChangeableDrive& drive, Parameter parameter,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -28,7 +29,7 @@ struct ParameterMargin {
 };
 
 /// By feasible_values() for a target of no hunting, whose ends they are: the last value without
-/// hunting, to a double's last bits.
+/// hunting, to some 1e-15 of itself.
 ParameterMargin parameter_margin(const ChangeableDrive& drive, Parameter parameter);
 
 enum class MarginOutcome {
@@ -36,8 +37,7 @@ enum class MarginOutcome {
   out_of_reach,   ///< no boundary met within a factor exp(10) in any direction
   always_hunts,   ///< a shaft without friction: no change by a ratio ends its hunting
   never_hunts,    ///< no backlash
-  not_worked_out  ///< e > 0, where growth at rest alone does not decide (hunts_if_disturbed), or a
-                  ///< shaft without inertia
+  not_worked_out  ///< a shaft without inertia
 };
 
 /// Natural logarithms of ratios, number by number.
@@ -62,7 +62,8 @@ struct OverallMargin {
   std::size_t converged = 0;  ///< of them, those that ended in one
 };
 
-/// The smallest change of all numbers together that brings growth at rest to 1:
+/// The smallest change of all numbers together that brings growth at rest to 1, with bounces too,
+/// where a limit cycle may be left beside a rest that is stable (Verdict::hunts_if_disturbed):
 ///   min |x|  subject to  ln μ₀(J_M e^{x₁}, J_L e^{x₂}, F_M e^{x₃}, F_L e^{x₄}, K e^{x₅}) = 0.
 /// By the steps x ← g (g·x − ln μ₀)/|g|², g the exact gradient of ln μ₀, cut short where they do
 /// not lower ½|x|² + k|ln μ₀|, and at last by Newton's method on x = λg, ln μ₀ = 0 (Hasofer & Lind
@@ -82,9 +83,10 @@ struct HuntingMargin {
   OverallMargin overall;
 };
 
-/// Of all parameters but restitution, whose margin is parameter_margin()'s to tell: with bounces
-/// every value looked at is a search for cycles of its own, of a second or two at the most, and
-/// there are hundreds of them. Throws InvalidInput.
-HuntingMargin hunting_margin(const ChangeableDrive& drive);
+/// Of all parameters; of restitution where there is any. With plastic contact it takes some 30 ms;
+/// with bounces, where every value tried is a search for cycles of its own, seconds to minutes.
+/// `hear` is told what share is done. Throws InvalidInput.
+HuntingMargin hunting_margin(const ChangeableDrive& drive,
+                             const std::function<void(double share)>& hear = {});
 
 }  // namespace gearlash

@@ -34,7 +34,8 @@ struct Performance {
 /// By analyse_limit_cycles(). Throws InvalidInput.
 Performance performance_of(const Drivetrain& drive);
 
-/// Whether a drive of this growth at rest misses the target whatever cycles it has.
+/// Whether a drive with backlash, of this growth at rest, misses the target whatever its cycles
+/// are.
 bool is_ruled_out(const Target& target, double growth_at_rest);
 
 /// As performance_of(), as far as the target asks for it: with bounces the search for cycles, which
