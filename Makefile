@@ -59,7 +59,7 @@ sanitize:  ## as `make clang`, under AddressSanitizer and UndefinedBehaviorSanit
 fuzz:  ## feed random bytes to the reader of data sheets for FUZZ_SECONDS (30)
 	@$(INSTALL) clang
 	cmake --preset fuzz
-	$(BUILD) fuzz
+	$(BUILD) fuzz --target servo_file_fuzzer
 	mkdir -p build/fuzz/found
 	build/fuzz/tests/io/fuzz/servo_file_fuzzer -max_total_time=$(FUZZ_SECONDS) -print_final_stats=1 \
 	  -dict=tests/io/fuzz/servo_file.dict -artifact_prefix=build/fuzz/ \

@@ -106,6 +106,7 @@ struct Task {
   Sampling sampling;
   StudyQuestions questions;
   double yield = 0.0;  ///< demanded; 0: none
+  WorstSearch worst_search;
   std::vector<Plot> plots;
 };
 
@@ -117,15 +118,13 @@ TolerancedDrive toleranced_drive(const ServoFile& file) {
   return drive;
 }
 
-/// A fraction of a second's work, or, where faces bounce, of some ten minutes'.
-std::string usual_samples(const ServoFile& file) {
-  const bool may_bounce =
-      file.servo.restitution > 0.0 ||
-      std::any_of(file.varied.begin(), file.varied.end(), [](const VariedNumber& varied) {
-        return varied.number == DriveNumber::contact_restitution ||
-               varied.number == DriveNumber::servo_restitution;
-      });
-  return may_bounce ? "512" : "65536";
+/// Then a piece takes milliseconds.
+bool may_bounce(const ServoFile& file) {
+  return file.servo.restitution > 0.0 ||
+         std::any_of(file.varied.begin(), file.varied.end(), [](const VariedNumber& varied) {
+           return varied.number == DriveNumber::contact_restitution ||
+                  varied.number == DriveNumber::servo_restitution;
+         });
 }
 
 Task read_task(const ToleranceOptions& options, Faults& faults) {
@@ -134,9 +133,12 @@ Task read_task(const ToleranceOptions& options, Faults& faults) {
   const ServoFile file = faults.collect([&] { return read_servo_file(options.file); }, ServoFile{});
   task.drive = toleranced_drive(file);
   task.units = report_units(file);
+  // A fraction of a second's work, or some minutes'.
+  const std::string usual_samples = may_bounce(file) ? "512" : "65536";
+  if (may_bounce(file)) task.worst_search.samples = 256;
   task.sampling = sampling_of(read_whole<std::size_t>(
-      "--samples", options.samples.empty() ? usual_samples(file) : options.samples, 32,
-      most_samples, faults));
+      "--samples", options.samples.empty() ? usual_samples : options.samples, 32, most_samples,
+      faults));
   task.sampling.seed =
       read_whole<std::uint64_t>("--seed", options.seed, 0, std::uint64_t{1} << 53U, faults);
   if (!options.target.empty()) {
@@ -174,9 +176,9 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
   Faults faults;
   const Task task = read_task(options, faults);
   std::optional<Progress> progress;
-  const auto begin = [&](const char* what, std::size_t drives) {
+  const auto begin = [&](const char* what, std::size_t count, const char* name = "drives") {
     progress.reset();
-    progress.emplace(what, drives, "drives");
+    progress.emplace(what, count, name);
     return GridEvaluation{.going_on = [&](std::size_t done) {
       progress->show_done(done);
       return true;
@@ -197,8 +199,9 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
         widest_backlash(task.drive, {.target = task.questions.target, .yield = task.yield},
                         task.sampling, begin("Backlash", samples));
   }
+  report.worst = worst_corner(task.drive, task.worst_search,
+                              begin("Worst piece", 2 * task.worst_search.starts, "climbs"));
   progress.reset();
-  report.worst = worst_corner(task.drive);
   if (!options.output.empty()) write_data(report, options.output);
   for (const Plot& plot : task.plots) {
     write_file(plot.file, draw_tolerances(report, plot.picture, plot.format));

@@ -287,25 +287,30 @@ class Search {
   }
 
   /// Whether the load has come to rest and the motor creeps at the speed that the loop and its
-  /// friction balance at: then the next traversals differ by the factor μ₀ alone, the slower the
-  /// smaller they are, and there is no cycle. Not told where μ₀ is 1 to nine digits.
-  bool grows_as_at_rest(const Arrival& arrival) const {
+  /// friction balance at.
+  bool creeps(const Arrival& arrival) const {
     constexpr double rounding = 1e-13;
-    constexpr double told_apart = 1e-9;
-    if (!std::isfinite(growth_at_rest_)) return false;
-    if (std::abs(growth_at_rest_ - 1.0) <= told_apart) return false;
     const double creeping_speed = -arrival(0) / dynamics_.motor_friction;
     const double load_speed = arrival(1) - dynamics_.motor_inertia * arrival(2);
     return std::abs(arrival(2) - creeping_speed) <= rounding * creeping_speed &&
            std::abs(load_speed) <= rounding * std::abs(arrival(1));
   }
 
+  /// Whether two arrivals in a row differ by the factor μ₀ alone: no cycle is as small as they (but
+  /// where μ₀ is 1 to nine digits, of which nothing is told).
+  bool grows_as_at_rest(const Arrival& arrival, const Arrival& next) const {
+    constexpr double told_apart = 1e-9;
+    const double growth = growth_at_rest_;
+    return std::isfinite(growth) && std::abs(growth - 1.0) > told_apart && creeps(arrival) &&
+           creeps(next) &&
+           std::abs(next.norm() - growth * arrival.norm()) <= told_apart * next.norm();
+  }
+
   void try_amplitude(double per_backlash) {
     const Traversal first = course_.first_arrival(servo_.backlash * per_backlash);
     if (!arrives(first)) return;
-    if (grows_as_at_rest(first.next)) return;
     const Traversal second = course_.traverse(first.next, Derivative::not_wanted);
-    if (!arrives(second)) return;
+    if (!arrives(second) || grows_as_at_rest(first.next, second.next)) return;
     if ((second.next - first.next).norm() < 0.5 * first.next.norm()) try_from(first.next, 1);
   }
 
@@ -349,7 +354,7 @@ class Search {
     for (int count = 1; count <= traversal_limit; ++count) {
       const Traversal traversal = course_.traverse(arrival, Derivative::not_wanted);
       if (!arrives(traversal) || traversal.next.norm() < negligible * servo_.backlash) return;
-      if (grows_as_at_rest(traversal.next) && growth_at_rest_ < 1.0) return;
+      if (growth_at_rest_ < 1.0 && grows_as_at_rest(arrival, traversal.next)) return;
       recent[static_cast<std::size_t>(count % longest_order)] = arrival;
       arrival = traversal.next;
       double& so_far = largest[static_cast<std::size_t>(8 * (count - 1) / traversal_limit)];

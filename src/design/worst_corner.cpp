@@ -78,8 +78,9 @@ class Climb {
     std::vector<Candidate> starts = worst_of(corners());
     for (Candidate& sample : worst_of(samples())) starts.push_back(std::move(sample));
     Candidate worst = starts.front();
-    for (const Candidate& start : starts) {
-      Candidate top = climbed(start);
+    for (std::size_t i = 0; i < starts.size(); ++i) {
+      if (how_.going_on) how_.going_on(i);
+      Candidate top = climbed(starts[i]);
       if (worst.badness < top.badness) worst = std::move(top);
     }
     return worst;

@@ -169,6 +169,17 @@ TEST(EdgeWorstCorner, AnyNumberOfThreadsGivesTheSameBits) {
   EXPECT_EQ(one.evaluations, three.evaluations);
 }
 
+TEST(WorstCorner, TellsHowManyClimbsAreDone) {
+  std::vector<std::size_t> heard;
+  const auto hear = [&](std::size_t done) {
+    heard.push_back(done);
+    return true;
+  };
+  worst_corner(toleranced({{DriveNumber::gearbox_backlash, within_share(0.3, 0.5)}}),
+               {.samples = 16, .starts = 2}, {.going_on = hear});
+  EXPECT_THAT(heard, testing::ElementsAre(0, 1, 2, 3));
+}
+
 TEST(EdgeWorstCorner, EveryFaultIsNamed) {
   try {
     worst_corner(toleranced({{DriveNumber::load_friction, Normal{0.0, 1.0}}}), {.starts = 0});

@@ -21,10 +21,10 @@ struct BouncingCycles {
 
 /// Newton's method on k-fold traversals, k = 1, 2, 3, 4, 6, 8, from the plastic cycle, (a) a scan
 /// of 121 amplitudes over b × [1e-4, 1e4] and (b) the recurrences of motions from eight starts over
-/// b × [0.05, 50], each followed for at most 1,500 traversals. Once sixteen cycles are known the
-/// recurrences are no longer tried. Four million events are followed in all, and 200,000 within one
-/// traversal: a second or two at the most. Precondition: validate(servo) is empty, b > 0, contact
-/// not plastic.
+/// b × [0.05, 50], each followed for at most 1,500 traversals, or until it creeps to rest. Once
+/// sixteen cycles are known the recurrences are no longer tried. Four million events are followed
+/// in all, and 200,000 within one traversal: a second or two at the most. Precondition:
+/// validate(servo) is empty, b > 0, contact not plastic.
 BouncingCycles find_bouncing_cycles(const NormalizedServo& servo, const ServoDynamics& dynamics);
 
 }  // namespace gearlash

@@ -49,7 +49,8 @@ struct WorstCorner {
 /// last gone, each line looked at along its whole length within the box and refined about its best
 /// point, until the value rises by less than 1e-12 of itself. Of lots only their values are tried.
 /// No proof that there is none worse: a narrow peak inside can be missed. The same bits for any
-/// number of threads. Throws InvalidInput.
+/// number of threads. how.going_on is told how many of the climbs, 2·starts at most, are done, and
+/// is not asked. Throws InvalidInput.
 WorstCorner worst_corner(const TolerancedDrive& drive, const WorstSearch& search = {},
                          const GridEvaluation& how = {});
 
