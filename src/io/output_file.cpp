@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cerrno>
 #include <climits>
+#include <csignal>
 #include <cstring>
 #include <system_error>
 
@@ -36,6 +37,22 @@ int claim_slot() {
 UnfinishedOutput& output_in(int slot) { return unfinished_outputs[static_cast<std::size_t>(slot)]; }
 
 std::string system_message(int error) { return std::generic_category().message(error); }
+
+/// No signal is heard while this lives: a file is made and noted for removal in one.
+class SignalsHeld {
+ public:
+  SignalsHeld() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~SignalsHeld() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsHeld(const SignalsHeld&) = delete;
+  SignalsHeld& operator=(const SignalsHeld&) = delete;
+
+ private:
+  sigset_t before_{};
+};
 
 bool is_regular_or_new(const std::filesystem::path& path) {
   std::error_code error;
@@ -106,9 +123,12 @@ void OutputFile::open_beside(const std::filesystem::path& target) {
     refuse("cannot be written");
   }
   std::memcpy(output.name.data(), hidden.c_str(), hidden.size() + 1);
-  descriptor_ = mkostemp(output.name.data(), O_CLOEXEC);
+  {
+    const SignalsHeld held;
+    descriptor_ = mkostemp(output.name.data(), O_CLOEXEC);
+    output.exists = descriptor_ >= 0;
+  }
   if (descriptor_ < 0) refuse("cannot be written");
-  output.exists = true;
   owns_descriptor_ = true;
   target_ = target;
   if (fchmod(descriptor_, permissions_of(target)) != 0) refuse("cannot be written");
