@@ -253,7 +253,9 @@ class Search {
       const double distance = std::min(std::abs(beyond[i]), std::abs(beyond[i + 1]));
       const double steepest = std::max({change(i), i > 0 ? change(i - 1) : 0.0, change(i + 1)});
       if (is_crossed || !std::isfinite(distance) || !(steepest > distance)) continue;
-      middles.push_back(middle_of(tried_[i].value, tried_[i + 1].value));
+      const double low = tried_[i].value;
+      const double high = tried_[i + 1].value;
+      middles.push_back(low == 0.0 ? 0.5 * high : middle_of(low, high));
     }
     return middles;
   }
