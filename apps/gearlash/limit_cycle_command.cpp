@@ -121,10 +121,9 @@ bool is_decided(const LimitCycleAnalysis& analysis) {
   }
 }
 
-/// Then margins take no time: plastic contact, and two masses.
+/// Then margins take no time: contact is plastic.
 bool has_closed_form(const NormalizedServo& servo) {
-  return servo.restitution == 0.0 && servo.damping > 0.0 && servo.inertia_ratio > 0.0 &&
-         std::isfinite(servo.inertia_ratio);
+  return servo.damping > 0.0 && servo_dynamics(servo).plastic_contact();
 }
 
 /// Options that change normalised numbers leave a data sheet behind.

@@ -10,7 +10,7 @@
 
 namespace gearlash {
 
-/// By damping, inertia ratio, friction ratio and restitution.
+/// By damping, the load's share of the inertia, friction ratio and restitution.
 using BouncingGradient = Eigen::Vector4d;
 
 struct BouncingSlopes {

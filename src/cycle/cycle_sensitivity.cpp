@@ -104,39 +104,135 @@ Dual dual_unit_size(const DualDynamics& dynamics, const DualFlight& flight,
   return largest;
 }
 
-SensitiveValue sensitive(double value, const Gradient& slope, double by_backlash = 0.0) {
+/// The restitution is the number that follows the servo's own, where it is one.
+template <int count>
+SensitiveValue sensitive(const NormalizedServo& servo, double value,
+                         const Eigen::Matrix<double, count, 1>& slope, double by_backlash = 0.0) {
+  const double motor_share = 1.0 / (1.0 + servo.inertia_ratio);
   return {value,
-          {.damping = slope(0),
-           .inertia_ratio = slope(1),
-           .friction_ratio = slope(2),
+          {.damping = slope(by_damping),
+           .inertia_ratio = slope(by_load_share) * motor_share * motor_share,
+           .load_share = slope(by_load_share),
+           .friction_ratio = slope(by_friction_ratio),
            .backlash = by_backlash,
-           .restitution = 0.0}};
+           .restitution = count > servo_numbers ? slope(count - 1) : 0.0}};
 }
 
-void add_cycle(CycleSensitivity& sensitivity, const DualDynamics& dynamics, double flight_time,
-               const LimitCycle& cycle, double backlash) {
+void add_slopes(CycleSensitivity& sensitivity, const NormalizedServo& servo, double flight_time) {
+  const DualDynamics dynamics = dual_dynamics<Dual>(servo);
   const DualFlight flight = unit_flight_of_two_masses(dynamics);
   const Dual time = dual_flight_time(dynamics, flight, flight_time);
   const DualHalfCycle half = dual_half_cycle(dynamics, flight, time);
   const Dual gap = -half.gap_displacement;
-  const Dual size = backlash * dual_unit_size(dynamics, flight, half) / gap;
+  const Dual size = servo.backlash * dual_unit_size(dynamics, flight, half) / gap;
   const Dual period = 2.0 * (half.engaged_time + time);
   const Dual slope = half_map_slope(half);
   const Dual multiplier = slope * slope;
-  sensitivity.size = sensitive(cycle.size, size.derivatives(), cycle.size / backlash);
-  sensitivity.period = sensitive(cycle.period, period.derivatives());
-  sensitivity.multiplier = sensitive(cycle.multiplier, multiplier.derivatives());
+  const auto add = [&](SensitiveValue& of, const Dual& found, double by_backlash) {
+    of = sensitive<servo_numbers>(servo, of.value, found.derivatives(), by_backlash);
+  };
+  add(sensitivity.size, size, sensitivity.size.value / servo.backlash);
+  add(sensitivity.period, period, 0.0);
+  add(sensitivity.multiplier, multiplier, 0.0);
 }
 
-// ---- with bounces -------------------------------------------------------------------------------
+// ---- a massless side ----------------------------------------------------------------------------
 
-SensitiveValue sensitive(double value, const BouncingGradient& slope, double by_backlash) {
-  return {value,
-          {.damping = slope(0),
-           .inertia_ratio = slope(1),
-           .friction_ratio = slope(2),
-           .backlash = by_backlash,
-           .restitution = slope(3)}};
+bool has_massless_side(const NormalizedServo& servo) {
+  return servo.inertia_ratio == 0.0 || std::isinf(servo.inertia_ratio);
+}
+
+constexpr std::size_t light_count = 6;
+using LightSides = std::array<NormalizedServo, light_count>;
+
+/// Servos whose light side has J/F = τ, 2τ, … 6τ.
+LightSides light_sides(const NormalizedServo& servo, double growth) {
+  constexpr double short_time = 1e-3;
+  constexpr double least_ratio = 1e-9;  // of a servo
+  const bool is_motor = std::isinf(servo.inertia_ratio);
+  const double friction_share = is_motor ? 1.0 - servo.friction_ratio : servo.friction_ratio;
+  const double closeness = growth > 1.0 ? std::min(1.0, std::log(growth)) : 1.0;
+  const double friction = 2.0 * servo.damping;
+  const double time = short_time * closeness / (1.0 + friction);
+  const double least = std::max(friction * friction_share * time, least_ratio);
+  LightSides light;
+  light.fill(servo);
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    const double ratio = least * static_cast<double>(i + 1);
+    light[i].inertia_ratio = is_motor ? 1.0 / ratio : ratio;
+    light[i].restitution = 0.0;
+  }
+  return light;
+}
+
+/// Lagrange's polynomial through the values of light sides, at 0.
+constexpr std::array<double, light_count> weights_at_nought = {6.0, -15.0, 20.0, -15.0, 6.0, -1.0};
+
+SensitiveValue limit_of(const NormalizedServo& servo, double value,
+                        const std::array<ServoGradient, light_count>& slopes) {
+  const auto limit = [&](double ServoGradient::*slope) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < light_count; ++i) sum += weights_at_nought[i] * (slopes[i].*slope);
+    return sum;
+  };
+  return sensitive<servo_numbers>(
+      servo, value,
+      {limit(&ServoGradient::damping), limit(&ServoGradient::load_share),
+       limit(&ServoGradient::friction_ratio)});
+}
+
+/// False where a light side does not hunt, or hardly.
+bool add_limits_of_slopes(CycleSensitivity& sensitivity, const NormalizedServo& servo) {
+  std::array<CycleSensitivity, light_count> light;
+  const LightSides servos = light_sides(servo, sensitivity.growth_at_rest.value);
+  std::transform(servos.begin(), servos.end(), light.begin(), cycle_sensitivity);
+  if (!std::all_of(light.begin(), light.end(), [](const auto& one) { return one.available(); })) {
+    return false;
+  }
+  const auto add = [&](SensitiveValue CycleSensitivity::*quantity) {
+    std::array<ServoGradient, light_count> slopes;
+    std::transform(light.begin(), light.end(), slopes.begin(),
+                   [&](const CycleSensitivity& one) { return (one.*quantity).slope; });
+    SensitiveValue& of = sensitivity.*quantity;
+    of = limit_of(servo, of.value, slopes);
+  };
+  add(&CycleSensitivity::size);
+  add(&CycleSensitivity::period);
+  add(&CycleSensitivity::multiplier);
+  sensitivity.size.slope.backlash = sensitivity.size.value / servo.backlash;
+  return true;
+}
+
+// ---- plastic contact, and bounces ---------------------------------------------------------------
+
+CycleSensitivity plastic_sensitivity(const NormalizedServo& servo) {
+  CycleSensitivity sensitivity;
+  const auto ended = [&](SensitivityOutcome outcome) {
+    sensitivity.outcome = outcome;
+    return sensitivity;
+  };
+  sensitivity.growth_at_rest = growth_sensitivity(servo);
+  const double growth = sensitivity.growth_at_rest.value;
+  if (growth <= 1.0 || servo.backlash == 0.0) return ended(SensitivityOutcome::no_cycle);
+  const ServoDynamics dynamics = servo_dynamics(servo);
+  const auto balanced = balanced_half_cycle(dynamics, growth);
+  if (!balanced) return ended(SensitivityOutcome::undecided);
+  const LimitCycle cycle = plastic_cycle(dynamics, *balanced);
+  if (!cycle.stable) return ended(SensitivityOutcome::undecided);
+  CycleSensitivity with_cycle = sensitivity;
+  with_cycle.size.value = cycle.size;
+  with_cycle.period.value = cycle.period;
+  with_cycle.multiplier.value = cycle.multiplier;
+  if (has_massless_side(servo)) {
+    if (!add_limits_of_slopes(with_cycle, servo)) return ended(SensitivityOutcome::undecided);
+  } else {
+    const bool is_ill_conditioned = std::log(growth) < ill_conditioned;
+    add_slopes(with_cycle, servo,
+               is_ill_conditioned ? refined_flight_time(servo, balanced->flight_time)
+                                  : balanced->flight_time);
+  }
+  with_cycle.outcome = SensitivityOutcome::available;
+  return with_cycle;
 }
 
 CycleSensitivity bouncing_sensitivity(const NormalizedServo& servo) {
@@ -155,9 +251,9 @@ CycleSensitivity bouncing_sensitivity(const NormalizedServo& servo) {
     return sensitivity;
   }
   sensitivity.outcome = SensitivityOutcome::available;
-  sensitivity.size = sensitive(cycle->size, slopes->size, cycle->size / servo.backlash);
-  sensitivity.period = sensitive(cycle->period, slopes->period, 0.0);
-  sensitivity.multiplier = sensitive(cycle->multiplier, slopes->multiplier, 0.0);
+  sensitivity.size = sensitive(servo, cycle->size, slopes->size, cycle->size / servo.backlash);
+  sensitivity.period = sensitive(servo, cycle->period, slopes->period);
+  sensitivity.multiplier = sensitive(servo, cycle->multiplier, slopes->multiplier);
   return sensitivity;
 }
 
@@ -165,45 +261,37 @@ CycleSensitivity bouncing_sensitivity(const NormalizedServo& servo) {
 
 SensitiveValue growth_sensitivity(const NormalizedServo& servo) {
   require_none(validate(servo));
+  if (servo.damping == 0.0) return {};
   const ServoDynamics dynamics = servo_dynamics(servo);
-  if (dynamics.massless_motor() || dynamics.massless_load() || servo.damping == 0.0) return {};
   const double growth = growth_at_rest(dynamics);
   if (!std::isfinite(growth)) return {growth, {}};
-  if (servo.restitution == 0.0) {
-    if (growth == 0.0) return sensitive(growth, Gradient::Zero());  // as are its neighbours
-    return sensitive(growth, growth * log_growth_gradient(dual_dynamics<Dual>(servo)));
+  if (dynamics.plastic_contact()) {
+    if (growth == 0.0) return sensitive<servo_numbers>(servo, growth, Gradient::Zero());
+    if (has_massless_side(servo)) {
+      std::array<ServoGradient, light_count> slopes;
+      const LightSides light = light_sides(servo, growth);
+      std::transform(light.begin(), light.end(), slopes.begin(),
+                     [](const NormalizedServo& one) { return growth_sensitivity(one).slope; });
+      return limit_of(servo, growth, slopes);
+    }
+    const Gradient gradient = growth * log_growth_gradient(dual_dynamics<Dual>(servo));
+    return sensitive<servo_numbers>(servo, growth, gradient);
   }
   const auto gradient = growth > 0.0 ? bouncing_log_growth_gradient(servo) : std::nullopt;
   if (!gradient) return {growth, {}};
-  return sensitive(growth, BouncingGradient(growth * *gradient), 0.0);
+  const BouncingGradient slope = growth * *gradient;
+  return sensitive(servo, growth, slope);
 }
 
 CycleSensitivity cycle_sensitivity(const NormalizedServo& servo) {
   require_none(validate(servo));
-  const ServoDynamics dynamics = servo_dynamics(servo);
-  CycleSensitivity sensitivity;
-  const auto ended = [&](SensitivityOutcome outcome) {
-    sensitivity.outcome = outcome;
-    return sensitivity;
-  };
-  if (dynamics.massless_motor() || dynamics.massless_load()) {
-    return ended(SensitivityOutcome::massless);
+  if (servo.damping == 0.0) {
+    CycleSensitivity undamped;
+    undamped.outcome = SensitivityOutcome::undamped;
+    return undamped;
   }
-  if (servo.damping == 0.0) return ended(SensitivityOutcome::undamped);
-  if (servo.restitution > 0.0) return bouncing_sensitivity(servo);
-
-  const DualDynamics dual = dual_dynamics<Dual>(servo);
-  sensitivity.growth_at_rest = growth_sensitivity(servo);
-  const double growth = sensitivity.growth_at_rest.value;
-  if (growth <= 1.0 || servo.backlash == 0.0) return ended(SensitivityOutcome::no_cycle);
-  const auto balanced = balanced_half_cycle(dynamics, growth);
-  if (!balanced) return ended(SensitivityOutcome::undecided);
-  const LimitCycle cycle = plastic_cycle(dynamics, *balanced);
-  if (!cycle.stable) return ended(SensitivityOutcome::undecided);
-  double flight_time = balanced->flight_time;
-  if (std::log(growth) < ill_conditioned) flight_time = refined_flight_time(servo, flight_time);
-  add_cycle(sensitivity, dual, flight_time, cycle, servo.backlash);
-  return ended(SensitivityOutcome::available);
+  return servo_dynamics(servo).plastic_contact() ? plastic_sensitivity(servo)
+                                                 : bouncing_sensitivity(servo);
 }
 
 }  // namespace gearlash

@@ -17,8 +17,9 @@ namespace gearlash {
 template <int count>
 using BasicDual = Eigen::AutoDiffScalar<Eigen::Matrix<double, count, 1>>;
 
-/// Places of the servo's own numbers among the derivatives; any others follow.
-enum ServoNumber : int { by_damping, by_inertia_ratio, by_friction_ratio, servo_numbers };
+/// Places of the servo's own numbers among the derivatives; any others follow. The inertia ratio
+/// stands as the load's share of the inertia, r/(1 + r).
+enum ServoNumber : int { by_damping, by_load_share, by_friction_ratio, servo_numbers };
 
 template <class Dual>
 Dual chained(double value, double slope, const Dual& of) {
@@ -101,9 +102,9 @@ BasicServoDynamics<Dual> dual_dynamics(const NormalizedServo& servo) {
   using Gradient = typename Dual::DerType;
   const double ratio = servo.inertia_ratio;
   const double motor = 1.0 / (1.0 + ratio);
-  const Gradient ratio_part = motor * motor * Gradient::Unit(by_inertia_ratio);
+  const Gradient share_part = Gradient::Unit(by_load_share);
   return dynamics_of_shafts<Dual>(Dual(servo.damping, Gradient::Unit(by_damping)),
-                                  Dual(motor, -ratio_part), Dual(ratio / (1.0 + ratio), ratio_part),
+                                  Dual(motor, -share_part), Dual(ratio / (1.0 + ratio), share_part),
                                   Dual(servo.friction_ratio, Gradient::Unit(by_friction_ratio)));
 }
 

@@ -240,10 +240,8 @@ DriveBox box_between(const Drivetrain& low, const Drivetrain& high) {
       of_both([](const Drivetrain& d) { return d.load_friction / d.load_inertia; });
   const Bounds motor_share =
       of_both([](const Drivetrain& d) { return 1.0 / (1.0 + d.load_inertia / d.motor_inertia); });
-  const Bounds load_share = of_both([](const Drivetrain& d) {
-    const double ratio = d.load_inertia / d.motor_inertia;
-    return ratio / (1.0 + ratio);
-  });
+  const Bounds load_share =
+      of_both([](const Drivetrain& d) { return 1.0 / (1.0 + d.motor_inertia / d.load_inertia); });
   const auto root = [](double a, double b) { return std::sqrt(a) * std::sqrt(b); };
   const Bounds time_unit{std::sqrt(inertia.low) / std::sqrt(stiffness.high),
                          std::sqrt(inertia.high) / std::sqrt(stiffness.low)};

@@ -47,8 +47,8 @@ class Normalization {
                 .motor_friction = servo.damping / friction,
                 .load_friction = servo.damping / friction,
                 .stiffness = -0.5 * servo.damping / drive.stiffness};
-    inertia_ratio_ = {.motor_inertia = -servo.inertia_ratio / drive.motor_inertia,
-                      .load_inertia = 1.0 / drive.motor_inertia};
+    load_share_ = {.motor_inertia = -drive.load_inertia / inertia / inertia,
+                   .load_inertia = drive.motor_inertia / inertia / inertia};
     friction_ratio_ = {.motor_friction = -servo.friction_ratio / friction,
                        .load_friction = drive.motor_friction / friction / friction};
   }
@@ -57,7 +57,7 @@ class Normalization {
 
   DrivetrainSlopes slopes_of(const ServoGradient& gradient) const {
     DrivetrainSlopes slopes = scaled(gradient.damping, damping_);
-    slopes = sum(slopes, scaled(gradient.inertia_ratio, inertia_ratio_));
+    slopes = sum(slopes, scaled(gradient.load_share, load_share_));
     slopes = sum(slopes, scaled(gradient.friction_ratio, friction_ratio_));
     slopes.backlash = gradient.backlash;
     slopes.restitution = gradient.restitution;
@@ -65,7 +65,7 @@ class Normalization {
   }
 
  private:
-  DrivetrainSlopes log_frequency_, damping_, inertia_ratio_, friction_ratio_;
+  DrivetrainSlopes log_frequency_, damping_, load_share_, friction_ratio_;
 };
 
 const DrivetrainSlopes no_slopes = {nan, nan, nan, nan, nan, nan, nan};

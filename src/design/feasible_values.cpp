@@ -145,6 +145,11 @@ class Search {
     return met;
   }
 
+  /// Whether motion that no cycle repeats was met with.
+  bool met_irregular_motion() const {
+    return std::any_of(tried_.begin(), tried_.end(), is_irregular);
+  }
+
   /// The value that comes closest to the target.
   TriedValue closest(const Bounds& range) {
     std::vector<TriedValue> tried = tried_values(range);
@@ -155,6 +160,14 @@ class Search {
   }
 
  private:
+  static bool is_irregular(const TriedValue& tried) {
+    return tried.performance.verdict == Verdict::hunts_irregularly;
+  }
+
+  static bool hunts(const TriedValue& tried) {
+    return tried.performance.verdict != Verdict::cannot_hunt;
+  }
+
   static double middle_of(double low, double high) {
     return low == 0.0 && high < least ? 0.5 * high : detail::middle_of(low, high);
   }
@@ -185,8 +198,10 @@ class Search {
     if (!tried_.empty()) return tried_;
     tried_ = at_all(first_values(range));
     constexpr int most_halvings = 6;
+    constexpr int halvings_everywhere = 2;
     for (int i = 0; i < most_halvings; ++i) {
-      const std::vector<TriedValue> between = at_all(middles_to_try());
+      const bool everywhere = met_irregular_motion() && i < halvings_everywhere;
+      const std::vector<TriedValue> between = at_all(middles_to_try(everywhere));
       if (between.empty()) break;
       tried_.insert(tried_.end(), between.begin(), between.end());
       sort_by_value(tried_);
@@ -239,8 +254,9 @@ class Search {
   }
 
   /// Between neighbours on one side of a limit of the cycle which is no farther than they, or one
-  /// of them and the next, are from each other.
-  std::vector<double> middles_to_try() const {
+  /// of them and the next, are from each other; and between regular and irregular motion, or
+  /// everywhere that it hunts: by irregular motion there are windows of others.
+  std::vector<double> middles_to_try(bool everywhere) const {
     const Target of_cycles{.size = target_.size, .frequency = target_.frequency};
     std::vector<double> beyond;
     for (const TriedValue& one : tried_) beyond.push_back(excess(of_cycles, one.performance));
@@ -248,11 +264,18 @@ class Search {
       return i + 1 < beyond.size() ? std::abs(beyond[i + 1] - beyond[i]) : 0.0;
     };
     std::vector<double> middles;
-    for (std::size_t i = 0; i + 1 < beyond.size(); ++i) {
+    const auto is_near_limit = [&](std::size_t i) {
       const bool is_crossed = (beyond[i] > 0.0) != (beyond[i + 1] > 0.0);
       const double distance = std::min(std::abs(beyond[i]), std::abs(beyond[i + 1]));
       const double steepest = std::max({change(i), i > 0 ? change(i - 1) : 0.0, change(i + 1)});
-      if (is_crossed || !std::isfinite(distance) || !(steepest > distance)) continue;
+      return !is_crossed && std::isfinite(distance) && steepest > distance;
+    };
+    const auto is_wanted = [&](std::size_t i) {
+      if (is_near_limit(i) || is_irregular(tried_[i]) != is_irregular(tried_[i + 1])) return true;
+      return everywhere && hunts(tried_[i]) && hunts(tried_[i + 1]);
+    };
+    for (std::size_t i = 0; i + 1 < beyond.size(); ++i) {
+      if (!is_wanted(i)) continue;
       const double low = tried_[i].value;
       const double high = tried_[i + 1].value;
       middles.push_back(low == 0.0 ? 0.5 * high : middle_of(low, high));
@@ -333,8 +356,7 @@ FeasibleValues feasible_values(const ChangeableDrive& drive, Parameter parameter
   found.parameter = parameter;
   found.present = drive.present_value(parameter);
   found.searched = drive.range(parameter);
-  found.kind = has_two_masses(drive) && !has_bounces(drive, parameter) ? SearchKind::certified
-                                                                       : SearchKind::scanned;
+  found.kind = has_bounces(drive, parameter) ? SearchKind::scanned : SearchKind::certified;
   Search search(drive, parameter, target);
   const std::vector<Part> parts = found.kind == SearchKind::certified
                                       ? joined(search.certified(found.searched))
@@ -363,6 +385,7 @@ FeasibleValues feasible_values(const ChangeableDrive& drive, Parameter parameter
     }
   }
   if (found.intervals.empty()) found.closest = search.closest(found.searched);
+  found.irregular = search.met_irregular_motion();
   found.evaluations = search.evaluations();
   return found;
 }

@@ -234,7 +234,6 @@ void accept(OverallMargin& margin, const LogGrowth& growth, const Drivetrain& dr
 
 std::optional<MarginOutcome> outcome_without_search(const Drivetrain& drive) {
   if (drive.backlash == 0.0) return MarginOutcome::never_hunts;
-  if (drive.motor_inertia == 0.0 || drive.load_inertia == 0.0) return MarginOutcome::not_worked_out;
   if (drive.motor_friction == 0.0 || drive.load_friction == 0.0) return MarginOutcome::always_hunts;
   return std::nullopt;
 }

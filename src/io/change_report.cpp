@@ -39,8 +39,6 @@ std::string overall_text(const OverallMargin& overall) {
       return "A shaft has no friction: no change by a ratio ends the hunting.";
     case MarginOutcome::never_hunts:
       return "Without backlash there is nothing to hunt in.";
-    case MarginOutcome::not_worked_out:
-      return "";
   }
   const LogChange& change = overall.change;
   return fmt::format(
@@ -60,8 +58,6 @@ std::string reason(SensitivityOutcome outcome) {
       return "the servo lies on the boundary of hunting; of growth at rest:";
     case SensitivityOutcome::undamped:
       return "not worked out without damping";
-    case SensitivityOutcome::massless:
-      return "not worked out for a shaft without inertia";
     case SensitivityOutcome::bounces:
       return "not worked out for this motion, in which faces bounce";
     case SensitivityOutcome::available:

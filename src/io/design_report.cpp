@@ -125,13 +125,25 @@ std::string certainty(const DesignReport& report) {
       "present one; friction and feedback up to ten times what damps critically) is proved by "
       "bounds over the whole range";
   if (all_certified) return ranges + ".";
-  std::string scanned;
-  for (const FeasibleValues& answer : report.answers) {
-    if (answer.kind == SearchKind::certified) continue;
-    scanned += (scanned.empty() ? "" : ", ") + std::string(name_of(answer.parameter));
-  }
+  const auto names_of = [&](auto is_meant) {
+    std::string names;
+    for (const FeasibleValues& answer : report.answers) {
+      if (!is_meant(answer)) continue;
+      names += (names.empty() ? "" : ", ") + std::string(name_of(answer.parameter));
+    }
+    return names;
+  };
+  const std::string scanned =
+      names_of([](const FeasibleValues& answer) { return answer.kind == SearchKind::scanned; });
+  const std::string irregular =
+      names_of([](const FeasibleValues& answer) { return answer.irregular; });
   return ranges + ", but not of: " + scanned +
-         ". There, with bounces or without mass on a side, many values were looked at.";
+         ". There, with bounces, many values were looked at." +
+         (irregular.empty()
+              ? ""
+              : " Among those of " + irregular +
+                    " are motions that never repeat; beside them values that meet the "
+                    "target come and go in windows narrower than was looked.");
 }
 
 Json json_performance(const Performance& performance, bool has_frequency) {
@@ -164,6 +176,7 @@ Json json_answer(const DesignReport& report, const FeasibleValues& values) {
                {"present", json_number(values.present)},
                {"searched", json_bounds(values.searched)},
                {"certified", values.kind == SearchKind::certified},
+               {"irregular", values.irregular},
                {"intervals", std::move(intervals)},
                {"undecided", std::move(undecided)}};
   const double nearest = values.nearest();

@@ -154,19 +154,21 @@ TEST(LimitCycleCommand, TextHasNoEscapesWhereItIsNoTerminal) {
               testing::Not(HasSubstr("\x1b")));
 }
 
-TEST(LimitCycleCommand, LooksForMarginsWhereTheyAreNotProvedWhenAsked) {
-  const std::vector<std::string> massless = {
-      "limit-cycle", "--damping",  "0.3", "--inertia-ratio", "0",   "--friction-ratio",
-      "0.4",         "--backlash", "0.3", "--format",        "json"};
-  EXPECT_FALSE(nlohmann::json::parse(run_tool(massless).out).contains("margin"));
-  std::vector<std::string> asked = massless;
-  asked.emplace_back("--margins");
-  const Outcome run = run_tool(asked);
-  ASSERT_EQ(run.status, 0) << run.err;
-  const auto margin = nlohmann::json::parse(run.out)["margin"];
-  EXPECT_EQ(margin["parameters"].size(), 8U);
-  for (const auto& one : margin["parameters"]) EXPECT_EQ(one["certified"], false);
-  EXPECT_FALSE(margin.contains("overall"));
+TEST(LimitCycleCommand, TellsMarginsUnaskedWhereTheyAreProved) {
+  const auto margin_of = [](const std::string& inertia_ratio, const std::string& restitution) {
+    const Outcome run = run_tool({"limit-cycle", "--damping", "0.3", "--inertia-ratio",
+                                  inertia_ratio, "--friction-ratio", "0.4", "--backlash", "0.3",
+                                  "--restitution", restitution, "--format", "json"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    return nlohmann::json::parse(run.out)["margin"];
+  };
+  EXPECT_TRUE(margin_of("2", "0.3").is_null());
+  for (const char* massless : {"0", "inf"}) {
+    const auto margin = margin_of(massless, "0.3");
+    EXPECT_EQ(margin["parameters"].size(), 9U);
+    for (const auto& one : margin["parameters"]) EXPECT_EQ(one["certified"], true);
+    EXPECT_TRUE(margin.contains("overall"));
+  }
 }
 
 TEST(LimitCycleCommand, TellsHowFarHuntingIsAndWhatItDependsOn) {

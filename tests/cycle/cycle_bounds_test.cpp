@@ -20,7 +20,9 @@ struct Range {
   NormalizedServo at(double damping, double inertia_ratio, double friction_ratio) const {
     return {.damping = low.damping + damping * (high.damping - low.damping),
             .inertia_ratio =
-                low.inertia_ratio + inertia_ratio * (high.inertia_ratio - low.inertia_ratio),
+                std::isinf(low.inertia_ratio)
+                    ? low.inertia_ratio
+                    : low.inertia_ratio + inertia_ratio * (high.inertia_ratio - low.inertia_ratio),
             .friction_ratio =
                 low.friction_ratio + friction_ratio * (high.friction_ratio - low.friction_ratio),
             .backlash = 1.0};
@@ -34,8 +36,8 @@ struct Range {
     };
     return {.damping = {low.damping, high.damping},
             .motor_inertia = {1.0 / (1.0 + high.inertia_ratio), 1.0 / (1.0 + low.inertia_ratio)},
-            .load_inertia = {low.inertia_ratio / (1.0 + low.inertia_ratio),
-                             high.inertia_ratio / (1.0 + high.inertia_ratio)},
+            .load_inertia = {1.0 / (1.0 + 1.0 / low.inertia_ratio),
+                             1.0 / (1.0 + 1.0 / high.inertia_ratio)},
             .motor_rate = {motor_rate(low.damping, low.inertia_ratio, high.friction_ratio),
                            motor_rate(high.damping, high.inertia_ratio, low.friction_ratio)},
             .load_rate = {load_rate(low.damping, high.inertia_ratio, low.friction_ratio),
@@ -43,9 +45,16 @@ struct Range {
   }
 };
 
+/// One in ten has no load inertia, one in ten no motor inertia.
+double drawn_inertia_ratio(SeededDraws& draws) {
+  const double kind = draws.uniform(0.0, 1.0);
+  if (kind < 0.1) return 0.0;
+  return kind < 0.2 ? std::numeric_limits<double>::infinity() : draws.log_uniform(1e-3, 1e3);
+}
+
 Range drawn_range(SeededDraws& draws, double width) {
-  const NormalizedServo low{.damping = draws.log_uniform(0.005, 3.0),
-                            .inertia_ratio = draws.log_uniform(1e-3, 1e3),
+  const NormalizedServo low{.damping = draws.log_uniform(0.005, 300.0),
+                            .inertia_ratio = drawn_inertia_ratio(draws),
                             .friction_ratio = draws.uniform(0.01, 0.99)};
   NormalizedServo high = low;
   high.damping *= 1.0 + width * draws.uniform(0.0, 1.0);

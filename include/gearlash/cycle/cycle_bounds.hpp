@@ -13,15 +13,16 @@ struct Bounds {
   bool operator==(const Bounds&) const = default;
 };
 
-/// Servos with two masses and plastic contact, ω_n = 1 and J_M + J_L = 1, of which each number lies
-/// within its bounds. The five are not independent (J_M c + J_L D = 2ζ): each is stated as tightly
-/// as is known, and whatever lies within all of them is covered.
+/// Servos with plastic contact, ω_n = 1 and J_M + J_L = 1, of which each number lies within its
+/// bounds. One side may be massless, in all of them: its rate is infinite. The five are not
+/// independent (J_M c + J_L D = 2ζ): each is stated as tightly as is known, and whatever lies
+/// within all of them is covered.
 struct ServoBox {
   Bounds damping;        ///< ζ ≥ 0
-  Bounds motor_inertia;  ///< J_M, 0 < J_M < 1
-  Bounds load_inertia;   ///< J_L
-  Bounds motor_rate;     ///< c = F_M/J_M, 0 to finite
-  Bounds load_rate;      ///< D = F_L/J_L, 0 to finite
+  Bounds motor_inertia;  ///< J_M, 0 < J_M < 1, or 0 alone
+  Bounds load_inertia;   ///< J_L, likewise
+  Bounds motor_rate;     ///< c = F_M/J_M
+  Bounds load_rate;      ///< D = F_L/J_L
 };
 
 /// Bounds that hold for every servo of a box.

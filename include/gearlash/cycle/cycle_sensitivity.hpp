@@ -10,8 +10,9 @@ namespace gearlash {
 
 /// Partial derivatives by the numbers of a NormalizedServo. NaN where there is none.
 struct ServoGradient {
-  double damping = std::numeric_limits<double>::quiet_NaN();         ///< by ζ
-  double inertia_ratio = std::numeric_limits<double>::quiet_NaN();   ///< by J_L/J_M
+  double damping = std::numeric_limits<double>::quiet_NaN();        ///< by ζ
+  double inertia_ratio = std::numeric_limits<double>::quiet_NaN();  ///< by r = J_L/J_M; 0 at r = ∞
+  double load_share = std::numeric_limits<double>::quiet_NaN();     ///< by r/(1 + r), of inertia
   double friction_ratio = std::numeric_limits<double>::quiet_NaN();  ///< by F_L/(F_M+F_L)
   double backlash = std::numeric_limits<double>::quiet_NaN();        ///< by b, rad
   double restitution = std::numeric_limits<double>::quiet_NaN();     ///< by e, from above at e = 0
@@ -28,7 +29,6 @@ enum class SensitivityOutcome {
   undecided,  ///< on the boundary of hunting to within rounding, or more bounces than can be
               ///< followed; only the growth at rest is set
   undamped,   ///< ζ = 0: no cycle, and growth at rest is infinite; nothing is set
-  massless,   ///< a shaft without inertia: not worked out, nothing is set
   bounces     ///< a cycle with bounces that could not be run again; only the growth at rest is set
 };
 
@@ -72,12 +72,17 @@ struct CycleSensitivity {
 /// Where e > 0.999 and bounces too many to follow are left out, it is what fading_rattle() says.
 /// Costs what analyse_limit_cycles() costs.
 ///
+/// A massless side, which contact is plastic with: the limits of the derivatives of light sides, as
+/// Lagrange's polynomial through J/F = τ, 2τ, … 6τ has them, τ = 1e-3 min(1, ln μ₀)/(1 + 2ζ);
+/// everything is analytic in J/F but for terms like e^{−t/τ}. Error, of max(|derivative|, |value|):
+/// 1e-11; by load_share, of max(|derivative|, |value|/F) with that side's F: 1e-9 (tests/cycle,
+/// against 70 digits), more next to the boundary of hunting.
+///
 /// A size is the difference of two extremes of the load; where two of a kind tie, the derivative is
 /// that of one side. Throws InvalidInput.
 CycleSensitivity cycle_sensitivity(const NormalizedServo& servo);
 
-/// Growth at rest alone, which takes no search for cycles. NaN where a shaft has no inertia or ζ =
-/// 0. Throws InvalidInput.
+/// Growth at rest alone, which takes no search for cycles. NaN where ζ = 0. Throws InvalidInput.
 SensitiveValue growth_sensitivity(const NormalizedServo& servo);
 
 }  // namespace gearlash

@@ -90,16 +90,15 @@ class ChangeableDrive {
   double electrical_friction_ = 0.0;  ///< the part of F_M that is not the motor's friction
 };
 
-/// The drives between two, of which every number lies between theirs, with two masses and plastic
-/// contact; and how many seconds its unit of time, 1/ω_n, lasts.
+/// The drives between two, of which every number lies between theirs, with plastic contact; and how
+/// many seconds its unit of time, 1/ω_n, lasts.
 struct DriveBox {
   ServoBox servo;
   Bounds time_unit;
   Bounds backlash;
 };
 
-/// Drivetrains with one parameter between two values. Precondition: both are sound, with two
-/// masses.
+/// Drivetrains with one parameter between two values. Precondition: both are sound.
 DriveBox box_between(const Drivetrain& low, const Drivetrain& high);
 
 }  // namespace gearlash

@@ -13,8 +13,7 @@ namespace gearlash {
 /// How sure it is that no feasible value is missing.
 enum class SearchKind {
   certified,  ///< proved by bounds over every part of the range, but for slivers at its boundaries
-  scanned     ///< looked for at many values, more of them where a limit is near: with bounces, or
-              ///< where a shaft has no mass
+  scanned     ///< looked for at many values, more of them where a limit is near: with bounces
 };
 
 /// A value, and what the drive does there.
@@ -37,6 +36,9 @@ struct FeasibleValues {
   std::vector<Bounds> undecided;
   /// Where nothing meets the target: the value that comes closest to it, of many that were tried.
   std::optional<TriedValue> closest;
+  /// A scan met motion that no cycle repeats: there cycles, and with them feasible values, come and
+  /// go in windows, some narrower than any scan.
+  bool irregular = false;
   std::size_t evaluations = 0;  ///< of servos and of boxes
 
   bool contains(double value) const;
@@ -50,12 +52,12 @@ struct FeasibleValues {
 /// of the interval is closed in on with performance_of(), so that each end put back meets the
 /// target.
 ///
-/// A scan tries 65 values (1,025 where contact is plastic), halves what lies between two of them
-/// for as long as the distance to a limit changes there by more than it is, and with bounces
-/// follows growth at rest, which is soon worked out, at 1,025 values. It can miss what is narrower
-/// than the first of these steps; and with bounces it knows those cycles that
-/// analyse_limit_cycles() finds. Backlash is not scanned: sizes are in proportion to it, and
-/// nothing else depends on it.
+/// A scan, with bounces, tries 65 values, halves (six times at most) what lies between two of them
+/// for as long as the distance to a limit changes there by more than it is, or one is irregular
+/// motion and the other is not (twice everywhere that it hunts, where irregular motion was met),
+/// and follows growth at rest, which is soon worked out, at 1,025 values. It can miss what is
+/// narrower than the first of these steps; and it knows those cycles that analyse_limit_cycles()
+/// finds. Backlash is not scanned: sizes are in proportion to it, and nothing else depends on it.
 ///
 /// Precondition: validate(target) is empty.
 FeasibleValues feasible_values(const ChangeableDrive& drive, Parameter parameter,

@@ -34,10 +34,9 @@ ParameterMargin parameter_margin(const ChangeableDrive& drive, Parameter paramet
 
 enum class MarginOutcome {
   found,
-  out_of_reach,   ///< no boundary met within a factor exp(10) in any direction
-  always_hunts,   ///< a shaft without friction: no change by a ratio ends its hunting
-  never_hunts,    ///< no backlash
-  not_worked_out  ///< a shaft without inertia
+  out_of_reach,  ///< no boundary met within a factor exp(10) in any direction
+  always_hunts,  ///< a shaft without friction: no change by a ratio ends its hunting
+  never_hunts    ///< no backlash
 };
 
 /// Natural logarithms of ratios, number by number.
@@ -52,7 +51,7 @@ struct LogChange {
 };
 
 struct OverallMargin {
-  MarginOutcome outcome = MarginOutcome::not_worked_out;
+  MarginOutcome outcome = MarginOutcome::out_of_reach;
   bool hunts = false;                                          ///< at present
   double distance = std::numeric_limits<double>::quiet_NaN();  ///< |change|
   LogChange change;        ///< from the present drive to the boundary
