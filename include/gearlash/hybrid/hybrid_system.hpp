@@ -1,0 +1,118 @@
+// Piecewise-affine hybrid systems: what they are made of. Nothing here knows of gears.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gearlash::hybrid {
+
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+
+/// x′ = matrix x + offset.
+struct AffineFlow {
+  Matrix matrix{};
+  Vector offset{};
+};
+
+/// g(x) = normal·x + offset.
+struct AffineForm {
+  Vector normal{};
+  double offset = 0.0;
+
+  double at(const Vector& state) const { return normal.dot(state) + offset; }
+};
+
+/// What an instrument reads: step · round(measured/step), halves away from 0.
+struct Quantizer {
+  AffineForm measured{};
+  double step = 0.0;  ///< > 0
+  Vector gain{};      ///< what the reading adds to each number of the state
+
+  double reading(const Vector& state) const;
+};
+
+/// x⁺ = matrix x + offset + Σ gain · reading(x). An empty matrix stands for the identity, an empty
+/// offset for 0.
+struct Reset {
+  Matrix matrix{};
+  Vector offset{};
+  std::vector<Quantizer> quantizers{};
+
+  Vector after(const Vector& state) const;
+  /// ∂x⁺/∂x, of `size` numbers; between two steps of a quantizer its reading is constant.
+  Matrix slope(Eigen::Index size) const;
+};
+
+enum class Direction {
+  falling,  ///< g ≥ 0 in the mode; leaving that fires
+  rising,   ///< g ≤ 0 in the mode; leaving that fires
+  either    ///< every change of sign fires
+};
+
+/// Where a sequence of firings of one transition ends that come ever faster (Zeno of Elea:
+/// infinitely many in a finite time, as of a ball that bounces to rest).
+struct Settling {
+  std::size_t target = 0;  ///< mode
+  Reset reset;             ///< onto the limit, from a state just after a firing
+};
+
+/// Fires as the guard leaves its side (Direction), and then at once
+///   x ← reset(x), mode ← target.
+struct Transition {
+  std::string name{};
+  AffineForm guard{};
+  Direction direction = Direction::falling;
+  Reset reset{};
+  std::size_t target = 0;  ///< index of a mode
+  std::optional<Settling> settling{};
+};
+
+/// Fires at the ticks of a clock.
+struct TimedTransition {
+  std::string name{};
+  std::size_t clock = 0;  ///< index of a clock
+  Reset reset{};
+  std::size_t target = 0;
+};
+
+struct Mode {
+  std::string name{};
+  AffineFlow flow{};
+  std::vector<Transition> transitions{};
+  std::vector<TimedTransition> timed{};
+};
+
+/// Ticks at first, first + period, first + 2 period, …; or, without a period, at `times`.
+struct Clock {
+  std::string name{};
+  double first = 0.0;
+  double period = 0.0;          ///< > 0, or 0 for none
+  std::vector<double> times{};  ///< without a period: rising
+};
+
+/// States x of one size, a mode each, and what leads from one to another.
+///
+/// In a mode x follows its flow. A transition fires at the first time after which its guard is on
+/// the wrong side; where it is 0 at the start, the first of its time derivatives that is not 0 says
+/// which side it is on, so that it is armed again by the motion itself; where all are 0 (the guard
+/// is 0 on an interval) it does not fire. A guard that is on the wrong side as its mode begins
+/// fires at once. Of several transitions at one instant the timed ones come first, in the order of
+/// the clocks, each clock once; then the others in their order in the mode; each is followed by the
+/// new mode's own rules. So an event is never lost and never fires twice for one reason.
+struct HybridSystem {
+  std::vector<std::string> state_names{};
+  std::vector<Mode> modes{};
+  std::vector<Clock> clocks{};
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(state_names.size()); }
+};
+
+/// Every fault: shapes that do not agree, indices out of range, numbers that are not finite, clocks
+/// that go backwards. Empty where there is none. Each names what it is of.
+std::vector<std::string> faults(const HybridSystem& system);
+
+}  // namespace gearlash::hybrid

@@ -1,0 +1,104 @@
+// The motion of a hybrid system: simulation without a step size, every event certified.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "gearlash/hybrid/hybrid_system.hpp"
+
+namespace gearlash::hybrid {
+
+struct State {
+  std::size_t mode = 0;
+  Vector numbers;
+};
+
+enum class EventKind {
+  transition,  ///< a guard left its side
+  timed,       ///< a clock ticked
+  settling     ///< infinitely many firings of a transition were summed: time is that of the last
+};
+
+struct Event {
+  double time = 0.0;
+  EventKind kind = EventKind::transition;
+  std::size_t mode = 0;        ///< before
+  std::size_t transition = 0;  ///< among the mode's transitions, or its timed ones
+  std::size_t mode_after = 0;
+  Vector before;
+  Vector after;
+};
+
+/// A guard that came to 0 and turned back, as far as numbers can tell: a little change of the
+/// system makes an event of it, or keeps it away (grazing).
+struct Touch {
+  double time = 0.0;
+  std::size_t mode = 0;
+  std::size_t transition = 0;
+};
+
+enum class StopReason {
+  reached_end,
+  event_limit,  ///< as many events as were permitted
+  zeno,         ///< ever faster firings of one transition, without a Settling, have no end before
+                ///< `end_time`
+  chattering,   ///< more events at one instant than there are ways through the modes; culprit() has
+                ///< the transition
+  diverged      ///< numbers beyond 1e150
+};
+
+struct SimulationOptions {
+  double until = 0.0;
+  std::size_t event_limit = 1'000'000;
+};
+
+class Trajectory {
+ public:
+  double end_time() const { return end_time_; }
+  const State& end() const { return end_; }
+  StopReason stop_reason() const { return stop_reason_; }
+  /// "mode: transition", of the last event, where stop_reason() is zeno or chattering.
+  const std::string& culprit() const { return culprit_; }
+  const std::vector<Event>& events() const { return events_; }
+  const std::vector<Touch>& touches() const { return touches_; }
+  std::size_t steps() const { return steps_.size(); }
+
+  /// At any time from 0 to end_time() (clamped to it); at an event, after it.
+  State at(double time) const;
+
+ private:
+  friend class Simulation;
+  struct Step {
+    double time;
+    State start;
+  };
+  std::vector<AffineFlow> flows_;
+  std::vector<Step> steps_;
+  std::vector<Event> events_;
+  std::vector<Touch> touches_;
+  double end_time_ = 0.0;
+  State end_;
+  StopReason stop_reason_ = StopReason::reached_end;
+  std::string culprit_;
+};
+
+/// The motion from `start` at time 0 on, by the rules of HybridSystem.
+///
+/// Steps are Taylor series whose order and length are chosen by a proved bound of what they leave
+/// out (below rounding); a guard is a polynomial on each, and first_exit() finds where it first
+/// turns negative. What rounding may hide: excursions of a guard beyond 0 by less than some 1e-15
+/// of the terms that it is a sum of; they are listed as touches. A number that the flow makes small
+/// by cancellation is known to some 1e-15 of what it is made of.
+///
+/// Firings of one transition alone whose intervals shrink by a steady ratio ρ have the limit
+/// d ρ/(1 − ρ) after the last, d the last interval. Where what is left is some 1e-10 of the mode's
+/// own time, they end there, by the transition's Settling; without one the motion has no end beyond
+/// that time, and stops when the intervals are too short to be told apart (StopReason::zeno).
+///
+/// Throws std::invalid_argument with all faults of the system, of the start (a mode, finite numbers
+/// of the right count) and of the options (0 ≤ until, finite).
+Trajectory simulate(const HybridSystem& system, const State& start,
+                    const SimulationOptions& options);
+
+}  // namespace gearlash::hybrid

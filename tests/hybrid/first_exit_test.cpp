@@ -1,0 +1,102 @@
+// Exits of polynomials whose zeros are known.
+#include "gearlash/hybrid/first_exit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "../servo/seeded_draws.hpp"
+
+namespace gearlash::hybrid {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+std::vector<double> times_linear(const std::vector<double>& p, double root) {
+  std::vector<double> product(p.size() + 1, 0.0);
+  for (std::size_t k = 0; k < p.size(); ++k) {
+    product[k] += root * p[k];
+    product[k + 1] -= p[k];
+  }
+  return product;  // p(τ) (root − τ)
+}
+
+double size_of(const std::vector<double>& p) {
+  double sum = 0.0;
+  for (const double c : p) sum += std::abs(c);
+  return sum;
+}
+
+TEST(FirstExit, OfAPolynomialThatStaysPositiveIsNone) {
+  EXPECT_FALSE(first_exit({1.0, 2.0, 3.0}, 1e-16).at);
+  EXPECT_FALSE(first_exit({1.0, -0.5}, 1e-16).at);
+  EXPECT_FALSE(first_exit({1.0, -3.0, 3.0}, 1e-16).at);  // least 1/4
+}
+
+TEST(FirstExit, IsTheFirstOfThree) {
+  const auto p = times_linear(times_linear(times_linear({1.0}, 0.25), 0.5), 0.75);
+  const FirstExit exit = first_exit(p, 1e-16);
+  ASSERT_TRUE(exit.at);
+  EXPECT_NEAR(*exit.at, 0.25, 1e-15);
+  EXPECT_FALSE(exit.touch);
+}
+
+TEST(EdgeFirstExit, ATouchIsNoExit) {
+  const auto p = times_linear(times_linear({1.0}, 0.3), 0.3);
+  const FirstExit exit = first_exit(p, 1e-15);
+  EXPECT_FALSE(exit.at);
+  ASSERT_TRUE(exit.touch);
+  EXPECT_NEAR(*exit.touch, 0.3, 1e-7);
+}
+
+TEST(EdgeFirstExit, ATouchBeforeAnExitIsToldToo) {
+  const auto p = times_linear(times_linear(times_linear({1.0}, 0.3), 0.3), 0.8);
+  const FirstExit exit = first_exit(p, 1e-15);
+  ASSERT_TRUE(exit.at);
+  EXPECT_NEAR(*exit.at, 0.8, 1e-15);
+  ASSERT_TRUE(exit.touch);
+  EXPECT_NEAR(*exit.touch, 0.3, 1e-7);
+}
+
+TEST(EdgeFirstExit, TwoZerosSideBySideAreAnExit) {
+  for (const double distance : {1e-2, 1e-4, 1e-6}) {
+    const auto p = times_linear(times_linear({1.0}, 0.4), 0.4 + distance);
+    const FirstExit exit = first_exit(p, 4.0 * epsilon);
+    ASSERT_TRUE(exit.at) << distance;
+    EXPECT_NEAR(*exit.at, 0.4, 16.0 * epsilon / distance) << distance;
+  }
+}
+
+TEST(PropertyFirstExit, IsTheLeastOfRandomZeros) {
+  constexpr std::uint64_t seed = 61;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<double> p = {draws.log_uniform(1e-3, 1e3)};
+    double least = 2.0;
+    std::vector<double> roots;
+    const int degree = 1 + i % 12;
+    for (int k = 0; k < degree; ++k) {
+      roots.push_back(draws.uniform(0.02, 3.0));
+      p = times_linear(p, roots.back());
+      least = std::min(least, roots.back());
+    }
+    // How far rounding of the coefficients moves the least one.
+    double slope = p.back();
+    for (const double root : roots) {
+      if (root != least) slope *= root - least;
+    }
+    const double rounding = 4.0 * epsilon * size_of(p);
+    const double moved = 4.0 * rounding / std::abs(slope);
+    if (moved > 1e-6 || std::abs(least - 1.0) < 1e-6) continue;
+    const FirstExit exit = first_exit(p, rounding);
+    ASSERT_EQ(exit.at.has_value(), least < 1.0);
+    if (least < 1.0) {
+      EXPECT_NEAR(*exit.at, least, moved + epsilon);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gearlash::hybrid

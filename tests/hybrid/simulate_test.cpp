@@ -1,0 +1,211 @@
+// Hybrid motions with closed forms, and the rules for events.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "gearlash/hybrid/hybrid_trajectory.hpp"
+
+namespace gearlash::hybrid {
+namespace {
+
+Vector vector_of(std::initializer_list<double> values) {
+  Vector vector(static_cast<Eigen::Index>(values.size()));
+  std::copy(values.begin(), values.end(), vector.begin());
+  return vector;
+}
+
+Matrix matrix_of(Eigen::Index size, std::initializer_list<double> rows) {
+  Matrix matrix(size, size);
+  auto next = rows.begin();
+  for (Eigen::Index i = 0; i < size; ++i) {
+    for (Eigen::Index j = 0; j < size; ++j) matrix(i, j) = *next++;
+  }
+  return matrix;
+}
+
+// ---- a ball that bounces ------------------------------------------------------------------------
+
+constexpr double gravity = 9.80665;
+
+/// Height and speed; then at rest.
+HybridSystem bouncing_ball(double restitution, bool settles) {
+  Transition bounce{.name = "bounce",
+                    .guard = {vector_of({1.0, 0.0}), 0.0},
+                    .reset = {matrix_of(2, {1.0, 0.0, 0.0, -restitution}), {}, {}}};
+  if (settles) bounce.settling = Settling{1, {Matrix::Zero(2, 2), {}, {}}};
+  return {.state_names = {"height", "speed"},
+          .modes = {{.name = "flies",
+                     .flow = {matrix_of(2, {0.0, 1.0, 0.0, 0.0}), vector_of({0.0, -gravity})},
+                     .transitions = {bounce}},
+                    {.name = "rests", .flow = {Matrix::Zero(2, 2), Vector::Zero(2)}}},
+          .clocks = {}};
+}
+
+TEST(OracleSimulate, ABallBouncesAndComesToRestAtZenosTime) {
+  const Trajectory motion =
+      simulate(bouncing_ball(0.8, true), {0, vector_of({1.0, 0.0})}, {.until = 10.0});
+  EXPECT_EQ(motion.stop_reason(), StopReason::reached_end);
+  const double first = std::sqrt(2.0 / gravity);
+  EXPECT_NEAR(motion.events().at(0).time, 0.451600756, 5e-10);  // published
+  EXPECT_NEAR(motion.events()[0].time, first, 1e-15);
+  for (std::size_t n = 1; n < 20; ++n) {
+    double time = first;
+    for (std::size_t k = 1; k <= n; ++k) time += 2.0 * first * std::pow(0.8, k);
+    EXPECT_NEAR(motion.events()[n].time, time, 1e-14);
+  }
+  const Event& last = motion.events().back();
+  EXPECT_EQ(last.kind, EventKind::settling);
+  EXPECT_EQ(last.mode_after, 1U);
+  EXPECT_NEAR(last.time, first * (1.0 + 0.8) / (1.0 - 0.8), 1e-9);
+  EXPECT_NEAR(last.time, 4.0644068, 5e-8);  // published
+}
+
+TEST(EdgeSimulate, WithoutALimitModeZenosTimeIsTheEnd) {
+  const Trajectory motion =
+      simulate(bouncing_ball(0.8, false), {0, vector_of({1.0, 0.0})}, {.until = 10.0});
+  EXPECT_EQ(motion.stop_reason(), StopReason::zeno);
+  EXPECT_NEAR(motion.end_time(), 4.0644068, 5e-8);
+  EXPECT_EQ(motion.culprit(), "flies: bounce");
+}
+
+TEST(EdgeSimulate, AnElasticBallBouncesOn) {
+  const Trajectory motion =
+      simulate(bouncing_ball(1.0, true), {0, vector_of({1.0, 0.0})}, {.until = 100.0});
+  const double first = std::sqrt(2.0 / gravity);
+  const auto bounces = static_cast<std::size_t>(0.5 * (100.0 / first + 1.0));
+  ASSERT_EQ(motion.events().size(), bounces);
+  EXPECT_NEAR(motion.events().back().time, first * (2.0 * static_cast<double>(bounces) - 1.0),
+              1e-11);
+}
+
+TEST(EdgeSimulate, AGuardThatIsZeroOnAnIntervalDoesNotFire) {
+  // At rest on the floor without gravity: height is 0 for ever.
+  HybridSystem system = bouncing_ball(0.5, true);
+  system.modes[0].flow.offset.setZero();
+  const Trajectory motion = simulate(system, {0, vector_of({0.0, 0.0})}, {.until = 1.0});
+  EXPECT_TRUE(motion.events().empty());
+  EXPECT_EQ(motion.stop_reason(), StopReason::reached_end);
+}
+
+TEST(EdgeSimulate, AStartOnTheGuardFiresByItsMotion) {
+  const HybridSystem system = bouncing_ball(0.5, true);
+  const Trajectory up = simulate(system, {0, vector_of({0.0, 1.0})}, {.until = 0.1});
+  EXPECT_TRUE(up.events().empty());
+  const Trajectory down = simulate(system, {0, vector_of({0.0, -1.0})}, {.until = 0.05});
+  ASSERT_EQ(down.events().size(), 1U);
+  EXPECT_EQ(down.events()[0].time, 0.0);
+  EXPECT_EQ(down.events()[0].after[1], 0.5);
+}
+
+TEST(EdgeSimulate, ATouchIsListedAndIsNoEvent) {
+  // x = (t − 1)²
+  const HybridSystem system{
+      .state_names = {"x", "speed"},
+      .modes = {{.name = "falls and rises",
+                 .flow = {matrix_of(2, {0.0, 1.0, 0.0, 0.0}), vector_of({0.0, 2.0})},
+                 .transitions = {{.name = "floor", .guard = {vector_of({1.0, 0.0}), 0.0}}}}},
+      .clocks = {}};
+  const Trajectory motion = simulate(system, {0, vector_of({1.0, -2.0})}, {.until = 3.0});
+  EXPECT_TRUE(motion.events().empty());
+  ASSERT_EQ(motion.touches().size(), 1U);
+  EXPECT_NEAR(motion.touches()[0].time, 1.0, 1e-7);
+}
+
+TEST(EdgeSimulate, TwoModesThatSendEachOtherBackChatter) {
+  const auto mode = [](const char* name, double speed, Direction direction, std::size_t other) {
+    return Mode{.name = name,
+                .flow = {Matrix::Zero(1, 1), vector_of({speed})},
+                .transitions = {{.name = "switch",
+                                 .guard = {vector_of({1.0}), 0.0},
+                                 .direction = direction,
+                                 .target = other}}};
+  };
+  const HybridSystem system{
+      .state_names = {"x"},
+      .modes = {mode("down", -1.0, Direction::falling, 1), mode("up", 1.0, Direction::rising, 0)},
+      .clocks = {}};
+  const Trajectory motion = simulate(system, {0, vector_of({1.0})}, {.until = 5.0});
+  EXPECT_EQ(motion.stop_reason(), StopReason::chattering);
+  EXPECT_EQ(motion.end_time(), 1.0);
+}
+
+TEST(Simulate, ClocksTickInOrder) {
+  const auto adds = [](double amount) { return Reset{{}, vector_of({amount}), {}}; };
+  const HybridSystem system{
+      .state_names = {"x"},
+      .modes = {{.name = "waits",
+                 .flow = {Matrix::Zero(1, 1), Vector::Zero(1)},
+                 .timed = {{.name = "sample", .clock = 0, .reset = adds(1.0)},
+                           {.name = "table", .clock = 1, .reset = adds(100.0)}}}},
+      .clocks = {{.name = "sampler", .period = 0.1}, {.name = "table", .times = {0.25, 0.5}}}};
+  const Trajectory motion = simulate(system, {0, vector_of({0.0})}, {.until = 0.55});
+  ASSERT_EQ(motion.events().size(), 8U);
+  EXPECT_EQ(motion.end().numbers[0], 206.0);
+  EXPECT_EQ(motion.at(0.26).numbers[0], 103.0);
+  EXPECT_EQ(motion.events()[4].time, 0.30000000000000004);
+  EXPECT_EQ(motion.events()[6].kind, EventKind::timed);
+}
+
+// ---- an oscillator against a stop ---------------------------------------------------------------
+
+/// x″ + 0.1x′ + x = A cos t, a stop at x = 1; the force as an oscillation of its own.
+HybridSystem impact_oscillator(double restitution) {
+  Matrix reset = Matrix::Identity(4, 4);
+  reset(1, 1) = -restitution;
+  return {.state_names = {"x", "speed", "force", "force's rate"},
+          .modes = {{.name = "free",
+                     .flow = {matrix_of(4, {0.0, 1.0, 0.0, 0.0, -1.0, -0.1, 1.0, 0.0, 0.0, 0.0, 0.0,
+                                            1.0, 0.0, 0.0, -1.0, 0.0}),
+                              Vector::Zero(4)},
+                     .transitions = {{.name = "stop",
+                                      .guard = {vector_of({1.0, 0.0, 0.0, 0.0}), -1.0},
+                                      .direction = Direction::rising,
+                                      .reset = {reset, {}, {}}}}}},
+          .clocks = {}};
+}
+
+TEST(OracleSimulate, TheImpactOscillatorEndsInItsPublishedOrbit) {
+  const Trajectory motion =
+      simulate(impact_oscillator(0.8), {0, vector_of({0.0, 0.0, 1.0, 0.0})}, {.until = 600.0});
+  const Event& last = motion.events().back();
+  EXPECT_NEAR(last.after[1], -1.35658635, 5e-9);
+  const double phase = std::remainder(last.time, 2.0 * std::numbers::pi);
+  EXPECT_NEAR(phase, 0.075952, 5e-7);
+}
+
+// ---- switched flows -----------------------------------------------------------------------------
+
+TEST(OracleSimulate, AFastDecayIsLeftBehind) {
+  // A fast decay beside a slow one: y = e^{−t}, z → y.
+  const HybridSystem system{
+      .state_names = {"slow", "fast"},
+      .modes = {{.name = "decays",
+                 .flow = {matrix_of(2, {-1.0, 0.0, 1000.0, -1000.0}), Vector::Zero(2)}}},
+      .clocks = {}};
+  const Trajectory motion = simulate(system, {0, vector_of({1.0, 0.0})}, {.until = 2.0});
+  const double slow = std::exp(-2.0);
+  EXPECT_NEAR(motion.end().numbers[0], slow, 1e-15);
+  EXPECT_NEAR(motion.end().numbers[1], slow * 1000.0 / 999.0, 1e-15);
+  EXPECT_LT(motion.steps(), 100U);  // 1,000 at the fast one's own pace
+}
+
+TEST(EdgeSimulate, FaultsAreToldAllAtOnce) {
+  HybridSystem system = bouncing_ball(0.5, true);
+  system.modes[0].transitions[0].target = 7;
+  system.modes[0].flow.offset = vector_of({1.0});
+  system.clocks.push_back({.name = "table", .times = {1.0, 0.5}});
+  try {
+    simulate(system, {0, vector_of({0.0})}, {.until = -1.0});
+    FAIL();
+  } catch (const std::invalid_argument& fault) {
+    const std::string text = fault.what();
+    for (const char* part :
+         {"target", "offset", "times must be finite and rise", "start.numbers", "options.until"}) {
+      EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gearlash::hybrid
