@@ -14,6 +14,8 @@ namespace {
 /// A step times the rate. What terms of either sign take from each other is then below e².
 constexpr double longest_in_rates = 2.0;
 constexpr int highest_order = 60;
+/// Of a sum of some products, as a share of the largest of them.
+constexpr double epsilon = 4.0 * std::numeric_limits<double>::epsilon();
 
 /// Decays split off are so much faster than all that is left, which pays.
 constexpr double least_gap = 8.0;
@@ -82,6 +84,7 @@ Vector Series::magnitude() const {
 LinearFlow::LinearFlow(const AffineFlow& flow)
     : size_(static_cast<int>(flow.offset.size())),
       matrix_(flow.matrix),
+      sizes_(flow.matrix.cwiseAbs()),
       offset_(flow.offset),
       weights_(static_cast<std::size_t>(size_), 1.0) {
   balance();
@@ -127,21 +130,30 @@ double LinearFlow::weighted_norm(const double* vector) const {
   return largest;
 }
 
-void LinearFlow::expand(const Vector& state, double length, Series& series) const {
+void LinearFlow::expand(const Vector& state, const Vector& noise, double length,
+                        Series& series) const {
   const auto size = static_cast<std::size_t>(size_);
   series.size_ = size_;
   series.length_ = length;
   series.terms_.resize(size * (highest_order + 1));
+  series.rounding_.resize(size * (highest_order + 1));
   double* terms = series.terms_.data();
+  double* roundings = series.rounding_.data();
   const Vector velocity = this->velocity(state);
+  const Vector velocity_noise =
+      sizes_ * (noise + epsilon * state.cwiseAbs()) + epsilon * offset_.cwiseAbs();
   for (std::size_t i = 0; i < size; ++i) {
-    terms[i] = state[static_cast<Eigen::Index>(i)];
-    terms[size + i] = length * velocity[static_cast<Eigen::Index>(i)];
+    const auto number = static_cast<Eigen::Index>(i);
+    terms[i] = state[number];
+    roundings[i] = noise[number];
+    terms[size + i] = length * velocity[number];
+    roundings[size + i] = length * velocity_noise[number];
   }
   const double reach = length * norm_;
   const double largest = std::max(weighted_norm(terms), weighted_norm(terms + size));
   const double negligible = 0x1p-60 * largest;
   const double* matrix = matrix_.data();
+  const double* sizes = sizes_.data();
   for (int k = 1;; ++k) {
     const double* here = terms + static_cast<std::size_t>(k) * size;
     const double q = reach / (k + 1);
@@ -149,13 +161,21 @@ void LinearFlow::expand(const Vector& state, double length, Series& series) cons
     series.order_ = k;
     series.remainder_ = left_out;
     if (left_out <= negligible || k == highest_order) return;
+    const double* rounding_here = roundings + static_cast<std::size_t>(k) * size;
     double* next = terms + static_cast<std::size_t>(k + 1) * size;
+    double* rounding_next = roundings + static_cast<std::size_t>(k + 1) * size;
     std::fill(next, next + size, 0.0);
+    std::fill(rounding_next, rounding_next + size, 0.0);
     const double factor = length / (k + 1);
     for (std::size_t j = 0; j < size; ++j) {
       const double by = factor * here[j];
+      const double rounding_by = factor * (rounding_here[j] + epsilon * std::abs(here[j]));
       const double* column = matrix + j * size;
-      for (std::size_t i = 0; i < size; ++i) next[i] += column[i] * by;
+      const double* column_sizes = sizes + j * size;
+      for (std::size_t i = 0; i < size; ++i) {
+        next[i] += column[i] * by;
+        rounding_next[i] += column_sizes[i] * rounding_by;
+      }
     }
   }
 }

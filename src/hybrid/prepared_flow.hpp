@@ -16,6 +16,8 @@ class Series {
   /// Proved, but for rounding: |x_i − Σ| ≤ remainder · weight_i of the flow.
   double remainder() const { return remainder_; }
   const double* term(int k) const { return &terms_[static_cast<std::size_t>(k * size_)]; }
+  /// What rounding may add to each number of term(k), to first order.
+  const double* rounding(int k) const { return &rounding_[static_cast<std::size_t>(k * size_)]; }
   Vector at(double share) const;
   /// Σ_k |term(k)_i|: what rounding is a share of.
   Vector magnitude() const;
@@ -27,6 +29,7 @@ class Series {
   double length_ = 0.0;
   double remainder_ = 0.0;
   std::vector<double> terms_;
+  std::vector<double> rounding_;
 };
 
 /// x′ = A x + b, in weights w_i (powers of 2) that make the norm of A, max_i Σ_j |A_ij| w_j/w_i,
@@ -43,8 +46,9 @@ class LinearFlow {
 
   /// By x₍ₖ₊₁₎ = h/(k+1) A x₍ₖ₎ until what is left out,
   ///   Σ_{j>k} |x₍ⱼ₎| ≤ |x₍ₖ₎| q/(1 − q),  q = h‖A‖/(k + 1),
-  /// is below rounding. Precondition: 0 ≤ length ≤ longest_step().
-  void expand(const Vector& state, double length, Series& series) const;
+  /// is below rounding. `noise` is how well each number of the state is known.
+  /// Precondition: 0 ≤ length ≤ longest_step().
+  void expand(const Vector& state, const Vector& noise, double length, Series& series) const;
 
  private:
   void balance();
@@ -52,6 +56,7 @@ class LinearFlow {
 
   int size_;
   Matrix matrix_;
+  Matrix sizes_;  ///< |A|
   Vector offset_;
   std::vector<double> weights_;
   double norm_ = 0.0;

@@ -171,16 +171,17 @@ class Simulation {
     for (std::size_t k = 0; k < count; ++k) {
       const double* term = series_.term(static_cast<int>(k));
       double sum = k == 0 ? guard.offset : 0.0;
-      double size = std::abs(sum);
+      const double* term_rounding = series_.rounding(static_cast<int>(k));
+      double uncertainty = rounding * std::abs(sum);
       for (const auto& [number, factor] : guard.terms) {
         sum += factor * term[number];
-        size += std::abs(factor * term[number]);
+        uncertainty +=
+            std::abs(factor) * (rounding * std::abs(term[number]) + term_rounding[number]);
       }
       result.coefficients[k] = sign * sum;
-      result.uncertainties[k] = rounding * size;
+      result.uncertainties[k] = uncertainty;
     }
     for (const auto& [number, factor] : guard.terms) {
-      result.uncertainties[0] += std::abs(factor) * noise_[number];
       result.remainder += std::abs(factor) * series_.remainder() * flow_->weight(number);
     }
     return result;
@@ -223,7 +224,7 @@ class Simulation {
     flow_ = &mode().flow.from(state_.numbers);
     const double limit = std::min(options_.until, next_tick());
     const double length = std::min(flow_->longest_step(), limit - time_);
-    flow_->expand(state_.numbers, length, series_);
+    flow_->expand(state_.numbers, noise_, length, series_);
     double earliest = infinity;
     std::size_t which = 0;
     std::vector<Touch> touches;
@@ -372,7 +373,8 @@ State Trajectory::at(double time) const {
   const PreparedFlow flow(flows_[step.start.mode]);
   Series series;
   const LinearFlow& here = flow.from(step.start.numbers);
-  here.expand(step.start.numbers, std::max(0.0, time - step.time), series);
+  const Vector exact = Vector::Zero(step.start.numbers.size());
+  here.expand(step.start.numbers, exact, std::max(0.0, time - step.time), series);
   return {step.start.mode, flow.corrected(here, series.at(1.0))};
 }
 
