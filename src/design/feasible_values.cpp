@@ -17,15 +17,21 @@ namespace {
 struct Part {
   Bounds values;
   Judgement judgement;
+  /// One of its ends, or what was met with while closing in, has no cycle that is known.
+  bool is_unknown = false;
 };
 
-/// Values all over a range: by ratio where that is wide and has no 0.
-std::vector<double> spread_over(const Bounds& range, std::size_t count) {
-  const bool by_ratio = range.low > 0.0 && range.high > 4.0 * range.low;
+/// Values all over a range: by ratio where that is wide, from 0 on over the last four decades; of a
+/// restitution evenly.
+std::vector<double> spread_over(const Bounds& range, std::size_t count, bool evenly) {
+  constexpr double decades = 1e-4;
+  const double low = range.low > 0.0 ? range.low : decades * range.high;
+  const bool by_ratio = !evenly && range.high > 4.0 * low;
   std::vector<double> values;
+  if (by_ratio && low > range.low) values.push_back(range.low);
   for (std::size_t i = 0; i < count; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(count);
-    values.push_back(by_ratio ? range.low * std::pow(range.high / range.low, share)
+    values.push_back(by_ratio ? low * std::pow(range.high / low, share)
                               : range.low + share * (range.high - range.low));
   }
   values.push_back(range.high);
@@ -96,21 +102,29 @@ class Search {
     std::vector<Part> parts;
     const std::vector<TriedValue> tried = tried_values(range);
     for (std::size_t i = 0; i + 1 < tried.size(); ++i) {
-      const bool met = is_met(target_, tried[i].performance);
+      const Performance& low = tried[i].performance;
+      const Performance& high = tried[i + 1].performance;
+      const bool met = is_met(target_, low);
       const Judgement alike = met ? Judgement::all : Judgement::none;
       parts.push_back({{tried[i].value, tried[i + 1].value},
-                       met == is_met(target_, tried[i + 1].performance) ? alike : Judgement::some});
+                       met == is_met(target_, high) ? alike : Judgement::some,
+                       !is_known(target_, low) || !is_known(target_, high)});
     }
     return parts;
   }
 
   /// Of two values, the one that meets the target and one that does not, the last to meet it.
-  double last_met(double met, double unmet) {
+  struct LastMet {
+    double value;
+    bool met_unknown = false;  ///< between the two there is motion of which no cycle is known
+  };
+  LastMet last_met(double met, double unmet) {
+    bool met_unknown = false;
     const bool bounces = has_bounces(drive_, parameter_);
     if (bounces) {
       // Growth at rest is soon worked out, and what it does not rule out is met as a rule.
       const double allowed = last_allowed_by_growth(met, unmet);
-      if (allowed == met || is_met_at(allowed)) return allowed;
+      if (allowed == met || is_met_at(allowed)) return {allowed};
       unmet = allowed;
     }
     double met_by = 1.0;
@@ -119,6 +133,7 @@ class Search {
       ++evaluations_;
       const Performance performance = performance_at(value);
       const bool here = is_met(target_, performance);
+      met_unknown = met_unknown || (bounces && !is_known(target_, performance));
       (here ? met : unmet) = value;
       // Its size makes the way shorter, its sign alone counts.
       const double size = std::abs(excess(target_, performance));
@@ -137,17 +152,12 @@ class Search {
     };
     const double low = std::min(met, unmet);
     const double high = std::max(met, unmet);
-    if (is_close(low, high)) return met;
+    if (is_close(low, high)) return {met};
     const double at_low = signed_excess(low);
     const double at_high = signed_excess(high);
     std::uintmax_t most = 400;
     boost::math::tools::toms748_solve(signed_excess, low, high, at_low, at_high, is_close, most);
-    return met;
-  }
-
-  /// Whether motion that no cycle repeats was met with.
-  bool met_irregular_motion() const {
-    return std::any_of(tried_.begin(), tried_.end(), is_irregular);
+    return {met, met_unknown};
   }
 
   /// The value that comes closest to the target.
@@ -160,9 +170,7 @@ class Search {
   }
 
  private:
-  static bool is_irregular(const TriedValue& tried) {
-    return tried.performance.verdict == Verdict::hunts_irregularly;
-  }
+  bool is_unknown(const TriedValue& tried) const { return !is_known(target_, tried.performance); }
 
   static bool hunts(const TriedValue& tried) {
     return tried.performance.verdict != Verdict::cannot_hunt;
@@ -200,7 +208,9 @@ class Search {
     constexpr int most_halvings = 6;
     constexpr int halvings_everywhere = 2;
     for (int i = 0; i < most_halvings; ++i) {
-      const bool everywhere = met_irregular_motion() && i < halvings_everywhere;
+      const bool met_unknown = std::any_of(tried_.begin(), tried_.end(),
+                                           [&](const auto& one) { return is_unknown(one); });
+      const bool everywhere = met_unknown && i < halvings_everywhere;
       const std::vector<TriedValue> between = at_all(middles_to_try(everywhere));
       if (between.empty()) break;
       tried_.insert(tried_.end(), between.begin(), between.end());
@@ -211,10 +221,11 @@ class Search {
 
   std::vector<double> first_values(const Bounds& range) {
     const bool bounces = has_bounces(drive_, parameter_);
-    std::vector<double> values = spread_over(range, bounces ? coarse : fine);
+    const bool evenly = parameter_ == Parameter::restitution;
+    std::vector<double> values = spread_over(range, bounces ? coarse : fine, evenly);
     if (!bounces) return values;
     // Growth at rest is soon worked out: between these values it passes 1, or a limit.
-    const std::vector<double> looked_at = spread_over(range, fine);
+    const std::vector<double> looked_at = spread_over(range, fine, evenly);
     std::vector<double> growths(looked_at.size());
     on_threads(0, looked_at.size(), [&](std::size_t i) { growths[i] = growth_at(looked_at[i]); });
     const auto differ = [&](double a, double b) {
@@ -254,8 +265,8 @@ class Search {
   }
 
   /// Between neighbours on one side of a limit of the cycle which is no farther than they, or one
-  /// of them and the next, are from each other; and between regular and irregular motion, or
-  /// everywhere that it hunts: by irregular motion there are windows of others.
+  /// of them and the next, are from each other; and beside motion of which no cycle is known, or
+  /// everywhere that it hunts: beside irregular motion there are windows of others.
   std::vector<double> middles_to_try(bool everywhere) const {
     const Target of_cycles{.size = target_.size, .frequency = target_.frequency};
     std::vector<double> beyond;
@@ -271,7 +282,7 @@ class Search {
       return !is_crossed && std::isfinite(distance) && steepest > distance;
     };
     const auto is_wanted = [&](std::size_t i) {
-      if (is_near_limit(i) || is_irregular(tried_[i]) != is_irregular(tried_[i + 1])) return true;
+      if (is_near_limit(i) || is_unknown(tried_[i]) != is_unknown(tried_[i + 1])) return true;
       return everywhere && hunts(tried_[i]) && hunts(tried_[i + 1]);
     };
     for (std::size_t i = 0; i + 1 < beyond.size(); ++i) {
@@ -368,24 +379,38 @@ FeasibleValues feasible_values(const ChangeableDrive& drive, Parameter parameter
       found.intervals.push_back({low, high});
     }
   };
+  const auto add_undecided = [&](double low, double high) {
+    if (!found.undecided.empty() && found.undecided.back().high >= low) {
+      found.undecided.back().high = high;
+    } else {
+      found.undecided.push_back({low, high});
+    }
+  };
   for (const Part& part : parts) {
     const Bounds& values = part.values;
+    if (part.is_unknown) {
+      add_undecided(values.low, values.high);
+      continue;
+    }
     if (part.judgement == Judgement::all) add(values.low, values.high);
     if (part.judgement != Judgement::some) continue;
     // What its ends are is what its neighbours are.
     const bool low_met = search.is_met_at(values.low);
     const bool high_met = search.is_met_at(values.high);
     if (low_met == high_met) {
-      if (values.low > 0.0) found.undecided.push_back(values);  // at 0 the range ends
+      if (values.low > 0.0) add_undecided(values.low, values.high);  // at 0 the range ends
       if (low_met) add(values.low, values.high);
     } else if (low_met) {
-      add(values.low, search.last_met(values.low, values.high));
+      const auto [last, met_unknown] = search.last_met(values.low, values.high);
+      add(values.low, last);
+      if (met_unknown) add_undecided(last, values.high);
     } else {
-      add(search.last_met(values.high, values.low), values.high);
+      const auto [first, met_unknown] = search.last_met(values.high, values.low);
+      if (met_unknown) add_undecided(values.low, first);
+      add(first, values.high);
     }
   }
   if (found.intervals.empty()) found.closest = search.closest(found.searched);
-  found.irregular = search.met_irregular_motion();
   found.evaluations = search.evaluations();
   return found;
 }

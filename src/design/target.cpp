@@ -86,6 +86,20 @@ bool is_met(const Target& target, const Performance& performance) {
          (is_quiet || includes(target.frequency, performance.frequency));
 }
 
+bool is_known(const Target& target, const Performance& performance) {
+  if (is_ruled_out(target, performance.growth_at_rest)) return true;
+  const bool asks_for_cycles =
+      target.size != Target{}.size || target.frequency != Target{}.frequency;
+  switch (performance.verdict) {
+    case Verdict::undecided:
+      return !target.no_hunting && !asks_for_cycles;
+    case Verdict::hunts_irregularly:
+      return target.no_hunting || !asks_for_cycles;
+    default:
+      return true;
+  }
+}
+
 double excess(const Target& target, const Performance& performance) {
   const bool is_quiet = performance.verdict == Verdict::cannot_hunt;
   double worst = excess_of(target.growth_at_rest, performance.growth_at_rest);

@@ -116,6 +116,30 @@ std::string reason(const DesignReport& report, const FeasibleValues& values) {
                             significant(closest.growth_at_rest, 3));
 }
 
+/// Where values that meet the target come and go, of parameters that were scanned.
+std::string undecided_text(const DesignReport& report) {
+  std::string parts;
+  for (const FeasibleValues& answer : report.answers) {
+    if (answer.kind == SearchKind::certified || answer.undecided.empty()) continue;
+    const ShownUnit unit = shown_unit(report, answer.parameter);
+    parts += (parts.empty() ? "" : "; ") + std::string(name_of(answer.parameter));
+    constexpr std::size_t most_named = 4;
+    const std::size_t named = std::min(most_named, answer.undecided.size());
+    for (std::size_t i = 0; i < named; ++i) {
+      const Bounds& part = answer.undecided[i];
+      parts += fmt::format("{} {} to {}{}", i == 0 ? "" : ",", rounded(part.low / unit.size, false),
+                           rounded(part.high / unit.size, true), unit.name);
+    }
+    if (named < answer.undecided.size()) {
+      parts += fmt::format(" and {} parts more", answer.undecided.size() - named);
+    }
+  }
+  if (parts.empty()) return "";
+  return " Of these parts nothing is said, since motion there does not repeat, or is too long to "
+         "follow, and values that meet the target may come and go: " +
+         parts + ".";
+}
+
 std::string certainty(const DesignReport& report) {
   const bool all_certified = std::all_of(
       report.answers.begin(), report.answers.end(),
@@ -125,25 +149,13 @@ std::string certainty(const DesignReport& report) {
       "present one; friction and feedback up to ten times what damps critically) is proved by "
       "bounds over the whole range";
   if (all_certified) return ranges + ".";
-  const auto names_of = [&](auto is_meant) {
-    std::string names;
-    for (const FeasibleValues& answer : report.answers) {
-      if (!is_meant(answer)) continue;
-      names += (names.empty() ? "" : ", ") + std::string(name_of(answer.parameter));
-    }
-    return names;
-  };
-  const std::string scanned =
-      names_of([](const FeasibleValues& answer) { return answer.kind == SearchKind::scanned; });
-  const std::string irregular =
-      names_of([](const FeasibleValues& answer) { return answer.irregular; });
+  std::string scanned;
+  for (const FeasibleValues& answer : report.answers) {
+    if (answer.kind == SearchKind::certified) continue;
+    scanned += (scanned.empty() ? "" : ", ") + std::string(name_of(answer.parameter));
+  }
   return ranges + ", but not of: " + scanned +
-         ". There, with bounces, many values were looked at." +
-         (irregular.empty()
-              ? ""
-              : " Among those of " + irregular +
-                    " are motions that never repeat; beside them values that meet the "
-                    "target come and go in windows narrower than was looked.");
+         ". There, with bounces, many values were looked at." + undecided_text(report);
 }
 
 Json json_performance(const Performance& performance, bool has_frequency) {
@@ -176,7 +188,6 @@ Json json_answer(const DesignReport& report, const FeasibleValues& values) {
                {"present", json_number(values.present)},
                {"searched", json_bounds(values.searched)},
                {"certified", values.kind == SearchKind::certified},
-               {"irregular", values.irregular},
                {"intervals", std::move(intervals)},
                {"undecided", std::move(undecided)}};
   const double nearest = values.nearest();

@@ -31,14 +31,13 @@ struct FeasibleValues {
   /// numbers that meet it, to some 1e-15 of themselves (with bounces
   /// 1e-6 where the cycle ends at once), or the ends of the range.
   std::vector<Bounds> intervals;
-  /// Parts of the range, as a rule a billionth of their own value wide, within which limits are
-  /// touched or crossed twice, as far as is known: they are feasible if both of their ends are.
+  /// Parts of the range of which it is not known. Certified: as a rule a billionth of their own
+  /// value wide; within them limits are touched or crossed twice; they are feasible if both of
+  /// their ends are. Scanned: beside values whose motion does not repeat, or is too long to follow;
+  /// there cycles, and with them feasible values, come and go in windows as narrow as one likes.
   std::vector<Bounds> undecided;
   /// Where nothing meets the target: the value that comes closest to it, of many that were tried.
   std::optional<TriedValue> closest;
-  /// A scan met motion that no cycle repeats: there cycles, and with them feasible values, come and
-  /// go in windows, some narrower than any scan.
-  bool irregular = false;
   std::size_t evaluations = 0;  ///< of servos and of boxes
 
   bool contains(double value) const;
@@ -53,9 +52,9 @@ struct FeasibleValues {
 /// target.
 ///
 /// A scan, with bounces, tries 65 values, halves (six times at most) what lies between two of them
-/// for as long as the distance to a limit changes there by more than it is, or one is irregular
-/// motion and the other is not (twice everywhere that it hunts, where irregular motion was met),
-/// and follows growth at rest, which is soon worked out, at 1,025 values. It can miss what is
+/// for as long as the distance to a limit changes there by more than it is, or the cycle of one is
+/// known and that of the other not (twice everywhere that it hunts, where one is not), and follows
+/// growth at rest, which is soon worked out, at 1,025 values. It can miss what is
 /// narrower than the first of these steps; and it knows those cycles that analyse_limit_cycles()
 /// finds. Backlash is not scanned: sizes are in proportion to it, and nothing else depends on it.
 ///

@@ -46,6 +46,10 @@ Performance performance_for(const Target& target, const Drivetrain& drive);
 /// Whether all limits are kept. What is not known keeps none.
 bool is_met(const Target& target, const Performance& performance);
 
+/// Whether it is known that the target is met, or missed: not where a search for cycles came to no
+/// end, or motion does not repeat.
+bool is_known(const Target& target, const Performance& performance);
+
 /// ln(value/limit) of the limit that is kept least, but for rounding ≤ 0 where all are kept;
 /// growth at rest stands for no-hunting, whose limit is 1. −∞ where nothing comes near a limit, ∞
 /// where a limit cannot be compared with.
