@@ -78,8 +78,9 @@ std::vector<std::string> faults_of(const HybridSystem& system, const State& star
   if (start.numbers.size() != system.size() || !start.numbers.allFinite()) {
     all.push_back("start.numbers: must be " + std::to_string(system.size()) + " finite numbers");
   }
-  if (!(options.until >= 0.0 && std::isfinite(options.until))) {
-    all.emplace_back("options.until: must be at least 0 and finite");
+  if (!std::isfinite(options.from) || !std::isfinite(options.until) ||
+      options.until < options.from) {
+    all.emplace_back("options.until: must be finite and at least options.from, which is too");
   }
   return all;
 }
@@ -89,17 +90,20 @@ std::vector<std::string> faults_of(const HybridSystem& system, const State& star
 class Simulation {
  public:
   Simulation(const HybridSystem& system, const State& start, const SimulationOptions& options)
-      : system_(system), options_(options), state_(start) {
+      : system_(system), options_(options), state_(start), time_(options.from) {
     for (const Mode& mode : system.modes) {
       modes_.emplace_back(mode);
       trajectory_.flows_.push_back(mode.flow);
     }
-    for (const Clock& clock : system.clocks) ticks_.push_back(first_tick(clock));
+    for (const Clock& clock : system.clocks) ticks_.push_back(first_tick(clock, options.from));
+    trajectory_.start_time_ = options.from;
+    trajectory_.end_time_ = options.from;
     noise_ = rounding * state_.numbers.cwiseAbs();
     enter_mode();
   }
 
   Trajectory run() {
+    if (options_.event_limit == 0) stop(StopReason::event_limit);
     while (!stopped_) {
       if (fire_due_clocks()) continue;
       if (time_ >= options_.until) break;
@@ -116,14 +120,18 @@ class Simulation {
   struct Tick {
     double time;
     std::size_t count = 0;
-    bool served = false;  ///< at this time, by whatever mode
   };
 
-  static Tick first_tick(const Clock& clock) {
+  /// The first one not before a time.
+  static Tick first_tick(const Clock& clock, double from) {
     Tick tick{clock.period > 0.0    ? clock.first
               : clock.times.empty() ? (clock.first > 0.0 ? clock.first : infinity)
                                     : clock.times.front()};
-    while (tick.time < 0.0) advance(clock, tick);
+    if (clock.period > 0.0 && tick.time < from) {
+      tick.count = static_cast<std::size_t>((from - clock.first) / clock.period);
+      tick.time = clock.first + static_cast<double>(tick.count) * clock.period;
+    }
+    while (tick.time < from) advance(clock, tick);
     return tick;
   }
 
@@ -261,7 +269,6 @@ class Simulation {
   }
 
   void change(EventKind kind, std::size_t transition, const Reset& reset, std::size_t target) {
-    if (trajectory_.events_.size() >= options_.event_limit) return stop(StopReason::event_limit);
     Event event{time_, kind, state_.mode, transition, target, state_.numbers, {}};
     state_.numbers = reset.after(state_.numbers);
     if (reset.matrix.size() != 0) noise_ = reset.matrix.cwiseAbs() * noise_;
@@ -271,6 +278,7 @@ class Simulation {
     trajectory_.events_.push_back(std::move(event));
     count_at_instant();
     enter_mode();
+    if (trajectory_.events_.size() >= options_.event_limit) stop(StopReason::event_limit);
   }
 
   void enter_mode() {
@@ -340,7 +348,7 @@ class Simulation {
   const SimulationOptions& options_;
   std::vector<PreparedMode> modes_;
   State state_;
-  double time_ = 0.0;
+  double time_;
   Vector noise_;               ///< what rounding has left unknown of each number, on the last step
   std::vector<double> signs_;  ///< of guards of either direction: the side of each, 0 while unknown
   std::vector<Tick> ticks_;

@@ -35,7 +35,7 @@ PERMITTED_LIBRARIES = {
               "unsupported/Eigen/AutoDiff"),
     "chart": ("boost/math/", "Eigen/", "xsimd/", "tbb/", "oneapi/tbb"),
     "design": ("boost/math/", "boost/random/", "Eigen/", "tbb/", "oneapi/tbb"),
-    "hybrid": ("boost/math/", "Eigen/"),
+    "hybrid": ("boost/math/", "Eigen/", "unsupported/Eigen/MatrixFunctions"),
     "drive": ("boost/math/", "Eigen/"),
 }
 

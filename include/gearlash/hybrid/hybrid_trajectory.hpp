@@ -40,7 +40,7 @@ struct Touch {
 
 enum class StopReason {
   reached_end,
-  event_limit,  ///< as many events as were permitted
+  event_limit,  ///< as many events as were asked for
   zeno,         ///< ever faster firings of one transition, without a Settling, have no end before
                 ///< `end_time`
   chattering,   ///< more events at one instant than there are ways through the modes; culprit() has
@@ -49,12 +49,14 @@ enum class StopReason {
 };
 
 struct SimulationOptions {
+  double from = 0.0;  ///< time of the start, on which clocks depend
   double until = 0.0;
-  std::size_t event_limit = 1'000'000;
+  std::size_t event_limit = 1'000'000;  ///< the motion stops just after so many
 };
 
 class Trajectory {
  public:
+  double start_time() const { return start_time_; }
   double end_time() const { return end_time_; }
   const State& end() const { return end_; }
   StopReason stop_reason() const { return stop_reason_; }
@@ -64,7 +66,7 @@ class Trajectory {
   const std::vector<Touch>& touches() const { return touches_; }
   std::size_t steps() const { return steps_.size(); }
 
-  /// At any time from 0 to end_time() (clamped to it); at an event, after it.
+  /// At any time from start_time() to end_time() (clamped to it); at an event, after it.
   State at(double time) const;
 
  private:
@@ -77,13 +79,14 @@ class Trajectory {
   std::vector<Step> steps_;
   std::vector<Event> events_;
   std::vector<Touch> touches_;
+  double start_time_ = 0.0;
   double end_time_ = 0.0;
   State end_;
   StopReason stop_reason_ = StopReason::reached_end;
   std::string culprit_;
 };
 
-/// The motion from `start` at time 0 on, by the rules of HybridSystem.
+/// The motion from `start` on, by the rules of HybridSystem.
 ///
 /// Steps are Taylor series whose order and length are chosen by a proved bound of what they leave
 /// out (below rounding); a guard is a polynomial on each, and first_exit() finds where it first
@@ -97,7 +100,7 @@ class Trajectory {
 /// that time, and stops when the intervals are too short to be told apart (StopReason::zeno).
 ///
 /// Throws std::invalid_argument with all faults of the system, of the start (a mode, finite numbers
-/// of the right count) and of the options (0 ≤ until, finite).
+/// of the right count) and of the options (from ≤ until, finite).
 Trajectory simulate(const HybridSystem& system, const State& start,
                     const SimulationOptions& options);
 
