@@ -1,5 +1,6 @@
 #include "passage.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
@@ -22,44 +23,108 @@ const Reset& reset_of(const Mode& mode, const Event& event) {
   return mode.transitions[event.transition].reset;
 }
 
+/// ∂x/∂start over events, each at its own time, and the flows between.
+class Disturbances {
+ public:
+  Disturbances(const HybridSystem& system, const State& start, double time)
+      : system_(system),
+        mode_(start.mode),
+        time_(time),
+        slope_(Matrix::Identity(system.size(), system.size())) {}
+
+  void flow_to(double time) {
+    if (time > time_) slope_ = (flow().matrix * (time - time_)).exp() * slope_;
+    time_ = time;
+  }
+
+  /// False where the guard is met at no speed.
+  bool meet(const Event& event) {
+    flow_to(event.time);
+    const Mode& before = system_.modes[mode_];
+    const Matrix reset = reset_of(system_.modes[event.mode], event).slope(system_.size());
+    mode_ = event.mode_after;
+    if (event.kind != EventKind::transition) {
+      slope_ = reset * slope_;
+      return true;
+    }
+    const Vector& normal = before.transitions[event.transition].guard.normal;
+    const Vector flow_before = velocity(before, event.before);
+    const double speed = normal.dot(flow_before);
+    if (speed == 0.0) return false;
+    const Vector jump = velocity(system_.modes[mode_], event.after) - reset * flow_before;
+    slope_ = reset * slope_ + jump * (normal.transpose() * slope_) / speed;
+    return true;
+  }
+
+  const Matrix& slope() const { return slope_; }
+
+ private:
+  const AffineFlow& flow() const { return system_.modes[mode_].flow; }
+
+  const HybridSystem& system_;
+  std::size_t mode_;
+  double time_;
+  Matrix slope_;
+};
+
+/// The time near a guess at which the motion crosses a plane; nothing where it does not.
+std::optional<double> crossing_time(const Mode& mode, const State& start, double from,
+                                    const AffineForm& plane, double guess) {
+  const Eigen::Index size = start.numbers.size();
+  Matrix augmented = Matrix::Zero(size + 1, size + 1);  // (x, 1)′
+  augmented.topLeftCorner(size, size) = mode.flow.matrix;
+  augmented.topRightCorner(size, 1) = mode.flow.offset;
+  Vector extended(size + 1);
+  extended << start.numbers, 1.0;
+  double time = std::max(guess - from, 0.0);
+  for (int i = 0; i < 40; ++i) {
+    const Vector here = ((augmented * time).exp() * extended).head(size);
+    const double step = -plane.at(here) / plane.normal.dot(velocity(mode, here));
+    if (!std::isfinite(step)) return std::nullopt;
+    time += step;
+    if (!(time >= 0.0)) return std::nullopt;
+    constexpr double short_step = 1e-15;
+    if (std::abs(step) <= short_step * (from + time)) break;
+  }
+  return from + time;
+}
+
 }  // namespace
 
 std::optional<Passage> pass(const HybridSystem& system, const State& start, double from,
-                            double until, std::size_t events) {
-  const Trajectory motion =
-      simulate(system, start, {.from = from, .until = until, .event_limit = events});
-  if (motion.events().size() < events) return std::nullopt;
-  const Eigen::Index size = system.size();
-  Passage passage{motion.end(), motion.end_time() - from, {}, Vector::Zero(size),
-                  {},           motion.events()};
-  Matrix at_time = Matrix::Identity(size, size);  // of what is reached, by the start
-  double time = from;
-  std::size_t mode = start.mode;
-  for (const Event& event : motion.events()) {
-    const Mode& before = system.modes[mode];
-    if (event.time > time) {
-      at_time = (before.flow.matrix * (event.time - time)).exp() * at_time;
-      time = event.time;
-    }
-    const Matrix reset = reset_of(system.modes[event.mode], event).slope(size);
-    mode = event.mode_after;
-    if (event.kind == EventKind::timed) {
-      passage.slope = reset * at_time;
-      passage.duration_slope.setZero();
-    } else if (event.kind == EventKind::settling) {
-      passage.slope = reset * passage.slope;  // at the firing before it
-    } else {
-      const Vector& normal = before.transitions[event.transition].guard.normal;
-      const Vector flow = velocity(before, event.before);
-      const double speed = normal.dot(flow);
-      if (speed == 0.0) return std::nullopt;
-      passage.duration_slope = -(normal.transpose() * at_time).transpose() / speed;
-      passage.slope = reset * (at_time + flow * passage.duration_slope.transpose());
-    }
-    at_time = passage.slope -
-              velocity(system.modes[mode], event.after) * passage.duration_slope.transpose();
+                            std::size_t events, const Finish& finish) {
+  double end_time = finish.time;
+  if (finish.plane) {
+    constexpr double patience = 4.0;
+    const Trajectory to_last = simulate(
+        system, start,
+        {.from = from, .until = from + patience * (finish.time - from), .event_limit = events});
+    if (to_last.events().size() < events) return std::nullopt;
+    const State& last = to_last.end();
+    const auto crossing = crossing_time(system.modes[last.mode], last, to_last.end_time(),
+                                        *finish.plane, finish.time);
+    if (!crossing) return std::nullopt;
+    end_time = *crossing;
   }
-  passage.slope_at_time = at_time;
+  const Trajectory motion = simulate(system, start, {.from = from, .until = end_time});
+  if (motion.events().size() != events) return std::nullopt;
+  Disturbances disturbances(system, start, from);
+  for (const Event& event : motion.events()) {
+    if (!disturbances.meet(event)) return std::nullopt;
+  }
+  disturbances.flow_to(end_time);
+  Passage passage;
+  passage.events = motion.events();
+  passage.end = motion.end();
+  passage.duration = end_time - from;
+  passage.slope_at_time = disturbances.slope();
+  passage.slope = passage.slope_at_time;
+  passage.duration_slope = Vector::Zero(system.size());
+  if (!finish.plane) return passage;
+  const Vector flow = velocity(system.modes[passage.end.mode], passage.end.numbers);
+  passage.duration_slope = -(finish.plane->normal.transpose() * passage.slope).transpose() /
+                           finish.plane->normal.dot(flow);
+  passage.slope += flow * passage.duration_slope.transpose();
   return passage;
 }
 

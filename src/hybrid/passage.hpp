@@ -7,25 +7,29 @@
 
 namespace gearlash::hybrid {
 
-/// From a state to just after the last of some events.
+/// Where a passage ends, between two events: on a plane across the motion, or at a time.
+struct Finish {
+  std::optional<AffineForm> plane;
+  double time = 0.0;  ///< without a plane; else about when
+};
+
 struct Passage {
   State end;
   double duration = 0.0;
-  Matrix slope;           ///< ∂end/∂start, the last event being met whenever it comes
+  Matrix slope;           ///< ∂end/∂start, the finish being met whenever it comes
   Vector duration_slope;  ///< ∂duration/∂start
-  Matrix slope_at_time;   ///< ∂x/∂start at the fixed time just after the last event
+  Matrix slope_at_time;   ///< ∂x/∂start at the fixed time of the end
   std::vector<Event> events;
 };
 
-/// Runs so many events from a state at time `from`, at most until `until`. With f the flow before
-/// an event and f⁺ after it, g = c·x its guard and R its reset, a disturbance δ goes over to
-///   R δ − R f (c·δ)/(c·f)                       where the event is met,
-///   R δ + (f⁺ − R f)(c·δ)/(c·f)                 at a fixed time (saltation),
-/// and at a tick of a clock to R δ. Nothing where the events do not come, or a guard is met at no
-/// speed (c·f = 0).
+/// From a state at time `from` over so many events to the finish. With f the flow before an event
+/// and f⁺ after it, g = c·x its guard and R its reset, a disturbance δ goes over to
+///   R δ + (f⁺ − R f)(c·δ)/(c·f)
+/// (saltation), and at a tick of a clock to R δ. Nothing where the events do not come, another one
+/// comes before the finish, or a guard is met at no speed (c·f = 0).
 /// Source: Aizerman & Gantmakher 1958; Leine & Nijmeijer, Dynamics and Bifurcations of Non-Smooth
 /// Mechanical Systems (2004), ch. 7.
 std::optional<Passage> pass(const HybridSystem& system, const State& start, double from,
-                            double until, std::size_t events);
+                            std::size_t events, const Finish& finish);
 
 }  // namespace gearlash::hybrid

@@ -15,6 +15,19 @@ bool is_same_event(const Event& a, const Event& b) {
 
 double size_of(const Vector& vector) { return vector.cwiseAbs().maxCoeff(); }
 
+/// Of the intervals from one event to the next, first to last.
+double middle_of_longest(const std::vector<Event>& events, std::size_t first, std::size_t last) {
+  double longest = 0.0;
+  double middle = events[first].time;
+  for (std::size_t i = first; i < last; ++i) {
+    const double interval = events[i + 1].time - events[i].time;
+    if (!(interval > longest)) continue;
+    longest = interval;
+    middle = events[i].time + 0.5 * interval;
+  }
+  return middle;
+}
+
 }  // namespace
 
 bool PeriodicOrbit::is_stable() const {
@@ -25,9 +38,9 @@ bool PeriodicOrbit::is_stable() const {
 std::optional<PeriodicOrbit> closing_orbit(const HybridSystem& system, const Trajectory& motion,
                                            const ShootingOptions& options) {
   const std::vector<Event>& events = motion.events();
-  const bool ticks_alone = has_periodic_clocks(system);
+  const bool has_clocks = has_periodic_clocks(system);
   std::size_t last = events.size();
-  while (last > 0 && ticks_alone && events[last - 1].kind != EventKind::timed) --last;
+  while (last > 0 && has_clocks && events[last - 1].kind != EventKind::timed) --last;
   if (last == 0) return std::nullopt;
   --last;
   const Event& end = events[last];
@@ -38,13 +51,11 @@ std::optional<PeriodicOrbit> closing_orbit(const HybridSystem& system, const Tra
     const Event& begin = events[last - back];
     if (!is_same_event(begin, end) || !(begin.time < end.time)) continue;
     if (size_of(begin.after - end.after) > options.nearness * scale) continue;
-    const std::vector<Event> between(events.begin() + static_cast<std::ptrdiff_t>(last - back + 1),
-                                     events.begin() + static_cast<std::ptrdiff_t>(last + 1));
-    const State start{begin.mode_after, begin.after};
-    Shooting shooting(system, start, begin.time, end.time - begin.time,
-                      shared_out(between, options.phases, ticks_alone));
-    if (!shooting.follow()) continue;
-    auto orbit = solved_by_newton(shooting, options.most_steps);
+    const double start = middle_of_longest(events, last - back, last);
+    auto shooting = Shooting::about(system, motion.at(start), start, end.time - begin.time, back,
+                                    options.phases);
+    if (!shooting) continue;
+    auto orbit = solved_by_newton(*shooting, options.most_steps);
     if (orbit) return orbit;
   }
   return std::nullopt;
@@ -53,10 +64,9 @@ std::optional<PeriodicOrbit> closing_orbit(const HybridSystem& system, const Tra
 std::optional<PeriodicOrbit> neighbouring_orbit(const HybridSystem& system,
                                                 const PeriodicOrbit& near,
                                                 const ShootingOptions& options) {
-  Shooting shooting(system, near.start, near.start_time, near.period,
-                    shared_out(near.events, options.phases, has_periodic_clocks(system)));
-  if (!shooting.follow()) return std::nullopt;
-  return solved_by_newton(shooting, options.most_steps);
+  auto shooting = Shooting::about(system, near.start, near.start_time, near.period,
+                                  near.events.size(), options.phases);
+  return shooting ? solved_by_newton(*shooting, options.most_steps) : std::nullopt;
 }
 
 }  // namespace gearlash::hybrid

@@ -82,64 +82,140 @@ bool has_periodic_clocks(const HybridSystem& system) {
                      [](const Clock& clock) { return clock.period > 0.0; });
 }
 
-Shooting::Shooting(const HybridSystem& system, const State& start, double start_time, double period,
-                   std::vector<std::size_t> counts)
-    : system_(system),
-      counts_(std::move(counts)),
-      modes_(counts_.size(), start.mode),
-      is_exogenous_(exogenous_numbers(system)),
-      exogenous_flow_(Matrix::Zero(system.size(), system.size())),
+Shooting::Shooting(const HybridSystem& system, const State& start, double start_time, double period)
+    : system_(&system),
       has_clocks_(has_periodic_clocks(system)),
       start_time_(start_time),
       period_(period),
-      anchor_(Vector::Zero(system.size())) {
-  const AffineFlow& flow = system.modes.front().flow;
-  for (Index n = 0; n < system.size(); ++n) {
-    if (!is_exogenous_[static_cast<std::size_t>(n)]) continue;
-    exogenous_flow_.row(n) = flow.matrix.row(n);
-    anchor_[n] = start.numbers[n];
-    if (flow.offset[n] != 0.0) moves_by_itself_ = true;
-  }
-  moves_by_itself_ = moves_by_itself_ || size_of(exogenous_flow_ * anchor_) > 0.0;
-  if (moves_by_itself_) period_ = refined_period(exogenous_flow_, anchor_, period);
-  const auto phases = static_cast<Index>(counts_.size());
-  unknowns_ = Vector::Zero(phases * system.size() + (has_shift() ? 1 : 0));
-  unknowns_.head(system.size()) = start.numbers;
+      anchor_(start.numbers) {
+  find_exogenous();
 }
 
-bool Shooting::follow() {
-  double after = 0.0;
-  for (std::size_t i = 0; i + 1 < counts_.size(); ++i) {
-    const auto passage = pass_from(i, after);
-    if (!passage) return false;
-    after += passage->duration;
-    modes_[i + 1] = passage->end.mode;
-    unknowns_.segment(static_cast<Index>(i + 1) * system_.size(), system_.size()) =
-        passage->end.numbers;
+void Shooting::find_exogenous() {
+  const AffineFlow& flow = system_->modes.front().flow;
+  is_exogenous_ = exogenous_numbers(*system_);
+  exogenous_flow_ = Matrix::Zero(system_->size(), system_->size());
+  for (Index n = 0; n < system_->size(); ++n) {
+    if (is_exogenous_[static_cast<std::size_t>(n)]) {
+      exogenous_flow_.row(n) = flow.matrix.row(n);
+      moves_by_itself_ = moves_by_itself_ || flow.offset[n] != 0.0;
+    } else {
+      anchor_[n] = 0.0;
+    }
   }
-  return true;
+  moves_by_itself_ = moves_by_itself_ || size_of(exogenous_flow_ * anchor_) > 0.0;
+  if (moves_by_itself_) period_ = refined_period(exogenous_flow_, anchor_, period_);
+}
+
+Shooting Shooting::of(const HybridSystem& system) const {
+  Shooting other = *this;
+  other.system_ = &system;
+  other.find_exogenous();
+  return other;
+}
+
+std::optional<Shooting> Shooting::about(const HybridSystem& system, const State& start,
+                                        double start_time, double period, std::size_t events,
+                                        std::size_t phases) {
+  Shooting shooting(system, start, start_time, period);
+  const auto over_a_period = [&](const State& first) {
+    const double from = shooting.has_clocks_ ? shooting.start_time_ : 0.0;
+    return simulate(system, first, {.from = from, .until = from + shooting.period_});
+  };
+  Trajectory motion = over_a_period(start);
+  const auto is_as_expected = [&] {
+    return motion.stop_reason() == StopReason::reached_end && motion.events().size() == events;
+  };
+  if (!is_as_expected()) return std::nullopt;
+  // From midway between the last event and the first one, about.
+  const double first = motion.events().front().time - motion.start_time();
+  const double last = motion.events().back().time - motion.start_time() - shooting.period_;
+  const double aside = 0.5 * (first + last);
+  constexpr double far = 0.1;
+  if (std::abs(aside) <= far * (first - last)) {
+    shooting.divide(motion, phases);
+    return shooting;
+  }
+  const double later = aside < 0.0 ? aside + shooting.period_ : aside;
+  const State middle = motion.at(motion.start_time() + later);
+  shooting.start_time_ += later;
+  shooting.anchor_ = middle.numbers;
+  shooting.find_exogenous();
+  motion = over_a_period(middle);
+  if (!is_as_expected()) return std::nullopt;
+  shooting.divide(motion, phases);
+  return shooting;
+}
+
+void Shooting::divide(const Trajectory& motion, std::size_t phases) {
+  const std::vector<Event>& events = motion.events();
+  // Which events a phase starts midway after: those that the longest intervals follow.
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i + 1 < events.size(); ++i) order.push_back(i);
+  const auto interval = [&](std::size_t i) { return events[i + 1].time - events[i].time; };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return interval(a) > interval(b); });
+  constexpr double least_share = 0.05;  // of the period
+  while (!order.empty() &&
+         (order.size() + 1 > phases || interval(order.back()) < least_share * period_)) {
+    order.pop_back();
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<double> times = {motion.start_time()};
+  std::vector<std::size_t> passed = {0};
+  for (const std::size_t i : order) {
+    times.push_back(0.5 * (events[i].time + events[i + 1].time));
+    passed.push_back(i + 1);
+  }
+  passed.push_back(events.size());
+  Vector sizes = Vector::Constant(system_->size(), std::numeric_limits<double>::min());
+  constexpr int samples = 32;  // how large each number becomes, about
+  for (int i = 0; i < samples; ++i) {
+    const double time = motion.start_time() + period_ * i / samples;
+    sizes = sizes.cwiseMax(motion.at(time).numbers.cwiseAbs());
+  }
+  const Index size = system_->size();
+  unknowns_ = Vector::Zero(static_cast<Index>(times.size()) * size + (has_shift() ? 1 : 0));
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const State here = motion.at(times[i]);
+    const AffineFlow& flow = system_->modes[here.mode].flow;
+    const Vector normal =
+        ((flow.matrix * here.numbers + flow.offset).array() / sizes.array().square()).matrix();
+    phases_.push_back({times[i] - motion.start_time(),
+                       here.mode,
+                       {normal, -normal.dot(here.numbers)},
+                       passed[i + 1] - passed[i]});
+    unknowns_.segment(static_cast<Index>(i) * size, size) = here.numbers;
+  }
 }
 
 State Shooting::start_of(std::size_t phase) const {
-  const Index size = system_.size();
-  return {modes_[phase], unknowns_.segment(static_cast<Index>(phase) * size, size)};
+  const Index size = system_->size();
+  return {phases_[phase].mode, unknowns_.segment(static_cast<Index>(phase) * size, size)};
 }
 
 double Shooting::scale() const {
-  return size_of(unknowns_.head(static_cast<Index>(counts_.size()) * system_.size()));
+  return size_of(unknowns_.head(static_cast<Index>(phases_.size()) * system_->size()));
 }
 
-std::optional<Passage> Shooting::pass_from(std::size_t phase, double after) const {
-  const double from = has_clocks_ ? std::nextafter(start_time_ + after, infinity) : 0.0;
-  constexpr double patience = 4.0;  // periods
-  return pass(system_, start_of(phase), from, from + patience * period_, counts_[phase]);
+std::optional<Passage> Shooting::pass_from(std::size_t phase) const {
+  const bool is_last = phase + 1 == phases_.size();
+  const Phase& here = phases_[phase];
+  const Phase& next = phases_[is_last ? 0 : phase + 1];
+  const double from = has_clocks_ ? start_time_ + here.time : 0.0;
+  const double length = (is_last ? period_ : next.time) - here.time;
+  Finish finish{std::nullopt, from + length};
+  if (!has_clocks_) finish.plane = next.plane;
+  auto passage = pass(*system_, start_of(phase), from, here.events, finish);
+  if (passage && passage->end.mode != next.mode) return std::nullopt;
+  return passage;
 }
 
 std::optional<Shooting::Equations> Shooting::evaluate() const {
   Equations equations;
-  for (std::size_t i = 0; i < counts_.size(); ++i) {
-    auto passage = pass_from(i, duration_of(equations.passages));
-    if (!passage || passage->end.mode != modes_[(i + 1) % counts_.size()]) return std::nullopt;
+  for (std::size_t i = 0; i < phases_.size(); ++i) {
+    auto passage = pass_from(i);
+    if (!passage) return std::nullopt;
     equations.passages.push_back(std::move(*passage));
   }
   equations.residual = residual_of(equations.passages);
@@ -148,7 +224,7 @@ std::optional<Shooting::Equations> Shooting::evaluate() const {
 }
 
 Vector Shooting::residual_of(const std::vector<Passage>& all) const {
-  const Index size = system_.size();
+  const Index size = system_->size();
   const auto phases = static_cast<Index>(all.size());
   Vector residual = Vector::Zero(unknowns_.size());
   for (Index i = 0; i < phases; ++i) {
@@ -165,7 +241,7 @@ Vector Shooting::residual_of(const std::vector<Passage>& all) const {
 }
 
 Matrix Shooting::slope_of(const std::vector<Passage>& all) const {
-  const Index size = system_.size();
+  const Index size = system_->size();
   const auto phases = static_cast<Index>(all.size());
   const Index count = unknowns_.size();
   Matrix slope = Matrix::Zero(count, count);
@@ -196,7 +272,7 @@ PeriodicOrbit Shooting::orbit(const Equations& solved) const {
   orbit.start_time = start_time_;
   orbit.residual = size_of(solved.residual) / scale();
   const bool is_forced = moves_by_itself_ || has_clocks_;
-  Matrix product = Matrix::Identity(system_.size(), system_.size());
+  Matrix product = Matrix::Identity(system_->size(), system_->size());
   for (const Passage& passage : solved.passages) {
     for (Event event : passage.events) {
       event.time += has_clocks_ ? -start_time_ : orbit.period;
@@ -206,7 +282,7 @@ PeriodicOrbit Shooting::orbit(const Equations& solved) const {
     product = (is_forced ? passage.slope_at_time : passage.slope) * product;
   }
   std::vector<Index> own;
-  for (Index n = 0; n < system_.size(); ++n) {
+  for (Index n = 0; n < system_->size(); ++n) {
     if (!is_exogenous_[static_cast<std::size_t>(n)]) own.push_back(n);
   }
   const Matrix of_own = product(own, own);
@@ -234,23 +310,6 @@ std::optional<PeriodicOrbit> solved_by_newton(Shooting& shooting, int most_steps
     shooting.assign(shooting.unknowns() + change);
   }
   return std::nullopt;
-}
-
-std::vector<std::size_t> shared_out(const std::vector<Event>& events, std::size_t phases,
-                                    bool ticks_alone) {
-  std::vector<std::size_t> counts;
-  const std::size_t wanted = std::max<std::size_t>(1, (events.size() + phases - 1) / phases);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < events.size(); ++i) {
-    ++count;
-    const bool is_last = i + 1 == events.size();
-    const bool may_end = (!ticks_alone || events[i].kind == EventKind::timed) &&
-                         !(!is_last && events[i + 1].time == events[i].time);
-    if (!is_last && (count < wanted || !may_end)) continue;
-    counts.push_back(count);
-    count = 0;
-  }
-  return counts;
 }
 
 }  // namespace gearlash::hybrid

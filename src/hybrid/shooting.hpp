@@ -9,20 +9,23 @@
 
 namespace gearlash::hybrid {
 
-/// Unknown are the starts of all phases and, where something moves by itself (references), how long
-/// after the anchor, where it was first seen, the first phase starts:
+/// Unknown are the starts of all phases, midway between two events each, and, where something moves
+/// by itself (references), how long after the anchor, where it was first seen, the first phase
+/// starts:
 ///   Fᵢ(xᵢ) − xᵢ₊₁ = 0,  the last on the first.
-/// Of the last phase's end what moves by itself is left out; instead it is said where it starts, on
+/// A phase ends on a plane across the motion that was guessed; with periodic clocks at a time. Of
+/// the last phase's end what moves by itself is left out; instead it is said where it starts, on
 /// its own way from the anchor, and how long all phases take.
 class Shooting {
  public:
-  /// `counts` events in each phase, from `start` on.
-  Shooting(const HybridSystem& system, const State& start, double start_time, double period,
-           std::vector<std::size_t> counts);
+  /// Of `events` events within the period from `start` on, which is midway between two of them; so
+  /// many phases at most. Nothing where the motion has other events.
+  static std::optional<Shooting> about(const HybridSystem& system, const State& start,
+                                       double start_time, double period, std::size_t events,
+                                       std::size_t phases);
 
-  /// Puts the starts of the phases where the motion from the first one passes; false where it does
-  /// not come so far.
-  bool follow();
+  /// The same phases and planes, of a system that is a little different.
+  Shooting of(const HybridSystem& system) const;
 
   const Vector& unknowns() const { return unknowns_; }
   void assign(const Vector& unknowns) { unknowns_ = unknowns; }
@@ -40,16 +43,27 @@ class Shooting {
   PeriodicOrbit orbit(const Equations& solved) const;
 
  private:
+  Shooting(const HybridSystem& system, const State& start, double start_time, double period);
+
+  /// A phase's start: when, in which mode, the plane, and how many events follow in the phase.
+  struct Phase {
+    double time = 0.0;  ///< from the first phase's start on
+    std::size_t mode = 0;
+    AffineForm plane;
+    std::size_t events = 0;
+  };
+  void divide(const Trajectory& motion, std::size_t phases);
+
+  void find_exogenous();
   bool has_shift() const { return moves_by_itself_ && !has_clocks_; }
   State start_of(std::size_t phase) const;
   double shift() const { return has_shift() ? unknowns_[unknowns_.size() - 1] : 0.0; }
-  std::optional<Passage> pass_from(std::size_t phase, double after) const;
+  std::optional<Passage> pass_from(std::size_t phase) const;
   Vector residual_of(const std::vector<Passage>& all) const;
   Matrix slope_of(const std::vector<Passage>& all) const;
 
-  const HybridSystem& system_;
-  std::vector<std::size_t> counts_;
-  std::vector<std::size_t> modes_;  ///< at the starts
+  const HybridSystem* system_;
+  std::vector<Phase> phases_;
   std::vector<bool> is_exogenous_;
   Matrix exogenous_flow_;
   bool moves_by_itself_ = false;
@@ -64,10 +78,5 @@ class Shooting {
 std::optional<PeriodicOrbit> solved_by_newton(Shooting& shooting, int most_steps);
 
 bool has_periodic_clocks(const HybridSystem& system);
-
-/// So many events, shared out over at most so many phases; a phase ends at a tick where
-/// `ticks_alone`, and never between a firing and its settling.
-std::vector<std::size_t> shared_out(const std::vector<Event>& events, std::size_t phases,
-                                    bool ticks_alone);
 
 }  // namespace gearlash::hybrid

@@ -35,10 +35,11 @@ struct ShootingOptions {
 /// The orbit that the end of a trajectory is near: where the last event has recurred, with the same
 /// events between, the nearest to the end first, Newton's method closes
 ///   Fᵢ(xᵢ) = xᵢ₊₁,  i = 1 … phases, the last on the first,
-/// Fᵢ the motion over some of the events, with saltation (passage.hpp). Numbers that follow their
-/// own flow alone in every mode (references) stay as the trajectory has them, and the period is
-/// then theirs; with periodic clocks it is a multiple of theirs, and the start is a tick. Nothing
-/// where no passing recurs or Newton's method does not converge.
+/// Fᵢ the motion over some of the events, with saltation, from one plane across it to the next,
+/// midway between events where there is most time. Numbers that follow their own flow alone in
+/// every mode (references) stay as the trajectory has them, and the period is then theirs; with
+/// periodic clocks it is a multiple of theirs. Nothing where no passing recurs or Newton's method
+/// does not converge.
 std::optional<PeriodicOrbit> closing_orbit(const HybridSystem& system, const Trajectory& motion,
                                            const ShootingOptions& options = {});
 

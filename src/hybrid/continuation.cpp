@@ -1,0 +1,330 @@
+#include "gearlash/hybrid/continuation.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "shooting.hpp"
+
+namespace gearlash::hybrid {
+namespace {
+
+using Index = Eigen::Index;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// ---- why a branch ends --------------------------------------------------------------------------
+
+/// How near a guard comes to an event that would be new, or to one that goes.
+struct Clearance {
+  double share = infinity;
+  std::string name;
+
+  void consider(double here, const std::string& mode, const std::string& transition) {
+    if (!(here < share)) return;
+    share = here;
+    name = mode + ": " + transition;
+  }
+};
+
+/// Of the guards that an orbit passes by: the least distance over the largest, in a mode.
+void consider_guards_passed_by(const HybridSystem& system, const Trajectory& motion,
+                               const std::vector<Event>& events, Clearance& clearance) {
+  double begin = motion.start_time();
+  std::size_t mode = motion.at(begin).mode;
+  for (const Event& event : events) {
+    constexpr int samples = 400;
+    const Mode& here = system.modes[mode];
+    for (std::size_t k = 0; k < here.transitions.size(); ++k) {
+      if (event.kind == EventKind::transition && event.mode == mode && event.transition == k) {
+        continue;
+      }
+      double least = infinity;
+      double most = 0.0;
+      for (int i = 1; i < samples; ++i) {
+        const double time = begin + (event.time - begin) * i / samples;
+        const double distance = std::abs(here.transitions[k].guard.at(motion.at(time).numbers));
+        least = std::min(least, distance);
+        most = std::max(most, distance);
+      }
+      if (most > 0.0) clearance.consider(least / most, here.name, here.transitions[k].name);
+    }
+    begin = event.time;
+    mode = event.mode_after;
+  }
+}
+
+/// Of the guards met: the least speed over the highest, of each transition.
+void consider_guards_met(const HybridSystem& system, const std::vector<Event>& events,
+                         Clearance& clearance) {
+  const auto speed_of = [&](const Event& event) {
+    const Mode& mode = system.modes[event.mode];
+    return std::abs(mode.transitions[event.transition].guard.normal.dot(
+        mode.flow.matrix * event.before + mode.flow.offset));
+  };
+  double highest = 0.0;
+  for (const Event& event : events) {
+    if (event.kind == EventKind::transition) highest = std::max(highest, speed_of(event));
+  }
+  for (const Event& event : events) {
+    if (event.kind != EventKind::transition) continue;
+    const Mode& mode = system.modes[event.mode];
+    clearance.consider(speed_of(event) / highest, mode.name,
+                       mode.transitions[event.transition].name);
+  }
+}
+
+Clearance clearance_of(const HybridSystem& system, const PeriodicOrbit& orbit) {
+  Clearance clearance;
+  const double from =
+      has_periodic_clocks(system) ? std::nextafter(orbit.start_time, infinity) : 0.0;
+  const Trajectory motion = simulate(
+      system, orbit.start,
+      {.from = from, .until = from + 2.0 * orbit.period, .event_limit = orbit.events.size()});
+  consider_guards_passed_by(system, motion, motion.events(), clearance);
+  consider_guards_met(system, motion.events(), clearance);
+  return clearance;
+}
+
+// ---- the branch ---------------------------------------------------------------------------------
+
+class Continuation {
+ public:
+  Continuation(const Family& family, double parameter, const PeriodicOrbit& orbit,
+               const ContinuationOptions& options)
+      : family_(family), options_(options) {
+    parameter_scale_ = parameter == 0.0 ? 1.0 : std::abs(parameter);
+    lay_planes({parameter, orbit});
+  }
+
+  Branch run() {
+    Branch branch;
+    if (!shooting_) return branch;
+    auto solved = corrected(point_, Vector::Unit(size_ + 1, size_));
+    if (!solved) return branch;
+    branch.points.push_back({parameter_of(solved->point), solved->orbit});
+    tangent_ = Vector::Unit(size_ + 1, size_) * (options_.upwards ? 1.0 : -1.0);
+    tangent_ = tangent_of(*solved);
+    double step = options_.first_step;
+    while (branch.points.size() < options_.most_points) {
+      const auto next = corrected(point_ + step * tangent_, tangent_);
+      constexpr double most_turn = 0.5;  // cos of 60°
+      const Vector turned = next ? tangent_of(*next) : Vector();
+      if (!next || turned.dot(tangent_) < most_turn) {
+        step *= 0.5;
+        if (step > shortest) continue;
+        end_without_neighbour(branch);
+        return branch;
+      }
+      if (turned[size_] * tangent_[size_] < 0.0) find_fold(branch, step);
+      const double parameter = parameter_of(next->point);
+      if (parameter < options_.low || parameter > options_.high) {
+        end_at(branch, parameter < options_.low ? options_.low : options_.high);
+        return branch;
+      }
+      branch.points.push_back({parameter, next->orbit});
+      if (next->orbit.period > options_.longest_period * branch.points.front().orbit.period) {
+        branch.end = BranchEnd::endless_period;
+        return branch;
+      }
+      go_on_from(branch, *next, turned);
+      if (step < slow_going) {
+        end_without_neighbour(branch);
+        return branch;
+      }
+      if (next->steps <= 4) step = std::min(2.0 * step, options_.longest_step);
+    }
+    branch.end = BranchEnd::point_limit;
+    return branch;
+  }
+
+ private:
+  static constexpr std::size_t phases = 4;
+  static constexpr double shortest = 1e-9;    // of a step that fails
+  static constexpr double slow_going = 1e-5;  // of one that does not
+
+  /// A solution, with the slopes there.
+  struct Solved {
+    Vector point;  ///< unknowns and parameter, scaled
+    Matrix slope;  ///< of G by them, one row fewer
+    PeriodicOrbit orbit;
+    int steps = 0;
+  };
+
+  double parameter_of(const Vector& point) const { return point[size_] * parameter_scale_; }
+
+  /// G, scaled, and its slope; nothing where a phase does not end as it should.
+  struct Evaluated {
+    Vector residual;
+    Matrix slope;
+    PeriodicOrbit orbit;
+  };
+
+  std::optional<Vector> residual_at(const Vector& unknowns, double parameter) const {
+    const HybridSystem system = family_(parameter);
+    Shooting shooting = shooting_->of(system);
+    shooting.assign(unknowns);
+    auto equations = shooting.evaluate();
+    if (!equations) return std::nullopt;
+    return std::move(equations->residual);
+  }
+
+  /// By central differences, smaller ones where a greater one has other events (near a grazing).
+  std::optional<Vector> slope_by_parameter(const Vector& unknowns, double parameter) const {
+    for (const double difference : {1e-6, 1e-8, 1e-10}) {
+      const double step = difference * parameter_scale_;
+      const auto above = residual_at(unknowns, parameter + step);
+      const auto below = residual_at(unknowns, parameter - step);
+      if (above && below) return Vector((*above - *below) / (2.0 * difference));
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Evaluated> evaluate(const Vector& point) const {
+    const double parameter = parameter_of(point);
+    const Vector unknowns = point.head(size_) * scale_;
+    const HybridSystem system = family_(parameter);
+    Shooting shooting = shooting_->of(system);
+    shooting.assign(unknowns);
+    const auto equations = shooting.evaluate();
+    if (!equations) return std::nullopt;
+    const auto by_parameter = slope_by_parameter(unknowns, parameter);
+    if (!by_parameter) return std::nullopt;
+    Evaluated evaluated{equations->residual / scale_, Matrix(size_, size_ + 1),
+                        shooting.orbit(*equations)};
+    evaluated.slope << equations->slope, *by_parameter / scale_;
+    return evaluated;
+  }
+
+  /// From a guess, at right angles to a direction.
+  std::optional<Solved> corrected(const Vector& guess, const Vector& direction) const {
+    Vector point = guess;
+    double last = infinity;
+    constexpr int most_steps = 12;
+    for (int i = 0; i < most_steps; ++i) {
+      const auto here = evaluate(point);
+      if (!here) return std::nullopt;
+      const double size = here->residual.cwiseAbs().maxCoeff();
+      constexpr double good = 1e-12;
+      constexpr double acceptable = 1e-9;
+      if (size < good || (size < acceptable && size > 0.25 * last)) {
+        return Solved{point, here->slope, here->orbit, i};
+      }
+      if (!std::isfinite(size) || size > 10.0 * last) return std::nullopt;
+      last = size;
+      Matrix slope(size_ + 1, size_ + 1);
+      slope << here->slope, direction.transpose();
+      Vector residual(size_ + 1);
+      residual << here->residual, direction.dot(point - guess);
+      point -= slope.fullPivLu().solve(residual);
+    }
+    return std::nullopt;
+  }
+
+  /// The unit tangent that goes on the way of the last one.
+  Vector tangent_of(const Solved& solved) const {
+    Matrix slope(size_ + 1, size_ + 1);
+    slope << solved.slope, tangent_.transpose();
+    const Vector tangent = slope.fullPivLu().solve(Vector::Unit(size_ + 1, size_));
+    return tangent.normalized();
+  }
+
+  /// The planes of an orbit, and its point.
+  bool lay_planes(const BranchPoint& at) {
+    const HybridSystem system = family_(at.parameter);
+    auto shooting = Shooting::about(system, at.orbit.start, at.orbit.start_time, at.orbit.period,
+                                    at.orbit.events.size(), phases);
+    if (!shooting) return false;
+    shooting_ = std::move(shooting);
+    size_ = shooting_->unknowns().size();
+    scale_ = shooting_->scale();
+    point_ = Vector(size_ + 1);
+    point_ << shooting_->unknowns() / scale_, at.parameter / parameter_scale_;
+    return true;
+  }
+
+  /// New planes go with the orbit; which way is on is told by where it has come from.
+  void go_on_from(const Branch& branch, const Solved& next, const Vector& turned) {
+    point_ = next.point;
+    tangent_ = turned;
+    const Continuation before = *this;
+    const BranchPoint& last = branch.points[branch.points.size() - 2];
+    if (lay_planes(last)) {
+      const Vector from = point_;
+      const double scale_there = scale_;
+      if (lay_planes(branch.points.back()) && from.size() == point_.size()) {
+        tangent_ = point_ - from;
+        tangent_.head(size_) += from.head(size_) * (1.0 - scale_there / scale_);
+        const auto solved = corrected(point_, tangent_.normalized());
+        if (solved) {
+          point_ = solved->point;
+          tangent_ = tangent_of(*solved);
+          return;
+        }
+      }
+    }
+    restore(before);
+  }
+
+  void restore(const Continuation& before) {
+    shooting_ = before.shooting_;
+    size_ = before.size_;
+    scale_ = before.scale_;
+    point_ = before.point_;
+    tangent_ = before.tangent_;
+  }
+
+  /// Between the last point and a step on, by bisection on which way the parameter goes.
+  void find_fold(Branch& branch, double step) const {
+    double before = 0.0;
+    double after = step;
+    std::optional<Solved> nearest;
+    for (int i = 0; i < 30; ++i) {
+      const double middle = 0.5 * (before + after);
+      const auto solved = corrected(point_ + middle * tangent_, tangent_);
+      if (!solved) break;
+      nearest = solved;
+      (tangent_of(*solved)[size_] * tangent_[size_] > 0.0 ? before : after) = middle;
+    }
+    if (nearest) branch.folds.push_back({parameter_of(nearest->point), nearest->orbit});
+  }
+
+  void end_at(Branch& branch, double parameter) {
+    Vector guess = point_;
+    guess[size_] = parameter / parameter_scale_;
+    const auto solved = corrected(guess, Vector::Unit(size_ + 1, size_));
+    if (solved) branch.points.push_back({parameter, solved->orbit});
+    branch.end = BranchEnd::left_range;
+  }
+
+  void end_without_neighbour(Branch& branch) const {
+    const BranchPoint& last = branch.points.back();
+    const Clearance clearance = clearance_of(family_(last.parameter), last.orbit);
+    constexpr double near = 1e-2;
+    branch.end = clearance.share < near ? BranchEnd::grazing : BranchEnd::lost;
+    if (branch.end == BranchEnd::grazing) branch.culprit = clearance.name;
+  }
+
+  const Family& family_;
+  const ContinuationOptions& options_;
+  std::optional<Shooting> shooting_;
+  Index size_ = 0;
+  double scale_ = 1.0;
+  double parameter_scale_ = 1.0;
+  Vector point_;
+  Vector tangent_;
+};
+
+}  // namespace
+
+Branch continue_orbit(const Family& family, double parameter, const PeriodicOrbit& orbit,
+                      const ContinuationOptions& options) {
+  if (!(options.low < options.high && parameter >= options.low && parameter <= options.high)) {
+    throw std::invalid_argument("parameter: is " + std::to_string(parameter) +
+                                ", must be within options.low and options.high, which rise");
+  }
+  return Continuation(family, parameter, orbit, options).run();
+}
+
+}  // namespace gearlash::hybrid

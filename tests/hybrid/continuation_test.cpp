@@ -1,0 +1,186 @@
+// Branches of orbits: folds and grazings that are known.
+#include "gearlash/hybrid/continuation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "gearlash/cycle/limit_cycle.hpp"
+#include "servo_system.hpp"
+
+namespace gearlash::hybrid {
+namespace {
+
+/// x″ + 0.1x′ + x = A cos t with a stop at x = 1; turning points are events, too.
+HybridSystem driven_towards_stop(double amplitude) {
+  Matrix flow = Matrix::Zero(4, 4);
+  flow(0, 1) = 1.0;
+  flow.row(1) << -1.0, -0.1, amplitude, 0.0;
+  flow(2, 3) = 1.0;
+  flow(3, 2) = -1.0;
+  Matrix bounce = Matrix::Identity(4, 4);
+  bounce(1, 1) = -0.8;
+  Mode free{.name = "free", .flow = {flow, Vector::Zero(4)}};
+  free.transitions = {
+      {.name = "stop",
+       .guard = {Vector::Unit(4, 0), -1.0},
+       .direction = Direction::rising,
+       .reset = {bounce, {}, {}}},
+      {.name = "turn", .guard = {Vector::Unit(4, 1), 0.0}, .direction = Direction::either}};
+  return {.state_names = {"x", "speed", "force", "force's rate"}, .modes = {free}, .clocks = {}};
+}
+
+TEST(OracleContinuation, TheDrivenOscillatorGrazesItsStopAtATenth) {
+  const HybridSystem system = driven_towards_stop(0.05);
+  const Trajectory motion =
+      simulate(system, {0, (Vector(4) << 0.0, 0.5, 1.0, 0.0).finished()}, {.until = 400.0});
+  const auto orbit = closing_orbit(system, motion);
+  ASSERT_TRUE(orbit);
+  EXPECT_NEAR(orbit->period, 2.0 * std::numbers::pi, 1e-12);
+  const Branch branch = continue_orbit(driven_towards_stop, 0.05, *orbit, {.high = 1.0});
+  EXPECT_EQ(branch.end, BranchEnd::grazing);
+  EXPECT_EQ(branch.culprit, "free: stop");
+  EXPECT_NEAR(branch.points.back().parameter, 0.1, 1e-5);
+  EXPECT_TRUE(branch.folds.empty());
+}
+
+/// θ″ + θ′ = −K × (the output of a play of half width 1 that θ drives): friction-controlled
+/// backlash behind an integrating motor.
+HybridSystem loop_with_play(double gain) {
+  enum : std::size_t { crossing, rising, falling };
+  Matrix flow = Matrix::Zero(3, 3);
+  flow(0, 1) = 1.0;
+  flow.row(1) << 0.0, -1.0, -gain;
+  Matrix carried = flow;
+  carried(2, 1) = 1.0;
+  const Vector offset = (Vector(3) << 1.0, 0.0, -1.0).finished();
+  const Vector speed = Vector::Unit(3, 1);
+  const auto held = [&](double side) {
+    Matrix after = Matrix::Identity(3, 3);
+    after.row(2) << 1.0, 0.0, 0.0;
+    return Reset{after, (Vector(3) << 0.0, 0.0, -side).finished(), {}};
+  };
+  Mode apart{.name = "crossing", .flow = {flow, Vector::Zero(3)}};
+  apart.transitions = {{.name = "takes up forward",
+                        .guard = {offset, -1.0},
+                        .direction = Direction::rising,
+                        .reset = held(1.0),
+                        .target = rising},
+                       {.name = "takes up backward",
+                        .guard = {offset, 1.0},
+                        .direction = Direction::falling,
+                        .reset = held(-1.0),
+                        .target = falling}};
+  Mode up{.name = "carried forward", .flow = {carried, Vector::Zero(3)}};
+  up.transitions = {
+      {.name = "turns back", .guard = {speed, 0.0}, .reset = held(1.0), .target = crossing}};
+  Mode down{.name = "carried backward", .flow = {carried, Vector::Zero(3)}};
+  down.transitions = {{.name = "turns forward",
+                       .guard = {speed, 0.0},
+                       .direction = Direction::rising,
+                       .reset = held(-1.0),
+                       .target = crossing}};
+  return {.state_names = {"motor", "speed", "load"}, .modes = {apart, up, down}, .clocks = {}};
+}
+
+/// Growth at rest of that loop: the load at −1 and at rest, the motor creeps on at K; carried along
+/// it turns at the growth (the load then rests there). Underdamped, K > 1/4.
+double growth_at_rest(double gain) {
+  const double decay = 0.5;
+  const double frequency = std::sqrt(gain - decay * decay);
+  // y(0) = −1, ẏ(0) = K: ẏ = e^{−t/2}(K cos wt + ((K/2)/w) sin wt), as ÿ(0) = −K + K = 0.
+  const double time = (std::numbers::pi - std::atan2(frequency, decay)) / frequency;
+  return std::exp(-decay * time) *
+         std::abs(-std::cos(frequency * time) +
+                  ((gain - decay) / frequency) * std::sin(frequency * time));
+}
+
+/// Harmonic balance has two cycles for K ≥ 3.416581, which meet in a fold. The loop itself has one,
+/// which ends where growth at rest is 1, its period growing beyond all bounds.
+TEST(OracleContinuation, TheCycleOfALoopWithPlayEndsWhereGrowthAtRestIsOne) {
+  const HybridSystem system = loop_with_play(5.0);
+  const Trajectory motion =
+      simulate(system, {1, (Vector(3) << 3.0, 1.0, 2.0).finished()}, {.until = 200.0});
+  const auto orbit = closing_orbit(system, motion);
+  ASSERT_TRUE(orbit);
+  EXPECT_TRUE(orbit->is_stable());
+  EXPECT_EQ(orbit->events.size(), 4U);
+  const Branch branch =
+      continue_orbit(loop_with_play, 5.0, *orbit,
+                     {.low = 1.0, .high = 5.0, .upwards = false, .longest_period = 8.0});
+  EXPECT_EQ(branch.end, BranchEnd::endless_period);
+  EXPECT_TRUE(branch.folds.empty());
+  const double end = branch.points.back().parameter;
+  EXPECT_GT(growth_at_rest(end + 1e-6), 1.0);
+  EXPECT_LT(growth_at_rest(end - 1e-6), 1.0);
+}
+
+/// One impact a period, just below grazing: with the transient q τ(t), τ(0) = τ(2π) = 1,
+///   v⁻ = −q (τ′(0) − τ′(2π))/(1 + e),  and of the forced motion  x_p = 1 − q,  x_p′ = v⁻ − q
+///   τ′(2π),
+/// so that (1 − q)² + c² q² = (A/0.1)², which is least, c²/(1 + c²), where two orbits meet.
+double amplitude_of_fold() {
+  const double decay = 0.05;
+  const double frequency = std::sqrt(1.0 - decay * decay);
+  const double period = 2.0 * std::numbers::pi;
+  const double fading = std::exp(-decay * period);
+  const double cosine = std::cos(frequency * period);
+  const double sine = std::sin(frequency * period);
+  // τ = e^{−δt}(cos wt + s sin wt)
+  const double s = (1.0 / fading - cosine) / sine;
+  const double slope_at_start = -decay + s * frequency;
+  const double slope_at_end = -decay + fading * frequency * (s * cosine - sine);
+  const double c = -(slope_at_start - slope_at_end) / 1.8 - slope_at_end;
+  return 0.1 * std::abs(c) / std::sqrt(1.0 + c * c);
+}
+
+TEST(OracleContinuation, TheImpactingOrbitTurnsBackJustBelowGrazing) {
+  const HybridSystem system = driven_towards_stop(1.0);
+  const Trajectory motion =
+      simulate(system, {0, (Vector(4) << 0.0, 0.5, 1.0, 0.0).finished()}, {.until = 600.0});
+  const auto orbit = closing_orbit(system, motion);
+  ASSERT_TRUE(orbit);
+  const Branch branch =
+      continue_orbit(driven_towards_stop, 1.0, *orbit, {.low = 0.01, .upwards = false});
+  ASSERT_EQ(branch.folds.size(), 1U);
+  EXPECT_NEAR(branch.folds[0].parameter, amplitude_of_fold(), 1e-12);
+  EXPECT_NEAR(std::abs(branch.folds[0].orbit.multipliers.at(0)), 1.0, 1e-6);
+  // Beyond it the orbit is unstable, and ends as its impact comes to graze, at A = 0.1 again.
+  EXPECT_EQ(branch.end, BranchEnd::grazing);
+  EXPECT_EQ(branch.culprit, "free: stop");
+  EXPECT_FALSE(branch.points.back().orbit.is_stable());
+  EXPECT_NEAR(branch.points.back().parameter, 0.1, 1e-4);
+}
+
+}  // namespace
+
+TEST(OracleContinuation, OfAServoAgreesWithTheClosedFormAllAlong) {
+  const auto servo_of = [](double friction_ratio) {
+    return NormalizedServo{
+        .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = friction_ratio, .backlash = 0.3};
+  };
+  const Family family = [&](double friction_ratio) {
+    return servo_system(servo_of(friction_ratio));
+  };
+  const LimitCycle start = analyse_limit_cycles(servo_of(0.1)).cycles.at(0);
+  const Trajectory motion =
+      simulate(family(0.1),
+               {separated, (Vector(4) << start.start.motor_position, start.start.motor_speed,
+                            start.start.load_position, start.start.load_speed)
+                                   .finished() *
+                               1.01},
+               {.until = 60.0});
+  const auto orbit = closing_orbit(family(0.1), motion);
+  ASSERT_TRUE(orbit);
+  const Branch branch = continue_orbit(family, 0.1, *orbit, {.low = 0.02, .high = 0.5});
+  EXPECT_GT(branch.points.size(), 5U);
+  for (const BranchPoint& point : branch.points) {
+    const LimitCycleAnalysis exact = analyse_limit_cycles(servo_of(point.parameter));
+    if (exact.cycles.empty() || exact.cycles[0].multiplier > 0.99) continue;
+    EXPECT_NEAR(point.orbit.period, exact.cycles[0].period, 1e-10) << point.parameter;
+    EXPECT_NEAR(std::abs(point.orbit.multipliers.at(0)), exact.cycles[0].multiplier, 1e-8);
+  }
+}
+
+}  // namespace gearlash::hybrid
