@@ -54,6 +54,13 @@ class Inspection {
     if (!std::isfinite(form.offset)) note(where + ".offset", "must be finite");
   }
 
+  void inspect(const std::string& where, const std::vector<Alternative>& alternatives) {
+    for (const Alternative& alternative : alternatives) {
+      for (const AffineForm& form : alternative.positive) inspect(where + ".positive", form);
+      expect_mode(where + ".target", alternative.target);
+    }
+  }
+
   void inspect(const std::string& where, const Reset& reset) {
     expect_matrix(where + ".matrix", reset.matrix, true);
     expect_vector(where + ".offset", reset.offset, true);
@@ -90,9 +97,11 @@ class Inspection {
       inspect(here + ".guard", transition.guard);
       inspect(here + ".reset", transition.reset);
       expect_mode(here + ".target", transition.target);
+      inspect(here + ".alternatives", transition.alternatives);
       if (!transition.settling) continue;
       inspect(here + ".settling.reset", transition.settling->reset);
       expect_mode(here + ".settling.target", transition.settling->target);
+      inspect(here + ".settling.alternatives", transition.settling->alternatives);
     }
     for (const TimedTransition& transition : mode.timed) {
       const std::string here = where + ", timed transition \"" + transition.name + "\"";

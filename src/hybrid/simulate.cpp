@@ -159,7 +159,7 @@ class Simulation {
       const std::vector<TimedTransition>& timed = system_.modes[state_.mode].timed;
       for (std::size_t k = 0; k < timed.size(); ++k) {
         if (timed[k].clock != i) continue;
-        change(EventKind::timed, k, timed[k].reset, timed[k].target);
+        change(EventKind::timed, k, timed[k].reset, timed[k].target, {});
         break;
       }
       return true;
@@ -263,22 +263,36 @@ class Simulation {
   void fire(std::size_t which) {
     const Transition& transition = system_.modes[state_.mode].transitions[which];
     const std::size_t mode_before = state_.mode;
-    change(EventKind::transition, which, transition.reset, transition.target);
+    change(EventKind::transition, which, transition.reset, transition.target,
+           transition.alternatives);
     if (stopped_) return;
     follow_sequence(mode_before, which, transition);
   }
 
-  void change(EventKind kind, std::size_t transition, const Reset& reset, std::size_t target) {
-    Event event{time_, kind, state_.mode, transition, target, state_.numbers, {}};
+  void change(EventKind kind, std::size_t transition, const Reset& reset, std::size_t otherwise,
+              const std::vector<Alternative>& alternatives) {
+    Event event{time_, kind, state_.mode, transition, otherwise, state_.numbers, {}};
     state_.numbers = reset.after(state_.numbers);
     if (reset.matrix.size() != 0) noise_ = reset.matrix.cwiseAbs() * noise_;
     noise_ += rounding * state_.numbers.cwiseAbs();
-    state_.mode = target;
+    event.mode_after = target_among(alternatives, otherwise);
+    state_.mode = event.mode_after;
     event.after = state_.numbers;
     trajectory_.events_.push_back(std::move(event));
     count_at_instant();
     enter_mode();
     if (trajectory_.events_.size() >= options_.event_limit) stop(StopReason::event_limit);
+  }
+
+  std::size_t target_among(const std::vector<Alternative>& alternatives,
+                           std::size_t otherwise) const {
+    for (const Alternative& alternative : alternatives) {
+      const bool is_taken =
+          std::all_of(alternative.positive.begin(), alternative.positive.end(),
+                      [&](const AffineForm& form) { return form.at(state_.numbers) > 0.0; });
+      if (is_taken) return alternative.target;
+    }
+    return otherwise;
   }
 
   void enter_mode() {
@@ -327,7 +341,8 @@ class Simulation {
 
   void settle(std::size_t which, const Transition& transition) {
     count_ = 0;
-    change(EventKind::settling, which, transition.settling->reset, transition.settling->target);
+    const Settling& settling = *transition.settling;
+    change(EventKind::settling, which, settling.reset, settling.target, settling.alternatives);
   }
 
   void stop(StopReason reason) {

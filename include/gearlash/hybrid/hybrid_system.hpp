@@ -53,15 +53,22 @@ enum class Direction {
   either    ///< every change of sign fires
 };
 
+/// Another target, where all of the forms are positive after the reset.
+struct Alternative {
+  std::vector<AffineForm> positive{};
+  std::size_t target = 0;
+};
+
 /// Where a sequence of firings of one transition ends that come ever faster (Zeno of Elea:
 /// infinitely many in a finite time, as of a ball that bounces to rest).
 struct Settling {
-  std::size_t target = 0;  ///< mode
-  Reset reset;             ///< onto the limit, from a state just after a firing
+  std::size_t target = 0;                   ///< mode
+  Reset reset{};                            ///< onto the limit, from a state just after a firing
+  std::vector<Alternative> alternatives{};  ///< as of a transition
 };
 
 /// Fires as the guard leaves its side (Direction), and then at once
-///   x ← reset(x), mode ← target.
+///   x ← reset(x), mode ← that of the first alternative whose forms are all positive, else target.
 struct Transition {
   std::string name{};
   AffineForm guard{};
@@ -69,6 +76,7 @@ struct Transition {
   Reset reset{};
   std::size_t target = 0;  ///< index of a mode
   std::optional<Settling> settling{};
+  std::vector<Alternative> alternatives{};
 };
 
 /// Fires at the ticks of a clock.
