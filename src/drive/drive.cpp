@@ -21,21 +21,6 @@ void check(RangeCheck& all, const std::string& name, const Shaft& shaft) {
   }
 }
 
-void check(RangeCheck& all, const LinearController& controller) {
-  const std::size_t order = controller.order();
-  const auto expect = [&](const std::string& field, std::size_t found, std::size_t wanted) {
-    if (found == wanted) return;
-    all.refuse(field, std::to_string(found), "must be " + std::to_string(wanted) + " numbers");
-  };
-  const auto expect_rows = [&](const std::string& field, const auto& rows, std::size_t columns) {
-    expect(field, rows.size(), order);
-    for (const auto& row : rows) expect(field, row.size(), columns);
-  };
-  expect_rows("controller.state_matrix", controller.state_matrix, order);
-  expect_rows("controller.input_matrix", controller.input_matrix, 3);
-  expect("controller.direct", controller.direct.size(), 3);
-}
-
 }  // namespace
 
 std::vector<Violation> validate(const Drive& drive) {
@@ -53,7 +38,7 @@ std::vector<Violation> validate(const Drive& drive) {
              drive.contact);
   all.within("sensing.load_share_of_position", drive.sensing.load_share_of_position, 0.0, 1.0);
   all.within("sensing.load_share_of_speed", drive.sensing.load_share_of_speed, 0.0, 1.0);
-  check(all, drive.controller);
+  all.include(validate(drive.controller));
   if (!(drive.torque_limit > 0.0)) {
     all.refuse("torque_limit", exact_text(drive.torque_limit), "must be positive, N m");
   }
@@ -64,12 +49,6 @@ std::vector<Violation> validate(const Drive& drive) {
     all.refuse("load_torque", exact_text(drive.load_torque), "must be finite, N m");
   }
   return all.violations();
-}
-
-LinearController proportional_derivative(double proportional, double derivative) {
-  LinearController controller;
-  controller.direct = {proportional, -proportional, -derivative};
-  return controller;
 }
 
 }  // namespace gearlash

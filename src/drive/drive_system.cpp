@@ -88,7 +88,8 @@ class Builder {
  public:
   explicit Builder(const Drive& drive)
       : drive_(drive),
-        size_(controller_states + static_cast<Eigen::Index>(drive.controller.order())),
+        controller_(linear_controller(drive.controller)),
+        size_(controller_states + static_cast<Eigen::Index>(controller_.order())),
         rigid_(std::holds_alternative<RigidContact>(drive.contact)) {
     list_modes();
   }
@@ -96,7 +97,7 @@ class Builder {
   DriveSystem build() {
     hybrid::HybridSystem& system = result_.system;
     system.state_names = {"motor position", "motor speed", "load position", "load speed"};
-    for (std::size_t i = 0; i < drive_.controller.order(); ++i) {
+    for (std::size_t i = 0; i < controller_.order(); ++i) {
       system.state_names.push_back("controller " + std::to_string(i + 1));
     }
     for (const DriveMode& mode : result_.modes) {
@@ -194,13 +195,19 @@ class Builder {
   }
 
   AffineForm asked_torque() const {
-    return of_controller(drive_.controller.output) + of_inputs(drive_.controller.direct);
+    return of_controller(controller_.output) + of_inputs(controller_.direct);
   }
 
   AffineForm motor_torque(const DriveMode& mode) const {
     if (mode.torque == TorqueState::highest) return constant(drive_.torque_limit);
     if (mode.torque == TorqueState::lowest) return constant(-drive_.torque_limit);
     return asked_torque();
+  }
+
+  /// Anti-windup, of one of the controller's states.
+  AffineForm withdrawal(const DriveMode& mode, std::size_t state) const {
+    if (controller_.anti_windup.empty() || mode.torque == TorqueState::linear) return constant(0.0);
+    return controller_.anti_windup[state] * (motor_torque(mode) - asked_torque());
   }
 
   AffineForm load_torque() const { return constant(drive_.load_torque); }
@@ -272,10 +279,10 @@ class Builder {
     set(motor_speed, acceleration(mode, Side::motor));
     set(load_position, number(load_speed));
     set(load_speed, acceleration(mode, Side::load));
-    const LinearController& controller = drive_.controller;
-    for (std::size_t i = 0; i < controller.order(); ++i) {
+    for (std::size_t i = 0; i < controller_.order(); ++i) {
       set(controller_states + static_cast<Eigen::Index>(i),
-          of_controller(controller.state_matrix[i]) + of_inputs(controller.input_matrix[i]));
+          of_controller(controller_.state_matrix[i]) + of_inputs(controller_.input_matrix[i]) +
+              withdrawal(mode, i));
     }
     return flow;
   }
@@ -576,6 +583,7 @@ class Builder {
   }
 
   const Drive& drive_;
+  LinearController controller_;
   Eigen::Index size_;
   bool rigid_;
   DriveSystem result_;

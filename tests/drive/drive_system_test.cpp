@@ -77,7 +77,7 @@ TEST(OracleDriveSystem, TheRigidServoIsTheClosedForm) {
     drive.load = {2.0 / 3.0, {.viscous = 2.0 * 0.19 * 0.1}};
     drive.backlash = 0.3;
     drive.contact = RigidContact{restitution};
-    drive.controller = proportional_derivative(1.0, 0.0);
+    drive.controller = ProportionalDerivative{1.0, 0.0};
     drive.reference = 1.0;
     constexpr double until = 30.0;
     const Trajectory exact = simulate(servo, engaged_start(servo, 0.0, 0.0, 1.0), {.until = until});
@@ -100,7 +100,7 @@ TEST(OracleDriveSystem, DryFrictionStopsAnOscillatorInHalfSwings) {
   drive.motor = {1.0, {.coulomb = 0.1, .breakaway = 0.15}};
   drive.load.inertia = 1.0;
   drive.backlash = 100.0;
-  drive.controller = proportional_derivative(1.0, 0.0);
+  drive.controller = ProportionalDerivative{1.0, 0.0};
   drive.sensing.load_share_of_position = 0.0;
   const auto motion = run(drive, {.motor_position = 1.0}, 40.0);
   // 1 → −0.8 → 0.6 → −0.4 → 0.2 → 0, where the spring is slack.

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "gearlash/drive/controller.hpp"
 #include "gearlash/servo/violation.hpp"
 
 namespace gearlash {
@@ -55,24 +56,13 @@ struct Sensing {
   double load_share_of_speed = 0.0;     ///< 0 … 1
 };
 
-/// A linear controller: z′ = state_matrix z + input_matrix (r, y, v), and the torque
-/// output z + direct (r, y, v); r the reference, y and v the position and speed sensed.
-struct LinearController {
-  std::vector<std::vector<double>> state_matrix{};  ///< n rows of n
-  std::vector<std::vector<double>> input_matrix{};  ///< n rows of 3
-  std::vector<double> output{};                     ///< n
-  std::vector<double> direct{0.0, 0.0, 0.0};        ///< 3
-
-  std::size_t order() const { return output.size(); }
-};
-
 struct Drive {
   Shaft motor{};
   Shaft load{};
   double backlash = 0.0;  ///< rad, > 0, face to face
   Contact contact{};
   Sensing sensing{};
-  LinearController controller{};
+  Controller controller{};
   double torque_limit = std::numeric_limits<double>::infinity();  ///< N m, > 0
   double reference = 0.0;                                         ///< rad
   double load_torque = 0.0;                                       ///< N m, on the load, forward
@@ -80,8 +70,5 @@ struct Drive {
 
 /// Every violation of the ranges above.
 std::vector<Violation> validate(const Drive& drive);
-
-/// torque = proportional (r − y) − derivative v.
-LinearController proportional_derivative(double proportional, double derivative);
 
 }  // namespace gearlash

@@ -1,0 +1,178 @@
+#include "gearlash/drive/controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "gearlash/servo/overloaded.hpp"
+#include "gearlash/servo/range_check.hpp"
+
+namespace gearlash {
+namespace {
+
+// ---- as linear ones -----------------------------------------------------------------------------
+
+LinearController linear(const ProportionalDerivative& controller) {
+  LinearController result;
+  result.direct = {controller.proportional, -controller.proportional, -controller.derivative};
+  return result;
+}
+
+/// The states are ∫e dt, times its gain, and the filter's.
+LinearController linear(const ProportionalIntegralDerivative& controller) {
+  LinearController result = linear(ProportionalDerivative{
+      controller.proportional, controller.filter > 0.0 ? 0.0 : controller.derivative});
+  const bool integrates = controller.integral != 0.0;
+  const bool filters = controller.filter > 0.0 && controller.derivative != 0.0;
+  const std::size_t order = (integrates ? 1U : 0U) + (filters ? 1U : 0U);
+  result.state_matrix.assign(order, std::vector<double>(order, 0.0));
+  result.input_matrix.assign(order, std::vector<double>(3, 0.0));
+  result.output.assign(order, 1.0);
+  if (integrates) {
+    result.input_matrix[0] = {controller.integral, -controller.integral, 0.0};
+    if (controller.tracking_time > 0.0) {
+      result.anti_windup.assign(order, 0.0);
+      result.anti_windup[0] = 1.0 / controller.tracking_time;
+    }
+  }
+  if (filters) {
+    // d s/(Ts + 1) = (d/T)(1 − 1/(Ts + 1))
+    const double rate = 1.0 / controller.filter;
+    const double gain = controller.derivative * rate;
+    result.state_matrix[order - 1][order - 1] = -rate;
+    result.input_matrix[order - 1] = {-gain * rate, gain * rate, 0.0};
+    result.direct[0] += gain;
+    result.direct[1] -= gain;
+  }
+  return result;
+}
+
+LinearController linear(const Cascade& controller) {
+  LinearController result;
+  const double stiffness = controller.speed * controller.position;
+  result.direct = {stiffness, -stiffness, -controller.speed};
+  if (controller.speed_integral == 0.0) return result;
+  const double integral = controller.speed_integral;
+  result.state_matrix = {{0.0}};
+  result.input_matrix = {
+      {integral * controller.position, -integral * controller.position, -integral}};
+  result.output = {1.0};
+  if (controller.tracking_time > 0.0) result.anti_windup = {1.0 / controller.tracking_time};
+  return result;
+}
+
+std::vector<double> without_leading_zeros(const std::vector<double>& coefficients) {
+  const auto first = std::find_if(coefficients.begin(), coefficients.end(),
+                                  [](double coefficient) { return coefficient != 0.0; });
+  return {first, coefficients.end()};
+}
+
+/// Controllable canonical form of numerator/denominator, descending powers, times e = r − y.
+LinearController linear(const ErrorTransfer& controller) {
+  const std::vector<double> denominator = without_leading_zeros(controller.function.denominator);
+  const std::vector<double> given = without_leading_zeros(controller.function.numerator);
+  const std::size_t order = denominator.size() - 1;
+  const double lead = denominator[0];
+  std::vector<double> numerator(denominator.size(), 0.0);
+  std::copy_backward(given.begin(), given.end(), numerator.end());
+  LinearController result;
+  const double direct = numerator[0] / lead;
+  result.direct = {direct, -direct, 0.0};
+  result.state_matrix.assign(order, std::vector<double>(order, 0.0));
+  result.input_matrix.assign(order, std::vector<double>(3, 0.0));
+  for (std::size_t i = 0; i < order; ++i) {
+    if (i + 1 < order) result.state_matrix[i][i + 1] = 1.0;
+    // The last row has the lowest power first.
+    result.state_matrix[order - 1][i] = -denominator[order - i] / lead;
+    result.output.push_back((numerator[order - i] - direct * denominator[order - i]) / lead);
+  }
+  if (order > 0) result.input_matrix[order - 1] = {1.0, -1.0, 0.0};
+  return result;
+}
+
+LinearController linear(const LeadLag& controller) {
+  return linear(ErrorTransfer{
+      {{controller.gain / controller.zero, controller.gain}, {1.0 / controller.pole, 1.0}}});
+}
+
+LinearController linear(const LinearController& controller) { return controller; }
+
+// ---- checks -------------------------------------------------------------------------------------
+
+void expect_finite(RangeCheck& check, const char* field, double value) {
+  if (!std::isfinite(value)) check.refuse(field, exact_text(value), "must be finite");
+}
+
+void inspect(RangeCheck& check, const ProportionalDerivative& controller) {
+  expect_finite(check, "proportional", controller.proportional);
+  expect_finite(check, "derivative", controller.derivative);
+}
+
+void inspect(RangeCheck& check, const ProportionalIntegralDerivative& controller) {
+  inspect(check, ProportionalDerivative{controller.proportional, controller.derivative});
+  expect_finite(check, "integral", controller.integral);
+  check.not_negative("filter", controller.filter, "s");
+  check.not_negative("tracking_time", controller.tracking_time, "s");
+}
+
+void inspect(RangeCheck& check, const Cascade& controller) {
+  expect_finite(check, "position", controller.position);
+  expect_finite(check, "speed", controller.speed);
+  expect_finite(check, "speed_integral", controller.speed_integral);
+  check.not_negative("tracking_time", controller.tracking_time, "s");
+}
+
+void inspect(RangeCheck& check, const LeadLag& controller) {
+  expect_finite(check, "gain", controller.gain);
+  check.positive("zero", controller.zero, "rad/s");
+  check.positive("pole", controller.pole, "rad/s");
+}
+
+void inspect(RangeCheck& check, const ErrorTransfer& controller) {
+  const TransferFunction& function = controller.function;
+  const std::vector<Violation> faults = validate(function);
+  check.include(faults);
+  if (!faults.empty()) return;
+  const std::size_t numerator = without_leading_zeros(function.numerator).size();
+  const std::size_t denominator = without_leading_zeros(function.denominator).size();
+  if (numerator > denominator) {
+    check.refuse("numerator", "of degree " + std::to_string(numerator - 1),
+                 "must be of no higher degree than the denominator (" +
+                     std::to_string(denominator - 1) +
+                     "): a controller cannot differentiate what it is told");
+  }
+  if (function.delay != 0.0) {
+    check.refuse("delay", exact_text(function.delay), "must be 0: a controller has none by itself");
+  }
+}
+
+void inspect(RangeCheck& check, const LinearController& controller) {
+  const std::size_t order = controller.order();
+  const auto expect = [&](const char* field, std::size_t found, std::size_t wanted) {
+    if (found == wanted) return;
+    check.refuse(field, std::to_string(found) + " numbers",
+                 "must be " + std::to_string(wanted) + ", by the length of output");
+  };
+  const auto expect_rows = [&](const char* field, const auto& rows, std::size_t columns) {
+    expect(field, rows.size(), order);
+    for (const auto& row : rows) expect(field, row.size(), columns);
+  };
+  expect_rows("state_matrix", controller.state_matrix, order);
+  expect_rows("input_matrix", controller.input_matrix, 3);
+  expect("direct", controller.direct.size(), 3);
+  if (!controller.anti_windup.empty()) expect("anti_windup", controller.anti_windup.size(), order);
+}
+
+}  // namespace
+
+std::vector<Violation> validate(const Controller& controller) {
+  RangeCheck check("controller.");
+  std::visit([&](const auto& one) { inspect(check, one); }, controller);
+  return check.violations();
+}
+
+LinearController linear_controller(const Controller& controller) {
+  return std::visit([](const auto& one) { return linear(one); }, controller);
+}
+
+}  // namespace gearlash
