@@ -22,6 +22,7 @@ execute_process(
 execute_process(COMMAND "${CMAKE_COMMAND}" --build "${WORK}/build" COMMAND_ERROR_IS_FATAL ANY)
 
 execute_process(COMMAND "${WORK}/build/consumer" COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND "${WORK}/build/hybrid_consumer" COMMAND_ERROR_IS_FATAL ANY)
 if("chart" IN_LIST COMPONENTS)
   execute_process(COMMAND "${WORK}/build/batch_consumer" COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND "${WORK}/build/design_chart_consumer" COMMAND_ERROR_IS_FATAL ANY)
