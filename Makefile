@@ -85,11 +85,12 @@ coverage:  ## the share of lines that the tests run
 	gcovr --root . --filter include --filter src --filter apps build/coverage
 
 readme: tool  ## renew the output and the pictures in README.md
+	@$(BUILD) release --target hybrid_examples
 	scripts/readme
 
 format:  ## lay out all C++ as .clang-format says
 	@$(INSTALL) lint
-	find include src apps tests benchmarks -name '*.[ch]pp' -exec clang-format-16 -i {} +
+	find include src apps tests benchmarks examples -name '*.[ch]pp' -exec clang-format-16 -i {} +
 
 tidy: programs  ## clang-tidy over the libraries and the tool
 	@$(INSTALL) lint
