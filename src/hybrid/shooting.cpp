@@ -58,15 +58,36 @@ double size_of(const Vector& vector) {
   return vector.size() == 0 ? 0.0 : vector.cwiseAbs().maxCoeff();
 }
 
+Vector velocity(const AffineFlow& flow, const Vector& numbers) {
+  return flow.matrix * numbers + flow.offset;
+}
+
+/// Where a flow takes numbers in a time: x + ∫₀ᵗ exp(As) ds (A x + b).
+Vector flown(const AffineFlow& flow, const Vector& numbers, double time) {
+  const Index size = numbers.size();
+  Matrix augmented = Matrix::Zero(size + 1, size + 1);
+  augmented.topLeftCorner(size, size) = flow.matrix;
+  augmented.topRightCorner(size, 1) = velocity(flow, numbers);
+  return numbers + Vector((augmented * time).exp().topRightCorner(size, 1));
+}
+
+/// Whether a flow moves numbers, for all that rounding can tell.
+bool is_moved(const AffineFlow& flow, const Vector& numbers) {
+  constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+  const Vector terms = flow.matrix.cwiseAbs() * numbers.cwiseAbs() + flow.offset.cwiseAbs();
+  return (velocity(flow, numbers).array().abs() > rounding * terms.array()).any();
+}
+
 /// A period with which what moves by itself comes back, near the given one: Newton's method on the
-/// distance from where it was.
-double refined_period(const Matrix& flow, const Vector& numbers, double period) {
+/// distance from where it was. The given one where it does not come back.
+double refined_period(const AffineFlow& flow, const Vector& numbers, double period) {
+  double refined = period;
   for (int i = 0; i < 20; ++i) {
-    const Vector there = (flow * period).exp() * numbers;
-    const Vector velocity = flow * there;
-    period -= velocity.dot(there - numbers) / velocity.squaredNorm();
+    const Vector there = flown(flow, numbers, refined);
+    const Vector speed = velocity(flow, there);
+    refined -= speed.dot(there - numbers) / speed.squaredNorm();
   }
-  return period;
+  return refined > 0.5 * period && refined < 2.0 * period ? refined : period;
 }
 
 double duration_of(const std::vector<Passage>& passages) {
@@ -94,16 +115,16 @@ Shooting::Shooting(const HybridSystem& system, const State& start, double start_
 void Shooting::find_exogenous() {
   const AffineFlow& flow = system_->modes.front().flow;
   is_exogenous_ = exogenous_numbers(*system_);
-  exogenous_flow_ = Matrix::Zero(system_->size(), system_->size());
+  exogenous_flow_ = {Matrix::Zero(system_->size(), system_->size()), Vector::Zero(system_->size())};
   for (Index n = 0; n < system_->size(); ++n) {
     if (is_exogenous_[static_cast<std::size_t>(n)]) {
-      exogenous_flow_.row(n) = flow.matrix.row(n);
-      moves_by_itself_ = moves_by_itself_ || flow.offset[n] != 0.0;
+      exogenous_flow_.matrix.row(n) = flow.matrix.row(n);
+      exogenous_flow_.offset[n] = flow.offset[n];
     } else {
       anchor_[n] = 0.0;
     }
   }
-  moves_by_itself_ = moves_by_itself_ || size_of(exogenous_flow_ * anchor_) > 0.0;
+  moves_by_itself_ = is_moved(exogenous_flow_, anchor_);
   if (moves_by_itself_) period_ = refined_period(exogenous_flow_, anchor_, period_);
 }
 
@@ -168,7 +189,8 @@ void Shooting::divide(const Trajectory& motion, std::size_t phases) {
     passed.push_back(i + 1);
   }
   passed.push_back(events.size());
-  Vector sizes = Vector::Constant(system_->size(), std::numeric_limits<double>::min());
+  constexpr double least = 1e-100;  // whose square is not 0 either: of numbers that stay 0
+  Vector sizes = Vector::Constant(system_->size(), least);
   constexpr int samples = 32;  // how large each number becomes, about
   for (int i = 0; i < samples; ++i) {
     const double time = motion.start_time() + period_ * i / samples;
@@ -231,7 +253,7 @@ Vector Shooting::residual_of(const std::vector<Passage>& all) const {
     residual.segment(i * size, size) = all[static_cast<std::size_t>(i)].end.numbers -
                                        unknowns_.segment(((i + 1) % phases) * size, size);
   }
-  const Vector fixed = (exogenous_flow_ * shift()).exp() * anchor_;
+  const Vector fixed = flown(exogenous_flow_, anchor_, shift());
   for (Index n = 0; n < size; ++n) {
     if (!is_exogenous_[static_cast<std::size_t>(n)]) continue;
     residual[(phases - 1) * size + n] = unknowns_[n] - fixed[n];
@@ -250,7 +272,7 @@ Matrix Shooting::slope_of(const std::vector<Passage>& all) const {
     slope.block(i * size, i * size, size, size) += all[static_cast<std::size_t>(i)].slope;
     slope.block(i * size, next * size, size, size) -= Matrix::Identity(size, size);
   }
-  const Vector drift = exogenous_flow_ * ((exogenous_flow_ * shift()).exp() * anchor_);
+  const Vector drift = velocity(exogenous_flow_, flown(exogenous_flow_, anchor_, shift()));
   for (Index n = 0; n < size; ++n) {
     if (!is_exogenous_[static_cast<std::size_t>(n)]) continue;
     const Index row = (phases - 1) * size + n;

@@ -65,7 +65,7 @@ class Shooting {
   const HybridSystem* system_;
   std::vector<Phase> phases_;
   std::vector<bool> is_exogenous_;
-  Matrix exogenous_flow_;
+  AffineFlow exogenous_flow_;
   bool moves_by_itself_ = false;
   bool has_clocks_ = false;
   double start_time_;
