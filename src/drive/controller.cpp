@@ -1,13 +1,16 @@
 #include "gearlash/drive/controller.hpp"
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "gearlash/servo/overloaded.hpp"
 #include "gearlash/servo/range_check.hpp"
 
-namespace gearlash {
+namespace gearlash::drive {
 namespace {
 
 // ---- as linear ones -----------------------------------------------------------------------------
@@ -36,10 +39,14 @@ LinearController linear(const ProportionalIntegralDerivative& controller) {
     }
   }
   if (filters) {
-    // d s/(Ts + 1) = (d/T)(1 − 1/(Ts + 1))
     const double rate = 1.0 / controller.filter;
     const double gain = controller.derivative * rate;
     result.state_matrix[order - 1][order - 1] = -rate;
+    if (controller.derivative_of_speed) {
+      result.input_matrix[order - 1] = {0.0, 0.0, -gain};
+      return result;
+    }
+    // d s/(Ts + 1) = (d/T)(1 − 1/(Ts + 1))
     result.input_matrix[order - 1] = {-gain * rate, gain * rate, 0.0};
     result.direct[0] += gain;
     result.direct[1] -= gain;
@@ -68,9 +75,10 @@ std::vector<double> without_leading_zeros(const std::vector<double>& coefficient
 }
 
 /// Controllable canonical form of numerator/denominator, descending powers, times e = r − y.
-LinearController linear(const ErrorTransfer& controller) {
-  const std::vector<double> denominator = without_leading_zeros(controller.function.denominator);
-  const std::vector<double> given = without_leading_zeros(controller.function.numerator);
+LinearController canonical_form(const std::vector<double>& numerator_given,
+                                const std::vector<double>& denominator_given) {
+  const std::vector<double> denominator = without_leading_zeros(denominator_given);
+  const std::vector<double> given = without_leading_zeros(numerator_given);
   const std::size_t order = denominator.size() - 1;
   const double lead = denominator[0];
   std::vector<double> numerator(denominator.size(), 0.0);
@@ -88,6 +96,14 @@ LinearController linear(const ErrorTransfer& controller) {
   }
   if (order > 0) result.input_matrix[order - 1] = {1.0, -1.0, 0.0};
   return result;
+}
+
+LinearController linear(const ErrorTransfer& controller) {
+  return canonical_form(controller.function.numerator, controller.function.denominator);
+}
+
+LinearController linear(const SampledTransfer& controller) {
+  return canonical_form(controller.numerator, controller.denominator);
 }
 
 LinearController linear(const LeadLag& controller) {
@@ -128,8 +144,7 @@ void inspect(RangeCheck& check, const LeadLag& controller) {
   check.positive("pole", controller.pole, "rad/s");
 }
 
-void inspect(RangeCheck& check, const ErrorTransfer& controller) {
-  const TransferFunction& function = controller.function;
+void expect_proper(RangeCheck& check, const TransferFunction& function) {
   const std::vector<Violation> faults = validate(function);
   check.include(faults);
   if (!faults.empty()) return;
@@ -141,9 +156,18 @@ void inspect(RangeCheck& check, const ErrorTransfer& controller) {
                      std::to_string(denominator - 1) +
                      "): a controller cannot differentiate what it is told");
   }
-  if (function.delay != 0.0) {
-    check.refuse("delay", exact_text(function.delay), "must be 0: a controller has none by itself");
+}
+
+void inspect(RangeCheck& check, const ErrorTransfer& controller) {
+  expect_proper(check, controller.function);
+  if (controller.function.delay != 0.0) {
+    check.refuse("delay", exact_text(controller.function.delay),
+                 "must be 0: a controller has none by itself");
   }
+}
+
+void inspect(RangeCheck& check, const SampledTransfer& controller) {
+  expect_proper(check, {controller.numerator, controller.denominator});
 }
 
 void inspect(RangeCheck& check, const LinearController& controller) {
@@ -175,4 +199,73 @@ LinearController linear_controller(const Controller& controller) {
   return std::visit([](const auto& one) { return linear(one); }, controller);
 }
 
-}  // namespace gearlash
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+Matrix matrix_of(const std::vector<std::vector<double>>& rows, std::size_t columns) {
+  Matrix matrix(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t j = 0; j < columns; ++j) {
+      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = rows[i][j];
+    }
+  }
+  return matrix;
+}
+
+Vector vector_of(const std::vector<double>& numbers) {
+  return Eigen::Map<const Vector>(numbers.data(), static_cast<Eigen::Index>(numbers.size()));
+}
+
+std::vector<std::vector<double>> rows_of(const Matrix& matrix) {
+  std::vector<std::vector<double>> rows;
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    const Vector row = matrix.row(i).transpose();
+    rows.emplace_back(row.data(), row.data() + row.size());
+  }
+  return rows;
+}
+
+std::vector<double> numbers_of(const Vector& vector) {
+  return {vector.data(), vector.data() + vector.size()};
+}
+
+}  // namespace
+
+/// With d/dt ↦ (z − 1)/(T (share z + 1 − share)), S = (I − share T A)⁻¹:
+///   z⁺ = S (I + (1 − share) T A) z + S B T u,  output C S z + (D + share T C S B) u.
+LinearController sampled_controller(const Controller& controller, const Sampling& sampling) {
+  const LinearController given = linear_controller(controller);
+  const std::size_t order = given.order();
+  if (std::holds_alternative<SampledTransfer>(controller) || order == 0) return given;
+  const double share = sampling.method == Discretization::tustin     ? 0.5
+                       : sampling.method == Discretization::backward ? 1.0
+                                                                     : 0.0;
+  const double period = sampling.period;
+  const auto size = static_cast<Eigen::Index>(order);
+  const Matrix dynamics = matrix_of(given.state_matrix, order);
+  const Matrix input = matrix_of(given.input_matrix, 3);
+  const Matrix identity = Matrix::Identity(size, size);
+  const Matrix solved = (identity - share * period * dynamics).partialPivLu().inverse();
+  const Vector output = solved.transpose() * vector_of(given.output);
+  LinearController result;
+  result.state_matrix = rows_of(solved * (identity + (1.0 - share) * period * dynamics));
+  result.input_matrix = rows_of(period * solved * input);
+  result.output = numbers_of(output);
+  result.direct = numbers_of(vector_of(given.direct) + share * period * input.transpose() * output);
+  if (!given.anti_windup.empty()) {
+    result.anti_windup = numbers_of(period * solved * vector_of(given.anti_windup));
+  }
+  return result;
+}
+
+double spectral_radius(const LinearController& controller) {
+  const std::size_t order = controller.order();
+  if (order == 0) return 0.0;
+  const double radius =
+      matrix_of(controller.state_matrix, order).eigenvalues().cwiseAbs().maxCoeff();
+  return std::isfinite(radius) ? radius : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace gearlash::drive

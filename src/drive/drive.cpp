@@ -6,7 +6,7 @@
 #include "gearlash/servo/overloaded.hpp"
 #include "gearlash/servo/range_check.hpp"
 
-namespace gearlash {
+namespace gearlash::drive {
 namespace {
 
 void check(RangeCheck& all, const std::string& name, const Shaft& shaft) {
@@ -19,6 +19,31 @@ void check(RangeCheck& all, const std::string& name, const Shaft& shaft) {
                "must be finite and at least " + name + ".coulomb, " +
                    exact_text(shaft.friction.coulomb) + " N m");
   }
+}
+
+/// Roots on the unit circle are integrators; rounding may put them a little beyond.
+constexpr double largest_radius = 1.0 + 1e-9;
+
+void check_sampling(RangeCheck& all, const Drive& drive) {
+  const bool is_of_samples = std::holds_alternative<SampledTransfer>(drive.controller);
+  if (!drive.sampling) {
+    if (is_of_samples) {
+      all.refuse("sampling", "missing", "must be given: the controller is a function of z");
+    }
+    return;
+  }
+  const Sampling& sampling = *drive.sampling;
+  RangeCheck check("sampling.");
+  check.positive("period", sampling.period, "s");
+  if (!check.violations().empty()) return void(all.include(check.violations()));
+  check.within("delay", sampling.delay, 0.0, sampling.period);
+  all.include(check.violations());
+  if (!check.violations().empty() || !validate(drive.controller).empty()) return;
+  const double radius = spectral_radius(sampled_controller(drive.controller, sampling));
+  if (radius <= largest_radius) return;
+  all.refuse("controller", "a pole of modulus " + exact_text(radius) + " from sample to sample",
+             "must have all poles in the unit circle: what it remembers grows without end" +
+                 std::string(is_of_samples ? "" : "; sample faster, or with another method"));
 }
 
 }  // namespace
@@ -42,13 +67,12 @@ std::vector<Violation> validate(const Drive& drive) {
   if (!(drive.torque_limit > 0.0)) {
     all.refuse("torque_limit", exact_text(drive.torque_limit), "must be positive, N m");
   }
-  if (!std::isfinite(drive.reference)) {
-    all.refuse("reference", exact_text(drive.reference), "must be finite, rad");
-  }
-  if (!std::isfinite(drive.load_torque)) {
-    all.refuse("load_torque", exact_text(drive.load_torque), "must be finite, N m");
-  }
+  all.not_negative("sensing.resolution", drive.sensing.resolution, "rad");
+  all.not_negative("sensing.resolution_of_speed", drive.sensing.resolution_of_speed, "rad");
+  all.include(validate(drive.reference, "reference"));
+  all.include(validate(drive.load_torque, "load_torque"));
+  check_sampling(all, drive);
   return all.violations();
 }
 
-}  // namespace gearlash
+}  // namespace gearlash::drive

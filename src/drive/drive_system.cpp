@@ -8,7 +8,7 @@
 #include "gearlash/servo/overloaded.hpp"
 #include "gearlash/servo/range_check.hpp"
 
-namespace gearlash {
+namespace gearlash::drive {
 namespace {
 
 using hybrid::AffineForm;
@@ -82,29 +82,84 @@ std::string text_of(const DriveMode& mode) {
   return text;
 }
 
+// ---- signals as numbers of the state ------------------------------------------------------------
+
+/// s′ = flow s, the signal being output · s + offset; at the times s becomes the setting.
+struct Generator {
+  Matrix flow;
+  Vector output;
+  double offset = 0.0;
+  Vector start;
+  std::vector<double> times;
+  std::vector<Vector> settings;
+
+  Eigen::Index size() const { return start.size(); }
+};
+
+Generator generator_of(const Sine& sine) {
+  return {Matrix{{0.0, sine.frequency}, {-sine.frequency, 0.0}},
+          Vector{{sine.amplitude, 0.0}},
+          sine.mean,
+          Vector{{std::sin(sine.phase), std::cos(sine.phase)}},
+          {},
+          {}};
+}
+
+/// As many derivatives as the signal has.
+Generator generator_of(const Signal& signal) {
+  if (const auto* sine = std::get_if<Sine>(&signal)) return generator_of(*sine);
+  const std::vector<SignalStretch> all = stretches(signal);
+  Eigen::Index size = all.size() > 1 ? 1 : 0;
+  for (const SignalStretch& stretch : all) {
+    if (stretch.rate != 0.0) size = std::max<Eigen::Index>(size, 2);
+    if (stretch.acceleration != 0.0) size = 3;
+  }
+  Generator generator{Matrix::Zero(size, size), Vector::Zero(size), 0.0, {}, {}, {}};
+  for (Eigen::Index i = 0; i + 1 < size; ++i) generator.flow(i, i + 1) = 1.0;
+  if (size == 0) {
+    generator.offset = all.front().value;
+  } else {
+    generator.output[0] = 1.0;
+  }
+  const auto setting_of = [&](const SignalStretch& stretch) {
+    return Vector(Eigen::Vector3d(stretch.value, stretch.rate, stretch.acceleration).head(size));
+  };
+  generator.start = setting_of(all.front());
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    generator.times.push_back(all[i].start);
+    generator.settings.push_back(setting_of(all[i]));
+  }
+  return generator;
+}
+
 // ---- the builder --------------------------------------------------------------------------------
 
 class Builder {
  public:
   explicit Builder(const Drive& drive)
       : drive_(drive),
-        controller_(linear_controller(drive.controller)),
-        size_(controller_states + static_cast<Eigen::Index>(controller_.order())),
-        rigid_(std::holds_alternative<RigidContact>(drive.contact)) {
+        controller_(drive.sampling ? sampled_controller(drive.controller, *drive.sampling)
+                                   : linear_controller(drive.controller)),
+        rigid_(std::holds_alternative<RigidContact>(drive.contact)),
+        reference_generator_(generator_of(drive.reference)),
+        load_generator_(generator_of(drive.load_torque)) {
+    name_numbers();
     list_modes();
   }
 
   DriveSystem build() {
     hybrid::HybridSystem& system = result_.system;
-    system.state_names = {"motor position", "motor speed", "load position", "load speed"};
-    for (std::size_t i = 0; i < controller_.order(); ++i) {
-      system.state_names.push_back("controller " + std::to_string(i + 1));
-    }
+    add_clocks();
     for (const DriveMode& mode : result_.modes) {
       hybrid::Mode built;
       built.name = text_of(mode);
       built.flow = flow_of(mode);
-      add_torque_limit(mode, built);
+      if (drive_.sampling) {
+        add_sampling(mode, built);
+      } else {
+        add_torque_limit(mode, built);
+        add_counting(mode, built);
+      }
       if (is_engaged(mode)) {
         add_engaged(mode, built);
       } else {
@@ -112,13 +167,220 @@ class Builder {
         add_friction(mode, built, Side::load);
         add_contact(mode, built);
       }
+      add_settings(mode, built);
+      result_.motor_torque.push_back(motor_torque(mode));
       system.modes.push_back(std::move(built));
     }
+    result_.start = start();
+    result_.first_readings = first_readings();
+    result_.reference = of(reference_generator_, reference_at_);
+    result_.load_torque = load_torque();
     return std::move(result_);
   }
 
  private:
   enum class Side { motor, load };
+
+  // ---- numbers ----------------------------------------------------------------------------------
+
+  static constexpr Eigen::Index none = -1;
+
+  /// Which number of the state is what.
+  void name_numbers() {
+    std::vector<std::string>& names = result_.system.state_names;
+    names = {"motor position", "motor speed", "load position", "load speed"};
+    for (std::size_t i = 0; i < controller_.order(); ++i) {
+      names.push_back("controller " + std::to_string(i + 1));
+    }
+    const auto add = [&](const std::string& name) {
+      names.push_back(name);
+      return static_cast<Eigen::Index>(names.size()) - 1;
+    };
+    if (drive_.sampling) {
+      held_ = add("torque held");
+      if (drive_.sampling->delay > 0.0) worked_out_ = add("torque worked out");
+      if (drive_.sampling->speed_by_differences) last_reading_ = add("last reading");
+    } else if (drive_.sensing.resolution > 0.0) {
+      reading_ = add("encoder");
+    }
+    const auto add_generator = [&](const Generator& generator, const char* name) {
+      const auto at = static_cast<Eigen::Index>(names.size());
+      for (Eigen::Index i = 0; i < generator.size(); ++i) {
+        names.push_back(std::string(name) + (i == 0 ? "" : " " + std::to_string(i + 1)));
+      }
+      return at;
+    };
+    reference_at_ = add_generator(reference_generator_, "reference");
+    load_at_ = add_generator(load_generator_, "load torque");
+    size_ = result_.system.size();
+  }
+
+  Vector start() const {
+    Vector numbers = Vector::Zero(size_);
+    numbers.segment(reference_at_, reference_generator_.size()) = reference_generator_.start;
+    numbers.segment(load_at_, load_generator_.size()) = load_generator_.start;
+    return numbers;
+  }
+
+  /// As if the speeds had been the same before.
+  hybrid::Reset first_readings() const {
+    hybrid::Reset reset{Matrix::Identity(size_, size_), Vector::Zero(size_), {}};
+    const Sensing& sensing = drive_.sensing;
+    if (reading_ != none) {
+      add_reading(reset, sensed_position(), sensing.resolution, Vector::Unit(size_, reading_));
+    }
+    if (last_reading_ != none) {
+      const AffineForm earlier = counted_position() - drive_.sampling->period * sensed_speed();
+      add_reading(reset, earlier, sensing.resolution_of_speed, Vector::Unit(size_, last_reading_));
+    }
+    return reset;
+  }
+
+  AffineForm of(const Generator& generator, Eigen::Index at) const {
+    AffineForm form = constant(generator.offset);
+    form.normal.segment(at, generator.size()) = generator.output;
+    return form;
+  }
+
+  // ---- clocks -----------------------------------------------------------------------------------
+
+  /// Signals change before the controller samples them.
+  void add_clocks() {
+    std::vector<hybrid::Clock>& clocks = result_.system.clocks;
+    const auto add_signal = [&](const Generator& generator, Eigen::Index at, const char* name) {
+      if (generator.times.empty()) return;
+      hybrid::Clock clock;
+      clock.name = name;
+      clock.times = generator.times;
+      for (const Vector& setting : generator.settings) {
+        clock.additions.push_back(Vector::Zero(size_));
+        clock.additions.back().segment(at, generator.size()) = setting;
+      }
+      settings_.push_back({clocks.size(), at, generator.size(), name});
+      clocks.push_back(std::move(clock));
+    };
+    add_signal(reference_generator_, reference_at_, "reference");
+    add_signal(load_generator_, load_at_, "load torque");
+    if (!drive_.sampling) return;
+    sample_clock_ = clocks.size();
+    clocks.push_back({.name = "sample", .first = 0.0, .period = drive_.sampling->period});
+    if (!gives_out_between_samples()) return;
+    clocks.push_back(
+        {.name = "output", .first = drive_.sampling->delay, .period = drive_.sampling->period});
+  }
+
+  bool gives_out_between_samples() const {
+    const Sampling& sampling = *drive_.sampling;
+    return sampling.delay > 0.0 && sampling.delay < sampling.period;
+  }
+
+  void add_settings(const DriveMode& mode, hybrid::Mode& built) const {
+    for (const Setting& setting : settings_) {
+      hybrid::TimedTransition timed;
+      timed.name = setting.name;
+      timed.clock = setting.clock;
+      timed.reset.matrix = Matrix::Identity(size_, size_);
+      timed.reset.matrix.block(setting.at, setting.at, setting.size, setting.size).setZero();
+      timed.target = index_of(mode);
+      built.timed.push_back(std::move(timed));
+    }
+  }
+
+  // ---- a sampled controller ---------------------------------------------------------------------
+
+  /// Adds a multiple of a reading to numbers of the state after a tick.
+  void add_reading(hybrid::Reset& reset, const AffineForm& measured, double step,
+                   const Vector& gain) const {
+    if (step > 0.0) {
+      reset.quantizers.push_back({measured, step, gain});
+    } else {
+      reset.matrix += gain * measured.normal.transpose();
+      reset.offset += gain * measured.offset;
+    }
+  }
+
+  void add_sampling(const DriveMode& mode, hybrid::Mode& built) const {
+    const Sampling& sampling = *drive_.sampling;
+    const Sensing& sensing = drive_.sensing;
+    const auto order = static_cast<Eigen::Index>(controller_.order());
+    hybrid::Reset reset{Matrix::Identity(size_, size_), Vector::Zero(size_), {}};
+    const bool waits = sampling.delay > 0.0;
+    const Eigen::Index result = waits ? worked_out_ : held_;
+    const auto set = [&](Eigen::Index row, const AffineForm& form) {
+      reset.matrix.row(row) = form.normal.transpose();
+      reset.offset[row] = form.offset;
+    };
+    for (Eigen::Index i = 0; i < order; ++i) {
+      const auto row = static_cast<std::size_t>(i);
+      AffineForm next = of_controller(controller_.state_matrix[row]);
+      if (!controller_.anti_windup.empty() && mode.torque != TorqueState::linear) {
+        next = next + controller_.anti_windup[row] * (motor_torque(mode) - number(held_));
+      }
+      set(controller_states + i, next);
+    }
+    set(result, of_controller(controller_.output));
+    if (last_reading_ != none) set(last_reading_, constant(0.0));
+    if (waits && !gives_out_between_samples()) set(held_, number(worked_out_));
+    // What the inputs r, y and v add.
+    const auto gain_of = [&](std::size_t input) {
+      Vector gain = Vector::Zero(size_);
+      for (Eigen::Index i = 0; i < order; ++i) {
+        gain[controller_states + i] = controller_.input_matrix[static_cast<std::size_t>(i)][input];
+      }
+      gain[result] = controller_.direct[input];
+      return gain;
+    };
+    add_reading(reset, of(reference_generator_, reference_at_), 0.0, gain_of(0));
+    add_reading(reset, sensed_position(), sensing.resolution, gain_of(1));
+    const Vector speed_gain = gain_of(2);
+    if (last_reading_ == none) {
+      add_reading(reset, sensed_speed(), 0.0, speed_gain);
+    } else {
+      const Vector kept = Vector::Unit(size_, last_reading_);
+      add_reading(reset, counted_position(), sensing.resolution_of_speed,
+                  1.0 / sampling.period * speed_gain + kept);
+      add_reading(reset, number(last_reading_), 0.0, -1.0 / sampling.period * speed_gain);
+    }
+    const bool gives_out = !gives_out_between_samples();
+    built.timed.push_back(timed("sample", sample_clock_, std::move(reset), mode, gives_out));
+    if (gives_out) return;
+    hybrid::Reset output{Matrix::Identity(size_, size_), Vector::Zero(size_), {}};
+    output.matrix.row(held_) = Vector::Unit(size_, worked_out_).transpose();
+    built.timed.push_back(timed("output", sample_clock_ + 1, std::move(output), mode, true));
+  }
+
+  hybrid::TimedTransition timed(const char* name, std::size_t clock, hybrid::Reset reset,
+                                DriveMode mode, bool gives_out) const {
+    hybrid::TimedTransition result;
+    result.name = name;
+    result.clock = clock;
+    result.reset = std::move(reset);
+    if (gives_out && std::isfinite(drive_.torque_limit)) {
+      for (const double way : {1.0, -1.0}) {
+        DriveMode limited = mode;
+        limited.torque = way > 0.0 ? TorqueState::highest : TorqueState::lowest;
+        result.alternatives.push_back(
+            {{way * number(held_) - drive_.torque_limit}, index_of(limited)});
+      }
+      mode.torque = TorqueState::linear;
+    }
+    result.target = index_of(mode);
+    return result;
+  }
+
+  // ---- an encoder under a continuous controller -------------------------------------------------
+
+  void add_counting(const DriveMode& mode, hybrid::Mode& built) const {
+    if (reading_ == none) return;
+    const double step = drive_.sensing.resolution;
+    for (const double way : {1.0, -1.0}) {
+      hybrid::Transition counts = transition(
+          way > 0.0 ? "encoder counts up" : "encoder counts down",
+          sensed_position() - number(reading_) - 0.5 * way * step, rising_on(way), index_of(mode));
+      counts.reset.offset = way * step * Vector::Unit(size_, reading_);
+      built.transitions.push_back(std::move(counts));
+    }
+  }
 
   // ---- modes ------------------------------------------------------------------------------------
 
@@ -178,12 +440,22 @@ class Builder {
     return load_share * number(load) + (1.0 - load_share) * number(motor);
   }
 
-  /// Σ factors (r, y, v).
+  AffineForm sensed_position() const {
+    return sensed(drive_.sensing.load_share_of_position, motor_position, load_position);
+  }
+  /// Whose differences are the speed.
+  AffineForm counted_position() const {
+    return sensed(drive_.sensing.load_share_of_speed, motor_position, load_position);
+  }
+  AffineForm sensed_speed() const {
+    return sensed(drive_.sensing.load_share_of_speed, motor_speed, load_speed);
+  }
+
+  /// Σ factors (r, y, v), of a continuous controller.
   AffineForm of_inputs(const std::vector<double>& factors) const {
-    const Sensing& sensing = drive_.sensing;
-    return factors[0] * constant(drive_.reference) +
-           factors[1] * sensed(sensing.load_share_of_position, motor_position, load_position) +
-           factors[2] * sensed(sensing.load_share_of_speed, motor_speed, load_speed);
+    return factors[0] * of(reference_generator_, reference_at_) +
+           factors[1] * (reading_ == none ? sensed_position() : number(reading_)) +
+           factors[2] * sensed_speed();
   }
 
   AffineForm of_controller(const std::vector<double>& factors) const {
@@ -195,6 +467,7 @@ class Builder {
   }
 
   AffineForm asked_torque() const {
+    if (drive_.sampling) return number(held_);
     return of_controller(controller_.output) + of_inputs(controller_.direct);
   }
 
@@ -210,7 +483,7 @@ class Builder {
     return controller_.anti_windup[state] * (motor_torque(mode) - asked_torque());
   }
 
-  AffineForm load_torque() const { return constant(drive_.load_torque); }
+  AffineForm load_torque() const { return of(load_generator_, load_at_); }
 
   const CompliantContact& compliant() const { return std::get<CompliantContact>(drive_.contact); }
 
@@ -279,7 +552,11 @@ class Builder {
     set(motor_speed, acceleration(mode, Side::motor));
     set(load_position, number(load_speed));
     set(load_speed, acceleration(mode, Side::load));
-    for (std::size_t i = 0; i < controller_.order(); ++i) {
+    flow.matrix.block(reference_at_, reference_at_, reference_generator_.size(),
+                      reference_generator_.size()) = reference_generator_.flow;
+    flow.matrix.block(load_at_, load_at_, load_generator_.size(), load_generator_.size()) =
+        load_generator_.flow;
+    for (std::size_t i = 0; !drive_.sampling && i < controller_.order(); ++i) {
       set(controller_states + static_cast<Eigen::Index>(i),
           of_controller(controller_.state_matrix[i]) + of_inputs(controller_.input_matrix[i]) +
               withdrawal(mode, i));
@@ -582,10 +859,28 @@ class Builder {
     add_alone(Side::load, face);
   }
 
+  /// Numbers that a clock sets.
+  struct Setting {
+    std::size_t clock;
+    Eigen::Index at;
+    Eigen::Index size;
+    std::string name;
+  };
+
   const Drive& drive_;
   LinearController controller_;
-  Eigen::Index size_;
   bool rigid_;
+  Generator reference_generator_;
+  Generator load_generator_;
+  Eigen::Index size_ = 0;
+  Eigen::Index reference_at_ = 0;
+  Eigen::Index load_at_ = 0;
+  Eigen::Index held_ = none;          ///< torque, of a sampled controller
+  Eigen::Index worked_out_ = none;    ///< torque, to be given out after the delay
+  Eigen::Index last_reading_ = none;  ///< of the position whose differences are the speed
+  Eigen::Index reading_ = none;       ///< of an encoder under a continuous controller
+  std::size_t sample_clock_ = 0;
+  std::vector<Setting> settings_;
   DriveSystem result_;
 };
 
@@ -626,12 +921,12 @@ hybrid::State drive_start(const Drive& drive, const DriveSystem& system,
   };
   mode.motor = friction(drive.motor, shafts.motor_speed);
   mode.load = friction(drive.load, shafts.load_speed);
-  Vector numbers = Vector::Zero(system.system.size());
+  Vector numbers = system.start;
   numbers[motor_position] = shafts.motor_position;
   numbers[motor_speed] = shafts.motor_speed;
   numbers[load_position] = shafts.load_position;
   numbers[load_speed] = shafts.load_speed;
-  return {system.index_of(mode), numbers};
+  return {system.index_of(mode), system.first_readings.after(numbers)};
 }
 
-}  // namespace gearlash
+}  // namespace gearlash::drive

@@ -86,6 +86,12 @@ class Inspection {
       if (std::isfinite(clock.times[i]) && rises) continue;
       note(where, "times must be finite and rise; entry " + std::to_string(i) + " does not");
     }
+    if (!clock.additions.empty() && clock.additions.size() != clock.times.size()) {
+      note(where, "must have as many additions as times, or none");
+    }
+    for (const Vector& addition : clock.additions) {
+      expect_vector(where + ".additions", addition, false);
+    }
   }
 
   void inspect(const Mode& mode) {
@@ -107,6 +113,7 @@ class Inspection {
       const std::string here = where + ", timed transition \"" + transition.name + "\"";
       inspect(here + ".reset", transition.reset);
       expect_mode(here + ".target", transition.target);
+      inspect(here + ".alternatives", transition.alternatives);
       if (transition.clock >= system_.clocks.size()) {
         note(here + ".clock", "is clock " + std::to_string(transition.clock) + ", must be one of " +
                                   std::to_string(system_.clocks.size()));

@@ -155,11 +155,15 @@ class Simulation {
   bool fire_due_clocks() {
     for (std::size_t i = 0; i < ticks_.size(); ++i) {
       if (ticks_[i].time > time_ || ticks_[i].time > options_.until) continue;
-      advance(system_.clocks[i], ticks_[i]);
+      const Clock& clock = system_.clocks[i];
+      const std::size_t count = ticks_[i].count;
+      const Vector* addition = count < clock.additions.size() ? &clock.additions[count] : nullptr;
+      advance(clock, ticks_[i]);
       const std::vector<TimedTransition>& timed = system_.modes[state_.mode].timed;
       for (std::size_t k = 0; k < timed.size(); ++k) {
         if (timed[k].clock != i) continue;
-        change(EventKind::timed, k, timed[k].reset, timed[k].target, {});
+        change(EventKind::timed, k, timed[k].reset, timed[k].target, timed[k].alternatives,
+               addition);
         break;
       }
       return true;
@@ -270,9 +274,10 @@ class Simulation {
   }
 
   void change(EventKind kind, std::size_t transition, const Reset& reset, std::size_t otherwise,
-              const std::vector<Alternative>& alternatives) {
+              const std::vector<Alternative>& alternatives, const Vector* addition = nullptr) {
     Event event{time_, kind, state_.mode, transition, otherwise, state_.numbers, {}};
     state_.numbers = reset.after(state_.numbers);
+    if (addition != nullptr) state_.numbers += *addition;
     if (reset.matrix.size() != 0) noise_ = reset.matrix.cwiseAbs() * noise_;
     noise_ += rounding * state_.numbers.cwiseAbs();
     event.mode_after = target_among(alternatives, otherwise);

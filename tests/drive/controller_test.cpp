@@ -8,7 +8,7 @@
 
 #include "gearlash/drive/drive_system.hpp"
 
-namespace gearlash {
+namespace gearlash::drive {
 namespace {
 
 using Complex = std::complex<double>;
@@ -96,4 +96,4 @@ TEST(Controller, IntegralActionHuntsWithStiction) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::drive

@@ -8,7 +8,7 @@
 
 #include "gearlash/motion/trajectory.hpp"
 
-namespace gearlash {
+namespace gearlash::drive {
 namespace {
 
 // ---- Modelica's Rotational.Examples.Backlash ----------------------------------------------------
@@ -123,4 +123,4 @@ TEST(EdgeDriveSystem, FaultsAreToldAllAtOnce) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::drive

@@ -8,7 +8,7 @@
 #include "gearlash/cycle/transfer_function.hpp"
 #include "gearlash/servo/violation.hpp"
 
-namespace gearlash {
+namespace gearlash::drive {
 
 /// z′ = state_matrix z + input_matrix (r, y, v) + anti_windup (τ − τ_asked), and the torque asked
 /// for
@@ -32,7 +32,8 @@ struct ProportionalDerivative {
 };
 
 /// τ = proportional e + integral ∫e dt + derivative · s/(filter s + 1) e,  e = r − y; without a
-/// filter the derivative acts on −v, the speed sensed.
+/// filter, or where it is the speed's, the derivative acts on −v, the speed sensed:
+///   − derivative · 1/(filter s + 1) v.
 struct ProportionalIntegralDerivative {
   double proportional = 0.0;  ///< N m/rad
   double integral = 0.0;      ///< N m/(rad s)
@@ -41,6 +42,7 @@ struct ProportionalIntegralDerivative {
   /// While the torque is at its limit the integral is drawn back to what would ask for it, with
   /// this time constant (back-calculation, Åström & Hägglund 2006, ch. 3.5); 0: it winds up.
   double tracking_time = 0.0;  ///< s, ≥ 0
+  bool derivative_of_speed = false;
 };
 
 /// A speed controller within a position controller: w = position (r − y),
@@ -64,14 +66,50 @@ struct ErrorTransfer {
   TransferFunction function{};
 };
 
+/// τ = G(z) e, z a delay by one sampling period undone: for sampled drives only. Coefficients by
+/// descending powers; proper, and no pole beyond the unit circle.
+struct SampledTransfer {
+  std::vector<double> numerator{};
+  std::vector<double> denominator{};
+};
+
 using Controller = std::variant<ProportionalDerivative, ProportionalIntegralDerivative, Cascade,
-                                LeadLag, ErrorTransfer, LinearController>;
+                                LeadLag, ErrorTransfer, LinearController, SampledTransfer>;
 
 /// Every violation of the ranges above, of shapes that do not agree, of a transfer function that is
 /// not proper. Gains may have any sign: what they do is the user's.
 std::vector<Violation> validate(const Controller& controller);
 
-/// Precondition: validate(controller) is empty.
+/// Precondition: validate(controller) is empty. A SampledTransfer is one from sample to sample,
+/// sampled_controller().
 LinearController linear_controller(const Controller& controller);
 
-}  // namespace gearlash
+/// What stands for d/dt, with T the period and z the delay undone.
+enum class Discretization {
+  tustin,    ///< (2/T)(z − 1)/(z + 1)
+  backward,  ///< (z − 1)/(T z)
+  forward    ///< (z − 1)/T
+};
+
+/// How a computer runs a controller: it reads at 0, period, 2 period, …, and gives out what it has
+/// worked out `delay` later, to be held until the next is given out.
+struct Sampling {
+  double period = 0.0;  ///< s, > 0
+  double delay = 0.0;   ///< s, 0 … period
+  Discretization method = Discretization::tustin;
+  /// The speed sensed is the difference of two readings of the position by the period; else it is a
+  /// tachometer's.
+  bool speed_by_differences = true;
+
+  bool operator==(const Sampling&) const = default;
+};
+
+/// The controller from sample to sample,
+///   z⁺ = state_matrix z + input_matrix (r, y, v) + anti_windup (τ − τ_asked),
+/// outputs as above. Precondition: both are sound.
+LinearController sampled_controller(const Controller& controller, const Sampling& sampling);
+
+/// The largest modulus of an eigenvalue of the state matrix; 0 without states.
+double spectral_radius(const LinearController& controller);
+
+}  // namespace gearlash::drive

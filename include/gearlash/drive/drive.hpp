@@ -3,13 +3,15 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <variant>
 #include <vector>
 
 #include "gearlash/drive/controller.hpp"
+#include "gearlash/drive/signal.hpp"
 #include "gearlash/servo/violation.hpp"
 
-namespace gearlash {
+namespace gearlash::drive {
 
 /// Torque against the motion: viscous ω + coulomb sign ω. At rest whatever is applied, up to
 /// `breakaway`.
@@ -54,6 +56,9 @@ using Contact = std::variant<RigidContact, CompliantContact>;
 struct Sensing {
   double load_share_of_position = 1.0;  ///< 0 … 1
   double load_share_of_speed = 0.0;     ///< 0 … 1
+  /// Positions are read to whole multiples of these (encoders), halves away from 0.
+  double resolution = 0.0;           ///< rad, ≥ 0
+  double resolution_of_speed = 0.0;  ///< rad, ≥ 0; of that whose differences are the speed
 };
 
 struct Drive {
@@ -64,11 +69,12 @@ struct Drive {
   Sensing sensing{};
   Controller controller{};
   double torque_limit = std::numeric_limits<double>::infinity();  ///< N m, > 0
-  double reference = 0.0;                                         ///< rad
-  double load_torque = 0.0;                                       ///< N m, on the load, forward
+  std::optional<Sampling> sampling{};  ///< else the controller is continuous
+  Signal reference{};                  ///< rad
+  Signal load_torque{};                ///< N m, on the load, forward
 };
 
 /// Every violation of the ranges above.
 std::vector<Violation> validate(const Drive& drive);
 
-}  // namespace gearlash
+}  // namespace gearlash::drive

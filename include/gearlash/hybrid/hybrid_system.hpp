@@ -85,6 +85,7 @@ struct TimedTransition {
   std::size_t clock = 0;  ///< index of a clock
   Reset reset{};
   std::size_t target = 0;
+  std::vector<Alternative> alternatives{};  ///< as of a transition
 };
 
 struct Mode {
@@ -98,8 +99,10 @@ struct Mode {
 struct Clock {
   std::string name{};
   double first = 0.0;
-  double period = 0.0;          ///< > 0, or 0 for none
-  std::vector<double> times{};  ///< without a period: rising
+  double period = 0.0;              ///< > 0, or 0 for none
+  std::vector<double> times{};      ///< without a period: rising
+  std::vector<Vector> additions{};  ///< one for each of `times`, or none: what a timed transition
+                                    ///< then adds to what its reset gives
 };
 
 /// States x of one size, a mode each, and what leads from one to another.
