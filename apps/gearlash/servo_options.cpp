@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "gearlash/drive/proportional_servo.hpp"
 #include "gearlash/io/units.hpp"
 
 namespace gearlash::cli {
@@ -83,23 +84,9 @@ std::optional<double> read_bare_number(std::string_view field, std::string_view 
   }
 }
 
-void require_finite(std::string_view field, std::string_view text, double number) {
-  if (std::isfinite(number)) return;
-  throw InvalidInput({{std::string(field), shown(text), "must be finite", ""}});
-}
-
-}  // namespace
-
-std::string option_name(std::string field) {
-  std::replace(field.begin(), field.end(), '_', '-');
-  return "--" + field;
-}
-
-void add_servo_options(CLI::App& command, ServoOptions& options) {
-  command
-      .add_option("SERVO.toml", options.file,
-                  "data sheet or normalised servo (docs/data-sheets.md)")
-      ->type_name("");
+void add_options(CLI::App& command, ServoOptions& options, const char* file_help,
+                 const char* sensor_help) {
+  command.add_option("SERVO.toml", options.file, file_help)->type_name("");
   command.add_option("--damping", options.damping, "damping coefficient, 0 or 1e-15 to 1000")
       ->type_name("NUMBER")
       ->group(servo_group);
@@ -118,9 +105,33 @@ void add_servo_options(CLI::App& command, ServoOptions& options) {
       .add_option("--restitution", options.restitution, "0 (plastic, the default) to 1 (elastic)")
       ->type_name("NUMBER")
       ->group(servo_group);
-  command.add_option("--sensor", options.sensor, "shaft with the position sensor: load")
+  command.add_option("--sensor", options.sensor, sensor_help)
       ->type_name("SHAFT")
       ->group(servo_group);
+}
+
+void require_finite(std::string_view field, std::string_view text, double number) {
+  if (std::isfinite(number)) return;
+  throw InvalidInput({{std::string(field), shown(text), "must be finite", ""}});
+}
+
+}  // namespace
+
+std::string option_name(std::string field) {
+  std::replace(field.begin(), field.end(), '_', '-');
+  return "--" + field;
+}
+
+void add_servo_options(CLI::App& command, ServoOptions& options) {
+  add_options(command, options, "data sheet or normalised servo (docs/data-sheets.md)",
+              "shaft with the position sensor: load");
+}
+
+void add_servo_or_drive_options(CLI::App& command, ServoOptions& options) {
+  add_options(command, options,
+              "data sheet or normalised servo (docs/data-sheets.md), or drive\n(docs/drives.md)",
+              "shaft with the position sensor: load, motor, or both (of a\n"
+              "drive: position of the load, speed of the motor)");
 }
 
 void Faults::require_choice(const std::string& field, const std::string& value,
@@ -170,6 +181,87 @@ Datasheet datasheet_of(const ServoFile& file) {
 ChangeableDrive changeable_drive(const ServoFile& file) {
   if (file.datasheet) return ChangeableDrive(datasheet_of(file));
   return ChangeableDrive(file.servo, file.natural_frequency.value_or(1.0));
+}
+
+namespace {
+
+/// Reads the file, or stands in for it with a sound servo.
+ServoOrDriveFile read_either(const ServoOptions& options, Faults& faults) {
+  ServoFile stand_in;
+  stand_in.servo.damping = 1.0;
+  if (options.file.empty()) return stand_in;
+  return faults.collect([&] { return read_servo_or_drive_file(options.file); },
+                        ServoOrDriveFile(stand_in));
+}
+
+void apply(const ServoOptions& options, DriveFile& file, Faults& faults) {
+  for (const NumberOption& option : number_options) {
+    const std::optional<std::string>& typed = options.*option.typed;
+    if (!typed) continue;
+    const std::string name = option_name(option.name);
+    if (option.typed == &ServoOptions::backlash) {
+      const Quantity angle =
+          faults.collect([&] { return read_angle(name, *typed); }, Quantity{.si = 1.0});
+      file.drive.backlash = angle.si;
+      file.backlash_unit = {.name = angle.unit, .radians = angle.unit_in_si};
+    } else if (auto* rigid = std::get_if<drive::RigidContact>(&file.drive.contact);
+               rigid != nullptr && option.typed == &ServoOptions::restitution) {
+      rigid->restitution = faults.collect([&] { return read_number(name, *typed); }, 0.0);
+    } else {
+      faults.add({name, shown(*typed),
+                  "must be left out: " + shown(options.file) +
+                      " describes a drive, which has no such number",
+                  ""});
+    }
+  }
+}
+
+}  // namespace
+
+void set_sensor(DriveFile& file, const std::string& sensor) {
+  const auto put = [&](double& share, double& resolution, double new_share) {
+    // A turn of the motor is less at the load.
+    if (share != new_share)
+      resolution *= new_share == 1.0 ? file.gear_ratio : 1.0 / file.gear_ratio;
+    share = new_share;
+  };
+  drive::Sensing& sensing = file.drive.sensing;
+  put(sensing.load_share_of_position, sensing.resolution, sensor == "motor" ? 0.0 : 1.0);
+  put(sensing.load_share_of_speed, sensing.resolution_of_speed, sensor == "load" ? 1.0 : 0.0);
+}
+
+ServoOrDriveFile resolve_servo_or_drive(const ServoOptions& options, Faults& faults) {
+  ServoOrDriveFile read = read_either(options, faults);
+  if (options.sensor) faults.require_choice("--sensor", *options.sensor, {"load", "motor", "both"});
+  if (std::holds_alternative<ServoFile>(read)) {
+    ServoOptions others = options;
+    others.sensor.reset();
+    // A file that could not be read has been told of.
+    if (others.file.empty() || faults.none()) read = resolve_servo(others, faults);
+    const bool has_other_sensor = options.sensor && *options.sensor != "load" && faults.none();
+    if (!has_other_sensor) return read;
+    read = faults.collect([&] { return drive_file_of(std::get<ServoFile>(read)); }, DriveFile{});
+  } else {
+    apply(options, std::get<DriveFile>(read), faults);
+  }
+  auto& file = std::get<DriveFile>(read);
+  if (options.sensor) set_sensor(file, *options.sensor);
+  if (faults.none()) faults.add(drive::validate(file.drive));
+  return read;
+}
+
+std::optional<ServoFile> closed_form_of(DriveFile file) {
+  file.drive.reference = 0.0;
+  const std::optional<Drivetrain> drivetrain = drive::proportional_servo(file.drive);
+  if (!drivetrain) return std::nullopt;
+  ServoFile servo;
+  servo.servo = normalize(*drivetrain);
+  if (!file.is_normalized) {
+    servo.natural_frequency = natural_frequency(*drivetrain);
+    servo.drivetrain = drivetrain;
+  }
+  servo.backlash_unit = file.backlash_unit;
+  return servo;
 }
 
 ServoFile resolve_servo(const ServoOptions& options, Faults& faults) {

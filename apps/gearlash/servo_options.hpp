@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gearlash/design/changeable_drive.hpp"
+#include "gearlash/io/drive_file.hpp"
 #include "gearlash/io/report_units.hpp"
 #include "gearlash/io/servo_file.hpp"
 #include "gearlash/io/units.hpp"
@@ -29,6 +30,8 @@ struct ServoOptions {
 std::string option_name(std::string field);
 
 void add_servo_options(CLI::App& command, ServoOptions& options);
+/// Of a command that takes drives too.
+void add_servo_or_drive_options(CLI::App& command, ServoOptions& options);
 
 /// Collects the faults of a command line, so that all of them are told at once.
 class Faults {
@@ -53,6 +56,7 @@ class Faults {
   /// Files that are to be read or written, each with what it is for: no two may be the same file,
   /// of which one would be lost. Empty names, "-" and devices are no matter.
   void require_distinct(const std::vector<std::pair<std::string, std::string>>& files);
+  bool none() const { return violations_.empty(); }
   void require_none() const { gearlash::require_none(violations_); }
 
  private:
@@ -68,6 +72,17 @@ double read_scaled(std::string_view field, std::string_view text, const Dimensio
 /// leaves the natural frequency and the stiffness of a data sheet as they are. Faults of the file
 /// and of the options go to `faults`; the result is sound if there are none.
 ServoFile resolve_servo(const ServoOptions& options, Faults& faults);
+
+/// The servo or drive, its file read and its options applied; for a drive those are the backlash,
+/// the restitution and the sensor, "both" being the load's position and the motor's speed. A servo
+/// with its sensor on the motor is a drive. Faults go to `faults`.
+ServoOrDriveFile resolve_servo_or_drive(const ServoOptions& options, Faults& faults);
+
+/// Puts the sensors on "load", "motor" or "both" shafts; an encoder keeps its steps a turn.
+void set_sensor(DriveFile& file, const std::string& sensor);
+
+/// The servo of the closed form that the drive is, but for its reference; nothing if it is none.
+std::optional<ServoFile> closed_form_of(DriveFile file);
 
 /// The data sheet with what options say of it: its backlash and restitution. Precondition: there is
 /// one.

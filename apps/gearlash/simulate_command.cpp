@@ -13,6 +13,7 @@
 #include "gearlash/io/units.hpp"
 #include "gearlash/servo/range_check.hpp"
 #include "servo_options.hpp"
+#include "simulate_options.hpp"
 #include "terminal.hpp"
 
 namespace gearlash::cli {
@@ -23,33 +24,11 @@ constexpr char examples[] =
     "  gearlash simulate examples/elinco-fd162.toml --until 3 --plot time=step.svg\n"
     "  gearlash simulate examples/elinco-fd162.toml --events --output events.csv\n"
     "  gearlash simulate --damping 0.2 --inertia-ratio 4 --friction-ratio 1/4 --backlash 0.3 \\\n"
-    "      --reference 0 --initial-position 0.01 --format json --plot phase=growth.png\n";
+    "      --reference 0 --initial-position 0.01 --format json --plot phase=growth.png\n"
+    "  gearlash simulate examples/robot-joint.toml --events\n";
 
-/// A table this long takes about a gigabyte.
-constexpr double most_samples = 1e7;
 constexpr double default_periods = 10.0;
 constexpr double default_samples = 1000.0;
-
-struct SimulateOptions {
-  ServoOptions servo;
-  std::string initial_position = "0";
-  std::string initial_speed = "0";
-  std::optional<std::string> initial_gap;
-  std::string initial_gap_speed = "0";
-  std::string reference = "1";
-  std::optional<std::string> until;
-  std::optional<std::string> every;
-  bool events = false;
-  std::string format = "csv";
-  std::vector<std::string> plots;
-  std::string output = "-";
-};
-
-struct Plot {
-  bool is_phase_plane = false;
-  std::string file;
-  PictureFormat format = PictureFormat::svg;
-};
 
 Plot read_plot(const std::string& text) {
   const std::size_t equals = text.find('=');
@@ -145,7 +124,7 @@ Start read_start(const SimulateOptions& options, const NormalizedServo& servo,
         0.0));
   };
   Start start;
-  start.reference = angle("--reference", options.reference);
+  start.reference = angle("--reference", options.reference.value_or("1"));
   start.state = engaged_start(servo, angle("--initial-position", options.initial_position),
                               speed("--initial-speed", options.initial_speed), start.reference);
   if (const std::optional<double> gap = read_gap(options, servo.backlash, faults)) {
@@ -155,9 +134,8 @@ Start read_start(const SimulateOptions& options, const NormalizedServo& servo,
   return start;
 }
 
-MotionReport simulated(const SimulateOptions& options, const Provenance& provenance,
-                       Faults& faults) {
-  const ServoFile file = resolve_servo(options.servo, faults);
+MotionReport simulated(const ServoFile& file, const SimulateOptions& options,
+                       const Provenance& provenance, Faults& faults) {
   const ReportUnits units = report_units(file);
   const Start start = read_start(options, file.servo, units, faults);
   const Times times = faults.collect([&] { return read_times(options, units); }, Times{1.0, 1.0});
@@ -215,6 +193,19 @@ void write_tables(const MotionReport& report, const SimulateOptions& options) {
   output.commit();
 }
 
+ExitStatus simulate_servo(const ServoFile& file, const SimulateOptions& options,
+                          const std::vector<Plot>& plots, const Provenance& provenance,
+                          Faults& faults) {
+  const MotionReport report = simulated(file, options, provenance, faults);
+  for (const Plot& plot : plots) draw(report, plot);
+  write_tables(report, options);
+  if (report.trajectory.stop_reason() == StopReason::reached_end) return ExitStatus::done;
+  fmt::print(stderr, "gearlash: stopped at {} {} of {} after {} events\n",
+             exact_text(report.units.time(report.trajectory.end_time())), report.units.time_unit(),
+             exact_text(report.until), report.trajectory.events().size());
+  return ExitStatus::undecided;
+}
+
 ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
   Faults faults;
   faults.require_choice("--format", options.format, {"csv", "json"});
@@ -223,14 +214,14 @@ ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
                                                             {"--output", options.output}};
   for (const Plot& plot : plots) files.emplace_back("--plot", plot.file);
   faults.require_distinct(files);
-  const MotionReport report = simulated(options, provenance, faults);
-  for (const Plot& plot : plots) draw(report, plot);
-  write_tables(report, options);
-  if (report.trajectory.stop_reason() == StopReason::reached_end) return ExitStatus::done;
-  fmt::print(stderr, "gearlash: stopped at {} {} of {} after {} events\n",
-             exact_text(report.units.time(report.trajectory.end_time())), report.units.time_unit(),
-             exact_text(report.until), report.trajectory.events().size());
-  return ExitStatus::undecided;
+  const ServoOrDriveFile described = resolve_servo_or_drive(options.servo, faults);
+  if (const auto* drive = std::get_if<DriveFile>(&described)) {
+    const std::optional<ServoFile> closed =
+        faults.none() && !drive->has_reference ? closed_form_of(*drive) : std::nullopt;
+    if (closed) return simulate_servo(*closed, options, plots, provenance, faults);
+    return simulate_drive(*drive, options, plots, provenance, faults);
+  }
+  return simulate_servo(std::get<ServoFile>(described), options, plots, provenance, faults);
 }
 
 void add_motion_options(CLI::App& command, SimulateOptions& options) {
@@ -260,7 +251,8 @@ void add_motion_options(CLI::App& command, SimulateOptions& options) {
       ->group(group);
   command
       .add_option("--reference", options.reference,
-                  "position asked for from time 0 on; rad or with its unit; default 1")
+                  "position asked for from time 0 on; rad or with its unit; default 1,\n"
+                  "or what a drive's file says")
       ->type_name("ANGLE")
       ->group(group);
   command
@@ -280,7 +272,7 @@ void add_simulate_command(CLI::App& app, Action& action) {
   const auto options = std::make_shared<SimulateOptions>();
   CLI::App* command =
       app.add_subcommand("simulate", "the exact motion after a step or from a disturbance");
-  add_servo_options(*command, options->servo);
+  add_servo_or_drive_options(*command, options->servo);
   add_motion_options(*command, *options);
   command->add_flag("--events", options->events,
                     "list separations and impacts instead of samples (JSON has both)");

@@ -41,9 +41,15 @@ void check_sampling(RangeCheck& all, const Drive& drive) {
   if (!check.violations().empty() || !validate(drive.controller).empty()) return;
   const double radius = spectral_radius(sampled_controller(drive.controller, sampling));
   if (radius <= largest_radius) return;
-  all.refuse("controller", "a pole of modulus " + exact_text(radius) + " from sample to sample",
-             "must have all poles in the unit circle: what it remembers grows without end" +
-                 std::string(is_of_samples ? "" : "; sample faster, or with another method"));
+  const std::string pole = "a pole of modulus " + exact_text(radius) + " from sample to sample";
+  if (is_of_samples) {
+    all.refuse("controller.denominator", pole,
+               "must have its roots in the unit circle: what is remembered grows without end");
+  } else {
+    all.refuse("sampling.period", pole,
+               "must be so short that what the controller remembers does not grow without end (" +
+                   pole + "), or of another method");
+  }
 }
 
 }  // namespace

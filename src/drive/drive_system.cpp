@@ -890,6 +890,12 @@ std::size_t DriveSystem::index_of(const DriveMode& mode) const {
   return static_cast<std::size_t>(std::find(modes.begin(), modes.end(), mode) - modes.begin());
 }
 
+ShaftStates shafts_of(const hybrid::State& state) {
+  const Vector& numbers = state.numbers;
+  return {numbers[motor_position], numbers[motor_speed], numbers[load_position],
+          numbers[load_speed]};
+}
+
 DriveSystem drive_system(const Drive& drive) {
   require_none(validate(drive));
   return Builder(drive).build();

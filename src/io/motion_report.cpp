@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <string>
 
+#include "decimal_multiples.hpp"
 #include "gearlash/servo/range_check.hpp"
 #include "json_values.hpp"
 
@@ -23,33 +23,6 @@ struct Sample {
   double time;  ///< in the report's unit
   ServoState state;
   Mode mode;
-};
-
-/// Multiples of a step as its author would say them: 3 × 0.003 is 0.009, not 0.009000000000000001.
-/// Where the step has a short decimal text, m × 10⁻ᵖ, the multiple is k m / 10ᵖ, rounded once.
-class DecimalMultiples {
- public:
-  explicit DecimalMultiples(double step) : step_(step) {
-    const std::string text = exact_text(step);
-    const std::size_t point = text.find('.');
-    constexpr std::size_t most_digits = 9;  // k m and 10ᵖ then are exact in a double
-    if (point == std::string::npos || text.size() > most_digits ||
-        text.find_first_not_of("0123456789.") != std::string::npos) {
-      return;
-    }
-    divisor_ = std::pow(10.0, static_cast<double>(text.size() - point - 1));
-    mantissa_ = std::round(step * divisor_);
-  }
-
-  double operator()(std::size_t count) const {
-    const auto multiple = static_cast<double>(count);
-    return divisor_ > 0.0 ? multiple * mantissa_ / divisor_ : multiple * step_;
-  }
-
- private:
-  double step_;
-  double mantissa_ = 0.0;
-  double divisor_ = 0.0;  ///< 0: the text is not short
 };
 
 Sample sample_at(const MotionReport& report, double time) {
@@ -178,9 +151,7 @@ std::size_t sample_count(const MotionReport& report) {
   const double end = report.trajectory.stop_reason() == StopReason::reached_end
                          ? report.until
                          : report.units.time(report.trajectory.end_time());
-  // 10 s every 0.1 s are 101 samples although 0.1 is a little more than a tenth.
-  constexpr double rounding = 1e-9;
-  return static_cast<std::size_t>(std::floor(end / report.every + rounding)) + 1;
+  return count_of_samples(end, report.every);
 }
 
 void write_samples_csv(const MotionReport& report, const TextSink& sink,

@@ -173,6 +173,60 @@ std::vector<std::string> SectionReader::texts(const std::string& key,
   return list;
 }
 
+std::string SectionReader::text(const std::string& key, const std::string& permitted) {
+  const toml::node* value = permitted.empty() ? find(key) : require(key, "must be " + permitted);
+  if (value == nullptr) return {};
+  findings_.remember(field(key), *value);
+  if (!value->is_string()) findings_.refuse(field(key), *value, "must be a text: \"…\"");
+  return value->value_or(std::string());
+}
+
+std::vector<double> SectionReader::numbers(const std::string& key, const std::string& permitted) {
+  const toml::node* value = require(key, "must be " + permitted);
+  return value != nullptr ? read_list(field(key), *value, permitted) : std::vector<double>{};
+}
+
+std::vector<double> SectionReader::read_list(const std::string& name, const toml::node& value,
+                                             const std::string& permitted) {
+  findings_.remember(name, value);
+  const toml::array* array = value.as_array();
+  if (array == nullptr) {
+    findings_.refuse(name, value, "must be " + permitted);
+    return {};
+  }
+  std::vector<double> list;
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    const std::string element = name + "[" + std::to_string(i) + "]";
+    const toml::node& node = *array->get(i);
+    findings_.remember(element, node);
+    try {
+      list.push_back(exact_number(element, node));
+    } catch (const InvalidInput& problem) {
+      findings_.refuse(element, node, problem.violations().front().permitted);
+      list.push_back(placeholder_number);
+    }
+  }
+  return list;
+}
+
+std::vector<std::vector<double>> SectionReader::rows(const std::string& key,
+                                                     const std::string& permitted) {
+  const toml::node* value = require(key, "must be " + permitted);
+  if (value == nullptr) return {};
+  const toml::array* array = value->as_array();
+  findings_.remember(field(key), *value);
+  if (array == nullptr) {
+    findings_.refuse(field(key), *value, "must be " + permitted);
+    return {};
+  }
+  std::vector<std::vector<double>> result;
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    const std::string name = field(key) + "[" + std::to_string(i) + "]";
+    result.push_back(read_list(name, *array->get(i), permitted));
+  }
+  return result;
+}
+
 void SectionReader::refuse(const std::string& key, const std::string& permitted) {
   if (const toml::node* value = find(key)) findings_.refuse(field(key), *value, permitted);
 }

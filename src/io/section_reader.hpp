@@ -82,6 +82,12 @@ class SectionReader {
   /// A list of texts, each under the name "key[0]", "key[1]", … in findings; empty where it is
   /// missing, which is noted if `permitted` says what it must be.
   std::vector<std::string> texts(const std::string& key, const std::string& permitted = "");
+  /// A text; empty where it is missing, which is noted if `permitted` says what it must be.
+  std::string text(const std::string& key, const std::string& permitted = "");
+  /// A list of numbers; empty where it is missing, which is noted.
+  std::vector<double> numbers(const std::string& key, const std::string& permitted);
+  /// A list of such lists.
+  std::vector<std::vector<double>> rows(const std::string& key, const std::string& permitted);
   /// Notes the key, and the name it is told by, where it is given.
   void refuse(const std::string& key, const std::string& permitted);
 
@@ -98,6 +104,8 @@ class SectionReader {
   const toml::node* require(const std::string& key, const std::string& permitted);
   Quantity read(const std::string& key, const toml::node& value, const Dimension& expected);
   double read(const std::string& key, const toml::node& value);
+  std::vector<double> read_list(const std::string& name, const toml::node& value,
+                                const std::string& permitted);
   Quantity read(const std::string& key, const toml::node& value, const ExactReader& read_exact,
                 double placeholder);
   std::string field(const std::string& key) const { return name_ + "." + key; }

@@ -52,7 +52,7 @@ struct Sampled {
 TEST(OracleSampledDrive, IsARecursionFromSampleToSample) {
   constexpr double period = 0.1;
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  const std::array cases = {Sampled{0.0, 0.0, infinite}, Sampled{0.03, 0.0, infinite},
+  const std::array cases = {Sampled{0.0, 0.0, infinite},    Sampled{0.03, 0.0, infinite},
                             Sampled{period, 0.0, infinite}, Sampled{0.0, 0.01, infinite},
                             Sampled{0.03, 0.02, 2.0},       Sampled{period, 0.02, 1.5}};
   for (const auto& [delay, resolution, limit] : cases) {
@@ -93,7 +93,8 @@ TEST(OracleSampledDrive, AnEncoderHoldsTheTorqueBetweenItsCounts) {
   EXPECT_NEAR(events[0].time, first, 1e-14);
   const double speed = 2.0 * first;
   const double acceleration = 1.8;
-  const double second = (std::sqrt(speed * speed + 2.0 * acceleration * 0.1) - speed) / acceleration;
+  const double second =
+      (std::sqrt(speed * speed + 2.0 * acceleration * 0.1) - speed) / acceleration;
   EXPECT_NEAR(events[1].time, first + second, 1e-14);
 }
 
@@ -106,8 +107,8 @@ Complex response(const LinearController& controller, Complex at) {
   const std::size_t order = controller.order();
   Complex sum = controller.direct[0];
   if (order == 1) {
-    sum += controller.output[0] * controller.input_matrix[0][0] /
-           (at - controller.state_matrix[0][0]);
+    sum +=
+        controller.output[0] * controller.input_matrix[0][0] / (at - controller.state_matrix[0][0]);
   } else if (order == 2) {
     const auto& a = controller.state_matrix;
     const Complex determinant = (at - a[0][0]) * (at - a[1][1]) - a[0][1] * a[1][0];
@@ -155,13 +156,13 @@ TEST(EdgeSampledDrive, FaultsAreToldAllAtOnce) {
   drive.sampling = Sampling{.period = 0.1, .delay = 0.2};
   EXPECT_EQ(fields_of(drive), std::vector<std::string>{"sampling.delay"});
   drive.sampling = Sampling{.period = 0.1};
-  EXPECT_EQ(fields_of(drive), std::vector<std::string>{"controller"});
+  EXPECT_EQ(fields_of(drive), std::vector<std::string>{"controller.denominator"});
   // A filter that forward differences cannot follow: 1 − T/T_f < −1.
-  drive.controller = ProportionalIntegralDerivative{.proportional = 1.0, .derivative = 1.0,
-                                                    .filter = 0.04};
+  drive.controller =
+      ProportionalIntegralDerivative{.proportional = 1.0, .derivative = 1.0, .filter = 0.04};
   EXPECT_TRUE(validate(drive).empty());
   drive.sampling->method = Discretization::forward;
-  EXPECT_EQ(fields_of(drive), std::vector<std::string>{"controller"});
+  EXPECT_EQ(fields_of(drive), std::vector<std::string>{"sampling.period"});
   EXPECT_THROW(drive_system(drive), InvalidInput);
 }
 

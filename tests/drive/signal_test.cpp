@@ -54,10 +54,8 @@ TEST(EdgeSignal, FaultsAreNamed) {
 
 /// A motor that nothing but the controller moves: ω = ∫∫ of what is asked, by hand.
 TEST(PropertySignal, ADriveIsGivenTheSignal) {
-  const std::vector<Signal> all = {0.7,       StepSignal{1.0, 2.0, 0.5},
-                                   long_move, Ramp{1.0, 2.0, 3.0},
-                                   table,     Sine{1.0, 2.0, 3.0, 0.1},
-                                   short_move};
+  const std::vector<Signal> all = {0.7,   StepSignal{1.0, 2.0, 0.5}, long_move, Ramp{1.0, 2.0, 3.0},
+                                   table, Sine{1.0, 2.0, 3.0, 0.1},  short_move};
   Drive drive;
   drive.motor.inertia = 1.0;
   drive.load.inertia = 1.0;

@@ -58,6 +58,8 @@ struct ShaftStates {
   double load_speed = 0.0;
 };
 
+ShaftStates shafts_of(const hybrid::State& state);
+
 /// Equations of motion: with τ the motor's torque, N that of the mesh on the load, T the load
 /// torque,
 ///   J_M ω_M′ = τ − N − friction_M,   J_L ω_L′ = N + T − friction_L.

@@ -81,6 +81,41 @@ inline constexpr Dimension resistance{.name = "electrical resistance",
                                       .kilogram = 1,
                                       .second = -3,
                                       .ampere = -2};
+
+// Those that only drives have.
+
+inline constexpr Dimension torque{
+    .name = "torque", .unit = "N m", .metre = 2, .kilogram = 1, .second = -2};
+inline constexpr Dimension torque_per_angle{.name = "torque per angle",
+                                            .unit = "N m/rad",
+                                            .metre = 2,
+                                            .kilogram = 1,
+                                            .second = -2,
+                                            .radian = -1,
+                                            .angle = AngleRule::required};
+inline constexpr Dimension torque_per_angle_and_time{.name = "torque per angle and time",
+                                                     .unit = "N m/(rad s)",
+                                                     .metre = 2,
+                                                     .kilogram = 1,
+                                                     .second = -3,
+                                                     .radian = -1,
+                                                     .angle = AngleRule::required};
+inline constexpr Dimension voltage{
+    .name = "voltage", .unit = "V", .metre = 2, .kilogram = 1, .second = -3, .ampere = -1};
+inline constexpr Dimension voltage_per_angle_and_time{.name = "voltage per angle and time",
+                                                      .unit = "V/(rad s)",
+                                                      .metre = 2,
+                                                      .kilogram = 1,
+                                                      .second = -4,
+                                                      .ampere = -1,
+                                                      .radian = -1,
+                                                      .angle = AngleRule::required};
+inline constexpr Dimension angular_acceleration{.name = "angular acceleration",
+                                                .unit = "rad/s2",
+                                                .second = -2,
+                                                .radian = 1,
+                                                .angle = AngleRule::required};
+inline constexpr Dimension rate{.name = "rate", .unit = "1/s", .second = -1};
 }  // namespace dimensions
 
 struct Quantity {

@@ -1,0 +1,60 @@
+#include "gearlash/io/drive_file.hpp"
+
+#include "drive_reader.hpp"
+#include "gearlash/drive/proportional_servo.hpp"
+#include "servo_reader.hpp"
+#include "text_file.hpp"
+#include "toml_document.hpp"
+
+namespace gearlash {
+namespace {
+
+/// Of total inertia 1.
+Drivetrain drivetrain_of(const NormalizedServo& servo, double natural_frequency) {
+  const double friction = 2.0 * servo.damping * natural_frequency;
+  Drivetrain drivetrain;
+  drivetrain.motor_inertia = 1.0 / (1.0 + servo.inertia_ratio);
+  drivetrain.load_inertia = 1.0 - drivetrain.motor_inertia;
+  drivetrain.motor_friction = friction * (1.0 - servo.friction_ratio);
+  drivetrain.load_friction = friction * servo.friction_ratio;
+  drivetrain.stiffness = natural_frequency * natural_frequency;
+  drivetrain.backlash = servo.backlash;
+  drivetrain.restitution = servo.restitution;
+  drivetrain.sensor = servo.sensor;
+  return drivetrain;
+}
+
+}  // namespace
+
+ServoOrDriveFile parse_servo_or_drive(std::string_view toml, std::string_view source_name,
+                                      const std::filesystem::path& folder) {
+  const TomlDocument document(toml, source_name, largest_servo_file);
+  Findings findings(document);
+  if (!describes_drive(document)) {
+    ServoFile file = read_servo(document, findings);
+    findings.require_none();
+    return file;
+  }
+  DriveFile file = read_drive(document, findings, folder);
+  findings.require_none();
+  return file;
+}
+
+ServoOrDriveFile read_servo_or_drive_file(const std::filesystem::path& path) {
+  return parse_servo_or_drive(read_text_file(path, largest_servo_file), path.string(),
+                              path.parent_path());
+}
+
+DriveFile drive_file_of(const ServoFile& servo) {
+  DriveFile file;
+  file.drive = drive::drive_of(
+      servo.drivetrain ? *servo.drivetrain
+                       : drivetrain_of(servo.servo, servo.natural_frequency.value_or(1.0)));
+  if (servo.datasheet) file.gear_ratio = servo.datasheet->gearbox.ratio;
+  file.backlash_unit = servo.backlash_unit;
+  file.is_normalized = !servo.natural_frequency;
+  require_none(drive::validate(file.drive));
+  return file;
+}
+
+}  // namespace gearlash
