@@ -145,7 +145,8 @@ void inspect(RangeCheck& check, const LeadLag& controller) {
 }
 
 void expect_proper(RangeCheck& check, const TransferFunction& function) {
-  const std::vector<Violation> faults = validate(function);
+  std::vector<Violation> faults = validate(function);
+  for (Violation& fault : faults) fault.field = "controller." + fault.field;
   check.include(faults);
   if (!faults.empty()) return;
   const std::size_t numerator = without_leading_zeros(function.numerator).size();
@@ -177,10 +178,19 @@ void inspect(RangeCheck& check, const LinearController& controller) {
     check.refuse(field, std::to_string(found) + " numbers",
                  "must be " + std::to_string(wanted) + ", by the length of output");
   };
+  const auto expect_numbers = [&](const char* field, const std::vector<double>& numbers) {
+    for (const double number : numbers) expect_finite(check, field, number);
+  };
   const auto expect_rows = [&](const char* field, const auto& rows, std::size_t columns) {
     expect(field, rows.size(), order);
-    for (const auto& row : rows) expect(field, row.size(), columns);
+    for (const auto& row : rows) {
+      expect(field, row.size(), columns);
+      expect_numbers(field, row);
+    }
   };
+  expect_numbers("output", controller.output);
+  expect_numbers("direct", controller.direct);
+  expect_numbers("anti_windup", controller.anti_windup);
   expect_rows("state_matrix", controller.state_matrix, order);
   expect_rows("input_matrix", controller.input_matrix, 3);
   expect("direct", controller.direct.size(), 3);

@@ -70,7 +70,10 @@ class UnitReader {
   explicit UnitReader(std::string_view rest) : rest_(rest) {}
 
   Unit whole() {
-    const Unit unit = product();
+    skip_blanks();
+    // "1/s": nothing but a divisor.
+    const bool is_reciprocal = rest_.starts_with("1/") || rest_.starts_with("1 /");
+    const Unit unit = product(is_reciprocal);
     if (!rest_.empty()) throw NotAUnit("a \")\" has no \"(\"");
     return unit;
   }

@@ -373,5 +373,14 @@ TEST(UnitsDeathTest, LocaleWithDecimalCommaChangesNothing) {
   EXPECT_EXIT(std::exit(read_under_comma_locale()), ::testing::ExitedWithCode(0), "");
 }
 
+TEST(Units, RatesAreReciprocals) {
+  EXPECT_DOUBLE_EQ(to_si("gain", "20 1/s", dimensions::rate), 20.0);
+  EXPECT_DOUBLE_EQ(to_si("gain", "20 s^-1", dimensions::rate), 20.0);
+  EXPECT_DOUBLE_EQ(to_si("gain", "0.02 1/ms", dimensions::rate), 20.0);
+  EXPECT_THROW(to_si("gain", "20 2/s", dimensions::rate), InvalidInput);
+  EXPECT_THROW(to_si("gain", "20 1", dimensions::rate), InvalidInput);
+  EXPECT_THROW(to_si("speed", "20 1/s", dimensions::angular_speed), InvalidInput);
+}
+
 }  // namespace
 }  // namespace gearlash
