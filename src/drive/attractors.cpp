@@ -280,19 +280,26 @@ class Search {
            swing(turns, 0) < swing(turns, 1);
   }
 
-  /// Small swings whose limit, by Aitken's extrapolation, is 0.
+  /// Small swings whose limit, by Aitken's extrapolation of any three, is 0.
   std::optional<double> ratio_of_vanishing(const std::vector<Sample>& turns) const {
-    constexpr std::size_t swings = 7;
+    constexpr std::size_t enough = 7;       // swings
+    constexpr std::size_t least = 3;        // that do where they shrink by so much
+    constexpr double shrunk = 0.1;
     constexpr double nothing = 0.03;
-    if (turns.size() < swings + 1 || !is_small(turns)) return std::nullopt;
-    for (std::size_t i = 0; i + 2 < swings; ++i) {
+    if (!is_small(turns)) return std::nullopt;
+    for (std::size_t i = 0; i + 3 < turns.size(); ++i) {
       const double last = swing(turns, i);
       const double change = last - swing(turns, i + 1);
       const double change_before = swing(turns, i + 1) - swing(turns, i + 2);
       const double limit = last - change * change / (change - change_before);
       if (!(change < 0.0) || !(std::abs(limit) < nothing * last)) return std::nullopt;
+      const std::size_t count = i + 3;
+      const bool is_shrunk = swing(turns, 0) < shrunk * swing(turns, i + 2);
+      if (count >= enough || (count >= least && is_shrunk)) {
+        return swing(turns, 0) / swing(turns, 1);
+      }
     }
-    return swing(turns, 0) / swing(turns, 1);
+    return std::nullopt;
   }
 
   // ---- closing cycles ---------------------------------------------------------------------------

@@ -56,23 +56,34 @@ Vector velocity(const HybridSystem& system, std::size_t mode, const Vector& numb
   return system.modes[mode].flow.matrix * numbers + system.modes[mode].flow.offset;
 }
 
-/// What an event does to a disturbance; nothing else where a guard is met at no speed.
-Vector carried_over(const HybridSystem& system, const Event& event, const Vector& disturbance) {
-  const hybrid::Mode& mode = system.modes[event.mode];
-  if (event.kind == hybrid::EventKind::timed) {
-    return mode.timed[event.transition].reset.slope(system.size()) * disturbance;
-  }
+const hybrid::Reset& reset_of(const hybrid::Mode& mode, const Event& event) {
+  if (event.kind == hybrid::EventKind::timed) return mode.timed[event.transition].reset;
   const hybrid::Transition& transition = mode.transitions[event.transition];
-  if (event.kind == hybrid::EventKind::settling) {
-    return transition.settling->reset.slope(system.size()) * disturbance;
-  }
+  return event.kind == hybrid::EventKind::settling ? transition.settling->reset : transition.reset;
+}
+
+/// A disturbance, and by how much it delays the last event.
+struct Disturbance {
+  Vector numbers;
+  double delay = 0.0;
+};
+
+/// At an event. One that another brings about at its own instant is delayed as that one is. Where a
+/// guard is met at no speed there is no derivative; the delay is then left as it was.
+void carry_over(const HybridSystem& system, const Event& event, bool is_chained,
+                Disturbance& disturbance) {
+  const hybrid::Mode& mode = system.modes[event.mode];
+  const Matrix reset = reset_of(mode, event).slope(system.size());
   const Vector before = velocity(system, event.mode, event.before);
   const Vector after = velocity(system, event.mode_after, event.after);
-  const Matrix reset = transition.reset.slope(system.size());
-  const Vector& normal = transition.guard.normal;
-  const double speed = normal.dot(before);
-  if (speed == 0.0) return reset * disturbance;
-  return reset * disturbance + (after - reset * before) * (normal.dot(disturbance) / speed);
+  if (event.kind == hybrid::EventKind::timed) {
+    disturbance.delay = 0.0;
+  } else if (!is_chained) {
+    const Vector& normal = mode.transitions[event.transition].guard.normal;
+    const double speed = normal.dot(before);
+    if (speed != 0.0) disturbance.delay = -normal.dot(disturbance.numbers) / speed;
+  }
+  disturbance.numbers = reset * disturbance.numbers - (after - reset * before) * disturbance.delay;
 }
 
 }  // namespace
@@ -189,26 +200,31 @@ double least_mismatch(const std::vector<Sample>& extremes) {
 }
 
 double largest_exponent(const HybridSystem& system, const Trajectory& motion, Eigen::Index own) {
-  Vector disturbance = Vector::Zero(system.size());
+  Disturbance disturbance{Vector::Zero(system.size())};
   // No way is distinguished; any growing one has a part of it.
   for (Eigen::Index i = 0; i < own; ++i) {
-    disturbance[i] = 1.0 / std::sqrt(2.0 + static_cast<double>(i));
+    disturbance.numbers[i] = 1.0 / std::sqrt(2.0 + static_cast<double>(i));
   }
   double logarithm = 0.0;
   std::size_t next = 0;
   const std::vector<Event>& events = motion.events();
   for_each_stretch(motion, [&](const State& start, double from, double to, const Vector&) {
     if (to > from) {
-      disturbance = (system.modes[start.mode].flow.matrix * (to - from)).exp() * disturbance;
+      disturbance.numbers =
+          (system.modes[start.mode].flow.matrix * (to - from)).exp() * disturbance.numbers;
     }
-    if (next < events.size()) disturbance = carried_over(system, events[next++], disturbance);
-    const double size = disturbance.norm();
+    if (next == events.size()) return;
+    const bool is_chained = next > 0 && events[next].time == events[next - 1].time;
+    carry_over(system, events[next++], is_chained, disturbance);
+    const double size = disturbance.numbers.norm();
     if (!(size > 0.0)) return;
     logarithm += std::log(size);
-    disturbance /= size;
+    disturbance.numbers /= size;
+    disturbance.delay /= size;
   });
-  if (disturbance.norm() == 0.0) return -std::numeric_limits<double>::infinity();
-  return logarithm / (motion.end_time() - motion.start_time());
+  const double last = disturbance.numbers.norm();
+  if (last == 0.0) return -std::numeric_limits<double>::infinity();
+  return (logarithm + std::log(last)) / (motion.end_time() - motion.start_time());
 }
 
 }  // namespace gearlash::drive
