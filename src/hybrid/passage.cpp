@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unsupported/Eigen/MatrixFunctions>
 
 namespace gearlash::hybrid {
@@ -30,7 +31,8 @@ class Disturbances {
       : system_(system),
         mode_(start.mode),
         time_(time),
-        slope_(Matrix::Identity(system.size(), system.size())) {}
+        slope_(Matrix::Identity(system.size(), system.size())),
+        delay_(Eigen::RowVectorXd::Zero(system.size())) {}
 
   void flow_to(double time) {
     if (time > time_) slope_ = (flow().matrix * (time - time_)).exp() * slope_;
@@ -39,20 +41,25 @@ class Disturbances {
 
   /// False where the guard is met at no speed.
   bool meet(const Event& event) {
+    const bool is_chained = event.time == last_event_;
+    last_event_ = event.time;
     flow_to(event.time);
     const Mode& before = system_.modes[mode_];
     const Matrix reset = reset_of(system_.modes[event.mode], event).slope(system_.size());
-    mode_ = event.mode_after;
-    if (event.kind != EventKind::transition) {
-      slope_ = reset * slope_;
-      return true;
-    }
-    const Vector& normal = before.transitions[event.transition].guard.normal;
     const Vector flow_before = velocity(before, event.before);
-    const double speed = normal.dot(flow_before);
-    if (speed == 0.0) return false;
+    mode_ = event.mode_after;
+    if (event.kind == EventKind::timed) {
+      delay_.setZero();
+    } else if (!is_chained) {
+      // An event that another one brings about at its own instant is not met but made: it is
+      // delayed as that one is.
+      const Vector& normal = before.transitions[event.transition].guard.normal;
+      const double speed = normal.dot(flow_before);
+      if (speed == 0.0) return false;
+      delay_ = -(normal.transpose() * slope_) / speed;
+    }
     const Vector jump = velocity(system_.modes[mode_], event.after) - reset * flow_before;
-    slope_ = reset * slope_ + jump * (normal.transpose() * slope_) / speed;
+    slope_ = reset * slope_ - jump * delay_;
     return true;
   }
 
@@ -64,7 +71,9 @@ class Disturbances {
   const HybridSystem& system_;
   std::size_t mode_;
   double time_;
+  double last_event_ = std::numeric_limits<double>::quiet_NaN();
   Matrix slope_;
+  Eigen::RowVectorXd delay_;  ///< ∂/∂start of the last event's time
 };
 
 /// The time near a guess at which the motion crosses a plane; nothing where it does not.

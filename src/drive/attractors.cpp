@@ -1,0 +1,579 @@
+#include "gearlash/drive/attractors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "motion_measures.hpp"
+#include "search_setting.hpp"
+
+namespace gearlash::drive {
+namespace {
+
+using hybrid::Event;
+using hybrid::PeriodicOrbit;
+using hybrid::State;
+using hybrid::StopReason;
+using hybrid::Trajectory;
+using hybrid::Vector;
+
+// ---- cycles -------------------------------------------------------------------------------------
+
+double largest_multiplier(const PeriodicOrbit& orbit) {
+  return orbit.multipliers.empty() ? 0.0 : std::abs(orbit.multipliers.front());
+}
+
+Stability stability_of(double multiplier) {
+  constexpr double unknown = 1e-6;
+  if (std::abs(multiplier - 1.0) <= unknown) return Stability::neutral;
+  return multiplier < 1.0 ? Stability::stable : Stability::unstable;
+}
+
+/// Over a period, or a part of it.
+Trajectory motion_on(const hybrid::HybridSystem& system, const PeriodicOrbit& orbit,
+                     double periods) {
+  const double from = orbit.start_time;
+  return simulate(system, orbit.start, {.from = from, .until = from + periods * orbit.period});
+}
+
+bool agree(double a, double b, double scale, double share) {
+  return std::abs(a - b) <= share * scale;
+}
+
+/// Whether the shafts are after a share of the period where they started, times a sign.
+bool recurs_after(const SearchSetting& setting, const PeriodicOrbit& orbit, double share,
+                  double sign) {
+  const Trajectory part = motion_on(setting.system, orbit, share);
+  const Vector& here = part.end().numbers;
+  const Vector& start = orbit.start.numbers;
+  constexpr double near = 1e-7;
+  const double scale = start.head(setting.own).cwiseAbs().maxCoeff();
+  return (here - sign * start).head(setting.own).cwiseAbs().maxCoeff() <= near * scale;
+}
+
+double hardest_impact(const SearchSetting& setting, const PeriodicOrbit& orbit) {
+  double hardest = 0.0;
+  for (const Event& event : orbit.events) {
+    if (event.kind != hybrid::EventKind::transition) continue;
+    if (setting.built.modes[event.mode].contact != ContactState::apart) continue;
+    const bool meets = setting.built.modes[event.mode_after].contact != ContactState::apart;
+    const bool bounces = setting.load.speed.at(event.before) != setting.load.speed.at(event.after) &&
+                         setting.motor.speed.at(event.before) !=
+                             setting.motor.speed.at(event.after);
+    if (!meets && !bounces) continue;
+    hardest = std::max(hardest, std::abs(setting.motor.speed.at(event.before) -
+                                         setting.load.speed.at(event.before)));
+  }
+  return hardest;
+}
+
+FoundCycle measured(const SearchSetting& setting, const PeriodicOrbit& orbit) {
+  const Trajectory motion = motion_on(setting.system, orbit, 1.0);
+  const Range load = range_of(samples(setting.system, motion, setting.load, 0.0));
+  const Range motor = range_of(samples(setting.system, motion, setting.motor, 0.0));
+  FoundCycle cycle;
+  cycle.orbit = orbit;
+  cycle.multiplier = largest_multiplier(orbit);
+  cycle.stability = stability_of(cycle.multiplier);
+  cycle.size = 0.5 * load.width();
+  cycle.motor_size = 0.5 * motor.width();
+  cycle.center = load.middle();
+  cycle.frequency = 2.0 * std::numbers::pi / orbit.period;
+  cycle.impact_speed = hardest_impact(setting, orbit);
+  cycle.is_symmetric = recurs_after(setting, orbit, 0.5, -1.0);
+  return cycle;
+}
+
+/// With events where the load turns, for motion that has no others.
+hybrid::HybridSystem with_turns(const SearchSetting& setting) {
+  hybrid::HybridSystem system = setting.system;
+  for (std::size_t i = 0; i < system.modes.size(); ++i) {
+    hybrid::Transition turns;
+    turns.name = "load turns";
+    turns.guard = setting.load.speed;
+    turns.direction = hybrid::Direction::either;
+    turns.target = i;
+    system.modes[i].transitions.push_back(std::move(turns));
+  }
+  return system;
+}
+
+// ---- the search ---------------------------------------------------------------------------------
+
+/// Where a motion went.
+struct Verdict {
+  MotionEnd end = MotionEnd::undecided;
+  std::size_t which = 0;  ///< of the cycles
+  double watched = 0.0;
+  std::string reason;
+  double swing_ratio = std::numeric_limits<double>::quiet_NaN();
+  Vector last;               ///< numbers
+  IrregularFound irregular;  ///< where it is
+
+  bool is_attracted() const { return end == MotionEnd::rest || end == MotionEnd::cycle; }
+  bool is_same_end(const Verdict& other) const {
+    return end == other.end && (end != MotionEnd::cycle || which == other.which);
+  }
+};
+
+class Search {
+ public:
+  Search(const Drive& drive, const AttractorOptions& options)
+      : options_(options), unscaled_(search_setting(drive)) {
+    starts_ = options.starts.empty() ? usual_starts(unscaled_) : options.starts;
+    setting_ = scaled(unscaled_, glance());
+    result_.coordinates = setting_.coordinates;
+    result_.system = unscaled_.system;
+    result_.slow_time = setting_.slow_time;
+    result_.watch_time = options.slow_times * setting_.slow_time;
+  }
+
+  AttractorSearch run() {
+    for (const ShaftStates& start : starts_) {
+      if (!goes_on()) break;
+      verdicts_.push_back(watch(setting_.start(start)));
+      record(start, verdicts_.back());
+      ++done_;
+    }
+    if (result_.is_complete) seek_edges();
+    if (result_.is_complete && options_.go_on) options_.go_on(1.0);
+    finish();
+    return std::move(result_);
+  }
+
+ private:
+  bool goes_on() {
+    if (!result_.is_complete) return false;
+    const auto all = static_cast<double>(starts_.size() + options_.most_edges);
+    if (options_.go_on && !options_.go_on(static_cast<double>(done_) / all)) {
+      result_.is_complete = false;
+    }
+    return result_.is_complete;
+  }
+
+  /// A first motion, to learn how large numbers become.
+  Trajectory glance() const {
+    const ShaftStates& start = starts_[starts_.size() / 2];
+    constexpr double short_while = 5.0;  // slow times
+    return simulate(unscaled_.system, unscaled_.start(start),
+                    {.until = short_while * unscaled_.slow_time, .event_limit = 5000});
+  }
+
+  // ---- one start --------------------------------------------------------------------------------
+
+  /// What is known of a motion while it is watched.
+  struct Watch {
+    State here;
+    double time = 0.0;
+    std::size_t events = 0;
+    std::vector<Range> all;  ///< of each number
+    std::vector<Sample> load;
+  };
+
+  Verdict watch(const State& start) {
+    Watch watch{start, 0.0, 0, {}, {}};
+    double length = 10.0 * setting_.slow_time;
+    while (true) {
+      const double until = setting_.between_ticks(watch.time + length);
+      const Trajectory motion = simulate(
+          setting_.system, watch.here,
+          {.from = watch.time, .until = until,
+           .event_limit = std::max<std::size_t>(1, options_.most_events - watch.events)});
+      watch.time = motion.end_time();
+      watch.events += motion.events().size();
+      watch.here = motion.end();
+      Verdict verdict;
+      verdict.watched = watch.time;
+      verdict.last = watch.here.numbers;
+      if (is_decided(watch, motion, verdict)) return verdict;
+      if (watch.events >= options_.most_events || watch.time >= patience(watch, motion)) {
+        give_up(watch, motion, verdict);
+        return verdict;
+      }
+      length *= 2.0;
+    }
+  }
+
+  /// Motion in which hardly anything happens is waited for.
+  double patience(const Watch& watch, const Trajectory& motion) const {
+    constexpr std::size_t hardly_any = 3;
+    constexpr double longer = 20.0;
+    const std::vector<Sample> turns = extremes(watch.load);
+    const bool is_slow = motion.events().size() < hardly_any || is_small(turns);
+    return (is_slow ? longer : 1.0) * result_.watch_time * (1.0 - 1e-9);
+  }
+
+  bool is_decided(Watch& watch, const Trajectory& motion, Verdict& verdict) {
+    const std::vector<Range> here = ranges(motion, motion.start_time());
+    if (watch.all.empty()) watch.all = here;
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      watch.all[i].include(here[i].lowest);
+      watch.all[i].include(here[i].highest);
+    }
+    if (motion.stop_reason() == StopReason::diverged || has_run_away(motion)) {
+      verdict.end = MotionEnd::diverges;
+      return true;
+    }
+    if (motion.stop_reason() == StopReason::zeno ||
+        motion.stop_reason() == StopReason::chattering) {
+      verdict.reason = "events without end: " + motion.culprit();
+      return true;
+    }
+    const std::vector<Sample> seen =
+        samples(setting_.system, motion, setting_.load, 0.05 * setting_.slow_time);
+    watch.load.insert(watch.load.end(), seen.begin(), seen.end());
+    if (setting_.coordinates == Coordinates::in_place) return false;
+    if (is_at_rest(watch, motion)) {
+      verdict.end = MotionEnd::rest;
+      return true;
+    }
+    if (const auto ratio = ratio_of_vanishing(extremes(watch.load))) {
+      verdict.end = MotionEnd::rest;
+      verdict.swing_ratio = *ratio;
+      return true;
+    }
+    if (const auto which = cycle_of(motion, seen)) {
+      verdict.end = MotionEnd::cycle;
+      verdict.which = *which;
+      return true;
+    }
+    return false;
+  }
+
+  bool has_run_away(const Trajectory& motion) const {
+    if (setting_.coordinates == Coordinates::in_place) return false;
+    constexpr double far = 1e6;
+    return std::abs(setting_.load.value.at(motion.end().numbers)) > far * setting_.large_length;
+  }
+
+  /// Whether no number has moved in the last half by more than a share of all that it has.
+  bool is_at_rest(const Watch& watch, const Trajectory& motion) const {
+    constexpr double little = 1e-9;
+    const std::vector<Range> last =
+        ranges(motion, 0.5 * (motion.start_time() + motion.end_time()));
+    const double positions =
+        std::max({watch.all[motor_position].width(), watch.all[load_position].width(),
+                  setting_.drive.backlash / setting_.frame.scale[load_position]});
+    const double speeds =
+        std::max({watch.all[motor_speed].width(), watch.all[load_speed].width(),
+                  positions * setting_.frame.scale[load_position] /
+                      (setting_.frame.scale[load_speed] * setting_.slow_time)});
+    for (std::size_t i = 0; i < static_cast<std::size_t>(setting_.own); ++i) {
+      const bool is_position = i == motor_position || i == load_position;
+      const bool is_speed = i == motor_speed || i == load_speed;
+      const double scale = is_position ? positions : is_speed ? speeds : watch.all[i].width();
+      if (last[i].width() > little * scale) return false;
+    }
+    return true;
+  }
+
+  double swing(const std::vector<Sample>& turns, std::size_t from_last) const {
+    const std::size_t last = turns.size() - 1 - from_last;
+    return std::abs(turns[last].value - turns[last - 1].value);
+  }
+
+  /// Whether swings are much smaller than the gap, and shrink.
+  bool is_small(const std::vector<Sample>& turns) const {
+    constexpr double share = 0.05;
+    return turns.size() > 3 && swing(turns, 0) < share * setting_.small_length &&
+           swing(turns, 0) < swing(turns, 1);
+  }
+
+  /// Small swings whose limit, by Aitken's extrapolation of any three, is 0.
+  std::optional<double> ratio_of_vanishing(const std::vector<Sample>& turns) const {
+    constexpr std::size_t enough = 7;       // swings
+    constexpr std::size_t least = 3;        // that do where they shrink by so much
+    constexpr double shrunk = 0.1;
+    constexpr double nothing = 0.03;
+    if (!is_small(turns)) return std::nullopt;
+    for (std::size_t i = 0; i + 3 < turns.size(); ++i) {
+      const double last = swing(turns, i);
+      const double change = last - swing(turns, i + 1);
+      const double change_before = swing(turns, i + 1) - swing(turns, i + 2);
+      const double limit = last - change * change / (change - change_before);
+      if (!(change < 0.0) || !(std::abs(limit) < nothing * last)) return std::nullopt;
+      const std::size_t count = i + 3;
+      const bool is_shrunk = swing(turns, 0) < shrunk * swing(turns, i + 2);
+      if (count >= enough || (count >= least && is_shrunk)) {
+        return swing(turns, 0) / swing(turns, 1);
+      }
+    }
+    return std::nullopt;
+  }
+
+  // ---- closing cycles ---------------------------------------------------------------------------
+
+  std::optional<PeriodicOrbit> closed(const Trajectory& motion, double nearness) const {
+    hybrid::ShootingOptions shooting = options_.shooting;
+    shooting.nearness = nearness;
+    if (!motion.events().empty()) return closing_orbit(setting_.system, motion, shooting);
+    const hybrid::HybridSystem turning = with_turns(setting_);
+    const Trajectory again =
+        simulate(turning, motion.at(motion.start_time()),
+                 {.from = motion.start_time(), .until = motion.end_time(),
+                  .event_limit = options_.most_events});
+    return closing_orbit(turning, again, shooting);
+  }
+
+  /// The cycle itself, where an orbit goes round it several times.
+  PeriodicOrbit shortest(const PeriodicOrbit& orbit) const {
+    for (const double times : {2.0, 3.0, 5.0}) {
+      if (!recurs_after(setting_, orbit, 1.0 / times, 1.0)) continue;
+      constexpr double near = 1e-6;
+      const auto shorter = closed(motion_on(setting_.system, orbit, 2.5), near);
+      if (shorter && shorter->period < 0.75 * orbit.period) return shortest(*shorter);
+    }
+    return orbit;
+  }
+
+  /// The one that the end of a motion is on: it is not left again, and as large as what was seen.
+  std::optional<std::size_t> cycle_of(const Trajectory& motion, const std::vector<Sample>& seen) {
+    for (const double nearness : {1e-6, 1e-3}) {
+      const auto found = closed_cycle(motion, seen, nearness);
+      if (!found) continue;
+      const std::size_t which = place_of(*found);
+      if (found->stability != Stability::unstable) return which;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<FoundCycle> closed_cycle(const Trajectory& motion, const std::vector<Sample>& seen,
+                                         double nearness) const {
+    constexpr double largest_residual = 1e-9;
+    const auto orbit = closed(motion, nearness);
+    if (!orbit || !(orbit->residual < largest_residual)) return std::nullopt;
+    const FoundCycle cycle = measured(setting_, shortest(*orbit));
+    Range lately;
+    for (const Sample& sample : seen) {
+      if (sample.time >= motion.end_time() - 1.01 * cycle.period()) lately.include(sample.value);
+    }
+    constexpr double share = 0.02;
+    constexpr double least = 1e-9;  // of the smallest length: below is rest
+    if (!(cycle.size > least * setting_.small_length)) return std::nullopt;
+    if (!agree(0.5 * lately.width(), cycle.size, cycle.size, share) ||
+        !agree(lately.middle(), cycle.center, cycle.size, share)) {
+      return std::nullopt;
+    }
+    return cycle;
+  }
+
+  /// Among those that are known, or as a new one.
+  std::size_t place_of(const FoundCycle& cycle) {
+    const double same = cycle.stability == Stability::neutral ? 1e-6 : 1e-8;
+    for (std::size_t i = 0; i < result_.cycles.size(); ++i) {
+      FoundCycle& known = result_.cycles[i];
+      if (!agree(known.period(), cycle.period(), cycle.period(), same) ||
+          !agree(known.size, cycle.size, cycle.size, same)) {
+        continue;
+      }
+      if (agree(known.center, cycle.center, cycle.size, same)) return i;
+      if (!agree(known.center, -cycle.center, cycle.size, same)) continue;
+      known.has_mirror_image = true;
+      return i;
+    }
+    result_.cycles.push_back(cycle);
+    return result_.cycles.size() - 1;
+  }
+
+  // ---- motion that does not close ---------------------------------------------------------------
+
+  void give_up(const Watch& watch, const Trajectory& motion, Verdict& verdict) {
+    const double from = motion.start_time();
+    std::vector<Sample> last;
+    for (const Sample& sample : watch.load) {
+      if (sample.time >= from) last.push_back(sample);
+    }
+    const std::vector<Sample> turns = extremes(last);
+    constexpr std::size_t enough = 8;
+    if (setting_.coordinates != Coordinates::in_place && turns.size() < enough) {
+      verdict.reason = watch.events >= options_.most_events ? "as many events as were permitted"
+                                                            : "still on its way at the end";
+      return;
+    }
+    if (is_small(turns)) {
+      verdict.reason = "swings shrink at the end, towards what is not certain";
+      return;
+    }
+    verdict.end = MotionEnd::irregular;
+    IrregularFound& found = verdict.irregular;
+    const Range range = range_of(last);
+    found.size = 0.5 * range.width();
+    found.center = range.middle();
+    found.watched = motion.end_time() - from;
+    const auto passings = upward_passings(motion, setting_.load, last, found.center, from);
+    std::vector<double> periods;
+    for (std::size_t i = 0; i + 1 < passings.size(); ++i) {
+      periods.push_back(passings[i + 1] - passings[i]);
+    }
+    const Spread period = spread_of(periods);
+    found.period = period.mean;
+    found.period_deviation = period.deviation;
+    std::vector<double> half_swings;
+    for (std::size_t i = 0; i + 1 < turns.size(); ++i) half_swings.push_back(0.5 * swing(turns, i));
+    const Spread half_swing = spread_of(half_swings);
+    found.half_swing = half_swing.mean;
+    found.half_swing_deviation = half_swing.deviation;
+    found.mismatch = least_mismatch(turns);
+    found.exponent = largest_exponent(setting_.system, motion, setting_.own);
+  }
+
+  /// Among those that are known, or as a new one.
+  std::size_t place_of(const IrregularFound& found) {
+    constexpr double share = 0.05;
+    for (std::size_t i = 0; i < result_.irregular.size(); ++i) {
+      const IrregularFound& known = result_.irregular[i];
+      if (agree(known.size, found.size, found.size, share) &&
+          agree(known.half_swing, found.half_swing, found.size, share) &&
+          agree(known.center, found.center, found.size, share)) {
+        return i;
+      }
+    }
+    result_.irregular.push_back(found);
+    return result_.irregular.size() - 1;
+  }
+
+  // ---- what came of it --------------------------------------------------------------------------
+
+  void record(const ShaftStates& start, const Verdict& verdict) {
+    Outcome outcome{start, verdict.end, verdict.which, verdict.watched, verdict.reason};
+    if (verdict.end == MotionEnd::rest) record_rest(verdict);
+    if (verdict.end == MotionEnd::cycle) ++result_.cycles[verdict.which].starts;
+    if (verdict.end == MotionEnd::irregular) {
+      outcome.which = place_of(verdict.irregular);
+      ++result_.irregular[outcome.which].starts;
+    }
+    result_.outcomes.push_back(std::move(outcome));
+  }
+
+  void record_rest(const Verdict& verdict) {
+    if (!result_.rest) result_.rest = RestFound{};
+    RestFound& rest = *result_.rest;
+    const double load = setting_.load.value.at(verdict.last);
+    rest.load.include(load);
+    rest.error.include(-load);
+    rest.motor.include(setting_.motor.value.at(verdict.last));
+    ++rest.starts;
+    if (!(rest.swing_ratio >= verdict.swing_ratio)) rest.swing_ratio = verdict.swing_ratio;
+  }
+
+  /// Stable ones first, by falling size; in numbers without scale.
+  void finish() {
+    std::vector<std::size_t> order(result_.cycles.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      const FoundCycle& one = result_.cycles[a];
+      const FoundCycle& other = result_.cycles[b];
+      if (one.stability != other.stability) return one.stability < other.stability;
+      return one.size > other.size;
+    });
+    std::vector<FoundCycle> sorted;
+    std::vector<std::size_t> place(order.size());
+    for (const std::size_t i : order) {
+      place[i] = sorted.size();
+      sorted.push_back(result_.cycles[i]);
+      sorted.back().orbit = unscaled(sorted.back().orbit, setting_.frame.scale);
+    }
+    result_.cycles = std::move(sorted);
+    for (Outcome& outcome : result_.outcomes) {
+      if (outcome.end == MotionEnd::cycle) outcome.which = place[outcome.which];
+    }
+    for (Edge& edge : result_.edges) {
+      if (edge.cycle) edge.cycle = place[*edge.cycle];
+    }
+  }
+
+  // ---- edges ------------------------------------------------------------------------------------
+
+  static std::pair<int, std::size_t> name_of(const Verdict& verdict) {
+    return {verdict.end == MotionEnd::rest ? 0 : 1, verdict.which};
+  }
+
+  /// Between neighbours in the list that are attracted elsewhere, each two attractors once.
+  void seek_edges() {
+    std::set<std::pair<std::pair<int, std::size_t>, std::pair<int, std::size_t>>> sought;
+    for (std::size_t i = 0; i + 1 < verdicts_.size(); ++i) {
+      const Verdict& one = verdicts_[i];
+      const Verdict& other = verdicts_[i + 1];
+      if (sought.size() >= options_.most_edges) return;
+      if (!one.is_attracted() || !other.is_attracted() || one.is_same_end(other)) continue;
+      const auto both = std::minmax(name_of(one), name_of(other));
+      if (!sought.insert({both.first, both.second}).second) continue;
+      if (!goes_on()) return;
+      result_.edges.push_back({i, i + 1, cycle_between(i, one)});
+      ++done_;
+    }
+  }
+
+  static ShaftStates between(const ShaftStates& a, const ShaftStates& b, double share) {
+    const auto mix = [&](double one, double other) { return one + share * (other - one); };
+    return {mix(a.motor_position, b.motor_position), mix(a.motor_speed, b.motor_speed),
+            mix(a.load_position, b.load_position), mix(a.load_speed, b.load_speed)};
+  }
+
+  /// Bisection, until the two starts are next to each other; now and then it is tried whether the
+  /// motion already hovers long enough to be closed.
+  std::optional<std::size_t> cycle_between(std::size_t first, const Verdict& end_of_first) {
+    const ShaftStates& a = starts_[first];
+    const ShaftStates& b = starts_[first + 1];
+    double low = 0.0;
+    double high = 1.0;
+    for (int step = 1; step <= 52; ++step) {
+      const double middle = 0.5 * (low + high);
+      if (!(low < middle && middle < high)) break;
+      if (step % 13 == 0) {
+        if (const auto found = hovered_at(setting_.start(between(a, b, middle)))) return found;
+      }
+      if (!goes_on()) return std::nullopt;
+      const bool is_as_first =
+          watch(setting_.start(between(a, b, middle))).is_same_end(end_of_first);
+      (is_as_first ? low : high) = middle;
+    }
+    return std::nullopt;
+  }
+
+  /// An unstable cycle that a motion comes near for a while.
+  std::optional<std::size_t> hovered_at(const State& start) {
+    constexpr double longest = 40.0;  // slow times
+    constexpr double step = 1.0;
+    constexpr double near = 1e-2;
+    for (double time = step; time <= longest; time += step) {
+      const Trajectory motion =
+          simulate(setting_.system, start,
+                   {.until = setting_.between_ticks(time * setting_.slow_time),
+                    .event_limit = options_.most_events});
+      if (motion.stop_reason() != StopReason::reached_end) return std::nullopt;
+      const auto seen = samples(setting_.system, motion, setting_.load, 0.05 * setting_.slow_time);
+      const auto found = closed_cycle(motion, seen, near);
+      if (found && found->stability == Stability::unstable) return place_of(*found);
+    }
+    return std::nullopt;
+  }
+
+  const AttractorOptions& options_;
+  SearchSetting unscaled_;
+  SearchSetting setting_;
+  std::vector<ShaftStates> starts_;
+  std::vector<Verdict> verdicts_;
+  std::size_t done_ = 0;
+  AttractorSearch result_;
+};
+
+}  // namespace
+
+void Extent::include(double value) {
+  lowest = std::min(lowest, value);
+  highest = std::max(highest, value);
+}
+
+std::size_t AttractorSearch::count(MotionEnd end) const {
+  return static_cast<std::size_t>(
+      std::count_if(outcomes.begin(), outcomes.end(),
+                    [&](const Outcome& outcome) { return outcome.end == end; }));
+}
+
+AttractorSearch find_attractors(const Drive& drive, const AttractorOptions& options) {
+  return Search(drive, options).run();
+}
+
+}  // namespace gearlash::drive
