@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "command.hpp"
+#include "gearlash/io/attractor_report.hpp"
 #include "gearlash/io/change_report.hpp"
 #include "gearlash/io/limit_cycle_report.hpp"
 #include "gearlash/io/output_file.hpp"
@@ -21,7 +22,8 @@ constexpr char examples[] =
     "  gearlash limit-cycle examples/elinco-fd162.toml --backlash \"12 arcmin\"\n"
     "  gearlash limit-cycle --damping 0.19 --inertia-ratio 2 --friction-ratio 1/10 --backlash 0.3\n"
     "  gearlash limit-cycle examples/elinco-fd162.toml --sensitivities --plot tornado=size.svg\n"
-    "  gearlash limit-cycle examples/normalized.toml --format json | jq .cycles[0].size\n";
+    "  gearlash limit-cycle examples/normalized.toml --format json | jq .cycles[0].size\n"
+    "  gearlash limit-cycle examples/robot-joint.toml\n";
 
 struct LimitCycleOptions {
   ServoOptions servo;
@@ -148,23 +150,14 @@ std::string draw(const LimitCycleReport& report, const LimitCycleOptions& option
   return draw_bar_chart(chart, format);
 }
 
-ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
-  Faults faults;
-  faults.require_choice("--format", options.format, {"text", "json"});
-  const PictureFormat picture_kind = faults.collect(
-      [&] {
-        return options.plot.empty() ? PictureFormat::svg
-                                    : picture_format("--plot", plot_file(options));
-      },
-      PictureFormat::svg);
-  faults.require_distinct({{"SERVO.toml", options.servo.file}, {"--plot", plot_file(options)}});
-  const ServoFile file = resolve_servo(options.servo, faults);
-  faults.require_none();
-
+/// `is_drive`: it was described as a drive, whose closed form this is.
+ExitStatus analyse_servo(const ServoFile& file, bool is_drive, const LimitCycleOptions& options,
+                         PictureFormat picture_kind, const Provenance& provenance) {
   LimitCycleReport report{.servo = file.servo,
                           .analysis = analyse_limit_cycles(file.servo),
                           .units = report_units(file),
-                          .provenance = provenance};
+                          .provenance = provenance,
+                          .is_drive = is_drive};
   const ChangeableDrive drive = drive_of(file, options.servo);
   // At the very ends of the ranges rounding may put the drive's ratios beyond them.
   const bool is_sound = validate(drive.drivetrain()).empty();
@@ -183,12 +176,74 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   return ExitStatus::undecided;
 }
 
+// ---- drives -------------------------------------------------------------------------------------
+
+std::string text_for_terminal(const AttractorReport& report) {
+  const std::string text = attractor_text(report);
+  const std::size_t end_of_verdict = text.find('\n');
+  return emphasized(text.substr(0, end_of_verdict)) + text.substr(end_of_verdict);
+}
+
+/// A drive without a closed form: what a search finds.
+ExitStatus search_drive(const DriveFile& file, const LimitCycleOptions& options,
+                        PictureFormat picture_kind, const Provenance& provenance) {
+  AttractorReport report{.file = file, .search = {}, .provenance = provenance};
+  {
+    Progress progress("Searching");
+    drive::AttractorOptions search;
+    search.go_on = [&](double share) {
+      progress.show(share);
+      return true;
+    };
+    report.search = drive::find_attractors(file.drive, search);
+  }
+  if (!options.plot.empty()) write_file(options.plot, draw_attractor(report, picture_kind));
+  write_file("-", options.format == "json" ? attractor_json(report) : text_for_terminal(report));
+  if (drive::verdict_of(report.search) != drive::DriveVerdict::undecided) return ExitStatus::done;
+  std::fputs(("gearlash: " + verdict_line(report) + "\n").c_str(), stderr);
+  return ExitStatus::undecided;
+}
+
+/// What only the closed form tells.
+void refuse_for_drives(const LimitCycleOptions& options, Faults& faults) {
+  const std::string why =
+      "must be left out: of a drive without a closed form cycles are found, not margins and "
+      "sensitivities";
+  if (options.margins) faults.add({"--margins", "given", why, ""});
+  if (options.sensitivities) faults.add({"--sensitivities", "given", why, ""});
+  if (options.plot.starts_with(tornado)) faults.add({"--plot", shown(options.plot), why, ""});
+}
+
+ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
+  Faults faults;
+  faults.require_choice("--format", options.format, {"text", "json"});
+  const PictureFormat picture_kind = faults.collect(
+      [&] {
+        return options.plot.empty() ? PictureFormat::svg
+                                    : picture_format("--plot", plot_file(options));
+      },
+      PictureFormat::svg);
+  faults.require_distinct({{"SERVO.toml", options.servo.file}, {"--plot", plot_file(options)}});
+  const ServoOrDriveFile described = resolve_servo_or_drive(options.servo, faults);
+  const auto* drive = std::get_if<DriveFile>(&described);
+  const std::optional<ServoFile> closed =
+      drive != nullptr && faults.none() ? closed_form_of(*drive) : std::nullopt;
+  if (drive != nullptr && !closed) {
+    refuse_for_drives(options, faults);
+    faults.require_none();
+    return search_drive(*drive, options, picture_kind, provenance);
+  }
+  faults.require_none();
+  return analyse_servo(closed ? *closed : std::get<ServoFile>(described), closed.has_value(),
+                       options, picture_kind, provenance);
+}
+
 }  // namespace
 
 void add_limit_cycle_command(CLI::App& app, Action& action) {
   const auto options = std::make_shared<LimitCycleOptions>();
   CLI::App* command = app.add_subcommand("limit-cycle", "does it hunt, how big and how fast?");
-  add_servo_options(*command, options->servo);
+  add_servo_or_drive_options(*command, options->servo);
   command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");
   command
       ->add_option("--plot", options->plot,

@@ -218,18 +218,6 @@ void apply(const ServoOptions& options, DriveFile& file, Faults& faults) {
 
 }  // namespace
 
-void set_sensor(DriveFile& file, const std::string& sensor) {
-  const auto put = [&](double& share, double& resolution, double new_share) {
-    // A turn of the motor is less at the load.
-    if (share != new_share)
-      resolution *= new_share == 1.0 ? file.gear_ratio : 1.0 / file.gear_ratio;
-    share = new_share;
-  };
-  drive::Sensing& sensing = file.drive.sensing;
-  put(sensing.load_share_of_position, sensing.resolution, sensor == "motor" ? 0.0 : 1.0);
-  put(sensing.load_share_of_speed, sensing.resolution_of_speed, sensor == "load" ? 1.0 : 0.0);
-}
-
 ServoOrDriveFile resolve_servo_or_drive(const ServoOptions& options, Faults& faults) {
   ServoOrDriveFile read = read_either(options, faults);
   if (options.sensor) faults.require_choice("--sensor", *options.sensor, {"load", "motor", "both"});
@@ -245,7 +233,9 @@ ServoOrDriveFile resolve_servo_or_drive(const ServoOptions& options, Faults& fau
     apply(options, std::get<DriveFile>(read), faults);
   }
   auto& file = std::get<DriveFile>(read);
-  if (options.sensor) set_sensor(file, *options.sensor);
+  if (options.sensor) {
+    file = with_sensor(std::move(file), sensor_named(*options.sensor).value_or(SensorPlace::load));
+  }
   if (faults.none()) faults.add(drive::validate(file.drive));
   return read;
 }

@@ -78,9 +78,6 @@ ServoFile resolve_servo(const ServoOptions& options, Faults& faults);
 /// with its sensor on the motor is a drive. Faults go to `faults`.
 ServoOrDriveFile resolve_servo_or_drive(const ServoOptions& options, Faults& faults);
 
-/// Puts the sensors on "load", "motor" or "both" shafts; an encoder keeps its steps a turn.
-void set_sensor(DriveFile& file, const std::string& sensor);
-
 /// The servo of the closed form that the drive is, but for its reference; nothing if it is none.
 std::optional<ServoFile> closed_form_of(DriveFile file);
 

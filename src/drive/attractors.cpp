@@ -58,9 +58,9 @@ double hardest_impact(const SearchSetting& setting, const PeriodicOrbit& orbit) 
     if (event.kind != hybrid::EventKind::transition) continue;
     if (setting.built.modes[event.mode].contact != ContactState::apart) continue;
     const bool meets = setting.built.modes[event.mode_after].contact != ContactState::apart;
-    const bool bounces = setting.load.speed.at(event.before) != setting.load.speed.at(event.after) &&
-                         setting.motor.speed.at(event.before) !=
-                             setting.motor.speed.at(event.after);
+    const bool bounces =
+        setting.load.speed.at(event.before) != setting.load.speed.at(event.after) &&
+        setting.motor.speed.at(event.before) != setting.motor.speed.at(event.after);
     if (!meets && !bounces) continue;
     hardest = std::max(hardest, std::abs(setting.motor.speed.at(event.before) -
                                          setting.load.speed.at(event.before)));
@@ -176,10 +176,11 @@ class Search {
     double length = 10.0 * setting_.slow_time;
     while (true) {
       const double until = setting_.between_ticks(watch.time + length);
-      const Trajectory motion = simulate(
-          setting_.system, watch.here,
-          {.from = watch.time, .until = until,
-           .event_limit = std::max<std::size_t>(1, options_.most_events - watch.events)});
+      const Trajectory motion =
+          simulate(setting_.system, watch.here,
+                   {.from = watch.time,
+                    .until = until,
+                    .event_limit = std::max<std::size_t>(1, options_.most_events - watch.events)});
       watch.time = motion.end_time();
       watch.events += motion.events().size();
       watch.here = motion.end();
@@ -250,15 +251,13 @@ class Search {
   /// Whether no number has moved in the last half by more than a share of all that it has.
   bool is_at_rest(const Watch& watch, const Trajectory& motion) const {
     constexpr double little = 1e-9;
-    const std::vector<Range> last =
-        ranges(motion, 0.5 * (motion.start_time() + motion.end_time()));
+    const std::vector<Range> last = ranges(motion, 0.5 * (motion.start_time() + motion.end_time()));
     const double positions =
         std::max({watch.all[motor_position].width(), watch.all[load_position].width(),
                   setting_.drive.backlash / setting_.frame.scale[load_position]});
-    const double speeds =
-        std::max({watch.all[motor_speed].width(), watch.all[load_speed].width(),
-                  positions * setting_.frame.scale[load_position] /
-                      (setting_.frame.scale[load_speed] * setting_.slow_time)});
+    const double speeds = std::max({watch.all[motor_speed].width(), watch.all[load_speed].width(),
+                                    positions * setting_.frame.scale[load_position] /
+                                        (setting_.frame.scale[load_speed] * setting_.slow_time)});
     for (std::size_t i = 0; i < static_cast<std::size_t>(setting_.own); ++i) {
       const bool is_position = i == motor_position || i == load_position;
       const bool is_speed = i == motor_speed || i == load_speed;
@@ -282,8 +281,8 @@ class Search {
 
   /// Small swings whose limit, by Aitken's extrapolation of any three, is 0.
   std::optional<double> ratio_of_vanishing(const std::vector<Sample>& turns) const {
-    constexpr std::size_t enough = 7;       // swings
-    constexpr std::size_t least = 3;        // that do where they shrink by so much
+    constexpr std::size_t enough = 7;  // swings
+    constexpr std::size_t least = 3;   // that do where they shrink by so much
     constexpr double shrunk = 0.1;
     constexpr double nothing = 0.03;
     if (!is_small(turns)) return std::nullopt;
@@ -309,10 +308,10 @@ class Search {
     shooting.nearness = nearness;
     if (!motion.events().empty()) return closing_orbit(setting_.system, motion, shooting);
     const hybrid::HybridSystem turning = with_turns(setting_);
-    const Trajectory again =
-        simulate(turning, motion.at(motion.start_time()),
-                 {.from = motion.start_time(), .until = motion.end_time(),
-                  .event_limit = options_.most_events});
+    const Trajectory again = simulate(turning, motion.at(motion.start_time()),
+                                      {.from = motion.start_time(),
+                                       .until = motion.end_time(),
+                                       .event_limit = options_.most_events});
     return closing_orbit(turning, again, shooting);
   }
 

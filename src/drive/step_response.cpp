@@ -120,7 +120,7 @@ void measure(const Path& path, StepResponse& response) {
 
 }  // namespace
 
-StepResponse step_response(Drive drive, double step, double until) {
+hybrid::Trajectory step_motion(Drive drive, double step, double until) {
   RangeCheck check;
   if (!(std::isfinite(step) && step != 0.0)) {
     check.refuse("step", exact_text(step), "must be finite and not 0, rad");
@@ -131,13 +131,16 @@ StepResponse step_response(Drive drive, double step, double until) {
   const DriveSystem system = drive_system(drive);
   const double way = step < 0.0 ? -1.0 : 1.0;
   const ShaftStates rest{.motor_position = way * 0.5 * drive.backlash};
-  const hybrid::Trajectory motion =
-      hybrid::simulate(system.system, drive_start(drive, system, rest), {.until = until});
+  return hybrid::simulate(system.system, drive_start(drive, system, rest), {.until = until});
+}
+
+StepResponse step_response(const Drive& drive, double step, double until) {
+  const hybrid::Trajectory motion = step_motion(drive, step, until);
   constexpr double share = 0.05;
   StepResponse response{.step = step, .until = motion.end_time()};
   response.band = share * std::abs(step);
   response.stop_reason = motion.stop_reason();
-  if (motion.end_time() > 0.0) measure(Path(motion, way), response);
+  if (motion.end_time() > 0.0) measure(Path(motion, step < 0.0 ? -1.0 : 1.0), response);
   return response;
 }
 

@@ -57,4 +57,37 @@ DriveFile drive_file_of(const ServoFile& servo) {
   return file;
 }
 
+DriveFile with_sensor(DriveFile file, SensorPlace place) {
+  const auto put = [&](double& share, double& resolution, double new_share) {
+    // A turn of the motor is less at the load.
+    if (share != new_share)
+      resolution *= new_share == 1.0 ? file.gear_ratio : 1.0 / file.gear_ratio;
+    share = new_share;
+  };
+  drive::Sensing& sensing = file.drive.sensing;
+  put(sensing.load_share_of_position, sensing.resolution, place == SensorPlace::motor ? 0.0 : 1.0);
+  put(sensing.load_share_of_speed, sensing.resolution_of_speed,
+      place == SensorPlace::load ? 1.0 : 0.0);
+  return file;
+}
+
+const char* name_of(SensorPlace place) {
+  switch (place) {
+    case SensorPlace::load:
+      return "load";
+    case SensorPlace::motor:
+      return "motor";
+    case SensorPlace::both:
+      return "both";
+  }
+  return "";
+}
+
+std::optional<SensorPlace> sensor_named(std::string_view name) {
+  for (const SensorPlace place : {SensorPlace::load, SensorPlace::motor, SensorPlace::both}) {
+    if (name == name_of(place)) return place;
+  }
+  return std::nullopt;
+}
+
 }  // namespace gearlash

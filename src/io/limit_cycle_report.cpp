@@ -333,6 +333,9 @@ std::string limit_cycle_text(const LimitCycleReport& report) {
       verdict_line(report) + "\n" + cycle_tables(report) + "\nServo\n" + servo_table(report) + "\n";
   if (report.margin) text += margin_text(*report.drive, *report.margin, report.units) + "\n";
   if (report.sensitivity) text += sensitivity_text(*report.sensitivity) + "\n";
+  if (report.is_drive) {
+    text += wrapped("Worked out in closed form: the drive is a servo with proportional control.");
+  }
   return text + wrapped(meaning(report));
 }
 
@@ -342,6 +345,7 @@ std::string limit_cycle_json(const LimitCycleReport& report) {
   for (const LimitCycle& cycle : analysis.cycles) cycles.push_back(json_cycle(cycle));
   Json json = {{"servo", json_servo(report.servo)},
                {"growth_at_rest", json_number(analysis.growth_at_rest)},
+               {"method", "closed form"},
                {"verdict", name_of(analysis.verdict)},
                {"proved", analysis.proved},
                {"rests_engaged", analysis.rests_engaged},

@@ -40,7 +40,8 @@ std::string permitted_values(std::string_view field) {
   }
   if (field == "friction_ratio" || field == "restitution") return share_range.text();
   if (field == "backlash") return backlash_range.text() + " (rad)";
-  if (field == "sensor") return "load (a sensor on the motor comes with drives)";
+  if (field == "sensor")
+    return "load (limit-cycle, simulate, describe and compare take one on the motor)";
   return "";
 }
 

@@ -46,10 +46,11 @@ TEST(BadInput, EveryFaultOfTheOptionsIsListed) {
 }
 
 TEST(BadInput, SensorOnTheMotorIsRefusedInClearWords) {
-  EXPECT_THAT(faults({"limit-cycle", "examples/elinco-fd162.toml", "--sensor", "motor"}),
+  EXPECT_THAT(faults({"map", "--x", "damping=0.1:0.2:3", "--y", "friction-ratio=0.1:0.2:3",
+                      "--sensor", "motor", "--output", "map.csv", "examples/elinco-fd162.toml"}),
               ElementsAre(StartsWith("gearlash: --sensor = motor: must be load")));
   EXPECT_THAT(faults({"limit-cycle", "examples/elinco-fd162.toml", "--sensor", "gear"}),
-              ElementsAre("gearlash: --sensor = gear: must be load or motor"));
+              ElementsAre("gearlash: --sensor = gear: must be load, motor or both"));
 }
 
 TEST(BadInput, FaultsOfTheFileCarryItsPlaceAndStandBesideThoseOfOptions) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -36,5 +37,20 @@ ServoOrDriveFile read_servo_or_drive_file(const std::filesystem::path& path);
 /// inertias that add up to 1 kg m². Throws InvalidInput for a servo with a massless side or without
 /// a gap, which no drive is.
 DriveFile drive_file_of(const ServoFile& servo);
+
+/// Which shafts are measured.
+enum class SensorPlace {
+  load,
+  motor,
+  both  ///< the load's position and the motor's speed
+};
+
+/// The same drive with its sensors on other shafts. An encoder keeps its steps a turn, so that one
+/// on the motor reads finer by the gear ratio.
+DriveFile with_sensor(DriveFile file, SensorPlace place);
+
+/// "load", "motor", "both".
+const char* name_of(SensorPlace place);
+std::optional<SensorPlace> sensor_named(std::string_view name);
 
 }  // namespace gearlash

@@ -16,6 +16,7 @@ struct LimitCycleReport {
   LimitCycleAnalysis analysis = {};
   ReportUnits units = {};
   Provenance provenance = {};
+  bool is_drive = false;  ///< described as a drive, whose closed form this is
   /// What its margins and sensitivities are told of; nothing where they are not asked for.
   std::optional<ChangeableDrive> drive = std::nullopt;
   std::optional<HuntingMargin> margin = std::nullopt;

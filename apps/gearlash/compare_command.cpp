@@ -1,0 +1,178 @@
+// gearlash compare: the same drive with its sensor before and after the gap.
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <sstream>
+
+#include "command.hpp"
+#include "gearlash/drive/time_scale.hpp"
+#include "gearlash/io/comparison_report.hpp"
+#include "gearlash/io/output_file.hpp"
+#include "gearlash/io/units.hpp"
+#include "servo_options.hpp"
+#include "terminal.hpp"
+
+namespace gearlash::cli {
+namespace {
+
+constexpr char examples[] =
+    "  gearlash compare examples/robot-joint.toml --sensor load,motor,both\n"
+    "  gearlash compare examples/elinco-fd162.toml --sensor load,motor --plot time=step.svg\n"
+    "  gearlash compare examples/telescope-axis.toml --step \"1 arcmin\" --format json\n";
+
+struct CompareOptions {
+  ServoOptions servo;
+  std::string sensors = "load,motor,both";
+  std::optional<std::string> step;
+  std::optional<std::string> until;
+  std::string format = "text";
+  std::string plot;
+};
+
+constexpr std::string_view time_plot = "time=";
+
+std::vector<SensorPlace> read_sensors(const std::string& text, Faults& faults) {
+  std::vector<SensorPlace> places;
+  std::istringstream stream(text);
+  for (std::string name; std::getline(stream, name, ',');) {
+    const std::optional<SensorPlace> place = sensor_named(name);
+    if (place && std::find(places.begin(), places.end(), *place) == places.end()) {
+      places.push_back(*place);
+    } else {
+      faults.add({"--sensor", shown(text),
+                  "must be a list of load, motor and both, each once, such as load,motor", ""});
+      return {};
+    }
+  }
+  if (places.empty()) faults.add({"--sensor", shown(text), "must name load, motor or both", ""});
+  return places;
+}
+
+DriveFile resolve_drive(const CompareOptions& options, Faults& faults) {
+  const ServoOrDriveFile described = resolve_servo_or_drive(options.servo, faults);
+  if (const auto* drive = std::get_if<DriveFile>(&described)) return *drive;
+  if (!faults.none()) return {};
+  return faults.collect([&] { return drive_file_of(std::get<ServoFile>(described)); }, DriveFile{});
+}
+
+struct Step {
+  double size = 0.0;
+  double until = 0.0;
+};
+
+/// Ten times the backlash, and twenty periods of the loop.
+Step read_step(const CompareOptions& options, const DriveFile& file, Faults& faults) {
+  constexpr double backlashes = 10.0;
+  constexpr double periods = 20.0;
+  Step step{backlashes * file.drive.backlash, 1.0};
+  if (options.step) {
+    step.size = faults.collect([&] { return read_angle("--step", *options.step).si; }, step.size);
+    if (step.size == 0.0) {
+      faults.add({"--step", shown(*options.step), "must not be 0, an angle", ""});
+    }
+  }
+  if (options.until) {
+    const ReportUnits units{.natural_frequency =
+                                file.is_normalized ? std::nullopt : std::optional(1.0)};
+    step.until = faults.collect(
+        [&] {
+          return read_scaled("--until", *options.until, dimensions::time, units, units.time_unit());
+        },
+        1.0);
+    if (!(step.until > 0.0)) {
+      faults.add({"--until", shown(*options.until), "must be positive", ""});
+    }
+  } else if (faults.none()) {
+    step.until = periods * drive::slow_time(file.drive);
+  }
+  return step;
+}
+
+SensorCase compared(const DriveFile& file, SensorPlace place, const Step& step,
+                    const std::function<void(double)>& show) {
+  SensorCase one;
+  one.place = place;
+  one.attractors.file = with_sensor(file, place);
+  drive::AttractorOptions options;
+  options.go_on = [&](double share) {
+    show(share);
+    return true;
+  };
+  one.attractors.search = drive::find_attractors(one.attractors.file.drive, options);
+  one.response = drive::step_response(one.attractors.file.drive, step.size, step.until);
+  return one;
+}
+
+ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
+  Faults faults;
+  faults.require_choice("--format", options.format, {"text", "json"});
+  const bool is_drawn = !options.plot.empty();
+  const std::string plot_file =
+      options.plot.starts_with(time_plot) ? options.plot.substr(time_plot.size()) : "";
+  if (is_drawn && plot_file.empty()) {
+    faults.add({"--plot", shown(options.plot), "must be time=FILE", ""});
+  }
+  const PictureFormat picture_kind = faults.collect(
+      [&] { return plot_file.empty() ? PictureFormat::svg : picture_format("--plot", plot_file); },
+      PictureFormat::svg);
+  faults.require_distinct({{"DRIVE.toml", options.servo.file}, {"--plot", plot_file}});
+  const std::vector<SensorPlace> places = read_sensors(options.sensors, faults);
+  const DriveFile file = resolve_drive(options, faults);
+  const Step step = read_step(options, file, faults);
+  faults.require_none();
+
+  ComparisonReport report{.cases = {}, .provenance = provenance};
+  {
+    Progress progress("Comparing");
+    for (const SensorPlace place : places) {
+      const auto done = static_cast<double>(report.cases.size());
+      report.cases.push_back(compared(file, place, step, [&](double share) {
+        progress.show((done + share) / static_cast<double>(places.size()));
+      }));
+    }
+  }
+  if (is_drawn) write_file(plot_file, draw_comparison(report, picture_kind));
+  write_file("-", options.format == "json" ? comparison_json(report) : comparison_text(report));
+  const bool decided =
+      std::none_of(report.cases.begin(), report.cases.end(), [](const SensorCase& one) {
+        return drive::verdict_of(one.attractors.search) == drive::DriveVerdict::undecided;
+      });
+  return decided ? ExitStatus::done : ExitStatus::undecided;
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<CompareOptions>();
+  CLI::App* command = app.add_subcommand(
+      "compare", "the same drive with its sensor before and after the gap, side by side");
+  command
+      ->add_option("DRIVE.toml", options->servo.file,
+                   "drive (docs/drives.md), data sheet or normalised servo")
+      ->type_name("")
+      ->required();
+  command
+      ->add_option("--sensor", options->sensors,
+                   "shafts that are measured, by turns: load, motor, both (position of the\n"
+                   "load, speed of the motor); default load,motor,both")
+      ->type_name("LIST");
+  command
+      ->add_option("--step", options->step,
+                   "of the reference; rad, or with its unit; default ten times the backlash")
+      ->type_name("ANGLE");
+  command
+      ->add_option("--until", options->until,
+                   "how long the step response is watched; default twenty periods of the loop")
+      ->type_name("TIME");
+  command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");
+  command
+      ->add_option("--plot", options->plot,
+                   "time=FILE draws the step responses; FILE ends in .svg, .png or .pdf")
+      ->type_name("time=FILE");
+  command->footer(help_footer(examples));
+  command->callback([options, &action] {
+    action = [options](const Provenance& provenance) { return run(*options, provenance); };
+  });
+}
+
+}  // namespace gearlash::cli
