@@ -658,21 +658,25 @@ class NyquistDrawing {
 
 std::vector<DescribingAnalysis> of_one_loop(const std::vector<DescribingAnalysis>& analyses,
                                             DescribedPart part) {
-  const auto first =
-      std::find_if(analyses.begin(), analyses.end(), [part](const DescribingAnalysis& analysis) {
-        return analysis.part == part && is_in_loop(analysis);
-      });
+  const auto is_gap = [](DescribedPart other) {
+    return other == DescribedPart::gap_load_held || other == DescribedPart::gap_load_coasting;
+  };
   std::vector<DescribingAnalysis> found;
-  if (first == analyses.end()) return found;
   std::copy_if(analyses.begin(), analyses.end(), std::back_inserter(found),
-               [&](const DescribingAnalysis& analysis) { return analysis.loop == first->loop; });
+               [&](const DescribingAnalysis& analysis) {
+                 const bool is_wanted =
+                     analysis.part == part || (is_gap(part) && is_gap(analysis.part));
+                 return is_wanted && is_in_loop(analysis);
+               });
   return found;
 }
 
 std::string draw_nyquist(const NyquistPicture& picture, PictureFormat format) {
+  const bool has_exact = std::any_of(picture.exact.begin(), picture.exact.end(),
+                                     [](const ExactCycle& cycle) { return cycle.stable; });
   const std::string subtitle =
-      "cycles are predicted where L(jω) = −1/N(A); were that exact, the diamonds would be one "
-      "point";
+      std::string("cycles are predicted where L(jω) = −1/N(A)") +
+      (has_exact ? "; were that exact, the diamonds would be one point" : "");
   constexpr double letters = 0.72;
   // How high the frame is depends on the legend, and that a little on what the frame shows.
   constexpr double usual_aspect = 1.7;

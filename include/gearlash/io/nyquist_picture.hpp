@@ -19,8 +19,7 @@ struct NyquistPicture {
   std::string time_unit = "s";  ///< "s", or that of normalised times; frequencies are then ω
 };
 
-/// Those of `analyses` with the same loop as the first of this part that is in it; empty where
-/// there is none.
+/// Those of this part, for a gap of either kind of load; empty where it is in no loop.
 std::vector<drive::DescribingAnalysis> of_one_loop(
     const std::vector<drive::DescribingAnalysis>& analyses, drive::DescribedPart part);
 
