@@ -25,6 +25,7 @@ void add_chart_command(CLI::App& app, Action& action);
 void add_map_command(CLI::App& app, Action& action);
 void add_sweep_command(CLI::App& app, Action& action);
 void add_design_command(CLI::App& app, Action& action);
+void add_describe_command(CLI::App& app, Action& action);
 void add_motor_command(CLI::App& app, Action& action);
 void add_tolerance_command(CLI::App& app, Action& action);
 void add_compare_command(CLI::App& app, Action& action);

@@ -111,6 +111,7 @@ ExitStatus parse_and_run(int argument_count, char** arguments) {
   add_design_command(app, action);
   add_tolerance_command(app, action);
   add_compare_command(app, action);
+  add_describe_command(app, action);
   add_motor_command(app, action);
   add_chart_command(app, action);
   add_map_command(app, action);

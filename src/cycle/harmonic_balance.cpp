@@ -319,9 +319,8 @@ double coasting_load_size(const PredictedCycle& cycle, double half_gap) {
 void append(std::vector<DescribedCycle>& estimate, LoadInGap load, double gap,
             const HarmonicBalance& balance) {
   for (const PredictedCycle& cycle : balance.cycles) {
-    const double size = load == LoadInGap::coasting ? coasting_load_size(cycle, 0.5 * gap)
-                                                    : held_load_size(cycle, 0.5 * gap);
-    estimate.push_back({load, size, cycle.amplitude, cycle.period, cycle.stable, cycle.residual});
+    estimate.push_back({load, load_size(load, cycle, gap), cycle.amplitude, cycle.period,
+                        cycle.stable, cycle.residual});
   }
 }
 
@@ -364,6 +363,11 @@ Bounds natural_frequency_range(const TransferFunction& loop) {
   }
   const double high = beyond * scale.high;
   return {scale.low / beyond, loop.delay > 0.0 ? std::min(high, 100.0 * turn / loop.delay) : high};
+}
+
+double load_size(LoadInGap load, const PredictedCycle& cycle, double gap) {
+  return load == LoadInGap::coasting ? coasting_load_size(cycle, 0.5 * gap)
+                                     : held_load_size(cycle, 0.5 * gap);
 }
 
 std::vector<DescribedCycle> describing_function_estimate(const NormalizedServo& servo) {

@@ -2,9 +2,12 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <string_view>
+
+#include "gearlash/io/columns.hpp"
 
 namespace gearlash {
 namespace {
@@ -127,6 +130,33 @@ std::string heading(const std::string& title, const std::string& subtitle) {
          " at graph 0.5, screen 0.905 center\n"
          "set tmargin screen 0.88\nset rmargin screen 0.97\n"
          "set tics nomirror out\nset border linewidth 0.8\n";
+}
+
+/// Widths in letters as gnuplot lays them out, no more columns than it finds room for: else there
+/// were more rows. Heights in shares of the picture's.
+Legend legend_below(const std::vector<std::string>& names, PictureFormat format, double scale) {
+  struct Page {
+    double width;
+    double axis;
+    double row;
+    double font;
+  };
+  const Page page = format == PictureFormat::svg   ? Page{77.0, 0.155, 0.039, 15.0}
+                    : format == PictureFormat::png ? Page{86.0, 0.125, 0.029, 22.0}
+                                                   : Page{98.0, 0.14, 0.037, 11.0};
+  std::size_t longest = 0;
+  for (const std::string& name : names) longest = std::max(longest, width_in_columns(name));
+  constexpr double sample = 5.5;
+  const double entry = sample + scale * static_cast<double>(longest);
+  const int columns = std::clamp(static_cast<int>(page.width / entry), 1, 4);
+  const int rows = (static_cast<int>(names.size()) + columns - 1) / columns;
+  const std::string font =
+      scale == 1.0 ? "" : fmt::format("\nset key font ',{:.3g}'", scale * page.font);
+  const double bottom = page.axis + page.row * scale * rows;
+  return {fmt::format("set bmargin screen {:.3f}\nset key at screen 0.54, 0.02 bottom center "
+                      "horizontal maxcols {} Left reverse samplen 3 spacing 1.25{}\n",
+                      bottom, columns, font),
+          bottom};
 }
 
 std::string axis_commands(char name, const ChartAxis& axis) {

@@ -20,6 +20,15 @@ const char* terminal(PictureFormat format);
 /// Title and subtitle, and the borders that every chart has.
 std::string heading(const std::string& title, const std::string& subtitle);
 
+struct Legend {
+  std::string commands;
+  double bottom;  ///< where the axes end above it, a share of the picture's height
+};
+/// Of these names below the axes, in as many columns as the longest permits. Letters are `scale`
+/// times as large as the picture's.
+Legend legend_below(const std::vector<std::string>& names, PictureFormat format,
+                    double scale = 1.0);
+
 /// Name is 'x' or 'y'.
 std::string axis_commands(char name, const ChartAxis& axis);
 

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "gearlash/io/columns.hpp"
 #include "gnuplot.hpp"
 #include "gnuplot_script.hpp"
 
@@ -21,33 +20,13 @@ constexpr std::array dashes = {"1",     "(10,4)", "(4,3)",        "(12,3,3,3)",
                                "(2,2)", "(16,4)", "(8,3,2,3,2,3)"};
 constexpr std::array marks = {5, 7, 9, 11, 13, 15, 3};
 
-/// The legend in as many columns as its longest name permits, and below the axis the room for its
-/// rows. Widths in letters as gnuplot lays them out, no more columns than it finds room for: else
-/// there were more rows. Heights in shares of the picture's.
 std::string legend(const LineChart& chart, PictureFormat format) {
-  struct Page {
-    double width;
-    double axis;
-    double row;
-  };
-  const Page page = format == PictureFormat::svg   ? Page{77.0, 0.155, 0.039}
-                    : format == PictureFormat::png ? Page{86.0, 0.125, 0.029}
-                                                   : Page{98.0, 0.14, 0.037};
   std::vector<std::string> names;
   for (const ChartCurve& curve : chart.curves) names.push_back(curve.name);
   for (const std::string& meaning : {chart.line_meaning, chart.mark_meaning, chart.end_meaning}) {
     if (!meaning.empty()) names.push_back(meaning);
   }
-  std::size_t longest = 0;
-  for (const std::string& name : names) longest = std::max(longest, width_in_columns(name));
-  constexpr double sample = 5.5;
-  const double entry = sample + static_cast<double>(longest);
-  const int columns = std::clamp(static_cast<int>(page.width / entry), 1, 4);
-  const int rows = (static_cast<int>(names.size()) + columns - 1) / columns;
-  return fmt::format(
-      "set bmargin screen {:.3f}\nset key at screen 0.54, 0.02 bottom center horizontal maxcols {} "
-      "Left reverse samplen 3 spacing 1.25\n",
-      page.axis + page.row * rows, columns);
+  return legend_below(names, format).commands;
 }
 
 DataBlock points(const std::string& name, const std::vector<ChartPoint>& data) {

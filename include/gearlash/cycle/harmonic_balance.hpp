@@ -67,6 +67,12 @@ enum class LoadInGap {
   coasting           ///< it keeps its speed (InertiaControlledBacklash)
 };
 
+/// Half the peak-to-peak of the load on a cycle that was predicted with it, the cycle's amplitude
+/// being the motor's: A − h of a load held by friction, and of a coasting one A + h, or A sin c + h
+/// where the faces meet past the motor's turning point. It keeps its digits where A → h.
+/// Precondition: a cycle of harmonic_balance() with the kind of gap that belongs to `load`.
+double load_size(LoadInGap load, const PredictedCycle& cycle, double gap);
+
 /// Times in units of 1/ω_n, angles in rad at the load shaft.
 struct DescribedCycle {
   LoadInGap load = LoadInGap::held_by_friction;

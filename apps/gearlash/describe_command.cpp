@@ -1,0 +1,214 @@
+// gearlash describe: what describing functions predict, beside the exact cycle.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "command.hpp"
+#include "gearlash/io/describe_report.hpp"
+#include "gearlash/io/nyquist_picture.hpp"
+#include "gearlash/io/output_file.hpp"
+#include "gearlash/io/units.hpp"
+#include "gearlash/servo/range_check.hpp"
+#include "servo_options.hpp"
+#include "terminal.hpp"
+
+namespace gearlash::cli {
+namespace {
+
+constexpr char examples[] =
+    "  gearlash describe examples/elinco-fd162.toml --plot nyquist=nyquist.svg\n"
+    "  gearlash describe --damping 0.19 --inertia-ratio 2 --friction-ratio 1/10 --backlash 0.3\n"
+    "  gearlash describe examples/normalized.toml --format json | jq .analyses[].cycles\n";
+
+constexpr char explanation[] =
+    "A cycle is predicted where the loop's gain meets -1/N(A), N being how much of a sine of\n"
+    "amplitude A the nonlinearity passes on. Each is described by itself, all others left out.\n\n";
+
+struct DescribeOptions {
+  ServoOptions servo;
+  std::string format = "text";
+  std::string plot;
+  std::string part;
+};
+
+constexpr std::string_view nyquist = "nyquist=";
+
+drive::DescribedPart part_of(const std::string& name) {
+  using drive::DescribedPart;
+  if (name == "elastic-gap") return DescribedPart::elastic_gap;
+  if (name == "torque-limit") return DescribedPart::torque_limit;
+  if (name == "coulomb-friction") return DescribedPart::coulomb_friction;
+  return DescribedPart::gap_load_held;
+}
+
+/// A drive and what is exact of it, both in the drive's own units.
+struct DescribedDrive {
+  drive::Drive drive{};
+  std::vector<drive::ExactCycle> exact{};
+  std::string verdict{};
+  AngleUnit angle{};
+  std::string time_unit = "s";
+};
+
+/// In SI units where there is a natural frequency, with the data sheet's stiffness if there is one;
+/// else as normalised. What options say of the servo is in its normalised numbers.
+drive::Drive drive_of(const ServoFile& file) {
+  const NormalizedServo& servo = file.servo;
+  const double frequency = file.natural_frequency.value_or(1.0);
+  const double stiffness = file.drivetrain ? file.drivetrain->stiffness : frequency * frequency;
+  const double inertia = stiffness / (frequency * frequency);
+  const double friction = 2.0 * servo.damping * frequency * inertia;
+  const double load_share = servo.inertia_ratio / (1.0 + servo.inertia_ratio);
+  drive::Drive drive;
+  drive.motor = {inertia / (1.0 + servo.inertia_ratio),
+                 {.viscous = friction * (1.0 - servo.friction_ratio)}};
+  drive.load = {inertia * load_share, {.viscous = friction * servo.friction_ratio}};
+  drive.backlash = servo.backlash;
+  drive.contact = drive::RigidContact{servo.restitution};
+  drive.controller = drive::ProportionalDerivative{.proportional = stiffness};
+  return drive;
+}
+
+/// Massless sides have no drive, and without backlash there is nothing to describe.
+void require_drive(const NormalizedServo& servo, Faults& faults) {
+  if (!(servo.inertia_ratio > 0.0 && std::isfinite(servo.inertia_ratio))) {
+    faults.add({"inertia_ratio", exact_text(servo.inertia_ratio),
+                "must be positive and finite: both sides of a described gap have inertia", ""});
+  }
+  if (servo.backlash == 0.0) {
+    faults.add(
+        {"backlash", "0", "must be positive: without a gap there is nothing to describe", ""});
+  }
+}
+
+DescribedDrive described_servo(const ServoOptions& options, Faults& faults) {
+  const ServoFile file = resolve_servo(options, faults);
+  faults.require_none();
+  require_drive(file.servo, faults);
+  faults.require_none();
+  const ReportUnits units = report_units(file);
+  const LimitCycleAnalysis analysis = analyse_limit_cycles(file.servo);
+  DescribedDrive described{.drive = drive_of(file),
+                           .verdict = name_of(analysis.verdict),
+                           .angle = units.angle,
+                           .time_unit = units.time_unit()};
+  for (const LimitCycle& cycle : analysis.cycles) {
+    described.exact.push_back(
+        {cycle.size, cycle.motor_size, units.time(cycle.period), cycle.stable});
+  }
+  return described;
+}
+
+std::string plot_file(const DescribeOptions& options) {
+  return options.plot.starts_with(nyquist) ? options.plot.substr(nyquist.size()) : options.plot;
+}
+
+PictureFormat plot_format(const DescribeOptions& options) {
+  if (options.plot.empty()) return PictureFormat::svg;
+  if (!options.plot.starts_with(nyquist)) {
+    throw InvalidInput({{"--plot", shown(options.plot),
+                         "must be nyquist=FILE, FILE ending in .svg, .png or .pdf", ""}});
+  }
+  return picture_format("--plot", plot_file(options));
+}
+
+void check_part(const DescribeOptions& options, Faults& faults) {
+  if (options.part.empty()) return;
+  faults.require_choice("--part", options.part,
+                        {"gap", "elastic-gap", "torque-limit", "coulomb-friction"});
+  if (options.plot.empty()) {
+    faults.add({"--part", shown(options.part), "must come with --plot: it says what is drawn", ""});
+  }
+}
+
+/// The analyses to draw: of the part asked for, else of the first that is in a loop.
+std::vector<drive::DescribingAnalysis> analyses_to_draw(
+    const std::vector<drive::DescribingAnalysis>& analyses, const DescribeOptions& options) {
+  if (!options.part.empty()) return of_one_loop(analyses, part_of(options.part));
+  const auto first = std::find_if(analyses.begin(), analyses.end(), drive::is_in_loop);
+  return first == analyses.end() ? std::vector<drive::DescribingAnalysis>{}
+                                 : of_one_loop(analyses, first->part);
+}
+
+const char* title_of(drive::DescribedPart part) {
+  switch (part) {
+    case drive::DescribedPart::elastic_gap:
+      return "A gap with elastic faces by its describing function";
+    case drive::DescribedPart::torque_limit:
+      return "The torque limit by its describing function";
+    case drive::DescribedPart::coulomb_friction:
+      return "Coulomb friction by its describing function";
+    default:
+      return "The gap by its describing functions";
+  }
+}
+
+std::string draw(const DescribeReport& report, const DescribeOptions& options,
+                 PictureFormat format) {
+  const auto drawn = analyses_to_draw(report.analyses, options);
+  if (drawn.empty()) {
+    throw InvalidInput(
+        {options.part.empty()
+             ? Violation{"--plot", shown(options.plot), "must be left out: nothing is fed back", ""}
+             : Violation{"--part", shown(options.part),
+                         "must be a part that the drive has within its loop", ""}});
+  }
+  return draw_nyquist({.title = title_of(drawn.front().part),
+                       .analyses = drawn,
+                       .exact = report.exact,
+                       .angle = report.angle,
+                       .time_unit = report.time_unit},
+                      format);
+}
+
+std::string text_for_terminal(const DescribeReport& report) {
+  const std::string text = describe_text(report);
+  const std::size_t end_of_first = text.find('\n');
+  return emphasized(text.substr(0, end_of_first)) + text.substr(end_of_first);
+}
+
+ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
+  Faults faults;
+  faults.require_choice("--format", options.format, {"text", "json"});
+  const PictureFormat picture_kind =
+      faults.collect([&] { return plot_format(options); }, PictureFormat::svg);
+  check_part(options, faults);
+  faults.require_distinct({{"DRIVE.toml", options.servo.file}, {"--plot", plot_file(options)}});
+  const DescribedDrive input = described_servo(options.servo, faults);
+
+  const DescribeReport report{.analyses = drive::describing_analyses(input.drive),
+                              .exact = input.exact,
+                              .exact_verdict = input.verdict,
+                              .angle = input.angle,
+                              .time_unit = input.time_unit,
+                              .provenance = provenance};
+  if (!options.plot.empty()) write_file(plot_file(options), draw(report, options, picture_kind));
+  write_file("-", options.format == "json" ? describe_json(report) : text_for_terminal(report));
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+void add_describe_command(CLI::App& app, Action& action) {
+  const auto options = std::make_shared<DescribeOptions>();
+  CLI::App* command =
+      app.add_subcommand("describe", "what describing functions predict, beside the exact cycle");
+  add_servo_options(*command, options->servo);
+  command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");
+  command
+      ->add_option("--plot", options->plot,
+                   "nyquist=FILE: draw the loop's gain against -1/N, with the\n"
+                   "exact cycle; FILE ends in .svg, .png or .pdf")
+      ->type_name("nyquist=FILE");
+  command
+      ->add_option("--part", options->part,
+                   "what is drawn: gap, elastic-gap, torque-limit or\n"
+                   "coulomb-friction; else the first that is in the loop")
+      ->type_name("PART");
+  command->footer(explanation + help_footer(examples));
+  command->callback([options, &action] {
+    action = [options](const Provenance& provenance) { return run(*options, provenance); };
+  });
+}
+
+}  // namespace gearlash::cli

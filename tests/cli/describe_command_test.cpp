@@ -1,0 +1,96 @@
+// gearlash describe as a user calls it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tool.hpp"
+
+namespace gearlash {
+namespace {
+
+using test::Outcome;
+using test::run_tool;
+using test::Scratch;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+const std::vector<std::string> servo = {"--damping",        "0.19", "--inertia-ratio", "2",
+                                        "--friction-ratio", "0.1",  "--backlash",      "0.3"};
+
+Outcome describe(const std::vector<std::string>& more) {
+  std::vector<std::string> arguments = {"describe"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_tool(arguments);
+}
+
+std::vector<std::string> of_servo(std::vector<std::string> more) {
+  more.insert(more.begin(), servo.begin(), servo.end());
+  return more;
+}
+
+/// The first row of the table of docs/mathematics.md.
+TEST(DescribeCommand, PutsThePredictionBesideTheExactCycle) {
+  const Outcome run = describe(of_servo({"--format", "json"}));
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_NEAR(json["exact"]["cycles"][0]["size"], 0.2416, 5e-5);
+  EXPECT_NEAR(json["exact"]["cycles"][0]["period"], 6.456, 5e-4);
+  const auto& held = json["analyses"][0]["cycles"][1];
+  EXPECT_NEAR(held["size"], 0.2332, 5e-5);
+  EXPECT_NEAR(held["period"], 7.872, 5e-4);
+  EXPECT_NEAR(held["error"]["size"], 0.2332 / 0.2416 - 1.0, 5e-4);
+  const auto& coasting = json["analyses"][1]["cycles"][0];
+  EXPECT_NEAR(coasting["size"], 0.5715, 5e-5);
+  EXPECT_NEAR(coasting["error"]["period"], 5.908 / 6.456 - 1.0, 5e-4);
+  EXPECT_EQ(json["time_unit"], "1/ω_n");
+}
+
+/// What the data sheet says in seconds is what its normalised servo says in 1/ω_n.
+TEST(DescribeCommand, ADataSheetIsDescribedInSeconds) {
+  const auto json =
+      nlohmann::json::parse(describe({"examples/elinco-fd162.toml", "--format", "json"}).out);
+  const auto exact = nlohmann::json::parse(
+      run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--format", "json"}).out);
+  EXPECT_EQ(json["time_unit"], "s");
+  EXPECT_EQ(json["exact"]["cycles"][0]["period"], exact["physical"]["period"]);
+  EXPECT_EQ(json["exact"]["cycles"][0]["size"], exact["physical"]["size"]);
+  const double frequency = exact["physical"]["natural_frequency"];
+  const double stiffness = exact["physical"]["stiffness"];
+  const double damping = exact["servo"]["damping"];
+  // K/(J s² + F s), the denominator's lead 1.
+  const auto& loop = json["analyses"][0]["loop"];
+  EXPECT_NEAR(loop["numerator"][0].get<double>() / (frequency * frequency), 1.0, 1e-14);
+  EXPECT_NEAR(loop["denominator"][1].get<double>() / (2.0 * damping * frequency), 1.0, 1e-14);
+  EXPECT_GT(stiffness, 0.0);
+}
+
+TEST(DescribeCommand, DrawsTheClassicPicture) {
+  const Scratch scratch;
+  const std::string file = (scratch / "a.svg").string();
+  const Outcome run = describe(of_servo({"--plot", "nyquist=" + file}));
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, StartsWith("exact: hunts, ±0.2416 rad"));
+  EXPECT_THAT(test::file_text(scratch / "a.svg"), HasSubstr("The gap by its describing functions"));
+}
+
+TEST(DescribeCommand, BadInputIsToldAtOnce) {
+  const Outcome several = describe(of_servo({"--plot", "phase=a.svg", "--part", "wind"}));
+  EXPECT_EQ(several.status, 2);
+  EXPECT_EQ(several.err,
+            "gearlash: --plot = phase=a.svg: must be nyquist=FILE, FILE ending in .svg, .png or "
+            ".pdf\ngearlash: --part = wind: must be gap, elastic-gap, torque-limit or "
+            "coulomb-friction\n");
+  EXPECT_EQ(describe(of_servo({"--part", "gap"})).err,
+            "gearlash: --part = gap: must come with --plot: it says what is drawn\n");
+  const Outcome absent = describe(of_servo({"--plot", "nyquist=a.svg", "--part", "torque-limit"}));
+  EXPECT_EQ(absent.status, 2);
+  EXPECT_THAT(absent.err, HasSubstr("must be a part that the drive has within its loop"));
+  const Outcome massless = describe(
+      {"--damping", "0.1", "--inertia-ratio", "inf", "--friction-ratio", "0.5", "--backlash", "0"});
+  EXPECT_THAT(massless.err, HasSubstr("inertia_ratio = inf: must be positive and finite"));
+  EXPECT_THAT(massless.err, HasSubstr("backlash = 0: must be positive"));
+}
+
+}  // namespace
+}  // namespace gearlash
