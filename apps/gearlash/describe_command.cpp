@@ -1,14 +1,14 @@
 // gearlash describe: what describing functions predict, beside the exact cycle.
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "command.hpp"
+#include "gearlash/cycle/limit_cycle.hpp"
+#include "gearlash/drive/drive_verdict.hpp"
 #include "gearlash/io/describe_report.hpp"
 #include "gearlash/io/nyquist_picture.hpp"
 #include "gearlash/io/output_file.hpp"
 #include "gearlash/io/units.hpp"
-#include "gearlash/servo/range_check.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 
@@ -43,58 +43,51 @@ drive::DescribedPart part_of(const std::string& name) {
 
 /// A drive and what is exact of it, both in the drive's own units.
 struct DescribedDrive {
-  drive::Drive drive{};
+  DriveFile file{};
   std::vector<drive::ExactCycle> exact{};
   std::string verdict{};
-  AngleUnit angle{};
-  std::string time_unit = "s";
 };
 
-/// In SI units where there is a natural frequency, with the data sheet's stiffness if there is one;
-/// else as normalised. What options say of the servo is in its normalised numbers.
-drive::Drive drive_of(const ServoFile& file) {
-  const NormalizedServo& servo = file.servo;
-  const double frequency = file.natural_frequency.value_or(1.0);
-  const double stiffness = file.drivetrain ? file.drivetrain->stiffness : frequency * frequency;
-  const double inertia = stiffness / (frequency * frequency);
-  const double friction = 2.0 * servo.damping * frequency * inertia;
-  const double load_share = servo.inertia_ratio / (1.0 + servo.inertia_ratio);
-  drive::Drive drive;
-  drive.motor = {inertia / (1.0 + servo.inertia_ratio),
-                 {.viscous = friction * (1.0 - servo.friction_ratio)}};
-  drive.load = {inertia * load_share, {.viscous = friction * servo.friction_ratio}};
-  drive.backlash = servo.backlash;
-  drive.contact = drive::RigidContact{servo.restitution};
-  drive.controller = drive::ProportionalDerivative{.proportional = stiffness};
-  return drive;
-}
-
-/// Massless sides have no drive, and without backlash there is nothing to describe.
-void require_drive(const NormalizedServo& servo, Faults& faults) {
-  if (!(servo.inertia_ratio > 0.0 && std::isfinite(servo.inertia_ratio))) {
-    faults.add({"inertia_ratio", exact_text(servo.inertia_ratio),
-                "must be positive and finite: both sides of a described gap have inertia", ""});
-  }
-  if (servo.backlash == 0.0) {
-    faults.add(
-        {"backlash", "0", "must be positive: without a gap there is nothing to describe", ""});
-  }
-}
-
-DescribedDrive described_servo(const ServoOptions& options, Faults& faults) {
-  const ServoFile file = resolve_servo(options, faults);
-  faults.require_none();
-  require_drive(file.servo, faults);
-  faults.require_none();
+void add_exact(const ServoFile& file, DescribedDrive& described) {
   const ReportUnits units = report_units(file);
   const LimitCycleAnalysis analysis = analyse_limit_cycles(file.servo);
-  DescribedDrive described{.drive = drive_of(file),
-                           .verdict = name_of(analysis.verdict),
-                           .angle = units.angle,
-                           .time_unit = units.time_unit()};
+  described.verdict = name_of(analysis.verdict);
   for (const LimitCycle& cycle : analysis.cycles) {
     described.exact.push_back(
         {cycle.size, cycle.motor_size, units.time(cycle.period), cycle.stable});
+  }
+}
+
+/// Of a drive without a closed form: what a search finds.
+void add_found(DescribedDrive& described) {
+  Progress progress("Searching");
+  drive::AttractorOptions options;
+  options.go_on = [&](double share) {
+    progress.show(share);
+    return true;
+  };
+  const drive::AttractorSearch search = drive::find_attractors(described.file.drive, options);
+  described.verdict = drive::name_of(drive::verdict_of(search));
+  for (const drive::FoundCycle& cycle : search.cycles) {
+    described.exact.push_back({cycle.size, cycle.motor_size, cycle.period(),
+                               cycle.stability == drive::Stability::stable});
+  }
+}
+
+DescribedDrive described_drive(const ServoOptions& options, Faults& faults) {
+  const ServoOrDriveFile read = resolve_servo_or_drive(options, faults);
+  faults.require_none();
+  DescribedDrive described;
+  if (const auto* servo = std::get_if<ServoFile>(&read)) {
+    described.file = drive_file_of(*servo);
+    add_exact(*servo, described);
+    return described;
+  }
+  described.file = std::get<DriveFile>(read);
+  if (const std::optional<ServoFile> closed = closed_form_of(described.file)) {
+    add_exact(*closed, described);
+  } else {
+    add_found(described);
   }
   return described;
 }
@@ -174,13 +167,13 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
       faults.collect([&] { return plot_format(options); }, PictureFormat::svg);
   check_part(options, faults);
   faults.require_distinct({{"DRIVE.toml", options.servo.file}, {"--plot", plot_file(options)}});
-  const DescribedDrive input = described_servo(options.servo, faults);
+  const DescribedDrive input = described_drive(options.servo, faults);
 
-  const DescribeReport report{.analyses = drive::describing_analyses(input.drive),
+  const DescribeReport report{.analyses = drive::describing_analyses(input.file.drive),
                               .exact = input.exact,
                               .exact_verdict = input.verdict,
-                              .angle = input.angle,
-                              .time_unit = input.time_unit,
+                              .angle = input.file.backlash_unit,
+                              .time_unit = input.file.is_normalized ? "1/ω_n" : "s",
                               .provenance = provenance};
   if (!options.plot.empty()) write_file(plot_file(options), draw(report, options, picture_kind));
   write_file("-", options.format == "json" ? describe_json(report) : text_for_terminal(report));
@@ -193,7 +186,7 @@ void add_describe_command(CLI::App& app, Action& action) {
   const auto options = std::make_shared<DescribeOptions>();
   CLI::App* command =
       app.add_subcommand("describe", "what describing functions predict, beside the exact cycle");
-  add_servo_options(*command, options->servo);
+  add_servo_or_drive_options(*command, options->servo);
   command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");
   command
       ->add_option("--plot", options->plot,

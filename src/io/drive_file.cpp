@@ -1,7 +1,10 @@
 #include "gearlash/io/drive_file.hpp"
 
+#include <cmath>
+
 #include "drive_reader.hpp"
 #include "gearlash/drive/proportional_servo.hpp"
+#include "gearlash/servo/range_check.hpp"
 #include "servo_reader.hpp"
 #include "text_file.hpp"
 #include "toml_document.hpp"
@@ -9,15 +12,20 @@
 namespace gearlash {
 namespace {
 
-/// Of total inertia 1.
-Drivetrain drivetrain_of(const NormalizedServo& servo, double natural_frequency) {
-  const double friction = 2.0 * servo.damping * natural_frequency;
+/// The drivetrain of a data sheet, but for what options have changed of the servo: that is in its
+/// normalised numbers. Without one of total inertia 1.
+Drivetrain drivetrain_of(const ServoFile& file) {
+  const NormalizedServo& servo = file.servo;
+  if (file.drivetrain && normalize(*file.drivetrain) == servo) return *file.drivetrain;
+  const double frequency = file.natural_frequency.value_or(1.0);
   Drivetrain drivetrain;
-  drivetrain.motor_inertia = 1.0 / (1.0 + servo.inertia_ratio);
-  drivetrain.load_inertia = 1.0 - drivetrain.motor_inertia;
+  drivetrain.stiffness = file.drivetrain ? file.drivetrain->stiffness : frequency * frequency;
+  const double inertia = drivetrain.stiffness / (frequency * frequency);
+  const double friction = 2.0 * servo.damping * frequency * inertia;
+  drivetrain.motor_inertia = inertia / (1.0 + servo.inertia_ratio);
+  drivetrain.load_inertia = inertia * (servo.inertia_ratio / (1.0 + servo.inertia_ratio));
   drivetrain.motor_friction = friction * (1.0 - servo.friction_ratio);
   drivetrain.load_friction = friction * servo.friction_ratio;
-  drivetrain.stiffness = natural_frequency * natural_frequency;
   drivetrain.backlash = servo.backlash;
   drivetrain.restitution = servo.restitution;
   drivetrain.sensor = servo.sensor;
@@ -47,9 +55,11 @@ ServoOrDriveFile read_servo_or_drive_file(const std::filesystem::path& path) {
 
 DriveFile drive_file_of(const ServoFile& servo) {
   DriveFile file;
-  file.drive = drive::drive_of(
-      servo.drivetrain ? *servo.drivetrain
-                       : drivetrain_of(servo.servo, servo.natural_frequency.value_or(1.0)));
+  if (!(servo.servo.inertia_ratio > 0.0) || std::isinf(servo.servo.inertia_ratio)) {
+    throw InvalidInput({{"inertia_ratio", exact_text(servo.servo.inertia_ratio),
+                         "must be positive and finite: both sides of a drive have inertia", ""}});
+  }
+  file.drive = drive::drive_of(drivetrain_of(servo));
   if (servo.datasheet) file.gear_ratio = servo.datasheet->gearbox.ratio;
   file.backlash_unit = servo.backlash_unit;
   file.is_normalized = !servo.natural_frequency;
