@@ -1,14 +1,16 @@
 // gearlash describe: what describing functions predict, beside the exact cycle.
 #include <algorithm>
-#include <cmath>
 #include <memory>
+#include <optional>
+#include <utility>
+#include <variant>
 
 #include "command.hpp"
+#include "gearlash/drive/attractors.hpp"
 #include "gearlash/io/describe_report.hpp"
 #include "gearlash/io/nyquist_picture.hpp"
 #include "gearlash/io/output_file.hpp"
 #include "gearlash/io/units.hpp"
-#include "gearlash/servo/range_check.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 
@@ -50,53 +52,55 @@ struct DescribedDrive {
   std::string time_unit = "s";
 };
 
-/// In SI units where there is a natural frequency, with the data sheet's stiffness if there is one;
-/// else as normalised. What options say of the servo is in its normalised numbers.
-drive::Drive drive_of(const ServoFile& file) {
-  const NormalizedServo& servo = file.servo;
-  const double frequency = file.natural_frequency.value_or(1.0);
-  const double stiffness = file.drivetrain ? file.drivetrain->stiffness : frequency * frequency;
-  const double inertia = stiffness / (frequency * frequency);
-  const double friction = 2.0 * servo.damping * frequency * inertia;
-  const double load_share = servo.inertia_ratio / (1.0 + servo.inertia_ratio);
-  drive::Drive drive;
-  drive.motor = {inertia / (1.0 + servo.inertia_ratio),
-                 {.viscous = friction * (1.0 - servo.friction_ratio)}};
-  drive.load = {inertia * load_share, {.viscous = friction * servo.friction_ratio}};
-  drive.backlash = servo.backlash;
-  drive.contact = drive::RigidContact{servo.restitution};
-  drive.controller = drive::ProportionalDerivative{.proportional = stiffness};
-  return drive;
-}
-
-/// Massless sides have no drive, and without backlash there is nothing to describe.
-void require_drive(const NormalizedServo& servo, Faults& faults) {
-  if (!(servo.inertia_ratio > 0.0 && std::isfinite(servo.inertia_ratio))) {
-    faults.add({"inertia_ratio", exact_text(servo.inertia_ratio),
-                "must be positive and finite: both sides of a described gap have inertia", ""});
-  }
-  if (servo.backlash == 0.0) {
-    faults.add(
-        {"backlash", "0", "must be positive: without a gap there is nothing to describe", ""});
-  }
-}
-
-DescribedDrive described_servo(const ServoOptions& options, Faults& faults) {
-  const ServoFile file = resolve_servo(options, faults);
-  faults.require_none();
-  require_drive(file.servo, faults);
-  faults.require_none();
+DescribedDrive described(ServoFile file) {
   const ReportUnits units = report_units(file);
+  file.drivetrain.reset();  // options may have changed the numbers that were normalised from it
   const LimitCycleAnalysis analysis = analyse_limit_cycles(file.servo);
-  DescribedDrive described{.drive = drive_of(file),
-                           .verdict = name_of(analysis.verdict),
-                           .angle = units.angle,
-                           .time_unit = units.time_unit()};
+  DescribedDrive result{.drive = drive_file_of(file).drive,
+                        .verdict = name_of(analysis.verdict),
+                        .angle = units.angle,
+                        .time_unit = units.time_unit()};
   for (const LimitCycle& cycle : analysis.cycles) {
-    described.exact.push_back(
-        {cycle.size, cycle.motor_size, units.time(cycle.period), cycle.stable});
+    result.exact.push_back({cycle.size, cycle.motor_size, units.time(cycle.period), cycle.stable});
   }
-  return described;
+  return result;
+}
+
+/// In words, where the starts of the search led.
+std::string verdict_of(const drive::AttractorSearch& search) {
+  const std::pair<drive::MotionEnd, const char*> ends[] = {
+      {drive::MotionEnd::cycle, "hunts"},
+      {drive::MotionEnd::irregular, "hunts irregularly"},
+      {drive::MotionEnd::rest, "comes to rest"},
+      {drive::MotionEnd::diverges, "runs away"}};
+  std::string text;
+  for (const auto& [end, name] : ends) {
+    if (search.count(end) > 0) text += (text.empty() ? "" : " or ") + std::string(name);
+  }
+  return text.empty() ? "undecided" : text;
+}
+
+DescribedDrive described(const DriveFile& file) {
+  if (const std::optional<ServoFile> servo = closed_form_of(file)) {
+    DescribedDrive result = described(*servo);
+    result.drive = file.drive;
+    return result;
+  }
+  Progress progress("Search for cycles");
+  const drive::AttractorSearch search =
+      drive::find_attractors(file.drive, {.go_on = [&](double share) {
+                               progress.show(share);
+                               return true;
+                             }});
+  DescribedDrive result{.drive = file.drive,
+                        .verdict = verdict_of(search),
+                        .angle = file.backlash_unit,
+                        .time_unit = file.is_normalized ? "1/ω_n" : "s"};
+  for (const drive::FoundCycle& cycle : search.cycles) {
+    result.exact.push_back({cycle.size, cycle.motor_size, cycle.period(),
+                            cycle.stability == drive::Stability::stable});
+  }
+  return result;
 }
 
 std::string plot_file(const DescribeOptions& options) {
@@ -173,8 +177,10 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
   const PictureFormat picture_kind =
       faults.collect([&] { return plot_format(options); }, PictureFormat::svg);
   check_part(options, faults);
-  faults.require_distinct({{"DRIVE.toml", options.servo.file}, {"--plot", plot_file(options)}});
-  const DescribedDrive input = described_servo(options.servo, faults);
+  faults.require_distinct({{"SERVO.toml", options.servo.file}, {"--plot", plot_file(options)}});
+  const ServoOrDriveFile file = resolve_servo_or_drive(options.servo, faults);
+  faults.require_none();
+  const DescribedDrive input = std::visit([](const auto& one) { return described(one); }, file);
 
   const DescribeReport report{.analyses = drive::describing_analyses(input.drive),
                               .exact = input.exact,
@@ -193,7 +199,7 @@ void add_describe_command(CLI::App& app, Action& action) {
   const auto options = std::make_shared<DescribeOptions>();
   CLI::App* command =
       app.add_subcommand("describe", "what describing functions predict, beside the exact cycle");
-  add_servo_options(*command, options->servo);
+  add_servo_or_drive_options(*command, options->servo);
   command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");
   command
       ->add_option("--plot", options->plot,
