@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tool.hpp"
@@ -88,8 +89,44 @@ TEST(DescribeCommand, BadInputIsToldAtOnce) {
   EXPECT_THAT(absent.err, HasSubstr("must be a part that the drive has within its loop"));
   const Outcome massless = describe(
       {"--damping", "0.1", "--inertia-ratio", "inf", "--friction-ratio", "0.5", "--backlash", "0"});
-  EXPECT_THAT(massless.err, HasSubstr("inertia_ratio = inf: must be positive and finite"));
-  EXPECT_THAT(massless.err, HasSubstr("backlash = 0: must be positive"));
+  EXPECT_THAT(massless.err, HasSubstr("motor.inertia = 0 kg m2: must be positive"));
+  EXPECT_THAT(massless.err, HasSubstr("backlash = 0 rad: must be positive"));
+}
+
+/// PD by the motor's encoder, Coulomb friction, a torque limit.
+TEST(DescribeCommand, DrivesAreDescribedPartByPart) {
+  const Scratch scratch;
+  const auto path = scratch / "drive.toml";
+  std::ofstream(path) << R"([motor]
+kind = "torque-controlled"
+inertia = "0.02 kg m2"
+friction = "0.05 N m s/rad"
+coulomb = "0.1 N m"
+torque_limit = "3 N m"
+[gearbox]
+ratio = 1
+backlash = "1 deg"
+[load]
+inertia = "0.05 kg m2"
+friction = "0.02 N m s/rad"
+[sensor]
+position = "motor"
+[controller]
+kind = "PD"
+proportional = "20 N m/rad"
+derivative = "0.6 N m s/rad"
+)";
+  const Outcome run = describe({path.string(), "--format", "json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["time_unit"], "s");
+  EXPECT_THAT(json["exact"]["verdict"].get<std::string>(), HasSubstr("rest"));
+  ASSERT_EQ(json["analyses"].size(), 4U);
+  EXPECT_EQ(json["analyses"][2]["part"], "torque limit");
+  EXPECT_EQ(json["analyses"][2]["nonlinearity"]["limit"], 3.0);
+  EXPECT_EQ(json["analyses"][3]["nonlinearity"]["torque"], 0.1);
+  EXPECT_THAT(json["analyses"][0]["assumptions"][0].get<std::string>(),
+              StartsWith("the sensors are on the motor"));
 }
 
 }  // namespace
