@@ -185,6 +185,17 @@ ChangeableDrive changeable_drive(const ServoFile& file) {
 
 namespace {
 
+/// The servo with what options say of it; their faults, and what comes of both, go to `faults`.
+ServoFile with_options(ServoFile file, const ServoOptions& options, Faults& faults) {
+  for (const NumberOption& option : number_options) apply(options, option, file, faults);
+  if (options.sensor) {
+    faults.require_choice("--sensor", *options.sensor, {"load", "motor"});
+    file.servo.sensor = *options.sensor == "motor" ? Sensor::motor : Sensor::load;
+  }
+  faults.add(faults_of_servo(file.servo, options));
+  return file;
+}
+
 /// Reads the file, or stands in for it with a sound servo.
 ServoOrDriveFile read_either(const ServoOptions& options, Faults& faults) {
   ServoFile stand_in;
@@ -224,8 +235,7 @@ ServoOrDriveFile resolve_servo_or_drive(const ServoOptions& options, Faults& fau
   if (std::holds_alternative<ServoFile>(read)) {
     ServoOptions others = options;
     others.sensor.reset();
-    // A file that could not be read has been told of.
-    if (others.file.empty() || faults.none()) read = resolve_servo(others, faults);
+    read = with_options(std::get<ServoFile>(read), others, faults);
     const bool has_other_sensor = options.sensor && *options.sensor != "load" && faults.none();
     if (!has_other_sensor) return read;
     read = faults.collect([&] { return drive_file_of(std::get<ServoFile>(read)); }, DriveFile{});
@@ -255,14 +265,7 @@ std::optional<ServoFile> closed_form_of(DriveFile file) {
 }
 
 ServoFile resolve_servo(const ServoOptions& options, Faults& faults) {
-  ServoFile file = read_file(options, faults);
-  for (const NumberOption& option : number_options) apply(options, option, file, faults);
-  if (options.sensor) {
-    faults.require_choice("--sensor", *options.sensor, {"load", "motor"});
-    file.servo.sensor = *options.sensor == "motor" ? Sensor::motor : Sensor::load;
-  }
-  faults.add(faults_of_servo(file.servo, options));
-  return file;
+  return with_options(read_file(options, faults), options, faults);
 }
 
 }  // namespace gearlash::cli

@@ -4,7 +4,6 @@
 
 #include "drive_reader.hpp"
 #include "gearlash/drive/proportional_servo.hpp"
-#include "gearlash/servo/range_check.hpp"
 #include "servo_reader.hpp"
 #include "text_file.hpp"
 #include "toml_document.hpp"
@@ -23,7 +22,8 @@ Drivetrain drivetrain_of(const ServoFile& file) {
   const double inertia = drivetrain.stiffness / (frequency * frequency);
   const double friction = 2.0 * servo.damping * frequency * inertia;
   drivetrain.motor_inertia = inertia / (1.0 + servo.inertia_ratio);
-  drivetrain.load_inertia = inertia * (servo.inertia_ratio / (1.0 + servo.inertia_ratio));
+  const double ratio = servo.inertia_ratio;
+  drivetrain.load_inertia = std::isinf(ratio) ? inertia : inertia * (ratio / (1.0 + ratio));
   drivetrain.motor_friction = friction * (1.0 - servo.friction_ratio);
   drivetrain.load_friction = friction * servo.friction_ratio;
   drivetrain.backlash = servo.backlash;
@@ -55,10 +55,6 @@ ServoOrDriveFile read_servo_or_drive_file(const std::filesystem::path& path) {
 
 DriveFile drive_file_of(const ServoFile& servo) {
   DriveFile file;
-  if (!(servo.servo.inertia_ratio > 0.0) || std::isinf(servo.servo.inertia_ratio)) {
-    throw InvalidInput({{"inertia_ratio", exact_text(servo.servo.inertia_ratio),
-                         "must be positive and finite: both sides of a drive have inertia", ""}});
-  }
   file.drive = drive::drive_of(drivetrain_of(servo));
   if (servo.datasheet) file.gear_ratio = servo.datasheet->gearbox.ratio;
   file.backlash_unit = servo.backlash_unit;

@@ -36,7 +36,8 @@ PERMITTED_LIBRARIES = {
     "chart": ("boost/math/", "Eigen/", "xsimd/", "tbb/", "oneapi/tbb"),
     "design": ("boost/math/", "boost/random/", "Eigen/", "tbb/", "oneapi/tbb"),
     "hybrid": ("boost/math/", "Eigen/", "unsupported/Eigen/MatrixFunctions"),
-    "drive": ("boost/math/", "boost/multiprecision/", "Eigen/"),
+    "drive": ("boost/math/", "boost/multiprecision/", "Eigen/",
+              "unsupported/Eigen/MatrixFunctions"),
 }
 
 # What the public headers of the numerics may include: users of an installed Gearlash then need that

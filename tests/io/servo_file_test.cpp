@@ -280,8 +280,8 @@ restitution = 1.5
           "angular speed, such as N m s/rad",
           "s.toml:17:14: loop.error_gain = 10 V: must be voltage per angle, such as V/rad; "
           "the angle has to be written",
-          "s.toml:18:10: loop.sensor = motor: must be load (a sensor on the motor comes "
-          "with drives)",
+          "s.toml:18:10: loop.sensor = motor: must be load (limit-cycle, "
+          "simulate, describe and compare take one on the motor)",
           "s.toml:20:15: contact.restitution = 1.5: must be from 0 to 1"));
 }
 
