@@ -23,6 +23,8 @@ enum class Coordinates {
               ///< measured, cycles are not closed and rest is motion of no size
 };
 
+/// By all multipliers but those of disturbances that cannot be: rigid shafts together that move
+/// apart, an encoder beside its own grid.
 enum class Stability {
   stable,
   neutral,  ///< a multiplier is on the unit circle to within 1e-6: one of a family, or at a fold
@@ -43,6 +45,8 @@ struct FoundCycle {
   double size = 0.0;          ///< rad, half the peak-to-peak of the load
   double motor_size = 0.0;    ///< rad, of the motor
   double center = 0.0;        ///< rad, mean of the load's extremes, from the reference
+  Extent centers;             ///< rad, of all that were found of one family: neutral cycles of one
+                              ///< size and period, or mirror images
   double frequency = 0.0;     ///< rad/s, 2π/period
   double impact_speed = 0.0;  ///< rad/s, |ω_M − ω_L| as faces meet hardest; 0 where none do
   double multiplier = 0.0;    ///< the largest modulus of the orbit's
