@@ -158,14 +158,17 @@ class Search {
     setting_ = scaled(unscaled_, glance());
     result_.coordinates = setting_.coordinates;
     result_.system = unscaled_.system;
-    result_.slow_time = setting_.slow_time;
-    result_.watch_time = options.slow_times * setting_.slow_time;
+    result_.swing_time = setting_.swing_time;
+    result_.settling_time = setting_.settling_time;
+    constexpr double settlings = 30.0;  // e⁻³⁰ is some 1e-13
+    const double swings = options.swing_times * setting_.swing_time;
+    result_.watch_time = swings + std::min(swings, settlings * setting_.settling_time);
   }
 
   AttractorSearch run() {
     for (const ShaftStates& start : starts_) {
       if (!goes_on()) break;
-      verdicts_.push_back(watch(setting_.start(start)));
+      verdicts_.push_back(watch(setting_.start(start), 20.0));
       record(start, verdicts_.back());
       ++done_;
     }
@@ -188,9 +191,9 @@ class Search {
   /// A first motion, to learn how large numbers become.
   Trajectory glance() const {
     const ShaftStates& start = starts_[starts_.size() / 2];
-    constexpr double short_while = 5.0;  // slow times
+    constexpr double short_while = 5.0;  // swings
     return simulate(unscaled_.system, unscaled_.start(start),
-                    {.until = short_while * unscaled_.slow_time, .event_limit = 5000});
+                    {.until = short_while * unscaled_.swing_time, .event_limit = 5000});
   }
 
   // ---- one start --------------------------------------------------------------------------------
@@ -205,9 +208,9 @@ class Search {
     bool starts_at_rest = false;
   };
 
-  Verdict watch(const State& start) {
+  Verdict watch(const State& start, double patience) {
     Watch watch{start, 0.0, 0, {}, {}, setting_.load.speed.at(start.numbers) == 0.0};
-    double length = 10.0 * setting_.slow_time;
+    double length = 10.0 * setting_.swing_time;
     while (true) {
       const double until = setting_.between_ticks(watch.time + length);
       const Trajectory motion = simulate(
@@ -221,7 +224,7 @@ class Search {
       verdict.watched = watch.time;
       verdict.last = watch.here.numbers;
       if (is_decided(watch, motion, verdict)) return verdict;
-      if (watch.events >= options_.most_events || watch.time >= patience(watch, motion)) {
+      if (watch.events >= options_.most_events || watch.time >= longest(watch, motion, patience)) {
         give_up(watch, motion, verdict);
         return verdict;
       }
@@ -230,12 +233,14 @@ class Search {
   }
 
   /// Motion in which hardly anything happens is waited for.
-  double patience(const Watch& watch, const Trajectory& motion) const {
-    constexpr std::size_t hardly_any = 3;
-    constexpr double longer = 20.0;
+  double longest(const Watch& watch, const Trajectory& motion, double patience) const {
+    constexpr std::ptrdiff_t hardly_any = 12;
     const std::vector<Sample> turns = turns_of(watch);
-    const bool is_slow = motion.events().size() < hardly_any || is_small(turns);
-    return (is_slow ? longer : 1.0) * result_.watch_time * (1.0 - 1e-9);
+    const auto recent = std::count_if(turns.begin(), turns.end(), [&](const Sample& turn) {
+      return turn.time > motion.start_time();
+    });
+    const bool is_slow = recent < hardly_any || is_small(turns);
+    return (is_slow ? patience : 1.0) * result_.watch_time * (1.0 - 1e-9);
   }
 
   bool is_decided(Watch& watch, const Trajectory& motion, Verdict& verdict) {
@@ -255,7 +260,7 @@ class Search {
       return true;
     }
     const std::vector<Sample> seen =
-        samples(setting_.system, motion, setting_.load, 0.05 * setting_.slow_time);
+        samples(setting_.system, motion, setting_.load, 0.05 * setting_.swing_time);
     watch.load.insert(watch.load.end(), seen.begin(), seen.end());
     if (setting_.coordinates == Coordinates::in_place) return false;
     if (is_at_rest(watch, motion)) {
@@ -292,7 +297,7 @@ class Search {
     const double speeds =
         std::max({watch.all[motor_speed].width(), watch.all[load_speed].width(),
                   positions * setting_.frame.scale[load_position] /
-                      (setting_.frame.scale[load_speed] * setting_.slow_time)});
+                      (setting_.frame.scale[load_speed] * setting_.swing_time)});
     for (std::size_t i = 0; i < static_cast<std::size_t>(setting_.own); ++i) {
       const bool is_position = i == motor_position || i == load_position;
       const bool is_speed = i == motor_speed || i == load_speed;
@@ -322,7 +327,7 @@ class Search {
     const double speed = std::abs(setting_.load.speed.at(watch.here.numbers));
     const double swing_so_far =
         turns.empty() ? 0.0 : std::abs(watch.load.back().value - turns.back().value);
-    if (speed * setting_.slow_time < standing * swing_so_far) turns.push_back(watch.load.back());
+    if (speed * setting_.swing_time < standing * swing_so_far) turns.push_back(watch.load.back());
     return turns;
   }
 
@@ -511,7 +516,7 @@ class Search {
 
   /// Of a motion that is much the same; their number where there is none.
   std::size_t place_among_known(const IrregularFound& found) const {
-    constexpr double share = 0.05;
+    constexpr double share = 0.1;
     std::size_t i = 0;
     for (; i < result_.irregular.size(); ++i) {
       const IrregularFound& known = result_.irregular[i];
@@ -618,7 +623,7 @@ class Search {
       }
       if (!goes_on()) return std::nullopt;
       const bool is_as_first =
-          watch(setting_.start(between(a, b, middle))).is_same_end(end_of_first);
+          watch(setting_.start(between(a, b, middle)), 2.0).is_same_end(end_of_first);
       (is_as_first ? low : high) = middle;
     }
     return std::nullopt;
@@ -626,16 +631,16 @@ class Search {
 
   /// An unstable cycle that a motion comes near for a while.
   std::optional<std::size_t> hovered_at(const State& start) {
-    constexpr double longest = 40.0;  // slow times
+    constexpr double longest = 40.0;  // swings
     constexpr double step = 1.0;
     constexpr double near = 1e-2;
     for (double time = step; time <= longest; time += step) {
       const Trajectory motion =
           simulate(setting_.system, start,
-                   {.until = setting_.between_ticks(time * setting_.slow_time),
+                   {.until = setting_.between_ticks(time * setting_.swing_time),
                     .event_limit = options_.most_events});
       if (motion.stop_reason() != StopReason::reached_end) return std::nullopt;
-      const auto seen = samples(setting_.system, motion, setting_.load, 0.05 * setting_.slow_time);
+      const auto seen = samples(setting_.system, motion, setting_.load, 0.05 * setting_.swing_time);
       const auto found = closed_cycle(motion, seen, near);
       if (found && found->stability == Stability::unstable) return place_of(*found);
     }

@@ -16,7 +16,8 @@ struct SearchSetting {
   Watched load;                 ///< position from the reference, rad, of the frame's numbers
   Watched motor;
   Eigen::Index own = 0;  ///< numbers before those of the signals
-  double slow_time = 0.0;
+  double swing_time = 0.0;     ///< s
+  double settling_time = 0.0;  ///< s
   double small_length = 0.0;  ///< rad: of backlash and encoder steps the smallest
   double large_length = 0.0;  ///< rad: of all that has a length the largest
 

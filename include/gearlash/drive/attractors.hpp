@@ -117,9 +117,12 @@ struct AttractorSearch {
   std::vector<IrregularFound> irregular;
   std::vector<Outcome> outcomes;  ///< of every start, in order
   std::vector<Edge> edges;
-  double slow_time = 0.0;   ///< s, of the linear loop with faces together: 2π/|slowest eigenvalue|
-  double watch_time = 0.0;  ///< s, the longest that a start is watched; twenty times that where
-                            ///< hardly anything happens
+  /// s, of the linear loop with faces together: 2π/|slowest eigenvalue that oscillates|, or of all
+  /// where none does; at least a sine's period and ten samples.
+  double swing_time = 0.0;
+  double settling_time = 0.0;  ///< s, of that loop: 1/slowest decay
+  double watch_time = 0.0;     ///< s, the longest that a start is watched; twenty times that where
+                               ///< hardly anything happens
   bool is_complete = true;  ///< not stopped
 
   std::size_t count(MotionEnd end) const;
@@ -130,7 +133,8 @@ struct AttractorOptions {
   /// encoder steps, and what friction, load torque, torque limit and a sine reference amount to as
   /// positions), on either face, and passing the reference at some speed. Absolute positions.
   std::vector<ShaftStates> starts{};
-  double slow_times = 200.0;          ///< that a start is watched
+  double swing_times = 200.0;         ///< that a start is watched; and 30 settling times,
+                                      ///< but twice as long at most
   std::size_t most_events = 100'000;  ///< of a start
   std::size_t most_edges = 3;         ///< sought between starts that led elsewhere; 0: none
   hybrid::ShootingOptions shooting{.most_events = 2000};
