@@ -46,8 +46,8 @@ PeriodicOrbit without_spare_multipliers(const SearchSetting& setting, PeriodicOr
   const auto look = [&](std::size_t index) {
     const DriveMode& mode = setting.built.modes[index];
     parts = parts || mode.contact == ContactState::apart;
-    sticks = sticks || mode.motor == FrictionState::sticking ||
-             mode.load == FrictionState::sticking;
+    sticks =
+        sticks || mode.motor == FrictionState::sticking || mode.load == FrictionState::sticking;
   };
   look(orbit.start.mode);
   for (const Event& event : orbit.events) look(event.mode_after);
@@ -90,9 +90,9 @@ double hardest_impact(const SearchSetting& setting, const PeriodicOrbit& orbit) 
     if (event.kind != hybrid::EventKind::transition) continue;
     if (setting.built.modes[event.mode].contact != ContactState::apart) continue;
     const bool meets = setting.built.modes[event.mode_after].contact != ContactState::apart;
-    const bool bounces = setting.load.speed.at(event.before) != setting.load.speed.at(event.after) &&
-                         setting.motor.speed.at(event.before) !=
-                             setting.motor.speed.at(event.after);
+    const bool bounces =
+        setting.load.speed.at(event.before) != setting.load.speed.at(event.after) &&
+        setting.motor.speed.at(event.before) != setting.motor.speed.at(event.after);
     if (!meets && !bounces) continue;
     hardest = std::max(hardest, std::abs(setting.motor.speed.at(event.before) -
                                          setting.load.speed.at(event.before)));
@@ -112,6 +112,7 @@ FoundCycle measured(const SearchSetting& setting, const PeriodicOrbit& orbit) {
   cycle.motor_size = 0.5 * motor.width();
   cycle.center = load.middle();
   cycle.centers.include(cycle.center);
+  cycle.sizes.include(cycle.size);
   cycle.frequency = 2.0 * std::numbers::pi / orbit.period;
   cycle.impact_speed = hardest_impact(setting, orbit);
   cycle.is_symmetric = recurs_after(setting, orbit, 0.5, -1.0);
@@ -213,10 +214,11 @@ class Search {
     double length = 10.0 * setting_.swing_time;
     while (true) {
       const double until = setting_.between_ticks(watch.time + length);
-      const Trajectory motion = simulate(
-          setting_.system, watch.here,
-          {.from = watch.time, .until = until,
-           .event_limit = std::max<std::size_t>(1, options_.most_events - watch.events)});
+      const Trajectory motion =
+          simulate(setting_.system, watch.here,
+                   {.from = watch.time,
+                    .until = until,
+                    .event_limit = std::max<std::size_t>(1, options_.most_events - watch.events)});
       watch.time = motion.end_time();
       watch.events += motion.events().size();
       watch.here = motion.end();
@@ -289,15 +291,13 @@ class Search {
   /// Whether no number has moved in the last half by more than a share of all that it has.
   bool is_at_rest(const Watch& watch, const Trajectory& motion) const {
     constexpr double little = 1e-9;
-    const std::vector<Range> last =
-        ranges(motion, 0.5 * (motion.start_time() + motion.end_time()));
+    const std::vector<Range> last = ranges(motion, 0.5 * (motion.start_time() + motion.end_time()));
     const double positions =
         std::max({watch.all[motor_position].width(), watch.all[load_position].width(),
                   setting_.drive.backlash / setting_.frame.scale[load_position]});
-    const double speeds =
-        std::max({watch.all[motor_speed].width(), watch.all[load_speed].width(),
-                  positions * setting_.frame.scale[load_position] /
-                      (setting_.frame.scale[load_speed] * setting_.swing_time)});
+    const double speeds = std::max({watch.all[motor_speed].width(), watch.all[load_speed].width(),
+                                    positions * setting_.frame.scale[load_position] /
+                                        (setting_.frame.scale[load_speed] * setting_.swing_time)});
     for (std::size_t i = 0; i < static_cast<std::size_t>(setting_.own); ++i) {
       const bool is_position = i == motor_position || i == load_position;
       const bool is_speed = i == motor_speed || i == load_speed;
@@ -364,10 +364,10 @@ class Search {
     shooting.nearness = nearness;
     if (!motion.events().empty()) return closing_orbit(setting_.system, motion, shooting);
     const hybrid::HybridSystem turning = with_turns(setting_);
-    const Trajectory again =
-        simulate(turning, motion.at(motion.start_time()),
-                 {.from = motion.start_time(), .until = motion.end_time(),
-                  .event_limit = options_.most_events});
+    const Trajectory again = simulate(turning, motion.at(motion.start_time()),
+                                      {.from = motion.start_time(),
+                                       .until = motion.end_time(),
+                                       .event_limit = options_.most_events});
     return closing_orbit(turning, again, shooting);
   }
 
@@ -435,23 +435,31 @@ class Search {
 
   /// Among those that are known, or as a new one.
   std::size_t place_of(const FoundCycle& cycle) {
-    const bool is_neutral = cycle.stability == Stability::neutral;
-    const double same = is_neutral ? 1e-6 : 1e-8;
     for (std::size_t i = 0; i < result_.cycles.size(); ++i) {
       FoundCycle& known = result_.cycles[i];
-      if (!agree(known.period(), cycle.period(), cycle.period(), same) ||
-          !agree(known.size, cycle.size, cycle.size, same)) {
-        continue;
-      }
-      const bool is_mirrored = !agree(known.center, cycle.center, cycle.size, same);
-      const bool is_image = agree(known.center, -cycle.center, cycle.size, same);
-      if (is_mirrored && !is_image && !is_neutral) continue;
-      known.has_mirror_image = known.has_mirror_image || (is_mirrored && is_image);
+      if (!is_one_with(known, cycle)) continue;
       known.centers.include(cycle.center);
+      known.sizes.include(cycle.size);
       return i;
     }
     result_.cycles.push_back(cycle);
     return result_.cycles.size() - 1;
+  }
+
+  /// Whether two are one cycle, mirror images, or of one family of neutral ones.
+  static bool is_one_with(FoundCycle& known, const FoundCycle& cycle) {
+    if (known.stability != cycle.stability) return false;
+    const double period = cycle.period();
+    if (cycle.stability == Stability::neutral) return agree(known.period(), period, period, 1e-6);
+    constexpr double same = 1e-8;
+    if (!agree(known.period(), period, period, same) ||
+        !agree(known.size, cycle.size, cycle.size, same)) {
+      return false;
+    }
+    if (agree(known.center, cycle.center, cycle.size, same)) return true;
+    const bool is_image = agree(known.center, -cycle.center, cycle.size, same);
+    known.has_mirror_image = known.has_mirror_image || is_image;
+    return is_image;
   }
 
   // ---- motion that does not close ---------------------------------------------------------------

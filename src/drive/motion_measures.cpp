@@ -98,8 +98,7 @@ std::vector<Sample> samples(const HybridSystem& system, const Trajectory& motion
   std::vector<Sample> result;
   for_each_stretch(motion, [&](const State& start, double from, double to, const Vector& end) {
     result.push_back({from, watched.value.at(start.numbers)});
-    const bool is_worth =
-        to - from > short_time || may_turn(start.numbers, end, watched.speed);
+    const bool is_worth = to - from > short_time || may_turn(start.numbers, end, watched.speed);
     if (is_worth && to > from) {
       const HybridSystem alone = turning_system(system, start.mode, watched.speed);
       const Trajectory stretch = simulate(alone, {0, start.numbers}, {.until = to - from});

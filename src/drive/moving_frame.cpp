@@ -102,14 +102,14 @@ bool is_kept(const Reset& reset, const Vector& way) {
 
 bool is_carried_along(const hybrid::Mode& mode, const Vector& way) {
   return is_nothing(mode.flow.matrix, way) &&
-         std::all_of(mode.transitions.begin(), mode.transitions.end(),
-                     [&](const hybrid::Transition& transition) {
-                       return is_unseen(transition.guard, way) && is_kept(transition.reset, way) &&
-                              is_unseen(transition.alternatives, way) &&
-                              (!transition.settling ||
-                               (is_kept(transition.settling->reset, way) &&
-                                is_unseen(transition.settling->alternatives, way)));
-                     }) &&
+         std::all_of(
+             mode.transitions.begin(), mode.transitions.end(),
+             [&](const hybrid::Transition& transition) {
+               return is_unseen(transition.guard, way) && is_kept(transition.reset, way) &&
+                      is_unseen(transition.alternatives, way) &&
+                      (!transition.settling || (is_kept(transition.settling->reset, way) &&
+                                                is_unseen(transition.settling->alternatives, way)));
+             }) &&
          std::all_of(mode.timed.begin(), mode.timed.end(), [&](const auto& timed) {
            return is_kept(timed.reset, way) && is_unseen(timed.alternatives, way);
          });

@@ -117,8 +117,8 @@ Drive linear_drive(Drive drive) {
 Matrix of_shafts_as_one(const Matrix& matrix) {
   const Eigen::Index left = matrix.rows() - load_position;
   Matrix as_one = matrix.bottomRightCorner(left, left);
-  for (const auto& [motor, load] : {std::pair{motor_position, load_position},
-                                    std::pair{motor_speed, load_speed}}) {
+  for (const auto& [motor, load] :
+       {std::pair{motor_position, load_position}, std::pair{motor_speed, load_speed}}) {
     as_one.col(load - load_position) += matrix.col(motor).tail(left);
   }
   return as_one;
@@ -229,8 +229,7 @@ void measure_lengths(SearchSetting& setting) {
   // What is ten thousand times the backlash is of no interest to it.
   constexpr double most = 1e4;
   for (const double length : lengths) {
-    setting.large_length =
-        std::max(setting.large_length, std::min(length, most * drive.backlash));
+    setting.large_length = std::max(setting.large_length, std::min(length, most * drive.backlash));
   }
 }
 
@@ -280,8 +279,8 @@ SearchSetting scaled(const SearchSetting& setting, const hybrid::Trajectory& mot
     const Range& range = all[static_cast<std::size_t>(i)];
     scale[i] = power_of_2(std::max(std::abs(range.lowest), std::abs(range.highest)));
   }
-  for (const auto& [one, other] : {std::pair{motor_position, load_position},
-                                   std::pair{motor_speed, load_speed}}) {
+  for (const auto& [one, other] :
+       {std::pair{motor_position, load_position}, std::pair{motor_speed, load_speed}}) {
     scale[one] = scale[other] = std::max(scale[one], scale[other]);
   }
   look(result);

@@ -67,8 +67,7 @@ TEST(OracleAttractors, PlasticServosAreTheClosedForm) {
     const double damping = 0.03 * std::pow(30.0, share(random));
     const double inertia_ratio = 0.05 * std::pow(400.0, share(random));
     const double friction_ratio = 0.03 + 0.94 * share(random);
-    const auto exact =
-        analyse_limit_cycles(same_servo(damping, inertia_ratio, friction_ratio));
+    const auto exact = analyse_limit_cycles(same_servo(damping, inertia_ratio, friction_ratio));
     const auto found = find_attractors(servo(damping, inertia_ratio, friction_ratio));
     SCOPED_TRACE(testing::Message() << damping << " " << inertia_ratio << " " << friction_ratio);
     EXPECT_EQ(found.count(MotionEnd::undecided), 0U);
@@ -285,8 +284,8 @@ Drive random_drive(std::mt19937& random) {
   const auto between = [&](double low, double high) {
     return low * std::pow(high / low, share(random));
   };
-  Drive drive =
-      servo(between(0.05, 0.5), between(0.1, 10.0), 0.05 + 0.9 * share(random), 0.7 * share(random));
+  Drive drive = servo(between(0.05, 0.5), between(0.1, 10.0), 0.05 + 0.9 * share(random),
+                      0.7 * share(random));
   const auto one_in = [&](int n) { return share(random) * n < 1.0; };
   if (one_in(2)) {
     drive.contact = CompliantContact{between(1e2, 1e3), between(1.0, 10.0),
@@ -317,7 +316,7 @@ TEST(PropertyAttractors, EveryCycleClosesAndRepeats) {
   SCOPED_TRACE(seed);
   std::mt19937 random(seed);
   std::size_t cycles = 0;
-  for (int i = 0; i < 24; ++i) {
+  for (int i = 0; i < 16; ++i) {
     SCOPED_TRACE(i);
     const Drive drive = random_drive(random);
     const AttractorSearch found = find_attractors(
@@ -330,8 +329,7 @@ TEST(PropertyAttractors, EveryCycleClosesAndRepeats) {
       ++cycles;
       led += cycle.starts;
       EXPECT_LT(cycle.orbit.residual, 1e-9);
-      EXPECT_LT(misfit_after_a_period(found.system, cycle.orbit),
-                1e-10 * (1.0 + cycle.multiplier));
+      EXPECT_LT(misfit_after_a_period(found.system, cycle.orbit), 1e-10 * (1.0 + cycle.multiplier));
       EXPECT_GT(cycle.size, 0.0);
       EXPECT_TRUE(cycle.starts == 0 || cycle.stability != Stability::unstable);
     }
@@ -339,7 +337,7 @@ TEST(PropertyAttractors, EveryCycleClosesAndRepeats) {
     EXPECT_EQ(led + found.count(MotionEnd::diverges) + found.count(MotionEnd::undecided),
               found.outcomes.size());
   }
-  EXPECT_GE(cycles, 12U);
+  EXPECT_GE(cycles, 8U);
 }
 
 }  // namespace

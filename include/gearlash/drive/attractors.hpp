@@ -42,11 +42,13 @@ struct Extent {
 struct FoundCycle {
   hybrid::PeriodicOrbit orbit;  ///< of AttractorSearch::system; with residual and all multipliers
   Stability stability = Stability::unstable;
-  double size = 0.0;          ///< rad, half the peak-to-peak of the load
-  double motor_size = 0.0;    ///< rad, of the motor
-  double center = 0.0;        ///< rad, mean of the load's extremes, from the reference
-  Extent centers;             ///< rad, of all that were found of one family: neutral cycles of one
-                              ///< size and period, or mirror images
+  double size = 0.0;        ///< rad, half the peak-to-peak of the load
+  double motor_size = 0.0;  ///< rad, of the motor
+  double center = 0.0;      ///< rad, mean of the load's extremes, from the reference
+  /// rad, of all that count as this one: mirror images, and neutral cycles of one period, which are
+  /// a family.
+  Extent centers;
+  Extent sizes;               ///< rad, likewise
   double frequency = 0.0;     ///< rad/s, 2π/period
   double impact_speed = 0.0;  ///< rad/s, |ω_M − ω_L| as faces meet hardest; 0 where none do
   double multiplier = 0.0;    ///< the largest modulus of the orbit's
@@ -123,7 +125,7 @@ struct AttractorSearch {
   double settling_time = 0.0;  ///< s, of that loop: 1/slowest decay
   double watch_time = 0.0;     ///< s, the longest that a start is watched; twenty times that where
                                ///< hardly anything happens
-  bool is_complete = true;  ///< not stopped
+  bool is_complete = true;     ///< not stopped
 
   std::size_t count(MotionEnd end) const;
 };
