@@ -73,15 +73,27 @@ bool agree(double a, double b, double scale, double share) {
   return std::abs(a - b) <= share * scale;
 }
 
-/// Whether the shafts are after a share of the period where they started, times a sign.
-bool recurs_after(const SearchSetting& setting, const PeriodicOrbit& orbit, double share,
-                  double sign) {
-  const Trajectory part = motion_on(setting.system, orbit, share);
-  const Vector& here = part.end().numbers;
+/// By how much the state after a share of the period differs from that at the start, times a sign;
+/// as a share.
+double mismatch_after(const SearchSetting& setting, const PeriodicOrbit& orbit, double share,
+                      double sign) {
   const Vector& start = orbit.start.numbers;
-  constexpr double near = 1e-7;
-  const double scale = start.head(setting.own).cwiseAbs().maxCoeff();
-  return (here - sign * start).head(setting.own).cwiseAbs().maxCoeff() <= near * scale;
+  const Vector here = motion_on(setting.system, orbit, share).end().numbers;
+  return (here - sign * start).cwiseAbs().maxCoeff() / start.cwiseAbs().maxCoeff();
+}
+
+constexpr double recurrent = 1e-7;
+
+/// An orbit that goes round a cycle some times, as going round it once. Multipliers are then known
+/// by their moduli.
+PeriodicOrbit divided(PeriodicOrbit orbit, int times, double mismatch) {
+  orbit.period /= times;
+  std::erase_if(orbit.events, [&](const Event& event) { return event.time > orbit.period; });
+  for (auto& multiplier : orbit.multipliers) {
+    multiplier = std::pow(std::abs(multiplier), 1.0 / times);
+  }
+  orbit.residual = std::max(orbit.residual, mismatch);
+  return orbit;
 }
 
 double hardest_impact(const SearchSetting& setting, const PeriodicOrbit& orbit) {
@@ -115,7 +127,7 @@ FoundCycle measured(const SearchSetting& setting, const PeriodicOrbit& orbit) {
   cycle.sizes.include(cycle.size);
   cycle.frequency = 2.0 * std::numbers::pi / orbit.period;
   cycle.impact_speed = hardest_impact(setting, orbit);
-  cycle.is_symmetric = recurs_after(setting, orbit, 0.5, -1.0);
+  cycle.is_symmetric = mismatch_after(setting, orbit, 0.5, -1.0) < recurrent;
   return cycle;
 }
 
@@ -373,11 +385,15 @@ class Search {
 
   /// The cycle itself, where an orbit goes round it several times.
   PeriodicOrbit shortest(const PeriodicOrbit& orbit) const {
-    for (const double times : {2.0, 3.0, 5.0}) {
-      if (!recurs_after(setting_, orbit, 1.0 / times, 1.0)) continue;
+    for (const int times : {2, 3, 5, 7}) {
+      const double mismatch = mismatch_after(setting_, orbit, 1.0 / times, 1.0);
+      if (!(mismatch < recurrent)) continue;
       constexpr double near = 1e-6;
       const auto shorter = closed(motion_on(setting_.system, orbit, 2.5), near);
       if (shorter && shorter->period < 0.75 * orbit.period) return shortest(*shorter);
+      // Rounding may make and unmake events, of faces that come to rest; then Newton's method,
+      // which counts them, closes one round and not another.
+      return shortest(divided(orbit, times, mismatch));
     }
     return orbit;
   }
