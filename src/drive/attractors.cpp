@@ -30,6 +30,38 @@ Stability stability_of(double multiplier) {
   return multiplier < 1.0 ? Stability::stable : Stability::unstable;
 }
 
+void drop_nearest(std::vector<std::complex<double>>& values, double target) {
+  if (values.empty()) return;
+  values.erase(std::min_element(values.begin(), values.end(), [&](const auto& a, const auto& b) {
+    return std::abs(a - target) < std::abs(b - target);
+  }));
+}
+
+/// Without the multipliers of disturbances that cannot be: of rigid faces that stay together shafts
+/// that are not one, and of an encoder that is beside its own grid.
+PeriodicOrbit without_spare_multipliers(const SearchSetting& setting, PeriodicOrbit orbit) {
+  const bool is_rigid = std::holds_alternative<RigidContact>(setting.drive.contact);
+  bool parts = false;
+  bool sticks = false;
+  const auto look = [&](std::size_t index) {
+    const DriveMode& mode = setting.built.modes[index];
+    parts = parts || mode.contact == ContactState::apart;
+    sticks =
+        sticks || mode.motor == FrictionState::sticking || mode.load == FrictionState::sticking;
+  };
+  look(orbit.start.mode);
+  for (const Event& event : orbit.events) look(event.mode_after);
+  if (is_rigid && !parts) {
+    drop_nearest(orbit.multipliers, 1.0);                 // the difference of positions is kept
+    drop_nearest(orbit.multipliers, sticks ? 0.0 : 1.0);  // that of speeds too, but for a stop
+  }
+  const std::vector<std::string>& names = setting.system.state_names;
+  if (std::find(names.begin(), names.end(), "encoder") != names.end()) {
+    drop_nearest(orbit.multipliers, 1.0);
+  }
+  return orbit;
+}
+
 /// Over a period, or a part of it.
 Trajectory motion_on(const hybrid::HybridSystem& system, const PeriodicOrbit& orbit,
                      double periods) {
@@ -41,15 +73,27 @@ bool agree(double a, double b, double scale, double share) {
   return std::abs(a - b) <= share * scale;
 }
 
-/// Whether the shafts are after a share of the period where they started, times a sign.
-bool recurs_after(const SearchSetting& setting, const PeriodicOrbit& orbit, double share,
-                  double sign) {
-  const Trajectory part = motion_on(setting.system, orbit, share);
-  const Vector& here = part.end().numbers;
+/// By how much the state after a share of the period differs from that at the start, times a sign;
+/// as a share.
+double mismatch_after(const SearchSetting& setting, const PeriodicOrbit& orbit, double share,
+                      double sign) {
   const Vector& start = orbit.start.numbers;
-  constexpr double near = 1e-7;
-  const double scale = start.head(setting.own).cwiseAbs().maxCoeff();
-  return (here - sign * start).head(setting.own).cwiseAbs().maxCoeff() <= near * scale;
+  const Vector here = motion_on(setting.system, orbit, share).end().numbers;
+  return (here - sign * start).cwiseAbs().maxCoeff() / start.cwiseAbs().maxCoeff();
+}
+
+constexpr double recurrent = 1e-7;
+
+/// An orbit that goes round a cycle some times, as going round it once. Multipliers are then known
+/// by their moduli.
+PeriodicOrbit divided(PeriodicOrbit orbit, int times, double mismatch) {
+  orbit.period /= times;
+  std::erase_if(orbit.events, [&](const Event& event) { return event.time > orbit.period; });
+  for (auto& multiplier : orbit.multipliers) {
+    multiplier = std::pow(std::abs(multiplier), 1.0 / times);
+  }
+  orbit.residual = std::max(orbit.residual, mismatch);
+  return orbit;
 }
 
 double hardest_impact(const SearchSetting& setting, const PeriodicOrbit& orbit) {
@@ -73,15 +117,17 @@ FoundCycle measured(const SearchSetting& setting, const PeriodicOrbit& orbit) {
   const Range load = range_of(samples(setting.system, motion, setting.load, 0.0));
   const Range motor = range_of(samples(setting.system, motion, setting.motor, 0.0));
   FoundCycle cycle;
-  cycle.orbit = orbit;
-  cycle.multiplier = largest_multiplier(orbit);
+  cycle.orbit = without_spare_multipliers(setting, orbit);
+  cycle.multiplier = largest_multiplier(cycle.orbit);
   cycle.stability = stability_of(cycle.multiplier);
   cycle.size = 0.5 * load.width();
   cycle.motor_size = 0.5 * motor.width();
   cycle.center = load.middle();
+  cycle.centers.include(cycle.center);
+  cycle.sizes.include(cycle.size);
   cycle.frequency = 2.0 * std::numbers::pi / orbit.period;
   cycle.impact_speed = hardest_impact(setting, orbit);
-  cycle.is_symmetric = recurs_after(setting, orbit, 0.5, -1.0);
+  cycle.is_symmetric = mismatch_after(setting, orbit, 0.5, -1.0) < recurrent;
   return cycle;
 }
 
@@ -125,14 +171,17 @@ class Search {
     setting_ = scaled(unscaled_, glance());
     result_.coordinates = setting_.coordinates;
     result_.system = unscaled_.system;
-    result_.slow_time = setting_.slow_time;
-    result_.watch_time = options.slow_times * setting_.slow_time;
+    result_.swing_time = setting_.swing_time;
+    result_.settling_time = setting_.settling_time;
+    constexpr double settlings = 30.0;  // e⁻³⁰ is some 1e-13
+    const double swings = options.swing_times * setting_.swing_time;
+    result_.watch_time = swings + std::min(swings, settlings * setting_.settling_time);
   }
 
   AttractorSearch run() {
     for (const ShaftStates& start : starts_) {
       if (!goes_on()) break;
-      verdicts_.push_back(watch(setting_.start(start)));
+      verdicts_.push_back(watch(setting_.start(start), 20.0));
       record(start, verdicts_.back());
       ++done_;
     }
@@ -155,9 +204,9 @@ class Search {
   /// A first motion, to learn how large numbers become.
   Trajectory glance() const {
     const ShaftStates& start = starts_[starts_.size() / 2];
-    constexpr double short_while = 5.0;  // slow times
+    constexpr double short_while = 5.0;  // swings
     return simulate(unscaled_.system, unscaled_.start(start),
-                    {.until = short_while * unscaled_.slow_time, .event_limit = 5000});
+                    {.until = short_while * unscaled_.swing_time, .event_limit = 5000});
   }
 
   // ---- one start --------------------------------------------------------------------------------
@@ -169,11 +218,12 @@ class Search {
     std::size_t events = 0;
     std::vector<Range> all;  ///< of each number
     std::vector<Sample> load;
+    bool starts_at_rest = false;
   };
 
-  Verdict watch(const State& start) {
-    Watch watch{start, 0.0, 0, {}, {}};
-    double length = 10.0 * setting_.slow_time;
+  Verdict watch(const State& start, double patience) {
+    Watch watch{start, 0.0, 0, {}, {}, setting_.load.speed.at(start.numbers) == 0.0};
+    double length = 10.0 * setting_.swing_time;
     while (true) {
       const double until = setting_.between_ticks(watch.time + length);
       const Trajectory motion =
@@ -188,7 +238,7 @@ class Search {
       verdict.watched = watch.time;
       verdict.last = watch.here.numbers;
       if (is_decided(watch, motion, verdict)) return verdict;
-      if (watch.events >= options_.most_events || watch.time >= patience(watch, motion)) {
+      if (watch.events >= options_.most_events || watch.time >= longest(watch, motion, patience)) {
         give_up(watch, motion, verdict);
         return verdict;
       }
@@ -197,12 +247,14 @@ class Search {
   }
 
   /// Motion in which hardly anything happens is waited for.
-  double patience(const Watch& watch, const Trajectory& motion) const {
-    constexpr std::size_t hardly_any = 3;
-    constexpr double longer = 20.0;
-    const std::vector<Sample> turns = extremes(watch.load);
-    const bool is_slow = motion.events().size() < hardly_any || is_small(turns);
-    return (is_slow ? longer : 1.0) * result_.watch_time * (1.0 - 1e-9);
+  double longest(const Watch& watch, const Trajectory& motion, double patience) const {
+    constexpr std::ptrdiff_t hardly_any = 12;
+    const std::vector<Sample> turns = turns_of(watch);
+    const auto recent = std::count_if(turns.begin(), turns.end(), [&](const Sample& turn) {
+      return turn.time > motion.start_time();
+    });
+    const bool is_slow = recent < hardly_any || is_small(turns);
+    return (is_slow ? patience : 1.0) * result_.watch_time * (1.0 - 1e-9);
   }
 
   bool is_decided(Watch& watch, const Trajectory& motion, Verdict& verdict) {
@@ -222,14 +274,14 @@ class Search {
       return true;
     }
     const std::vector<Sample> seen =
-        samples(setting_.system, motion, setting_.load, 0.05 * setting_.slow_time);
+        samples(setting_.system, motion, setting_.load, 0.05 * setting_.swing_time);
     watch.load.insert(watch.load.end(), seen.begin(), seen.end());
     if (setting_.coordinates == Coordinates::in_place) return false;
     if (is_at_rest(watch, motion)) {
       verdict.end = MotionEnd::rest;
       return true;
     }
-    if (const auto ratio = ratio_of_vanishing(extremes(watch.load))) {
+    if (const auto ratio = ratio_of_vanishing(turns_of(watch))) {
       verdict.end = MotionEnd::rest;
       verdict.swing_ratio = *ratio;
       return true;
@@ -257,7 +309,7 @@ class Search {
                   setting_.drive.backlash / setting_.frame.scale[load_position]});
     const double speeds = std::max({watch.all[motor_speed].width(), watch.all[load_speed].width(),
                                     positions * setting_.frame.scale[load_position] /
-                                        (setting_.frame.scale[load_speed] * setting_.slow_time)});
+                                        (setting_.frame.scale[load_speed] * setting_.swing_time)});
     for (std::size_t i = 0; i < static_cast<std::size_t>(setting_.own); ++i) {
       const bool is_position = i == motor_position || i == load_position;
       const bool is_speed = i == motor_speed || i == load_speed;
@@ -275,26 +327,42 @@ class Search {
   /// Whether swings are much smaller than the gap, and shrink.
   bool is_small(const std::vector<Sample>& turns) const {
     constexpr double share = 0.05;
-    return turns.size() > 3 && swing(turns, 0) < share * setting_.small_length &&
+    return turns.size() > 2 && swing(turns, 0) < share * setting_.small_length &&
            swing(turns, 0) < swing(turns, 1);
   }
 
-  /// Small swings whose limit, by Aitken's extrapolation of any three, is 0.
+  /// Where the load turned, with the start from rest, and the end where it stands.
+  std::vector<Sample> turns_of(const Watch& watch) const {
+    std::vector<Sample> turns = extremes(watch.load);
+    if (watch.starts_at_rest) turns.insert(turns.begin(), watch.load.front());
+    constexpr double standing = 1e-6;
+    const double speed = std::abs(setting_.load.speed.at(watch.here.numbers));
+    const double swing_so_far =
+        turns.empty() ? 0.0 : std::abs(watch.load.back().value - turns.back().value);
+    if (speed * setting_.swing_time < standing * swing_so_far) turns.push_back(watch.load.back());
+    return turns;
+  }
+
+  /// Small swings whose limit, by Aitken's extrapolation of any three, is 0: many, or some that
+  /// shrink fast.
   std::optional<double> ratio_of_vanishing(const std::vector<Sample>& turns) const {
-    constexpr std::size_t enough = 7;  // swings
-    constexpr std::size_t least = 3;   // that do where they shrink by so much
-    constexpr double shrunk = 0.1;
     constexpr double nothing = 0.03;
-    if (!is_small(turns)) return std::nullopt;
-    for (std::size_t i = 0; i + 3 < turns.size(); ++i) {
-      const double last = swing(turns, i);
-      const double change = last - swing(turns, i + 1);
-      const double change_before = swing(turns, i + 1) - swing(turns, i + 2);
-      const double limit = last - change * change / (change - change_before);
-      if (!(change < 0.0) || !(std::abs(limit) < nothing * last)) return std::nullopt;
-      const std::size_t count = i + 3;
-      const bool is_shrunk = swing(turns, 0) < shrunk * swing(turns, i + 2);
-      if (count >= enough || (count >= least && is_shrunk)) {
+    constexpr std::size_t enough = 7;
+    constexpr double shrunk = 0.1;
+    const bool is_dry =
+        setting_.drive.motor.friction.is_dry() || setting_.drive.load.friction.is_dry();
+    if (is_dry || !is_small(turns)) return std::nullopt;  // what is dry comes to rest
+    for (std::size_t count = 2; count < turns.size(); ++count) {
+      const double first = swing(turns, count - 1);
+      const double second = swing(turns, count - 2);
+      if (!(second < first)) return std::nullopt;
+      if (count > 2) {
+        const double third = swing(turns, count - 3);
+        const double change = third - second;
+        const double limit = third - change * change / (change - (second - first));
+        if (!(change < 0.0) || !(std::abs(limit) < nothing * third)) return std::nullopt;
+      }
+      if (count >= enough || swing(turns, 0) < shrunk * first) {
         return swing(turns, 0) / swing(turns, 1);
       }
     }
@@ -317,22 +385,46 @@ class Search {
 
   /// The cycle itself, where an orbit goes round it several times.
   PeriodicOrbit shortest(const PeriodicOrbit& orbit) const {
-    for (const double times : {2.0, 3.0, 5.0}) {
-      if (!recurs_after(setting_, orbit, 1.0 / times, 1.0)) continue;
+    for (const int times : {2, 3, 5, 7}) {
+      const double mismatch = mismatch_after(setting_, orbit, 1.0 / times, 1.0);
+      if (!(mismatch < recurrent)) continue;
       constexpr double near = 1e-6;
       const auto shorter = closed(motion_on(setting_.system, orbit, 2.5), near);
       if (shorter && shorter->period < 0.75 * orbit.period) return shortest(*shorter);
+      // Rounding may make and unmake events, of faces that come to rest; then Newton's method,
+      // which counts them, closes one round and not another.
+      return shortest(divided(orbit, times, mismatch));
     }
     return orbit;
   }
 
   /// The one that the end of a motion is on: it is not left again, and as large as what was seen.
   std::optional<std::size_t> cycle_of(const Trajectory& motion, const std::vector<Sample>& seen) {
+    if (const auto which = known_cycle_of(motion)) return which;
     for (const double nearness : {1e-6, 1e-3}) {
       const auto found = closed_cycle(motion, seen, nearness);
       if (!found) continue;
       const std::size_t which = place_of(*found);
       if (found->stability != Stability::unstable) return which;
+    }
+    return std::nullopt;
+  }
+
+  /// A stable one that has the motion's last event, in nearly the same state.
+  std::optional<std::size_t> known_cycle_of(const Trajectory& motion) const {
+    if (motion.events().empty() || setting_.drive.sampling) return std::nullopt;
+    const Event& last = motion.events().back();
+    constexpr double near = 1e-4;
+    for (std::size_t i = 0; i < result_.cycles.size(); ++i) {
+      if (result_.cycles[i].stability != Stability::stable) continue;
+      for (const Event& event : result_.cycles[i].orbit.events) {
+        if (event.kind == last.kind && event.mode == last.mode &&
+            event.transition == last.transition && event.mode_after == last.mode_after &&
+            (event.after - last.after).cwiseAbs().maxCoeff() <=
+                near * event.after.cwiseAbs().maxCoeff()) {
+          return i;
+        }
+      }
     }
     return std::nullopt;
   }
@@ -359,20 +451,31 @@ class Search {
 
   /// Among those that are known, or as a new one.
   std::size_t place_of(const FoundCycle& cycle) {
-    const double same = cycle.stability == Stability::neutral ? 1e-6 : 1e-8;
     for (std::size_t i = 0; i < result_.cycles.size(); ++i) {
       FoundCycle& known = result_.cycles[i];
-      if (!agree(known.period(), cycle.period(), cycle.period(), same) ||
-          !agree(known.size, cycle.size, cycle.size, same)) {
-        continue;
-      }
-      if (agree(known.center, cycle.center, cycle.size, same)) return i;
-      if (!agree(known.center, -cycle.center, cycle.size, same)) continue;
-      known.has_mirror_image = true;
+      if (!is_one_with(known, cycle)) continue;
+      known.centers.include(cycle.center);
+      known.sizes.include(cycle.size);
       return i;
     }
     result_.cycles.push_back(cycle);
     return result_.cycles.size() - 1;
+  }
+
+  /// Whether two are one cycle, mirror images, or of one family of neutral ones.
+  static bool is_one_with(FoundCycle& known, const FoundCycle& cycle) {
+    if (known.stability != cycle.stability) return false;
+    const double period = cycle.period();
+    if (cycle.stability == Stability::neutral) return agree(known.period(), period, period, 1e-6);
+    constexpr double same = 1e-8;
+    if (!agree(known.period(), period, period, same) ||
+        !agree(known.size, cycle.size, cycle.size, same)) {
+      return false;
+    }
+    if (agree(known.center, cycle.center, cycle.size, same)) return true;
+    const bool is_image = agree(known.center, -cycle.center, cycle.size, same);
+    known.has_mirror_image = known.has_mirror_image || is_image;
+    return is_image;
   }
 
   // ---- motion that does not close ---------------------------------------------------------------
@@ -392,6 +495,10 @@ class Search {
     }
     if (is_small(turns)) {
       verdict.reason = "swings shrink at the end, towards what is not certain";
+      return;
+    }
+    if (setting_.coordinates != Coordinates::in_place && !is_steady(last)) {
+      verdict.reason = "swings still grow or shrink at the end";
       return;
     }
     verdict.end = MotionEnd::irregular;
@@ -414,22 +521,36 @@ class Search {
     found.half_swing = half_swing.mean;
     found.half_swing_deviation = half_swing.deviation;
     found.mismatch = least_mismatch(turns);
-    found.exponent = largest_exponent(setting_.system, motion, setting_.own);
+    if (place_among_known(found) == result_.irregular.size()) {
+      found.exponent = largest_exponent(setting_.system, motion, setting_.own);
+    }
   }
 
-  /// Among those that are known, or as a new one.
-  std::size_t place_of(const IrregularFound& found) {
-    constexpr double share = 0.05;
-    for (std::size_t i = 0; i < result_.irregular.size(); ++i) {
+  /// Whether both halves go about equally far.
+  static bool is_steady(const std::vector<Sample>& samples) {
+    const double middle = 0.5 * (samples.front().time + samples.back().time);
+    Range first;
+    Range second;
+    for (const Sample& sample : samples) {
+      (sample.time < middle ? first : second).include(sample.value);
+    }
+    constexpr double share = 0.2;
+    return agree(first.width(), second.width(), std::max(first.width(), second.width()), share);
+  }
+
+  /// Of a motion that is much the same; their number where there is none.
+  std::size_t place_among_known(const IrregularFound& found) const {
+    constexpr double share = 0.1;
+    std::size_t i = 0;
+    for (; i < result_.irregular.size(); ++i) {
       const IrregularFound& known = result_.irregular[i];
       if (agree(known.size, found.size, found.size, share) &&
           agree(known.half_swing, found.half_swing, found.size, share) &&
           agree(known.center, found.center, found.size, share)) {
-        return i;
+        break;
       }
     }
-    result_.irregular.push_back(found);
-    return result_.irregular.size() - 1;
+    return i;
   }
 
   // ---- what came of it --------------------------------------------------------------------------
@@ -439,7 +560,8 @@ class Search {
     if (verdict.end == MotionEnd::rest) record_rest(verdict);
     if (verdict.end == MotionEnd::cycle) ++result_.cycles[verdict.which].starts;
     if (verdict.end == MotionEnd::irregular) {
-      outcome.which = place_of(verdict.irregular);
+      outcome.which = place_among_known(verdict.irregular);
+      if (outcome.which == result_.irregular.size()) result_.irregular.push_back(verdict.irregular);
       ++result_.irregular[outcome.which].starts;
     }
     result_.outcomes.push_back(std::move(outcome));
@@ -525,7 +647,7 @@ class Search {
       }
       if (!goes_on()) return std::nullopt;
       const bool is_as_first =
-          watch(setting_.start(between(a, b, middle))).is_same_end(end_of_first);
+          watch(setting_.start(between(a, b, middle)), 2.0).is_same_end(end_of_first);
       (is_as_first ? low : high) = middle;
     }
     return std::nullopt;
@@ -533,16 +655,16 @@ class Search {
 
   /// An unstable cycle that a motion comes near for a while.
   std::optional<std::size_t> hovered_at(const State& start) {
-    constexpr double longest = 40.0;  // slow times
+    constexpr double longest = 40.0;  // swings
     constexpr double step = 1.0;
     constexpr double near = 1e-2;
     for (double time = step; time <= longest; time += step) {
       const Trajectory motion =
           simulate(setting_.system, start,
-                   {.until = setting_.between_ticks(time * setting_.slow_time),
+                   {.until = setting_.between_ticks(time * setting_.swing_time),
                     .event_limit = options_.most_events});
       if (motion.stop_reason() != StopReason::reached_end) return std::nullopt;
-      const auto seen = samples(setting_.system, motion, setting_.load, 0.05 * setting_.slow_time);
+      const auto seen = samples(setting_.system, motion, setting_.load, 0.05 * setting_.swing_time);
       const auto found = closed_cycle(motion, seen, near);
       if (found && found->stability == Stability::unstable) return place_of(*found);
     }

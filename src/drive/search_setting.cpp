@@ -84,11 +84,14 @@ void look(SearchSetting& setting) {
   const auto watched = [&](Eigen::Index position, Eigen::Index speed) {
     Watched result{{scale[position] * Vector::Unit(size, position), 0.0},
                    {scale[speed] * Vector::Unit(size, speed), 0.0}};
-    if (setting.coordinates != Coordinates::in_place) return result;
-    const AffineForm& reference = setting.built.reference;
-    result.value.normal -= reference.normal.cwiseProduct(scale);
-    result.value.offset -= reference.offset;
-    result.speed.offset -= std::get<Ramp>(setting.drive.reference).rate;
+    if (const auto* ramp = std::get_if<Ramp>(&setting.drive.reference)) {
+      result.speed.offset = -ramp->rate;  // speeds are what they are in all coordinates
+    }
+    if (setting.coordinates == Coordinates::in_place) {
+      const AffineForm& reference = setting.built.reference;
+      result.value.normal -= reference.normal.cwiseProduct(scale);
+      result.value.offset -= reference.offset;
+    }
     return result;
   };
   setting.load = watched(load_position, load_speed);
@@ -155,23 +158,40 @@ std::vector<std::complex<double>> loop_eigenvalues(const Drive& drive) {
   return values;
 }
 
-double slow_time_of(const Drive& drive) {
-  const auto values = loop_eigenvalues(drive);
+/// A free number's eigenvalue is 0, to rounding.
+std::vector<std::complex<double>> without_free_numbers(std::vector<std::complex<double>> values) {
   double fastest = 0.0;
   for (const auto& value : values) fastest = std::max(fastest, std::abs(value));
-  constexpr double nothing = 1e-9;  // free numbers
-  double slowest = fastest;
-  for (const auto& value : values) {
-    if (std::abs(value) > nothing * fastest) slowest = std::min(slowest, std::abs(value));
+  constexpr double nothing = 1e-9;
+  std::erase_if(values, [&](const auto& value) { return std::abs(value) <= nothing * fastest; });
+  return values;
+}
+
+void measure_times(SearchSetting& setting) {
+  const Drive& drive = setting.drive;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double slowest = infinity;
+  double slowest_swing = infinity;
+  double slowest_decay = infinity;
+  for (const auto& value : without_free_numbers(loop_eigenvalues(drive))) {
+    const double rate = std::abs(value);
+    constexpr double share = 0.1;
+    if (std::abs(value.imag()) > share * rate) slowest_swing = std::min(slowest_swing, rate);
+    slowest = std::min(slowest, rate);
+    constexpr double least_damping = 1e-3;
+    slowest_decay = std::min(slowest_decay, std::max(-value.real(), least_damping * rate));
   }
-  double time = slowest > 0.0 ? turn / slowest : 1.0;
+  const double rate = std::isfinite(slowest_swing) ? slowest_swing : slowest;
+  double swing = std::isfinite(rate) ? turn / rate : 1.0;
+  setting.settling_time = std::isfinite(slowest_decay) ? 1.0 / slowest_decay : 0.0;
   for (const Signal& signal : {drive.reference, drive.load_torque}) {
     if (const auto* sine = std::get_if<Sine>(&signal)) {
-      time = std::max(time, turn / sine->frequency);
+      swing = std::max(swing, turn / sine->frequency);
     }
   }
-  if (drive.sampling) time = std::max(time, 10.0 * drive.sampling->period);
-  return time;
+  constexpr double samples = 10.0;
+  if (drive.sampling) swing = std::max(swing, samples * drive.sampling->period);
+  setting.swing_time = swing;
 }
 
 // ---- lengths ------------------------------------------------------------------------------------
@@ -243,7 +263,7 @@ SearchSetting search_setting(const Drive& drive) {
   setting.own = own_numbers(setting.built.system.state_names);
   choose_coordinates(setting);
   look(setting);
-  setting.slow_time = slow_time_of(setting.drive);
+  measure_times(setting);
   measure_lengths(setting);
   return setting;
 }
@@ -293,7 +313,7 @@ std::vector<ShaftStates> usual_starts(const SearchSetting& setting) {
     add_offsets(-1.0, 1.0);
   }
   for (const double times : {1.0, 10.0}) {
-    const double passing = speed + times * setting.large_length * turn / setting.slow_time;
+    const double passing = speed + times * setting.large_length * turn / setting.swing_time;
     starts.push_back({reference, passing, reference, passing});
   }
   if (speed != 0.0) starts.push_back({reference + half_gap, 0.0, reference, 0.0});

@@ -15,10 +15,11 @@ struct SearchSetting {
   hybrid::HybridSystem system;  ///< in the frame
   Watched load;                 ///< position from the reference, rad, of the frame's numbers
   Watched motor;
-  Eigen::Index own = 0;  ///< numbers before those of the signals
-  double slow_time = 0.0;
-  double small_length = 0.0;  ///< rad: of backlash and encoder steps the smallest
-  double large_length = 0.0;  ///< rad: of all that has a length the largest
+  Eigen::Index own = 0;        ///< numbers before those of the signals
+  double swing_time = 0.0;     ///< s
+  double settling_time = 0.0;  ///< s
+  double small_length = 0.0;   ///< rad: of backlash and encoder steps the smallest
+  double large_length = 0.0;   ///< rad: of all that has a length the largest
 
   hybrid::State start(const ShaftStates& shafts) const;
   /// A time at or after a given one, when no clock ticks.

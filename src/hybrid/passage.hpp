@@ -25,7 +25,9 @@ struct Passage {
 /// From a state at time `from` over so many events to the finish. With f the flow before an event
 /// and f⁺ after it, g = c·x its guard and R its reset, a disturbance δ goes over to
 ///   R δ + (f⁺ − R f)(c·δ)/(c·f)
-/// (saltation), and at a tick of a clock to R δ. Nothing where the events do not come, another one
+/// (saltation), and at a tick of a clock to R δ. An event that another one brings about at its own
+/// instant is as late as that one: R δ − (f⁺ − R f)τ, τ = −(c·δ)/(c·f) of the first, 0 of a tick.
+/// Nothing where the events do not come, another one
 /// comes before the finish, or a guard is met at no speed (c·f = 0).
 /// Source: Aizerman & Gantmakher 1958; Leine & Nijmeijer, Dynamics and Bifurcations of Non-Smooth
 /// Mechanical Systems (2004), ch. 7.

@@ -122,6 +122,58 @@ TEST(PropertySaltation, DerivativesOnAPlaneAreFiniteDifferences) {
   EXPECT_LT(error_time, of_differences);
 }
 
+// ---- events that others bring about -------------------------------------------------------------
+
+/// An oscillator with a number u that is set, and by which it changes flows: at a tick, or where
+/// the position passes 0.5, u becomes what puts a guard on its wrong side at once.
+HybridSystem made_not_met(bool by_clock) {
+  const Matrix first{{0.0, 1.0, 0.0}, {-1.0, -0.2, 1.0}, {0.0, 0.0, 0.0}};
+  const Matrix second{{0.0, 1.0, 0.3}, {-4.0, -0.1, 0.5}, {0.0, 0.0, -1.0}};
+  const Reset setting{
+      Matrix{{1.0, 0.0, 0.0}, {0.0, 0.9, 0.0}, {-1.0, -0.5, 0.0}}, Vector{{0.0, 0.0, -0.4}}, {}};
+  const Transition below{
+      .name = "u is below 0",
+      .guard = {Vector{{0.0, 0.0, 1.0}}, 0.0},
+      .direction = Direction::falling,
+      .reset = {Matrix{{1.0, 0.0, 0.2}, {0.0, 1.0, -0.3}, {0.0, 0.0, 1.0}}, {}, {}},
+      .target = 1};
+  HybridSystem system;
+  system.state_names = {"position", "speed", "u"};
+  system.modes.resize(3);
+  for (Mode& mode : system.modes) mode.flow = {first, Vector::Zero(3)};
+  system.modes[1].flow.matrix = second;
+  system.modes[2].transitions = {below};
+  if (by_clock) {
+    system.clocks = {{.name = "tick", .first = 0.7, .period = 100.0}};
+    system.modes[0].timed = {{.name = "sets", .clock = 0, .reset = setting, .target = 2}};
+  } else {
+    system.modes[0].transitions = {{.name = "passes",
+                                    .guard = {Vector{{1.0, 0.0, 0.0}}, -0.5},
+                                    .direction = Direction::rising,
+                                    .reset = setting,
+                                    .target = 2}};
+  }
+  return system;
+}
+
+/// The second event is not met by the motion: nothing of its guard's speed says when it comes.
+TEST(PropertySaltation, EventsThatOthersBringAboutAreDelayedWithThem) {
+  for (const bool by_clock : {true, false}) {
+    SCOPED_TRACE(by_clock);
+    const HybridSystem system = made_not_met(by_clock);
+    const Vector start{{0.1, 0.8, 0.3}};
+    constexpr double until = 1.5;
+    const auto end = [&](const Vector& from) {
+      return simulate(system, {0, from}, {.until = until}).end().numbers;
+    };
+    const auto passage = pass(system, {0, start}, 0.0, 2, {.plane = {}, .time = until});
+    ASSERT_TRUE(passage);
+    EXPECT_EQ(passage->events[0].time, passage->events[1].time);
+    const Matrix found = differences(end, start, 3, 1e-2);
+    EXPECT_LT((found - passage->slope_at_time).norm() / found.norm(), of_differences);
+  }
+}
+
 // ---- an oscillator against a stop ---------------------------------------------------------------
 
 constexpr double friction = 0.1;

@@ -23,6 +23,8 @@ enum class Coordinates {
               ///< measured, cycles are not closed and rest is motion of no size
 };
 
+/// By all multipliers but those of disturbances that cannot be: rigid shafts together that move
+/// apart, an encoder beside its own grid.
 enum class Stability {
   stable,
   neutral,  ///< a multiplier is on the unit circle to within 1e-6: one of a family, or at a fold
@@ -40,9 +42,13 @@ struct Extent {
 struct FoundCycle {
   hybrid::PeriodicOrbit orbit;  ///< of AttractorSearch::system; with residual and all multipliers
   Stability stability = Stability::unstable;
-  double size = 0.0;          ///< rad, half the peak-to-peak of the load
-  double motor_size = 0.0;    ///< rad, of the motor
-  double center = 0.0;        ///< rad, mean of the load's extremes, from the reference
+  double size = 0.0;        ///< rad, half the peak-to-peak of the load
+  double motor_size = 0.0;  ///< rad, of the motor
+  double center = 0.0;      ///< rad, mean of the load's extremes, from the reference
+  /// rad, of all that count as this one: mirror images, and neutral cycles of one period, which are
+  /// a family.
+  Extent centers;
+  Extent sizes;               ///< rad, likewise
   double frequency = 0.0;     ///< rad/s, 2π/period
   double impact_speed = 0.0;  ///< rad/s, |ω_M − ω_L| as faces meet hardest; 0 where none do
   double multiplier = 0.0;    ///< the largest modulus of the orbit's
@@ -113,10 +119,13 @@ struct AttractorSearch {
   std::vector<IrregularFound> irregular;
   std::vector<Outcome> outcomes;  ///< of every start, in order
   std::vector<Edge> edges;
-  double slow_time = 0.0;   ///< s, of the linear loop with faces together: 2π/|slowest eigenvalue|
-  double watch_time = 0.0;  ///< s, the longest that a start is watched; twenty times that where
-                            ///< hardly anything happens
-  bool is_complete = true;  ///< not stopped
+  /// s, of the linear loop with faces together: 2π/|slowest eigenvalue that oscillates|, or of all
+  /// where none does; at least a sine's period and ten samples.
+  double swing_time = 0.0;
+  double settling_time = 0.0;  ///< s, of that loop: 1/slowest decay
+  double watch_time = 0.0;     ///< s, the longest that a start is watched; twenty times that where
+                               ///< hardly anything happens
+  bool is_complete = true;     ///< not stopped
 
   std::size_t count(MotionEnd end) const;
 };
@@ -126,7 +135,8 @@ struct AttractorOptions {
   /// encoder steps, and what friction, load torque, torque limit and a sine reference amount to as
   /// positions), on either face, and passing the reference at some speed. Absolute positions.
   std::vector<ShaftStates> starts{};
-  double slow_times = 200.0;          ///< that a start is watched
+  double swing_times = 200.0;         ///< that a start is watched; and 30 settling times,
+                                      ///< but twice as long at most
   std::size_t most_events = 100'000;  ///< of a start
   std::size_t most_edges = 3;         ///< sought between starts that led elsewhere; 0: none
   hybrid::ShootingOptions shooting{.most_events = 2000};
