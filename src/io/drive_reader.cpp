@@ -18,13 +18,11 @@ const std::vector<std::string> section_names = {"motor",     "gearbox",    "load
                                                 "loop",      "controller", "sensor", "sampling",
                                                 "reference", "load_torque"};
 
-/// What only drives have: a section, or a key of one.
+/// A key that only drives have.
 struct DriveKey {
   const char* section;
   const char* key;
 };
-constexpr std::array drive_sections = {"controller", "sensor", "sampling", "reference",
-                                       "load_torque"};
 constexpr std::array drive_keys = {
     DriveKey{"motor", "coulomb"},      DriveKey{"motor", "breakaway"},
     DriveKey{"motor", "torque_limit"}, DriveKey{"motor", "voltage_limit"},
@@ -320,8 +318,9 @@ class DriveReader {
 
 bool describes_drive(const TomlDocument& document) {
   const toml::table& root = document.root();
-  const bool has_section = std::any_of(drive_sections.begin(), drive_sections.end(),
-                                       [&](const char* section) { return root.contains(section); });
+  const bool has_section =
+      std::any_of(drive_sections.begin(), drive_sections.end(),
+                  [&](std::string_view section) { return root.contains(section); });
   const bool has_key = std::any_of(drive_keys.begin(), drive_keys.end(), [&](const DriveKey& key) {
     return static_cast<bool>(root[key.section][key.key]);
   });

@@ -1,13 +1,19 @@
 // Reading the sections of a TOML file that describe a drive.
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <string_view>
 
 #include "gearlash/io/drive_file.hpp"
 #include "section_reader.hpp"
 #include "toml_document.hpp"
 
 namespace gearlash {
+
+/// Sections that no servo file has.
+inline constexpr std::array<std::string_view, 5> drive_sections = {
+    "controller", "sensor", "sampling", "reference", "load_torque"};
 
 /// Whether it has what a servo file has not (drive_file.hpp).
 bool describes_drive(const TomlDocument& document);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "drive_reader.hpp"
 #include "gearlash/io/units.hpp"
 #include "motor_reader.hpp"
 
@@ -63,10 +64,15 @@ class ServoReader {
     for (const auto& [key, value] : document_.root()) {
       const std::string name(key.str());
       if (name == variation_.section) continue;
-      if (std::find(section_names.begin(), section_names.end(), name) == section_names.end()) {
-        findings_.refuse(key.source().begin, shown(name), document_.written(value),
-                         "is no section: " + one_of(section_names, name));
+      if (std::find(section_names.begin(), section_names.end(), name) != section_names.end()) {
+        continue;
       }
+      const bool is_of_drive =
+          std::find(drive_sections.begin(), drive_sections.end(), name) != drive_sections.end();
+      findings_.refuse(key.source().begin, shown(name), document_.written(value),
+                       is_of_drive ? "is a drive's: must be left out but for limit-cycle, "
+                                     "simulate, describe and compare"
+                                   : "is no section: " + one_of(section_names, name));
     }
     if (has("servo") && has("motor")) {
       findings_.refuse("servo", *document_.root().get("servo"),

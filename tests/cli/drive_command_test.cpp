@@ -1,0 +1,158 @@
+// simulate, limit-cycle and compare on drives.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tool.hpp"
+
+namespace gearlash {
+namespace {
+
+using nlohmann::json;
+using test::file_text;
+using test::lines_of;
+using test::Outcome;
+using test::run_tool;
+using test::Scratch;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr const char* mechanics = R"([motor]
+kind = "torque-controlled"
+inertia = "2 kg cm2"
+friction = "0.1 mN m s/rad"
+[gearbox]
+ratio = 50
+backlash = "12 arcmin"
+[load]
+inertia = "0.5 kg m2"
+friction = "0.01 N m s/rad"
+)";
+
+constexpr const char* proportional = R"([controller]
+kind = "P"
+proportional = "0.5 N m/rad"
+)";
+
+constexpr const char* with_speed = R"([controller]
+kind = "PD"
+proportional = "0.5 N m/rad"
+derivative = "0.1 N m s/rad"
+)";
+
+class DriveCommand : public ::testing::Test {
+ protected:
+  std::string file(const std::string& text) {
+    std::ofstream(scratch_ / "drive.toml") << text;
+    return (scratch_ / "drive.toml").string();
+  }
+
+  Scratch scratch_;
+};
+
+TEST_F(DriveCommand, ADriveWithAClosedFormIsTheServoThatItIs) {
+  const std::string drive = file(std::string(mechanics) + proportional);
+  const Outcome run = run_tool({"limit-cycle", drive});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("Worked out in closed form"));
+  const json found = json::parse(run_tool({"limit-cycle", drive, "--format", "json"}).out);
+  EXPECT_EQ(found["method"], "closed form");
+  EXPECT_EQ(found["verdict"], "hunts");
+  // The search finds the same cycle once the closed form is barred, here by a load torque of 0.
+  const std::string barred = file(std::string(mechanics) + proportional +
+                                  "[load_torque]\nkind = \"step\"\nafter = \"0 N m\"\n");
+  const Outcome searched = run_tool({"limit-cycle", barred, "--format", "json"});
+  EXPECT_EQ(searched.status, 0) << searched.err;
+  const json other = json::parse(searched.out);
+  EXPECT_THAT(other["method"], StartsWith("piecewise-affine"));
+  const auto number = [](const json& value) { return value.get<double>(); };
+  EXPECT_NEAR(number(other["cycles"][0]["size"]) / number(found["physical"]["size"]), 1.0, 1e-9);
+  EXPECT_NEAR(number(other["cycles"][0]["period"]) / number(found["physical"]["period"]), 1.0,
+              1e-9);
+  EXPECT_NEAR(
+      number(other["cycles"][0]["separated_time"]) / number(found["physical"]["separated_time"]),
+      1.0, 1e-9);
+}
+
+TEST_F(DriveCommand, SimulateTakesTheReferenceOfTheFile) {
+  const std::string drive = file(std::string(mechanics) + with_speed +
+                                 "[reference]\nkind = \"ramp\"\nrate = \"1 deg/s\"\n");
+  const Outcome run = run_tool({"simulate", drive, "--until", "0.2", "--every", "0.1"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  const std::vector<std::string> lines = lines_of(run.out);
+  ASSERT_EQ(lines.size(), 9U);
+  EXPECT_EQ(lines[5],
+            "time_s,load_position_rad,load_speed_rad_per_s,motor_position_rad,"
+            "motor_speed_rad_per_s,motor_torque_N_m,reference_rad,load_torque_N_m,mode");
+  EXPECT_THAT(lines[8], HasSubstr(",0.003490658503988659,0,\""));
+  const Outcome events = run_tool({"simulate", drive, "--until", "2", "--events"});
+  EXPECT_THAT(events.out, HasSubstr(",\"faces part\",\"apart\","));
+  const json all =
+      json::parse(run_tool({"simulate", drive, "--until", "1", "--format", "json"}).out);
+  EXPECT_EQ(all["samples"]["rows"].size(), 1001U);
+  EXPECT_GT(all["events"].size(), 0U);
+}
+
+TEST_F(DriveCommand, SimulateDrawsDrives) {
+  const std::string drive = file(std::string(mechanics) + with_speed);
+  for (const std::string kind : {"time", "phase"}) {
+    const std::string picture = (scratch_ / (kind + ".svg")).string();
+    const Outcome run = run_tool({"simulate", drive, "--sensor", "motor", "--plot",
+                                  kind + "=" + picture, "--output", "/dev/null"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_THAT(file_text(picture), HasSubstr("motor"));
+  }
+}
+
+/// Only with the sensor on the load the gap is in the loop.
+TEST_F(DriveCommand, ComparePutsSensorsSideBySide) {
+  const std::string drive = file(std::string(mechanics) + proportional);
+  const std::string picture = (scratch_ / "step.svg").string();
+  const Outcome run = run_tool({"compare", drive, "--plot", "time=" + picture});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(lines_of(run.out)[0], HasSubstr("load"));
+  std::string unwrapped = run.out;
+  std::replace(unwrapped.begin(), unwrapped.end(), '\n', ' ');
+  EXPECT_THAT(unwrapped, HasSubstr("which this controller makes no use of"));
+  EXPECT_THAT(file_text(picture), HasSubstr("sensor on motor"));
+  const json found =
+      json::parse(run_tool({"compare", drive, "--sensor", "motor,load", "--format", "json"}).out);
+  EXPECT_EQ(found["cases"][0]["sensor"], "motor");
+  EXPECT_EQ(found["cases"][0]["limit_cycle"]["verdict"], "comes to rest");
+  EXPECT_EQ(found["cases"][1]["limit_cycle"]["verdict"], "hunts");
+  const double backlash = 0.2 * std::acos(-1.0) / 180.0;
+  EXPECT_NEAR(found["cases"][0]["step_response"]["step"], 10.0 * backlash, 1e-15);
+  // The load rests somewhere in the gap about the motor, which rests at the reference.
+  const auto& error = found["cases"][0]["limit_cycle"]["rest"]["error"];
+  EXPECT_LE(std::abs(error[0].get<double>()), 0.5 * backlash * (1.0 + 1e-6));
+  EXPECT_LE(std::abs(error[1].get<double>()), 0.5 * backlash * (1.0 + 1e-6));
+}
+
+TEST_F(DriveCommand, EdgeFaultsOfFileAndOptionsAreToldTogether) {
+  const std::string drive = file(std::string(mechanics) + with_speed);
+  EXPECT_THAT(lines_of(run_tool({"limit-cycle", drive, "--damping", "0.2", "--margins",
+                                 "--sensitivities", "--plot", "tornado=a.svg"})
+                           .err),
+              ElementsAre(HasSubstr("--damping = 0.2: must be left out"), HasSubstr("--margins"),
+                          HasSubstr("--sensitivities"),
+                          HasSubstr("--plot = tornado=a.svg: must be left out")));
+  EXPECT_THAT(lines_of(run_tool({"compare", drive, "--sensor", "load,load", "--step", "0",
+                                 "--until", "-1", "--plot", "a.svg"})
+                           .err),
+              testing::SizeIs(4));
+  const std::string bad = file(std::string(mechanics) + "[controller]\nkind = \"PI\"\n");
+  const Outcome several = run_tool({"simulate", bad, "--until", "0"});
+  EXPECT_EQ(several.status, 2);
+  EXPECT_THAT(lines_of(several.err),
+              ElementsAre(HasSubstr("controller.proportional is missing"),
+                          HasSubstr("controller.integral is missing"), HasSubstr("--until = 0")));
+  EXPECT_THAT(run_tool({"design", drive, "--target", "no-hunting"}).err,
+              HasSubstr("is a drive's: must be left out"));
+}
+
+}  // namespace
+}  // namespace gearlash
