@@ -173,7 +173,6 @@ class Search {
     result_.system = unscaled_.system;
     result_.swing_time = setting_.swing_time;
     result_.settling_time = setting_.settling_time;
-    constexpr double settlings = 30.0;  // e⁻³⁰ is some 1e-13
     const double swings = options.swing_times * setting_.swing_time;
     result_.watch_time = swings + std::min(swings, settlings * setting_.settling_time);
   }
@@ -218,11 +217,12 @@ class Search {
     std::size_t events = 0;
     std::vector<Range> all;  ///< of each number
     std::vector<Sample> load;
+    std::vector<Sample> motor;
     bool starts_at_rest = false;
   };
 
   Verdict watch(const State& start, double patience) {
-    Watch watch{start, 0.0, 0, {}, {}, setting_.load.speed.at(start.numbers) == 0.0};
+    Watch watch{start, 0.0, 0, {}, {}, {}, setting_.load.speed.at(start.numbers) == 0.0};
     double length = 10.0 * setting_.swing_time;
     while (true) {
       const double until = setting_.between_ticks(watch.time + length);
@@ -249,11 +249,13 @@ class Search {
   /// Motion in which hardly anything happens is waited for.
   double longest(const Watch& watch, const Trajectory& motion, double patience) const {
     constexpr std::ptrdiff_t hardly_any = 12;
+    const auto recent = [&](const std::vector<Sample>& turns) {
+      return std::count_if(turns.begin(), turns.end(),
+                           [&](const Sample& turn) { return turn.time > motion.start_time(); });
+    };
     const std::vector<Sample> turns = turns_of(watch);
-    const auto recent = std::count_if(turns.begin(), turns.end(), [&](const Sample& turn) {
-      return turn.time > motion.start_time();
-    });
-    const bool is_slow = recent < hardly_any || is_small(turns);
+    const bool is_slow =
+        std::max(recent(turns), recent(extremes(watch.motor))) < hardly_any || is_small(turns);
     return (is_slow ? patience : 1.0) * result_.watch_time * (1.0 - 1e-9);
   }
 
@@ -273,20 +275,26 @@ class Search {
       verdict.reason = "events without end: " + motion.culprit();
       return true;
     }
-    const std::vector<Sample> seen =
-        samples(setting_.system, motion, setting_.load, 0.05 * setting_.swing_time);
-    watch.load.insert(watch.load.end(), seen.begin(), seen.end());
+    const auto add = [&](std::vector<Sample>& all, const Watched& watched) {
+      const auto seen = samples(setting_.system, motion, watched, 0.05 * setting_.swing_time);
+      all.insert(all.end(), seen.begin(), seen.end());
+    };
+    add(watch.load, setting_.load);
+    add(watch.motor, setting_.motor);
     if (setting_.coordinates == Coordinates::in_place) return false;
     if (is_at_rest(watch, motion)) {
       verdict.end = MotionEnd::rest;
       return true;
     }
-    if (const auto ratio = ratio_of_vanishing(turns_of(watch))) {
-      verdict.end = MotionEnd::rest;
-      verdict.swing_ratio = *ratio;
-      return true;
+    // What settles as the linear loop does is awaited.
+    if (watch.time > std::min(result_.watch_time, settlings * setting_.settling_time)) {
+      if (const auto ratio = ratio_of_vanishing(turns_of(watch))) {
+        verdict.end = MotionEnd::rest;
+        verdict.swing_ratio = *ratio;
+        return true;
+      }
     }
-    if (const auto which = cycle_of(motion, seen)) {
+    if (const auto which = cycle_of(motion)) {
       verdict.end = MotionEnd::cycle;
       verdict.which = *which;
       return true;
@@ -399,10 +407,10 @@ class Search {
   }
 
   /// The one that the end of a motion is on: it is not left again, and as large as what was seen.
-  std::optional<std::size_t> cycle_of(const Trajectory& motion, const std::vector<Sample>& seen) {
+  std::optional<std::size_t> cycle_of(const Trajectory& motion) {
     if (const auto which = known_cycle_of(motion)) return which;
     for (const double nearness : {1e-6, 1e-3}) {
-      const auto found = closed_cycle(motion, seen, nearness);
+      const auto found = closed_cycle(motion, nearness);
       if (!found) continue;
       const std::size_t which = place_of(*found);
       if (found->stability != Stability::unstable) return which;
@@ -429,24 +437,38 @@ class Search {
     return std::nullopt;
   }
 
-  std::optional<FoundCycle> closed_cycle(const Trajectory& motion, const std::vector<Sample>& seen,
-                                         double nearness) const {
+  std::optional<FoundCycle> closed_cycle(const Trajectory& motion, double nearness) const {
     constexpr double largest_residual = 1e-9;
     const auto orbit = closed(motion, nearness);
     if (!orbit || !(orbit->residual < largest_residual)) return std::nullopt;
     const FoundCycle cycle = measured(setting_, shortest(*orbit));
-    Range lately;
-    for (const Sample& sample : seen) {
-      if (sample.time >= motion.end_time() - 1.01 * cycle.period()) lately.include(sample.value);
-    }
-    constexpr double share = 0.02;
     constexpr double least = 1e-9;  // of the smallest length: below is rest
-    if (!(cycle.size > least * setting_.small_length)) return std::nullopt;
-    if (!agree(0.5 * lately.width(), cycle.size, cycle.size, share) ||
-        !agree(lately.middle(), cycle.center, cycle.size, share)) {
-      return std::nullopt;
+    if (!(extent_of(cycle) > least * setting_.small_length)) return std::nullopt;
+    const Range load = lately(motion, setting_.load, cycle.period());
+    const Range motor = lately(motion, setting_.motor, cycle.period());
+    const auto is_as = [&](double seen, double wanted) {
+      constexpr double share = 0.02;
+      return agree(seen, wanted, extent_of(cycle), share);
+    };
+    const bool is_on_it = is_as(0.5 * load.width(), cycle.size) &&
+                          is_as(0.5 * motor.width(), cycle.motor_size) &&
+                          is_as(load.middle(), cycle.center);
+    return is_on_it ? std::optional(cycle) : std::nullopt;
+  }
+
+  /// The load may stand while the motor hunts within the gap.
+  static double extent_of(const FoundCycle& cycle) {
+    return std::max(cycle.size, cycle.motor_size);
+  }
+
+  /// Over a little more than the last period of a motion.
+  Range lately(const Trajectory& motion, const Watched& watched, double period) const {
+    Range range;
+    for (const Sample& sample :
+         samples(setting_.system, motion, watched, 0.05 * setting_.swing_time)) {
+      if (sample.time >= motion.end_time() - 1.01 * period) range.include(sample.value);
     }
-    return cycle;
+    return range;
   }
 
   /// Among those that are known, or as a new one.
@@ -469,11 +491,12 @@ class Search {
     if (cycle.stability == Stability::neutral) return agree(known.period(), period, period, 1e-6);
     constexpr double same = 1e-8;
     if (!agree(known.period(), period, period, same) ||
-        !agree(known.size, cycle.size, cycle.size, same)) {
+        !agree(known.size, cycle.size, extent_of(cycle), same) ||
+        !agree(known.motor_size, cycle.motor_size, extent_of(cycle), same)) {
       return false;
     }
-    if (agree(known.center, cycle.center, cycle.size, same)) return true;
-    const bool is_image = agree(known.center, -cycle.center, cycle.size, same);
+    if (agree(known.center, cycle.center, extent_of(cycle), same)) return true;
+    const bool is_image = agree(known.center, -cycle.center, extent_of(cycle), same);
     known.has_mirror_image = known.has_mirror_image || is_image;
     return is_image;
   }
@@ -489,8 +512,10 @@ class Search {
     const std::vector<Sample> turns = extremes(last);
     constexpr std::size_t enough = 8;
     if (setting_.coordinates != Coordinates::in_place && turns.size() < enough) {
+      const bool motor_swings = extremes(watch.motor).size() >= enough;
       verdict.reason = watch.events >= options_.most_events ? "as many events as were permitted"
-                                                            : "still on its way at the end";
+                       : motor_swings ? "the motor still swings while the load hardly does"
+                                      : "still on its way at the end";
       return;
     }
     if (is_small(turns)) {
@@ -575,7 +600,7 @@ class Search {
     rest.error.include(-load);
     rest.motor.include(setting_.motor.value.at(verdict.last));
     ++rest.starts;
-    if (!(rest.swing_ratio >= verdict.swing_ratio)) rest.swing_ratio = verdict.swing_ratio;
+    rest.swing_ratio = std::fmax(rest.swing_ratio, verdict.swing_ratio);  // the other of a NaN
   }
 
   /// Stable ones first, by falling size; in numbers without scale.
@@ -664,12 +689,13 @@ class Search {
                    {.until = setting_.between_ticks(time * setting_.swing_time),
                     .event_limit = options_.most_events});
       if (motion.stop_reason() != StopReason::reached_end) return std::nullopt;
-      const auto seen = samples(setting_.system, motion, setting_.load, 0.05 * setting_.swing_time);
-      const auto found = closed_cycle(motion, seen, near);
+      const auto found = closed_cycle(motion, near);
       if (found && found->stability == Stability::unstable) return place_of(*found);
     }
     return std::nullopt;
   }
+
+  static constexpr double settlings = 30.0;  // e⁻³⁰ is some 1e-13
 
   const AttractorOptions& options_;
   SearchSetting unscaled_;

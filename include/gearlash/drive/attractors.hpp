@@ -42,7 +42,8 @@ struct Extent {
 struct FoundCycle {
   hybrid::PeriodicOrbit orbit;  ///< of AttractorSearch::system; with residual and all multipliers
   Stability stability = Stability::unstable;
-  double size = 0.0;        ///< rad, half the peak-to-peak of the load
+  double size = 0.0;        ///< rad, half the peak-to-peak of the load; 0 where the motor hunts
+                            ///< within the gap and the load stands
   double motor_size = 0.0;  ///< rad, of the motor
   double center = 0.0;      ///< rad, mean of the load's extremes, from the reference
   /// rad, of all that count as this one: mirror images, and neutral cycles of one period, which are
