@@ -85,7 +85,7 @@ coverage:  ## the share of lines that the tests run
 	gcovr --root . --filter include --filter src --filter apps build/coverage
 
 readme: tool  ## renew the output and the pictures in README.md
-	@$(BUILD) release --target hybrid_examples
+	@$(BUILD) release --target hybrid_examples --target drive_examples
 	scripts/readme
 
 format:  ## lay out all C++ as .clang-format says
