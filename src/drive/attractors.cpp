@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <set>
 
@@ -83,6 +84,13 @@ double mismatch_after(const SearchSetting& setting, const PeriodicOrbit& orbit, 
 }
 
 constexpr double recurrent = 1e-7;
+
+bool is_prime(int number) {
+  for (int factor = 2; factor * factor <= number; ++factor) {
+    if (number % factor == 0) return false;
+  }
+  return true;
+}
 
 /// An orbit that goes round a cycle some times, as going round it once. Multipliers are then known
 /// by their moduli.
@@ -287,19 +295,28 @@ class Search {
       return true;
     }
     // What settles as the linear loop does is awaited.
-    if (watch.time > std::min(result_.watch_time, settlings * setting_.settling_time)) {
+    constexpr double small = 0.1;
+    const bool is_small_by_now =
+        lately(motion, setting_.load, motion.end_time() - motion.start_time()).width() <
+        small * setting_.small_length;
+    const double awaited = std::min(result_.watch_time, settlings * setting_.settling_time);
+    if (is_small_by_now && watch.time > awaited) {
       if (const auto ratio = ratio_of_vanishing(turns_of(watch))) {
         verdict.end = MotionEnd::rest;
         verdict.swing_ratio = *ratio;
         return true;
       }
     }
-    if (const auto which = cycle_of(motion)) {
-      verdict.end = MotionEnd::cycle;
-      verdict.which = *which;
-      return true;
-    }
-    return false;
+    return is_on_cycle(motion, {1e-6, 1e-3}, verdict);
+  }
+
+  bool is_on_cycle(const Trajectory& motion, std::initializer_list<double> nearness,
+                   Verdict& verdict) {
+    const auto which = cycle_of(motion, nearness);
+    if (!which) return false;
+    verdict.end = MotionEnd::cycle;
+    verdict.which = *which;
+    return true;
   }
 
   bool has_run_away(const Trajectory& motion) const {
@@ -393,7 +410,8 @@ class Search {
 
   /// The cycle itself, where an orbit goes round it several times.
   PeriodicOrbit shortest(const PeriodicOrbit& orbit) const {
-    for (const int times : {2, 3, 5, 7}) {
+    for (int times = 2; times < 100; ++times) {
+      if (!is_prime(times)) continue;
       const double mismatch = mismatch_after(setting_, orbit, 1.0 / times, 1.0);
       if (!(mismatch < recurrent)) continue;
       constexpr double near = 1e-6;
@@ -407,9 +425,10 @@ class Search {
   }
 
   /// The one that the end of a motion is on: it is not left again, and as large as what was seen.
-  std::optional<std::size_t> cycle_of(const Trajectory& motion) {
+  std::optional<std::size_t> cycle_of(const Trajectory& motion,
+                                      std::initializer_list<double> all_nearness) {
     if (const auto which = known_cycle_of(motion)) return which;
-    for (const double nearness : {1e-6, 1e-3}) {
+    for (const double nearness : all_nearness) {
       const auto found = closed_cycle(motion, nearness);
       if (!found) continue;
       const std::size_t which = place_of(*found);
@@ -504,6 +523,9 @@ class Search {
   // ---- motion that does not close ---------------------------------------------------------------
 
   void give_up(const Watch& watch, const Trajectory& motion, Verdict& verdict) {
+    // A motion that is slow to come onto its cycle.
+    const bool may_close = setting_.coordinates != Coordinates::in_place;
+    if (may_close && is_on_cycle(motion, {1e-2}, verdict)) return;
     const double from = motion.start_time();
     std::vector<Sample> last;
     for (const Sample& sample : watch.load) {
