@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,24 @@ struct SimulationOptions {
   std::size_t event_limit = 1'000'000;  ///< the motion stops just after so many
 };
 
+class Preparation;  // how modes are kept ready
+class Trajectory;
+
+/// A system made ready for many motions: its faults are looked for once, and a mode's series are
+/// worked out when it is first entered, and kept. Copies share them. May be used by several threads
+/// at a time.
+class PreparedSystem {
+ public:
+  /// Throws std::invalid_argument with all faults of the system.
+  explicit PreparedSystem(HybridSystem system);
+  const HybridSystem& system() const;
+
+ private:
+  friend Trajectory simulate(const PreparedSystem& system, const State& start,
+                             const SimulationOptions& options);
+  std::shared_ptr<const Preparation> preparation_;
+};
+
 class Trajectory {
  public:
   double start_time() const { return start_time_; }
@@ -73,10 +92,12 @@ class Trajectory {
   friend class Simulation;
   struct Step {
     double time;
-    State start;
+    std::size_t mode;
+    bool is_slow;  ///< fast decays are over
   };
-  std::vector<AffineFlow> flows_;
+  std::shared_ptr<const Preparation> preparation_;
   std::vector<Step> steps_;
+  std::vector<double> starts_;  ///< of the steps: all numbers of one after those of another
   std::vector<Event> events_;
   std::vector<Touch> touches_;
   double start_time_ = 0.0;
@@ -102,6 +123,9 @@ class Trajectory {
 /// Throws std::invalid_argument with all faults of the system, of the start (a mode, finite numbers
 /// of the right count) and of the options (from ≤ until, finite).
 Trajectory simulate(const HybridSystem& system, const State& start,
+                    const SimulationOptions& options);
+/// The same; only faults of the start and of the options are looked for.
+Trajectory simulate(const PreparedSystem& system, const State& start,
                     const SimulationOptions& options);
 
 }  // namespace gearlash::hybrid
