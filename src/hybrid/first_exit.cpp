@@ -134,6 +134,7 @@ class Search {
       : power_(in_fours(power)), uncertainty_(uncertainty) {}
 
   FirstExit run(std::span<const double> power) {
+    if (const auto fall = single_fall(power)) return {*fall, std::nullopt};
     Stretch whole{0.0, 1.0, bernstein_of(power)};
     if (never_negative(whole.coefficients)) {
       note_touch(whole);
@@ -197,6 +198,35 @@ class Search {
     if (*lowest > uncertainty_ || place == 0.0 || place == 1.0) return;
     const double least = lowest_near(place);
     if (is_zero(least)) found_.touch = least;
+  }
+
+  /// The zero of p where its first terms q tell that there is one alone. The others are less than
+  /// E altogether; where q falls from above E to below −E and, by Bernstein's coefficients, has one
+  /// zero with either of them added, p's zeros are between those two. At one of them, x, with
+  /// slope −D and |p″| ≤ M, p falls all the way from x − 4E/D to x + 4E/D where 4E M/D ≤ D/2, and
+  /// is beyond ±2E there: it has no other.
+  std::optional<double> single_fall(std::span<const double> power) const {
+    constexpr std::size_t few = 12;
+    if (power.size() < few + 4) return std::nullopt;
+    double others = uncertainty_;
+    for (std::size_t k = few; k < power_.size(); ++k) others += std::abs(power_[k]);
+    const Stretch coarse{0.0, 1.0, bernstein_of(power.first(few))};
+    const auto& values = coarse.coefficients;
+    std::size_t positive = 0;
+    while (positive < few && values[positive] > others) ++positive;
+    if (positive == 0) return std::nullopt;
+    for (std::size_t j = positive; j < few; ++j) {
+      if (!(values[j] < -others)) return std::nullopt;
+    }
+    if (positive == few) return std::nullopt;
+    const auto root = newtons_root(coarse);
+    if (!root) return std::nullopt;
+    double curvature = 0.0;
+    for (std::size_t k = 2; k < power_.size(); ++k) {
+      curvature += static_cast<double>(k * (k - 1)) * std::abs(power_[k]);
+    }
+    const double slope = value_at(derivative_of(power_), *root);
+    return slope < 0.0 && 8.0 * others * curvature <= slope * slope ? root : std::nullopt;
   }
 
   /// Where p is least, by Newton's method on p′; the place itself where that leads away.
@@ -265,6 +295,15 @@ class Search {
 };
 
 }  // namespace
+
+bool stays_positive(std::span<const double> coefficients, double uncertainty) {
+  double lowest = coefficients.empty() ? 0.0 : coefficients[0];
+  for (std::size_t k = 1; k < coefficients.size(); ++k) lowest += std::min(0.0, coefficients[k]);
+  if (lowest > uncertainty) return true;
+  const Coefficients values = bernstein_of(coefficients);
+  return std::all_of(values.begin(), values.end(),
+                     [uncertainty](double value) { return value > uncertainty; });
+}
 
 FirstExit first_exit(std::span<const double> coefficients, double uncertainty) {
   double lowest = coefficients.empty() ? 0.0 : coefficients[0];

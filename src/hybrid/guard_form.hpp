@@ -36,6 +36,9 @@ class GuardTable {
   double reach(const Velocity& velocity, double share) const;
   /// What rounding and the remainder may add to all coefficients from order `first` ≥ 1 on.
   double uncertainty(const Velocity& velocity, double share, int first, int last) const;
+  /// An upper bound of all coefficients beyond the first few orders, `few_orders`.
+  double beyond_few(const Velocity& velocity, double share) const;
+  int few_orders() const { return static_cast<int>(few_); }
   /// What rounding may add to the coefficient of an order.
   double uncertainty_of(const Velocity& velocity, double share, int order) const;
   /// Of orders 1 to `last`, to coefficients[1], …
@@ -47,9 +50,11 @@ class GuardTable {
   std::size_t count_;
   std::size_t orders_;
   bool is_polynomial_;
-  std::vector<double> rows_;         ///< by velocities, then by orders
-  std::vector<double> sizes_;        ///< likewise
+  std::vector<double> rows_;   ///< by velocities, then by orders
+  std::vector<double> sizes_;  ///< likewise
+  std::size_t few_;
   std::vector<double> reach_;        ///< Σ of sizes, by velocities
+  std::vector<double> beyond_;       ///< likewise, beyond the first few orders
   std::vector<std::size_t> acting_;  ///< the velocities that are in it
   double weight_ = 0.0;
 };

@@ -144,34 +144,40 @@ class Simulation {
     }
     coefficients_.resize(static_cast<std::size_t>(order_) + 1);
     coefficients_[0] = value;
-    table.coefficients(velocity_, table_share_, order_, coefficients_.data());
-    const int first = first_that_counts(table, unknown);
-    if (first > order_) return {};  // on it, and stays there
-    const bool is_positive = coefficients_[static_cast<std::size_t>(first)] > 0.0;
-    if (sign == 0.0) {
-      sign = is_positive ? 1.0 : -1.0;
-    } else if (is_positive != (sign > 0.0)) {
-      return {0.0, std::nullopt};
+    const int few = std::min(order_, table.few_orders());
+    for (const int last : {few, order_}) {
+      table.coefficients(velocity_, table_share_, last, coefficients_.data());
+      coefficients_[0] = value;
+      const int first = first_that_counts(table, unknown, last);
+      if (first > last) continue;  // as far as it goes on it
+      const bool is_positive = coefficients_[static_cast<std::size_t>(first)] > 0.0;
+      if (sign == 0.0) sign = is_positive ? 1.0 : -1.0;
+      if (is_positive != (sign > 0.0)) return {0.0, std::nullopt};
+      const auto series =
+          std::span(coefficients_)
+              .subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first + 1));
+      if (sign < 0.0) {
+        for (double& coefficient : series) coefficient = -coefficient;
+      }
+      const double uncertainty =
+          table.uncertainty(velocity_, table_share_, std::max(first, 1), order_) + remainder +
+          (first == 0 ? unknown : 0.0);
+      if (last == order_) return first_exit(series, uncertainty);
+      const double beyond = table.beyond_few(velocity_, table_share_);
+      if (stays_positive(series, uncertainty + beyond)) return {};
     }
-    if (sign < 0.0) {
-      for (double& coefficient : coefficients_) coefficient = -coefficient;
-    }
-    const double uncertainty =
-        table.uncertainty(velocity_, table_share_, std::max(first, 1), order_) + remainder +
-        (first == 0 ? unknown : 0.0);
-    return first_exit(std::span(coefficients_).subspan(static_cast<std::size_t>(first)),
-                      uncertainty);
+    return {};
   }
 
   /// The order of the first derivative that is not 0, as far as can be told; beyond the last
   /// where there is none. A start on the guard's zero is divided out by it.
-  int first_that_counts(const GuardTable& table, double unknown) const {
+  int first_that_counts(const GuardTable& table, double unknown, int last) const {
     if (std::abs(coefficients_[0]) > unknown) return 0;
-    for (int order = 1; order <= order_; ++order) {
+    for (int order = 1; order <= last; ++order) {
       const double size = std::abs(coefficients_[static_cast<std::size_t>(order)]);
       if (size > table.uncertainty_of(velocity_, table_share_, order)) return order;
     }
-    return order_ + 1;
+    return last + 1;
   }
 
   // ---- steps and events -------------------------------------------------------------------------

@@ -26,4 +26,7 @@ struct FirstExit {
 /// Missed are only excursions that p makes to less than `uncertainty` below 0: those are touches.
 FirstExit first_exit(std::span<const double> coefficients, double uncertainty);
 
+/// Whether p is certain to be above `uncertainty` on [0, 1]: its Bernstein coefficients are.
+bool stays_positive(std::span<const double> coefficients, double uncertainty);
+
 }  // namespace gearlash::hybrid
