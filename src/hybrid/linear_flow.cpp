@@ -198,11 +198,13 @@ void LinearFlow::velocity_at(const double* state, const double* noise, Velocity&
 
 void LinearFlow::next_term(const double* here, double length, int order, double* next) const {
   const double factor = length / order;
-  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+  const std::size_t size = numbers_.size();
+  const std::size_t* ends = rows_.data() + 1;
+  const Entry* entry = entries_.data();
+  std::size_t e = 0;
+  for (std::size_t i = 0; i < size; ++i) {
     double value = 0.0;
-    for (std::size_t e = rows_[i]; e < rows_[i + 1]; ++e) {
-      value += entries_[e].factor * here[entries_[e].column];
-    }
+    for (; e < ends[i]; ++e, ++entry) value += entry->factor * here[entry->column];
     next[i] = factor * value;
   }
 }

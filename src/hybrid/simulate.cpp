@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <stdexcept>
 
@@ -51,6 +52,10 @@ class Simulation {
         state_(start),
         time_(options.from) {
     trajectory_.preparation_ = std::move(preparation);
+    constexpr std::size_t some = 16;
+    trajectory_.events_.reserve(some);
+    trajectory_.steps_.reserve(2 * some);
+    trajectory_.starts_.reserve(2 * some * static_cast<std::size_t>(system_.size()));
     for (const Clock& clock : system_.clocks) ticks_.push_back(first_tick(clock, options.from));
     trajectory_.start_time_ = options.from;
     trajectory_.end_time_ = options.from;
@@ -80,9 +85,7 @@ class Simulation {
 
   /// The first one not before a time.
   static Tick first_tick(const Clock& clock, double from) {
-    Tick tick{clock.period > 0.0    ? clock.first
-              : clock.times.empty() ? (clock.first > 0.0 ? clock.first : infinity)
-                                    : clock.times.front()};
+    Tick tick{clock.period > 0.0 ? clock.first : clock.times.front()};
     if (clock.period > 0.0 && tick.time < from) {
       tick.count = static_cast<std::size_t>((from - clock.first) / clock.period);
       tick.time = clock.first + static_cast<double>(tick.count) * clock.period;
@@ -163,8 +166,9 @@ class Simulation {
           table.uncertainty(velocity_, table_share_, std::max(first, 1), order_) + remainder +
           (first == 0 ? unknown : 0.0);
       if (last == order_) return first_exit(series, uncertainty);
-      const double beyond = table.beyond_few(velocity_, table_share_);
-      if (stays_positive(series, uncertainty + beyond)) return {};
+      const double open = uncertainty + table.beyond_few(velocity_, table_share_);
+      const double end = std::accumulate(series.begin(), series.end(), 0.0);
+      if (end > open && stays_positive(series, open)) return {};
     }
     return {};
   }
@@ -219,12 +223,27 @@ class Simulation {
   /// Fast decays are looked for once they have cost some steps.
   void choose_flow() {
     constexpr int patience = 8;
-    largest_ = largest_.cwiseMax(state_.numbers.cwiseAbs());
     if (slow_ != nullptr || ++steps_in_mode_ <= patience) return;
     const PreparedMode::Slow* slow = mode_->slow();
-    if (slow == nullptr || !slow->decays.are_over(state_.numbers, largest_)) return;
+    if (slow == nullptr || !slow->decays.are_over(state_.numbers, largest_in_mode())) return;
     slow_ = slow;
     flow_ = &slow->flow;
+  }
+
+  /// Each number's largest size since the mode was entered, at the starts of steps.
+  const Vector& largest_in_mode() {
+    if (steps_in_largest_ == 0) largest_ = Vector::Zero(state_.numbers.size());
+    const std::vector<double>& starts = trajectory_.starts_;
+    const auto size = static_cast<std::size_t>(state_.numbers.size());
+    for (; steps_in_largest_ + 1 < steps_in_mode_; ++steps_in_largest_) {
+      const auto ago = static_cast<std::size_t>(steps_in_mode_ - 1 - steps_in_largest_);
+      if (ago * size > starts.size()) continue;
+      const Eigen::Map<const Vector> start(starts.data() + starts.size() - ago * size,
+                                           state_.numbers.size());
+      largest_ = largest_.cwiseMax(start.cwiseAbs());
+    }
+    largest_ = largest_.cwiseMax(state_.numbers.cwiseAbs());
+    return largest_;
   }
 
   double longest_step() {
@@ -332,7 +351,7 @@ class Simulation {
     flow_ = &mode_->whole;
     slow_ = nullptr;
     steps_in_mode_ = 0;
-    largest_ = Vector::Zero(state_.numbers.size());
+    steps_in_largest_ = 0;
     const std::vector<Transition>& transitions = system_.modes[state_.mode].transitions;
     signs_.resize(transitions.size());
     for (std::size_t i = 0; i < transitions.size(); ++i) {
@@ -459,6 +478,7 @@ class Simulation {
   const PreparedFlow* flow_ = nullptr;        ///< of the step
   const PreparedMode::Slow* slow_ = nullptr;  ///< where that is the slow one
   int steps_in_mode_ = 0;
+  int steps_in_largest_ = 0;
   State state_;
   double time_;
   Vector noise_;               ///< what rounding has left unknown of each number, on the last step

@@ -42,11 +42,11 @@ struct Touch {
 enum class StopReason {
   reached_end,
   event_limit,  ///< as many events as were asked for
-  zeno,         ///< ever faster firings of one transition, without a Settling, have no end before
-                ///< `end_time`
-  chattering,   ///< more events at one instant than there are ways through the modes; culprit() has
-                ///< the transition
-  diverged      ///< numbers beyond 1e150
+  zeno,        ///< ever faster events, without a Settling, have no end before `end_time`: culprit()
+               ///< has the last one
+  chattering,  ///< more events at one instant than there are ways through the modes; culprit() has
+               ///< the transition
+  diverged     ///< numbers beyond 1e150
 };
 
 struct SimulationOptions {
@@ -115,10 +115,11 @@ class Trajectory {
 /// of the terms that it is a sum of; they are listed as touches. A number that the flow makes small
 /// by cancellation is known to some 1e-15 of what it is made of.
 ///
-/// Firings of one transition alone whose intervals shrink by a steady ratio ρ have the limit
-/// d ρ/(1 − ρ) after the last, d the last interval. Where what is left is some 1e-10 of the mode's
-/// own time, they end there, by the transition's Settling; without one the motion has no end beyond
-/// that time, and stops when the intervals are too short to be told apart (StopReason::zeno).
+/// Firings of one transition alone, or up to four in turn, whose intervals (from turn to turn)
+/// shrink by a steady ratio ρ have the limit d ρ/(1 − ρ) after the last, d the last interval. Where
+/// what is left is some 1e-10 of the mode's own time (or of the first interval, if longer), they
+/// end there, by the Settling of the last transition; without one the motion has no end beyond that
+/// time, and stops when the intervals are too short to be told apart (StopReason::zeno).
 ///
 /// Throws std::invalid_argument with all faults of the system, of the start (a mode, finite numbers
 /// of the right count) and of the options (from ≤ until, finite).
