@@ -29,7 +29,7 @@ class Coefficients {
 
  private:
   std::size_t size_;
-  std::array<double, 32> few_;
+  std::array<double, 36> few_;
   std::vector<double> many_;
 };
 

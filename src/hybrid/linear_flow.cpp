@@ -7,7 +7,7 @@
 namespace gearlash::hybrid {
 namespace {
 
-constexpr int highest_order = 30;
+constexpr int highest_order = 36;
 
 /// With how many rates each order leaves out little enough.
 std::array<double, highest_order + 1> permitted_rates() {

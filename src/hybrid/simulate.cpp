@@ -396,6 +396,9 @@ class Simulation {
     return events[last].time - events[last - turn].time;
   }
 
+  /// How many whole turns of the sequence the last one follows. Precondition: it has recurred.
+  std::size_t turns_before(std::size_t turn) const { return (recurrences_[turn - 1] - 1) / turn; }
+
   /// The shortest turn of events that has recurred often enough, or 0.
   std::size_t recurring_turn(std::size_t enough) const {
     for (std::size_t turn = 1; turn <= longest_turn; ++turn) {
@@ -429,7 +432,7 @@ class Simulation {
   /// What is short beside it is short: the mode's own time, or how long the first turn took.
   double own_time(std::size_t mode, std::size_t turn) const {
     const double rate = preparation_.mode(mode).whole.flow.rate();
-    const double first = duration(turn, recurrences_[turn - 1] / turn);
+    const double first = duration(turn, turns_before(turn));
     return rate > 0.0 ? std::max(first, 1.0 / rate) : first;
   }
 
@@ -438,7 +441,7 @@ class Simulation {
   bool has_come_ever_faster() const {
     const std::size_t turn = recurring_turn(4);
     if (turn == 0) return false;
-    const std::size_t turns = recurrences_[turn - 1] / turn;
+    const std::size_t turns = turns_before(turn);
     std::size_t shorter = 0;
     for (std::size_t ago = 0; ago < turns; ++ago) {
       if (duration(turn, ago) == 0.0) continue;
