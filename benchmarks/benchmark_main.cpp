@@ -1,7 +1,7 @@
 // Gearlash beside Boost.odeint and SUNDIALS CVODE: every contestant does the same problems in this
 // one process, its answers are checked against ours, and the table of ratios is printed at the end;
 // then many servos at once, how far that is from what the machine can do, and how it scales; a map
-// from command to file; charts for programs; and what must change.
+// from command to file; charts for programs; what must change; and the engine for hybrid systems.
 // Options are Google Benchmark's; the tables go to standard output in Markdown, the rest to
 // standard error.
 
@@ -19,6 +19,7 @@
 #include "fastest_times.hpp"
 #include "floor.hpp"
 #include "grid_race.hpp"
+#include "hybrid_race.hpp"
 #include "kernel_alone.hpp"
 #include "map_to_file.hpp"
 #include "scaling.hpp"
@@ -143,7 +144,7 @@ int main(int argc, char** argv) {
   const std::vector<Race> races = all_races();
   const std::vector<ReportPart> parts = {
       enter_grid_race(),   enter_floor(),         enter_kernel_alone(), enter_scaling(),
-      enter_map_to_file(), enter_chart_lookups(), enter_design_race()};
+      enter_map_to_file(), enter_chart_lookups(), enter_design_race(),  enter_hybrid_race()};
   FastestTimes times;
   benchmark::RunSpecifiedBenchmarks(&times);
   std::printf(

@@ -78,6 +78,7 @@ class Inspection {
     if (!std::isfinite(clock.first) || !std::isfinite(clock.period) || clock.period < 0.0) {
       note(where, "must have a finite first tick and a period of at least 0");
     }
+    if (clock.period == 0.0 && clock.times.empty()) note(where, "must have a period or times");
     if (clock.period > 0.0 && !clock.times.empty()) {
       note(where, "must have a period or times, not both");
     }

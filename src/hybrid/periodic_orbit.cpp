@@ -30,6 +30,45 @@ double middle_of_longest(const std::vector<Event>& events, std::size_t first, st
 
 }  // namespace
 
+namespace {
+
+/// Whether an orbit repeats itself after so many events: a divisor of their number.
+bool repeats_after(const PeriodicOrbit& orbit, std::size_t count) {
+  constexpr double alike = 1e-9;
+  const std::vector<Event>& events = orbit.events;
+  const double turn =
+      orbit.period * static_cast<double>(count) / static_cast<double>(events.size());
+  double scale = 0.0;
+  for (const Event& event : events) scale = std::max(scale, size_of(event.after));
+  for (std::size_t i = 0; i + count < events.size(); ++i) {
+    const Event& now = events[i];
+    const Event& later = events[i + count];
+    const bool is_alike = is_same_event(now, later) &&
+                          std::abs(later.time - now.time - turn) <= alike * orbit.period &&
+                          size_of(later.after - now.after) <= alike * scale;
+    if (!is_alike) return false;
+  }
+  return true;
+}
+
+/// Once around, where the orbit found goes around several times.
+PeriodicOrbit once_around(const HybridSystem& system, PeriodicOrbit orbit,
+                          const ShootingOptions& options) {
+  const std::size_t all = orbit.events.size();
+  for (std::size_t count = 1; 2 * count <= all; ++count) {
+    if (all % count != 0 || !repeats_after(orbit, count)) continue;
+    const double turn = orbit.period * static_cast<double>(count) / static_cast<double>(all);
+    auto shooting =
+        Shooting::about(system, orbit.start, orbit.start_time, turn, count, options.phases);
+    if (!shooting) continue;
+    auto shorter = solved_by_newton(*shooting, options.most_steps);
+    if (shorter) return *shorter;
+  }
+  return orbit;
+}
+
+}  // namespace
+
 bool PeriodicOrbit::is_stable() const {
   return std::all_of(multipliers.begin(), multipliers.end(),
                      [](const auto& multiplier) { return std::abs(multiplier) < 1.0; });
@@ -56,7 +95,7 @@ std::optional<PeriodicOrbit> closing_orbit(const HybridSystem& system, const Tra
                                     options.phases);
     if (!shooting) continue;
     auto orbit = solved_by_newton(*shooting, options.most_steps);
-    if (orbit) return orbit;
+    if (orbit) return once_around(system, std::move(*orbit), options);
   }
   return std::nullopt;
 }

@@ -312,6 +312,8 @@ PeriodicOrbit Shooting::orbit(const Equations& solved) const {
   orbit.multipliers.assign(values.begin(), values.end());
   std::sort(orbit.multipliers.begin(), orbit.multipliers.end(),
             [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
+  // From plane to plane a shift in time counts as 0.
+  if (!is_forced && !orbit.multipliers.empty()) orbit.multipliers.pop_back();
   return orbit;
 }
 

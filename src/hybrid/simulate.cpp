@@ -1,65 +1,20 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <span>
 #include <stdexcept>
 
 #include "gearlash/hybrid/first_exit.hpp"
 #include "gearlash/hybrid/hybrid_trajectory.hpp"
-#include "prepared_flow.hpp"
+#include "preparation.hpp"
 
 namespace gearlash::hybrid {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-/// Rounding of a sum of products, as a share of the sum of their sizes.
-constexpr double rounding = 16.0 * epsilon;
-
-/// A guard as a sum over those numbers of the state that are in it, positive on its side.
-struct PreparedGuard {
-  struct Term {
-    int number;
-    double factor;
-  };
-  std::vector<Term> terms;
-  double offset = 0.0;
-  Direction direction = Direction::falling;
-
-  explicit PreparedGuard(const Transition& transition) : direction(transition.direction) {
-    const double sign = direction == Direction::rising ? -1.0 : 1.0;
-    const AffineForm& guard = transition.guard;
-    for (int i = 0; i < static_cast<int>(guard.normal.size()); ++i) {
-      if (guard.normal[i] != 0.0) terms.push_back({i, sign * guard.normal[i]});
-    }
-    offset = sign * guard.offset;
-  }
-};
-
-struct PreparedMode {
-  PreparedFlow flow;
-  std::vector<PreparedGuard> guards;
-
-  explicit PreparedMode(const Mode& mode) : flow(mode.flow) {
-    for (const Transition& transition : mode.transitions) guards.emplace_back(transition);
-  }
-};
-
-/// A guard over a step, and what rounding and the remainder may add to it.
-struct GuardSeries {
-  std::vector<double> coefficients;
-  std::vector<double> uncertainties;  ///< of each, by rounding
-  double remainder = 0.0;
-};
-
-/// Where a guard is as a step begins.
-enum class Side { inside, outside, on_it };
-
-/// A guard's side at the start, and the series that is left when a start on its zero is divided
-/// out.
-struct Start {
-  Side side = Side::inside;
-  std::size_t order = 0;  ///< of the first derivative that is not 0
-};
 
 void require(const std::vector<std::string>& all) {
   if (all.empty()) return;
@@ -70,7 +25,7 @@ void require(const std::vector<std::string>& all) {
 
 std::vector<std::string> faults_of(const HybridSystem& system, const State& start,
                                    const SimulationOptions& options) {
-  std::vector<std::string> all = faults(system);
+  std::vector<std::string> all;
   if (start.mode >= system.modes.size()) {
     all.push_back("start.mode: is " + std::to_string(start.mode) + ", must be one of " +
                   std::to_string(system.modes.size()) + " modes, from 0 on");
@@ -89,16 +44,22 @@ std::vector<std::string> faults_of(const HybridSystem& system, const State& star
 
 class Simulation {
  public:
-  Simulation(const HybridSystem& system, const State& start, const SimulationOptions& options)
-      : system_(system), options_(options), state_(start), time_(options.from) {
-    for (const Mode& mode : system.modes) {
-      modes_.emplace_back(mode);
-      trajectory_.flows_.push_back(mode.flow);
-    }
-    for (const Clock& clock : system.clocks) ticks_.push_back(first_tick(clock, options.from));
+  Simulation(std::shared_ptr<const Preparation> preparation, const State& start,
+             const SimulationOptions& options)
+      : preparation_(*preparation),
+        system_(preparation_.system()),
+        options_(options),
+        state_(start),
+        time_(options.from) {
+    trajectory_.preparation_ = std::move(preparation);
+    constexpr std::size_t some = 16;
+    trajectory_.events_.reserve(some);
+    trajectory_.steps_.reserve(2 * some);
+    trajectory_.starts_.reserve(2 * some * static_cast<std::size_t>(system_.size()));
+    for (const Clock& clock : system_.clocks) ticks_.push_back(first_tick(clock, options.from));
     trajectory_.start_time_ = options.from;
     trajectory_.end_time_ = options.from;
-    noise_ = rounding * state_.numbers.cwiseAbs();
+    noise_ = sum_rounding * state_.numbers.cwiseAbs();
     enter_mode();
   }
 
@@ -124,9 +85,7 @@ class Simulation {
 
   /// The first one not before a time.
   static Tick first_tick(const Clock& clock, double from) {
-    Tick tick{clock.period > 0.0    ? clock.first
-              : clock.times.empty() ? (clock.first > 0.0 ? clock.first : infinity)
-                                    : clock.times.front()};
+    Tick tick{clock.period > 0.0 ? clock.first : clock.times.front()};
     if (clock.period > 0.0 && tick.time < from) {
       tick.count = static_cast<std::size_t>((from - clock.first) / clock.period);
       tick.time = clock.first + static_cast<double>(tick.count) * clock.period;
@@ -162,8 +121,7 @@ class Simulation {
       const std::vector<TimedTransition>& timed = system_.modes[state_.mode].timed;
       for (std::size_t k = 0; k < timed.size(); ++k) {
         if (timed[k].clock != i) continue;
-        change(EventKind::timed, k, timed[k].reset, timed[k].target, timed[k].alternatives,
-               addition);
+        change(EventKind::timed, k, timed[k].reset, mode_->timed[k], timed[k].target, addition);
         break;
       }
       return true;
@@ -173,74 +131,72 @@ class Simulation {
 
   // ---- guards -----------------------------------------------------------------------------------
 
-  const PreparedMode& mode() const { return modes_[state_.mode]; }
-
-  GuardSeries series_of(const PreparedGuard& guard, double sign) const {
-    GuardSeries result;
-    const auto count = static_cast<std::size_t>(series_.order()) + 1;
-    result.coefficients.resize(count);
-    result.uncertainties.resize(count);
-    for (std::size_t k = 0; k < count; ++k) {
-      const double* term = series_.term(static_cast<int>(k));
-      double sum = k == 0 ? guard.offset : 0.0;
-      const double* term_rounding = series_.rounding(static_cast<int>(k));
-      double uncertainty = rounding * std::abs(sum);
-      for (const auto& [number, factor] : guard.terms) {
-        sum += factor * term[number];
-        uncertainty +=
-            std::abs(factor) * (rounding * std::abs(term[number]) + term_rounding[number]);
-      }
-      result.coefficients[k] = sign * sum;
-      result.uncertainties[k] = uncertainty;
-    }
-    for (const auto& [number, factor] : guard.terms) {
-      result.remainder += std::abs(factor) * series_.remainder() * flow_->weight(number);
-    }
-    return result;
-  }
-
-  static Start start_of(const GuardSeries& series) {
-    for (std::size_t k = 0; k < series.coefficients.size(); ++k) {
-      if (std::abs(series.coefficients[k]) <= series.uncertainties[k]) continue;
-      return {series.coefficients[k] > 0.0 ? Side::inside : Side::outside, k};
-    }
-    return {Side::on_it, 0};
-  }
-
   /// When a guard leaves its side within the step, as a share of it.
   FirstExit exit_of(std::size_t index) {
-    const PreparedGuard& guard = mode().guards[index];
+    const SparseForm& form = mode_->guards[index];
+    const GuardTable& table = flow_->guards[index];
     double& sign = signs_[index];
-    GuardSeries series = series_of(guard, sign == 0.0 ? 1.0 : sign);
-    const Start start = start_of(series);
-    if (start.side == Side::on_it) return {};
-    if (sign == 0.0) {  // either side: the one that it is on first is its own
-      sign = start.side == Side::inside ? 1.0 : -1.0;
-      if (sign < 0.0) series = series_of(guard, sign);
-    } else if (start.side == Side::outside) {
-      return {0.0, std::nullopt};
+    const double value = form.at(state_.numbers.data());
+    const double unknown = form.noise_at(state_.numbers.data(), noise_.data());
+    const double remainder = table.weight() * remainder_;
+    const double farthest = table.reach(velocity_, table_share_) + unknown + remainder;
+    if (sign * value > farthest) return {};
+    if (sign == 0.0 && std::abs(value) > farthest) {  // the side that it is on first is its own
+      sign = std::copysign(1.0, value);
+      return {};
     }
-    series.coefficients.erase(
-        series.coefficients.begin(),
-        series.coefficients.begin() + static_cast<std::ptrdiff_t>(start.order));
-    double uncertainty = series.remainder;
-    for (std::size_t k = start.order; k < series.uncertainties.size(); ++k) {
-      uncertainty += series.uncertainties[k];
+    coefficients_.resize(static_cast<std::size_t>(order_) + 1);
+    coefficients_[0] = value;
+    const int few = std::min(order_, table.few_orders());
+    for (const int last : {few, order_}) {
+      table.coefficients(velocity_, table_share_, last, coefficients_.data());
+      coefficients_[0] = value;
+      const int first = first_that_counts(table, unknown, last);
+      if (first > last) continue;  // as far as it goes on it
+      const bool is_positive = coefficients_[static_cast<std::size_t>(first)] > 0.0;
+      if (sign == 0.0) sign = is_positive ? 1.0 : -1.0;
+      if (is_positive != (sign > 0.0)) return {0.0, std::nullopt};
+      const auto series =
+          std::span(coefficients_)
+              .subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first + 1));
+      if (sign < 0.0) {
+        for (double& coefficient : series) coefficient = -coefficient;
+      }
+      const double uncertainty =
+          table.uncertainty(velocity_, table_share_, std::max(first, 1), order_) + remainder +
+          (first == 0 ? unknown : 0.0);
+      if (last == order_) return first_exit(series, uncertainty);
+      const double open = uncertainty + table.beyond_few(velocity_, table_share_);
+      const double end = std::accumulate(series.begin(), series.end(), 0.0);
+      if (end > open && stays_positive(series, open)) return {};
     }
-    return first_exit(series.coefficients, uncertainty);
+    return {};
+  }
+
+  /// The order of the first derivative that is not 0, as far as can be told; beyond the last
+  /// where there is none. A start on the guard's zero is divided out by it.
+  int first_that_counts(const GuardTable& table, double unknown, int last) const {
+    if (std::abs(coefficients_[0]) > unknown) return 0;
+    for (int order = 1; order <= last; ++order) {
+      const double size = std::abs(coefficients_[static_cast<std::size_t>(order)]);
+      if (size > table.uncertainty_of(velocity_, table_share_, order)) return order;
+    }
+    return last + 1;
   }
 
   // ---- steps and events -------------------------------------------------------------------------
 
   void step() {
-    flow_ = &mode().flow.from(state_.numbers);
+    choose_flow();
+    const LinearFlow& flow = flow_->flow;
     const double limit = std::min(options_.until, next_tick());
-    const double length = std::min(flow_->longest_step(), limit - time_);
-    flow_->expand(state_.numbers, noise_, length, series_);
+    flow.velocity_at(state_.numbers.data(), noise_.data(), velocity_);
+    const double length = std::min(longest_step(), limit - time_);
+    expand(length);
     double earliest = infinity;
     std::size_t which = 0;
     std::vector<Touch> touches;
-    for (std::size_t i = 0; i < mode().guards.size(); ++i) {
+    for (std::size_t i = 0; i < mode_->guards.size(); ++i) {
       const FirstExit exit = exit_of(i);
       if (exit.touch) touches.push_back({time_ + *exit.touch * length, state_.mode, i});
       if (!exit.at || !(*exit.at < earliest)) continue;
@@ -249,12 +205,12 @@ class Simulation {
     }
     const double share = std::min(earliest, 1.0);
     if (share > 0.0) {
-      trajectory_.steps_.push_back({time_, state_});
-      state_.numbers = mode().flow.corrected(*flow_, series_.at(share));
-      noise_ = rounding * series_.magnitude();
+      record_step();
+      advance(share * length, length);
       const double end = share < 1.0 || length < limit - time_ ? time_ + share * length : limit;
       if (!(end > time_) && earliest > 1.0) return stop(StopReason::zeno);
       time_ = end;
+      if (earliest <= 1.0) put_on_guard(which, share * length);
     }
     for (const Touch& touch : touches) {
       if (touch.time < time_) trajectory_.touches_.push_back(touch);
@@ -264,46 +220,145 @@ class Simulation {
     if (earliest <= 1.0) fire(which);
   }
 
+  /// Fast decays are looked for once they have cost some steps.
+  void choose_flow() {
+    constexpr int patience = 8;
+    if (slow_ != nullptr || ++steps_in_mode_ <= patience) return;
+    const PreparedMode::Slow* slow = mode_->slow();
+    if (slow == nullptr || !slow->decays.are_over(state_.numbers, largest_in_mode())) return;
+    slow_ = slow;
+    flow_ = &slow->flow;
+  }
+
+  /// Each number's largest size since the mode was entered, at the starts of steps.
+  const Vector& largest_in_mode() {
+    if (steps_in_largest_ == 0) largest_ = Vector::Zero(state_.numbers.size());
+    const std::vector<double>& starts = trajectory_.starts_;
+    const auto size = static_cast<std::size_t>(state_.numbers.size());
+    for (; steps_in_largest_ + 1 < steps_in_mode_; ++steps_in_largest_) {
+      const auto ago = static_cast<std::size_t>(steps_in_mode_ - 1 - steps_in_largest_);
+      if (ago * size > starts.size()) continue;
+      const Eigen::Map<const Vector> start(starts.data() + starts.size() - ago * size,
+                                           state_.numbers.size());
+      largest_ = largest_.cwiseMax(start.cwiseAbs());
+    }
+    largest_ = largest_.cwiseMax(state_.numbers.cwiseAbs());
+    return largest_;
+  }
+
+  double longest_step() {
+    const LinearFlow& flow = flow_->flow;
+    if (flow.polynomial_order() == 0) return flow.longest_step();
+    return flow.natural_step(state_.numbers.data(), velocity_, scratch_);
+  }
+
+  /// The series of the step.
+  void expand(double length) {
+    const LinearFlow& flow = flow_->flow;
+    order_ = flow.count() == 0 ? 0 : flow.order(length);
+    table_share_ = flow.polynomial_order() > 0 ? length : length / flow.longest_step();
+    remainder_ = flow.remainder(velocity_, length);
+  }
+
+  void record_step() {
+    trajectory_.steps_.push_back({time_, state_.mode, slow_ != nullptr});
+    trajectory_.starts_.insert(trajectory_.starts_.end(), state_.numbers.begin(),
+                               state_.numbers.end());
+  }
+
+  /// Over what is left of the step where an event cuts it short. What is unknown then is a share of
+  /// the whole step's terms: a state on a guard is no better known than the time that it came
+  /// there.
+  void advance(double length, double whole) {
+    const LinearFlow& flow = flow_->flow;
+    noise_ = state_.numbers.cwiseAbs();
+    if (flow_->longest) {
+      flow_->longest->add_sizes(flow, velocity_, noise_.data(), scratch_);
+    } else {
+      flow.add_sizes(velocity_, whole, noise_.data(), scratch_);
+    }
+    noise_ *= sum_rounding;
+    if (flow_->longest && length == flow.longest_step()) {
+      flow_->longest->advance(flow, velocity_, state_.numbers.data(), scratch_);
+    } else {
+      flow.advance(velocity_, length, state_.numbers.data(), scratch_);
+    }
+    if (slow_ != nullptr) slow_->decays.put_at_rest(state_.numbers);
+  }
+
+  /// Where rounding has left the state farther beside the guard than its numbers make necessary: a
+  /// little along the motion, until it is there. Each event takes the guard for 0 as its mode
+  /// begins, so that else what is left would be there for ever.
+  void put_on_guard(std::size_t which, double length) {
+    const SparseForm& guard = mode_->guards[which];
+    const double* numbers = state_.numbers.data();
+    const double value = guard.at(numbers);
+    if (std::abs(value) <= guard.size_at(numbers) * sum_rounding) return;
+    const LinearFlow& flow = flow_->flow;
+    flow.velocity_at(numbers, noise_.data(), velocity_);
+    scratch_.assign(static_cast<std::size_t>(noise_.size()), 0.0);
+    for (int i = 0; i < flow.count(); ++i) {
+      scratch_[static_cast<std::size_t>(flow.number(i))] =
+          velocity_.values[static_cast<std::size_t>(i)];
+    }
+    const double speed = guard.at(scratch_.data()) - guard.offset;
+    const double later = -value / speed;
+    constexpr double little = 0x1p-20;
+    if (!(std::abs(later) <= little * length)) return;
+    for (std::size_t i = 0; i < scratch_.size(); ++i) {
+      state_.numbers[static_cast<Eigen::Index>(i)] += later * scratch_[i];
+    }
+    time_ += later;
+  }
+
   void fire(std::size_t which) {
     const Transition& transition = system_.modes[state_.mode].transitions[which];
-    const std::size_t mode_before = state_.mode;
-    change(EventKind::transition, which, transition.reset, transition.target,
-           transition.alternatives);
-    if (stopped_) return;
-    follow_sequence(mode_before, which, transition);
+    change(EventKind::transition, which, transition.reset, mode_->transitions[which],
+           transition.target);
+    if (!stopped_) follow_sequence();
   }
 
-  void change(EventKind kind, std::size_t transition, const Reset& reset, std::size_t otherwise,
-              const std::vector<Alternative>& alternatives, const Vector* addition = nullptr) {
-    Event event{time_, kind, state_.mode, transition, otherwise, state_.numbers, {}};
-    state_.numbers = reset.after(state_.numbers);
-    if (addition != nullptr) state_.numbers += *addition;
-    if (reset.matrix.size() != 0) noise_ = reset.matrix.cwiseAbs() * noise_;
-    noise_ += rounding * state_.numbers.cwiseAbs();
-    event.mode_after = target_among(alternatives, otherwise);
+  void change(EventKind kind, std::size_t transition, const Reset& reset, const PreparedJump& jump,
+              std::size_t otherwise, const Vector* addition = nullptr) {
+    std::vector<Event>& events = trajectory_.events_;
+    Event& event = events.emplace_back(
+        Event{time_, kind, state_.mode, transition, otherwise, state_.numbers, state_.numbers});
+    jump.reset.apply(reset, event.before, event.after, noise_, noise_before_);
+    if (addition != nullptr) event.after += *addition;
+    state_.numbers = event.after;
+    noise_ += sum_rounding * state_.numbers.cwiseAbs();
+    event.mode_after = target_among(jump.alternatives, otherwise);
     state_.mode = event.mode_after;
-    event.after = state_.numbers;
-    trajectory_.events_.push_back(std::move(event));
     count_at_instant();
+    note_recurrences();
     enter_mode();
-    if (trajectory_.events_.size() >= options_.event_limit) stop(StopReason::event_limit);
+    if (events.size() >= options_.event_limit) stop(StopReason::event_limit);
   }
 
-  std::size_t target_among(const std::vector<Alternative>& alternatives,
+  std::size_t target_among(const std::vector<PreparedAlternative>& alternatives,
                            std::size_t otherwise) const {
-    for (const Alternative& alternative : alternatives) {
+    for (const PreparedAlternative& alternative : alternatives) {
       const bool is_taken =
           std::all_of(alternative.positive.begin(), alternative.positive.end(),
-                      [&](const AffineForm& form) { return form.at(state_.numbers) > 0.0; });
+                      [&](const SparseForm& form) { return form.at(state_.numbers.data()) > 0.0; });
       if (is_taken) return alternative.target;
     }
     return otherwise;
   }
 
   void enter_mode() {
-    signs_.clear();
-    for (const PreparedGuard& guard : mode().guards) {
-      signs_.push_back(guard.direction == Direction::either ? 0.0 : 1.0);
+    mode_ = &preparation_.mode(state_.mode);
+    flow_ = &mode_->whole;
+    slow_ = nullptr;
+    steps_in_mode_ = 0;
+    steps_in_largest_ = 0;
+    const std::vector<Transition>& transitions = system_.modes[state_.mode].transitions;
+    signs_.resize(transitions.size());
+    for (std::size_t i = 0; i < transitions.size(); ++i) {
+      const Direction direction = transitions[i].direction;
+      signs_[i] = direction == Direction::either   ? 0.0
+                  : direction == Direction::rising ? -1.0
+                                                   : 1.0;
     }
   }
 
@@ -312,42 +367,95 @@ class Simulation {
     const bool same = events.size() > 1 && events[events.size() - 2].time == time_;
     at_instant_ = same ? at_instant_ + 1 : 1;
     if (at_instant_ > 8 + 4 * (system_.modes.size() + system_.clocks.size())) {
-      stop(StopReason::chattering);
+      stop(has_come_ever_faster() ? StopReason::zeno : StopReason::chattering);
     }
   }
 
-  /// Firings of one transition alone that come ever faster.
-  void follow_sequence(std::size_t mode, std::size_t which, const Transition& transition) {
-    const bool goes_on = mode == sequence_mode_ && which == sequence_transition_ && count_ > 0 &&
-                         trajectory_.events_.size() == sequence_event_ + 1;
-    const double interval = time_ - sequence_time_;
-    const double ratio = interval / sequence_interval_;
-    count_ = goes_on ? count_ + 1 : 1;
-    const double last_ratio = sequence_ratio_;
-    sequence_ratio_ = goes_on ? ratio : 0.0;
-    sequence_interval_ = interval;
-    sequence_mode_ = mode;
-    sequence_transition_ = which;
-    sequence_time_ = time_;
-    sequence_event_ = trajectory_.events_.size();
-    constexpr int enough = 8;
-    if (count_ < enough || !(ratio < 1.0)) return;
+  // ---- events that come ever faster -------------------------------------------------------------
+
+  /// In how many events in a row each was that of so many events before.
+  void note_recurrences() {
+    const std::vector<Event>& events = trajectory_.events_;
+    for (std::size_t turn = 1; turn <= longest_turn; ++turn) {
+      std::size_t& count = recurrences_[turn - 1];
+      const bool recurs = events.size() > turn && events.back().kind == EventKind::transition &&
+                          is_same(events.back(), events[events.size() - 1 - turn]);
+      count = recurs ? count + 1 : 0;
+    }
+  }
+
+  static bool is_same(const Event& a, const Event& b) {
+    return a.mode == b.mode && a.transition == b.transition && a.kind == b.kind &&
+           a.mode_after == b.mode_after;
+  }
+
+  /// How long the turn took that ended so many turns ago.
+  double duration(std::size_t turn, std::size_t ago) const {
+    const std::vector<Event>& events = trajectory_.events_;
+    const std::size_t last = events.size() - 1 - ago * turn;
+    return events[last].time - events[last - turn].time;
+  }
+
+  /// How many whole turns of the sequence the last one follows. Precondition: it has recurred.
+  std::size_t turns_before(std::size_t turn) const { return (recurrences_[turn - 1] - 1) / turn; }
+
+  /// The shortest turn of events that has recurred often enough, or 0.
+  std::size_t recurring_turn(std::size_t enough) const {
+    for (std::size_t turn = 1; turn <= longest_turn; ++turn) {
+      if (recurrences_[turn - 1] >= (enough - 1) * turn) return turn;
+    }
+    return 0;
+  }
+
+  void follow_sequence() {
+    const std::size_t turn = recurring_turn(8);
+    if (turn == 0) return;
+    const double interval = duration(turn, 0);
+    const double before = duration(turn, 1);
+    const double ratio = interval / before;
+    if (!(ratio < 1.0)) return;
     const double left = interval * ratio / (1.0 - ratio);
-    if (transition.settling) {
-      constexpr double little = 1e-10;
-      constexpr double steady = 1e-3;
-      const bool is_steady = std::abs(ratio - last_ratio) < steady * (1.0 - ratio);
-      const bool is_little = left * modes_[mode].flow.whole().rate() < little;
-      if (is_little && (is_steady || interval <= 8.0 * epsilon * time_)) settle(which, transition);
-    } else if (left <= 8.0 * epsilon * time_) {
-      stop(StopReason::zeno);
+    const Event& last = trajectory_.events_.back();
+    const Transition& transition = system_.modes[last.mode].transitions[last.transition];
+    if (!transition.settling) {
+      if (left <= 8.0 * epsilon * time_) stop(StopReason::zeno);
+      return;
     }
+    constexpr double little = 1e-10;
+    constexpr double steady = 1e-3;
+    const double last_ratio = before / duration(turn, 2);
+    const bool is_steady = std::abs(ratio - last_ratio) < steady * (1.0 - ratio);
+    const bool is_little = left < little * own_time(last.mode, turn);
+    if (is_little && (is_steady || interval <= 8.0 * epsilon * time_)) settle();
   }
 
-  void settle(std::size_t which, const Transition& transition) {
-    count_ = 0;
-    const Settling& settling = *transition.settling;
-    change(EventKind::settling, which, settling.reset, settling.target, settling.alternatives);
+  /// What is short beside it is short: the mode's own time, or how long the first turn took.
+  double own_time(std::size_t mode, std::size_t turn) const {
+    const double rate = preparation_.mode(mode).whole.flow.rate();
+    const double first = duration(turn, turns_before(turn));
+    return rate > 0.0 ? std::max(first, 1.0 / rate) : first;
+  }
+
+  /// Whether the turns before this instant, where there is no end of events, were each shorter than
+  /// the one before.
+  bool has_come_ever_faster() const {
+    const std::size_t turn = recurring_turn(4);
+    if (turn == 0) return false;
+    const std::size_t turns = turns_before(turn);
+    std::size_t shorter = 0;
+    for (std::size_t ago = 0; ago < turns; ++ago) {
+      if (duration(turn, ago) == 0.0) continue;
+      if (!(duration(turn, ago) < duration(turn, ago + 1))) break;
+      ++shorter;
+    }
+    return shorter >= 3;
+  }
+
+  void settle() {
+    const Event last = trajectory_.events_.back();
+    const Settling& settling = *system_.modes[last.mode].transitions[last.transition].settling;
+    change(EventKind::settling, last.transition, settling.reset,
+           *preparation_.mode(last.mode).settlings[last.transition], settling.target);
   }
 
   void stop(StopReason reason) {
@@ -364,32 +472,54 @@ class Simulation {
 
   static constexpr double largest_number = 1e150;
 
+  static constexpr std::size_t longest_turn = 4;
+
+  const Preparation& preparation_;
   const HybridSystem& system_;
   const SimulationOptions& options_;
-  std::vector<PreparedMode> modes_;
+  const PreparedMode* mode_ = nullptr;
+  const PreparedFlow* flow_ = nullptr;        ///< of the step
+  const PreparedMode::Slow* slow_ = nullptr;  ///< where that is the slow one
+  int steps_in_mode_ = 0;
+  int steps_in_largest_ = 0;
   State state_;
   double time_;
   Vector noise_;               ///< what rounding has left unknown of each number, on the last step
-  std::vector<double> signs_;  ///< of guards of either direction: the side of each, 0 while unknown
+  Vector largest_;             ///< each number's size since the mode was entered
+  std::vector<double> signs_;  ///< of the sides that guards are to leave, 0 while unknown
   std::vector<Tick> ticks_;
-  const LinearFlow* flow_ = nullptr;  ///< of the step
-  Series series_;
+  Velocity velocity_;  ///< at the start of the step
+  int order_ = 0;
+  double table_share_ = 1.0;  ///< of the step in that of the tables
+  double remainder_ = 0.0;    ///< of the step's series
+  std::vector<double> coefficients_;
+  std::vector<double> scratch_;
+  Vector noise_before_;
   bool stopped_ = false;
   std::size_t at_instant_ = 0;
-  int count_ = 0;  ///< of the sequence of firings of one transition
-  std::size_t sequence_mode_ = 0;
-  std::size_t sequence_transition_ = 0;
-  std::size_t sequence_event_ = 0;
-  double sequence_time_ = 0.0;
-  double sequence_interval_ = 0.0;
-  double sequence_ratio_ = 0.0;
+  std::array<std::size_t, longest_turn> recurrences_{};  ///< by the length of a turn, from 1 on
   Trajectory trajectory_;
 };
 
 Trajectory simulate(const HybridSystem& system, const State& start,
                     const SimulationOptions& options) {
-  require(faults_of(system, start, options));
-  return Simulation(system, start, options).run();
+  std::vector<std::string> all = faults(system);
+  for (std::string& fault : faults_of(system, start, options)) all.push_back(std::move(fault));
+  require(all);
+  return Simulation(std::make_shared<const Preparation>(system), start, options).run();
+}
+
+PreparedSystem::PreparedSystem(HybridSystem system) {
+  require(faults(system));
+  preparation_ = std::make_shared<const Preparation>(std::move(system));
+}
+
+const HybridSystem& PreparedSystem::system() const { return preparation_->system(); }
+
+Trajectory simulate(const PreparedSystem& system, const State& start,
+                    const SimulationOptions& options) {
+  require(faults_of(system.system(), start, options));
+  return Simulation(system.preparation_, start, options).run();
 }
 
 State Trajectory::at(double time) const {
@@ -397,13 +527,20 @@ State Trajectory::at(double time) const {
   const auto after =
       std::upper_bound(steps_.begin(), steps_.end(), time,
                        [](double wanted, const Step& step) { return wanted < step.time; });
-  const Step& step = after == steps_.begin() ? *after : *(after - 1);
-  const PreparedFlow flow(flows_[step.start.mode]);
-  Series series;
-  const LinearFlow& here = flow.from(step.start.numbers);
-  const Vector exact = Vector::Zero(step.start.numbers.size());
-  here.expand(step.start.numbers, exact, std::max(0.0, time - step.time), series);
-  return {step.start.mode, flow.corrected(here, series.at(1.0))};
+  const auto step = after == steps_.begin() ? after : after - 1;
+  const auto size = end_.numbers.size();
+  const double* start = &starts_[static_cast<std::size_t>((step - steps_.begin()) * size)];
+  State state{step->mode, Eigen::Map<const Vector>(start, size)};
+  const PreparedMode& mode = preparation_->mode(step->mode);
+  const PreparedMode::Slow* slow = step->is_slow ? mode.slow() : nullptr;
+  const LinearFlow& flow = slow != nullptr ? slow->flow.flow : mode.whole.flow;
+  const Vector exact = Vector::Zero(size);
+  Velocity velocity;
+  std::vector<double> scratch;
+  flow.velocity_at(start, exact.data(), velocity);
+  flow.advance(velocity, std::max(0.0, time - step->time), state.numbers.data(), scratch);
+  if (slow != nullptr) slow->decays.put_at_rest(state.numbers);
+  return state;
 }
 
 }  // namespace gearlash::hybrid

@@ -29,9 +29,9 @@ double size_of(const std::vector<double>& p) {
 }
 
 TEST(FirstExit, OfAPolynomialThatStaysPositiveIsNone) {
-  EXPECT_FALSE(first_exit({1.0, 2.0, 3.0}, 1e-16).at);
-  EXPECT_FALSE(first_exit({1.0, -0.5}, 1e-16).at);
-  EXPECT_FALSE(first_exit({1.0, -3.0, 3.0}, 1e-16).at);  // least 1/4
+  EXPECT_FALSE(first_exit(std::vector{1.0, 2.0, 3.0}, 1e-16).at);
+  EXPECT_FALSE(first_exit(std::vector{1.0, -0.5}, 1e-16).at);
+  EXPECT_FALSE(first_exit(std::vector{1.0, -3.0, 3.0}, 1e-16).at);  // least 1/4
 }
 
 TEST(FirstExit, IsTheFirstOfThree) {

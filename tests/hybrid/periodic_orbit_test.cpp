@@ -90,5 +90,75 @@ TEST(OraclePeriodicOrbit, OfServosIsTheClosedFormsCycle) {
   RecordProperty("worst_multiplier", exact_text(worst_multiplier));
 }
 
+// ---- sampled ------------------------------------------------------------------------------------
+
+/// One number that a tick throws across its rest at 1, nearly as far as it was.
+hybrid::HybridSystem alternating() {
+  return {.state_names = {"x"},
+          .modes = {{.name = "waits",
+                     .flow = {Matrix::Zero(1, 1), Vector::Zero(1)},
+                     .timed = {{.name = "sample",
+                                .clock = 0,
+                                .reset = {Matrix{{-0.99}}, Vector{{1.99}}, {}}}}}},
+          .clocks = {{.name = "sampler", .period = 1.0}}};
+}
+
+TEST(EdgePeriodicOrbit, APeriodIsGoneAroundOnce) {
+  // Where one tick is too far from the next one but one, only two together nearly close.
+  const hybrid::HybridSystem system = alternating();
+  const auto motion = simulate(system, {0, Vector{{1.05}}}, {.until = 10.0});
+  const auto orbit = closing_orbit(system, motion);
+  ASSERT_TRUE(orbit);
+  EXPECT_EQ(orbit->events.size(), 1U);
+  EXPECT_NEAR(orbit->period, 1.0, 1e-14);
+  EXPECT_NEAR(orbit->start.numbers[0], 1.0, 1e-13);
+  ASSERT_EQ(orbit->multipliers.size(), 1U);
+  EXPECT_NEAR(orbit->multipliers[0].real(), -0.99, 1e-13);
+}
+
+TEST(OraclePeriodicOrbit, AQuantizedReadingHuntsAboutWhatItCannotRead) {
+  // x′ = z − x; each second z falls by a quarter of the reading's excess over 1/2, which whole
+  // numbers cannot equal: readings of 0 and 1 take turns.
+  constexpr double gain = 0.25;
+  const hybrid::HybridSystem system{
+      .state_names = {"x", "z"},
+      .modes = {{.name = "follows",
+                 .flow = {Matrix{{-1.0, 1.0}, {0.0, 0.0}}, Vector::Zero(2)},
+                 .timed = {{.name = "sample",
+                            .clock = 0,
+                            .reset = {{},
+                                      Vector{{0.0, 0.5 * gain}},
+                                      {{.measured = {Vector{{1.0, 0.0}}, 0.0},
+                                        .step = 1.0,
+                                        .gain = Vector{{0.0, -gain}}}}}}}}},
+      .clocks = {{.name = "sampler", .period = 1.0}}};
+  const auto motion = simulate(system, {0, Vector{{0.0, 0.0}}}, {.until = 200.0});
+  const auto orbit = closing_orbit(system, motion);
+  ASSERT_TRUE(orbit);
+  EXPECT_LT(orbit->residual, 1e-10);
+  const double ticks = std::round(orbit->period);
+  EXPECT_NEAR(orbit->period, ticks, 1e-12);
+  EXPECT_EQ(orbit->events.size(), static_cast<std::size_t>(ticks));
+  // As often above as below.
+  double sum = 0.0;
+  for (const hybrid::Event& event : orbit->events) sum += std::round(event.before[0]);
+  EXPECT_EQ(2.0 * sum, ticks);
+  // Between switchings of the reading z is only added to, and x forgets.
+  ASSERT_EQ(orbit->multipliers.size(), 2U);
+  EXPECT_NEAR(orbit->multipliers[0].real(), 1.0, 1e-12);
+  EXPECT_NEAR(orbit->multipliers[1].real(), std::exp(-ticks), 1e-12);
+}
+
+TEST(EdgePeriodicOrbit, AShiftInTimeIsNoMultiplier) {
+  const NormalizedServo servo{
+      .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3};
+  const hybrid::HybridSystem system = servo_system(servo);
+  const auto motion =
+      simulate(system, {separated, Vector{{-0.9, 0.0, -1.0, 0.0}}}, {.until = 200.0});
+  const auto orbit = closing_orbit(system, motion);
+  ASSERT_TRUE(orbit);
+  EXPECT_EQ(orbit->multipliers.size(), 3U);
+}
+
 }  // namespace
 }  // namespace gearlash

@@ -190,6 +190,138 @@ TEST(OracleSimulate, AFastDecayIsLeftBehind) {
   EXPECT_LT(motion.steps(), 100U);  // 1,000 at the fast one's own pace
 }
 
+TEST(EdgeSimulate, AFastDecayToZeroIsLeftBehindToo) {
+  const HybridSystem system{
+      .state_names = {"slow", "fast"},
+      .modes = {{.name = "decays",
+                 .flow = {matrix_of(2, {-1.0, 0.0, 0.0, -1000.0}), Vector::Zero(2)}}},
+      .clocks = {}};
+  const Trajectory motion = simulate(system, {0, vector_of({1.0, 1.0})}, {.until = 2.0});
+  EXPECT_NEAR(motion.end().numbers[0], std::exp(-2.0), 1e-15);
+  EXPECT_NEAR(motion.end().numbers[1], 0.0, 1e-15);
+  EXPECT_LT(motion.steps(), 100U);
+}
+
+// ---- units --------------------------------------------------------------------------------------
+
+/// The ball with time in units of so many seconds.
+HybridSystem in_units_of_time(HybridSystem system, double unit) {
+  for (Mode& mode : system.modes) {
+    mode.flow.matrix *= unit;
+    mode.flow.offset *= unit;
+  }
+  return system;
+}
+
+TEST(PropertySimulate, UnitsOfTimeDoNotMatter) {
+  for (const double restitution : {0.5, 0.8}) {
+    const HybridSystem ball = bouncing_ball(restitution, true);
+    const Trajectory seconds = simulate(ball, {0, vector_of({1.0, 0.0})}, {.until = 10.0});
+    for (const double unit : {0x1p-20, 0x1p-10, 0x1p10}) {
+      const Trajectory other = simulate(in_units_of_time(ball, unit), {0, vector_of({1.0, 0.0})},
+                                        {.until = 10.0 / unit});
+      EXPECT_EQ(other.steps(), seconds.steps());
+      ASSERT_EQ(other.events().size(), seconds.events().size());
+      for (std::size_t i = 0; i < other.events().size(); ++i) {
+        EXPECT_NEAR(other.events()[i].time * unit, seconds.events()[i].time, 1e-14);
+      }
+    }
+  }
+}
+
+TEST(PropertySimulate, WhatOnlyFollowsDoesNotShortenSteps) {
+  // A position that a decaying speed carries along, its unit so many metres.
+  std::size_t steps = 0;
+  for (const double unit : {1.0, 1e-6, 1e6}) {
+    const HybridSystem system{
+        .state_names = {"position", "speed"},
+        .modes = {{.name = "coasts",
+                   .flow = {matrix_of(2, {0.0, 1.0 / unit, 0.0, -0.01}), Vector::Zero(2)}}},
+        .clocks = {}};
+    const Trajectory motion = simulate(system, {0, vector_of({0.0, 1.0})}, {.until = 1000.0});
+    const double distance = -std::expm1(-10.0) / 0.01 / unit;
+    EXPECT_NEAR(motion.end().numbers[0], distance, 1e-14 * distance);
+    if (steps == 0) steps = motion.steps();
+    EXPECT_EQ(motion.steps(), steps);
+  }
+  EXPECT_LE(steps, 10U);
+}
+
+// ---- events in turn that come ever faster -------------------------------------------------------
+
+/// A ball, without weight, between two faces that come together, the lower at rest; or with one
+/// mode for each way.
+HybridSystem closing_faces(double restitution, bool two_modes) {
+  const Matrix flow = matrix_of(3, {0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+  const Vector rates = vector_of({0.0, 0.0, -1.0});  // of the upper face
+  const Matrix low = matrix_of(3, {1.0, 0.0, 0.0, 0.0, -restitution, 0.0, 0.0, 0.0, 1.0});
+  const Transition lower{.name = "lower face",
+                         .guard = {vector_of({1.0, 0.0, 0.0}), 0.0},
+                         .reset = {low, {}, {}},
+                         .target = 0};
+  const Transition upper{.name = "upper face",
+                         .guard = {vector_of({-1.0, 0.0, 1.0}), 0.0},
+                         .reset = {low, vector_of({0.0, -(1.0 + restitution), 0.0}), {}},
+                         .target = two_modes ? std::size_t{1} : std::size_t{0}};
+  if (!two_modes) {
+    return {.state_names = {"ball", "speed", "face"},
+            .modes = {{.name = "flies", .flow = {flow, rates}, .transitions = {lower, upper}}}};
+  }
+  return {.state_names = {"ball", "speed", "face"},
+          .modes = {{.name = "up", .flow = {flow, rates}, .transitions = {upper}},
+                    {.name = "down", .flow = {flow, rates}, .transitions = {lower}}}};
+}
+
+TEST(EdgeSimulate, TwoFacesThatCloseInAreZenos) {
+  for (const bool two_modes : {false, true}) {
+    const HybridSystem system = closing_faces(0.5, two_modes);
+    const Trajectory motion = simulate(system, {0, vector_of({0.5, 3.0, 1.0})}, {.until = 5.0});
+    EXPECT_EQ(motion.stop_reason(), StopReason::zeno);
+    EXPECT_NEAR(motion.end_time(), 1.0, 1e-9);  // when the faces meet
+    EXPECT_NE(motion.culprit().find("face"), std::string::npos) << motion.culprit();
+  }
+}
+
+TEST(EdgeSimulate, AClockWithoutPeriodAndTimesIsAFault) {
+  HybridSystem system = bouncing_ball(0.5, true);
+  system.clocks.push_back({.name = "once", .first = 1.0});
+  const std::vector<std::string> all = faults(system);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_NE(all[0].find("must have a period or times"), std::string::npos) << all[0];
+}
+
+TEST(EdgeSimulate, TicksBeforeTheStartAreNotMet) {
+  const HybridSystem system{
+      .state_names = {"x"},
+      .modes = {{.name = "waits",
+                 .flow = {Matrix::Zero(1, 1), Vector::Zero(1)},
+                 .timed = {{.name = "sample", .clock = 0}, {.name = "table", .clock = 1}}}},
+      .clocks = {{.name = "sampler", .first = 0.5, .period = 1.0},
+                 {.name = "table", .times = {1.0, 2.0, 3.0}}}};
+  const Trajectory motion = simulate(system, {0, vector_of({0.0})}, {.from = 2.0, .until = 3.0});
+  ASSERT_EQ(motion.events().size(), 3U);
+  EXPECT_EQ(motion.events()[0].time, 2.0);
+  EXPECT_EQ(motion.events()[1].time, 2.5);
+  EXPECT_EQ(motion.events()[2].time, 3.0);
+}
+
+TEST(Simulate, PreparedSystemsGiveTheSameMotion) {
+  const HybridSystem system = bouncing_ball(0.8, true);
+  const PreparedSystem prepared(system);
+  const Trajectory once = simulate(system, {0, vector_of({1.0, 0.0})}, {.until = 10.0});
+  for (int i = 0; i < 2; ++i) {
+    const Trajectory again = simulate(prepared, {0, vector_of({1.0, 0.0})}, {.until = 10.0});
+    ASSERT_EQ(again.events().size(), once.events().size());
+    EXPECT_EQ(again.events().back().time, once.events().back().time);
+    EXPECT_EQ(again.at(2.0).numbers, once.at(2.0).numbers);
+  }
+  HybridSystem faulty = system;
+  faulty.modes[0].transitions[0].target = 7;
+  EXPECT_THROW(PreparedSystem{faulty}, std::invalid_argument);
+  EXPECT_THROW(simulate(prepared, {5, vector_of({1.0, 0.0})}, {.until = 1.0}),
+               std::invalid_argument);
+}
+
 TEST(EdgeSimulate, FaultsAreToldAllAtOnce) {
   HybridSystem system = bouncing_ball(0.5, true);
   system.modes[0].transitions[0].target = 7;

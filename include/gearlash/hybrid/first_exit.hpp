@@ -2,7 +2,7 @@
 #pragma once
 
 #include <optional>
-#include <vector>
+#include <span>
 
 namespace gearlash::hybrid {
 
@@ -20,8 +20,13 @@ struct FirstExit {
 ///   isolation    Bernstein's coefficients enclose p, and their changes of sign are at least the
 ///                number of its zeros (Descartes' rule; Farouki & Rajan 1987); where there is more
 ///                than one change the interval is halved, the left half first;
-///   refinement   TOMS 748 (Alefeld, Potra & Shi 1995) on an interval with one change.
+///   refinement   on an interval with one change, from where Bernstein's polygon falls, by Newton's
+///                method; where that does not converge at once, by TOMS 748 (Alefeld, Potra & Shi
+///                1995).
 /// Missed are only excursions that p makes to less than `uncertainty` below 0: those are touches.
-FirstExit first_exit(const std::vector<double>& coefficients, double uncertainty);
+FirstExit first_exit(std::span<const double> coefficients, double uncertainty);
+
+/// Whether p is certain to be above `uncertainty` on [0, 1]: its Bernstein coefficients are.
+bool stays_positive(std::span<const double> coefficients, double uncertainty);
 
 }  // namespace gearlash::hybrid

@@ -95,11 +95,12 @@ struct Mode {
   std::vector<TimedTransition> timed{};
 };
 
-/// Ticks at first, first + period, first + 2 period, …; or, without a period, at `times`.
+/// Ticks at first, first + period, first + 2 period, …; or, without a period, at `times`. Of these
+/// a motion meets those that are not before its own start.
 struct Clock {
   std::string name{};
-  double first = 0.0;
-  double period = 0.0;              ///< > 0, or 0 for none
+  double first = 0.0;               ///< with a period
+  double period = 0.0;              ///< > 0, or 0 where there are times
   std::vector<double> times{};      ///< without a period: rising
   std::vector<Vector> additions{};  ///< one for each of `times`, or none: what a timed transition
                                     ///< then adds to what its reset gives

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -41,17 +42,35 @@ struct Touch {
 enum class StopReason {
   reached_end,
   event_limit,  ///< as many events as were asked for
-  zeno,         ///< ever faster firings of one transition, without a Settling, have no end before
-                ///< `end_time`
-  chattering,   ///< more events at one instant than there are ways through the modes; culprit() has
-                ///< the transition
-  diverged      ///< numbers beyond 1e150
+  zeno,        ///< ever faster events, without a Settling, have no end before `end_time`: culprit()
+               ///< has the last one
+  chattering,  ///< more events at one instant than there are ways through the modes; culprit() has
+               ///< the transition
+  diverged     ///< numbers beyond 1e150
 };
 
 struct SimulationOptions {
   double from = 0.0;  ///< time of the start, on which clocks depend
   double until = 0.0;
   std::size_t event_limit = 1'000'000;  ///< the motion stops just after so many
+};
+
+class Preparation;  // how modes are kept ready
+class Trajectory;
+
+/// A system made ready for many motions: its faults are looked for once, and a mode's series are
+/// worked out when it is first entered, and kept. Copies share them. May be used by several threads
+/// at a time.
+class PreparedSystem {
+ public:
+  /// Throws std::invalid_argument with all faults of the system.
+  explicit PreparedSystem(HybridSystem system);
+  const HybridSystem& system() const;
+
+ private:
+  friend Trajectory simulate(const PreparedSystem& system, const State& start,
+                             const SimulationOptions& options);
+  std::shared_ptr<const Preparation> preparation_;
 };
 
 class Trajectory {
@@ -73,10 +92,12 @@ class Trajectory {
   friend class Simulation;
   struct Step {
     double time;
-    State start;
+    std::size_t mode;
+    bool is_slow;  ///< fast decays are over
   };
-  std::vector<AffineFlow> flows_;
+  std::shared_ptr<const Preparation> preparation_;
   std::vector<Step> steps_;
+  std::vector<double> starts_;  ///< of the steps: all numbers of one after those of another
   std::vector<Event> events_;
   std::vector<Touch> touches_;
   double start_time_ = 0.0;
@@ -94,14 +115,18 @@ class Trajectory {
 /// of the terms that it is a sum of; they are listed as touches. A number that the flow makes small
 /// by cancellation is known to some 1e-15 of what it is made of.
 ///
-/// Firings of one transition alone whose intervals shrink by a steady ratio ρ have the limit
-/// d ρ/(1 − ρ) after the last, d the last interval. Where what is left is some 1e-10 of the mode's
-/// own time, they end there, by the transition's Settling; without one the motion has no end beyond
-/// that time, and stops when the intervals are too short to be told apart (StopReason::zeno).
+/// Firings of one transition alone, or up to four in turn, whose intervals (from turn to turn)
+/// shrink by a steady ratio ρ have the limit d ρ/(1 − ρ) after the last, d the last interval. Where
+/// what is left is some 1e-10 of the mode's own time (or of the first interval, if longer), they
+/// end there, by the Settling of the last transition; without one the motion has no end beyond that
+/// time, and stops when the intervals are too short to be told apart (StopReason::zeno).
 ///
 /// Throws std::invalid_argument with all faults of the system, of the start (a mode, finite numbers
 /// of the right count) and of the options (from ≤ until, finite).
 Trajectory simulate(const HybridSystem& system, const State& start,
+                    const SimulationOptions& options);
+/// The same; only faults of the start and of the options are looked for.
+Trajectory simulate(const PreparedSystem& system, const State& start,
                     const SimulationOptions& options);
 
 }  // namespace gearlash::hybrid

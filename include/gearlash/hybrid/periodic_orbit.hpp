@@ -11,12 +11,13 @@
 namespace gearlash::hybrid {
 
 struct PeriodicOrbit {
-  State start;              ///< just after the event that closes the period
+  State start;              ///< between the event that closes the period and the next one
   double start_time = 0.0;  ///< of a system with clocks
   double period = 0.0;
   std::vector<Event> events;  ///< of one period, from the start on; the last one closes it
   /// Floquet's, by falling size: by what disturbances are multiplied over a period. Without that of
-  /// a shift in time, and without those of numbers that nothing acts on (references).
+  /// a shift in time, where the system moves by itself, and without those of numbers that nothing
+  /// acts on (references).
   std::vector<std::complex<double>> multipliers;
   /// The largest mismatch of a phase's end and the next one's start, as a share of the state.
   double residual = 0.0;
@@ -38,8 +39,8 @@ struct ShootingOptions {
 /// Fᵢ the motion over some of the events, with saltation, from one plane across it to the next,
 /// midway between events where there is most time. Numbers that follow their own flow alone in
 /// every mode (references) stay as the trajectory has them, and the period is then theirs; with
-/// periodic clocks it is a multiple of theirs. Nothing where no passing recurs or Newton's method
-/// does not converge.
+/// periodic clocks it is a multiple of theirs. What repeats within the period found is told of
+/// once. Nothing where no passing recurs or Newton's method does not converge.
 std::optional<PeriodicOrbit> closing_orbit(const HybridSystem& system, const Trajectory& motion,
                                            const ShootingOptions& options = {});
 

@@ -1,0 +1,99 @@
+#include "fast_decays.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+namespace gearlash::hybrid {
+namespace {
+
+/// Decays split off are so much faster than all that is left, which pays.
+constexpr double least_gap = 8.0;
+
+using ComplexMatrix = Eigen::MatrixXcd;
+using Spectrum = Eigen::VectorXcd;
+
+std::vector<Eigen::Index> by_size(const Spectrum& values) {
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(values.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) {
+    return std::abs(values[a]) > std::abs(values[b]);
+  });
+  return order;
+}
+
+/// How many of the largest eigenvalues decay and have the widest gap, by ratio, to the next; 0
+/// where none is wide enough.
+std::size_t count_of_fast(const Spectrum& values, const std::vector<Eigen::Index>& order) {
+  std::size_t count = 0;
+  double widest = least_gap;
+  for (std::size_t i = 0; i + 1 < order.size(); ++i) {
+    constexpr double least_damping = 1e-3;
+    const std::complex<double> here = values[order[i]];
+    if (!(-here.real() > least_damping * std::abs(here))) break;
+    const double gap = std::abs(here) / std::abs(values[order[i + 1]]);
+    if (gap > widest) {
+      widest = gap;
+      count = i + 1;
+    }
+  }
+  return count;
+}
+
+/// The eigenvectors that belong to the `count` largest eigenvalues.
+ComplexMatrix fast_vectors(const Matrix& matrix, std::size_t count) {
+  const Eigen::EigenSolver<Matrix> solver(matrix);
+  const std::vector<Eigen::Index> order = by_size(solver.eigenvalues());
+  ComplexMatrix vectors(matrix.rows(), static_cast<Eigen::Index>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    vectors.col(static_cast<Eigen::Index>(i)) = solver.eigenvectors().col(order[i]);
+  }
+  return vectors;
+}
+
+}  // namespace
+
+bool FastDecays::are_over(const Vector& state, const Vector& largest) const {
+  constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+  const Vector off = (projector * state - rest).cwiseAbs();
+  const Vector size = projector.cwiseAbs() * largest + rest.cwiseAbs();
+  return (off.array() <= rounding * size.array()).all();
+}
+
+void FastDecays::put_at_rest(Vector& state) const { state -= projector * state - rest; }
+
+/// P = V (WᵀV)⁻¹ Wᵀ of the right and left eigenvectors V, W of the fast decays.
+std::optional<FastDecays> fast_decays(const AffineFlow& flow) {
+  const Matrix& matrix = flow.matrix;
+  const Spectrum values = matrix.eigenvalues();
+  const std::size_t count = count_of_fast(values, by_size(values));
+  if (count == 0) return std::nullopt;
+  const ComplexMatrix right = fast_vectors(matrix, count);
+  const ComplexMatrix left = fast_vectors(matrix.transpose(), count);
+  const ComplexMatrix overlap = left.transpose() * right;
+  const Matrix projector = (right * overlap.partialPivLu().solve(left.transpose())).real();
+  // Where eigenvectors are nearly alike it is known too badly to be of use.
+  constexpr double acceptable = 1e-11;
+  const double size = 1.0 + projector.norm();
+  const Matrix commuted = matrix * projector - projector * matrix;
+  const bool is_projector = (projector * projector - projector).norm() <= acceptable * size;
+  const bool is_invariant = commuted.norm() <= acceptable * size * matrix.norm();
+  if (!projector.allFinite() || !is_projector || !is_invariant) return std::nullopt;
+  // A P z = −P b, z = P z: A with the slow part replaced by the identity can be inverted.
+  const Matrix identity = Matrix::Identity(matrix.rows(), matrix.cols());
+  const Matrix invertible = matrix * projector + (identity - projector);
+  const Vector rest = -(projector * invertible.partialPivLu().solve(projector * flow.offset));
+  Matrix slow = matrix - matrix * projector;
+  // What only rounding has left would couple numbers that have nothing to do with each other.
+  constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+  const Matrix made_of = matrix.cwiseAbs() * (identity + projector.cwiseAbs());
+  slow = (slow.array().abs() <= rounding * made_of.array()).select(0.0, slow);
+  return FastDecays{projector, rest, {slow, flow.offset - projector * flow.offset}};
+}
+
+}  // namespace gearlash::hybrid

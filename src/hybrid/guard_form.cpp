@@ -1,0 +1,165 @@
+#include "guard_form.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gearlash::hybrid {
+
+SparseForm::SparseForm(const AffineForm& form) : offset(form.offset) {
+  for (int i = 0; i < static_cast<int>(form.normal.size()); ++i) {
+    if (form.normal[i] != 0.0) terms.push_back({i, form.normal[i]});
+  }
+}
+
+double SparseForm::at(const double* state) const {
+  double sum = offset;
+  for (const auto& [number, factor] : terms) sum += factor * state[number];
+  return sum;
+}
+
+double SparseForm::size_at(const double* state) const {
+  double sum = std::abs(offset);
+  for (const auto& [number, factor] : terms) sum += std::abs(factor * state[number]);
+  return sum;
+}
+
+double SparseForm::noise_at(const double* state, const double* noise) const {
+  double sum = sum_rounding * std::abs(offset);
+  for (const auto& [number, factor] : terms) {
+    sum += std::abs(factor) * (sum_rounding * std::abs(state[number]) + noise[number]);
+  }
+  return sum;
+}
+
+namespace {
+
+/// With so many orders most guards can be told to stay on their side.
+constexpr std::size_t most_few = 11;
+
+double power_of(double base, int exponent) {
+  double power = base;
+  for (int i = 1; i < exponent; ++i) power *= base;
+  return power;
+}
+
+/// Of a coefficient of an order, as a share of the size of its terms.
+double rounding_of(std::size_t order) {
+  return sum_rounding + product_rounding * static_cast<double>(order);
+}
+
+}  // namespace
+
+GuardTable::GuardTable(const LinearFlow& flow, const SparseForm& form)
+    : count_(static_cast<std::size_t>(flow.count())), is_polynomial_(flow.polynomial_order() > 0) {
+  const double length = is_polynomial_ ? 1.0 : flow.longest_step();
+  orders_ = count_ == 0 ? 0 : static_cast<std::size_t>(flow.order(length));
+  rows_.assign(count_ * orders_, 0.0);
+  sizes_.assign(count_ * orders_, 0.0);
+  few_ = std::min(orders_, most_few);
+  reach_.assign(count_, 0.0);
+  beyond_.assign(count_, 0.0);
+  std::vector<double> row(count_, 0.0);
+  std::vector<double> next(count_);
+  for (const auto& [number, factor] : form.terms) {
+    for (int i = 0; i < flow.count(); ++i) {
+      if (flow.number(i) != number) continue;
+      row[static_cast<std::size_t>(i)] = factor * length;
+      weight_ += std::abs(factor) * flow.weight(i);
+    }
+  }
+  const auto fill = [&](std::vector<double> first, bool sizes, std::vector<double>& table) {
+    for (std::size_t k = 0; k < orders_; ++k) {
+      for (std::size_t j = 0; j < count_; ++j) table[j * orders_ + k] = first[j];
+      flow.times_transposed(first.data(), length / static_cast<double>(k + 2), sizes, next.data());
+      std::swap(first, next);
+    }
+  };
+  fill(row, false, rows_);
+  for (double& entry : row) entry = std::abs(entry);
+  fill(row, true, sizes_);
+  for (std::size_t j = 0; j < count_; ++j) {
+    for (std::size_t k = orders_; k-- > 0;) {
+      if (k + 1 == few_) beyond_[j] = reach_[j];
+      reach_[j] += sizes_[j * orders_ + k];
+    }
+    if (reach_[j] != 0.0) acting_.push_back(j);
+  }
+}
+
+double GuardTable::reach(const Velocity& velocity, double share) const {
+  if (share > 1.0) {  // a polynomial's: powers of the share grow
+    double sum = 0.0;
+    double power = share;
+    for (std::size_t k = 0; k < orders_; ++k) {
+      for (const std::size_t j : acting_) {
+        sum += power * sizes_[j * orders_ + k] * velocity.sizes[j];
+      }
+      power *= share;
+    }
+    return sum;
+  }
+  double sum = 0.0;
+  for (const std::size_t j : acting_) sum += reach_[j] * velocity.sizes[j];
+  return share * sum;
+}
+
+double GuardTable::beyond_few(const Velocity& velocity, double share) const {
+  if (few_ == orders_) return 0.0;
+  double sum = 0.0;
+  for (const std::size_t j : acting_) sum += beyond_[j] * velocity.sizes[j];
+  return share * sum;
+}
+
+double GuardTable::uncertainty_of(const Velocity& velocity, double share, int order) const {
+  const auto k = static_cast<std::size_t>(order - 1);
+  const double rounding = rounding_of(k);
+  double sum = 0.0;
+  for (const std::size_t j : acting_) {
+    sum += sizes_[j * orders_ + k] * (velocity.noise[j] + rounding * std::abs(velocity.values[j]));
+  }
+  return sum * power_of(share, order);
+}
+
+double GuardTable::uncertainty(const Velocity& velocity, double share, int first, int last) const {
+  if (share > 1.0) {  // a polynomial's, as in reach()
+    double sum = 0.0;
+    for (int order = first; order <= last; ++order) sum += uncertainty_of(velocity, share, order);
+    return sum;
+  }
+  const double rounding = rounding_of(orders_);
+  double sum = 0.0;
+  for (const std::size_t j : acting_) {
+    sum += reach_[j] * (velocity.noise[j] + rounding * std::abs(velocity.values[j]));
+  }
+  return power_of(share, first) * sum;
+}
+
+void GuardTable::coefficients(const Velocity& velocity, double share, int last,
+                              double* coefficients) const {
+  const auto orders = static_cast<std::size_t>(last);
+  constexpr std::size_t block = 4;
+  std::size_t k = 0;
+  for (; k + block <= orders; k += block) {
+    std::array<double, block> sums{};
+    for (const std::size_t j : acting_) {
+      const double value = velocity.values[j];
+      const double* row = &rows_[j * orders_ + k];
+      for (std::size_t i = 0; i < block; ++i) sums[i] += value * row[i];
+    }
+    std::copy(sums.begin(), sums.end(), coefficients + 1 + k);
+  }
+  for (; k < orders; ++k) {
+    double sum = 0.0;
+    for (const std::size_t j : acting_) sum += velocity.values[j] * rows_[j * orders_ + k];
+    coefficients[k + 1] = sum;
+  }
+  if (share == 1.0) return;
+  double power = share;
+  for (k = 1; k <= orders; ++k) {
+    coefficients[k] *= power;
+    power *= share;
+  }
+}
+
+}  // namespace gearlash::hybrid

@@ -1,0 +1,62 @@
+// Affine forms over those numbers that are in them, and as polynomials over a step.
+#pragma once
+
+#include <vector>
+
+#include "linear_flow.hpp"
+
+namespace gearlash::hybrid {
+
+/// An affine form as a sum over the numbers that are in it.
+struct SparseForm {
+  struct Term {
+    int number;
+    double factor;
+  };
+  std::vector<Term> terms;
+  double offset = 0.0;
+
+  explicit SparseForm(const AffineForm& form);
+  double at(const double* state) const;
+  double size_at(const double* state) const;  ///< of its terms, all together
+  /// What rounding may add to at(), with `noise` how well each number is known.
+  double noise_at(const double* state, const double* noise) const;
+};
+
+/// A form g as a polynomial over a step of share s of the flow's longest one (of a time unit where
+/// the motion is a polynomial), at τ from 0 to 1:
+///   g(τ) = g₀ + Σ_k (s τ)^k rowₖ·v,   rowₖ = cᵀ A^{k−1} h^k/k!
+/// with v the velocity. Rounding adds to a coefficient at most some multiples of epsilon of
+///   |c|ᵀ |A|^{k−1} h^k/k! |v|.
+class GuardTable {
+ public:
+  GuardTable(const LinearFlow& flow, const SparseForm& form);
+
+  /// How far g may go from g₀ at most, with all that rounding may add.
+  double reach(const Velocity& velocity, double share) const;
+  /// What rounding and the remainder may add to all coefficients from order `first` ≥ 1 on.
+  double uncertainty(const Velocity& velocity, double share, int first, int last) const;
+  /// An upper bound of all coefficients beyond the first few orders, `few_orders`.
+  double beyond_few(const Velocity& velocity, double share) const;
+  int few_orders() const { return static_cast<int>(few_); }
+  /// What rounding may add to the coefficient of an order.
+  double uncertainty_of(const Velocity& velocity, double share, int order) const;
+  /// Of orders 1 to `last`, to coefficients[1], …
+  void coefficients(const Velocity& velocity, double share, int last, double* coefficients) const;
+  /// |c|·weights: of a remainder.
+  double weight() const { return weight_; }
+
+ private:
+  std::size_t count_;
+  std::size_t orders_;
+  bool is_polynomial_;
+  std::vector<double> rows_;   ///< by velocities, then by orders
+  std::vector<double> sizes_;  ///< likewise
+  std::size_t few_;
+  std::vector<double> reach_;        ///< Σ of sizes, by velocities
+  std::vector<double> beyond_;       ///< likewise, beyond the first few orders
+  std::vector<std::size_t> acting_;  ///< the velocities that are in it
+  double weight_ = 0.0;
+};
+
+}  // namespace gearlash::hybrid

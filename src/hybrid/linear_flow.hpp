@@ -1,0 +1,114 @@
+// A linear flow, made ready for Taylor steps.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "gearlash/hybrid/hybrid_system.hpp"
+
+namespace gearlash::hybrid {
+
+/// Of a sum of some products, as a share of the largest of them.
+inline constexpr double product_rounding = 4.0 * std::numeric_limits<double>::epsilon();
+/// Rounding of a sum of products, as a share of the sum of their sizes.
+inline constexpr double sum_rounding = 16.0 * std::numeric_limits<double>::epsilon();
+
+/// The order at which a series with so many rates (length times rate) is broken off:
+///   Σ_{j>k} |x₍ⱼ₎| ≤ |x₍₁₎| rates^k/(k + 1)! / (1 − rates/(k + 2)) ≤ left_out |x₍₁₎|.
+/// Precondition: rates ≤ longest_in_rates.
+int order_for(double rates);
+inline constexpr double left_out = 0x1p-62;
+/// A step times the rate. What terms of either sign take from each other is then below e².
+inline constexpr double longest_in_rates = 2.0;
+
+/// How the moving numbers move at a state.
+struct Velocity {
+  std::vector<double> values;
+  std::vector<double> noise;  ///< what rounding has left unknown of each
+  std::vector<double> sizes;  ///< an upper bound: |value| and all that rounding may ever add
+};
+
+/// x′ = A x + b, of which only the numbers that move are followed. Weights w_i (powers of 2) make
+/// the rate, max_i Σ_j |A_ij| w_j/w_i, small: numbers of unlike units count alike (Osborne 1960);
+/// and what only follows from other numbers, as a position from a speed, counts by how far those
+/// take it in their own time.
+class LinearFlow {
+ public:
+  explicit LinearFlow(const AffineFlow& flow);
+
+  int count() const { return static_cast<int>(numbers_.size()); }  ///< of numbers that move
+  int number(int moving) const { return numbers_[static_cast<std::size_t>(moving)]; }
+  double rate() const { return rate_; }
+  double longest_step() const { return longest_step_; }
+  /// Where no number acts on itself, even through others, motion is a polynomial of time: its
+  /// order; else 0. The rate is then 0, and a step as long as one likes.
+  int polynomial_order() const { return polynomial_order_; }
+  /// Of a series over a time.
+  int order(double length) const {
+    return polynomial_order_ > 0 ? polynomial_order_ : order_for(length * rate_);
+  }
+  /// What |x₍₁₎| ≤ `length` · weighted_norm(velocity) leaves out of numbers: this times their
+  /// weights.
+  double remainder(const Velocity& velocity, double length) const;
+  double weight(int moving) const { return weights_[static_cast<std::size_t>(moving)]; }
+
+  void velocity_at(const double* state, const double* noise, Velocity& velocity) const;
+
+  /// How long a step to make from a state where the motion is a polynomial: four times as long as
+  /// it takes until any two of its terms are alike, so that it suits the motion whatever the units.
+  double natural_step(const double* state, const Velocity& velocity,
+                      std::vector<double>& scratch) const;
+
+  /// By x₍ₖ₊₁₎ = h/(k+1) A x₍ₖ₎, which is added to the state, of all numbers. `scratch` is used.
+  /// Precondition: 0 ≤ length ≤ longest_step().
+  void advance(const Velocity& velocity, double length, double* state,
+               std::vector<double>& scratch) const;
+  /// Adds Σ|x₍ₖ₎| to each number.
+  void add_sizes(const Velocity& velocity, double length, double* sizes,
+                 std::vector<double>& scratch) const;
+
+  /// result = factor Aᵀ row, of moving numbers; with |A| where `sizes`.
+  void times_transposed(const double* row, double factor, bool sizes, double* result) const;
+
+ private:
+  struct Entry {
+    int column;
+    double factor;
+  };
+  /// next = length/order A here.
+  void next_term(const double* here, double length, int order, double* next) const;
+  void find_moving(const AffineFlow& flow);
+  std::vector<std::vector<bool>> reaches() const;
+  void weigh();
+
+  std::vector<int> numbers_;
+  std::vector<Entry> velocity_entries_;     ///< of A, columns among all numbers
+  std::vector<Entry> entries_;              ///< of A, columns among those that move
+  std::vector<std::size_t> velocity_rows_;  ///< where each row's entries begin, and their end
+  std::vector<std::size_t> rows_;
+  std::vector<double> offsets_;
+  std::vector<double> weights_;
+  double rate_ = 0.0;
+  double longest_step_ = std::numeric_limits<double>::max();
+  int polynomial_order_ = 0;
+};
+
+/// Where a step of one length takes a state: made once, used again and again.
+class Stride {
+ public:
+  Stride(const LinearFlow& flow, double length);
+
+  double length() const { return length_; }
+  /// As those of LinearFlow.
+  void advance(const LinearFlow& flow, const Velocity& velocity, double* state,
+               std::vector<double>& scratch) const;
+  void add_sizes(const LinearFlow& flow, const Velocity& velocity, double* sizes,
+                 std::vector<double>& scratch) const;
+
+ private:
+  double length_;
+  std::vector<double> change_;  ///< by columns: by each velocity, of each number that moves
+  std::vector<double> sizes_;   ///< likewise, of sizes of terms
+};
+
+}  // namespace gearlash::hybrid

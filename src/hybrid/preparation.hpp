@@ -1,0 +1,98 @@
+// A system's modes made ready for simulation, each when it is first entered.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "fast_decays.hpp"
+#include "guard_form.hpp"
+
+namespace gearlash::hybrid {
+
+/// A reset as those rows in which it is not the identity.
+struct PreparedReset {
+  struct Row {
+    int number;
+    SparseForm form;
+  };
+  std::vector<Row> rows;
+
+  PreparedReset(const Reset& reset, Eigen::Index size);
+  /// Of numbers, and how well each is known, before; what rounding adds is not in `noise`.
+  void apply(const Reset& reset, const Vector& before, Vector& after, Vector& noise,
+             Vector& scratch) const;
+};
+
+/// A flow with what the guards are on it.
+struct PreparedFlow {
+  LinearFlow flow;
+  std::vector<GuardTable> guards;
+  std::optional<Stride> longest;  ///< where steps have a longest length
+
+  PreparedFlow(const AffineFlow& affine, const std::vector<SparseForm>& guards);
+};
+
+/// Firings lead to the first alternative whose forms are all positive.
+struct PreparedAlternative {
+  std::vector<SparseForm> positive;
+  std::size_t target;
+};
+
+struct PreparedJump {
+  PreparedReset reset;
+  std::vector<PreparedAlternative> alternatives;
+
+  PreparedJump(const Reset& reset, const std::vector<Alternative>& alternatives, Eigen::Index size);
+};
+
+class PreparedMode {
+ public:
+  PreparedMode(const Mode& mode, Eigen::Index size);
+
+  struct Slow {
+    FastDecays decays;
+    PreparedFlow flow;
+  };
+  /// Without its fast decays; null where there are none. Worked out when it is first asked for.
+  const Slow* slow() const;
+
+  std::vector<SparseForm> guards;
+  PreparedFlow whole;
+  std::vector<PreparedJump> transitions;
+  std::vector<std::optional<PreparedJump>> settlings;  ///< by transition
+  std::vector<PreparedJump> timed;
+
+ private:
+  AffineFlow affine_;
+  mutable std::once_flag once_;
+  mutable std::optional<Slow> slow_;
+};
+
+/// May be used by several threads.
+class Preparation {
+ public:
+  /// The system must live for as long as modes are entered.
+  explicit Preparation(const HybridSystem& system)
+      : system_(&system), slots_(system.modes.size()) {}
+  /// With its own copy.
+  explicit Preparation(HybridSystem&& system)
+      : own_(std::make_unique<const HybridSystem>(std::move(system))),
+        system_(own_.get()),
+        slots_(own_->modes.size()) {}
+
+  const HybridSystem& system() const { return *system_; }
+  const PreparedMode& mode(std::size_t index) const;
+
+ private:
+  struct Slot {
+    std::once_flag once;
+    std::unique_ptr<const PreparedMode> mode;
+  };
+  std::unique_ptr<const HybridSystem> own_;
+  const HybridSystem* system_;
+  mutable std::vector<Slot> slots_;
+};
+
+}  // namespace gearlash::hybrid
