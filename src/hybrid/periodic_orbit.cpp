@@ -86,10 +86,17 @@ std::optional<PeriodicOrbit> closing_orbit(const HybridSystem& system, const Tra
   double scale = 0.0;
   const std::size_t first = last > options.most_events ? last - options.most_events : 0;
   for (std::size_t i = first; i <= last; ++i) scale = std::max(scale, size_of(events[i].after));
+  double farthest = size_of(end.before - end.after);
   for (std::size_t back = 1; back <= std::min(last, options.most_events); ++back) {
     const Event& begin = events[last - back];
-    if (!is_same_event(begin, end) || !(begin.time < end.time)) continue;
-    if (size_of(begin.after - end.after) > options.nearness * scale) continue;
+    const double distance = size_of(begin.after - end.after);
+    // What has hardly moved has not come back, unless it is at rest.
+    constexpr double returned = 0.1;
+    constexpr double resting = 1e-5;
+    const bool is_return = distance <= options.nearness * scale &&
+                           (distance <= returned * farthest || distance <= resting * scale);
+    farthest = std::max({farthest, distance, size_of(begin.before - end.after)});
+    if (!is_return || !is_same_event(begin, end) || !(begin.time < end.time)) continue;
     const double start = middle_of_longest(events, last - back, last);
     auto shooting = Shooting::about(system, motion.at(start), start, end.time - begin.time, back,
                                     options.phases);

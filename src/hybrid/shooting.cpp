@@ -320,14 +320,20 @@ PeriodicOrbit Shooting::orbit(const Equations& solved) const {
 std::optional<PeriodicOrbit> solved_by_newton(Shooting& shooting, int most_steps) {
   constexpr double good = 1e-13;
   constexpr double acceptable = 1e-10;
+  // Newton's method that does not come nearer for so long is going nowhere.
+  constexpr int patience = 6;
   double last = infinity;
+  double least = infinity;
+  int since_least = 0;
   for (int step = 0; step < most_steps; ++step) {
     const auto equations = shooting.evaluate();
     if (!equations) return std::nullopt;
     const double size = size_of(equations->residual) / shooting.scale();
     const bool is_stuck = size > 0.25 * last;
     if (size < good || (is_stuck && size < acceptable)) return shooting.orbit(*equations);
-    if (!std::isfinite(size)) return std::nullopt;
+    since_least = size < 0.5 * least ? 0 : since_least + 1;
+    if (!std::isfinite(size) || since_least >= patience) return std::nullopt;
+    least = std::min(least, size);
     last = size;
     const Vector change = equations->slope.fullPivLu().solve(-equations->residual);
     if (!change.allFinite()) return std::nullopt;
