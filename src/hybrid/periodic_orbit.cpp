@@ -92,7 +92,7 @@ std::optional<PeriodicOrbit> closing_orbit(const HybridSystem& system, const Tra
     const double distance = size_of(begin.after - end.after);
     // What has hardly moved has not come back, unless it is at rest.
     constexpr double returned = 0.1;
-    constexpr double resting = 1e-5;
+    constexpr double resting = 1e-4;
     const bool is_return = distance <= options.nearness * scale &&
                            (distance <= returned * farthest || distance <= resting * scale);
     farthest = std::max({farthest, distance, size_of(begin.before - end.after)});
