@@ -87,16 +87,18 @@ std::optional<PeriodicOrbit> closing_orbit(const HybridSystem& system, const Tra
   const std::size_t first = last > options.most_events ? last - options.most_events : 0;
   for (std::size_t i = first; i <= last; ++i) scale = std::max(scale, size_of(events[i].after));
   double farthest = size_of(end.before - end.after);
+  constexpr int most_tries_at_rest = 3;
+  int tries_at_rest = 0;
   for (std::size_t back = 1; back <= std::min(last, options.most_events); ++back) {
     const Event& begin = events[last - back];
     const double distance = size_of(begin.after - end.after);
-    // What has hardly moved has not come back, unless it is at rest.
     constexpr double returned = 0.1;
-    constexpr double resting = 1e-4;
-    const bool is_return = distance <= options.nearness * scale &&
-                           (distance <= returned * farthest || distance <= resting * scale);
+    const bool has_returned = distance <= returned * farthest;
     farthest = std::max({farthest, distance, size_of(begin.before - end.after)});
-    if (!is_return || !is_same_event(begin, end) || !(begin.time < end.time)) continue;
+    if (distance > options.nearness * scale) continue;
+    if (!is_same_event(begin, end) || !(begin.time < end.time)) continue;
+    // What has hardly moved creeps, unless it is at rest from tick to tick.
+    if (!has_returned && tries_at_rest++ >= most_tries_at_rest) continue;
     const double start = middle_of_longest(events, last - back, last);
     auto shooting = Shooting::about(system, motion.at(start), start, end.time - begin.time, back,
                                     options.phases);
