@@ -527,17 +527,25 @@ class Search {
     const bool may_close = setting_.coordinates != Coordinates::in_place;
     if (may_close && is_on_cycle(motion, {1e-2}, verdict)) return;
     const double from = motion.start_time();
-    std::vector<Sample> last;
-    for (const Sample& sample : watch.load) {
-      if (sample.time >= from) last.push_back(sample);
-    }
-    const std::vector<Sample> turns = extremes(last);
+    const auto seen_last = [&](const std::vector<Sample>& all) {
+      std::vector<Sample> last;
+      for (const Sample& sample : all) {
+        if (sample.time >= from) last.push_back(sample);
+      }
+      return last;
+    };
     constexpr std::size_t enough = 8;
+    const std::vector<Sample> of_load = seen_last(watch.load);
+    const std::vector<Sample> of_motor = seen_last(watch.motor);
+    // Within the gap the motor may hunt by itself, and the load stand.
+    const bool is_motor_alone =
+        extremes(of_load).size() < enough && extremes(of_motor).size() >= enough;
+    const Watched& watched = is_motor_alone ? setting_.motor : setting_.load;
+    const std::vector<Sample>& last = is_motor_alone ? of_motor : of_load;
+    const std::vector<Sample> turns = extremes(last);
     if (setting_.coordinates != Coordinates::in_place && turns.size() < enough) {
-      const bool motor_swings = extremes(watch.motor).size() >= enough;
       verdict.reason = watch.events >= options_.most_events ? "as many events as were permitted"
-                       : motor_swings ? "the motor still swings while the load hardly does"
-                                      : "still on its way at the end";
+                                                            : "still on its way at the end";
       return;
     }
     if (is_small(turns)) {
@@ -550,11 +558,13 @@ class Search {
     }
     verdict.end = MotionEnd::irregular;
     IrregularFound& found = verdict.irregular;
-    const Range range = range_of(last);
+    const Range range = range_of(of_load);
     found.size = 0.5 * range.width();
+    found.motor_size = 0.5 * range_of(of_motor).width();
     found.center = range.middle();
+    found.is_motor_alone = is_motor_alone;
     found.watched = motion.end_time() - from;
-    const auto passings = upward_passings(motion, setting_.load, last, found.center, from);
+    const auto passings = upward_passings(motion, watched, last, range_of(last).middle(), from);
     std::vector<double> periods;
     for (std::size_t i = 0; i + 1 < passings.size(); ++i) {
       periods.push_back(passings[i + 1] - passings[i]);
@@ -591,9 +601,13 @@ class Search {
     std::size_t i = 0;
     for (; i < result_.irregular.size(); ++i) {
       const IrregularFound& known = result_.irregular[i];
-      if (agree(known.size, found.size, found.size, share) &&
-          agree(known.half_swing, found.half_swing, found.size, share) &&
-          agree(known.center, found.center, found.size, share)) {
+      const double extent = std::max(found.size, found.motor_size);
+      // Where the motor hunts alone the load may stand anywhere.
+      const bool is_centered =
+          found.is_motor_alone || agree(known.center, found.center, extent, share);
+      if (known.is_motor_alone == found.is_motor_alone && is_centered &&
+          agree(known.size, found.size, extent, share) &&
+          agree(known.half_swing, found.half_swing, extent, share)) {
         break;
       }
     }

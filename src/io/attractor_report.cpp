@@ -156,10 +156,15 @@ std::string irregular_text(const AttractorReport& report, const IrregularFound& 
     return fmt::format("spread {:.2g} %", 100.0 * deviation / mean);
   };
   const bool is_chaotic = motion.exponent * motion.watched > 10.0;
-  return "\nMotion that was not seen to repeat\n" +
+  const std::string title = motion.is_motor_alone
+                                ? "The motor hunts within the gap, while the load hardly moves"
+                                : "Motion that was not seen to repeat";
+  return "\n" + title + "\n" +
          table_text(
              {{"size, load", swing(report, motion.size, table_digits),
                of_backlash(report, motion.size)},
+              {"size, motor", swing(report, motion.motor_size, table_digits),
+               of_backlash(report, motion.motor_size)},
               {"middle, from the reference", angle(report, motion.center), ""},
               {"mean swing", swing(report, motion.half_swing, table_digits),
                spread(motion.half_swing, motion.half_swing_deviation)},
@@ -268,6 +273,8 @@ Json json_extent(const drive::Extent& extent) {
 
 Json json_irregular(const IrregularFound& motion) {
   return {{"size", json_number(motion.size)},
+          {"motor_size", json_number(motion.motor_size)},
+          {"motor_alone", motion.is_motor_alone},
           {"center", json_number(motion.center)},
           {"mean_swing", json_number(motion.half_swing)},
           {"swing_deviation", json_number(motion.half_swing_deviation)},
@@ -332,6 +339,10 @@ std::string verdict_line(const AttractorReport& report) {
              pace(report, cycle->period(), headline_digits);
     }
     const IrregularFound& motion = report.search.irregular.front();
+    if (motion.is_motor_alone) {
+      return "the motor within the gap, " + swing(report, motion.motor_size, headline_digits) +
+             pace(report, motion.period, headline_digits) + ", while the load hardly moves";
+    }
     return "up to " + swing(report, motion.size, headline_digits) +
            pace(report, motion.period, headline_digits);
   };

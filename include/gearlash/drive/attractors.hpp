@@ -76,8 +76,11 @@ struct RestFound {
 /// Motion that is bounded and was not seen to close, measured over the last part of what was seen:
 /// a cycle that is locked to nothing, quasi-periodic motion, chaos, or a slow transient.
 struct IrregularFound {
-  double size = 0.0;    ///< rad, half the peak-to-peak of the load
-  double center = 0.0;  ///< rad, from the reference
+  double size = 0.0;        ///< rad, half the peak-to-peak of the load
+  double motor_size = 0.0;  ///< rad, of the motor
+  double center = 0.0;      ///< rad, of the load, from the reference
+  /// Within the gap, while the load hardly moves: swings and periods are then the motor's.
+  bool is_motor_alone = false;
   double period = 0.0;  ///< s, mean, from one passing of the center upwards to the next
   double period_deviation = 0.0;
   double half_swing = 0.0;  ///< rad, mean, half of extreme to extreme
