@@ -89,10 +89,16 @@ std::optional<FastDecays> fast_decays(const AffineFlow& flow) {
   const Matrix invertible = matrix * projector + (identity - projector);
   const Vector rest = -(projector * invertible.partialPivLu().solve(projector * flow.offset));
   Matrix slow = matrix - matrix * projector;
-  // What only rounding has left would couple numbers that have nothing to do with each other.
+  // What only rounding has left would couple numbers that have nothing to do with each other, and
+  // weigh them by it. Eigenvectors, and so the projector, are less well known than their sums are:
+  // how well, P² − P and A P − P A tell.
   constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
-  const Matrix made_of = matrix.cwiseAbs() * (identity + projector.cwiseAbs());
-  slow = (slow.array().abs() <= rounding * made_of.array()).select(0.0, slow);
+  constexpr double safety = 8.0;
+  const Matrix sizes = matrix.cwiseAbs();
+  const Matrix misfit = (projector * projector - projector).cwiseAbs();
+  const Matrix unknown = rounding * (sizes * (identity + projector.cwiseAbs())) +
+                         safety * (sizes * misfit + commuted.cwiseAbs());
+  slow = (slow.array().abs() <= unknown.array()).select(0.0, slow);
   return FastDecays{projector, rest, {slow, flow.offset - projector * flow.offset}};
 }
 
