@@ -262,8 +262,12 @@ class Search {
                            [&](const Sample& turn) { return turn.time > motion.start_time(); });
     };
     const std::vector<Sample> turns = turns_of(watch);
-    const bool is_slow =
-        std::max(recent(turns), recent(extremes(watch.motor))) < hardly_any || is_small(turns);
+    // Swings that still shrink may end in rest.
+    const auto count = static_cast<std::size_t>(recent(turns));
+    constexpr double shrunk = 0.8;
+    const bool shrinks = count > 2 && swing(turns, 0) < shrunk * swing(turns, count - 2);
+    const bool is_slow = std::max(recent(turns), recent(extremes(watch.motor))) < hardly_any ||
+                         is_small(turns) || shrinks;
     return (is_slow ? patience : 1.0) * result_.watch_time * (1.0 - 1e-9);
   }
 

@@ -113,7 +113,7 @@ std::string cycle_text(const AttractorReport& report, const FoundCycle& cycle) {
       {"size, load", swing(report, cycle.size, table_digits), of_backlash(report, cycle.size)},
       {"size, motor", swing(report, cycle.motor_size, table_digits),
        of_backlash(report, cycle.motor_size)},
-      {"middle, from the reference", angle(report, cycle.center), ""},
+      {"middle, from the reference", angle(report, cycle.is_symmetric ? 0.0 : cycle.center), ""},
       {"period", number(period) + " " + time_unit(report), ""}};
   if (!report.file.is_normalized) rows.push_back({"frequency", number(1.0 / period) + " Hz", ""});
   rows.push_back({"largest multiplier", number(cycle.multiplier),

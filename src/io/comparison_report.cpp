@@ -51,7 +51,8 @@ std::string pace_text(const ComparisonReport& report, const SensorCase& one) {
 
 std::string static_error(const ComparisonReport& report, const SensorCase& one) {
   const std::optional<drive::RestFound>& rest = one.attractors.search.rest;
-  if (!rest) return "never at rest";
+  const bool is_known = one.attractors.search.count(drive::MotionEnd::undecided) == 0;
+  if (!rest) return is_known ? "never at rest" : "not known";
   const double low = rest->error.lowest;
   const double high = rest->error.highest;
   const double size = std::max(std::abs(low), std::abs(high));
