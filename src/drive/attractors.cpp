@@ -256,14 +256,13 @@ class Search {
 
   /// Motion in which hardly anything happens is waited for.
   double longest(const Watch& watch, const Trajectory& motion, double patience) const {
-    constexpr std::ptrdiff_t hardly_any = 12;
+    constexpr std::size_t hardly_any = 12;
     const auto recent = [&](const std::vector<Sample>& turns) {
-      return std::count_if(turns.begin(), turns.end(),
-                           [&](const Sample& turn) { return turn.time > motion.start_time(); });
+      return count_of_swings(turns, motion.start_time());
     };
     const std::vector<Sample> turns = turns_of(watch);
     // Swings that still shrink may end in rest.
-    const auto count = static_cast<std::size_t>(recent(turns));
+    const std::size_t count = recent(turns);
     constexpr double shrunk = 0.8;
     const bool shrinks = count > 2 && swing(turns, 0) < shrunk * swing(turns, count - 2);
     const bool is_slow = std::max(recent(turns), recent(extremes(watch.motor))) < hardly_any ||
@@ -346,6 +345,17 @@ class Search {
       if (last[i].width() > little * scale) return false;
     }
     return true;
+  }
+
+  /// After a time, but for those that are next to nothing.
+  std::size_t count_of_swings(const std::vector<Sample>& turns, double from) const {
+    constexpr double negligible = 1e-6;
+    std::size_t count = 0;
+    for (std::size_t i = 1; i < turns.size(); ++i) {
+      const double size = std::abs(turns[i].value - turns[i - 1].value);
+      if (turns[i].time > from && size > negligible * setting_.small_length) ++count;
+    }
+    return count;
   }
 
   double swing(const std::vector<Sample>& turns, std::size_t from_last) const {
@@ -543,7 +553,7 @@ class Search {
     const std::vector<Sample> of_motor = seen_last(watch.motor);
     // Within the gap the motor may hunt by itself, and the load stand.
     const bool is_motor_alone =
-        extremes(of_load).size() < enough && extremes(of_motor).size() >= enough;
+        extremes(of_load).size() < enough && count_of_swings(extremes(of_motor), from) >= enough;
     const Watched& watched = is_motor_alone ? setting_.motor : setting_.load;
     const std::vector<Sample>& last = is_motor_alone ? of_motor : of_load;
     const std::vector<Sample> turns = extremes(last);

@@ -173,7 +173,7 @@ std::string irregular_text(const AttractorReport& report, const IrregularFound& 
               {"swings that repeat, but for", fmt::format("{:.2g} %", 100.0 * motion.mismatch), ""},
               {"neighbours part at a rate of",
                number(motion.exponent) + (report.file.is_normalized ? " ω_n" : " /s"),
-               is_chaotic ? "chaotic" : "not chaotic"},
+               is_chaotic ? "chaotic" : ""},
               {"watched for", number(motion.watched) + " " + time_unit(report), ""},
               {"reached from", starts_text(motion.starts), ""}});
 }
