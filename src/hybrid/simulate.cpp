@@ -408,6 +408,7 @@ class Simulation {
   }
 
   void follow_sequence() {
+    if (is_over_at_once()) return settle();
     const std::size_t turn = recurring_turn(8);
     if (turn == 0) return;
     const double interval = duration(turn, 0);
@@ -427,6 +428,15 @@ class Simulation {
     const bool is_steady = std::abs(ratio - last_ratio) < steady * (1.0 - ratio);
     const bool is_little = left < little * own_time(last.mode, turn);
     if (is_little && (is_steady || interval <= 8.0 * epsilon * time_)) settle();
+  }
+
+  /// Firings that settle and come so fast that times tell no more of them apart: of faces that
+  /// hardly rebound there are too few to see a ratio.
+  bool is_over_at_once() const {
+    const std::size_t turn = recurring_turn(3);
+    if (turn == 0 || duration(turn, 0) > 8.0 * epsilon * time_) return false;
+    const Event& last = trajectory_.events_.back();
+    return system_.modes[last.mode].transitions[last.transition].settling.has_value();
   }
 
   /// What is short beside it is short: the mode's own time, or how long the first turn took.

@@ -66,7 +66,8 @@ TEST(OracleDriveSystem, WithFullDampingTorqueJumps) {
 // ---- the servo ----------------------------------------------------------------------------------
 
 TEST(OracleDriveSystem, TheRigidServoIsTheClosedForm) {
-  for (const double restitution : {0.0, 0.4}) {
+  for (const double restitution : {0.0, 1e-9, 1e-6, 1e-3, 0.01, 0.4}) {
+    SCOPED_TRACE(restitution);
     const NormalizedServo servo{.damping = 0.19,
                                 .inertia_ratio = 2.0,
                                 .friction_ratio = 0.1,
