@@ -83,7 +83,7 @@ Step read_step(const CompareOptions& options, const DriveFile& file, Faults& fau
       faults.add({"--until", shown(*options.until), "must be positive", ""});
     }
   } else if (faults.none()) {
-    step.until = periods * drive::slow_time(file.drive);
+    step.until = periods * drive::time_scales(file.drive).swing;
   }
   return step;
 }

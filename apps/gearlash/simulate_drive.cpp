@@ -40,7 +40,7 @@ double read_positive(const DriveFile& file, const char* field, const std::string
 double default_duration(const drive::Drive& drive) {
   const double signals =
       std::max(drive::settling_time(drive.reference), drive::settling_time(drive.load_torque));
-  return 2.0 * signals + 10.0 * drive::slow_time(drive);
+  return 2.0 * signals + 10.0 * drive::time_scales(drive).swing;
 }
 
 Times read_times(const DriveFile& file, const SimulateOptions& options, Faults& faults) {

@@ -1,57 +1,115 @@
 #include "gearlash/drive/time_scale.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
+#include <unsupported/Eigen/MatrixFunctions>
+#include <vector>
+
+#include "gearlash/drive/drive_system.hpp"
 
 namespace gearlash::drive {
 namespace {
 
-using Complex = std::complex<double>;
+using hybrid::Matrix;
 
-/// The torque asked for by one of the inputs, at a frequency.
-Complex response(const LinearController& controller, Eigen::Index input, Complex at) {
-  const auto order = static_cast<Eigen::Index>(controller.order());
-  const Complex direct = controller.direct[static_cast<std::size_t>(input)];
-  if (order == 0) return direct;
-  Eigen::MatrixXcd dynamics = at * Eigen::MatrixXcd::Identity(order, order);
-  Eigen::VectorXcd gain(order);
-  Eigen::RowVectorXcd output(order);
-  for (Eigen::Index i = 0; i < order; ++i) {
-    const auto row = static_cast<std::size_t>(i);
-    for (Eigen::Index j = 0; j < order; ++j) {
-      dynamics(i, j) -= controller.state_matrix[row][static_cast<std::size_t>(j)];
-    }
-    gain(i) = controller.input_matrix[row][static_cast<std::size_t>(input)];
-    output(i) = controller.output[row];
+constexpr double turn = 2.0 * std::numbers::pi;
+
+/// The drive without what is not linear in it but the gap.
+Drive linear_drive(Drive drive) {
+  drive.reference = 0.0;
+  drive.load_torque = 0.0;
+  drive.sensing.resolution = 0.0;
+  drive.sensing.resolution_of_speed = 0.0;
+  drive.torque_limit = std::numeric_limits<double>::infinity();
+  for (ShaftFriction* friction : {&drive.motor.friction, &drive.load.friction}) {
+    friction->coulomb = friction->breakaway = 0.0;
   }
-  return direct + output.dot(dynamics.partialPivLu().solve(gain));
+  return drive;
+}
+
+/// Of a matrix by all numbers, that by the numbers of shafts that are one.
+Matrix of_shafts_as_one(const Matrix& matrix) {
+  const Eigen::Index left = matrix.rows() - load_position;
+  Matrix as_one = matrix.bottomRightCorner(left, left);
+  for (const auto& [motor, load] :
+       {std::pair{motor_position, load_position}, std::pair{motor_speed, load_speed}}) {
+    as_one.col(load - load_position) += matrix.col(motor).tail(left);
+  }
+  return as_one;
+}
+
+/// Eigenvalues of the loop with the faces together, per s; of a sampled one those of the flow that
+/// would do the same from sample to sample.
+std::vector<std::complex<double>> loop_eigenvalues(const Drive& drive) {
+  const Drive linear = linear_drive(drive);
+  const DriveSystem built = drive_system(linear);
+  const hybrid::Mode& mode = built.system.modes[built.index_of({ContactState::forward})];
+  const bool is_rigid = std::holds_alternative<RigidContact>(linear.contact);
+  const auto reduced = [&](const Matrix& matrix) {
+    return is_rigid ? of_shafts_as_one(matrix) : matrix;
+  };
+  const Matrix flow = reduced(mode.flow.matrix);
+  std::vector<std::complex<double>> values;
+  if (!linear.sampling) {
+    const Eigen::VectorXcd all = flow.eigenvalues();
+    values.assign(all.begin(), all.end());
+    return values;
+  }
+  const double period = linear.sampling->period;
+  const double delay = linear.sampling->delay;
+  Matrix map = reduced(mode.timed.front().reset.matrix);
+  if (mode.timed.size() > 1) {
+    map = (flow * (period - delay)).exp() * reduced(mode.timed.back().reset.matrix) *
+          (flow * delay).exp() * map;
+  } else {
+    map = (flow * period).exp() * map;
+  }
+  const Eigen::VectorXcd all = map.eigenvalues();
+  for (const std::complex<double>& value : all) {
+    constexpr double dead_beat = 1e-12;
+    if (std::abs(value) > dead_beat) values.push_back(std::log(value) / period);
+  }
+  return values;
+}
+
+/// A free number's eigenvalue is 0, to rounding.
+std::vector<std::complex<double>> without_free_numbers(std::vector<std::complex<double>> values) {
+  double fastest = 0.0;
+  for (const auto& value : values) fastest = std::max(fastest, std::abs(value));
+  constexpr double nothing = 1e-9;
+  std::erase_if(values, [&](const auto& value) { return std::abs(value) <= nothing * fastest; });
+  return values;
 }
 
 }  // namespace
 
-double slow_time(const Drive& drive) {
-  const double inertia = drive.motor.inertia + drive.load.inertia;
-  const double friction = drive.motor.friction.viscous + drive.load.friction.viscous;
-  const LinearController controller = drive.sampling
-                                          ? sampled_controller(drive.controller, *drive.sampling)
-                                          : linear_controller(drive.controller);
-  const auto gain = [&](double frequency) {
-    const Complex s(0.0, frequency);
-    const Complex at = drive.sampling ? std::exp(s * drive.sampling->period) : s;
-    const Complex torque = response(controller, 1, at) + s * response(controller, 2, at);
-    return std::abs(torque / (s * (inertia * s + friction)));
-  };
-  // From fast to slow; a computer does nothing faster than half its rate.
-  constexpr double fastest = 1e9;
-  constexpr double slowest = 1e-9;
-  constexpr double factor = 0.9;
-  const double highest = drive.sampling ? std::numbers::pi / drive.sampling->period : fastest;
-  for (double frequency = highest; frequency > slowest; frequency *= factor) {
-    if (gain(frequency) >= 1.0) return 2.0 * std::numbers::pi / frequency;
+TimeScales time_scales(const Drive& drive) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double slowest = infinity;
+  double slowest_swing = infinity;
+  double slowest_decay = infinity;
+  for (const auto& value : without_free_numbers(loop_eigenvalues(drive))) {
+    const double rate = std::abs(value);
+    constexpr double share = 0.1;
+    if (std::abs(value.imag()) > share * rate) slowest_swing = std::min(slowest_swing, rate);
+    slowest = std::min(slowest, rate);
+    constexpr double least_damping = 1e-3;
+    slowest_decay = std::min(slowest_decay, std::max(-value.real(), least_damping * rate));
   }
-  return drive.sampling ? drive.sampling->period : 1.0;
+  const double rate = std::isfinite(slowest_swing) ? slowest_swing : slowest;
+  double swing = std::isfinite(rate) ? turn / rate : 1.0;
+  for (const Signal& signal : {drive.reference, drive.load_torque}) {
+    if (const auto* sine = std::get_if<Sine>(&signal)) {
+      swing = std::max(swing, turn / sine->frequency);
+    }
+  }
+  constexpr double samples = 10.0;
+  if (drive.sampling) swing = std::max(swing, samples * drive.sampling->period);
+  return {swing, std::isfinite(slowest_decay) ? 1.0 / slowest_decay : 0.0};
 }
 
 }  // namespace gearlash::drive
