@@ -7,14 +7,11 @@
 #include <numbers>
 
 #include "command.hpp"
-#include "gearlash/io/motion_report.hpp"
-#include "gearlash/io/output_file.hpp"
 #include "gearlash/io/picture.hpp"
 #include "gearlash/io/units.hpp"
 #include "gearlash/servo/range_check.hpp"
 #include "servo_options.hpp"
 #include "simulate_options.hpp"
-#include "terminal.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -176,21 +173,6 @@ void draw(const MotionReport& report, const Plot& plot) {
                               .units = report.units};
   write_file(plot.file, plot.is_phase_plane ? draw_phase_plane(picture, plot.format)
                                             : draw_time_response(picture, plot.format));
-}
-
-void write_tables(const MotionReport& report, const SimulateOptions& options) {
-  OutputFile output(options.output);
-  Progress progress("Writing");
-  const TextSink sink = [&](std::string_view text) { output.write(text); };
-  const ProgressSink show = [&](double share) { progress.show(share); };
-  if (options.format == "json") {
-    write_motion_json(report, sink, show);
-  } else if (options.events) {
-    write_events_csv(report, sink);
-  } else {
-    write_samples_csv(report, sink, show);
-  }
-  output.commit();
 }
 
 ExitStatus simulate_servo(const ServoFile& file, const SimulateOptions& options,

@@ -10,7 +10,6 @@
 #include "gearlash/io/units.hpp"
 #include "gearlash/servo/range_check.hpp"
 #include "simulate_options.hpp"
-#include "terminal.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -118,21 +117,6 @@ DriveMotionReport simulated(DriveFile file, const SimulateOptions& options,
       hybrid::simulate(report.system.system, drive::drive_start(file.drive, report.system, shafts),
                        {.until = times.until});
   return report;
-}
-
-void write_tables(const DriveMotionReport& report, const SimulateOptions& options) {
-  OutputFile output(options.output);
-  Progress progress("Writing");
-  const TextSink sink = [&](std::string_view text) { output.write(text); };
-  const ProgressSink show = [&](double share) { progress.show(share); };
-  if (options.format == "json") {
-    write_motion_json(report, sink, show);
-  } else if (options.events) {
-    write_events_csv(report, sink);
-  } else {
-    write_samples_csv(report, sink, show);
-  }
-  output.commit();
 }
 
 }  // namespace

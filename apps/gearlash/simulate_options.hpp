@@ -6,8 +6,11 @@
 #include <vector>
 
 #include "command.hpp"
+#include "gearlash/io/motion_report.hpp"
+#include "gearlash/io/output_file.hpp"
 #include "gearlash/io/picture.hpp"
 #include "servo_options.hpp"
+#include "terminal.hpp"
 
 namespace gearlash::cli {
 
@@ -34,6 +37,23 @@ struct Plot {
   std::string file;
   PictureFormat format = PictureFormat::svg;
 };
+
+/// The table that was asked for, of a servo's motion or a drive's.
+template <class Report>
+void write_tables(const Report& report, const SimulateOptions& options) {
+  OutputFile output(options.output);
+  Progress progress("Writing");
+  const TextSink sink = [&](std::string_view text) { output.write(text); };
+  const ProgressSink show = [&](double share) { progress.show(share); };
+  if (options.format == "json") {
+    write_motion_json(report, sink, show);
+  } else if (options.events) {
+    write_events_csv(report, sink);
+  } else {
+    write_samples_csv(report, sink, show);
+  }
+  output.commit();
+}
 
 /// The motion of a drive without a closed form. `faults` has those found so far.
 ExitStatus simulate_drive(DriveFile file, const SimulateOptions& options,

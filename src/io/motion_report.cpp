@@ -11,8 +11,6 @@
 namespace gearlash {
 namespace {
 
-constexpr std::size_t rows_between_progress = 4096;
-
 /// A state in the report's units.
 ServoState reported(const ServoState& state, const ReportUnits& units) {
   return {state.motor_position, units.speed(state.motor_speed), state.load_position,
@@ -34,14 +32,8 @@ Sample sample_at(const MotionReport& report, double time) {
 template <class WriteRow>
 void for_each_sample(const MotionReport& report, const ProgressSink& progress,
                      const WriteRow& write_row) {
-  const std::size_t count = sample_count(report);
-  const DecimalMultiples time_of(report.every);
-  for (std::size_t i = 0; i < count; ++i) {
-    write_row(i, sample_at(report, time_of(i)));
-    if (i % rows_between_progress == 0 && progress) {
-      progress(static_cast<double>(i) / static_cast<double>(count));
-    }
-  }
+  for_each_time(sample_count(report), report.every, progress,
+                [&](std::size_t i, double time) { write_row(i, sample_at(report, time)); });
 }
 
 const char* words_for(StopReason reason) {
