@@ -174,6 +174,17 @@ TEST(OracleDriveFile, AProportionalControllerIsTheServoOfALoop) {
   EXPECT_FALSE(with("[contact]\nstiffness = \"1 N m/rad\"\n"));
   EXPECT_FALSE(with("[load_torque]\nkind = \"constant\"\nvalue = \"1 N m\"\n"));
   EXPECT_TRUE(with("[reference]\nkind = \"constant\"\nvalue = \"1 rad\"\n"));
+  // Speed fed back from the motor is friction on it; from the load it is not.
+  const auto with_speed = [&](const std::string& shaft) {
+    return drive::proportional_servo(
+        drive_of(plain + ("[controller]\nkind = \"PD\"\nproportional = \"3 V/rad\"\n"
+                          "derivative = \"0.5 V s/rad\"\n[sensor]\nspeed = \"" +
+                          shaft + "\"\n"))
+            .drive);
+  };
+  ASSERT_TRUE(with_speed("motor"));
+  EXPECT_DOUBLE_EQ(with_speed("motor")->motor_friction, servo.drivetrain->motor_friction + 0.05);
+  EXPECT_FALSE(with_speed("load"));
 }
 
 TEST(DriveFile, ControllersOfEveryKind) {
