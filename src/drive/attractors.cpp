@@ -693,7 +693,7 @@ class Search {
       const Verdict& other = verdicts_[i + 1];
       if (sought.size() >= options_.most_edges) return;
       if (!one.is_attracted() || !other.is_attracted() || one.is_same_end(other)) continue;
-      const auto both = std::minmax(name_of(one), name_of(other));
+      const auto both = std::minmax({name_of(one), name_of(other)});
       if (!sought.insert({both.first, both.second}).second) continue;
       if (!goes_on()) return;
       result_.edges.push_back({i, i + 1, cycle_between(i, one)});
