@@ -251,6 +251,8 @@ ServoOrDriveFile resolve_servo_or_drive(const ServoOptions& options, Faults& fau
 }
 
 std::optional<ServoFile> closed_form_of(DriveFile file) {
+  // Hunting does not depend on where the reference stays in the end, but on whether it does.
+  if (!std::holds_alternative<double>(drive::settled(file.drive.reference))) return std::nullopt;
   file.drive.reference = 0.0;
   const std::optional<Drivetrain> drivetrain = drive::proportional_servo(file.drive);
   if (!drivetrain) return std::nullopt;

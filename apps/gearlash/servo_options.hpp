@@ -78,7 +78,8 @@ ServoFile resolve_servo(const ServoOptions& options, Faults& faults);
 /// with its sensor on the motor is a drive. Faults go to `faults`.
 ServoOrDriveFile resolve_servo_or_drive(const ServoOptions& options, Faults& faults);
 
-/// The servo of the closed form that the drive is, but for its reference; nothing if it is none.
+/// The servo of the closed form that the drive is once its reference stays somewhere; nothing if it
+/// is none, or the reference moves for ever.
 std::optional<ServoFile> closed_form_of(DriveFile file);
 
 /// The data sheet with what options say of it: its backlash and restitution. Precondition: there is

@@ -78,6 +78,20 @@ TEST_F(DriveCommand, ADriveWithAClosedFormIsTheServoThatItIs) {
       1.0, 1e-9);
 }
 
+TEST_F(DriveCommand, AReferenceThatMovesForEverHasNoClosedForm) {
+  const auto method = [&](const std::string& reference) {
+    const std::string drive = file(std::string(mechanics) + proportional + reference);
+    const Outcome run = run_tool({"limit-cycle", drive, "--format", "json"});
+    return json::parse(run.out)["method"].get<std::string>();
+  };
+  EXPECT_EQ(method("[reference]\nkind = \"step\"\nafter = \"1 rad\"\n"), "closed form");
+  EXPECT_THAT(method("[reference]\nkind = \"sine\"\namplitude = \"1 deg\"\n"
+                     "frequency = \"3 Hz\"\n"),
+              StartsWith("piecewise-affine"));
+  EXPECT_THAT(method("[reference]\nkind = \"ramp\"\nrate = \"1 deg/s\"\n"),
+              StartsWith("piecewise-affine"));
+}
+
 TEST_F(DriveCommand, SimulateTakesTheReferenceOfTheFile) {
   const std::string drive = file(std::string(mechanics) + with_speed +
                                  "[reference]\nkind = \"ramp\"\nrate = \"1 deg/s\"\n");
