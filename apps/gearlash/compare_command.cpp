@@ -135,7 +135,8 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
   write_file("-", options.format == "json" ? comparison_json(report) : comparison_text(report));
   const bool decided =
       std::none_of(report.cases.begin(), report.cases.end(), [](const SensorCase& one) {
-        return drive::verdict_of(one.attractors.search) == drive::DriveVerdict::undecided;
+        return drive::verdict_of(one.attractors.search) == drive::DriveVerdict::undecided ||
+               one.response.stop_reason != hybrid::StopReason::reached_end;
       });
   return decided ? ExitStatus::done : ExitStatus::undecided;
 }

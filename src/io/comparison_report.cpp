@@ -97,6 +97,11 @@ std::string meaning(const ComparisonReport& report) {
                                                     : ", which this controller makes no use of. ";
     }
   }
+  for (const SensorCase& one : report.cases) {
+    if (one.response.stop_reason == hybrid::StopReason::reached_end) continue;
+    text += fmt::format("With the sensor on {} the step response could be followed for {} only. ",
+                        name_of(one.place), time(report, one.response.until));
+  }
   return text +
          "Rest and cycles are those that a search from several starts found (limit-cycle "
          "tells each); step responses are exact motions from rest.";
