@@ -37,7 +37,7 @@ constexpr std::size_t lanes = 4;
 
 /// In four sums, of every fourth coefficient each, so that one need not wait for the other.
 /// Precondition: a multiple of four coefficients.
-double value_at(const Coefficients& coefficients, double x) {
+double value_at(std::span<const double> coefficients, double x) {
   const double square = x * x;
   const double fourth = square * square;
   std::array<double, lanes> sums{};
@@ -55,12 +55,15 @@ Coefficients in_fours(std::span<const double> coefficients) {
   return padded;
 }
 
-Coefficients derivative_of(const Coefficients& coefficients) {
-  Coefficients result(coefficients.size());
-  result[result.size() - 1] = 0.0;
-  for (std::size_t k = 1; k < coefficients.size(); ++k) {
-    result[k - 1] = static_cast<double>(k) * coefficients[k];
+/// As many coefficients, the last one 0.
+template <class Values>
+Values derivative_of(const Values& coefficients) {
+  Values result(coefficients);
+  const std::size_t last = coefficients.size() - 1;
+  for (std::size_t k = 0; k < last; ++k) {
+    result[k] = static_cast<double>(k + 1) * coefficients[k + 1];
   }
+  result[last] = 0.0;
   return result;
 }
 
@@ -68,42 +71,56 @@ constexpr std::size_t table_degrees = 40;
 using Reciprocals = std::array<std::array<double, table_degrees>, table_degrees>;
 
 /// [n][i]: 1/C(n, i).
-const Reciprocals& reciprocal_binomials() {
-  static const Reciprocals table = [] {
-    Reciprocals all{};
-    for (std::size_t n = 0; n < table_degrees; ++n) {
-      double binomial = 1.0;
-      for (std::size_t i = 0; i <= n; ++i) {
-        all[n][i] = 1.0 / binomial;
-        binomial *= static_cast<double>(n - i) / static_cast<double>(i + 1);
-      }
+constexpr Reciprocals reciprocal_binomials = [] {
+  Reciprocals all{};
+  for (std::size_t n = 0; n < table_degrees; ++n) {
+    double binomial = 1.0;
+    for (std::size_t i = 0; i <= n; ++i) {
+      all[n][i] = 1.0 / binomial;
+      binomial *= static_cast<double>(n - i) / static_cast<double>(i + 1);
     }
-    return all;
-  }();
-  return table;
-}
+  }
+  return all;
+}();
 
 /// Bernstein's coefficients on [0, 1]: b_j = Σ_{i≤j} C(j, i)/C(n, i) a_i. By sums of neighbours:
-/// the weights are between 0 and 1, so that no digits are lost.
-Coefficients bernstein_of(std::span<const double> power) {
-  const std::size_t count = power.size();
-  Coefficients last_first(count);
+/// the weights are between 0 and 1, so that no digits are lost. `Values` has the size of `power`.
+template <class Values>
+void find_bernstein(std::span<const double> power, Values& result) {
+  const std::size_t count = result.size();
   if (count <= table_degrees) {
-    const auto& factors = reciprocal_binomials()[count - 1];
-    for (std::size_t i = 0; i < count; ++i) last_first[count - 1 - i] = power[i] * factors[i];
+    const auto& factors = reciprocal_binomials[count - 1];
+    for (std::size_t i = 0; i < count; ++i) result[count - 1 - i] = power[i] * factors[i];
   } else {
     double binomial = 1.0;
     for (std::size_t i = 0; i < count; ++i) {
-      last_first[count - 1 - i] = power[i] / binomial;
+      result[count - 1 - i] = power[i] / binomial;
       binomial *= static_cast<double>(count - 1 - i) / static_cast<double>(i + 1);
     }
   }
-  double* sums = last_first.data();
+  double* sums = result.data();
   for (std::size_t level = 1; level < count; ++level) {
     for (std::size_t j = 0; j < count - level; ++j) sums[j] += sums[j + 1];
   }
-  std::reverse(last_first.begin(), last_first.end());
-  return last_first;
+  std::reverse(result.begin(), result.end());
+}
+
+Coefficients bernstein_of(std::span<const double> power) {
+  Coefficients result(power.size());
+  find_bernstein(power, result);
+  return result;
+}
+
+/// Where, of [0, 1], the polygon of Bernstein's coefficients, which p is near, falls below 0.
+template <class Values>
+double where_polygon_falls(const Values& values) {
+  const auto negative =
+      std::find_if(values.begin(), values.end(), [](double value) { return value < 0.0; });
+  if (negative == values.begin() || negative == values.end()) return 0.0;
+  const double before = *(negative - 1);
+  const double place =
+      static_cast<double>(negative - 1 - values.begin()) + before / (before - *negative);
+  return place / static_cast<double>(values.size() - 1);
 }
 
 /// A stretch of [0, 1] and the polynomial's Bernstein coefficients there.
@@ -134,7 +151,6 @@ class Search {
       : power_(in_fours(power)), uncertainty_(uncertainty) {}
 
   FirstExit run(std::span<const double> power) {
-    if (const auto fall = single_fall(power)) return {*fall, std::nullopt};
     Stretch whole{0.0, 1.0, bernstein_of(power)};
     if (never_negative(whole.coefficients)) {
       note_touch(whole);
@@ -200,35 +216,6 @@ class Search {
     if (is_zero(least)) found_.touch = least;
   }
 
-  /// The zero of p where its first terms q tell that there is one alone. The others are less than
-  /// E altogether; where q falls from above E to below −E and, by Bernstein's coefficients, has one
-  /// zero with either of them added, p's zeros are between those two. At one of them, x, with
-  /// slope −D and |p″| ≤ M, p falls all the way from x − 4E/D to x + 4E/D where 4E M/D ≤ D/2, and
-  /// is beyond ±2E there: it has no other.
-  std::optional<double> single_fall(std::span<const double> power) const {
-    constexpr std::size_t few = 12;
-    if (power.size() < few + 4) return std::nullopt;
-    double others = uncertainty_;
-    for (std::size_t k = few; k < power_.size(); ++k) others += std::abs(power_[k]);
-    const Stretch coarse{0.0, 1.0, bernstein_of(power.first(few))};
-    const auto& values = coarse.coefficients;
-    std::size_t positive = 0;
-    while (positive < few && values[positive] > others) ++positive;
-    if (positive == 0) return std::nullopt;
-    for (std::size_t j = positive; j < few; ++j) {
-      if (!(values[j] < -others)) return std::nullopt;
-    }
-    if (positive == few) return std::nullopt;
-    const auto root = newtons_root(coarse);
-    if (!root) return std::nullopt;
-    double curvature = 0.0;
-    for (std::size_t k = 2; k < power_.size(); ++k) {
-      curvature += static_cast<double>(k * (k - 1)) * std::abs(power_[k]);
-    }
-    const double slope = value_at(derivative_of(power_), *root);
-    return slope < 0.0 && 8.0 * others * curvature <= slope * slope ? root : std::nullopt;
-  }
-
   /// Where p is least, by Newton's method on p′; the place itself where that leads away.
   double lowest_near(double place) const {
     const Coefficients slope = derivative_of(power_);
@@ -261,8 +248,8 @@ class Search {
   std::optional<double> newtons_root(const Stretch& stretch) const {
     constexpr int most = 8;
     const Coefficients derivative = derivative_of(power_);
-    double x = where_polygon_falls(stretch);
     double last = stretch.high - stretch.low;
+    double x = stretch.low + last * where_polygon_falls(stretch.coefficients);
     for (int i = 0; i < most; ++i) {
       const double step = -value_at(power_, x) / value_at(derivative, x);
       const double size = std::abs(step);
@@ -276,19 +263,6 @@ class Search {
     return std::nullopt;
   }
 
-  /// Bernstein's coefficients as a polygon that p is near.
-  static double where_polygon_falls(const Stretch& stretch) {
-    const Coefficients& values = stretch.coefficients;
-    const auto negative =
-        std::find_if(values.begin(), values.end(), [](double value) { return value < 0.0; });
-    if (negative == values.begin() || negative == values.end()) return stretch.low;
-    const double before = *(negative - 1);
-    const double place =
-        static_cast<double>(negative - 1 - values.begin()) + before / (before - *negative);
-    return stretch.low +
-           (stretch.high - stretch.low) * place / static_cast<double>(values.size() - 1);
-  }
-
   Coefficients power_;
   double uncertainty_;
   FirstExit found_;
@@ -296,19 +270,57 @@ class Search {
 
 }  // namespace
 
-bool stays_positive(std::span<const double> coefficients, double uncertainty) {
-  double lowest = coefficients.empty() ? 0.0 : coefficients[0];
-  for (std::size_t k = 1; k < coefficients.size(); ++k) lowest += std::min(0.0, coefficients[k]);
-  if (lowest > uncertainty) return true;
-  const Coefficients values = bernstein_of(coefficients);
-  return std::all_of(values.begin(), values.end(),
-                     [uncertainty](double value) { return value > uncertainty; });
+namespace {
+
+/// Of p on [0, 1]: the least partial sum S_k = Σ_{i≤k} a_i, as p is a mean of them,
+/// Σ_{k<n} S_k (τᵏ − τᵏ⁺¹) + S_n τⁿ.
+double lower_bound(std::span<const double> coefficients) {
+  double sum = coefficients.empty() ? 0.0 : coefficients[0];
+  double lowest = sum;
+  for (std::size_t k = 1; k < coefficients.size(); ++k) {
+    sum += coefficients[k];
+    lowest = std::min(lowest, sum);
+  }
+  return lowest;
+}
+
+}  // namespace
+
+std::optional<RoughExit> rough_exit(std::span<const double> leading, double rest, int last) {
+  if (lower_bound(leading) > rest) return RoughExit{};
+  std::array<double, most_leading> power{};
+  std::copy(leading.begin(), leading.end(), power.begin());
+  std::array<double, most_leading> bernstein;
+  find_bernstein(power, bernstein);
+  const auto fall = std::find_if_not(bernstein.begin(), bernstein.end(),
+                                     [rest](double value) { return value > rest; });
+  if (fall == bernstein.end()) return RoughExit{};
+  const bool falls_once =
+      std::all_of(fall, bernstein.end(), [rest](double value) { return value < -rest; });
+  if (fall == bernstein.begin() || !falls_once) return std::nullopt;
+  double curvature = rest * last * (last - 1);
+  for (std::size_t k = 2; k < most_leading; ++k) {
+    curvature += static_cast<double>(k * (k - 1)) * std::abs(power[k]);
+  }
+  const auto derivative = derivative_of(power);
+  double x = where_polygon_falls(bernstein);
+  constexpr int most = 6;
+  for (int i = 0; i < most; ++i) {
+    const double value = value_at(power, x);
+    const double slope = value_at(derivative, x);
+    if (std::abs(value) <= rest) {
+      const double steep = -slope - rest * last;
+      if (!(steep > 0.0) || !(16.0 * rest * curvature <= steep * steep)) return std::nullopt;
+      return RoughExit{x, 8.0 * rest / steep};
+    }
+    x -= value / slope;
+    if (!(x > 0.0 && x < 1.0)) return std::nullopt;
+  }
+  return std::nullopt;
 }
 
 FirstExit first_exit(std::span<const double> coefficients, double uncertainty) {
-  double lowest = coefficients.empty() ? 0.0 : coefficients[0];
-  for (std::size_t k = 1; k < coefficients.size(); ++k) lowest += std::min(0.0, coefficients[k]);
-  if (lowest > uncertainty) return {};
+  if (lower_bound(coefficients) > uncertainty) return {};
   // The last terms are often far below what is known: without them zeros are isolated.
   constexpr double negligible = 0x1p-6;
   double neglected = 0.0;

@@ -1,8 +1,9 @@
 #include "guard_form.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "gearlash/hybrid/first_exit.hpp"
 
 namespace gearlash::hybrid {
 
@@ -34,12 +35,15 @@ double SparseForm::noise_at(const double* state, const double* noise) const {
 
 namespace {
 
-/// With so many orders most guards can be told to stay on their side.
-constexpr std::size_t most_few = 11;
+constexpr std::size_t lanes = 4;
+using Lanes = Eigen::Array<double, lanes, 1>;
 
 double power_of(double base, int exponent) {
-  double power = base;
-  for (int i = 1; i < exponent; ++i) power *= base;
+  double power = 1.0;
+  for (; exponent > 0; exponent /= 2) {
+    if (exponent % 2 == 1) power *= base;
+    base *= base;
+  }
   return power;
 }
 
@@ -51,12 +55,13 @@ double rounding_of(std::size_t order) {
 }  // namespace
 
 GuardTable::GuardTable(const LinearFlow& flow, const SparseForm& form)
-    : count_(static_cast<std::size_t>(flow.count())), is_polynomial_(flow.polynomial_order() > 0) {
-  const double length = is_polynomial_ ? 1.0 : flow.longest_step();
-  orders_ = count_ == 0 ? 0 : static_cast<std::size_t>(flow.order(length));
-  rows_.assign(count_ * orders_, 0.0);
-  sizes_.assign(count_ * orders_, 0.0);
-  few_ = std::min(orders_, most_few);
+    : count_(static_cast<std::size_t>(flow.count())),
+      length_(flow.polynomial_order() > 0 ? 1.0 : flow.longest_step()),
+      orders_(count_ == 0 ? 0 : static_cast<std::size_t>(flow.order(length_))),
+      room_((orders_ + lanes - 1) / lanes * lanes) {
+  rows_.assign(count_ * room_, 0.0);
+  sizes_.assign(count_ * room_, 0.0);
+  few_ = std::min(orders_, most_leading - 1);
   reach_.assign(count_, 0.0);
   beyond_.assign(count_, 0.0);
   std::vector<double> row(count_, 0.0);
@@ -64,14 +69,14 @@ GuardTable::GuardTable(const LinearFlow& flow, const SparseForm& form)
   for (const auto& [number, factor] : form.terms) {
     for (int i = 0; i < flow.count(); ++i) {
       if (flow.number(i) != number) continue;
-      row[static_cast<std::size_t>(i)] = factor * length;
+      row[static_cast<std::size_t>(i)] = factor * length_;
       weight_ += std::abs(factor) * flow.weight(i);
     }
   }
   const auto fill = [&](std::vector<double> first, bool sizes, std::vector<double>& table) {
     for (std::size_t k = 0; k < orders_; ++k) {
-      for (std::size_t j = 0; j < count_; ++j) table[j * orders_ + k] = first[j];
-      flow.times_transposed(first.data(), length / static_cast<double>(k + 2), sizes, next.data());
+      for (std::size_t j = 0; j < count_; ++j) table[j * room_ + k] = first[j];
+      flow.times_transposed(first.data(), length_ / static_cast<double>(k + 2), sizes, next.data());
       std::swap(first, next);
     }
   };
@@ -81,7 +86,7 @@ GuardTable::GuardTable(const LinearFlow& flow, const SparseForm& form)
   for (std::size_t j = 0; j < count_; ++j) {
     for (std::size_t k = orders_; k-- > 0;) {
       if (k + 1 == few_) beyond_[j] = reach_[j];
-      reach_[j] += sizes_[j * orders_ + k];
+      reach_[j] += sizes_[j * room_ + k];
     }
     if (reach_[j] != 0.0) acting_.push_back(j);
   }
@@ -93,7 +98,7 @@ double GuardTable::reach(const Velocity& velocity, double share) const {
     double power = share;
     for (std::size_t k = 0; k < orders_; ++k) {
       for (const std::size_t j : acting_) {
-        sum += power * sizes_[j * orders_ + k] * velocity.sizes[j];
+        sum += power * sizes_[j * room_ + k] * velocity.sizes[j];
       }
       power *= share;
     }
@@ -108,7 +113,7 @@ double GuardTable::beyond_few(const Velocity& velocity, double share) const {
   if (few_ == orders_) return 0.0;
   double sum = 0.0;
   for (const std::size_t j : acting_) sum += beyond_[j] * velocity.sizes[j];
-  return share * sum;
+  return sum * power_of(share, few_orders() + 1);
 }
 
 double GuardTable::uncertainty_of(const Velocity& velocity, double share, int order) const {
@@ -116,7 +121,7 @@ double GuardTable::uncertainty_of(const Velocity& velocity, double share, int or
   const double rounding = rounding_of(k);
   double sum = 0.0;
   for (const std::size_t j : acting_) {
-    sum += sizes_[j * orders_ + k] * (velocity.noise[j] + rounding * std::abs(velocity.values[j]));
+    sum += sizes_[j * room_ + k] * (velocity.noise[j] + rounding * std::abs(velocity.values[j]));
   }
   return sum * power_of(share, order);
 }
@@ -135,28 +140,25 @@ double GuardTable::uncertainty(const Velocity& velocity, double share, int first
   return power_of(share, first) * sum;
 }
 
+double GuardTable::speed(const Velocity& velocity) const {
+  double sum = 0.0;
+  for (const std::size_t j : acting_) sum += velocity.values[j] * rows_[j * room_];
+  return sum / length_;
+}
+
 void GuardTable::coefficients(const Velocity& velocity, double share, int last,
                               double* coefficients) const {
   const auto orders = static_cast<std::size_t>(last);
-  constexpr std::size_t block = 4;
-  std::size_t k = 0;
-  for (; k + block <= orders; k += block) {
-    std::array<double, block> sums{};
+  for (std::size_t k = 0; k < orders; k += lanes) {
+    Lanes sum = Lanes::Zero();
     for (const std::size_t j : acting_) {
-      const double value = velocity.values[j];
-      const double* row = &rows_[j * orders_ + k];
-      for (std::size_t i = 0; i < block; ++i) sums[i] += value * row[i];
+      sum += velocity.values[j] * Eigen::Map<const Lanes>(&rows_[j * room_ + k]);
     }
-    std::copy(sums.begin(), sums.end(), coefficients + 1 + k);
-  }
-  for (; k < orders; ++k) {
-    double sum = 0.0;
-    for (const std::size_t j : acting_) sum += velocity.values[j] * rows_[j * orders_ + k];
-    coefficients[k + 1] = sum;
+    Eigen::Map<Lanes>(coefficients + 1 + k) = sum;
   }
   if (share == 1.0) return;
   double power = share;
-  for (k = 1; k <= orders; ++k) {
+  for (std::size_t k = 1; k <= orders; ++k) {
     coefficients[k] *= power;
     power *= share;
   }

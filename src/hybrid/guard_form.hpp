@@ -41,15 +41,18 @@ class GuardTable {
   int few_orders() const { return static_cast<int>(few_); }
   /// What rounding may add to the coefficient of an order.
   double uncertainty_of(const Velocity& velocity, double share, int order) const;
-  /// Of orders 1 to `last`, to coefficients[1], …
+  /// Of orders 1 to `last`, to coefficients[1], …, where there must be room for three more.
   void coefficients(const Velocity& velocity, double share, int last, double* coefficients) const;
+  /// g′ at the start of the step.
+  double speed(const Velocity& velocity) const;
   /// |c|·weights: of a remainder.
   double weight() const { return weight_; }
 
  private:
   std::size_t count_;
+  double length_;  ///< of the longest step
   std::size_t orders_;
-  bool is_polynomial_;
+  std::size_t room_;           ///< for so many orders: in fours
   std::vector<double> rows_;   ///< by velocities, then by orders
   std::vector<double> sizes_;  ///< likewise
   std::size_t few_;

@@ -10,7 +10,7 @@ namespace {
 constexpr int highest_order = 36;
 
 /// With how many rates each order leaves out little enough.
-std::array<double, highest_order + 1> permitted_rates() {
+constexpr std::array<double, highest_order + 1> permitted_rates = [] {
   std::array<double, highest_order + 1> permitted{};
   for (int order = 1; order <= highest_order; ++order) {
     const auto leaves = [order](double rates) {
@@ -28,16 +28,15 @@ std::array<double, highest_order + 1> permitted_rates() {
     permitted[static_cast<std::size_t>(order)] = low;
   }
   return permitted;
-}
+}();
 
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
 int order_for(double rates) {
-  static const std::array<double, highest_order + 1> permitted = permitted_rates();
-  const auto enough = std::lower_bound(permitted.begin() + 1, permitted.end() - 1, rates);
-  return static_cast<int>(enough - permitted.begin());
+  const double* const first = permitted_rates.data();
+  return static_cast<int>(std::lower_bound(first + 1, first + highest_order, rates) - first);
 }
 
 // ---- what moves, and how fast -------------------------------------------------------------------
@@ -196,6 +195,17 @@ void LinearFlow::velocity_at(const double* state, const double* noise, Velocity&
   }
 }
 
+void LinearFlow::velocity_at(const double* state, Velocity& velocity) const {
+  velocity.values.resize(numbers_.size());
+  const Entry* entry = velocity_entries_.data();
+  for (std::size_t i = 0; i < numbers_.size(); ++i) {
+    const Entry* end = velocity_entries_.data() + velocity_rows_[i + 1];
+    double value = offsets_[i];
+    for (; entry != end; ++entry) value += entry->factor * state[entry->column];
+    velocity.values[i] = value;
+  }
+}
+
 void LinearFlow::next_term(const double* here, double length, int order, double* next) const {
   const double factor = length / order;
   const std::size_t size = numbers_.size();
@@ -245,7 +255,7 @@ void LinearFlow::advance(const Velocity& velocity, double length, double* state,
   double* next = here + size;
   double* sum = next + size;
   for (std::size_t i = 0; i < size; ++i) sum[i] = here[i] = length * velocity.values[i];
-  const int last = order(length);
+  const int last = order(std::abs(length));
   for (int k = 2; k <= last; ++k) {
     next_term(here, length, k, next);
     for (std::size_t i = 0; i < size; ++i) sum[i] += next[i];
@@ -280,22 +290,27 @@ void LinearFlow::times_transposed(const double* row, double factor, bool sizes,
   }
 }
 
-Stride::Stride(const LinearFlow& flow, double length) : length_(length) {
+Stride::Stride(const LinearFlow& flow, double longest)
+    : length_(longest), orders_(at(flow.order(longest))) {
   const auto size = at(flow.count());
-  change_.assign(size * size, 0.0);
-  sizes_.assign(size * size, 0.0);
+  const std::size_t blocks = (size + lanes - 1) / lanes;
+  terms_.assign(blocks * orders_ * size, Rows::Zero());
+  change_.assign(blocks * size, Rows::Zero());
+  sizes_.assign(blocks * size, Rows::Zero());
   std::vector<double> row(size);
   std::vector<double> next(size);
-  const int last = flow.order(length);
   for (std::size_t i = 0; i < size; ++i) {
+    const std::size_t block = i / lanes;
+    const auto lane = static_cast<Eigen::Index>(i % lanes);
     std::fill(row.begin(), row.end(), 0.0);
-    row[i] = length;
-    for (int k = 1; k <= last; ++k) {
+    row[i] = longest;
+    for (std::size_t k = 0; k < orders_; ++k) {
       for (std::size_t j = 0; j < size; ++j) {
-        change_[j * size + i] += row[j];
-        sizes_[j * size + i] += std::abs(row[j]);
+        terms_[(block * orders_ + k) * size + j](lane) = row[j];
+        change_[block * size + j](lane) += row[j];
+        sizes_[block * size + j](lane) += std::abs(row[j]);
       }
-      flow.times_transposed(row.data(), length / (k + 1), false, next.data());
+      flow.times_transposed(row.data(), longest / static_cast<double>(k + 2), false, next.data());
       std::swap(row, next);
     }
   }
@@ -303,31 +318,46 @@ Stride::Stride(const LinearFlow& flow, double length) : length_(length) {
 
 namespace {
 
-/// Σ_j value_j of column j.
-void add_columns(const std::vector<double>& columns, const std::vector<double>& values,
-                 double* sum) {
-  const std::size_t size = values.size();
-  for (std::size_t j = 0; j < size; ++j) {
-    const double value = values[j];
-    const double* column = &columns[j * size];
-    for (std::size_t i = 0; i < size; ++i) sum[i] += value * column[i];
-  }
+/// Σ_j values_j column_j, and what is there already.
+template <class Rows>
+inline Rows and_columns(Rows sum, const Rows* columns, const double* values, std::size_t count) {
+  for (std::size_t j = 0; j < count; ++j) sum += values[j] * columns[j];
+  return sum;
 }
 
 }  // namespace
 
-void Stride::advance(const LinearFlow& flow, const Velocity& velocity, double* state,
-                     std::vector<double>& scratch) const {
-  scratch.assign(at(flow.count()), 0.0);
-  add_columns(change_, velocity.values, scratch.data());
-  for (int i = 0; i < flow.count(); ++i) state[flow.number(i)] += scratch[at(i)];
+void Stride::advance(const LinearFlow& flow, const Velocity& velocity, double length,
+                     double* state) const {
+  const std::size_t size = velocity.values.size();
+  const double* values = velocity.values.data();
+  const double share = length / length_;
+  const std::size_t last = length == length_ ? orders_ : at(flow.order(std::abs(length)));
+  for (std::size_t first = 0; first < size; first += lanes) {
+    const std::size_t block = first / lanes;
+    Rows sum = Rows::Zero();
+    if (length == length_) {
+      sum = and_columns(sum, &change_[block * size], values, size);
+    } else {
+      for (std::size_t k = last; k-- > 0;) {
+        sum = share * and_columns(sum, &terms_[(block * orders_ + k) * size], values, size);
+      }
+    }
+    for (std::size_t i = first; i < std::min(size, first + lanes); ++i) {
+      state[flow.number(static_cast<int>(i))] += sum(static_cast<Eigen::Index>(i - first));
+    }
+  }
 }
 
-void Stride::add_sizes(const LinearFlow& flow, const Velocity& velocity, double* sizes,
-                       std::vector<double>& scratch) const {
-  scratch.assign(at(flow.count()), 0.0);
-  add_columns(sizes_, velocity.sizes, scratch.data());
-  for (int i = 0; i < flow.count(); ++i) sizes[flow.number(i)] += scratch[at(i)];
+void Stride::add_sizes(const LinearFlow& flow, const Velocity& velocity, double* sizes) const {
+  const std::size_t size = velocity.sizes.size();
+  for (std::size_t first = 0; first < size; first += lanes) {
+    const Rows sum =
+        and_columns<Rows>(Rows::Zero(), &sizes_[first / lanes * size], velocity.sizes.data(), size);
+    for (std::size_t i = first; i < std::min(size, first + lanes); ++i) {
+      sizes[flow.number(static_cast<int>(i))] += sum(static_cast<Eigen::Index>(i - first));
+    }
+  }
 }
 
 }  // namespace gearlash::hybrid

@@ -1,6 +1,7 @@
 // A linear flow, made ready for Taylor steps.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -53,6 +54,8 @@ class LinearFlow {
   double weight(int moving) const { return weights_[static_cast<std::size_t>(moving)]; }
 
   void velocity_at(const double* state, const double* noise, Velocity& velocity) const;
+  /// The same of `values` alone.
+  void velocity_at(const double* state, Velocity& velocity) const;
 
   /// How long a step to make from a state where the motion is a polynomial: four times as long as
   /// it takes until any two of its terms are alike, so that it suits the motion whatever the units.
@@ -60,7 +63,7 @@ class LinearFlow {
                       std::vector<double>& scratch) const;
 
   /// By x₍ₖ₊₁₎ = h/(k+1) A x₍ₖ₎, which is added to the state, of all numbers. `scratch` is used.
-  /// Precondition: 0 ≤ length ≤ longest_step().
+  /// Precondition: |length| ≤ longest_step().
   void advance(const Velocity& velocity, double length, double* state,
                std::vector<double>& scratch) const;
   /// Adds Σ|x₍ₖ₎| to each number.
@@ -93,22 +96,28 @@ class LinearFlow {
   int polynomial_order_ = 0;
 };
 
-/// Where a step of one length takes a state: made once, used again and again.
+/// Where a step takes a state, from a table made once for the longest one, h:
+///   x(s h) − x(0) = Σ_k s^k Tₖ v,   Tₖ = A^{k−1} h^k/k!,
+/// with v the velocity, by Horner's scheme. Worth its table where the numbers that move are few.
 class Stride {
  public:
-  Stride(const LinearFlow& flow, double length);
+  Stride(const LinearFlow& flow, double longest);
 
-  double length() const { return length_; }
   /// As those of LinearFlow.
-  void advance(const LinearFlow& flow, const Velocity& velocity, double* state,
-               std::vector<double>& scratch) const;
-  void add_sizes(const LinearFlow& flow, const Velocity& velocity, double* sizes,
-                 std::vector<double>& scratch) const;
+  void advance(const LinearFlow& flow, const Velocity& velocity, double length,
+               double* state) const;
+  /// Over the longest step, and no less where sizes are upper bounds.
+  void add_sizes(const LinearFlow& flow, const Velocity& velocity, double* sizes) const;
 
  private:
+  static constexpr std::size_t lanes = 4;
+  using Rows = Eigen::Array<double, lanes, 1>;  ///< so many rows of a column
+
   double length_;
-  std::vector<double> change_;  ///< by columns: by each velocity, of each number that moves
-  std::vector<double> sizes_;   ///< likewise, of sizes of terms
+  std::size_t orders_;
+  std::vector<Rows> terms_;   ///< of Tₖ, by blocks of rows, then by orders, then by columns
+  std::vector<Rows> change_;  ///< Σ Tₖ, by blocks of rows, then by columns
+  std::vector<Rows> sizes_;   ///< Σ |Tₖ|, likewise
 };
 
 }  // namespace gearlash::hybrid

@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <span>
 #include <stdexcept>
 
@@ -52,7 +51,7 @@ class Simulation {
         state_(start),
         time_(options.from) {
     trajectory_.preparation_ = std::move(preparation);
-    constexpr std::size_t some = 16;
+    constexpr std::size_t some = 8;
     trajectory_.events_.reserve(some);
     trajectory_.steps_.reserve(2 * some);
     trajectory_.starts_.reserve(2 * some * static_cast<std::size_t>(system_.size()));
@@ -131,46 +130,61 @@ class Simulation {
 
   // ---- guards -----------------------------------------------------------------------------------
 
-  /// When a guard leaves its side within the step, as a share of it.
-  FirstExit exit_of(std::size_t index) {
+  /// As a share of the step.
+  struct StepExit : FirstExit {
+    double within = 0.0;  ///< how far from `at` it may be
+  };
+
+  /// When a guard leaves its side within the step, by its leading terms alone where `roughly` and
+  /// they tell.
+  StepExit exit_of(std::size_t index, bool roughly) {
     const SparseForm& form = mode_->guards[index];
     const GuardTable& table = flow_->guards[index];
     double& sign = signs_[index];
     const double value = form.at(state_.numbers.data());
     const double unknown = form.noise_at(state_.numbers.data(), noise_.data());
-    const double remainder = table.weight() * remainder_;
-    const double farthest = table.reach(velocity_, table_share_) + unknown + remainder;
+    const double farthest =
+        table.reach(velocity_, table_share_) + unknown + table.weight() * remainder_;
     if (sign * value > farthest) return {};
     if (sign == 0.0 && std::abs(value) > farthest) {  // the side that it is on first is its own
       sign = std::copysign(1.0, value);
       return {};
     }
-    coefficients_.resize(static_cast<std::size_t>(order_) + 1);
-    coefficients_[0] = value;
-    const int few = std::min(order_, table.few_orders());
-    for (const int last : {few, order_}) {
-      table.coefficients(velocity_, table_share_, last, coefficients_.data());
-      coefficients_[0] = value;
-      const int first = first_that_counts(table, unknown, last);
-      if (first > last) continue;  // as far as it goes on it
-      const bool is_positive = coefficients_[static_cast<std::size_t>(first)] > 0.0;
-      if (sign == 0.0) sign = is_positive ? 1.0 : -1.0;
-      if (is_positive != (sign > 0.0)) return {0.0, std::nullopt};
-      const auto series =
-          std::span(coefficients_)
-              .subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first + 1));
-      if (sign < 0.0) {
-        for (double& coefficient : series) coefficient = -coefficient;
-      }
-      const double uncertainty =
-          table.uncertainty(velocity_, table_share_, std::max(first, 1), order_) + remainder +
-          (first == 0 ? unknown : 0.0);
-      if (last == order_) return first_exit(series, uncertainty);
-      const double open = uncertainty + table.beyond_few(velocity_, table_share_);
-      const double end = std::accumulate(series.begin(), series.end(), 0.0);
-      if (end > open && stays_positive(series, open)) return {};
+    if (roughly && table.few_orders() < order_) {
+      if (const auto exit = exit_by(table, value, unknown, sign, table.few_orders())) return *exit;
     }
-    return {};
+    return exit_by(table, value, unknown, sign, order_).value_or(StepExit{});
+  }
+
+  /// By the terms up to an order. Nothing where it takes more of them to tell; and where there are
+  /// none that count, as the motion goes on on the guard.
+  std::optional<StepExit> exit_by(const GuardTable& table, double value, double unknown,
+                                  double& sign, int last) {
+    coefficients_.resize(static_cast<std::size_t>(order_) + 4);
+    table.coefficients(velocity_, table_share_, last, coefficients_.data());
+    coefficients_[0] = value;
+    const int first = first_that_counts(table, unknown, last);
+    if (first > last) return std::nullopt;
+    const bool is_positive = coefficients_[static_cast<std::size_t>(first)] > 0.0;
+    if (sign == 0.0) sign = is_positive ? 1.0 : -1.0;
+    if (is_positive != (sign > 0.0)) return StepExit{{0.0, std::nullopt}};
+    const auto series =
+        std::span(coefficients_)
+            .subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first + 1));
+    if (sign < 0.0) {
+      for (double& coefficient : series) coefficient = -coefficient;
+    }
+    const double uncertainty =
+        table.uncertainty(velocity_, table_share_, std::max(first, 1), order_) +
+        table.weight() * remainder_ + (first == 0 ? unknown : 0.0);
+    if (last == order_) return StepExit{first_exit(series, uncertainty)};
+    const double rest = uncertainty + table.beyond_few(velocity_, table_share_);
+    const auto rough = rough_exit(series, rest, order_);
+    if (!rough) return std::nullopt;
+    // How soon a motion that begins on the guard comes back is told by all terms better than by
+    // the state there.
+    if (rough->at && first > 0) return std::nullopt;
+    return StepExit{{rough->at, std::nullopt}, rough->within};
   }
 
   /// The order of the first derivative that is not 0, as far as can be told; beyond the last
@@ -193,31 +207,54 @@ class Simulation {
     flow.velocity_at(state_.numbers.data(), noise_.data(), velocity_);
     const double length = std::min(longest_step(), limit - time_);
     expand(length);
-    double earliest = infinity;
-    std::size_t which = 0;
-    std::vector<Touch> touches;
-    for (std::size_t i = 0; i < mode_->guards.size(); ++i) {
-      const FirstExit exit = exit_of(i);
-      if (exit.touch) touches.push_back({time_ + *exit.touch * length, state_.mode, i});
-      if (!exit.at || !(*exit.at < earliest)) continue;
-      earliest = *exit.at;
-      which = i;
-    }
-    const double share = std::min(earliest, 1.0);
+    const StepEnd next = next_exit(length);
+    const double share = std::min(next.share, 1.0);
     if (share > 0.0) {
       record_step();
       advance(share * length, length);
       const double end = share < 1.0 || length < limit - time_ ? time_ + share * length : limit;
-      if (!(end > time_) && earliest > 1.0) return stop(StopReason::zeno);
+      if (!(end > time_) && next.share > 1.0) return stop(StopReason::zeno);
       time_ = end;
-      if (earliest <= 1.0) put_on_guard(which, share * length);
+      if (next.share <= 1.0) {
+        if (next.within > 0.0) {
+          put_on_guard(next.guard, next.within * length, product_rounding);
+        } else {
+          put_on_guard(next.guard, 0x1p-20 * share * length, sum_rounding);
+        }
+      }
     }
-    for (const Touch& touch : touches) {
+    for (const Touch& touch : touches_) {
       if (touch.time < time_) trajectory_.touches_.push_back(touch);
     }
     if (!(state_.numbers.cwiseAbs().maxCoeff() <= largest_number))
       return stop(StopReason::diverged);
-    if (earliest <= 1.0) fire(which);
+    if (next.share <= 1.0) fire(next.guard);
+  }
+
+  struct StepEnd {
+    double share = infinity;  ///< of the step
+    std::size_t guard = 0;
+    double within = 0.0;
+  };
+
+  /// The first exit of all. One that is known roughly is enough where there is no other beside it.
+  StepEnd next_exit(double length) {
+    for (const bool roughly : {true, false}) {
+      touches_.clear();
+      StepEnd next;
+      std::size_t exits = 0;
+      bool is_rough = false;
+      for (std::size_t i = 0; i < mode_->guards.size(); ++i) {
+        const StepExit exit = exit_of(i, roughly);
+        if (exit.touch) touches_.push_back({time_ + *exit.touch * length, state_.mode, i});
+        if (!exit.at) continue;
+        ++exits;
+        is_rough = is_rough || exit.within > 0.0;
+        if (*exit.at < next.share) next = {*exit.at, i, exit.within};
+      }
+      if (exits <= 1 || !is_rough) return next;
+    }
+    return {};
   }
 
   /// Fast decays are looked for once they have cost some steps.
@@ -262,8 +299,8 @@ class Simulation {
 
   void record_step() {
     trajectory_.steps_.push_back({time_, state_.mode, slow_ != nullptr});
-    trajectory_.starts_.insert(trajectory_.starts_.end(), state_.numbers.begin(),
-                               state_.numbers.end());
+    const double* numbers = state_.numbers.data();
+    trajectory_.starts_.insert(trajectory_.starts_.end(), numbers, numbers + state_.numbers.size());
   }
 
   /// Over what is left of the step where an event cuts it short. What is unknown then is a share of
@@ -273,42 +310,42 @@ class Simulation {
     const LinearFlow& flow = flow_->flow;
     noise_ = state_.numbers.cwiseAbs();
     if (flow_->longest) {
-      flow_->longest->add_sizes(flow, velocity_, noise_.data(), scratch_);
+      flow_->longest->add_sizes(flow, velocity_, noise_.data());
     } else {
       flow.add_sizes(velocity_, whole, noise_.data(), scratch_);
     }
     noise_ *= sum_rounding;
-    if (flow_->longest && length == flow.longest_step()) {
-      flow_->longest->advance(flow, velocity_, state_.numbers.data(), scratch_);
-    } else {
-      flow.advance(velocity_, length, state_.numbers.data(), scratch_);
-    }
+    follow(length);
     if (slow_ != nullptr) slow_->decays.put_at_rest(state_.numbers);
   }
 
-  /// Where rounding has left the state farther beside the guard than its numbers make necessary: a
-  /// little along the motion, until it is there. Each event takes the guard for 0 as its mode
-  /// begins, so that else what is left would be there for ever.
-  void put_on_guard(std::size_t which, double length) {
+  /// The state, from where its velocity is known.
+  void follow(double length) {
+    double* numbers = state_.numbers.data();
+    if (flow_->longest) {
+      flow_->longest->advance(flow_->flow, velocity_, length, numbers);
+    } else {
+      flow_->flow.advance(velocity_, length, numbers, scratch_);
+    }
+  }
+
+  /// Where the state is farther beside the guard than its numbers make necessary: a little along
+  /// the motion, until it is there, by Newton's method. Each event takes the guard for 0 as its
+  /// mode begins, so that else what is left would be there for ever.
+  void put_on_guard(std::size_t which, double farthest, double rounding) {
     const SparseForm& guard = mode_->guards[which];
-    const double* numbers = state_.numbers.data();
-    const double value = guard.at(numbers);
-    if (std::abs(value) <= guard.size_at(numbers) * sum_rounding) return;
     const LinearFlow& flow = flow_->flow;
-    flow.velocity_at(numbers, noise_.data(), velocity_);
-    scratch_.assign(static_cast<std::size_t>(noise_.size()), 0.0);
-    for (int i = 0; i < flow.count(); ++i) {
-      scratch_[static_cast<std::size_t>(flow.number(i))] =
-          velocity_.values[static_cast<std::size_t>(i)];
+    double* numbers = state_.numbers.data();
+    constexpr int most = 4;
+    for (int i = 0; i < most; ++i) {
+      const double value = guard.at(numbers);
+      if (std::abs(value) <= guard.size_at(numbers) * rounding) return;
+      flow.velocity_at(numbers, velocity_);
+      const double later = -value / flow_->guards[which].speed(velocity_);
+      if (!(std::abs(later) <= farthest)) return;
+      follow(later);
+      time_ += later;
     }
-    const double speed = guard.at(scratch_.data()) - guard.offset;
-    const double later = -value / speed;
-    constexpr double little = 0x1p-20;
-    if (!(std::abs(later) <= little * length)) return;
-    for (std::size_t i = 0; i < scratch_.size(); ++i) {
-      state_.numbers[static_cast<Eigen::Index>(i)] += later * scratch_[i];
-    }
-    time_ += later;
   }
 
   void fire(std::size_t which) {
@@ -500,8 +537,9 @@ class Simulation {
   std::vector<Tick> ticks_;
   Velocity velocity_;  ///< at the start of the step
   int order_ = 0;
-  double table_share_ = 1.0;  ///< of the step in that of the tables
-  double remainder_ = 0.0;    ///< of the step's series
+  double table_share_ = 1.0;    ///< of the step in that of the tables
+  double remainder_ = 0.0;      ///< of the step's series
+  std::vector<Touch> touches_;  ///< within the step, or beyond its end
   std::vector<double> coefficients_;
   std::vector<double> scratch_;
   Vector noise_before_;

@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "../servo/seeded_draws.hpp"
 
@@ -96,6 +98,57 @@ TEST(PropertyFirstExit, IsTheLeastOfRandomZeros) {
       EXPECT_NEAR(*exit.at, least, moved + epsilon);
     }
   }
+}
+
+/// As a step's: the terms of order k are some 2ᵏ/k!.
+std::vector<double> drawn_series(SeededDraws& draws, std::size_t count) {
+  std::vector<double> p = {draws.log_uniform(1e-3, 3.0)};
+  double size = 1.0;
+  for (std::size_t k = 1; k < count; ++k) {
+    size *= 2.0 / static_cast<double>(k);
+    p.push_back(size * draws.uniform(-1.0, 1.0));
+  }
+  return p;
+}
+
+TEST(PropertyRoughExit, IsNearThatOfTheWholeSeries) {
+  constexpr std::uint64_t seed = 62;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  constexpr int series = 5000;
+  int stays = 0;
+  int falls = 0;
+  for (int i = 0; i < series; ++i) {
+    const std::vector<double> p =
+        drawn_series(draws, most_leading + 1 + static_cast<std::size_t>(i % 14));
+    const double rounding = 4.0 * epsilon * size_of(p);
+    double rest = rounding;
+    for (std::size_t k = most_leading; k < p.size(); ++k) rest += std::abs(p[k]);
+    const auto rough =
+        rough_exit(std::span(p).first(most_leading), rest, static_cast<int>(p.size()) - 1);
+    if (!rough) continue;
+    const FirstExit exit = first_exit(p, rounding);
+    ASSERT_EQ(rough->at.has_value(), exit.at.has_value());
+    ++(exit.at ? falls : stays);
+    if (!exit.at) continue;
+    EXPECT_LE(std::abs(*rough->at - *exit.at), rough->within);
+    EXPECT_LT(rough->within, 1e-2);
+  }
+  EXPECT_GT(stays, series / 3);
+  EXPECT_GT(falls, series / 5);
+}
+
+TEST(EdgeRoughExit, LeadingTermsDoNotTellWhatTheRestMayHide) {
+  const auto touching = times_linear(times_linear({1.0}, 0.3), 0.3);
+  EXPECT_FALSE(rough_exit(touching, 1e-9, 20));
+  const auto two_zeros = times_linear(times_linear({1.0}, 0.3), 0.301);
+  EXPECT_FALSE(rough_exit(two_zeros, 1e-9, 20));
+  for (const double end : {0.001, -0.001}) {  // beyond the end or not
+    EXPECT_FALSE(rough_exit(std::vector{1.0, end - 1.0}, 1e-2, 20));
+  }
+  EXPECT_FALSE(rough_exit(std::vector{1e-3, 1.0, -2.0}, 1e-2, 20));  // from which side it comes
+  const auto thrice = times_linear(times_linear(times_linear({1.0}, 0.25), 0.5), 0.75);
+  EXPECT_FALSE(rough_exit(thrice, 1e-9, 20));
 }
 
 }  // namespace
