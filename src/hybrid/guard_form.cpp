@@ -1,6 +1,7 @@
 #include "guard_form.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "gearlash/hybrid/first_exit.hpp"
@@ -140,12 +141,6 @@ double GuardTable::uncertainty(const Velocity& velocity, double share, int first
   return power_of(share, first) * sum;
 }
 
-double GuardTable::speed(const Velocity& velocity) const {
-  double sum = 0.0;
-  for (const std::size_t j : acting_) sum += velocity.values[j] * rows_[j * room_];
-  return sum / length_;
-}
-
 void GuardTable::coefficients(const Velocity& velocity, double share, int last,
                               double* coefficients) const {
   const auto orders = static_cast<std::size_t>(last);
@@ -162,6 +157,17 @@ void GuardTable::coefficients(const Velocity& velocity, double share, int last,
     coefficients[k] *= power;
     power *= share;
   }
+}
+
+double GuardTable::time_to_zero(double value, const Velocity& velocity) const {
+  std::array<double, lanes + 1> g{value};
+  coefficients(velocity, 1.0, lanes, g.data());
+  double time = -value / g[1];
+  constexpr int rounds = 2;
+  for (int i = 0; i < rounds; ++i) {
+    time = -value / (g[1] + time * (g[2] + time * (g[3] + time * g[4])));
+  }
+  return time * length_;
 }
 
 }  // namespace gearlash::hybrid

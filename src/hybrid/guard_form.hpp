@@ -43,8 +43,8 @@ class GuardTable {
   double uncertainty_of(const Velocity& velocity, double share, int order) const;
   /// Of orders 1 to `last`, to coefficients[1], …, where there must be room for three more.
   void coefficients(const Velocity& velocity, double share, int last, double* coefficients) const;
-  /// g′ at the start of the step.
-  double speed(const Velocity& velocity) const;
+  /// The zero of g₀ + … of order 4 that is near the start, by Newton's method, as a time.
+  double time_to_zero(double value, const Velocity& velocity) const;
   /// |c|·weights: of a remainder.
   double weight() const { return weight_; }
 

@@ -279,6 +279,14 @@ void LinearFlow::add_sizes(const Velocity& velocity, double length, double* size
   }
 }
 
+std::vector<std::size_t> LinearFlow::acting() const {
+  std::vector<std::size_t> all;
+  for (const Entry& entry : entries_) all.push_back(at(entry.column));
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
 void LinearFlow::times_transposed(const double* row, double factor, bool sizes,
                                   double* result) const {
   std::fill(result, result + count(), 0.0);
@@ -291,10 +299,10 @@ void LinearFlow::times_transposed(const double* row, double factor, bool sizes,
 }
 
 Stride::Stride(const LinearFlow& flow, double longest)
-    : length_(longest), orders_(at(flow.order(longest))) {
+    : length_(longest), orders_(at(flow.order(longest))), acting_(flow.acting()) {
   const auto size = at(flow.count());
   const std::size_t blocks = (size + lanes - 1) / lanes;
-  terms_.assign(blocks * orders_ * size, Rows::Zero());
+  terms_.assign(blocks * orders_ * acting_.size(), Rows::Zero());
   change_.assign(blocks * size, Rows::Zero());
   sizes_.assign(blocks * size, Rows::Zero());
   std::vector<double> row(size);
@@ -305,8 +313,10 @@ Stride::Stride(const LinearFlow& flow, double longest)
     std::fill(row.begin(), row.end(), 0.0);
     row[i] = longest;
     for (std::size_t k = 0; k < orders_; ++k) {
+      for (std::size_t a = 0; a < acting_.size(); ++a) {
+        terms_[(block * orders_ + k) * acting_.size() + a](lane) = row[acting_[a]];
+      }
       for (std::size_t j = 0; j < size; ++j) {
-        terms_[(block * orders_ + k) * size + j](lane) = row[j];
         change_[block * size + j](lane) += row[j];
         sizes_[block * size + j](lane) += std::abs(row[j]);
       }
@@ -316,35 +326,30 @@ Stride::Stride(const LinearFlow& flow, double longest)
   }
 }
 
-namespace {
-
-/// Σ_j values_j column_j, and what is there already.
-template <class Rows>
-inline Rows and_columns(Rows sum, const Rows* columns, const double* values, std::size_t count) {
-  for (std::size_t j = 0; j < count; ++j) sum += values[j] * columns[j];
-  return sum;
-}
-
-}  // namespace
-
 void Stride::advance(const LinearFlow& flow, const Velocity& velocity, double length,
                      double* state) const {
   const std::size_t size = velocity.values.size();
   const double* values = velocity.values.data();
   const double share = length / length_;
-  const std::size_t last = length == length_ ? orders_ : at(flow.order(std::abs(length)));
+  const std::size_t last = at(flow.order(std::abs(length)));
   for (std::size_t first = 0; first < size; first += lanes) {
     const std::size_t block = first / lanes;
+    const std::size_t end = std::min(size, first + lanes);
     Rows sum = Rows::Zero();
     if (length == length_) {
-      sum = and_columns(sum, &change_[block * size], values, size);
+      for (std::size_t j = 0; j < size; ++j) sum += values[j] * change_[block * size + j];
     } else {
-      for (std::size_t k = last; k-- > 0;) {
-        sum = share * and_columns(sum, &terms_[(block * orders_ + k) * size], values, size);
+      for (std::size_t k = last; k-- > 1;) {
+        const Rows* column = &terms_[(block * orders_ + k) * acting_.size()];
+        for (const std::size_t j : acting_) sum += values[j] * *column++;
+        sum *= share;
       }
+      sum *= share;
+      for (std::size_t i = first; i < end; ++i)
+        sum[static_cast<Eigen::Index>(i - first)] += length * values[i];
     }
-    for (std::size_t i = first; i < std::min(size, first + lanes); ++i) {
-      state[flow.number(static_cast<int>(i))] += sum(static_cast<Eigen::Index>(i - first));
+    for (std::size_t i = first; i < end; ++i) {
+      state[flow.number(static_cast<int>(i))] += sum[static_cast<Eigen::Index>(i - first)];
     }
   }
 }
@@ -352,10 +357,11 @@ void Stride::advance(const LinearFlow& flow, const Velocity& velocity, double le
 void Stride::add_sizes(const LinearFlow& flow, const Velocity& velocity, double* sizes) const {
   const std::size_t size = velocity.sizes.size();
   for (std::size_t first = 0; first < size; first += lanes) {
-    const Rows sum =
-        and_columns<Rows>(Rows::Zero(), &sizes_[first / lanes * size], velocity.sizes.data(), size);
+    const Rows* column = &sizes_[first / lanes * size];
+    Rows sum = Rows::Zero();
+    for (const double value : velocity.sizes) sum += value * *column++;
     for (std::size_t i = first; i < std::min(size, first + lanes); ++i) {
-      sizes[flow.number(static_cast<int>(i))] += sum(static_cast<Eigen::Index>(i - first));
+      sizes[flow.number(static_cast<int>(i))] += sum[static_cast<Eigen::Index>(i - first)];
     }
   }
 }

@@ -70,6 +70,8 @@ class LinearFlow {
   void add_sizes(const Velocity& velocity, double length, double* sizes,
                  std::vector<double>& scratch) const;
 
+  /// The moving numbers that act on a number, themselves or others.
+  std::vector<std::size_t> acting() const;
   /// result = factor Aᵀ row, of moving numbers; with |A| where `sizes`.
   void times_transposed(const double* row, double factor, bool sizes, double* result) const;
 
@@ -97,7 +99,7 @@ class LinearFlow {
 };
 
 /// Where a step takes a state, from a table made once for the longest one, h:
-///   x(s h) − x(0) = Σ_k s^k Tₖ v,   Tₖ = A^{k−1} h^k/k!,
+///   x(s h) − x(0) = s h v + Σ_{k≥2} s^k Tₖ v,   Tₖ = A^{k−1} h^k/k!,
 /// with v the velocity, by Horner's scheme. Worth its table where the numbers that move are few.
 class Stride {
  public:
@@ -115,7 +117,8 @@ class Stride {
 
   double length_;
   std::size_t orders_;
-  std::vector<Rows> terms_;   ///< of Tₖ, by blocks of rows, then by orders, then by columns
+  std::vector<std::size_t> acting_;  ///< the columns in which Tₖ is not 0
+  std::vector<Rows> terms_;   ///< of Tₖ, by blocks of rows, then by orders, then by these columns
   std::vector<Rows> change_;  ///< Σ Tₖ, by blocks of rows, then by columns
   std::vector<Rows> sizes_;   ///< Σ |Tₖ|, likewise
 };

@@ -341,7 +341,7 @@ class Simulation {
       const double value = guard.at(numbers);
       if (std::abs(value) <= guard.size_at(numbers) * rounding) return;
       flow.velocity_at(numbers, velocity_);
-      const double later = -value / flow_->guards[which].speed(velocity_);
+      const double later = flow_->guards[which].time_to_zero(value, velocity_);
       if (!(std::abs(later) <= farthest)) return;
       follow(later);
       time_ += later;
