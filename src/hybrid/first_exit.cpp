@@ -1,5 +1,6 @@
 #include "gearlash/hybrid/first_exit.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <boost/math/tools/toms748_solve.hpp>
@@ -84,31 +85,56 @@ constexpr Reciprocals reciprocal_binomials = [] {
 }();
 
 /// Bernstein's coefficients on [0, 1]: b_j = Σ_{i≤j} C(j, i)/C(n, i) a_i. By sums of neighbours:
-/// the weights are between 0 and 1, so that no digits are lost. `Values` has the size of `power`.
-template <class Values>
-void find_bernstein(std::span<const double> power, Values& result) {
-  const std::size_t count = result.size();
+/// the weights are between 0 and 1, so that no digits are lost.
+Coefficients bernstein_of(std::span<const double> power) {
+  const std::size_t count = power.size();
+  Coefficients last_first(count);
   if (count <= table_degrees) {
     const auto& factors = reciprocal_binomials[count - 1];
-    for (std::size_t i = 0; i < count; ++i) result[count - 1 - i] = power[i] * factors[i];
+    for (std::size_t i = 0; i < count; ++i) last_first[count - 1 - i] = power[i] * factors[i];
   } else {
     double binomial = 1.0;
     for (std::size_t i = 0; i < count; ++i) {
-      result[count - 1 - i] = power[i] / binomial;
+      last_first[count - 1 - i] = power[i] / binomial;
       binomial *= static_cast<double>(count - 1 - i) / static_cast<double>(i + 1);
     }
   }
-  double* sums = result.data();
+  double* sums = last_first.data();
   for (std::size_t level = 1; level < count; ++level) {
     for (std::size_t j = 0; j < count - level; ++j) sums[j] += sums[j + 1];
   }
-  std::reverse(result.begin(), result.end());
+  std::reverse(last_first.begin(), last_first.end());
+  return last_first;
 }
 
-Coefficients bernstein_of(std::span<const double> power) {
-  Coefficients result(power.size());
-  find_bernstein(power, result);
-  return result;
+/// [i][j]: C(j, i)/C(n, i) of so many coefficients as leading terms have.
+constexpr auto leading_weights = [] {
+  std::array<std::array<double, most_leading>, most_leading> weights{};
+  for (std::size_t i = 0; i < most_leading; ++i) {
+    double binomial = 1.0;  // C(j, i)
+    for (std::size_t j = i; j < most_leading; ++j) {
+      weights[i][j] = binomial * reciprocal_binomials[most_leading - 1][i];
+      binomial *= static_cast<double>(j + 1) / static_cast<double>(j + 1 - i);
+    }
+  }
+  return weights;
+}();
+
+using Leading = std::array<double, most_leading>;
+
+/// The same by products, which need not wait for one another.
+Leading bernstein_of(const Leading& power) {
+  using Lanes = Eigen::Array<double, lanes, 1>;
+  static_assert(most_leading % lanes == 0);
+  Leading values;
+  for (std::size_t first = 0; first < most_leading; first += lanes) {
+    Lanes sum = Lanes::Zero();
+    for (std::size_t i = 0; i < first + lanes; ++i) {
+      sum += power[i] * Eigen::Map<const Lanes>(leading_weights[i].data() + first);
+    }
+    Eigen::Map<Lanes>(values.data() + first) = sum;
+  }
+  return values;
 }
 
 /// Where, of [0, 1], the polygon of Bernstein's coefficients, which p is near, falls below 0.
@@ -288,10 +314,9 @@ double lower_bound(std::span<const double> coefficients) {
 
 std::optional<RoughExit> rough_exit(std::span<const double> leading, double rest, int last) {
   if (lower_bound(leading) > rest) return RoughExit{};
-  std::array<double, most_leading> power{};
+  Leading power{};
   std::copy(leading.begin(), leading.end(), power.begin());
-  std::array<double, most_leading> bernstein;
-  find_bernstein(power, bernstein);
+  const Leading bernstein = bernstein_of(power);
   const auto fall = std::find_if_not(bernstein.begin(), bernstein.end(),
                                      [rest](double value) { return value > rest; });
   if (fall == bernstein.end()) return RoughExit{};
