@@ -18,9 +18,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void check_polynomial(RangeCheck& check, std::string_view field,
                       const std::vector<double>& coefficients) {
-  for (const double coefficient : coefficients) {
-    if (!std::isfinite(coefficient)) check.refuse(field, exact_text(coefficient), "must be finite");
-  }
+  for (const double coefficient : coefficients) check.finite(field, coefficient);
   const bool has_some = std::any_of(coefficients.begin(), coefficients.end(),
                                     [](double coefficient) { return coefficient != 0.0; });
   if (!has_some) check.refuse(field, "", "must have a coefficient other than 0");

@@ -24,25 +24,21 @@ class DistributionCheck {
   explicit DistributionCheck(std::string_view field)
       : field_(field), check_(std::string(field) + ".") {}
 
-  void operator()(const ExactValue& exact) {
-    if (!std::isfinite(exact.value)) {
-      check_.refuse("value", exact_text(exact.value), "must be finite");
-    }
-  }
+  void operator()(const ExactValue& exact) { check_.finite("value", exact.value); }
   void operator()(const UniformBetween& uniform) {
-    require_finite("min", uniform.min);
-    require_finite("max", uniform.max);
+    check_.finite("min", uniform.min);
+    check_.finite("max", uniform.max);
     require_order(uniform.min, uniform.max);
   }
   void operator()(const UniformAbout& uniform) {
-    require_finite("nominal", uniform.nominal);
+    check_.finite("nominal", uniform.nominal);
     check_.not_negative("tolerance", uniform.tolerance, "");
   }
   void operator()(const Normal& normal) {
-    require_finite("mean", normal.mean);
+    check_.finite("mean", normal.mean);
     check_.positive("standard_deviation", normal.standard_deviation, "");
-    if (normal.min) require_finite("min", *normal.min);
-    if (normal.max) require_finite("max", *normal.max);
+    if (normal.min) check_.finite("min", *normal.min);
+    if (normal.max) check_.finite("max", *normal.max);
     if (!check_.violations().empty()) return;
     const double reach = sigmas * normal.standard_deviation;
     if (normal.min && *normal.min >= normal.mean + reach) {
@@ -65,7 +61,7 @@ class DistributionCheck {
       check_.refuse("lots", "", "must be at least one value with a weight");
     for (std::size_t i = 0; i < discrete.lots.size(); ++i) {
       const std::string lot = "lots[" + std::to_string(i) + "].";
-      require_finite(lot + "value", discrete.lots[i].value);
+      check_.finite(lot + "value", discrete.lots[i].value);
       check_.positive(lot + "weight", discrete.lots[i].weight, "");
     }
   }
@@ -73,9 +69,6 @@ class DistributionCheck {
   std::vector<Violation> violations() const { return check_.violations(); }
 
  private:
-  void require_finite(std::string_view name, double value) {
-    if (!std::isfinite(value)) check_.refuse(name, exact_text(value), "must be finite");
-  }
   void require_order(double min, double max) {
     if (min > max) {
       check_.refuse("max", exact_text(max), "must be at least min, " + exact_text(min));

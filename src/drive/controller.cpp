@@ -115,31 +115,27 @@ LinearController linear(const LinearController& controller) { return controller;
 
 // ---- checks -------------------------------------------------------------------------------------
 
-void expect_finite(RangeCheck& check, const char* field, double value) {
-  if (!std::isfinite(value)) check.refuse(field, exact_text(value), "must be finite");
-}
-
 void inspect(RangeCheck& check, const ProportionalDerivative& controller) {
-  expect_finite(check, "proportional", controller.proportional);
-  expect_finite(check, "derivative", controller.derivative);
+  check.finite("proportional", controller.proportional);
+  check.finite("derivative", controller.derivative);
 }
 
 void inspect(RangeCheck& check, const ProportionalIntegralDerivative& controller) {
   inspect(check, ProportionalDerivative{controller.proportional, controller.derivative});
-  expect_finite(check, "integral", controller.integral);
+  check.finite("integral", controller.integral);
   check.not_negative("filter", controller.filter, "s");
   check.not_negative("tracking_time", controller.tracking_time, "s");
 }
 
 void inspect(RangeCheck& check, const Cascade& controller) {
-  expect_finite(check, "position", controller.position);
-  expect_finite(check, "speed", controller.speed);
-  expect_finite(check, "speed_integral", controller.speed_integral);
+  check.finite("position", controller.position);
+  check.finite("speed", controller.speed);
+  check.finite("speed_integral", controller.speed_integral);
   check.not_negative("tracking_time", controller.tracking_time, "s");
 }
 
 void inspect(RangeCheck& check, const LeadLag& controller) {
-  expect_finite(check, "gain", controller.gain);
+  check.finite("gain", controller.gain);
   check.positive("zero", controller.zero, "rad/s");
   check.positive("pole", controller.pole, "rad/s");
 }
@@ -179,7 +175,7 @@ void inspect(RangeCheck& check, const LinearController& controller) {
                  "must be " + std::to_string(wanted) + ", by the length of output");
   };
   const auto expect_numbers = [&](const char* field, const std::vector<double>& numbers) {
-    for (const double number : numbers) expect_finite(check, field, number);
+    for (const double number : numbers) check.finite(field, number);
   };
   const auto expect_rows = [&](const char* field, const auto& rows, std::size_t columns) {
     expect(field, rows.size(), order);

@@ -75,35 +75,31 @@ const SignalStretch& stretch_at(const Stretches& all, double time) {
   return all[found];
 }
 
-void finite(RangeCheck& check, const std::string& field, double value) {
-  if (!std::isfinite(value)) check.refuse(field, exact_text(value), "must be finite");
-}
-
-void inspect(RangeCheck& check, double value) { finite(check, "value", value); }
+void inspect(RangeCheck& check, double value) { check.finite("value", value); }
 
 void inspect(RangeCheck& check, const StepSignal& step) {
-  finite(check, "before", step.before);
-  finite(check, "after", step.after);
-  finite(check, "time", step.time);
+  check.finite("before", step.before);
+  check.finite("after", step.after);
+  check.finite("time", step.time);
 }
 
 void inspect(RangeCheck& check, const Ramp& ramp) {
-  finite(check, "value", ramp.value);
-  finite(check, "rate", ramp.rate);
-  finite(check, "time", ramp.time);
+  check.finite("value", ramp.value);
+  check.finite("rate", ramp.rate);
+  check.finite("time", ramp.time);
 }
 
 void inspect(RangeCheck& check, const Sine& sine) {
-  finite(check, "mean", sine.mean);
-  finite(check, "amplitude", sine.amplitude);
-  finite(check, "phase", sine.phase);
+  check.finite("mean", sine.mean);
+  check.finite("amplitude", sine.amplitude);
+  check.finite("phase", sine.phase);
   check.positive("frequency", sine.frequency, "rad/s");
 }
 
 void inspect(RangeCheck& check, const Trapezoid& move) {
-  finite(check, "from", move.from);
-  finite(check, "to", move.to);
-  finite(check, "time", move.time);
+  check.finite("from", move.from);
+  check.finite("to", move.to);
+  check.finite("time", move.time);
   check.positive("speed", move.speed, "per s");
   check.positive("acceleration", move.acceleration, "per s2");
 }
@@ -118,8 +114,8 @@ void inspect(RangeCheck& check, const Table& table) {
   }
   for (std::size_t i = 0; i < table.times.size(); ++i) {
     const std::string place = "[" + std::to_string(i) + "]";
-    finite(check, "times" + place, table.times[i]);
-    finite(check, "values" + place, table.values[i]);
+    check.finite("times" + place, table.times[i]);
+    check.finite("values" + place, table.values[i]);
     if (i > 0 && table.times[i] <= table.times[i - 1]) {
       check.refuse("times" + place, exact_text(table.times[i]),
                    "must be later than the time before it, " + exact_text(table.times[i - 1]) +

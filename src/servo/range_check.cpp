@@ -40,6 +40,10 @@ RangeCheck& RangeCheck::not_negative(std::string_view field, double value, std::
   return refuse(field, with_unit(exact_text(value), unit), "must be zero or positive, and finite");
 }
 
+RangeCheck& RangeCheck::finite(std::string_view field, double value) {
+  return std::isfinite(value) ? *this : refuse(field, exact_text(value), "must be finite");
+}
+
 RangeCheck& RangeCheck::outside(std::string_view field, double value, double low, double high) {
   return refuse(field, exact_text(value),
                 "must be from " + exact_text(low) + " to " + exact_text(high));

@@ -19,6 +19,7 @@ class RangeCheck {
 
   RangeCheck& positive(std::string_view field, double value, std::string_view unit);
   RangeCheck& not_negative(std::string_view field, double value, std::string_view unit);
+  RangeCheck& finite(std::string_view field, double value);
   RangeCheck& within(std::string_view field, double value, double low, double high) {
     return value >= low && value <= high ? *this : outside(field, value, low, high);
   }
