@@ -422,10 +422,20 @@ class Search {
     return closing_orbit(turning, again, shooting);
   }
 
+  /// Whether an orbit could go round a cycle so many times: with events in each round, and whole
+  /// periods of the clock. What stands still is repeated after any time, however short.
+  bool may_go_round(const PeriodicOrbit& orbit, int times) const {
+    if (orbit.events.size() < static_cast<std::size_t>(times)) return false;
+    if (!setting_.drive.sampling) return true;
+    const double ticks = orbit.period / (times * setting_.drive.sampling->period);
+    constexpr double rounding = 1e-6;
+    return agree(ticks, std::round(ticks), 1.0, rounding);
+  }
+
   /// The cycle itself, where an orbit goes round it several times.
   PeriodicOrbit shortest(const PeriodicOrbit& orbit) const {
     for (int times = 2; times < 100; ++times) {
-      if (!is_prime(times)) continue;
+      if (!is_prime(times) || !may_go_round(orbit, times)) continue;
       const double mismatch = mismatch_after(setting_, orbit, 1.0 / times, 1.0);
       if (!(mismatch < recurrent)) continue;
       constexpr double near = 1e-6;

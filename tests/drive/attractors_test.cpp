@@ -258,6 +258,18 @@ TEST(EdgeAttractors, WhatCannotBeCarriedAlongIsMeasuredInPlace) {
   EXPECT_NEAR(found.irregular[0].size, 0.27, 0.02);
 }
 
+/// The load creeps to rest while the motor sticks: the ticks then repeat what stands still.
+TEST(EdgeAttractors, WhatStandsStillFromTickToTickIsAtRest) {
+  Drive drive = servo(0.02, 1.0, 0.15);
+  drive.motor.friction.coulomb = 0.26;
+  drive.motor.friction.breakaway = 0.43;
+  drive.sampling = Sampling{.period = 0.015};
+  const AttractorSearch found = find_attractors(drive);
+  EXPECT_TRUE(found.cycles.empty());
+  ASSERT_TRUE(found.rest);
+  EXPECT_EQ(found.rest->starts, found.outcomes.size());
+}
+
 TEST(EdgeAttractors, ASearchStopsWhenItIsTold) {
   AttractorOptions options;
   std::vector<double> shares;
