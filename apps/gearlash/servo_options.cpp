@@ -68,10 +68,17 @@ std::vector<Violation> faults_of_servo(const NormalizedServo& servo, const Servo
   return violations;
 }
 
-/// Reads the file, or stands in for it with a sound servo, so that the options can be checked.
-ServoFile read_file(const ServoOptions& options, Faults& faults) {
+/// A sound servo in the place of the file, so that the options can be checked. Of a file that
+/// cannot be read nobody knows whether it has a time scale: options may have units of time.
+ServoFile stand_in_for(const std::string& file) {
   ServoFile stand_in;
   stand_in.servo.damping = 1.0;
+  if (!file.empty()) stand_in.natural_frequency = 1.0;
+  return stand_in;
+}
+
+ServoFile read_file(const ServoOptions& options, Faults& faults) {
+  const ServoFile stand_in = stand_in_for(options.file);
   if (options.file.empty()) return stand_in;
   return faults.collect([&] { return read_servo_file(options.file); }, stand_in);
 }
@@ -196,10 +203,8 @@ ServoFile with_options(ServoFile file, const ServoOptions& options, Faults& faul
   return file;
 }
 
-/// Reads the file, or stands in for it with a sound servo.
 ServoOrDriveFile read_either(const ServoOptions& options, Faults& faults) {
-  ServoFile stand_in;
-  stand_in.servo.damping = 1.0;
+  const ServoFile stand_in = stand_in_for(options.file);
   if (options.file.empty()) return stand_in;
   return faults.collect([&] { return read_servo_or_drive_file(options.file); },
                         ServoOrDriveFile(stand_in));

@@ -164,6 +164,9 @@ TEST_F(DriveCommand, EdgeFaultsOfFileAndOptionsAreToldTogether) {
   EXPECT_THAT(lines_of(several.err),
               ElementsAre(HasSubstr("controller.proportional is missing"),
                           HasSubstr("controller.integral is missing"), HasSubstr("--until = 0")));
+  // A file at fault does not make a fault of a time with its unit.
+  EXPECT_THAT(lines_of(run_tool({"simulate", bad, "--until", "50 ms", "--every", "1 ms"}).err),
+              testing::SizeIs(2));
   EXPECT_THAT(run_tool({"design", drive, "--target", "no-hunting"}).err,
               HasSubstr("is a drive's: must be left out"));
 }
