@@ -169,28 +169,33 @@ void inspect(RangeCheck& check, const SampledTransfer& controller) {
 
 void inspect(RangeCheck& check, const LinearController& controller) {
   const std::size_t order = controller.order();
-  const auto expect = [&](const char* field, std::size_t found, std::size_t wanted) {
+  const auto expect = [&](const char* field, std::size_t found, std::size_t wanted,
+                          const char* what) {
     if (found == wanted) return;
-    check.refuse(field, std::to_string(found) + " numbers",
-                 "must be " + std::to_string(wanted) + ", by the length of output");
+    check.refuse(field, std::to_string(found), "must have " + std::to_string(wanted) + what);
   };
   const auto expect_numbers = [&](const char* field, const std::vector<double>& numbers) {
     for (const double number : numbers) check.finite(field, number);
   };
-  const auto expect_rows = [&](const char* field, const auto& rows, std::size_t columns) {
-    expect(field, rows.size(), order);
+  const auto expect_rows = [&](const char* field, const auto& rows, std::size_t columns,
+                               const char* what) {
+    expect(field, rows.size(), order, " rows, as many as the output has numbers");
     for (const auto& row : rows) {
-      expect(field, row.size(), columns);
+      expect(field, row.size(), columns, what);
       expect_numbers(field, row);
     }
   };
   expect_numbers("output", controller.output);
   expect_numbers("direct", controller.direct);
   expect_numbers("anti_windup", controller.anti_windup);
-  expect_rows("state_matrix", controller.state_matrix, order);
-  expect_rows("input_matrix", controller.input_matrix, 3);
-  expect("direct", controller.direct.size(), 3);
-  if (!controller.anti_windup.empty()) expect("anti_windup", controller.anti_windup.size(), order);
+  expect_rows("state_matrix", controller.state_matrix, order,
+              " numbers in each row, as many as the output has");
+  expect_rows("input_matrix", controller.input_matrix, 3, " numbers in each row, of r, y and v");
+  expect("direct", controller.direct.size(), 3, " numbers, of r, y and v");
+  if (!controller.anti_windup.empty()) {
+    expect("anti_windup", controller.anti_windup.size(), order,
+           " numbers, as many as the output has");
+  }
 }
 
 }  // namespace

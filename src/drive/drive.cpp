@@ -24,10 +24,25 @@ void check(RangeCheck& all, const std::string& name, const Shaft& shaft) {
 /// Roots on the unit circle are integrators; rounding may put them a little beyond.
 constexpr double largest_radius = 1.0 + 1e-9;
 
+std::string pole_text(double radius) {
+  return "a pole of modulus " + exact_text(radius) + " from sample to sample";
+}
+
+/// Whatever the numerator and the period are.
+void check_poles(RangeCheck& all, const SampledTransfer& controller) {
+  const SampledTransfer poles{{1.0}, controller.denominator};
+  if (!validate(Controller(poles)).empty()) return;
+  const double radius = spectral_radius(linear_controller(poles));
+  if (radius <= largest_radius) return;
+  all.refuse("controller.denominator", pole_text(radius),
+             "must have its roots in the unit circle: what is remembered grows without end");
+}
+
 void check_sampling(RangeCheck& all, const Drive& drive) {
-  const bool is_of_samples = std::holds_alternative<SampledTransfer>(drive.controller);
+  const auto* of_samples = std::get_if<SampledTransfer>(&drive.controller);
+  if (of_samples != nullptr) check_poles(all, *of_samples);
   if (!drive.sampling) {
-    if (is_of_samples) {
+    if (of_samples != nullptr) {
       all.refuse("sampling", "missing", "must be given: the controller is a function of z");
     }
     return;
@@ -38,18 +53,14 @@ void check_sampling(RangeCheck& all, const Drive& drive) {
   if (!check.violations().empty()) return void(all.include(check.violations()));
   check.within("delay", sampling.delay, 0.0, sampling.period);
   all.include(check.violations());
-  if (!check.violations().empty() || !validate(drive.controller).empty()) return;
+  const bool is_told = of_samples != nullptr || !check.violations().empty();
+  if (is_told || !validate(drive.controller).empty()) return;
   const double radius = spectral_radius(sampled_controller(drive.controller, sampling));
   if (radius <= largest_radius) return;
-  const std::string pole = "a pole of modulus " + exact_text(radius) + " from sample to sample";
-  if (is_of_samples) {
-    all.refuse("controller.denominator", pole,
-               "must have its roots in the unit circle: what is remembered grows without end");
-  } else {
-    all.refuse("sampling.period", pole,
-               "must be so short that what the controller remembers does not grow without end (" +
-                   pole + "), or of another method");
-  }
+  const std::string pole = pole_text(radius);
+  all.refuse("sampling.period", pole,
+             "must be so short that what the controller remembers does not grow without end (" +
+                 pole + "), or of another method");
 }
 
 }  // namespace
@@ -74,7 +85,9 @@ std::vector<Violation> validate(const Drive& drive) {
     all.refuse("torque_limit", exact_text(drive.torque_limit), "must be positive, N m");
   }
   all.not_negative("sensing.resolution", drive.sensing.resolution, "rad");
-  all.not_negative("sensing.resolution_of_speed", drive.sensing.resolution_of_speed, "rad");
+  if (drive.sensing.resolution_of_speed != drive.sensing.resolution) {  // else it is one encoder
+    all.not_negative("sensing.resolution_of_speed", drive.sensing.resolution_of_speed, "rad");
+  }
   all.include(validate(drive.reference, "reference"));
   all.include(validate(drive.load_torque, "load_torque"));
   check_sampling(all, drive);

@@ -95,8 +95,11 @@ class ControllerReader {
   }
 
   /// Columns of B and D are of r, y and v, or one of the error alone.
-  static std::vector<double> of_inputs(const std::vector<double>& row) {
+  std::vector<double> of_inputs(const char* key, const std::vector<double>& row) {
     if (row.size() == 1) return {row[0], -row[0], 0.0};
+    if (row.size() != 3) {
+      section_.refuse(key, "must have 1 number a row, of the error, or 3, of r, y and v");
+    }
     return row;
   }
 
@@ -105,10 +108,10 @@ class ControllerReader {
     drive::LinearController controller;
     controller.state_matrix = section_.rows("A", "a list of rows of numbers");
     for (const std::vector<double>& row : section_.rows("B", "a list of rows of 1 or 3 numbers")) {
-      controller.input_matrix.push_back(of_inputs(row));
+      controller.input_matrix.push_back(of_inputs("B", row));
     }
     controller.output = section_.numbers("C", "a list of numbers, one for each state");
-    controller.direct = of_inputs(section_.numbers("D", "a list of 1 or 3 numbers"));
+    controller.direct = of_inputs("D", section_.numbers("D", "a list of 1 or 3 numbers"));
     for (double& output : controller.output) output *= gain;
     for (double& direct : controller.direct) direct *= gain;
     return controller;

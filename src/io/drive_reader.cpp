@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "controller_reader.hpp"
@@ -117,6 +118,9 @@ class DriveReader {
     read_load(datasheet);
     findings_.take(
         validate(datasheet), [](const std::string& field) { return field; }, place_);
+    // So that what is referred by it is not found at fault as well.
+    const double ratio = datasheet.gearbox.ratio;
+    if (!(ratio > 0.0 && std::isfinite(ratio))) datasheet.gearbox.ratio = 1.0;
     refer(datasheet, dry);
     if (limit) set_limit(limit_key, *limit);
   }

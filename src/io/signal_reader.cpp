@@ -39,6 +39,11 @@ double read_cell(const std::string& place, const std::string& text, const Column
   return read_number(place, text) * column.unit_in_si;
 }
 
+InvalidInput wrong_row(const std::string& name, int line, const std::string& found) {
+  return InvalidInput({{name + ":" + std::to_string(line) + ": row", found,
+                        "must have two columns, separated by a comma: times and values", ""}});
+}
+
 /// Comma-separated, the first row telling names and units; lines that begin with # are remarks.
 drive::Table read_table(const std::filesystem::path& path, const Dimension& values) {
   const std::string text = read_text_file(path, largest_table);
@@ -70,8 +75,12 @@ drive::Table read_table(const std::filesystem::path& path, const Dimension& valu
               "must be later than the row before: a table goes forward in time", ""}});
       }
     }
+  } catch (const io::error::too_few_columns& fault) {
+    throw wrong_row(name, fault.file_line, "one column");
+  } catch (const io::error::too_many_columns& fault) {
+    throw wrong_row(name, fault.file_line, "more than two columns");
   } catch (const io::error::base& fault) {
-    throw InvalidInput({{name, "", fault.what(), ""}});
+    throw InvalidInput({{name, "a table that cannot be read", fault.what(), ""}});
   }
   if (table.times.empty()) {
     throw InvalidInput({{name, "a table without rows", "must have at least one", ""}});

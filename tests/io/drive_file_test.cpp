@@ -210,8 +210,14 @@ TEST(DriveFile, ControllersOfEveryKind) {
   EXPECT_THAT(refusals(plain + std::string("[controller]\nkind = \"state-space\"\n"
                                            "gain = \"1 V/rad\"\nA = [[1]]\nB = [[1]]\nC = [1, 2]\n"
                                            "D = [0]\n")),
-              ElementsAre(HasSubstr("controller.A = [[1]]: must be 2"),
-                          HasSubstr("controller.B = [[1]]: must be 2")));
+              ElementsAre(HasSubstr("controller.A = [[1]]: must have 2 rows, as many as"),
+                          HasSubstr("controller.B = [[1]]: must have 2 rows, as many as")));
+  EXPECT_THAT(
+      refusals(plain + std::string("[controller]\nkind = \"state-space\"\n"
+                                   "gain = \"1 V/rad\"\nA = [[1]]\nB = [[1, 2]]\nC = [1]\n"
+                                   "D = []\n")),
+      ElementsAre(HasSubstr("controller.B = [[1, 2]]: must have 1 number a row, of the error"),
+                  HasSubstr("controller.D = []: must have 1 number a row, of the error")));
 }
 
 // ---- tables -------------------------------------------------------------------------------------
@@ -248,7 +254,10 @@ TEST_F(DriveFileTable, EdgeFaultsNameTheLine) {
               ElementsAre(HasSubstr("second column")));
   EXPECT_THAT(refusals_of("time,position\n0,0\n"), ElementsAre(HasSubstr("first column = time")));
   EXPECT_THAT(refusals_of("time (s),position (deg)\n0,x\n"), ElementsAre(HasSubstr(":2: value")));
-  EXPECT_THAT(refusals_of("time (s),position (deg)\n0\n"), ElementsAre(HasSubstr("few columns")));
+  EXPECT_THAT(refusals_of("time (s),position (deg)\n0\n"),
+              ElementsAre(HasSubstr("move.csv:2: row = one column: must have two columns")));
+  EXPECT_THAT(refusals_of("time (s),position (deg)\n0,1,2\n"),
+              ElementsAre(HasSubstr("move.csv:2: row = more than two columns: must have two")));
   EXPECT_THAT(refusals_of("time (s),position (deg)\n"), ElementsAre(HasSubstr("without rows")));
   EXPECT_THAT(refusals_of(""), ElementsAre(HasSubstr("an empty table")));
   std::filesystem::remove(folder_ / "move.csv");
@@ -293,6 +302,22 @@ TEST(EdgeDriveFile, ControllersThatNothingCanBeGetALine) {
               ElementsAre(HasSubstr("sampling.period = 10 ms: must be so short")));
   EXPECT_THAT(refusal("num = [1, 0]\nden = [0.004, 1]\n", sampling), IsEmpty());
   EXPECT_THAT(refusal("num = \"1\"\nden = [0, 0]\n").size(), 2U);
+  EXPECT_THAT(refusal("num = [1, 0, 0]\nden = [1, -2]\nvariable = \"z\"\n",
+                      "[sampling]\nperiod = \"0 ms\"\n"),
+              ElementsAre(HasSubstr("controller.num = [1, 0, 0]: must be of no higher degree"),
+                          HasSubstr("controller.den = [1, -2]: must have its roots in the unit"),
+                          HasSubstr("sampling.period = 0 ms: must be positive")));
+}
+
+/// What is derived from a number at fault is not told as another fault.
+TEST(EdgeDriveFile, AFaultIsToldOnce) {
+  for (const std::string ratio : {"0", "inf", "nan"}) {
+    EXPECT_THAT(refusals(replaced(joint, "ratio = 50", "ratio = " + ratio)),
+                ElementsAre(HasSubstr("gearbox.ratio = " + ratio + ": must be positive")));
+  }
+  EXPECT_THAT(refusals(plain + std::string("[loop]\nerror_gain = \"3 V/rad\"\n"
+                                           "[sensor]\nresolution = \"-1 deg\"\n")),
+              ElementsAre(HasSubstr("sensor.resolution = -1 deg: must be zero or positive")));
 }
 
 TEST(EdgeDriveFile, WhatExcludesEachOtherIsTold) {
