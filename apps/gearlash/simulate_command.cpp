@@ -139,6 +139,7 @@ MotionReport simulated(const ServoFile& file, const SimulateOptions& options,
   faults.require_none();
 
   return {.servo = file.servo,
+          .is_drive = false,
           .initial = start.state,
           .reference = start.reference,
           .until = times.until,
@@ -177,8 +178,9 @@ void draw(const MotionReport& report, const Plot& plot) {
 
 ExitStatus simulate_servo(const ServoFile& file, const SimulateOptions& options,
                           const std::vector<Plot>& plots, const Provenance& provenance,
-                          Faults& faults) {
-  const MotionReport report = simulated(file, options, provenance, faults);
+                          Faults& faults, bool is_drive = false) {
+  MotionReport report = simulated(file, options, provenance, faults);
+  report.is_drive = is_drive;
   for (const Plot& plot : plots) draw(report, plot);
   write_tables(report, options);
   if (report.trajectory.stop_reason() == StopReason::reached_end) return ExitStatus::done;
@@ -186,6 +188,19 @@ ExitStatus simulate_servo(const ServoFile& file, const SimulateOptions& options,
              exact_text(report.units.time(report.trajectory.end_time())), report.units.time_unit(),
              exact_text(report.until), report.trajectory.events().size());
   return ExitStatus::undecided;
+}
+
+/// What the reference is at all times: of an option any number stands for what it will be.
+std::optional<double> constant_reference(const DriveFile& file, const SimulateOptions& options) {
+  constexpr double usual = 1.0;
+  if (options.reference || !file.has_reference) return usual;
+  const auto* constant = std::get_if<double>(&file.drive.reference);
+  return constant != nullptr ? std::optional(*constant) : std::nullopt;
+}
+
+std::optional<ServoFile> closed_form_at(DriveFile file, double reference) {
+  file.drive.reference = reference;
+  return closed_form_of(std::move(file));
 }
 
 ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
@@ -198,10 +213,13 @@ ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
   faults.require_distinct(files);
   const ServoOrDriveFile described = resolve_servo_or_drive(options.servo, faults);
   if (const auto* drive = std::get_if<DriveFile>(&described)) {
+    const std::optional<double> reference = constant_reference(*drive, options);
     const std::optional<ServoFile> closed =
-        faults.none() && !drive->has_reference ? closed_form_of(*drive) : std::nullopt;
-    if (closed) return simulate_servo(*closed, options, plots, provenance, faults);
-    return simulate_drive(*drive, options, plots, provenance, faults);
+        faults.none() && reference ? closed_form_at(*drive, *reference) : std::nullopt;
+    if (!closed) return simulate_drive(*drive, options, plots, provenance, faults);
+    SimulateOptions constant = options;
+    if (!options.reference) constant.reference = exact_text(*reference);
+    return simulate_servo(*closed, constant, plots, provenance, faults, true);
   }
   return simulate_servo(std::get<ServoFile>(described), options, plots, provenance, faults);
 }

@@ -46,6 +46,9 @@ void write_provenance(const MotionReport& report, const TextSink& sink) {
   const NormalizedServo& servo = report.servo;
   sink(fmt::format("# gearlash {}\n# command: {}\n", report.provenance.version,
                    report.provenance.command));
+  if (report.is_drive) {
+    sink("# worked out in closed form: the drive is a servo with proportional control\n");
+  }
   sink(
       fmt::format("# damping = {}, inertia_ratio = {}, friction_ratio = {}, backlash = {} rad, "
                   "restitution = {}, sensor = {}\n",
@@ -130,6 +133,7 @@ Json json_header(const MotionReport& report) {
                {"stop_reason", words_for(report.trajectory.stop_reason())},
                {"units", json_units(report.units)},
                {"energy", json_energy_books(report)},
+               {"method", "closed form"},
                {"provenance", json_provenance(report.provenance)}};
   if (report.units.natural_frequency) {
     json["natural_frequency"] = *report.units.natural_frequency;

@@ -78,6 +78,30 @@ TEST_F(DriveCommand, ADriveWithAClosedFormIsTheServoThatItIs) {
       1.0, 1e-9);
 }
 
+TEST_F(DriveCommand, SimulateTakesTheClosedFormAndSaysSo) {
+  const auto simulated = [&](const std::string& more, std::vector<std::string> options = {}) {
+    std::vector<std::string> words = {
+        "simulate", file(std::string(mechanics) + proportional + more), "--until", "1", "--every",
+        "0.5"};
+    words.insert(words.end(), options.begin(), options.end());
+    const Outcome run = run_tool(words);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.out;
+  };
+  const std::string constant = "[reference]\nkind = \"constant\"\nvalue = \"0.2 rad\"\n";
+  const std::string ramp = "[reference]\nkind = \"ramp\"\nrate = \"1 deg/s\"\n";
+  const char* closed = "\n# worked out in closed form: ";
+  EXPECT_THAT(simulated(""), HasSubstr(closed));
+  EXPECT_THAT(simulated(constant), HasSubstr(closed));
+  EXPECT_THAT(simulated(constant), HasSubstr("\n# reference = 0.2 rad, "));
+  EXPECT_THAT(simulated(constant, {"--reference", "0.3"}), HasSubstr("\n# reference = 0.3 rad, "));
+  EXPECT_THAT(simulated(ramp, {"--reference", "0.3"}), HasSubstr(closed));
+  EXPECT_THAT(simulated(ramp), HasSubstr("\n# worked out as a piecewise-affine hybrid system"));
+  EXPECT_EQ(json::parse(simulated(constant, {"--format", "json"}))["method"], "closed form");
+  EXPECT_THAT(run_tool({"simulate", "examples/elinco-fd162.toml", "--until", "1"}).out,
+              testing::Not(HasSubstr("closed form")));
+}
+
 TEST_F(DriveCommand, AReferenceThatMovesForEverHasNoClosedForm) {
   const auto method = [&](const std::string& reference) {
     const std::string drive = file(std::string(mechanics) + proportional + reference);

@@ -13,6 +13,7 @@ namespace gearlash {
 
 struct MotionReport {
   NormalizedServo servo = {};
+  bool is_drive = false;    ///< its file describes a drive, which has a closed form
   ServoState initial = {};  ///< normalised
   double reference = 0.0;   ///< rad
   double until = 0.0;       ///< asked for, in the report's unit of time
