@@ -183,6 +183,7 @@ class Search {
     result_.settling_time = setting_.settling_time;
     const double swings = options.swing_times * setting_.swing_time;
     result_.watch_time = swings + std::min(swings, settlings * setting_.settling_time);
+    most_events_ = options.most_events + ticks_awaited();
   }
 
   AttractorSearch run() {
@@ -206,6 +207,16 @@ class Search {
       result_.is_complete = false;
     }
     return result_.is_complete;
+  }
+
+  /// Of a sampled drive: those of the time that a start is watched do not count as events, up to a
+  /// multiple of what does.
+  std::size_t ticks_awaited() const {
+    if (!setting_.drive.sampling) return 0;
+    constexpr double most = 10.0;
+    const double ticks = 2.0 * result_.watch_time / setting_.drive.sampling->period;
+    return static_cast<std::size_t>(
+        std::min(ticks, most * static_cast<double>(options_.most_events)));
   }
 
   /// A first motion, to learn how large numbers become.
@@ -238,7 +249,7 @@ class Search {
           simulate(setting_.system, watch.here,
                    {.from = watch.time,
                     .until = until,
-                    .event_limit = std::max<std::size_t>(1, options_.most_events - watch.events)});
+                    .event_limit = std::max<std::size_t>(1, most_events_ - watch.events)});
       watch.time = motion.end_time();
       watch.events += motion.events().size();
       watch.here = motion.end();
@@ -246,7 +257,7 @@ class Search {
       verdict.watched = watch.time;
       verdict.last = watch.here.numbers;
       if (is_decided(watch, motion, verdict)) return verdict;
-      if (watch.events >= options_.most_events || watch.time >= longest(watch, motion, patience)) {
+      if (watch.events >= most_events_ || watch.time >= longest(watch, motion, patience)) {
         give_up(watch, motion, verdict);
         return verdict;
       }
@@ -568,8 +579,8 @@ class Search {
     const std::vector<Sample>& last = is_motor_alone ? of_motor : of_load;
     const std::vector<Sample> turns = extremes(last);
     if (setting_.coordinates != Coordinates::in_place && turns.size() < enough) {
-      verdict.reason = watch.events >= options_.most_events ? "as many events as were permitted"
-                                                            : "still on its way at the end";
+      verdict.reason = watch.events >= most_events_ ? "as many events as were permitted"
+                                                    : "still on its way at the end";
       return;
     }
     if (is_small(turns)) {
@@ -758,6 +769,7 @@ class Search {
   static constexpr double settlings = 30.0;  // e⁻³⁰ is some 1e-13
 
   const AttractorOptions& options_;
+  std::size_t most_events_ = 0;  ///< of a start, with the ticks of a clock
   SearchSetting unscaled_;
   SearchSetting setting_;
   std::vector<ShaftStates> starts_;

@@ -258,6 +258,17 @@ TEST(EdgeAttractors, WhatCannotBeCarriedAlongIsMeasuredInPlace) {
   EXPECT_NEAR(found.irregular[0].size, 0.27, 0.02);
 }
 
+/// Otherwise a fast computer's drive would be watched for a few swings only.
+TEST(EdgeAttractors, TicksAreNotCountedAsEvents) {
+  Drive drive = servo(0.19, 2.0, 0.1);
+  drive.sampling = Sampling{.period = 0.02};
+  const AttractorSearch found = find_attractors(
+      drive, {.starts = {{0.45, 0.0, 0.3, 0.0}}, .most_events = 1'000, .most_edges = 0});
+  ASSERT_EQ(found.irregular.size(), 1U);
+  EXPECT_GT(found.outcomes.front().watched, 200.0);
+  EXPECT_NEAR(found.irregular.front().size, 0.2416, 0.01);
+}
+
 /// The load creeps to rest while the motor sticks: the ticks then repeat what stands still.
 TEST(EdgeAttractors, WhatStandsStillFromTickToTickIsAtRest) {
   Drive drive = servo(0.02, 1.0, 0.15);

@@ -141,7 +141,7 @@ struct AttractorOptions {
   std::vector<ShaftStates> starts{};
   double swing_times = 200.0;         ///< that a start is watched; and 30 settling times,
                                       ///< but twice as long at most
-  std::size_t most_events = 100'000;  ///< of a start
+  std::size_t most_events = 100'000;  ///< of a start; and ten times as many ticks of a clock
   std::size_t most_edges = 3;         ///< sought between starts that led elsewhere; 0: none
   hybrid::ShootingOptions shooting{.most_events = 2000};
   /// Told the share that is done; false stops the search.
