@@ -100,10 +100,11 @@ void measure(const Path& path, StepResponse& response) {
   const std::optional<double> low = path.first_passing(0.1 * step);
   const std::optional<double> high = path.first_passing(0.9 * step);
   if (low && high) response.rise_time = *high - *low;
-  const std::optional<double> settled = path.time_into_band(step, response.band);
-  if (settled) response.settling_time = *settled;
-  double highest = 0.0;
   const double late = 0.8 * path.points().back().time;
+  // A swing that goes on passes the band: that it ends there does not mean that it stays.
+  const std::optional<double> settled = path.time_into_band(step, response.band);
+  if (settled && *settled <= late) response.settling_time = *settled;
+  double highest = 0.0;
   double last_lowest = std::numeric_limits<double>::infinity();
   double last_highest = -last_lowest;
   for (const Point& point : path.points()) {

@@ -63,5 +63,19 @@ TEST(StepResponse, SaysWhatDoesNotComeAbout) {
   EXPECT_THROW(step_response(drive, 1.0, 0.0), InvalidInput);
 }
 
+/// Wherever in its swing the motion is when it is no longer watched.
+TEST(StepResponse, WhatHuntsBeyondTheBandDoesNotSettle) {
+  Drive drive;
+  drive.motor = {1.0 / 3.0, {.viscous = 0.342}};
+  drive.load = {2.0 / 3.0, {.viscous = 0.038}};
+  drive.backlash = 0.3;
+  drive.controller = ProportionalDerivative{1.0, 0.0};
+  for (double until = 60.0; until < 66.5; until += 0.5) {
+    const StepResponse response = step_response(drive, 3.0, until);
+    EXPECT_NEAR(response.ripple, 0.2416, 1e-3);  // of which the band has 0.15
+    EXPECT_TRUE(std::isnan(response.settling_time)) << until;
+  }
+}
+
 }  // namespace
 }  // namespace gearlash::drive

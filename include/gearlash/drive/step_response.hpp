@@ -7,7 +7,8 @@
 
 namespace gearlash::drive {
 
-/// Of the load. NaN: does not come about in the time that was watched.
+/// Of the load. NaN: does not come about in the time that was watched; to have settled is to be in
+/// the band for all of its last fifth.
 struct StepResponse {
   double step = 0.0;                                                ///< rad, asked for at time 0
   double until = 0.0;                                               ///< s, watched
