@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "../motion/fifty_digits.hpp"
+#include "../servo/correct_digits.hpp"
 #include "../servo/seeded_draws.hpp"
 
 namespace gearlash {
@@ -142,9 +143,12 @@ double least_amplitude(const Nonlinearity& nonlinearity) {
 TEST(DescribingFunctionOracle, FrictionControlledBacklashHasThePublishedGains) {
   const FrictionControlledBacklash backlash{2.0};
   const auto gain_at = [&](double ratio) { return describing_gain(backlash, 1.0 / ratio); };
-  EXPECT_NEAR(std::abs(gain_at(0.5) - Complex(0.5, -1.0 / pi)), 0.0, 2.0 * epsilon);
-  EXPECT_NEAR(std::abs(gain_at(0.25) - Complex(0.804499, -0.238732)), 0.0, 1e-6);
-  EXPECT_NEAR(std::abs(gain_at(0.1) - Complex(0.947956, -0.114592)), 0.0, 1e-6);
+  expect_digits("gain_at_a_half", gain_at(0.5).real(), 0.5, 15.0);
+  expect_digits("lag_at_a_half", gain_at(0.5).imag(), -1.0 / pi, 15.0);
+  expect_digits("gain_at_a_quarter", gain_at(0.25).real(), 0.804499, 6.8);
+  expect_digits("lag_at_a_quarter", gain_at(0.25).imag(), -0.238732, 5.7);
+  expect_digits("gain_at_a_tenth", gain_at(0.1).real(), 0.947956, 7.6);
+  expect_digits("lag_at_a_tenth", gain_at(0.1).imag(), -0.114592, 5.4);
 }
 
 /// At c = π the output is a triangle of slope A, whose first harmonic is 4A/π a quarter turn late.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "../servo/correct_digits.hpp"
 #include "gearlash/motion/trajectory.hpp"
 
 namespace gearlash::drive {
@@ -47,12 +48,18 @@ TEST(OracleDriveSystem, CompliantBacklashIsModelicas) {
   const auto motion = run(drive, {.motor_position = 0.5 * std::numbers::pi}, 0.1);
   const auto events = partings_and_meetings(drive, motion);
   ASSERT_GE(events.size(), 3U);
-  EXPECT_NEAR(events[0].time, 0.0236592180, 1e-8);
-  EXPECT_NEAR(events[0].time, 0.0236592158, 5e-10);
-  EXPECT_NEAR(events[0].before[motor_position], 0.5581906266, 5e-9);
-  EXPECT_NEAR(events[0].before[motor_speed], -66.1966179775, 5e-7);
-  EXPECT_NEAR(events[1].time, 0.0380238426, 5e-10);
-  EXPECT_NEAR(events[2].before[motor_speed], 52.8937186, 5e-6);
+  // Published.
+  expect_digits("release_time", events[0].time, 0.0236592180, 7.0);
+  expect_digits("release_position", events[0].before[motor_position], 0.5581902852, 6.2);
+  expect_digits("release_speed", events[0].before[motor_speed], -66.1964949764, 5.7);
+  expect_digits("recontact_time", events[1].time, 0.0380238663, 6.2);
+  expect_digits("next_speed", events[2].before[motor_speed], 52.8937413834, 6.3);
+  // Exact.
+  expect_digits("exact_release_time", events[0].time, 0.0236592158, 8.7);
+  expect_digits("exact_release_position", events[0].before[motor_position], 0.5581906266, 10.0);
+  expect_digits("exact_release_speed", events[0].before[motor_speed], -66.1966179775, 11.0);
+  expect_digits("exact_recontact_time", events[1].time, 0.0380238426, 9.1);
+  expect_digits("exact_next_speed", events[2].before[motor_speed], 52.8937186, 9.9);
 }
 
 TEST(OracleDriveSystem, WithFullDampingTorqueJumps) {
