@@ -1,5 +1,6 @@
 // gearlash describe: what describing functions predict, beside the exact cycle.
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 
 #include "command.hpp"
@@ -46,12 +47,15 @@ struct DescribedDrive {
   DriveFile file{};
   std::vector<drive::ExactCycle> exact{};
   std::string verdict{};
+  bool is_driven = false;
+  bool is_decided = true;
 };
 
 void add_exact(const ServoFile& file, DescribedDrive& described) {
   const ReportUnits units = report_units(file);
   const LimitCycleAnalysis analysis = analyse_limit_cycles(file.servo);
   described.verdict = name_of(analysis.verdict);
+  described.is_decided = analysis.verdict != Verdict::undecided;
   for (const LimitCycle& cycle : analysis.cycles) {
     described.exact.push_back(
         {cycle.size, cycle.motor_size, units.time(cycle.period), cycle.stable});
@@ -67,7 +71,10 @@ void add_found(DescribedDrive& described) {
     return true;
   };
   const drive::AttractorSearch search = drive::find_attractors(described.file.drive, options);
-  described.verdict = drive::name_of(drive::verdict_of(search));
+  const drive::DriveVerdict verdict = drive::verdict_of(search);
+  described.is_decided = verdict != drive::DriveVerdict::undecided;
+  described.is_driven = is_driven(described.file.drive);
+  described.verdict = drive::name_of(verdict, described.file.drive);
   for (const drive::FoundCycle& cycle : search.cycles) {
     described.exact.push_back({cycle.size, cycle.motor_size, cycle.period(),
                                cycle.stability == drive::Stability::stable});
@@ -148,7 +155,7 @@ std::string draw(const DescribeReport& report, const DescribeOptions& options,
   }
   return draw_nyquist({.title = title_of(drawn.front().part),
                        .analyses = drawn,
-                       .exact = report.exact,
+                       .exact = report.is_driven ? std::vector<drive::ExactCycle>{} : report.exact,
                        .angle = report.angle,
                        .time_unit = report.time_unit},
                       format);
@@ -172,12 +179,15 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
   const DescribeReport report{.analyses = drive::describing_analyses(input.file.drive),
                               .exact = input.exact,
                               .exact_verdict = input.verdict,
+                              .is_driven = input.is_driven,
                               .angle = input.file.backlash_unit,
                               .time_unit = input.file.is_normalized ? "1/ω_n" : "s",
                               .provenance = provenance};
   if (!options.plot.empty()) write_file(plot_file(options), draw(report, options, picture_kind));
   write_file("-", options.format == "json" ? describe_json(report) : text_for_terminal(report));
-  return ExitStatus::done;
+  if (input.is_decided) return ExitStatus::done;
+  std::fputs("gearlash: what is exact could not be decided\n", stderr);
+  return ExitStatus::undecided;
 }
 
 }  // namespace

@@ -51,7 +51,10 @@ void check_sampling(RangeCheck& all, const Drive& drive) {
   RangeCheck check("sampling.");
   check.positive("period", sampling.period, "s");
   if (!check.violations().empty()) return void(all.include(check.violations()));
-  check.within("delay", sampling.delay, 0.0, sampling.period);
+  if (!(sampling.delay >= 0.0 && sampling.delay <= sampling.period)) {
+    check.refuse("delay", exact_text(sampling.delay),
+                 "must be from 0 to the period, " + exact_text(sampling.period) + " s");
+  }
   all.include(check.violations());
   const bool is_told = of_samples != nullptr || !check.violations().empty();
   if (is_told || !validate(drive.controller).empty()) return;

@@ -25,6 +25,11 @@ const FoundCycle* largest_stable(const AttractorSearch& search) {
   return largest;
 }
 
+bool is_driven(const Drive& drive) {
+  return std::holds_alternative<Sine>(settled(drive.reference)) ||
+         std::holds_alternative<Sine>(settled(drive.load_torque));
+}
+
 const char* name_of(DriveVerdict verdict) {
   switch (verdict) {
     case DriveVerdict::comes_to_rest:
@@ -43,6 +48,12 @@ const char* name_of(DriveVerdict verdict) {
       return "undecided";
   }
   return "";
+}
+
+const char* name_of(DriveVerdict verdict, const Drive& drive) {
+  const bool hunts = verdict == DriveVerdict::hunts || verdict == DriveVerdict::hunts_irregularly ||
+                     verdict == DriveVerdict::hunts_if_disturbed;
+  return hunts && is_driven(drive) ? "swings as it is driven" : name_of(verdict);
 }
 
 }  // namespace gearlash::drive

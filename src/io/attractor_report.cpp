@@ -46,11 +46,6 @@ std::string pace(const AttractorReport& report, double period, int digits) {
   return fmt::format(" at {} Hz", significant(1.0 / period, digits));
 }
 
-bool is_driven(const AttractorReport& report) {
-  return std::holds_alternative<drive::Sine>(drive::settled(report.file.drive.reference)) ||
-         std::holds_alternative<drive::Sine>(drive::settled(report.file.drive.load_torque));
-}
-
 std::string starts_text(std::size_t count) {
   return fmt::format("{} start{}", count, count == 1 ? "" : "s");
 }
@@ -331,7 +326,7 @@ Json json_search(const AttractorReport& report) {
 
 std::string verdict_line(const AttractorReport& report) {
   const drive::DriveVerdict verdict = drive::verdict_of(report.search);
-  const std::string name = drive::name_of(verdict);
+  const std::string name = drive::name_of(verdict, report.file.drive);
   const FoundCycle* cycle = drive::largest_stable(report.search);
   const auto swings = [&]() -> std::string {
     if (cycle != nullptr) {
@@ -350,7 +345,7 @@ std::string verdict_line(const AttractorReport& report) {
     case drive::DriveVerdict::hunts:
     case drive::DriveVerdict::hunts_irregularly:
     case drive::DriveVerdict::hunts_if_disturbed:
-      return (is_driven(report) ? "swings as it is driven" : name) + ": " + swings();
+      return name + ": " + swings();
     case drive::DriveVerdict::comes_to_rest:
       return fmt::format("{} from all {}", name, starts_text(report.search.outcomes.size()));
     default:

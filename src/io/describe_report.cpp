@@ -61,6 +61,7 @@ std::string cycle_table(const DescribingAnalysis& analysis, const DescribeReport
     const std::string kind = stability(cycle.balance.stable);
     rows.push_back(motion_row("predicted, " + kind,
                               {cycle.size, cycle.motor_size, cycle.balance.period}, report));
+    if (report.is_driven) continue;
     const auto error = drive::prediction_error(cycle, report.exact);
     if (!error && cycle.balance.stable) rows.push_back({"  exact", "no stable cycle"});
     if (!error) continue;
@@ -208,6 +209,7 @@ Json json_error(const std::optional<PredictionError>& error) {
 
 Json json_motion(const DescribedMotion& motion, const DescribeReport& report) {
   const PredictedCycle& balance = motion.balance;
+  const auto error = report.is_driven ? std::nullopt : prediction_error(motion, report.exact);
   return {{"stable", balance.stable},
           {"size", json_number(motion.size)},
           {"motor_size", json_number(motion.motor_size)},
@@ -218,7 +220,7 @@ Json json_motion(const DescribedMotion& motion, const DescribeReport& report) {
            {{"real", json_number(balance.gain.real())},
             {"imaginary", json_number(balance.gain.imag())}}},
           {"residual", json_number(balance.residual)},
-          {"error", json_error(drive::prediction_error(motion, report.exact))}};
+          {"error", json_error(error)}};
 }
 
 Json json_analysis(const DescribingAnalysis& analysis, const DescribeReport& report) {

@@ -151,7 +151,8 @@ class SignalReader {
       return read_table(folder_ / file, value_);
     } catch (const InvalidInput& problem) {
       const Violation& fault = problem.violations().front();
-      section_.refuse("file", "holds " + to_string(fault));
+      const bool is_read = fault.field != "file";
+      section_.refuse("file", is_read ? "holds " + to_string(fault) : fault.permitted);
       return 0.0;
     }
   }

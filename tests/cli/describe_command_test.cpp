@@ -129,5 +129,46 @@ derivative = "0.6 N m s/rad"
               StartsWith("the sensors are on the motor"));
 }
 
+/// No harmonic balance of a loop by itself predicts what a load torque does.
+TEST(DescribeCommand, WhatIsDrivenIsNoErrorOfAPrediction) {
+  const Scratch scratch;
+  const auto path = scratch / "drive.toml";
+  std::ofstream(path) << R"([motor]
+kind = "torque-controlled"
+inertia = "0.02 kg m2"
+friction = "0.5 N m s/rad"
+[gearbox]
+ratio = 1
+backlash = "1 deg"
+[load]
+inertia = "0.05 kg m2"
+friction = "0.02 N m s/rad"
+[sensor]
+position = "load"
+[controller]
+kind = "P"
+proportional = "20 N m/rad"
+[load_torque]
+kind = "sine"
+amplitude = "1 N m"
+frequency = "1 Hz"
+)";
+  const Outcome text = describe({path.string()});
+  ASSERT_EQ(text.status, 0) << text.err;
+  EXPECT_THAT(text.out, StartsWith("exact: swings as it is driven, ±3.088 deg"));
+  EXPECT_THAT(text.out, testing::Not(HasSubstr("error")));
+  const auto json = nlohmann::json::parse(describe({path.string(), "--format", "json"}).out);
+  EXPECT_EQ(json["exact"]["verdict"], "swings as it is driven");
+  EXPECT_TRUE(json["analyses"][0]["cycles"][0]["error"].is_null());
+}
+
+TEST(DescribeCommand, WhatCannotBeDecidedIsToldByTheStatus) {
+  const Outcome run = describe({"--damping", "1e-12", "--inertia-ratio", "1", "--friction-ratio",
+                                "1/2", "--backlash", "0.3", "--restitution", "1"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_EQ(run.err, "gearlash: what is exact could not be decided\n");
+  EXPECT_THAT(run.out, StartsWith("exact: undecided\n"));
+}
+
 }  // namespace
 }  // namespace gearlash

@@ -21,7 +21,12 @@ DriveVerdict verdict_of(const AttractorSearch& search);
 /// Of the cycles that are not unstable the largest; nullptr where there is none.
 const FoundCycle* largest_stable(const AttractorSearch& search);
 
+/// Whether a reference or a load torque swings for ever: what repeats is then no hunting by itself.
+bool is_driven(const Drive& drive);
+
 /// "hunts", "comes to rest", …
 const char* name_of(DriveVerdict verdict);
+/// Of a driven one that hunts "swings as it is driven".
+const char* name_of(DriveVerdict verdict, const Drive& drive);
 
 }  // namespace gearlash::drive

@@ -13,6 +13,7 @@ struct DescribeReport {
   std::vector<drive::DescribingAnalysis> analyses = {};
   std::vector<drive::ExactCycle> exact = {};
   std::string exact_verdict = {};  ///< "hunts", "cannot hunt", …: in a word, what is exact
+  bool is_driven = false;          ///< what is exact swings as it is driven: nothing predicts it
   AngleUnit angle = {};            ///< in which the author gave the backlash
   std::string time_unit = "s";     ///< of the drive; else periods are told in it, and ω as angles
   Provenance provenance = {};
