@@ -57,7 +57,8 @@ double rounding_of(std::size_t order) {
 
 GuardTable::GuardTable(const LinearFlow& flow, const SparseForm& form)
     : count_(static_cast<std::size_t>(flow.count())),
-      length_(flow.polynomial_order() > 0 ? 1.0 : flow.longest_step()),
+      is_polynomial_(flow.polynomial_order() > 0),
+      length_(is_polynomial_ ? 1.0 : flow.longest_step()),
       orders_(count_ == 0 ? 0 : static_cast<std::size_t>(flow.order(length_))),
       room_((orders_ + lanes - 1) / lanes * lanes) {
   rows_.assign(count_ * room_, 0.0);
@@ -93,18 +94,19 @@ GuardTable::GuardTable(const LinearFlow& flow, const SparseForm& form)
   }
 }
 
-double GuardTable::reach(const Velocity& velocity, double share) const {
-  if (share > 1.0) {  // a polynomial's: powers of the share grow
-    double sum = 0.0;
-    double power = share;
-    for (std::size_t k = 0; k < orders_; ++k) {
-      for (const std::size_t j : acting_) {
-        sum += power * sizes_[j * room_ + k] * velocity.sizes[j];
-      }
-      power *= share;
+double GuardTable::sizes_from(const Velocity& velocity, double share, std::size_t first) const {
+  double sum = 0.0;
+  for (std::size_t order = orders_; order >= first; --order) {
+    for (const std::size_t j : acting_) {
+      sum += sizes_[j * room_ + order - 1] * velocity.sizes[j];
     }
-    return sum;
+    sum *= share;
   }
+  return sum * power_of(share, static_cast<int>(first) - 1);
+}
+
+double GuardTable::reach(const Velocity& velocity, double share) const {
+  if (is_polynomial_) return sizes_from(velocity, share, 1);
   double sum = 0.0;
   for (const std::size_t j : acting_) sum += reach_[j] * velocity.sizes[j];
   return share * sum;
@@ -112,6 +114,7 @@ double GuardTable::reach(const Velocity& velocity, double share) const {
 
 double GuardTable::beyond_few(const Velocity& velocity, double share) const {
   if (few_ == orders_) return 0.0;
+  if (is_polynomial_) return sizes_from(velocity, share, few_ + 1);
   double sum = 0.0;
   for (const std::size_t j : acting_) sum += beyond_[j] * velocity.sizes[j];
   return sum * power_of(share, few_orders() + 1);
@@ -128,7 +131,7 @@ double GuardTable::uncertainty_of(const Velocity& velocity, double share, int or
 }
 
 double GuardTable::uncertainty(const Velocity& velocity, double share, int first, int last) const {
-  if (share > 1.0) {  // a polynomial's, as in reach()
+  if (is_polynomial_) {
     double sum = 0.0;
     for (int order = first; order <= last; ++order) sum += uncertainty_of(velocity, share, order);
     return sum;

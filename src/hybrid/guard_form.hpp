@@ -50,6 +50,10 @@ class GuardTable {
 
  private:
   std::size_t count_;
+  /// Σ s^k sizesₖ·v over orders: of a polynomial motion, whose share has no meaning by itself.
+  double sizes_from(const Velocity& velocity, double share, std::size_t first) const;
+
+  bool is_polynomial_;
   double length_;  ///< of the longest step
   std::size_t orders_;
   std::size_t room_;           ///< for so many orders: in fours

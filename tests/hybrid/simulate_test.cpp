@@ -148,6 +148,35 @@ TEST(Simulate, ClocksTickInOrder) {
   EXPECT_EQ(motion.events()[6].kind, EventKind::timed);
 }
 
+/// x = 1 − (t/t₀)¹³ by thirteen integrators: no term but the last tells that x falls.
+TEST(EdgeSimulate, WhatOnlyTheLastTermTurnsIsNotSteppedOver) {
+  constexpr Eigen::Index integrators = 13;
+  for (const double turn : {1e-3, 1.0, 1e3, 1e9}) {
+    SCOPED_TRACE(turn);
+    Matrix chain = Matrix::Zero(integrators, integrators);
+    std::vector<std::string> names;
+    for (Eigen::Index i = 0; i < integrators; ++i) {
+      if (i + 1 < integrators) chain(i, i + 1) = 1.0;
+      names.push_back("x" + std::to_string(i));
+    }
+    Vector input = Vector::Zero(integrators);
+    input[integrators - 1] = -std::tgamma(integrators + 1.0) * std::pow(turn, -13.0);
+    const HybridSystem system{
+        .state_names = names,
+        .modes = {{.name = "runs",
+                   .flow = {chain, input},
+                   .transitions = {{.name = "x falls",
+                                    .guard = {Vector::Unit(integrators, 0), 0.0},
+                                    .target = 1}}},
+                  {.name = "rests",
+                   .flow = {Matrix::Zero(integrators, integrators), Vector::Zero(integrators)}}}};
+    const Trajectory motion =
+        simulate(system, {0, Vector::Unit(integrators, 0)}, {.until = 100.0 * turn});
+    ASSERT_EQ(motion.events().size(), 1U);
+    EXPECT_NEAR(motion.events()[0].time, turn, 1e-14 * turn);
+  }
+}
+
 // ---- an oscillator against a stop ---------------------------------------------------------------
 
 /// x″ + 0.1x′ + x = A cos t, a stop at x = 1; the force as an oscillation of its own.
