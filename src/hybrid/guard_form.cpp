@@ -131,11 +131,13 @@ double GuardTable::uncertainty_of(const Velocity& velocity, double share, int or
 }
 
 double GuardTable::uncertainty(const Velocity& velocity, double share, int first, int last) const {
-  if (is_polynomial_) {
-    double sum = 0.0;
-    for (int order = first; order <= last; ++order) sum += uncertainty_of(velocity, share, order);
-    return sum;
-  }
+  double sum = 0.0;
+  for (int order = first; order <= last; ++order) sum += uncertainty_of(velocity, share, order);
+  return sum;
+}
+
+double GuardTable::bound_of_uncertainty(const Velocity& velocity, double share, int first) const {
+  if (is_polynomial_) return uncertainty(velocity, share, first, static_cast<int>(orders_));
   const double rounding = rounding_of(orders_);
   double sum = 0.0;
   for (const std::size_t j : acting_) {

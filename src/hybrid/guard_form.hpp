@@ -34,8 +34,11 @@ class GuardTable {
 
   /// How far g may go from g₀ at most, with all that rounding may add.
   double reach(const Velocity& velocity, double share) const;
-  /// What rounding and the remainder may add to all coefficients from order `first` ≥ 1 on.
+  /// What rounding may add to all coefficients from order `first` ≥ 1 to `last`.
   double uncertainty(const Velocity& velocity, double share, int first, int last) const;
+  /// An upper bound of that to the highest order, soon worked out; far too high where the share is
+  /// little and high orders are uncertain.
+  double bound_of_uncertainty(const Velocity& velocity, double share, int first) const;
   /// An upper bound of all coefficients beyond the first few orders, `few_orders`.
   double beyond_few(const Velocity& velocity, double share) const;
   int few_orders() const { return static_cast<int>(few_); }

@@ -174,10 +174,13 @@ class Simulation {
     if (sign < 0.0) {
       for (double& coefficient : series) coefficient = -coefficient;
     }
+    const bool is_whole = last == order_;
+    const int from = std::max(first, 1);
     const double uncertainty =
-        table.uncertainty(velocity_, table_share_, std::max(first, 1), order_) +
+        (is_whole ? table.uncertainty(velocity_, table_share_, from, order_)
+                  : table.bound_of_uncertainty(velocity_, table_share_, from)) +
         table.weight() * remainder_ + (first == 0 ? unknown : 0.0);
-    if (last == order_) return StepExit{first_exit(series, uncertainty)};
+    if (is_whole) return StepExit{first_exit(series, uncertainty)};
     const double rest = uncertainty + table.beyond_few(velocity_, table_share_);
     const auto rough = rough_exit(series, rest, order_);
     if (!rough) return std::nullopt;
