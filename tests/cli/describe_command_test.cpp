@@ -93,22 +93,25 @@ TEST(DescribeCommand, BadInputIsToldAtOnce) {
   EXPECT_THAT(massless.err, HasSubstr("backlash = 0 rad: must be positive"));
 }
 
-/// PD by the motor's encoder, Coulomb friction, a torque limit.
-TEST(DescribeCommand, DrivesAreDescribedPartByPart) {
-  const Scratch scratch;
-  const auto path = scratch / "drive.toml";
-  std::ofstream(path) << R"([motor]
-kind = "torque-controlled"
-inertia = "0.02 kg m2"
-friction = "0.05 N m s/rad"
-coulomb = "0.1 N m"
-torque_limit = "3 N m"
-[gearbox]
+/// A drive's file but for its motor's friction and all that follows.
+constexpr char drive_file[] = R"([gearbox]
 ratio = 1
 backlash = "1 deg"
 [load]
 inertia = "0.05 kg m2"
 friction = "0.02 N m s/rad"
+[motor]
+kind = "torque-controlled"
+inertia = "0.02 kg m2"
+)";
+
+/// PD by the motor's encoder, Coulomb friction, a torque limit.
+TEST(DescribeCommand, DrivesAreDescribedPartByPart) {
+  const Scratch scratch;
+  const auto path = scratch / "drive.toml";
+  std::ofstream(path) << drive_file << R"(friction = "0.05 N m s/rad"
+coulomb = "0.1 N m"
+torque_limit = "3 N m"
 [sensor]
 position = "motor"
 [controller]
@@ -133,16 +136,7 @@ derivative = "0.6 N m s/rad"
 TEST(DescribeCommand, WhatIsDrivenIsNoErrorOfAPrediction) {
   const Scratch scratch;
   const auto path = scratch / "drive.toml";
-  std::ofstream(path) << R"([motor]
-kind = "torque-controlled"
-inertia = "0.02 kg m2"
-friction = "0.5 N m s/rad"
-[gearbox]
-ratio = 1
-backlash = "1 deg"
-[load]
-inertia = "0.05 kg m2"
-friction = "0.02 N m s/rad"
+  std::ofstream(path) << drive_file << R"(friction = "0.5 N m s/rad"
 [sensor]
 position = "load"
 [controller]
