@@ -345,8 +345,9 @@ void Stride::advance(const LinearFlow& flow, const Velocity& velocity, double le
         sum *= share;
       }
       sum *= share;
-      for (std::size_t i = first; i < end; ++i)
+      for (std::size_t i = first; i < end; ++i) {
         sum[static_cast<Eigen::Index>(i - first)] += length * values[i];
+      }
     }
     for (std::size_t i = first; i < end; ++i) {
       state[flow.number(static_cast<int>(i))] += sum[static_cast<Eigen::Index>(i - first)];

@@ -35,7 +35,7 @@ struct RoughExit {
   double within = 0.0;       ///< the exit is no farther from it
 };
 
-/// Of p, a polynomial of order `last`, on [0, 1], by at most `most_leading` leading terms q;
+/// Of p, a polynomial of order `last`, on [0, 1], by at most `most_leading` leading terms q.
 /// Precondition: |p − q| and what is unknown of p are together less than `rest`, as a sum of terms.
 /// Nothing where q cannot tell. No exit where q's Bernstein coefficients are all above `rest`. One
 /// exit where they fall from above `rest` to below −`rest`, once, and q is steep enough beside its
