@@ -2,14 +2,14 @@
 #   find_package(gearlash 0.1 CONFIG REQUIRED)                  # the numerics; needs only Eigen
 #   find_package(gearlash 0.1 CONFIG REQUIRED COMPONENTS chart design io)  # also many servos at
 #                                                  # once, what must change, the reader of data sheets
-#   target_link_libraries(... gearlash::gearlash)  # or ::servo, ::motion, ::cycle, ::hybrid, ::drive, ::chart,
+#   target_link_libraries(... gearlash::gearlash)  # or ::base, ::servo, ::motion, ::cycle, ::hybrid, ::drive, ::chart,
 #                                                  # ::design, ::io
 
 include(CMakePackageConfigHelpers)
 set(gearlash_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/gearlash")
 
-set(layers servo motion cycle hybrid drive chart design)
-install(TARGETS gearlash gearlash_servo gearlash_motion gearlash_cycle gearlash_hybrid
+set(layers base servo motion cycle hybrid drive chart design)
+install(TARGETS gearlash gearlash_base gearlash_servo gearlash_motion gearlash_cycle gearlash_hybrid
                 gearlash_drive
         EXPORT gearlash_numerics)
 install(EXPORT gearlash_numerics NAMESPACE gearlash:: FILE gearlashTargets.cmake

@@ -160,6 +160,9 @@ void add_grid_options(CLI::App& command, GridOptions& options) {
                   "picture (.svg, .png, .pdf) or table (.csv, .json, .nc)")
       ->type_name("FILE")
       ->required();
+  command.add_flag("--proved", options.proved,
+                   "prove each verdict with plastic contact by interval arithmetic;\n"
+                   "what this leaves open is undecided");
   add_servo_options(command, options.servo);
 }
 
@@ -175,6 +178,7 @@ GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption
   task.grid.servo = read_fixed_inputs(options.servo, axes, faults);
   faults.require_none();
   task.grid.axes = std::move(axes.axes);
+  task.grid.proved = options.proved;
   require_none(validate(task.grid, axes.fields));
   if (task.grid.size() > most_points) {
     throw InvalidInput({{"points", std::to_string(task.grid.size()),
@@ -187,10 +191,11 @@ GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption
 
 std::string solved_text(const GridCount& count) {
   const BatchCount& solved = count.solved;
-  return fmt::format("{} servos, {} solved side by side, {} one by one{}",
-                     solved.side_by_side + solved.one_by_one + count.refused, solved.side_by_side,
-                     solved.one_by_one,
-                     count.refused > 0 ? fmt::format(", {} refused", count.refused) : "");
+  return fmt::format(
+      "{} servos, {} solved side by side, {} one by one{}{}",
+      solved.side_by_side + solved.one_by_one + count.refused, solved.side_by_side,
+      solved.one_by_one, count.refused > 0 ? fmt::format(", {} refused", count.refused) : "",
+      count.unproved > 0 ? fmt::format(", {} left undecided by the proof", count.unproved) : "");
 }
 
 void make_grid_file(const GridTask& task, const std::string& what, const Provenance& provenance,
@@ -214,6 +219,7 @@ void make_grid_file(const GridTask& task, const std::string& what, const Provena
     if (task.boundary == GridBoundary::hunting) {
       table.hunting_boundary =
           hunting_boundary(task.grid, table.cycles[CycleQuantity::growth_at_rest]);
+      table.dissipative_boundary = dissipative_boundary(task.grid);
     }
     write_table(task, table, draw, output);
   }

@@ -17,6 +17,7 @@ struct GridOptions {
   ServoOptions servo;
   std::string quantity = "size";
   std::string output;
+  bool proved = false;
 };
 
 /// An axis as typed after its option, "--x".

@@ -150,15 +150,27 @@ std::string draw(const LimitCycleReport& report, const LimitCycleOptions& option
   return draw_bar_chart(chart, format);
 }
 
+/// Proved of the data of the file: of a data sheet's numbers with their units, or of the decimals
+/// of a normalised servo.
+LimitCycleAnalysis proved_analysis(const ServoFile& file, const ChangeableDrive& drive) {
+  if (file.drivetrain && !drive.is_normalized()) {
+    return enclose_limit_cycles(file.servo, drive.box().servo);
+  }
+  if (file.drivetrain && !file.datasheet) {
+    return enclose_limit_cycles(file.servo, box_between(*file.drivetrain, *file.drivetrain).servo);
+  }
+  return enclose_limit_cycles(file.servo, Reading::decimal);
+}
+
 /// `is_drive`: it was described as a drive, whose closed form this is.
 ExitStatus analyse_servo(const ServoFile& file, bool is_drive, const LimitCycleOptions& options,
                          PictureFormat picture_kind, const Provenance& provenance) {
+  const ChangeableDrive drive = drive_of(file, options.servo);
   LimitCycleReport report{.servo = file.servo,
-                          .analysis = analyse_limit_cycles(file.servo),
+                          .analysis = proved_analysis(file, drive),
                           .units = report_units(file),
                           .provenance = provenance,
                           .is_drive = is_drive};
-  const ChangeableDrive drive = drive_of(file, options.servo);
   // At the very ends of the ranges rounding may put the drive's ratios beyond them.
   const bool is_sound = validate(drive.drivetrain()).empty();
   if (is_sound && (options.margins || has_closed_form(file.servo))) {

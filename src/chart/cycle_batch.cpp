@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cycle_kernel.hpp"
+#include "gearlash/cycle/cycle_bounds.hpp"
 
 namespace gearlash {
 namespace {
@@ -160,6 +161,33 @@ const char* name_of(VectorUnit unit) {
       return "avx512";
   }
   return "";
+}
+
+namespace {
+
+bool is_proved(const NormalizedServo& servo, Verdict verdict) {
+  if (servo.backlash == 0.0 || servo.damping == 0.0) return true;
+  const double nothing_known = std::numeric_limits<double>::quiet_NaN();
+  const CycleBounds bounds = bound_cycles(box_of(servo, Reading::exact), nothing_known);
+  if (verdict == Verdict::hunts) return bounds.all_hunt();
+  return verdict == Verdict::undecided || bounds.none_hunt();
+}
+
+bool has_plastic_contact(const NormalizedServo& servo) {
+  return servo.restitution == 0.0 || servo.inertia_ratio == 0.0 || std::isinf(servo.inertia_ratio);
+}
+
+}  // namespace
+
+std::size_t keep_proved(std::span<const NormalizedServo> servos, const CycleColumns& cycles) {
+  std::size_t unproved = 0;
+  for (std::size_t row = 0; row < servos.size(); ++row) {
+    const NormalizedServo& servo = servos[row];
+    if (!has_plastic_contact(servo) || is_proved(servo, cycles.verdict[row])) continue;
+    write_row(cycles, row, Verdict::undecided, cycles.growth_at_rest[row], LimitCycle{});
+    ++unproved;
+  }
+  return unproved;
 }
 
 BatchCount find_limit_cycles(std::span<const NormalizedServo> servos, const CycleColumns& cycles,

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "gearlash/cycle/energy_balance.hpp"
 #include "gearlash/cycle/growth_at_rest.hpp"
 
 namespace gearlash {
@@ -24,6 +25,23 @@ NormalizedServo servo_at(const ServoGrid& grid, const MapPoint& point) {
 Side side_of_hunting(const NormalizedServo& servo) {
   if (!validate(servo).empty()) return Side::unknown;
   return side_of(growth_at_rest(servo_dynamics(servo)));
+}
+
+Side side_of_dissipation(const NormalizedServo& servo) {
+  if (!validate(servo).empty()) return Side::unknown;
+  return is_dissipative(servo) ? Side::outside : Side::inside;
+}
+
+std::vector<MapCurve> dissipative_boundary(const ServoGrid& grid) {
+  const auto side = [&](const MapPoint& place) {
+    return side_of_dissipation(servo_at(grid, place));
+  };
+  std::vector<Side> corners;
+  corners.reserve(grid.size());
+  for (const double y : grid.axes[0].values) {
+    for (const double x : grid.axes[1].values) corners.push_back(side({x, y}));
+  }
+  return boundary_of_region(grid.axes[1], grid.axes[0], corners, side);
 }
 
 std::vector<MapCurve> hunting_boundary(const ServoGrid& grid,

@@ -117,6 +117,7 @@ GridCount evaluate_part(const ServoGrid& grid, std::size_t first, const CycleCol
   count.solved = find_limit_cycles(servos, columns, unit);
   count.solved.one_by_one -= refused.size();  // a servo without a gap is not for the lanes
   count.refused = refused.size();
+  if (grid.proved) count.unproved = keep_proved(servos, columns);
   for (const std::size_t row : refused) write_nothing_known(columns, row);
   return count;
 }
@@ -182,6 +183,7 @@ void GridCount::add(const GridCount& others) {
   solved.side_by_side += others.solved.side_by_side;
   solved.one_by_one += others.solved.one_by_one;
   refused += others.refused;
+  unproved += others.unproved;
 }
 
 GridCount evaluate(const ServoGrid& grid, std::size_t first, std::size_t count,

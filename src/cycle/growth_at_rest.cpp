@@ -26,14 +26,35 @@ double rest_position(const GapFlight& flight) {
   return flight.load_position + flight.load_speed / flight.load_rate;
 }
 
+/// ζ ≥ 1. With p = (1 − λ₁/c)(1 − λ₁/D), the faces part again only where p < 0, after
+///   t₁ = ln(1 + (λ₂ − λ₁)q)/(λ₂ − λ₁),  q = (J_M/c + J_L/D)/(−p),
+/// of which μ₀ = −p e^{−λ₁t₁}. Nothing cancels but in p.
+double overdamped_growth(const ServoDynamics& dynamics, double motor_time, double load_time) {
+  const double split = 2.0 * std::sqrt((dynamics.damping - 1.0) * (dynamics.damping + 1.0));
+  const double slow = 1.0 / (dynamics.damping + 0.5 * split);
+  const double fall = -(1.0 - slow * motor_time) * (1.0 - slow * load_time);
+  if (!(fall > 0.0)) return 0.0;
+  const double quotient =
+      (dynamics.motor_inertia * motor_time + dynamics.load_inertia * load_time) / fall;
+  const double engaged_time = split > 0.0 ? std::log1p(split * quotient) / split : quotient;
+  return fall * std::exp(-slow * engaged_time);
+}
+
 /// One engaged motion from contact to parting.
 double plastic_growth(const ServoDynamics& dynamics) {
-  const double contact_speed = dynamics.motor_inertia / dynamics.motor_friction;
-  const double engaged_time =
-      first_zero(dynamics.damping, mesh_torque(dynamics, -1.0, contact_speed),
-                 mesh_torque_rate(dynamics, -1.0, contact_speed));
-  if (std::isinf(engaged_time)) return 0.0;
-  return growth_after_contact(dynamics, contact_speed, engaged_time);
+  const double zeta = dynamics.damping;
+  const double motor_time = 1.0 / dynamics.motor_rate;
+  const double load_time = 1.0 / dynamics.load_rate;
+  if (zeta >= 1.0) return overdamped_growth(dynamics, motor_time, load_time);
+  const double frequency = std::sqrt((1.0 - zeta) * (1.0 + zeta));
+  const double rising =
+      rising_at_rest(zeta, dynamics.motor_inertia, dynamics.load_inertia, motor_time, load_time);
+  // (r² − 2ζr + 1)/r² of a rate r.
+  const auto form_of = [&](double time) {
+    return std::pow(1.0 - zeta * time, 2) + std::pow(frequency * time, 2);
+  };
+  return std::sqrt(form_of(motor_time) * form_of(load_time)) *
+         std::exp(-zeta * std::atan2(frequency, rising) / frequency);
 }
 
 /// The bounces followed one by one.

@@ -3,41 +3,33 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cycle_enclosure.hpp"
 #include "gearlash/cycle/bouncing_cycles.hpp"
+#include "gearlash/cycle/energy_balance.hpp"
 #include "gearlash/cycle/growth_at_rest.hpp"
 #include "gearlash/cycle/plastic_cycle.hpp"
 
 namespace gearlash {
 namespace {
 
-bool rests_engaged(const ServoDynamics& dynamics) {
-  const double zeta = dynamics.damping;
-  if (zeta < 1.0) return false;
-  const double slow_rate = 1.0 / (zeta + std::sqrt((zeta - 1.0) * (zeta + 1.0)));
-  return mesh_torque(dynamics, -1.0, slow_rate) > 0.0;
-}
-
 /// Plastic contact: the theorem of docs/mathematics.md decides.
 void analyse_plastic(const ServoDynamics& dynamics, LimitCycleAnalysis& analysis) {
-  analysis.proved = true;
+  analysis.certainty =
+      std::isinf(analysis.growth_at_rest) ? Certainty::theorem : Certainty::computed;
   if (analysis.growth_at_rest <= 1.0) {
     analysis.verdict = Verdict::cannot_hunt;
     return;
   }
   const auto half = balanced_half_cycle(dynamics, analysis.growth_at_rest);
-  if (!half) {
-    analysis.verdict = Verdict::undecided;
-    analysis.proved = false;
+  if (half) analysis.cycles.push_back(plastic_cycle(dynamics, *half));
+  // Else growth at rest is 1 + rounding: the theorem says that there is a cycle, and a stable one.
+  if (half && analysis.cycles.front().stable) {
+    analysis.verdict = Verdict::hunts;
     return;
   }
-  const LimitCycle cycle = plastic_cycle(dynamics, *half);
-  if (!cycle.stable) {  // growth at rest 1 + rounding: the theorem says that it is stable
-    analysis.verdict = Verdict::undecided;
-    analysis.proved = false;
-    return;
-  }
-  analysis.verdict = Verdict::hunts;
-  analysis.cycles.push_back(cycle);
+  analysis.verdict = Verdict::undecided;
+  analysis.certainty = Certainty::computed;
+  analysis.cycles.clear();
 }
 
 Verdict bouncing_verdict(double growth, const BouncingCycles& found) {
@@ -61,26 +53,100 @@ void analyse_bouncing(const NormalizedServo& servo, const ServoDynamics& dynamic
   analysis.verdict = bouncing_verdict(analysis.growth_at_rest, found);
 }
 
-}  // namespace
+/// Verdicts that need no growth at rest, by exact comparisons.
+std::optional<Verdict> verdict_by_theorem(const ServoDynamics& dynamics, bool is_dissipative) {
+  if (dynamics.backlash == 0.0) {
+    return dynamics.damping == 0.0 ? Verdict::undamped : Verdict::cannot_hunt;
+  }
+  if (dynamics.damping == 0.0 && dynamics.plastic_contact()) return Verdict::grows_without_bound;
+  if (is_dissipative) return Verdict::cannot_hunt;
+  return std::nullopt;
+}
 
-LimitCycleAnalysis analyse_limit_cycles(const NormalizedServo& servo) {
-  require_none(validate(servo));
-  const ServoDynamics dynamics = servo_dynamics(servo);
+/// All that needs no search; the verdict where a theorem gives it.
+LimitCycleAnalysis begun(const ServoDynamics& dynamics, bool is_dissipative) {
   LimitCycleAnalysis analysis;
   analysis.growth_at_rest = growth_at_rest(dynamics);
-  analysis.rests_engaged = rests_engaged(dynamics);
-  if (dynamics.backlash == 0.0) {
-    analysis.verdict = dynamics.damping == 0.0 ? Verdict::undamped : Verdict::cannot_hunt;
-    analysis.proved = true;
+  analysis.is_dissipative = is_dissipative;
+  analysis.rests_engaged = dynamics.damping >= 1.0;
+  if (const auto verdict = verdict_by_theorem(dynamics, is_dissipative)) {
+    analysis.verdict = *verdict;
+    analysis.certainty = Certainty::theorem;
   } else if (dynamics.damping == 0.0) {
     analysis.verdict = Verdict::grows_without_bound;
-    analysis.proved = dynamics.plastic_contact();
-  } else if (dynamics.plastic_contact()) {
+  } else {
+    analysis.verdict = Verdict::undecided;
+  }
+  return analysis;
+}
+
+LimitCycleAnalysis analyse(const NormalizedServo& servo, bool is_dissipative) {
+  const ServoDynamics dynamics = servo_dynamics(servo);
+  LimitCycleAnalysis analysis = begun(dynamics, is_dissipative);
+  if (analysis.verdict != Verdict::undecided) return analysis;
+  if (dynamics.plastic_contact()) {
     analyse_plastic(dynamics, analysis);
   } else {
     analyse_bouncing(servo, dynamics, analysis);
   }
   return analysis;
+}
+
+/// The cycle that is proved to exist, as far as doubles can find it: next to the boundary it may be
+/// missing, and its multiplier be 1 by rounding.
+void add_proved_cycle(const ServoDynamics& dynamics, LimitCycleAnalysis& analysis) {
+  const double least = 1.0 + std::numeric_limits<double>::epsilon();
+  const auto half = balanced_half_cycle(dynamics, std::max(analysis.growth_at_rest, least));
+  if (!half) return;
+  analysis.cycles.push_back(plastic_cycle(dynamics, *half));
+  analysis.cycles.front().stable = true;
+}
+
+/// Plastic contact and damping: what holds of all servos of the box.
+LimitCycleAnalysis enclose_plastic(const ServoDynamics& dynamics, const ServoBox& box,
+                                   bool is_dissipative) {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  LimitCycleAnalysis analysis = begun(dynamics, is_dissipative);
+  const CycleBounds bounds = bound_cycles(box, unknown);
+  analysis.growth_at_rest =
+      std::clamp(analysis.growth_at_rest, bounds.growth_at_rest.low, bounds.growth_at_rest.high);
+  const bool is_theorem =
+      analysis.verdict != Verdict::undecided || std::isinf(bounds.growth_at_rest.low);
+  if (bounds.all_hunt()) analysis.verdict = Verdict::hunts;
+  if (bounds.none_hunt()) analysis.verdict = Verdict::cannot_hunt;
+  analysis.certainty = is_theorem                               ? Certainty::theorem
+                       : analysis.verdict != Verdict::undecided ? Certainty::enclosed
+                                                                : Certainty::computed;
+  if (analysis.verdict == Verdict::hunts) add_proved_cycle(dynamics, analysis);
+  const double flight_time =
+      analysis.cycles.empty() ? unknown : 0.5 * analysis.cycles.front().separated_time;
+  analysis.enclosure = enclose_cycle(box, flight_time);
+  return analysis;
+}
+
+LimitCycleAnalysis enclosed(const NormalizedServo& servo, const ServoBox& box,
+                            bool is_dissipative) {
+  const ServoDynamics dynamics = servo_dynamics(servo);
+  const bool may_hunt = dynamics.backlash > 0.0 && dynamics.damping > 0.0;
+  return may_hunt && dynamics.plastic_contact() ? enclose_plastic(dynamics, box, is_dissipative)
+                                                : analyse(servo, is_dissipative);
+}
+
+}  // namespace
+
+LimitCycleAnalysis analyse_limit_cycles(const NormalizedServo& servo) {
+  require_none(validate(servo));
+  return analyse(servo, is_dissipative(servo));
+}
+
+LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, const ServoBox& box) {
+  require_none(validate(servo));
+  return enclosed(servo, box, is_dissipative(box));
+}
+
+LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, Reading reading) {
+  require_none(validate(servo));
+  return enclosed(servo, box_of(servo, reading), is_dissipative(servo, reading));
 }
 
 const LimitCycle* largest_stable(const LimitCycleAnalysis& analysis) {
@@ -105,6 +171,20 @@ const char* name_of(Verdict verdict) {
       return "undamped";
     case Verdict::undecided:
       return "undecided";
+  }
+  return "";
+}
+
+const char* name_of(Certainty certainty) {
+  switch (certainty) {
+    case Certainty::searched:
+      return "searched";
+    case Certainty::computed:
+      return "computed";
+    case Certainty::enclosed:
+      return "enclosed";
+    case Certainty::theorem:
+      return "theorem";
   }
   return "";
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "gearlash/servo/overloaded.hpp"
 
@@ -66,8 +67,6 @@ int turn_of(Parameter parameter) {
   return parameter == Parameter::tachometer ? 1 : 0;
 }
 
-Bounds between(double a, double b) { return {std::min(a, b), std::max(a, b)}; }
-
 }  // namespace
 
 const char* name_of(Parameter parameter) { return naming_of(parameter).name; }
@@ -107,6 +106,11 @@ ChangeableDrive::ChangeableDrive(const NormalizedServo& servo, double natural_fr
                      drivetrain_.load_inertia,
                      drivetrain_.motor_inertia,
                      servo.restitution};
+  // 1 − f, of a decimal f.
+  if (servo.friction_ratio < 1.0) {
+    data_error_.motor_friction +=
+        std::numeric_limits<double>::epsilon() / (1.0 - servo.friction_ratio);
+  }
 }
 
 const char* ChangeableDrive::unit_of(Parameter parameter) const {
@@ -225,37 +229,8 @@ Bounds ChangeableDrive::range(Parameter parameter) const {
   return {reach(present, present / factor), reach(present, present * factor)};
 }
 
-DriveBox box_between(const Drivetrain& low, const Drivetrain& high) {
-  const auto of_both = [&](auto quantity) { return between(quantity(low), quantity(high)); };
-  // Each of these is a power of the parameter, or grows or falls with it.
-  const Bounds motor = of_both([](const Drivetrain& d) { return d.motor_inertia; });
-  const Bounds load = of_both([](const Drivetrain& d) { return d.load_inertia; });
-  const Bounds inertia{motor.low + load.low, motor.high + load.high};
-  const Bounds stiffness = of_both([](const Drivetrain& d) { return d.stiffness; });
-  const Bounds friction =
-      of_both([](const Drivetrain& d) { return d.motor_friction + d.load_friction; });
-  const Bounds motor_rate =
-      of_both([](const Drivetrain& d) { return d.motor_friction / d.motor_inertia; });
-  const Bounds load_rate =
-      of_both([](const Drivetrain& d) { return d.load_friction / d.load_inertia; });
-  const Bounds motor_share =
-      of_both([](const Drivetrain& d) { return 1.0 / (1.0 + d.load_inertia / d.motor_inertia); });
-  const Bounds load_share =
-      of_both([](const Drivetrain& d) { return 1.0 / (1.0 + d.motor_inertia / d.load_inertia); });
-  const auto root = [](double a, double b) { return std::sqrt(a) * std::sqrt(b); };
-  const Bounds time_unit{std::sqrt(inertia.low) / std::sqrt(stiffness.high),
-                         std::sqrt(inertia.high) / std::sqrt(stiffness.low)};
-  const auto product = [](const Bounds& a, const Bounds& b) {
-    return Bounds{a.low * b.low, a.high * b.high};
-  };
-  return {.servo = {.damping = {friction.low / (2.0 * root(inertia.high, stiffness.high)),
-                                friction.high / (2.0 * root(inertia.low, stiffness.low))},
-                    .motor_inertia = motor_share,
-                    .load_inertia = load_share,
-                    .motor_rate = product(motor_rate, time_unit),
-                    .load_rate = product(load_rate, time_unit)},
-          .time_unit = time_unit,
-          .backlash = of_both([](const Drivetrain& d) { return d.backlash; })};
+DriveBox ChangeableDrive::box(Parameter parameter, const Bounds& values) const {
+  return box_between(with(parameter, values.low), with(parameter, values.high), data_error_);
 }
 
 }  // namespace gearlash

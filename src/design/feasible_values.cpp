@@ -296,9 +296,7 @@ class Search {
 
   Judgement judge_part(const Bounds& values) {
     ++evaluations_;
-    const Drivetrain low = drive_.with(parameter_, values.low);
-    const Drivetrain high = drive_.with(parameter_, values.high);
-    return judge(target_, box_between(low, high), guessed_flight_time(values));
+    return judge(target_, drive_.box(parameter_, values), guessed_flight_time(values));
   }
 
   /// Of a servo in the middle, or at an end.

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gearlash/base/interval.hpp"
 #include "gearlash/cycle/growth_at_rest.hpp"
 #include "gearlash/servo/range_check.hpp"
 
 namespace gearlash {
 namespace {
-
-bool includes(const Bounds& limits, double value) {
-  return value >= limits.low && value <= limits.high;
-}
 
 /// Of numbers that lie within `bounds`.
 Judgement judge(const Bounds& limits, const Bounds& bounds) {
@@ -22,7 +19,7 @@ Judgement judge(const Bounds& limits, const Bounds& bounds) {
 
 bool keeps_growth(const Target& target, double growth_at_rest) {
   return target.growth_at_rest == Target{}.growth_at_rest ||
-         includes(target.growth_at_rest, growth_at_rest);
+         target.growth_at_rest.contains(growth_at_rest);
 }
 
 /// Of one quantity.
@@ -41,14 +38,13 @@ Judgement either(Judgement a, Judgement b) { return a == b ? a : Judgement::some
 /// Drives that hunt, if there are any.
 Judgement judge_hunting(const Target& target, const DriveBox& box, const CycleBounds& cycles) {
   if (target.no_hunting) return Judgement::none;
-  const Bounds size{box.backlash.low * cycles.size.low, box.backlash.high * cycles.size.high};
-  const Bounds frequency{1.0 / (cycles.period.high * box.time_unit.high),
-                         1.0 / (cycles.period.low * box.time_unit.low)};
-  return both(judge(target.size, size), judge(target.frequency, frequency));
+  const Interval size = Interval(box.backlash) * Interval(cycles.size);
+  const Interval frequency = 1.0 / (Interval(cycles.period) * Interval(box.time_unit));
+  return both(judge(target.size, size.bounds()), judge(target.frequency, frequency.bounds()));
 }
 
 Judgement judge_quiet(const Target& target) {
-  return includes(target.size, 0.0) ? Judgement::all : Judgement::none;
+  return target.size.contains(0.0) ? Judgement::all : Judgement::none;
 }
 
 }  // namespace
@@ -82,8 +78,8 @@ bool is_met(const Target& target, const Performance& performance) {
   const bool is_quiet = performance.verdict == Verdict::cannot_hunt;
   if (target.no_hunting && !is_quiet) return false;
   return keeps_growth(target, performance.growth_at_rest) &&
-         includes(target.size, performance.size) &&
-         (is_quiet || includes(target.frequency, performance.frequency));
+         target.size.contains(performance.size) &&
+         (is_quiet || target.frequency.contains(performance.frequency));
 }
 
 bool is_known(const Target& target, const Performance& performance) {

@@ -31,6 +31,7 @@ std::string line_style(double width, const std::string& colour) {
   return fmt::format("linewidth {} linecolor rgb '{}'", width, colour);
 }
 std::string boundary_style() { return line_style(3.0, "#d55e00"); }
+std::string inner_boundary_style() { return line_style(1.5, "#606060") + " dashtype 2"; }
 std::string mark_style() { return "pointtype 7 pointsize 1 linecolor rgb '#000000'"; }
 std::string hatching_style() { return line_style(0.6, "#a8a8a8"); }
 
@@ -126,9 +127,9 @@ std::string legend(const ContourMap& map, PictureFormat format) {
   constexpr double slant = 2.0 * half_height * 7.0 / 9.0;
   const double letter = letter_size(format).width / label_scale / 9.0;
   const std::array shown = {!map.contours.empty(), !map.boundary.empty(), !map.hatching.empty(),
-                            map.mark.has_value()};
+                            !map.inner_hatching.empty(), map.mark.has_value()};
   const std::array meanings = {map.contour_meaning, map.boundary_meaning, map.hatching_meaning,
-                               map.mark_meaning};
+                               map.inner_meaning, map.mark_meaning};
   double width = -between;
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const double text = letter * static_cast<double>(width_in_columns(meanings[i]));
@@ -142,11 +143,13 @@ std::string legend(const ContourMap& map, PictureFormat format) {
       commands += screen_line(right, middle, right + sample, middle,
                               i == 0 ? line_style(1.3, "#2e6fa8") : boundary_style());
     }
-    for (double place = 0.0; i == 2 && place + slant <= sample; place += 0.0085) {
+    const bool is_hatched = i == 2 || i == 3;
+    const double spacing = i == 2 ? 0.0085 : 0.00425;
+    for (double place = 0.0; is_hatched && place + slant <= sample; place += spacing) {
       commands += screen_line(right + place, middle - half_height, right + place + slant,
                               middle + half_height, hatching_style());
     }
-    if (i == 3) {
+    if (i == 4) {
       commands += fmt::format("set label '' at screen {:.4f}, {:.4f} point {}\n",
                               right + 0.5 * sample, middle, mark_style());
     }
@@ -168,6 +171,10 @@ std::string draw_contour_map(const ContourMap& map, PictureFormat format) {
                   Paper::left_margin, Paper::right_margin, Paper::bottom_margin);
   drawing.commands += axis_commands('x', map.x) + axis_commands('y', map.y) + legend(map, format);
   drawing.add(curves_block("hatching", map.hatching, paper), "hatching", hatching_style());
+  drawing.add(curves_block("inner_hatching", map.inner_hatching, paper), "inner_hatching",
+              hatching_style());
+  drawing.add(curves_block("inner_boundary", map.inner_boundary, paper), "inner_boundary",
+              inner_boundary_style());
   add_contours(map, paper, format, drawing);
   drawing.add(curves_block("boundary", map.boundary, paper), "boundary", boundary_style());
   if (map.mark) {

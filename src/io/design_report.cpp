@@ -116,11 +116,19 @@ std::string reason(const DesignReport& report, const FeasibleValues& values) {
                             significant(closest.growth_at_rest, 3));
 }
 
-/// Where values that meet the target come and go, of parameters that were scanned.
-std::string undecided_text(const DesignReport& report) {
+/// Bounds close in on a limit to a billionth of a value as a rule; wider parts are worth a word.
+bool is_worth_naming(const FeasibleValues& answer) {
+  constexpr double narrow = 1e-6;
+  return std::any_of(answer.undecided.begin(), answer.undecided.end(), [&](const Bounds& part) {
+    return answer.kind == SearchKind::scanned || part.high - part.low > narrow * part.high;
+  });
+}
+
+/// The parts of the range of which nothing is known, of all parameters that were searched so.
+std::string undecided_parts(const DesignReport& report, SearchKind kind) {
   std::string parts;
   for (const FeasibleValues& answer : report.answers) {
-    if (answer.kind == SearchKind::certified || answer.undecided.empty()) continue;
+    if (answer.kind != kind || !is_worth_naming(answer)) continue;
     const ShownUnit unit = shown_unit(report, answer.parameter);
     parts += (parts.empty() ? "" : "; ") + std::string(name_of(answer.parameter));
     constexpr std::size_t most_named = 4;
@@ -131,31 +139,35 @@ std::string undecided_text(const DesignReport& report) {
                            rounded(part.high / unit.size, true), unit.name);
     }
     if (named < answer.undecided.size()) {
-      parts += fmt::format(" and {} parts more", answer.undecided.size() - named);
+      parts += fmt::format(" and {} more", answer.undecided.size() - named);
     }
   }
-  if (parts.empty()) return "";
-  return " Of these parts nothing is said, since motion there does not repeat, or is too long to "
-         "follow, and values that meet the target may come and go: " +
-         parts + ".";
+  return parts;
 }
 
 std::string certainty(const DesignReport& report) {
-  const bool all_certified = std::all_of(
-      report.answers.begin(), report.answers.end(),
-      [](const FeasibleValues& answer) { return answer.kind == SearchKind::certified; });
-  const std::string ranges =
-      "That these are all values within what was searched (a thousandth to a thousand times the "
-      "present one; friction and feedback up to ten times what damps critically) is proved by "
-      "bounds over the whole range";
-  if (all_certified) return ranges + ".";
+  std::string text =
+      "This list is complete for 0.001 to 1000 times the present value; for friction and feedback, "
+      "up to ten times critical damping. Interval bounds over the whole range prove it";
   std::string scanned;
   for (const FeasibleValues& answer : report.answers) {
     if (answer.kind == SearchKind::certified) continue;
     scanned += (scanned.empty() ? "" : ", ") + std::string(name_of(answer.parameter));
   }
-  return ranges + ", but not of: " + scanned +
-         ". There, with bounces, many values were looked at." + undecided_text(report);
+  text += scanned.empty() ? "."
+                          : ", except for " + scanned +
+                                ": with bounces, many values were tried, and others may be missed.";
+  if (const std::string open = undecided_parts(report, SearchKind::certified); !open.empty()) {
+    text += " The bounds leave open, because a limit is touched there to within rounding: " + open +
+            ".";
+  }
+  if (const std::string open = undecided_parts(report, SearchKind::scanned); !open.empty()) {
+    text +=
+        " Nothing is said of these parts, because motion there does not repeat or is too long "
+        "to follow, so that values which meet the target may come and go: " +
+        open + ".";
+  }
+  return text;
 }
 
 Json json_performance(const Performance& performance, bool has_frequency) {
@@ -207,11 +219,34 @@ Json json_answer(const DesignReport& report, const FeasibleValues& values) {
 
 }  // namespace
 
+namespace {
+
+/// Whether the target is met at present: with plastic contact as far as that is proved of the data.
+Judgement judge_present(const DesignReport& report, const Performance& present) {
+  const Drivetrain& drive = report.drive.drivetrain();
+  if (servo_dynamics(normalize(drive)).plastic_contact()) {
+    return judge(report.target, report.drive.box(), present.flight_time);
+  }
+  return is_met(report.target, present) ? Judgement::all : Judgement::none;
+}
+
+const char* words_of(Judgement judgement) {
+  if (judgement == Judgement::some) return "on the limit of the target, to within rounding";
+  return judgement == Judgement::all ? "met" : "not met";
+}
+
+Json json_of(Judgement judgement) {
+  if (judgement == Judgement::some) return nullptr;
+  return judgement == Judgement::all;
+}
+
+}  // namespace
+
 std::string design_text(const DesignReport& report) {
   const Performance present = performance_of(report.drive.drivetrain());
-  std::string text = fmt::format("target: {}\nat present: {}, {}\n\n", report.target_text,
-                                 performance_text(present, report),
-                                 is_met(report.target, present) ? "met" : "not met");
+  std::string text =
+      fmt::format("target: {}\nat present: {}, {}\n\n", report.target_text,
+                  performance_text(present, report), words_of(judge_present(report, present)));
   std::vector<std::vector<std::string>> rows = {header()};
   std::string reasons;
   for (const FeasibleValues& answer : report.answers) {
@@ -235,7 +270,7 @@ std::string design_json(const DesignReport& report) {
     answers.push_back(json_answer(report, answer));
   const Json json = {
       {"target", report.target_text},
-      {"met", is_met(report.target, present)},
+      {"met", json_of(judge_present(report, present))},
       {"present",
        {{"servo", json_servo(normalize(report.drive.drivetrain()))},
         {"performance", json_performance(present, report.units.natural_frequency.has_value())},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gearlash/chart/hunting_boundary.hpp"
 #include "grid_words.hpp"
 #include "hatching.hpp"
 
@@ -28,7 +29,18 @@ ContourMap map_of(const GridTable& table, CycleQuantity quantity) {
                  .contour_meaning = "contours",
                  .boundary_meaning = "hunting ends",
                  .hatching_meaning = "no limit cycle"};
-  map.hatching = hatching(table, Paper(map.x, map.y));
+  const Paper paper(map.x, map.y);
+  map.hatching = hatching(table, paper);
+  if (!table.dissipative_boundary) return map;
+  map.inner_boundary = *table.dissipative_boundary;
+  map.inner_meaning = "none with any restitution";
+  map.inner_hatching =
+      hatching(map.inner_boundary, paper,
+               {.stretch =
+                    [&](const MapPoint& middle) {
+                      return side_of_dissipation(servo_at(grid, middle)) == Side::outside;
+                    }},
+               HatchLines::second);
   return map;
 }
 

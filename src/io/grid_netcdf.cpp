@@ -7,6 +7,7 @@
 
 #include "gearlash/chart/hunting_boundary.hpp"
 #include "gearlash/io/output_file.hpp"
+#include "grid_words.hpp"
 #include "netcdf_file.hpp"
 
 namespace gearlash {
@@ -134,6 +135,7 @@ class GridNetcdf::Layout {
     file_.set_attribute_of_file("title", "Limit cycles of geared servos with backlash");
     file_.set_attribute_of_file("source", "gearlash " + contents.provenance.version);
     file_.set_attribute_of_file("history", contents.provenance.command);
+    file_.set_attribute_of_file("certainty", certainty_of(grid_));
     file_.set_attribute_of_file("sensor", grid_.servo.sensor == Sensor::load ? "load" : "motor");
     file_.set_attribute_of_file(
         "comment",

@@ -103,6 +103,7 @@ void write_grid_csv(const GridTable& table, const TextSink& sink) {
 
 void write_grid_json(const GridTable& table, const TextSink& sink) {
   Json header = {{"provenance", json_provenance(table.provenance)},
+                 {"certainty", certainty_of(table.grid)},
                  {"servo", json_servo(table.grid.servo)}};
   Json axes = Json::array();
   for (const Axis& axis : table.grid.axes) {
@@ -130,6 +131,10 @@ void write_grid_json(const GridTable& table, const TextSink& sink) {
   if (table.hunting_boundary) {
     sink(",\n  \"hunting_boundary\": ");
     write_curves(*table.hunting_boundary, sink);
+  }
+  if (table.dissipative_boundary) {
+    sink(",\n  \"dissipative_boundary\": ");
+    write_curves(*table.dissipative_boundary, sink);
   }
   sink("\n}\n");
 }

@@ -66,6 +66,12 @@ std::string label_of(CycleQuantity quantity, const ServoGrid& grid) {
   return in_words(name_of(quantity)) + unit_in_brackets(quantity, grid);
 }
 
+std::string certainty_of(const ServoGrid& grid) {
+  const std::string plastic = name_of(grid.proved ? Certainty::enclosed : Certainty::computed);
+  if (!grid.may_bounce()) return plastic;
+  return plastic + " for plastic contact, " + name_of(Certainty::searched) + " for restitution > 0";
+}
+
 ChartAxis chart_axis(const Axis& axis) {
   ChartAxis drawn{.label = label_of(axis.input), .logarithmic = axis.logarithmic};
   drawn.low = axis.values.front();

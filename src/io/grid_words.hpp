@@ -25,6 +25,10 @@ std::string unit_in_brackets(CycleQuantity quantity, const ServoGrid& grid);
 /// "size (rad)".
 std::string label_of(CycleQuantity quantity, const ServoGrid& grid);
 
+/// How sure the verdicts on the grid's servos are: "computed", "enclosed", or both with "searched"
+/// for servos that bounce.
+std::string certainty_of(const ServoGrid& grid);
+
 /// The axis as it is drawn.
 ChartAxis chart_axis(const Axis& axis);
 

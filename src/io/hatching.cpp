@@ -21,23 +21,25 @@ struct Diagonal {
 };
 
 /// All diagonals, each from side to side of the paper and with its crossings of the boundary.
-std::vector<Diagonal> diagonals(const std::vector<MapCurve>& boundary, const Paper& paper) {
+std::vector<Diagonal> diagonals(const std::vector<MapCurve>& boundary, const Paper& paper,
+                                HatchLines which) {
+  const double shift = which == HatchLines::second ? 0.5 * spacing : 0.0;
   const auto lowest = static_cast<long>(std::ceil(-Paper::width / spacing));
   const auto highest = static_cast<long>(std::floor(Paper::height / spacing));
   std::map<long, Diagonal> lines;
   for (long i = lowest; i <= highest; ++i) {
-    const double offset = spacing * static_cast<double>(i);
+    const double offset = spacing * static_cast<double>(i) + shift;
     lines[i] = {offset, {std::max(0.0, -offset), std::min(Paper::width, Paper::height - offset)}};
   }
   for (const MapCurve& curve : boundary) {
     const PaperLine line = paper.line_on_paper(curve);
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-      const double from = line[k].up - line[k].right;
-      const double to = line[k + 1].up - line[k + 1].right;
+      const double from = line[k].up - line[k].right - shift;
+      const double to = line[k + 1].up - line[k + 1].right - shift;
       const auto first = static_cast<long>(std::ceil(std::min(from, to) / spacing));
       for (long i = first; spacing * static_cast<double>(i) < std::max(from, to); ++i) {
         if (!lines.contains(i)) continue;
-        const double share = (lines[i].offset - from) / (to - from);
+        const double share = (lines[i].offset - shift - from) / (to - from);
         lines[i].rights.push_back(line[k].right + share * (line[k + 1].right - line[k].right));
       }
     }
@@ -87,9 +89,9 @@ void hatch(const Hatched& hatched, const Paper& paper, const Diagonal& line, dou
 }  // namespace
 
 std::vector<MapCurve> hatching(const std::vector<MapCurve>& boundary, const Paper& paper,
-                               const Hatched& hatched) {
+                               const Hatched& hatched, HatchLines which) {
   std::vector<MapCurve> lines;
-  for (const Diagonal& line : diagonals(boundary, paper)) {
+  for (const Diagonal& line : diagonals(boundary, paper, which)) {
     for (std::size_t i = 0; i + 1 < line.rights.size(); ++i) {
       hatch(hatched, paper, line, line.rights[i], line.rights[i + 1], lines);
     }

@@ -17,9 +17,15 @@ struct Hatched {
   std::function<bool(const MapPoint& middle)> left_out = {};
 };
 
+/// Which lines are drawn.
+enum class HatchLines {
+  first,  ///< evenly spaced
+  second  ///< half-way between those
+};
+
 /// Lines at 45° on paper, each of two points.
 std::vector<MapCurve> hatching(const std::vector<MapCurve>& boundary, const Paper& paper,
-                               const Hatched& hatched);
+                               const Hatched& hatched, HatchLines lines = HatchLines::first);
 
 /// Over places of a map whose growth at rest is at most 1, but not in cells of the grid of which
 /// nothing is known, whose points all lie on the other side, or of which one hunts none the less

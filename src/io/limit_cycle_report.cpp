@@ -183,13 +183,36 @@ std::string cycle_tables(const LimitCycleReport& report) {
 // --- what it means ---
 
 std::string certainty(const LimitCycleAnalysis& analysis) {
-  return analysis.proved ? "This is proved, not searched for." : "This is what a search has found.";
+  switch (analysis.certainty) {
+    case Certainty::searched:
+      return "This is what a search has found.";
+    case Certainty::computed:
+      return "This is computed, not proved.";
+    case Certainty::enclosed:
+      return "This is proved: by a theorem, whose condition interval arithmetic decides for this "
+             "servo.";
+    case Certainty::theorem:
+      return "This is proved.";
+  }
+  return "";
 }
 
 std::string persistence(const LimitCycleAnalysis& analysis) {
-  if (!analysis.rests_engaged) return "The load never comes to rest";
-  return "A motion whose faces come to stay together ends at rest, as large ones may. Small "
-         "motion in the gap grows";
+  if (analysis.rests_engaged) {
+    return "A large motion may end at rest, with the faces together on either side. Small motion "
+           "in "
+           "the gap grows";
+  }
+  return analysis.is_proved() ? "From almost every start the load never comes to rest"
+                              : "The load does not come to rest";
+}
+
+/// That motion ends in the cycle, where it is less sure than that there is one.
+std::string attraction(const LimitCycleAnalysis& analysis) {
+  const auto& enclosure = analysis.enclosure;
+  if (!enclosure || enclosure->attraction >= analysis.certainty) return "";
+  if (enclosure->attraction >= Certainty::enclosed) return "";
+  return " That every motion which goes on ends in this cycle is computed, not proved.";
 }
 
 /// Other starts may end elsewhere; empty where none was seen to.
@@ -204,8 +227,9 @@ std::string meaning_when_hunting(const LimitCycleReport& report) {
   const LimitCycle* cycle = largest_stable(report.analysis);
   if (cycle == nullptr) {
     return persistence(report.analysis) +
-           ", and its motion was not seen to repeat: it stayed within the size told as long as it "
-           "was followed.";
+           ", and its motion was not seen to repeat: it stayed within the size reported for as "
+           "long "
+           "as it was followed.";
   }
   const std::string share =
       significant(cycle->size / report.servo.backlash, headline_digits) + " times the backlash";
@@ -213,19 +237,49 @@ std::string meaning_when_hunting(const LimitCycleReport& report) {
       cycle->kind == CycleKind::symmetric
           ? "to either side of the position asked for. "
           : "to either side of its middle, which is off the position asked for. ";
-  const std::string end = report.analysis.proved ? "it ends in a swing of " + share
-                                                 : "the largest steady swing found is " + share;
+  const std::string end = report.analysis.is_proved()
+                              ? "it ends in a swing of " + share
+                              : "the largest steady swing found is " + share;
   return persistence(report.analysis) + ": " + end + " " + where + other_motion(report) +
          "Size is proportional to backlash: half the backlash, half the swing at the same "
          "frequency. No backlash is small enough to end the hunting; that takes a growth at rest "
          "below 1. " +
-         certainty(report.analysis);
+         certainty(report.analysis) + attraction(report.analysis);
+}
+
+std::string meaning_when_quiet(const LimitCycleReport& report) {
+  const LimitCycleAnalysis& analysis = report.analysis;
+  if (report.servo.backlash == 0.0) return "Without backlash there is nothing to hunt in.";
+  std::string text = "The load tends to the position asked for, wherever it starts. ";
+  if (servo_dynamics(report.servo).plastic_contact() && analysis.growth_at_rest > 0.0) {
+    text +=
+        "The motor goes on crossing the gap, ever more slowly: each crossing takes longer in "
+        "proportion as the load is nearer. ";
+  }
+  if (analysis.is_dissipative) {
+    text +=
+        "No restitution can make this servo hunt: apart from the gap it only ever takes energy "
+        "from the motion. ";
+  }
+  return text +
+         "However large the backlash is, this stays so: it depends on damping and ratios "
+         "alone. " +
+         certainty(analysis);
 }
 
 std::string meaning_when_undecided(const LimitCycleAnalysis& analysis) {
   if (analysis.neutral_swings) {
     return "Some swings neither grow nor die away as far as numbers can tell (multiplier 1): the "
            "servo lies on a boundary, where any change of a parameter decides.";
+  }
+  if (analysis.enclosure) {
+    const Bounds& growth = analysis.enclosure->bounds.growth_at_rest;
+    return fmt::format(
+        "The servo lies on the boundary of hunting: its growth at rest is 1 to within {}, the "
+        "width "
+        "of the interval in which it is known to lie, {} … {}.",
+        significant(growth.high - growth.low, 2), significant(growth.low, 17),
+        significant(growth.high, 17));
   }
   return "The numerics could not decide; what is known is in the table.";
 }
@@ -234,10 +288,7 @@ std::string meaning(const LimitCycleReport& report) {
   const std::string sure = certainty(report.analysis);
   switch (report.analysis.verdict) {
     case Verdict::cannot_hunt:
-      if (report.servo.backlash == 0.0) return "Without backlash there is nothing to hunt in.";
-      return "The load comes to rest wherever it starts, somewhere within the backlash. However "
-             "large the backlash is, this stays so: it depends on damping and ratios alone. " +
-             sure;
+      return meaning_when_quiet(report);
     case Verdict::hunts:
     case Verdict::hunts_irregularly:
       return meaning_when_hunting(report);
@@ -294,6 +345,30 @@ Json json_physical_cycle(const LimitCycle& cycle, const ReportUnits& units) {
   return json;
 }
 
+Json json_range(const Bounds& bounds) {
+  return Json::array({json_number(bounds.low), json_number(bounds.high)});
+}
+
+/// What is proved of the numbers; null where nothing is.
+Json json_bounds(const std::optional<CycleEnclosure>& enclosure) {
+  if (!enclosure) return nullptr;
+  Json json = {{"growth_at_rest", json_range(enclosure->bounds.growth_at_rest)}};
+  if (!enclosure->multiplier) return json;
+  json["size_over_backlash"] = json_range(enclosure->bounds.size);
+  json["period"] = json_range(enclosure->bounds.period);
+  json["multiplier"] = json_range(*enclosure->multiplier);
+  return json;
+}
+
+/// How sure each statement is; null where it is not made.
+Json json_certainty(const LimitCycleAnalysis& analysis) {
+  Json json = {{"verdict", name_of(analysis.certainty)}, {"attraction", nullptr}};
+  if (analysis.enclosure && !analysis.cycles.empty()) {
+    json["attraction"] = name_of(analysis.enclosure->attraction);
+  }
+  return json;
+}
+
 /// The observed cycle in SI, and what the normalised numbers are to be scaled by.
 Json json_physical(const LimitCycleReport& report) {
   const LimitCycle* cycle = largest_stable(report.analysis);
@@ -347,7 +422,10 @@ std::string limit_cycle_json(const LimitCycleReport& report) {
                {"growth_at_rest", json_number(analysis.growth_at_rest)},
                {"method", "closed form"},
                {"verdict", name_of(analysis.verdict)},
-               {"proved", analysis.proved},
+               {"proved", analysis.is_proved()},
+               {"certainty", json_certainty(analysis)},
+               {"bounds", json_bounds(analysis.enclosure)},
+               {"dissipative", analysis.is_dissipative},
                {"rests_engaged", analysis.rests_engaged},
                {"neutral_swings", analysis.neutral_swings},
                {"cycles", std::move(cycles)}};

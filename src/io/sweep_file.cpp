@@ -29,6 +29,7 @@ class SweepReader {
     SweepFile file;
     file.grid.axes = read_axes(section);
     file.quantities = read_quantities(section);
+    file.grid.proved = section.choice("verdicts", {"computed", "proved"}, false) == "proved";
     section.refuse_other_keys();
     findings_.require_none();  // else it is not known what the servo has to give
     ServoVariation variation{.section = section_name};

@@ -70,4 +70,11 @@ struct BatchCount {
 BatchCount find_limit_cycles(std::span<const NormalizedServo> servos, const CycleColumns& cycles,
                              VectorUnit unit = widest_vector_unit());
 
+/// Turns into `undecided`, with NaN but for the growth at rest, each verdict on a servo with
+/// plastic contact and damping that the enclosure of its growth at rest does not confirm
+/// (bound_cycles() of the servo's own doubles), and returns how many. The others are then proved;
+/// those on servos that bounce are left as they are. Precondition: the columns are those that
+/// find_limit_cycles() wrote.
+std::size_t keep_proved(std::span<const NormalizedServo> servos, const CycleColumns& cycles);
+
 }  // namespace gearlash

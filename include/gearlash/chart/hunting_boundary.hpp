@@ -25,4 +25,10 @@ Side side_of_hunting(const NormalizedServo& servo);
 std::vector<MapCurve> hunting_boundary(const ServoGrid& grid,
                                        std::span<const double> growth_at_rest);
 
+/// The curves around servos that no restitution can make hunt (is_dissipative()), which are on
+/// their right. They lie where the growth at rest is at most 1. Precondition: two axes, y and x.
+std::vector<MapCurve> dissipative_boundary(const ServoGrid& grid);
+/// Outside where no restitution can make the servo hunt, inside elsewhere.
+Side side_of_dissipation(const NormalizedServo& servo);
+
 }  // namespace gearlash

@@ -15,6 +15,7 @@ namespace gearlash {
 struct ServoGrid {
   NormalizedServo servo;  ///< but for what stands on the axes
   std::vector<Axis> axes;
+  bool proved = false;  ///< verdicts with plastic contact are proved (keep_proved()), not computed
 
   std::size_t size() const;
   NormalizedServo at(std::size_t index) const;
@@ -44,8 +45,9 @@ struct GridEvaluation {
 
 struct GridCount {
   BatchCount solved;
-  std::size_t refused = 0;  ///< combinations that are no servo: verdict undecided, all else NaN
-  bool stopped = false;     ///< before all points were done
+  std::size_t refused = 0;   ///< combinations that are no servo: verdict undecided, all else NaN
+  std::size_t unproved = 0;  ///< undecided because the proof that was asked for left them open
+  bool stopped = false;      ///< before all points were done
 
   /// Of other points: how they were solved.
   void add(const GridCount& others);

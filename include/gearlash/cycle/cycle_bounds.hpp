@@ -3,15 +3,11 @@
 
 #include <limits>
 
+#include "gearlash/base/bounds.hpp"
+#include "gearlash/servo/drivetrain.hpp"
+#include "gearlash/servo/normalized_servo.hpp"
+
 namespace gearlash {
-
-/// All numbers from low to high.
-struct Bounds {
-  double low = 0.0;
-  double high = 0.0;
-
-  bool operator==(const Bounds&) const = default;
-};
 
 /// Servos with plastic contact, ω_n = 1 and J_M + J_L = 1, of which each number lies within its
 /// bounds. One side may be massless, in all of them: its rate is infinite. The five are not
@@ -24,6 +20,33 @@ struct ServoBox {
   Bounds motor_rate;     ///< c = F_M/J_M
   Bounds load_rate;      ///< D = F_L/J_L
 };
+
+/// Which number a double stands for.
+enum class Reading {
+  exact,   ///< itself
+  decimal  ///< the shortest decimal that reads back as it: what an author wrote, as 0.19
+};
+
+/// The box of one servo. Precondition: validate(servo) is empty.
+ServoBox box_of(const NormalizedServo& servo, Reading reading);
+
+/// How far the numbers of a drivetrain may be from the data that they were rounded from, as shares
+/// of themselves: decimals, their units, and products of a few of them. A 0 is one.
+struct DataError {
+  double each = 0x1p-46;            ///< sixty-four units in the last place
+  double motor_friction = 0x1p-46;  ///< of F_M: more where it was worked out from a friction ratio
+};
+
+/// Drives, with plastic contact; and how many seconds their unit of time, 1/ω_n, lasts.
+struct DriveBox {
+  ServoBox servo;
+  Bounds time_unit;
+  Bounds backlash;  ///< rad
+};
+
+/// The drives between two, of which every number lies between theirs: those whose numbers are
+/// powers of one parameter, or grow or fall with it. Precondition: both are sound.
+DriveBox box_between(const Drivetrain& low, const Drivetrain& high, const DataError& error = {});
 
 /// Bounds that hold for every servo of a box.
 struct CycleBounds {
@@ -38,14 +61,13 @@ struct CycleBounds {
   bool all_hunt() const { return growth_at_rest.low > 1.0; }
 };
 
-/// By interval arithmetic on the closed forms: where a function is monotone (the divided
-/// differences of exp in their rates, the time to the first zero of a damped oscillation in damping
-/// and slope, the growth of a half cycle in its flight time) its bounds are those at the ends, so
-/// that they close in on the exact values as the box shrinks, in proportion to its width. Bounds
-/// that rounding could decide are widened by 1e-12 of themselves. `guessed_flight_time` is of a
-/// servo in the box that hunts, and NaN where none is known: bounds are narrower where it is good,
-/// and true where it is not.
-/// Sources: Moore, Interval Analysis (1966), chapter 4; the monotony: docs/mathematics.md.
+/// By interval arithmetic on the closed forms (base/interval.hpp), rounded outward: where a
+/// function is monotone (the divided differences of exp in their rates, the time to the first zero
+/// of a damped oscillation in damping and slope, the growth of a half cycle in its flight time) its
+/// bounds are those at the ends, so that they close in on the exact values as the box shrinks, in
+/// proportion to its width. `guessed_flight_time` is of a servo in the box that hunts, and NaN
+/// where none is known: bounds are narrower where it is good, and true where it is not. Sources:
+/// Moore, Interval Analysis (1966), chapter 4; the monotony: docs/mathematics.md.
 CycleBounds bound_cycles(const ServoBox& box, double guessed_flight_time);
 
 }  // namespace gearlash

@@ -96,6 +96,19 @@ Real growth_after_contact(const BasicServoDynamics<Real>& dynamics, const Real& 
          abs(line.position + line.speed / dynamics.load_rate);
 }
 
+/// (Ṅ + ζN)/|N| as the motor arrives at a load at rest, where N is the mesh torque:
+///   (1 − ζ² − (c − ζ)(D − ζ))/(J_M D + J_L c),
+/// by the shafts' time constants 1/c and 1/D, which are 0 for a massless side. It is the slope of
+/// e^{ζt}N/|N|, whose first zero ends the contact.
+template <class Real>
+Real rising_at_rest(const Real& damping, const Real& motor_inertia, const Real& load_inertia,
+                    const Real& motor_time, const Real& load_time) {
+  const Real square = (1.0 - damping) * (1.0 + damping);
+  return (square * (motor_time * load_time) -
+          (1.0 - damping * motor_time) * (1.0 - damping * load_time)) /
+         (motor_inertia * motor_time + load_inertia * load_time);
+}
+
 /// How the state at the impact changes with the flight time.
 template <class Real>
 struct BasicArrivalRates {

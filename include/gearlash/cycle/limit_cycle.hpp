@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
+#include "gearlash/cycle/cycle_bounds.hpp"
 #include "gearlash/motion/trajectory.hpp"
 #include "gearlash/servo/normalized_servo.hpp"
 
@@ -48,7 +50,8 @@ struct LimitCycle {
 };
 
 enum class Verdict {
-  cannot_hunt,          ///< comes to rest from everywhere the search looked (proved for e = 0)
+  cannot_hunt,          ///< every motion tends to the reference; for e > 0 as far as was searched,
+                        ///< where it is not proved
   hunts,                ///< rest is unstable; a stable limit cycle was found
   hunts_if_disturbed,   ///< rest is stable, but so is a limit cycle beside it
   hunts_irregularly,    ///< rest is unstable; the motion stayed bounded and did not repeat
@@ -57,13 +60,35 @@ enum class Verdict {
   undecided  ///< on the boundary to within rounding, or more bounces than can be followed
 };
 
+/// How sure a statement is, from the least to the most.
+enum class Certainty {
+  searched,  ///< found by a search, which may have missed something
+  computed,  ///< decided by a formula in floating point, whose rounding is not bounded
+  enclosed,  ///< proved of this servo: a theorem, whose condition interval arithmetic decides
+  theorem    ///< proved, by exact comparisons alone
+};
+
+/// What interval arithmetic proves of a servo with plastic contact.
+struct CycleEnclosure {
+  CycleBounds bounds;
+  /// Of the one symmetric cycle; none where it is not bounded.
+  std::optional<Bounds> multiplier;
+  /// Of the statement that the cycle is stable, and that every motion ends in it but those that end
+  /// at rest: `enclosed`, or `computed` where the bounds leave it open.
+  Certainty attraction = Certainty::computed;
+};
+
 struct LimitCycleAnalysis {
   Verdict verdict = Verdict::cannot_hunt;
-  bool proved = false;  ///< the verdict rests on a theorem (docs/mathematics), not on a search
+  /// Of the verdict, and of the number of limit cycles that mirror themselves.
+  Certainty certainty = Certainty::searched;
   double growth_at_rest = std::numeric_limits<double>::quiet_NaN();  ///< μ₀, see growth_at_rest()
-  /// Whether motions in which the faces stay together come to rest: ζ ≥ 1 and the slow decay
-  /// presses them together, N > 0 on y = −e^{−λt}. Such a servo has rest beside its limit cycle:
-  /// small motion in the gap grows, but a large one may end with the faces together.
+  /// Whether no restitution whatever can make it hunt: 1/c + 1/D ≤ 2ζ, decided exactly of the
+  /// numbers given (docs/mathematics.md, Absence by energy).
+  bool is_dissipative = false;
+  /// Whether some motions end at rest with the faces together, on either: ζ ≥ 1. Such a servo has
+  /// rest beside its limit cycle: small motion in the gap grows, a large one ends with the faces
+  /// together (docs/mathematics.md, One cycle or none).
   bool rests_engaged = false;
   /// Whether cycles were met that could not be told from their neighbours, their multiplier being 1
   /// to within rounding (on a boundary in the parameters, or ζ below 1e-9). They are not listed.
@@ -72,24 +97,39 @@ struct LimitCycleAnalysis {
   /// Half the peak-to-peak of bounded motion that was not seen to repeat, which may exist beside a
   /// stable cycle; NaN where every start ended in a cycle or at rest.
   double irregular_size = std::numeric_limits<double>::quiet_NaN();
+  std::optional<CycleEnclosure> enclosure;  ///< where it was asked for and contact is plastic
+
+  bool is_proved() const { return certainty >= Certainty::enclosed; }
 };
 
 /// All limit cycles that can be found, and the verdict.
 ///
-/// e = 0 (or a massless side): the return map is increasing in size and one-dimensional, so there
-/// is exactly one cycle when growth_at_rest > 1 and none otherwise (proof: docs/mathematics.md);
-/// it is the root of one scalar equation and always found.
-/// 0 < e ≤ 1: fixed points of the return map by Newton's method (return_map.hpp), from a scan over
-/// amplitudes and from the motions that small, middle and large starts end in. Complete as far as
-/// the scan is fine; every cycle reported is one, to its residual.
-/// Throws InvalidInput.
+/// e = 0 (or a massless side): the return map is one-dimensional, and there is exactly one cycle
+/// that mirrors itself when growth_at_rest > 1 and none otherwise (proof: docs/mathematics.md); it
+/// is the root of one scalar equation and always found. The verdict is `computed`, and a `theorem`
+/// where growth at rest is not needed (a shaft, or both, without friction; no backlash; 1/c + 1/D ≤
+/// 2ζ). 0 < e ≤ 1: nothing can hunt where 1/c + 1/D ≤ 2ζ, a `theorem`. Else fixed points of the
+/// return map by Newton's method (return_map.hpp), from a scan over amplitudes and from the motions
+/// that small, middle and large starts end in. Complete as far as the scan is fine, hence
+/// `searched`; every cycle reported is one, to its residual. Throws InvalidInput.
 LimitCycleAnalysis analyse_limit_cycles(const NormalizedServo& servo);
+
+/// The same, proved: with plastic contact the growth at rest, the cycle and its multiplier are
+/// enclosed for every servo of `box`, which holds the data that `servo` was rounded from. The
+/// verdict is `enclosed` where all of the box agree with it, and else undecided; then
+/// enclosure->bounds.growth_at_rest says how wide it is about 1.
+/// Throws InvalidInput.
+LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, const ServoBox& box);
+/// Of the servo itself, or of the decimals that its numbers stand for.
+LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, Reading reading);
 
 /// The cycle that is seen in practice: the largest stable one, or nullptr.
 const LimitCycle* largest_stable(const LimitCycleAnalysis& analysis);
 
 /// "cannot hunt", "hunts", … as printed and as the JSON key `verdict` has it.
 const char* name_of(Verdict verdict);
+/// "searched", "computed", "enclosed", "theorem".
+const char* name_of(Certainty certainty);
 /// "symmetric", "asymmetric", "subharmonic".
 const char* name_of(CycleKind kind);
 

@@ -73,6 +73,11 @@ class ChangeableDrive {
   Drivetrain with(Parameter parameter, double value) const;
   Drivetrain with(Parameter parameter, double value, Parameter other, double other_value) const;
 
+  /// All drives with a parameter within bounds, as the data have them.
+  DriveBox box(Parameter parameter, const Bounds& values) const;
+  /// The drive as it is.
+  DriveBox box() const { return box_between(drivetrain_, drivetrain_, data_error_); }
+
   /// How the drive's numbers change with a parameter: the derivatives of with() at its present
   /// value.
   DrivetrainSlopes slopes(Parameter parameter) const;
@@ -88,17 +93,7 @@ class ChangeableDrive {
   double tachometer_unit_ = 1.0;      ///< F_M for one of the parameter
   double motor_inertia_unit_ = 1.0;   ///< J_M for one of the parameter
   double electrical_friction_ = 0.0;  ///< the part of F_M that is not the motor's friction
+  DataError data_error_;
 };
-
-/// The drives between two, of which every number lies between theirs, with plastic contact; and how
-/// many seconds its unit of time, 1/ω_n, lasts.
-struct DriveBox {
-  ServoBox servo;
-  Bounds time_unit;
-  Bounds backlash;
-};
-
-/// Drivetrains with one parameter between two values. Precondition: both are sound.
-DriveBox box_between(const Drivetrain& low, const Drivetrain& high);
 
 }  // namespace gearlash

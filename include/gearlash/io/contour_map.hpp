@@ -19,10 +19,13 @@ struct ContourMap {
   std::vector<Contour> contours = {};   ///< by rising level: from light to dark, with their numbers
   std::vector<MapCurve> boundary = {};  ///< bold
   std::vector<MapCurve> hatching = {};  ///< thin
+  std::vector<MapCurve> inner_boundary = {};  ///< dashed
+  std::vector<MapCurve> inner_hatching = {};  ///< between the lines of the other
   std::optional<MapPoint> mark = std::nullopt;
   std::string contour_meaning = {};  ///< told in the legend, like the others
   std::string boundary_meaning = {};
   std::string hatching_meaning = {};
+  std::string inner_meaning = {};
   std::string mark_meaning = {};
 };
 

@@ -18,7 +18,8 @@ struct GridTable {
   ServoGrid grid;
   CycleTable cycles;
   Provenance provenance;
-  std::optional<std::vector<MapCurve>> hunting_boundary = std::nullopt;  ///< of a map
+  std::optional<std::vector<MapCurve>> hunting_boundary = std::nullopt;      ///< of a map
+  std::optional<std::vector<MapCurve>> dissipative_boundary = std::nullopt;  ///< likewise
 };
 
 /// A line a point: the inputs on the axes, the verdict and every quantity; empty where not known.

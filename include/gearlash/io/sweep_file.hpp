@@ -23,7 +23,8 @@ inline constexpr std::size_t most_axes_of_a_sweep = 6;
 inline constexpr std::size_t largest_sweep_file = 1024 * 1024;  ///< bytes
 
 /// Reads TOML text: the section [sweep] with `axes`, a list of axes as read_axis() has them, the
-/// last varying fastest, and `quantities`, a list of names; and the sections of a servo file, in
+/// last varying fastest, `quantities`, a list of names, and `verdicts`,
+/// "computed" or "proved"; and the sections of a servo file, in
 /// which [servo] leaves out what is varied, and the backlash where sizes are to be in backlashes
 /// (docs/command-line.md). Throws InvalidInput with every violation, as parse_servo() does.
 SweepFile parse_sweep(std::string_view toml, std::string_view source_name);
