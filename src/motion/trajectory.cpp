@@ -173,6 +173,10 @@ Trajectory simulate(const NormalizedServo& servo, const ServoState& initial,
   while (true) {
     Segment& segment = segments.back();
     const PhaseEnd end = end_of_phase(dynamics, segment.phase, options.until - segment.start);
+    if (end.touch.toward != 0.0) {
+      trajectory.touches_.push_back({segment.start + end.touch.time,
+                                     end.touch.toward > 0.0 ? Face::forward : Face::backward});
+    }
     if (!end.has_event) {
       segment.end = options.until;
       trajectory.stop_reason_ = StopReason::reached_end;

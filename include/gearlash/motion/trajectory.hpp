@@ -31,6 +31,13 @@ struct Event {
   double energy_lost = 0.0;  ///< at an impact or a settling, in units of K rad²
 };
 
+/// The gap turned so near a face that rounding decides whether the faces meet there; events() has
+/// one of the two answers (first_contact.hpp says how near that is, and what depends on it).
+struct Touch {
+  double time = 0.0;
+  Face face = Face::forward;
+};
+
 enum class StopReason {
   reached_end,  ///< the time asked for
   event_limit   ///< options.event_limit events were recorded; end_time() tells how far
@@ -73,6 +80,7 @@ class Trajectory {
   double end_time() const;
   StopReason stop_reason() const { return stop_reason_; }
   const std::vector<Event>& events() const { return events_; }
+  const std::vector<Touch>& touches() const { return touches_; }
   const std::vector<Segment>& segments() const { return segments_; }
 
   /// State at any time within [start_time, end_time] (clamped to it); at an event, the state after.
@@ -92,6 +100,7 @@ class Trajectory {
   StopReason stop_reason_ = StopReason::reached_end;
   std::vector<Segment> segments_;
   std::vector<Event> events_;
+  std::vector<Touch> touches_;
 };
 
 /// Both shafts at the given load position and speed, on the face towards which the motor pushes
@@ -100,7 +109,8 @@ ServoState engaged_start(const NormalizedServo& servo, double load_position, dou
                          double reference);
 
 /// The exact motion from `initial` under a step reference. No step size: every mode has a closed
-/// form and every event time is a certified first crossing (first_contact.hpp, engaged_flow.hpp).
+/// form. In exact arithmetic every event time is a first crossing and none is missed
+/// (first_contact.hpp, engaged_flow.hpp); where rounding decides touches() says so.
 /// Permitted: positions, speeds and reference from −1e100 to 1e100, the gap from −b/2 to b/2 (to
 /// rounding), options.until from 0 to longest_simulation. Throws InvalidInput that lists every
 /// violation, those of the servo included.
