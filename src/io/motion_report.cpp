@@ -13,8 +13,11 @@ namespace {
 
 /// A state in the report's units.
 ServoState reported(const ServoState& state, const ReportUnits& units) {
-  return {state.motor_position, units.speed(state.motor_speed), state.load_position,
-          units.speed(state.load_speed)};
+  return {.motor_position = state.motor_position,
+          .motor_speed = units.speed(state.motor_speed),
+          .load_position = state.load_position,
+          .load_speed = units.speed(state.load_speed),
+          .motor_speed_remainder = units.speed(state.motor_speed_remainder)};
 }
 
 struct Sample {

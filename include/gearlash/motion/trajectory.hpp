@@ -11,12 +11,24 @@
 namespace gearlash {
 
 /// Positions (rad) and speeds (rad per unit of normalised time, 1/ω_n) of both shafts at the load.
-/// motor_position − load_position is the gap coordinate u ∈ [−b/2, +b/2].
+/// motor_position − load_position is the gap coordinate u ∈ [−b/2, +b/2]. It is known to the
+/// rounding of the two positions; its rate u̇ is known by itself.
 struct ServoState {
   double motor_position = 0.0;
   double motor_speed = 0.0;
   double load_position = 0.0;
   double load_speed = 0.0;
+  /// What motor_speed, a sum v_L + u̇, leaves out of it: up to half a unit of its last place, which
+  /// may be much beside u̇. States of a trajectory have it; 0 where the two speeds are given.
+  double motor_speed_remainder = 0.0;
+
+  /// u̇, with all its digits.
+  double gap_speed() const { return (motor_speed - load_speed) + motor_speed_remainder; }
+  /// Sets the motor's speed to load_speed + gap_speed, so that gap_speed() is the one given.
+  void set_gap_speed(double gap_speed) {
+    motor_speed = load_speed + gap_speed;
+    motor_speed_remainder = gap_speed - (motor_speed - load_speed);
+  }
 
   bool operator==(const ServoState&) const = default;
 };
