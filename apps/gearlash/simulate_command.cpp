@@ -127,7 +127,7 @@ Start read_start(const SimulateOptions& options, const NormalizedServo& servo,
   if (const std::optional<double> gap = read_gap(options, servo.backlash, faults)) {
     start.state.motor_position = start.state.load_position + *gap;
   }
-  start.state.motor_speed += speed("--initial-gap-speed", options.initial_gap_speed);
+  start.state.set_gap_speed(speed("--initial-gap-speed", options.initial_gap_speed));
   return start;
 }
 

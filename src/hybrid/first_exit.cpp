@@ -233,13 +233,17 @@ class Search {
   void note_touch(const Stretch& stretch) {
     if (found_.touch) return;
     const auto lowest = std::min_element(stretch.coefficients.begin(), stretch.coefficients.end());
-    // At the ends of the whole interval it is what comes before or after that touches.
     const auto index = static_cast<double>(lowest - stretch.coefficients.begin());
     const double share = index / static_cast<double>(stretch.coefficients.size() - 1);
     const double place = stretch.low + share * (stretch.high - stretch.low);
-    if (*lowest > uncertainty_ || place == 0.0 || place == 1.0) return;
-    const double least = lowest_near(place);
-    if (is_zero(least)) found_.touch = least;
+    if (*lowest > uncertainty_) return;
+    // At the ends of the whole interval it is what comes before or after that touches.
+    if (place > 0.0 && place < 1.0) {
+      const double least = lowest_near(place);
+      if (is_zero(least)) found_.touch = least;
+    }
+    const bool ends_at_zero = stretch.high == 1.0 && stretch.coefficients.end()[-1] <= uncertainty_;
+    if (!found_.touch && ends_at_zero) found_.touch = 1.0;
   }
 
   /// Where p is least, by Newton's method on p′; the place itself where that leads away.
@@ -347,12 +351,11 @@ std::optional<RoughExit> rough_exit(std::span<const double> leading, double rest
 FirstExit first_exit(std::span<const double> coefficients, double uncertainty) {
   if (lower_bound(coefficients) > uncertainty) return {};
   // The last terms are often far below what is known: without them zeros are isolated.
-  constexpr double negligible = 0x1p-6;
   double neglected = 0.0;
   std::size_t count = coefficients.size();
   while (count > 1) {
     const double more = neglected + std::abs(coefficients[count - 1]);
-    if (more > negligible * uncertainty) break;
+    if (more > negligible_share * uncertainty) break;
     neglected = more;
     --count;
   }

@@ -180,7 +180,10 @@ class Simulation {
         (is_whole ? table.uncertainty(velocity_, table_share_, from, order_)
                   : table.bound_of_uncertainty(velocity_, table_share_, from)) +
         table.weight() * remainder_ + (first == 0 ? unknown : 0.0);
-    if (is_whole) return StepExit{first_exit(series, uncertainty)};
+    if (is_whole) {
+      touch_within_ = (1.0 + negligible_share) * uncertainty;
+      return StepExit{first_exit(series, uncertainty)};
+    }
     const double rest = uncertainty + table.beyond_few(velocity_, table_share_);
     const auto rough = rough_exit(series, rest, order_);
     if (!rough) return std::nullopt;
@@ -210,6 +213,7 @@ class Simulation {
     flow.velocity_at(state_.numbers.data(), noise_.data(), velocity_);
     const double length = std::min(longest_step(), limit - time_);
     expand(length);
+    zero_at_start_.swap(zero_at_end_);
     const StepEnd next = next_exit(length);
     const double share = std::min(next.share, 1.0);
     if (share > 0.0) {
@@ -244,12 +248,13 @@ class Simulation {
   StepEnd next_exit(double length) {
     for (const bool roughly : {true, false}) {
       touches_.clear();
+      zero_at_end_.clear();
       StepEnd next;
       std::size_t exits = 0;
       bool is_rough = false;
       for (std::size_t i = 0; i < mode_->guards.size(); ++i) {
         const StepExit exit = exit_of(i, roughly);
-        if (exit.touch) touches_.push_back({time_ + *exit.touch * length, state_.mode, i});
+        if (exit.touch || !zero_at_start_.empty()) note_touch(i, exit, length);
         if (!exit.at) continue;
         ++exits;
         is_rough = is_rough || exit.within > 0.0;
@@ -258,6 +263,21 @@ class Simulation {
       if (exits <= 1 || !is_rough) return next;
     }
     return {};
+  }
+
+  /// Of a guard that comes down to 0 as the step ends the next one says whether it leaves it on its
+  /// own side. Seldom called, and so kept out of the loop that steps.
+  [[gnu::noinline]] void note_touch(std::size_t guard, const StepExit& exit, double length) {
+    if (exit.touch == 1.0) {
+      zero_at_end_.push_back(guard);
+    } else if (exit.touch) {
+      touches_.push_back({time_ + *exit.touch * length, state_.mode, guard, touch_within_});
+    }
+    const double value = std::abs(mode_->guards[guard].at(state_.numbers.data()));
+    const double unknown = mode_->guards[guard].noise_at(state_.numbers.data(), noise_.data());
+    const auto came_down = std::count(zero_at_start_.begin(), zero_at_start_.end(), guard);
+    if (came_down == 0 || exit.at == 0.0 || value > unknown) return;
+    touches_.push_back({time_, state_.mode, guard, unknown});
   }
 
   /// Fast decays are looked for once they have cost some steps.
@@ -394,6 +414,8 @@ class Simulation {
     steps_in_largest_ = 0;
     const std::vector<Transition>& transitions = system_.modes[state_.mode].transitions;
     signs_.resize(transitions.size());
+    zero_at_start_.clear();
+    zero_at_end_.clear();
     for (std::size_t i = 0; i < transitions.size(); ++i) {
       const Direction direction = transitions[i].direction;
       signs_[i] = direction == Direction::either   ? 0.0
@@ -537,6 +559,9 @@ class Simulation {
   Vector noise_;               ///< what rounding has left unknown of each number, on the last step
   Vector largest_;             ///< each number's size since the mode was entered
   std::vector<double> signs_;  ///< of the sides that guards are to leave, 0 while unknown
+  double touch_within_ = 0.0;  ///< how well the guard is known of which the last terms were asked
+  std::vector<std::size_t> zero_at_start_;  ///< guards that the step before brought down to 0
+  std::vector<std::size_t> zero_at_end_;    ///< and those that this one does
   std::vector<Tick> ticks_;
   Velocity velocity_;  ///< at the start of the step
   int order_ = 0;
@@ -565,33 +590,10 @@ PreparedSystem::PreparedSystem(HybridSystem system) {
   preparation_ = std::make_shared<const Preparation>(std::move(system));
 }
 
-const HybridSystem& PreparedSystem::system() const { return preparation_->system(); }
-
 Trajectory simulate(const PreparedSystem& system, const State& start,
                     const SimulationOptions& options) {
   require(faults_of(system.system(), start, options));
   return Simulation(system.preparation_, start, options).run();
-}
-
-State Trajectory::at(double time) const {
-  if (steps_.empty() || time >= end_time_) return end_;
-  const auto after =
-      std::upper_bound(steps_.begin(), steps_.end(), time,
-                       [](double wanted, const Step& step) { return wanted < step.time; });
-  const auto step = after == steps_.begin() ? after : after - 1;
-  const auto size = end_.numbers.size();
-  const double* start = &starts_[static_cast<std::size_t>((step - steps_.begin()) * size)];
-  State state{step->mode, Eigen::Map<const Vector>(start, size)};
-  const PreparedMode& mode = preparation_->mode(step->mode);
-  const PreparedMode::Slow* slow = step->is_slow ? mode.slow() : nullptr;
-  const LinearFlow& flow = slow != nullptr ? slow->flow.flow : mode.whole.flow;
-  const Vector exact = Vector::Zero(size);
-  Velocity velocity;
-  std::vector<double> scratch;
-  flow.velocity_at(start, exact.data(), velocity);
-  flow.advance(velocity, std::max(0.0, time - step->time), state.numbers.data(), scratch);
-  if (slow != nullptr) slow->decays.put_at_rest(state.numbers);
-  return state;
 }
 
 }  // namespace gearlash::hybrid

@@ -60,6 +60,10 @@ std::string text_of_event(const DriveMotionReport& report, const hybrid::Event& 
   return event.kind == hybrid::EventKind::settling ? name + ", settled" : name;
 }
 
+const std::string& name_of_touch(const DriveMotionReport& report, const hybrid::Touch& touch) {
+  return report.system.system.modes[touch.mode].transitions[touch.transition].name;
+}
+
 std::vector<const hybrid::Event*> events_of(const DriveMotionReport& report) {
   std::vector<const hybrid::Event*> found;
   for (const hybrid::Event& event : report.trajectory.events()) {
@@ -79,11 +83,15 @@ const std::string& mode_name(const DriveMotionReport& report, std::size_t mode) 
 void write_provenance(const DriveMotionReport& report, const TextSink& sink) {
   sink(fmt::format("# gearlash {}\n# command: {}\n", report.provenance.version,
                    report.provenance.command));
-  sink("# worked out as a piecewise-affine hybrid system, every event certified\n");
+  sink("# worked out as a piecewise-affine hybrid system; no event is missed but by rounding\n");
   sink("# positions, speeds and torques are those at the load's shaft\n");
   const std::string stopped = stop_text(report.trajectory);
   sink(fmt::format("# until = {}, stopped: {}\n", exact_text(report.until),
                    stopped.empty() ? "at the end" : stopped));
+  const std::vector<hybrid::Touch>& touches = report.trajectory.touches();
+  if (touches.empty()) return;
+  sink(fmt::format("# touches = {}, first at {} ({}): rounding decides whether that happens\n",
+                   touches.size(), exact_text(touches[0].time), name_of_touch(report, touches[0])));
 }
 
 std::string state_columns(const DriveFile& file, const std::string& suffix) {
@@ -113,6 +121,15 @@ Json json_shafts(const drive::ShaftStates& shafts) {
           {"motor_speed", shafts.motor_speed}};
 }
 
+Json json_touches(const DriveMotionReport& report) {
+  Json touches = Json::array();
+  for (const hybrid::Touch& touch : report.trajectory.touches()) {
+    touches.push_back(
+        {{"time", touch.time}, {"kind", name_of_touch(report, touch)}, {"within", touch.within}});
+  }
+  return touches;
+}
+
 Json json_header(const DriveMotionReport& report) {
   const std::string stopped = stop_text(report.trajectory);
   const bool normalized = report.file.is_normalized;
@@ -126,6 +143,7 @@ Json json_header(const DriveMotionReport& report) {
             {"position", "rad"},
             {"speed", normalized ? "rad omega_n" : "rad/s"},
             {"torque", normalized ? "K rad" : "N m"}}},
+          {"touches", json_touches(report)},
           {"provenance", json_provenance(report.provenance)}};
 }
 

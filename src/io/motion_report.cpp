@@ -13,8 +13,11 @@ namespace {
 
 /// A state in the report's units.
 ServoState reported(const ServoState& state, const ReportUnits& units) {
-  return {state.motor_position, units.speed(state.motor_speed), state.load_position,
-          units.speed(state.load_speed)};
+  return {.motor_position = state.motor_position,
+          .motor_speed = units.speed(state.motor_speed),
+          .load_position = state.load_position,
+          .load_speed = units.speed(state.load_speed),
+          .motor_speed_remainder = units.speed(state.motor_speed_remainder)};
 }
 
 struct Sample {
@@ -63,6 +66,11 @@ void write_provenance(const MotionReport& report, const TextSink& sink) {
   }
   sink(fmt::format("# reference = {} rad, until = {}, stopped: {}\n", exact_text(report.reference),
                    exact_text(report.until), words_for(report.trajectory.stop_reason())));
+  const std::vector<Touch>& touches = report.trajectory.touches();
+  if (touches.empty()) return;
+  sink(fmt::format(
+      "# touches = {}, first at {} ({}): rounding decides whether the faces meet there\n",
+      touches.size(), exact_text(report.units.time(touches[0].time)), name_of(touches[0].face)));
 }
 
 std::string time_column(const ReportUnits& units) {
@@ -123,6 +131,14 @@ Json json_units(const ReportUnits& units) {
           {"energy", units.stiffness ? "J" : "K rad2"}};
 }
 
+Json json_touches(const MotionReport& report) {
+  Json touches = Json::array();
+  for (const Touch& touch : report.trajectory.touches()) {
+    touches.push_back({{"time", report.units.time(touch.time)}, {"face", name_of(touch.face)}});
+  }
+  return touches;
+}
+
 /// All that is known without a table.
 Json json_header(const MotionReport& report) {
   Json json = {{"servo", json_servo(report.servo)},
@@ -134,6 +150,7 @@ Json json_header(const MotionReport& report) {
                {"units", json_units(report.units)},
                {"energy", json_energy_books(report)},
                {"method", "closed form"},
+               {"touches", json_touches(report)},
                {"provenance", json_provenance(report.provenance)}};
   if (report.units.natural_frequency) {
     json["natural_frequency"] = *report.units.natural_frequency;

@@ -129,25 +129,85 @@ double farthest(const GapFlight& flight, double time) {
                  time * (acceleration / 2.0 + time * std::abs(flight.coupling) / 6.0));
 }
 
-/// Where a monotone piece of u − u₀ reaches `target`, or infinity if it does not by the horizon.
-double crossing(const GapFlight& flight, double start, double end, double target, double direction,
-                double horizon) {
-  const auto distance = [&](double t) {
+/// The integrals of the decays that a flight's terms have as factors.
+struct DecayIntegrals {
+  double motor;
+  double load;
+  double coupled;
+};
+
+/// Σ|terms| of u − u₀, as they are before they cancel: A is the sum of −c v_M and −y₀/J_M, and of a
+/// massless motor u̇₀ = −y₀/F_M − v₀ and B = D v₀ − v₀/F_M are differences.
+double size_of_terms(const GapFlight& flight, double time, const DecayIntegrals& decays) {
+  const double load_speed = std::abs(flight.load_speed);
+  const double gap_speed = std::abs(flight.gap_speed);
+  const double of_massless_motor = flight.coupling == 0.0 ? 2.0 * load_speed : 0.0;
+  const double acceleration =
+      std::abs(flight.motor_acceleration) + 2.0 * flight.motor_rate * (load_speed + gap_speed);
+  const double deceleration =
+      std::abs(flight.load_deceleration) + flight.load_rate * of_massless_motor;
+  return time * (gap_speed + of_massless_motor +
+                 time * (acceleration * decays.motor + deceleration * decays.load +
+                         std::abs(flight.coupling) * time * decays.coupled));
+}
+
+/// Whether rounding decides on which side of a face u is that is computed to be `excess` beyond it:
+/// 32 epsilons of the gap and of all terms. Sixteen of them are those of a decay's integral
+/// (decay_integral.hpp), which a relative error of its rate changes by no more than that; the
+/// others are for rates, coefficients and the sum.
+bool rounding_decides(const GapFlight& flight, double backlash, double time, double excess) {
+  constexpr double share = 32.0 * std::numeric_limits<double>::epsilon();
+  const auto may_be = [&](const DecayIntegrals& decays) {
+    return std::abs(excess) <= share * (backlash + size_of_terms(flight, time, decays));
+  };
+  if (!may_be({0.5, 0.5, 1.0 / 6.0})) return false;  // the most that they can be
+  const BasicFlightDecays<double> decays = decays_at(flight, time);
+  return may_be(
+      {decays.motor.double_integral, decays.load.double_integral, decays.coupled.double_integral});
+}
+
+/// A stretch of a flight on which u is monotone, and the face that it leads to, from u₀.
+struct MonotonePiece {
+  double start;
+  double end;
+  double target;
+  double direction;
+};
+
+/// Where u − u₀ reaches the target, or infinity if it does not by the horizon. `touch` is set where
+/// the piece ends so near it that rounding decides.
+double crossing(const GapFlight& flight, const MonotonePiece& piece, double backlash,
+                double horizon, GapTouch& touch) {
+  const auto& [start, end, target, direction] = piece;
+  const auto distance = [&, target = target](double t) {
     const FlightPoint point = point_in_flight(flight, t);
     return ValueAndSlope{point.gap_displacement - target, point.motion.gap_speed,
                          point.motion.gap_acceleration};
   };
-  const auto reached = [&](double t) { return distance(t).value * direction >= 0.0; };
+  const auto beyond = [&, direction = direction](double t) {
+    return distance(t).value * direction;
+  };
   if (horizon < end && farthest(flight, horizon) < (1.0 - 1e-9) * std::abs(target)) {
     return infinity;
   }
   double bound = end;
   // At a speed that does not die out the gap closes for certain; else it must be seen to.
-  if (std::isinf(end) && final_direction(flight) == 0.0) bound = finite_bound(start, reached);
-  if (!std::isinf(bound) && !reached(bound)) return infinity;
-  const double guess = crossing_guess(flight, start, target);
-  const double time = bracketed_root(distance, start, bound, guess, direction);
-  return time <= horizon ? time : infinity;
+  if (std::isinf(end) && final_direction(flight) == 0.0) {
+    bound = finite_bound(start, [&](double t) { return beyond(t) >= 0.0; });
+  }
+  double time = infinity;
+  const double excess = std::isinf(bound) ? infinity : beyond(bound);
+  if (excess >= 0.0) {
+    const double guess = crossing_guess(flight, start, target);
+    time = bracketed_root(distance, start, bound, guess, direction);
+    if (time > horizon) time = infinity;
+  }
+  const double first = std::min(time, end);
+  if (std::isfinite(bound) && first <= horizon &&
+      rounding_decides(flight, backlash, bound, excess)) {
+    touch = {.time = first, .toward = direction};
+  }
+  return time;
 }
 
 /// When a bounce is over: a flight off its face that is bent back to it all the while, and too low
@@ -182,25 +242,27 @@ double bounce_duration(const GapFlight& flight, double backlash) {
 FirstContact first_contact(const GapFlight& flight, double backlash, double horizon) {
   const double bounce = bounce_duration(flight, backlash);
   if (bounce < infinity) {
-    return bounce <= horizon ? FirstContact{bounce, sign_of(flight.gap)}
-                             : FirstContact{infinity, 0.0};
+    return bounce <= horizon ? FirstContact{bounce, sign_of(flight.gap), {}}
+                             : FirstContact{infinity, 0.0, {}};
   }
   const double to_forward = 0.5 * backlash - flight.gap;
   const double to_backward = -0.5 * backlash - flight.gap;
   const TurningPoints turning = turning_points(flight);
+  GapTouch touch;
   double start = 0.0;
   double direction = initial_direction(flight);
   for (std::size_t piece = 0; piece <= turning.count && start < horizon; ++piece) {
     const double end = piece < turning.count ? turning.times[piece] : infinity;
     const double target = direction > 0.0 ? to_forward : to_backward;
     if (direction != 0.0) {
-      const double time = crossing(flight, start, end, target, direction, horizon);
-      if (time < infinity) return {time, direction};
+      const double time =
+          crossing(flight, {start, end, target, direction}, backlash, horizon, touch);
+      if (time < infinity) return {time, direction, touch};
     }
     start = end;
     direction = -direction;
   }
-  return {infinity, 0.0};
+  return {infinity, 0.0, touch};
 }
 
 }  // namespace gearlash

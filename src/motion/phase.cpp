@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "gearlash/motion/first_contact.hpp"
-
 namespace gearlash {
 namespace {
 
@@ -31,11 +29,7 @@ GapState state_in_flight(const GapFlight& flight, double time) {
   return state_after(flight, time, decays_at(flight, time));
 }
 
-PhaseEnd no_event() {
-  PhaseEnd end;
-  end.duration = infinity;
-  return end;
-}
+PhaseEnd no_event(const GapTouch& touch = {}) { return {.duration = infinity, .touch = touch}; }
 
 /// The bounces to come, where they need not be followed one by one.
 SettlingBounces bounces_summed_up(const ServoDynamics& dynamics, FaceSign face,
@@ -75,7 +69,7 @@ Phase phase_after_impact(const ServoDynamics& dynamics, FaceSign face, const Gap
 /// Applies the impact law to faces that meet at relative speed `state.gap_speed`, and decides what
 /// follows.
 PhaseEnd meet(const ServoDynamics& dynamics, FaceSign face, double duration, GapState state,
-              std::size_t impacts_before) {
+              std::size_t impacts_before, const GapTouch& touch) {
   // Rounding may leave a grazing approach on the wrong side of zero.
   if (state.gap_speed * face < 0.0) state.gap_speed = 0.0;
   const ImpactOutcome outcome = impact(dynamics, state.load_speed, state.gap_speed);
@@ -87,7 +81,8 @@ PhaseEnd meet(const ServoDynamics& dynamics, FaceSign face, double duration, Gap
           .before = state,
           .after = after,
           .energy_lost = outcome.energy_lost,
-          .next = phase_after_impact(dynamics, face, after, impacts_before + 1)};
+          .next = phase_after_impact(dynamics, face, after, impacts_before + 1),
+          .touch = touch};
 }
 
 /// Whether a flight that starts on a face moves off it: the first of its derivatives that is not
@@ -190,7 +185,7 @@ PhaseStart begin_phase(const ServoDynamics& dynamics, const GapState& state) {
   }
   if (on_face && flight.gap_speed * face > 0.0) {
     start.impact_at_start = true;
-    start.impact = meet(dynamics, face, 0.0, clamped, 0);
+    start.impact = meet(dynamics, face, 0.0, clamped, 0, {});
     start.phase = start.impact.next;
     return start;
   }
@@ -213,12 +208,12 @@ PhaseEnd end_of_phase(const ServoDynamics& dynamics, const Phase& phase, double 
       break;
   }
   const FirstContact contact = first_contact(phase.flight, dynamics.backlash, horizon);
-  if (contact.toward == 0.0) return no_event();
+  if (contact.toward == 0.0) return no_event(contact.touch);
   const FlightMotion motion = motion_in_flight(phase.flight, contact.time);
   return meet(
       dynamics, contact.toward, contact.time,
       {motion.load_position, motion.load_speed, gap_on(dynamics, contact.toward), motion.gap_speed},
-      contact.toward == phase.face ? phase.impacts_in_a_row : 0);
+      contact.toward == phase.face ? phase.impacts_in_a_row : 0, contact.touch);
 }
 
 GapState state_in_phase(const ServoDynamics& dynamics, const Phase& phase, double time) {

@@ -11,13 +11,16 @@ namespace {
 
 ServoState to_servo_state(const GapState& state, double reference) {
   const double load_position = reference + state.load_position;
-  return {load_position + state.gap, state.load_speed + state.gap_speed, load_position,
-          state.load_speed};
+  ServoState result{.motor_position = load_position + state.gap,
+                    .load_position = load_position,
+                    .load_speed = state.load_speed};
+  result.set_gap_speed(state.gap_speed);
+  return result;
 }
 
 GapState to_gap_state(const ServoState& state, double reference) {
   return {state.load_position - reference, state.load_speed,
-          state.motor_position - state.load_position, state.motor_speed - state.load_speed};
+          state.motor_position - state.load_position, state.gap_speed()};
 }
 
 Event to_event(const PhaseEnd& end, double time, double reference) {
@@ -45,6 +48,7 @@ std::vector<Violation> validate_start(const NormalizedServo& servo, const ServoS
   check.within("initial.motor_speed", initial.motor_speed, -largest, largest);
   check.within("initial.load_position", initial.load_position, -largest, largest);
   check.within("initial.load_speed", initial.load_speed, -largest, largest);
+  check.within("initial.motor_speed_remainder", initial.motor_speed_remainder, -largest, largest);
   check.within("reference", options.reference, -largest, largest);
   check.within("until", options.until, 0.0, longest_simulation);
   const double gap = initial.motor_position - initial.load_position;
@@ -173,6 +177,10 @@ Trajectory simulate(const NormalizedServo& servo, const ServoState& initial,
   while (true) {
     Segment& segment = segments.back();
     const PhaseEnd end = end_of_phase(dynamics, segment.phase, options.until - segment.start);
+    if (end.touch.toward != 0.0) {
+      trajectory.touches_.push_back({segment.start + end.touch.time,
+                                     end.touch.toward > 0.0 ? Face::forward : Face::backward});
+    }
     if (!end.has_event) {
       segment.end = options.until;
       trajectory.stop_reason_ = StopReason::reached_end;

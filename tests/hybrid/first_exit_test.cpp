@@ -52,6 +52,16 @@ TEST(EdgeFirstExit, ATouchIsNoExit) {
   EXPECT_NEAR(*exit.touch, 0.3, 1e-7);
 }
 
+TEST(EdgeFirstExit, WhatComesDownToZeroAtTheEndIsLeftToWhatFollows) {
+  for (const auto& p : {std::vector<double>{1.0, -1.0}, std::vector<double>{1.0, -2.0, 1.0},
+                        std::vector<double>{1.0, 0.0, 0.0, -1.0}}) {
+    const FirstExit exit = first_exit(p, 1e-15);
+    EXPECT_FALSE(exit.at);
+    EXPECT_EQ(exit.touch, 1.0);
+  }
+  EXPECT_FALSE(first_exit(std::vector<double>{1.0, -1.0 + 1e-14}, 1e-15).touch);
+}
+
 TEST(EdgeFirstExit, ATouchBeforeAnExitIsToldToo) {
   const auto p = times_linear(times_linear(times_linear({1.0}, 0.3), 0.3), 0.8);
   const FirstExit exit = first_exit(p, 1e-15);

@@ -1,4 +1,4 @@
-// The certified first crossing: nothing missed, nothing invented, grazing included.
+// The first crossing: nothing missed, nothing invented, grazing included, to rounding.
 #include "gearlash/motion/first_contact.hpp"
 
 #include <gtest/gtest.h>

@@ -382,7 +382,7 @@ class TrajectoryCertificate {
     const Wide gap = Wide(state.motor_position) - state.load_position;
     return {sign * (Wide(state.load_position) - drawn_.reference), sign * Wide(state.load_speed),
             touching ? Wide(0) : servo_.backlash / 2 - sign * gap,
-            -sign * (Wide(state.motor_speed) - state.load_speed)};
+            -sign * (Wide(state.motor_speed) - state.load_speed + state.motor_speed_remainder)};
   }
 
   void certify_segment(const Event* begin, const Event* end, const Segment& segment) {

@@ -1,4 +1,4 @@
-// Where a polynomial first turns negative: no crossing is stepped over.
+// Where a polynomial first turns negative, to within what is known of it.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,8 @@ namespace gearlash::hybrid {
 struct FirstExit {
   std::optional<double> at;     ///< in [0, 1]: the polynomial is negative just after it
   std::optional<double> touch;  ///< before it, the first place where it is 0 to within
-                                ///< `uncertainty` and goes on not negative
+                                ///< `uncertainty` and goes on not negative; 1 where it comes down
+                                ///< to 0 there, and what follows says whether it touches
 };
 
 /// Of p(τ) = Σ coefficients[k] τᵏ, which stands for a function that it is within `uncertainty` of,
@@ -24,8 +25,13 @@ struct FirstExit {
 ///   refinement   on an interval with one change, from where Bernstein's polygon falls, by Newton's
 ///                method; where that does not converge at once, by TOMS 748 (Alefeld, Potra & Shi
 ///                1995).
-/// Missed are only excursions that p makes to less than `uncertainty` below 0: those are touches.
+/// In exact arithmetic, missed are only excursions that p makes to less than `uncertainty` below 0,
+/// and negligible_share of it: those are touches. Rounding in these stages is to be part of
+/// `uncertainty`.
 FirstExit first_exit(std::span<const double> coefficients, double uncertainty);
+
+/// Of `uncertainty`: last terms that are less, all together, are left out.
+inline constexpr double negligible_share = 0x1p-6;
 
 inline constexpr std::size_t most_leading = 12;
 

@@ -1,4 +1,4 @@
-// Newton's method that cannot leave its bracket: the last step of every certified crossing.
+// Newton's method that cannot leave its bracket: the last step of every crossing.
 #pragma once
 
 #include <cmath>

@@ -40,7 +40,8 @@ struct SettlingBounces {
 ///   T = T₀ (1 − T₀ (κ + 2a′/a)/6),   T₀ = 2 s₀/(1 − e),
 /// to third order in T₀ (docs/mathematics.md derives it); at their end the faces are engaged in the
 /// state that the engaged flow would have reached over T, to the same order. `imminent` is set when
-/// T₀ times the rates involved is below 1e-5, so that what is left out is below 1e-15.
+/// T₀ times the rates involved is below 1e-5, so that what is left out, of the third order, is
+/// some 1e-15: an estimate, for its factor is not bounded.
 /// Precondition: just after an impact on `face`, gap_speed pointing away from it, 0 < e < 1.
 SettlingBounces settling_bounces(const ServoDynamics& dynamics, FaceSign face, double load_position,
                                  double load_speed, double gap_speed);
@@ -54,7 +55,9 @@ SettlingBounces settling_bounces(const ServoDynamics& dynamics, FaceSign face, d
 ///   the relative speed left at the parting, (⅔ p³/a · e^{−κT})^{2/5} |ȧ|^{1/5}, is below 1e-6 of
 ///   the motion then, or, the more bounces n there would be to follow, below 1e-10 n ≤ 1e-3.
 /// Where they never part, the first two hold of backlash + motion and of the backlash.
-/// So the faces are called engaged where they rattle still; the numbers above are the errors made.
+/// So the faces are called engaged where they rattle still. The numbers above estimate the errors
+/// made, to leading order of an adiabatic invariant: they are not bounds.
+/// tests/motion/rattle_test.cpp compares them with motions of which every bounce is followed.
 /// Precondition: as for settling_bounces(), e ≤ 1.
 SettlingBounces fading_rattle(const ServoDynamics& dynamics, FaceSign face, double load_position,
                               double load_speed, double gap_speed);

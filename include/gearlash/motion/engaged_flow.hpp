@@ -1,4 +1,4 @@
-// Both shafts as one: ÿ + 2ζẏ + y = 0, its closed form and its certified zeros.
+// Both shafts as one: ÿ + 2ζẏ + y = 0, its closed form and its zeros.
 #pragma once
 
 #include <cmath>
@@ -34,8 +34,11 @@ Real decaying_form(Real damping, Real position, Real speed) {
 /// Guarantee: x is one damped sinusoid (ζ < 1) or a sum of two decaying exponentials (ζ ≥ 1), so
 /// its zeros are known in closed form: for ζ < 1 the first is at angle wt ∈ (0, π] given by
 /// atan2(|x₀| w, ∓(ẋ₀ + ζx₀)), for ζ ≥ 1 there is at most one, where
-/// (e^{2ωt} − 1)/(2ω) = −x₀/(ẋ₀ + λ₂x₀), ω = √(ζ²−1), λ₂ = ζ + ω. Nothing is searched, so nothing
-/// can be missed; a double zero exists only where x vanishes identically.
+/// (e^{2ωt} − 1)/(2ω) = −x₀/(ẋ₀ + λ₂x₀), ω = √(ζ²−1), λ₂ = ζ + ω. Nothing is searched, so in exact
+/// arithmetic none is missed; a double zero exists only where x vanishes identically. In doubles
+/// rounding decides, for ζ ≥ 1, where ẋ₀ + λ₂x₀ is a difference of nearly equal terms: the slow
+/// decay is then not there to rounding, and a zero that it would have comes when x has all but died
+/// out.
 template <class Real>
 Real first_zero(Real damping, Real value, Real slope) {
   using std::abs;

@@ -25,7 +25,7 @@ struct BasicGapFlight {
   Real coupling = 0.0;            ///< C
   Real load_rate = 0.0;           ///< D; 0 for a massless load
   Real motor_rate = 0.0;          ///< c; 0 for a massless motor
-  Real gap_acceleration = 0.0;    ///< ü₀ = A + B, known more exactly than that sum
+  Real gap_acceleration = 0.0;    ///< ü₀ = A + B; after a parting more exact than that sum
   Real gap_drive = 0.0;  ///< G = −v₀(D² − 2ζD + 1)/J_M = (c − D) B + C, likewise:
                          ///< ü e^{ct} = ü₀ + G t φ₁((c − D)t)
 };

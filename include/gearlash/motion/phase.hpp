@@ -5,6 +5,7 @@
 
 #include "gearlash/motion/contact_law.hpp"
 #include "gearlash/motion/engaged_flow.hpp"
+#include "gearlash/motion/first_contact.hpp"
 #include "gearlash/motion/gap_flight.hpp"
 #include "gearlash/motion/servo_dynamics.hpp"
 
@@ -47,6 +48,7 @@ struct PhaseEnd {
   GapState after{};
   double energy_lost = 0.0;
   Phase next{};
+  GapTouch touch{};  ///< of a flight, see first_contact()
 };
 
 /// The phase that a state begins: contact is resolved at once where the state is on a face and
@@ -61,7 +63,7 @@ PhaseStart begin_phase(const ServoDynamics& dynamics, const GapState& state);
 /// The event that ends the phase, if it comes within `horizon` (which may be infinite).
 ///
 /// Rules, in order. Engaged: ends where s N falls through zero (first_zero, closed form).
-/// Separated: ends at the first contact with either face (first_contact, certified); the impact
+/// Separated: ends at the first contact with either face (first_contact); the impact
 /// law is applied; if the relative speed after it is zero, stays_engaged() decides between
 /// engagement and parting at once; else, if the bounces to come are settling_bounces().imminent,
 /// or, after a hundred of them, fading_rattle().imminent, the settling phase begins; else the next

@@ -11,12 +11,24 @@
 namespace gearlash {
 
 /// Positions (rad) and speeds (rad per unit of normalised time, 1/ω_n) of both shafts at the load.
-/// motor_position − load_position is the gap coordinate u ∈ [−b/2, +b/2].
+/// motor_position − load_position is the gap coordinate u ∈ [−b/2, +b/2]. It is known to the
+/// rounding of the two positions; its rate u̇ is known by itself.
 struct ServoState {
   double motor_position = 0.0;
   double motor_speed = 0.0;
   double load_position = 0.0;
   double load_speed = 0.0;
+  /// What motor_speed, a sum v_L + u̇, leaves out of it: up to half a unit of its last place, which
+  /// may be much beside u̇. States of a trajectory have it; 0 where the two speeds are given.
+  double motor_speed_remainder = 0.0;
+
+  /// u̇, with all its digits.
+  double gap_speed() const { return (motor_speed - load_speed) + motor_speed_remainder; }
+  /// Sets the motor's speed to load_speed + gap_speed, so that gap_speed() is the one given.
+  void set_gap_speed(double gap_speed) {
+    motor_speed = load_speed + gap_speed;
+    motor_speed_remainder = gap_speed - (motor_speed - load_speed);
+  }
 
   bool operator==(const ServoState&) const = default;
 };
@@ -29,6 +41,13 @@ struct Event {
   ServoState after;
   Mode mode_after = Mode::separated;
   double energy_lost = 0.0;  ///< at an impact or a settling, in units of K rad²
+};
+
+/// The gap turned so near a face that rounding decides whether the faces meet there; events() has
+/// one of the two answers (first_contact.hpp says how near that is, and what depends on it).
+struct Touch {
+  double time = 0.0;
+  Face face = Face::forward;
 };
 
 enum class StopReason {
@@ -73,6 +92,7 @@ class Trajectory {
   double end_time() const;
   StopReason stop_reason() const { return stop_reason_; }
   const std::vector<Event>& events() const { return events_; }
+  const std::vector<Touch>& touches() const { return touches_; }
   const std::vector<Segment>& segments() const { return segments_; }
 
   /// State at any time within [start_time, end_time] (clamped to it); at an event, the state after.
@@ -92,6 +112,7 @@ class Trajectory {
   StopReason stop_reason_ = StopReason::reached_end;
   std::vector<Segment> segments_;
   std::vector<Event> events_;
+  std::vector<Touch> touches_;
 };
 
 /// Both shafts at the given load position and speed, on the face towards which the motor pushes
@@ -100,7 +121,8 @@ ServoState engaged_start(const NormalizedServo& servo, double load_position, dou
                          double reference);
 
 /// The exact motion from `initial` under a step reference. No step size: every mode has a closed
-/// form and every event time is a certified first crossing (first_contact.hpp, engaged_flow.hpp).
+/// form. In exact arithmetic every event time is a first crossing and none is missed
+/// (first_contact.hpp, engaged_flow.hpp); where rounding decides touches() says so.
 /// Permitted: positions, speeds and reference from −1e100 to 1e100, the gap from −b/2 to b/2 (to
 /// rounding), options.until from 0 to longest_simulation. Throws InvalidInput that lists every
 /// violation, those of the servo included.

@@ -1,0 +1,32 @@
+#include "gearlash/hybrid/hybrid_trajectory.hpp"
+
+#include <algorithm>
+
+#include "preparation.hpp"
+
+namespace gearlash::hybrid {
+
+const HybridSystem& PreparedSystem::system() const { return preparation_->system(); }
+
+State Trajectory::at(double time) const {
+  if (steps_.empty() || time >= end_time_) return end_;
+  const auto after =
+      std::upper_bound(steps_.begin(), steps_.end(), time,
+                       [](double wanted, const Step& step) { return wanted < step.time; });
+  const auto step = after == steps_.begin() ? after : after - 1;
+  const auto size = end_.numbers.size();
+  const double* start = &starts_[static_cast<std::size_t>((step - steps_.begin()) * size)];
+  State state{step->mode, Eigen::Map<const Vector>(start, size)};
+  const PreparedMode& mode = preparation_->mode(step->mode);
+  const PreparedMode::Slow* slow = step->is_slow ? mode.slow() : nullptr;
+  const LinearFlow& flow = slow != nullptr ? slow->flow.flow : mode.whole.flow;
+  const Vector exact = Vector::Zero(size);
+  Velocity velocity;
+  std::vector<double> scratch;
+  flow.velocity_at(start, exact.data(), velocity);
+  flow.advance(velocity, std::max(0.0, time - step->time), state.numbers.data(), scratch);
+  if (slow != nullptr) slow->decays.put_at_rest(state.numbers);
+  return state;
+}
+
+}  // namespace gearlash::hybrid

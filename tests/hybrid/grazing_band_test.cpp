@@ -1,0 +1,236 @@
+// How far beyond 0 a guard may pass unseen: never farther than its touch says, against fifty
+// digits.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "../motion/fifty_digits.hpp"
+#include "../servo/seeded_draws.hpp"
+#include "gearlash/hybrid/hybrid_trajectory.hpp"
+
+namespace gearlash::hybrid {
+namespace {
+
+constexpr int most_numbers = 3;
+using WideState = std::array<Wide, most_numbers + 1>;  // and the 1 of the offset
+
+/// x′ = A x + b watched by c·x + d.
+struct Watched {
+  AffineFlow flow;
+  AffineForm guard;
+  Vector start;
+
+  HybridSystem system() const {
+    const auto size = flow.offset.size();
+    HybridSystem result{
+        .state_names = std::vector<std::string>(static_cast<std::size_t>(size)),
+        .modes = {{.name = "moves", .flow = flow},
+                  {.name = "over", .flow = {Matrix::Zero(size, size), Vector::Zero(size)}}}};
+    result.modes[0].transitions = {{.name = "passes", .guard = guard, .target = 1}};
+    return result;
+  }
+
+  WideState at(const Wide& time) const {
+    WideMatrix<most_numbers + 1> extended{};
+    const auto size = static_cast<std::size_t>(flow.offset.size());
+    WideState begin{};
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      for (std::size_t j = 0; j < size; ++j) {
+        extended[i][j] = time * flow.matrix(row, static_cast<Eigen::Index>(j));
+      }
+      extended[i][most_numbers] = time * flow.offset[row];
+      begin[i] = start[row];
+    }
+    begin[most_numbers] = 1;
+    const auto m = exponential(extended);
+    WideState end{};
+    for (std::size_t i = 0; i <= most_numbers; ++i) {
+      for (std::size_t j = 0; j <= most_numbers; ++j) end[i] += m[i][j] * begin[j];
+    }
+    return end;
+  }
+
+  /// c·x, without d, with its first two derivatives.
+  std::array<Wide, 3> guarded(const Wide& time) const {
+    WideState x = at(time);
+    std::array<Wide, 3> derivatives{};
+    const auto size = static_cast<std::size_t>(flow.offset.size());
+    for (std::size_t order = 0; order < 3; ++order) {
+      for (std::size_t i = 0; i < size; ++i) {
+        derivatives[order] += guard.normal[static_cast<Eigen::Index>(i)] * x[i];
+      }
+      WideState slope{};
+      for (std::size_t i = 0; i < size; ++i) {
+        const auto row = static_cast<Eigen::Index>(i);
+        slope[i] = order == 0 ? Wide(flow.offset[row]) : Wide(0);
+        for (std::size_t j = 0; j < size; ++j) {
+          slope[i] += flow.matrix(row, static_cast<Eigen::Index>(j)) * x[j];
+        }
+      }
+      x = slope;
+    }
+    return derivatives;
+  }
+};
+
+struct Lowest {
+  double time;
+  Wide value;   ///< of c·x
+  double size;  ///< Σ|c_i| max|x_i| up to there
+};
+
+/// The first local minimum of c·x, if all before it is higher.
+std::optional<Lowest> first_minimum(const Watched& watched, double until) {
+  HybridSystem unwatched = watched.system();
+  unwatched.modes[0].transitions.clear();
+  const Trajectory motion = simulate(unwatched, {0, watched.start}, {.until = until});
+  constexpr int looks = 300;
+  std::vector<double> values;
+  Vector largest = Vector::Zero(watched.start.size());
+  for (int k = 0; k <= looks; ++k) {
+    const Vector x = motion.at(until * k / looks).numbers;
+    largest = largest.cwiseMax(x.cwiseAbs());
+    values.push_back(watched.guard.normal.dot(x));
+    const std::size_t n = values.size();
+    if (n < 3 || !(values[n - 2] < values[n - 1] && values[n - 2] < values[n - 3])) continue;
+    if (*std::min_element(values.begin(), values.end()) < values[n - 2]) return std::nullopt;
+    Wide time = until * (k - 1) / looks;
+    for (int i = 0; i < 50; ++i) {
+      const auto [value, slope, curvature] = watched.guarded(time);
+      const Wide step = -slope / curvature;
+      time += step;
+      if (!(time > 0) || !(time < until)) return std::nullopt;
+      if (abs(step) < 1e-30 * time) {
+        return Lowest{static_cast<double>(time), value,
+                      watched.guard.normal.cwiseAbs().dot(largest)};
+      }
+    }
+    return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+struct Tally {
+  double drift =
+      0.0;  ///< by which a step's rounding moves the guard at most: epsilons of its terms
+  int judged = 0;
+  int missed = 0;
+  int invented = 0;
+  double deepest_missed = 0.0;  ///< of the guard's terms
+  double highest_invented = 0.0;
+  double widest = 0.0;  ///< Touch::within
+};
+
+/// The guard passes 0 by some share of its terms, or stays short of it.
+void judge(Watched watched, const Lowest& lowest, double share, Tally& tally) {
+  const double aside = share * lowest.size;
+  watched.guard.offset = static_cast<double>(-lowest.value - Wide(aside));
+  const Wide least = lowest.value + Wide(watched.guard.offset);
+  const double terms = lowest.size + std::abs(watched.guard.offset);
+  const Trajectory motion =
+      simulate(watched.system(), {0, watched.start}, {.until = 1.001 * lowest.time});
+  const bool fired = !motion.events().empty();
+  const double depth = static_cast<double>(abs(least)) / terms;
+  ++tally.judged;
+  for (const Touch& touch : motion.touches()) {
+    tally.widest = std::max(tally.widest, touch.within / terms);
+  }
+  if (fired && least > 0) {
+    ++tally.invented;
+    tally.highest_invented = std::max(tally.highest_invented, depth);
+  }
+  if (fired || least >= 0) return;
+  ++tally.missed;
+  tally.deepest_missed = std::max(tally.deepest_missed, depth);
+  if (depth <= tally.drift * epsilon * static_cast<double>(motion.steps())) return;
+  ASSERT_FALSE(motion.touches().empty()) << "passed by " << depth << " of its terms, unreported";
+  const Touch& touch = motion.touches()[0];
+  EXPECT_LE(depth,
+            touch.within / terms + tally.drift * epsilon * static_cast<double>(motion.steps()));
+  const Wide there = watched.guarded(touch.time)[0] + Wide(watched.guard.offset);
+  // Four times the uncertainty is called 0, beside what the polynomial there is itself off by.
+  EXPECT_LE(abs(there), 5 * Wide(touch.within));
+}
+
+Watched random_system(SeededDraws& draws) {
+  Watched watched;
+  const Eigen::Index size = draws.happens(0.5) ? 2 : 3;
+  watched.flow = {Matrix::Zero(size, size), Vector::Zero(size)};
+  watched.guard.normal = Vector::Zero(size);
+  watched.start = Vector::Zero(size);
+  const double rate = draws.log_uniform(1e-2, 1e2);
+  Vector units(size);
+  for (Eigen::Index i = 0; i < size; ++i) units[i] = draws.log_uniform(1e-3, 1e3);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    for (Eigen::Index j = 0; j < size; ++j) {
+      watched.flow.matrix(i, j) = rate * draws.uniform(-1.0, 1.0) * units[i] / units[j];
+    }
+    watched.flow.matrix(i, i) -= 0.5 * rate;
+    watched.flow.offset[i] = rate * draws.uniform(-1.0, 1.0) * units[i];
+    watched.guard.normal[i] = draws.uniform(-1.0, 1.0) / units[i];
+    watched.start[i] = draws.uniform(-1.0, 1.0) * units[i];
+  }
+  return watched;
+}
+
+TEST(OracleGrazing, NoPassageOfRandomSystemsIsDeeperThanItsTouchSays) {
+  constexpr std::uint64_t seed = 1962;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  Tally tally{.drift = 16.0};
+  for (int i = 0; i < 600 && !testing::Test::HasFailure(); ++i) {
+    SCOPED_TRACE(i);
+    const Watched watched = random_system(draws);
+    const double rate = watched.flow.matrix.cwiseAbs().diagonal().maxCoeff();
+    const auto lowest = first_minimum(watched, 30.0 / rate);
+    if (!lowest || !(lowest->size > 0.0)) continue;
+    for (int k = 0; k < 20; ++k) judge(watched, *lowest, draws.either_sign(1e-18, 1e-10), tally);
+  }
+  EXPECT_GT(tally.judged, 3000);
+  EXPECT_GT(tally.missed, tally.judged / 10);  // draws go as far as rounding
+  // What hybrid_trajectory.hpp says was seen (1.6e-13 of 10⁵), and what its formula comes to.
+  EXPECT_LE(tally.deepest_missed, 2e-13);
+  EXPECT_LE(tally.highest_invented, 2e-13);
+  EXPECT_LE(tally.widest, 2.4e-13);
+}
+
+/// cos t + 1 − δ, from an angle such that the lowest point is where a step ends, and before and
+/// after.
+TEST(EdgeGrazing, APassageOfTheUnitOscillatorIsReportedWhereverStepsEnd) {
+  const double at_end = std::numbers::pi - 2.0;  // steps are 2 long
+  for (const double angle : {0.0, 1.0, 2.0, at_end - 1e-9, at_end, at_end + 1e-9}) {
+    SCOPED_TRACE(angle);
+    Watched watched{.flow = {Matrix{{0.0, 1.0}, {-1.0, 0.0}}, Vector::Zero(2)},
+                    .guard = {Vector{{1.0, 0.0}}, 1.0},
+                    .start = Vector{{std::cos(angle), -std::sin(angle)}}};
+    const Wide amplitude =
+        sqrt(Wide(watched.start[0]) * watched.start[0] + Wide(watched.start[1]) * watched.start[1]);
+    Tally tally;
+    for (double depth = 1e-16; depth < 1e-12; depth *= 1.3) {
+      const double time = std::numbers::pi - angle;
+      judge(watched, {time, -amplitude, 1.0}, -depth, tally);
+      judge(watched, {time, -amplitude, 1.0}, depth, tally);
+    }
+    EXPECT_GT(tally.judged, 60);
+    EXPECT_LE(tally.deepest_missed, 0.8e-13);  // of 2
+  }
+}
+
+TEST(EdgeGrazing, APassageDeeperThanTheBandFires) {
+  const Watched watched{.flow = {Matrix{{0.0, 1.0}, {-1.0, 0.0}}, Vector::Zero(2)},
+                        .guard = {Vector{{1.0, 0.0}}, 1.0 - 5e-13},
+                        .start = Vector{{1.0, 0.0}}};
+  const Trajectory motion = simulate(watched.system(), {0, watched.start}, {.until = 6.0});
+  ASSERT_EQ(motion.events().size(), 1U);
+  EXPECT_TRUE(motion.touches().empty());
+}
+
+}  // namespace
+}  // namespace gearlash::hybrid
