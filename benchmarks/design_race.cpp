@@ -64,6 +64,9 @@ ReportPart enter_design_race() {
   std::vector<Line> lines;
   lines.push_back(enter("one limit cycle, analyse_limit_cycles()", 1.0,
                         [] { return analyse_limit_cycles(sample).cycles.size(); }));
+  lines.push_back(enter("the same, proved, enclose_limit_cycles()", 1.0, [] {
+    return enclose_limit_cycles(sample, Reading::decimal).cycles.size();
+  }));
   lines.push_back(enter("a piece of ten million, study_tolerances(), all cores",
                         static_cast<double>(sampling.samples()),
                         [pieces] { return study_tolerances(pieces, sampling).hunting.value; }));

@@ -394,8 +394,10 @@ class Search {
     constexpr double duration = 100.0 * std::numbers::pi;
     constexpr std::size_t event_limit = 100'000;
     const GapState state = after_arrival(dynamics_, arrival);
-    const ServoState start{state.load_position + state.gap, state.load_speed + state.gap_speed,
-                           state.load_position, state.load_speed};
+    ServoState start{.motor_position = state.load_position + state.gap,
+                     .load_position = state.load_position,
+                     .load_speed = state.load_speed};
+    start.set_gap_speed(state.gap_speed);
     const Trajectory motion =
         simulate(servo_, start, {.until = duration, .reference = 0.0, .event_limit = event_limit});
     return extremes(motion, 0.0, motion.end_time()).load_size();

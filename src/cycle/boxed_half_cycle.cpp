@@ -354,12 +354,6 @@ double bounding_flight_time(const BoxedHalfCycle& half, double guess, double off
 
 }  // namespace
 
-void set_bounds(CycleBounds& bounds, const BoxedHalfCycle& half, const Interval& time,
-                const BoxedEnd& end) {
-  bounds.period = not_negative(2.0 * (time + end.engaged)).bounds();
-  if (end.gap.low > 0.0) bounds.size = (half.size(end) / end.gap).bounds();
-}
-
 FlightTimes bounding_flight_times(const BoxedHalfCycle& half, double guess, bool all_hunt) {
   const BoxedEnd here = half.end(guess);
   const double slope = slope_of_growth(half, guess, here);

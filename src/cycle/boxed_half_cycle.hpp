@@ -85,10 +85,6 @@ struct FlightTimes {
   double longest;
 };
 
-/// Size and period of the cycles with flight times within `time`, whose ends are `end`.
-void set_bounds(CycleBounds& bounds, const BoxedHalfCycle& half, const Interval& time,
-                const BoxedEnd& end);
-
 /// Starts from the flight time of a servo in the box.
 FlightTimes bounding_flight_times(const BoxedHalfCycle& half, double guess, bool all_hunt);
 

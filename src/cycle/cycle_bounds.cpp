@@ -105,7 +105,8 @@ ServoBox box_of(const NormalizedServo& servo, Reading reading) {
           .load_rate = load_rate.bounds()};
 }
 
-CycleBounds bound_cycles(const ServoBox& box, double guessed_flight_time) {
+CycleBounds bound_cycles(const ServoBox& box, double guessed_flight_time,
+                         MultiplierBounds multiplier) {
   const detail::BoxedHalfCycle half(box);
   CycleBounds bounds;
   bounds.growth_at_rest = half.growth_at_rest().bounds();
@@ -114,7 +115,15 @@ CycleBounds bound_cycles(const ServoBox& box, double guessed_flight_time) {
   const detail::FlightTimes times =
       detail::bounding_flight_times(half, guessed_flight_time, bounds.all_hunt());
   const Interval time{times.shortest, times.longest};
-  detail::set_bounds(bounds, half, time, half.end(time));
+  const detail::BoxedEnd end = half.end(time);
+  bounds.period = not_negative(2.0 * (time + end.engaged)).bounds();
+  if (end.gap.low > 0.0) bounds.size = (half.size(end) / end.gap).bounds();
+  bounds.has_cycle = time.low > 0.0 && std::isfinite(time.high);
+  if (multiplier == MultiplierBounds::left_out || !bounds.has_cycle) return bounds;
+  // On the cycle ρ = 1, so that R′ = 1 − J_M U (y + cP)/Q; it lies between 0 and 1.
+  const Interval slope = 1.0 - half.thrust(time, end) / end.form;
+  const Interval square_of_slope = square(slope);
+  bounds.multiplier = {square_of_slope.low, std::min(1.0, square_of_slope.high)};
   return bounds;
 }
 

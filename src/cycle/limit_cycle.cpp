@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cycle_enclosure.hpp"
 #include "gearlash/cycle/bouncing_cycles.hpp"
 #include "gearlash/cycle/energy_balance.hpp"
 #include "gearlash/cycle/growth_at_rest.hpp"
@@ -120,7 +119,7 @@ LimitCycleAnalysis enclose_plastic(const ServoDynamics& dynamics, const ServoBox
   if (analysis.verdict == Verdict::hunts) add_proved_cycle(dynamics, analysis);
   const double flight_time =
       analysis.cycles.empty() ? unknown : 0.5 * analysis.cycles.front().separated_time;
-  analysis.enclosure = enclose_cycle(box, flight_time);
+  analysis.bounds = bound_cycles(box, flight_time, MultiplierBounds::wanted);
   return analysis;
 }
 

@@ -82,6 +82,17 @@ Row size_row(std::string name, double size, const LimitCycleReport& report) {
           fmt::format("{} of the backlash", number(size / report.servo.backlash))};
 }
 
+/// Where the enclosure is too wide for the digits of the table, what is proved.
+void add_range(std::vector<Row>& rows, const Bounds& bounds, double scale,
+               const std::string& unit) {
+  constexpr double unseen = 1e-6;
+  if (bounds.high - bounds.low <= unseen * bounds.high) return;
+  rows.push_back(
+      {"  proved",
+       fmt::format("{} … {} {}", number(bounds.low * scale), number(bounds.high * scale), unit),
+       ""});
+}
+
 void add_pace(std::vector<Row>& rows, const LimitCycle& cycle, const ReportUnits& units) {
   const bool physical = units.natural_frequency.has_value();
   rows.push_back(scaled_row("period", units.time(cycle.period), units.time_unit(), cycle.period,
@@ -119,8 +130,13 @@ std::string cycle_table(const LimitCycle& cycle, const LimitCycleReport& report)
   const ReportUnits& units = report.units;
   std::vector<Row> rows;
   rows.push_back(size_row("size, load", cycle.size, report));
+  const CycleBounds bounds = report.analysis.bounds.value_or(CycleBounds{});
+  if (bounds.has_cycle) {
+    add_range(rows, bounds.size, units.angle.from_radians(report.servo.backlash), units.angle.name);
+  }
   rows.push_back(size_row("size, motor", cycle.motor_size, report));
   add_pace(rows, cycle, units);
+  if (bounds.has_cycle) add_range(rows, bounds.period, units.time(1.0), units.time_unit());
   rows.push_back({"multiplier", number(cycle.multiplier), "disturbances die away"});
   rows.push_back({"impacts", fmt::format("{} a period", cycle.impacts_per_period),
                   cycle.settles ? "faces stay together" : "faces bounce apart"});
@@ -207,14 +223,6 @@ std::string persistence(const LimitCycleAnalysis& analysis) {
                               : "The load does not come to rest";
 }
 
-/// That motion ends in the cycle, where it is less sure than that there is one.
-std::string attraction(const LimitCycleAnalysis& analysis) {
-  const auto& enclosure = analysis.enclosure;
-  if (!enclosure || enclosure->attraction >= analysis.certainty) return "";
-  if (enclosure->attraction >= Certainty::enclosed) return "";
-  return " That every motion which goes on ends in this cycle is computed, not proved.";
-}
-
 /// Other starts may end elsewhere; empty where none was seen to.
 std::string other_motion(const LimitCycleReport& report) {
   const double size = report.analysis.irregular_size;
@@ -244,7 +252,7 @@ std::string meaning_when_hunting(const LimitCycleReport& report) {
          "Size is proportional to backlash: half the backlash, half the swing at the same "
          "frequency. No backlash is small enough to end the hunting; that takes a growth at rest "
          "below 1. " +
-         certainty(report.analysis) + attraction(report.analysis);
+         certainty(report.analysis);
 }
 
 std::string meaning_when_quiet(const LimitCycleReport& report) {
@@ -272,8 +280,8 @@ std::string meaning_when_undecided(const LimitCycleAnalysis& analysis) {
     return "Some swings neither grow nor die away as far as numbers can tell (multiplier 1): the "
            "servo lies on a boundary, where any change of a parameter decides.";
   }
-  if (analysis.enclosure) {
-    const Bounds& growth = analysis.enclosure->bounds.growth_at_rest;
+  if (analysis.bounds) {
+    const Bounds& growth = analysis.bounds->growth_at_rest;
     return fmt::format(
         "The servo lies on the boundary of hunting: its growth at rest is 1 to within {}, the "
         "width "
@@ -350,23 +358,25 @@ Json json_range(const Bounds& bounds) {
 }
 
 /// What is proved of the numbers; null where nothing is.
-Json json_bounds(const std::optional<CycleEnclosure>& enclosure) {
-  if (!enclosure) return nullptr;
-  Json json = {{"growth_at_rest", json_range(enclosure->bounds.growth_at_rest)}};
-  if (!enclosure->multiplier) return json;
-  json["size_over_backlash"] = json_range(enclosure->bounds.size);
-  json["period"] = json_range(enclosure->bounds.period);
-  json["multiplier"] = json_range(*enclosure->multiplier);
+Json json_bounds(const std::optional<CycleBounds>& bounds) {
+  if (!bounds) return nullptr;
+  Json json = {{"growth_at_rest", json_range(bounds->growth_at_rest)}};
+  if (!bounds->has_cycle) return json;
+  json["size_over_backlash"] = json_range(bounds->size);
+  json["period"] = json_range(bounds->period);
+  json["multiplier"] = json_range(bounds->multiplier);
   return json;
 }
 
-/// How sure each statement is; null where it is not made.
+/// How sure each statement is: what is proved of a servo includes that its cycle is stable, and the
+/// only one. A cycle that a search found is one to its residual, and its multiplier is computed.
 Json json_certainty(const LimitCycleAnalysis& analysis) {
-  Json json = {{"verdict", name_of(analysis.certainty)}, {"attraction", nullptr}};
-  if (analysis.enclosure && !analysis.cycles.empty()) {
-    json["attraction"] = name_of(analysis.enclosure->attraction);
-  }
-  return json;
+  const Certainty of_cycles = analysis.is_proved() ? analysis.certainty : Certainty::computed;
+  Json stability = nullptr;
+  if (!analysis.cycles.empty()) stability = name_of(of_cycles);
+  return {{"verdict", name_of(analysis.certainty)},
+          {"stability", std::move(stability)},
+          {"completeness", name_of(analysis.certainty)}};
 }
 
 /// The observed cycle in SI, and what the normalised numbers are to be scaled by.
@@ -424,7 +434,7 @@ std::string limit_cycle_json(const LimitCycleReport& report) {
                {"verdict", name_of(analysis.verdict)},
                {"proved", analysis.is_proved()},
                {"certainty", json_certainty(analysis)},
-               {"bounds", json_bounds(analysis.enclosure)},
+               {"bounds", json_bounds(analysis.bounds)},
                {"dissipative", analysis.is_dissipative},
                {"rests_engaged", analysis.rests_engaged},
                {"neutral_swings", analysis.neutral_swings},

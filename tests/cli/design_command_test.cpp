@@ -108,7 +108,7 @@ TEST(DesignCommand, SaysWhatItCostsAndWhyNot) {
   EXPECT_THAT(lines,
               Contains("  backlash: however small, it leaves the hunting; only its size follows"));
   EXPECT_THAT(lines, Contains(StartsWith("  motor_inertia: no value from ")));
-  EXPECT_THAT(run.out, HasSubstr("is proved"));
+  EXPECT_THAT(run.out, HasSubstr("prove it"));
 }
 
 TEST(DesignCommand, TakesANormalizedServo) {

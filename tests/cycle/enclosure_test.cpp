@@ -69,19 +69,19 @@ TEST_P(OracleEnclosure, HoldsWhatIsExactAndIsNarrow) {
     const LimitCycleAnalysis analysis = enclose_limit_cycles(servo, Reading::exact);
     const ExactHalfCycle exact(servo.damping, servo.inertia_ratio, servo.friction_ratio);
     const Digits exact_growth = exact.growth_at_rest();
-    growth.add(analysis.enclosure->bounds.growth_at_rest, exact_growth);
+    growth.add(analysis.bounds->growth_at_rest, exact_growth);
     if (abs(exact_growth - 1) > Digits(1e-9)) undecided += !analysis.is_proved();
     if (!analysis.is_proved()) continue;
     ASSERT_EQ(analysis.verdict, exact_growth > 1 ? Verdict::hunts : Verdict::cannot_hunt);
     if (analysis.verdict != Verdict::hunts) continue;
     const auto cycle = exact.cycle(0.5 * analysis.cycles.front().separated_time);
-    if (!cycle || !analysis.enclosure->multiplier) {
+    if (!cycle || !analysis.bounds->has_cycle) {
       ++without_cycle;
       continue;
     }
-    size.add(analysis.enclosure->bounds.size, cycle->size_over_backlash);
-    period.add(analysis.enclosure->bounds.period, cycle->period);
-    multiplier.add(*analysis.enclosure->multiplier, cycle->multiplier);
+    size.add(analysis.bounds->size, cycle->size_over_backlash);
+    period.add(analysis.bounds->period, cycle->period);
+    multiplier.add(analysis.bounds->multiplier, cycle->multiplier);
   }
   RecordProperty("median width of growth at rest, epsilons", std::to_string(growth.median()));
   RecordProperty("of size", std::to_string(size.median()));
@@ -107,7 +107,7 @@ TEST(PropertyEnclosure, DecimalsAndDrivetrainsHoldTheServoToo) {
     const ExactHalfCycle exact(servo.damping, servo.inertia_ratio, servo.friction_ratio);
     const Digits growth = exact.growth_at_rest();
     const auto of_decimals = enclose_limit_cycles(servo, Reading::decimal);
-    const Bounds bounds = of_decimals.enclosure->bounds.growth_at_rest;
+    const Bounds bounds = of_decimals.bounds->growth_at_rest;
     ASSERT_TRUE(Digits(bounds.low) <= growth && growth <= Digits(bounds.high));
   }
 }
@@ -119,8 +119,8 @@ TEST(EdgeEnclosure, FrictionOnOneSideOnlyIsATheorem) {
     const LimitCycleAnalysis analysis = enclose_limit_cycles(servo, Reading::decimal);
     EXPECT_EQ(analysis.verdict, Verdict::hunts);
     EXPECT_EQ(analysis.certainty, Certainty::theorem);
-    EXPECT_EQ(analysis.enclosure->bounds.growth_at_rest.low, infinity);
-    const Bounds size = analysis.enclosure->bounds.size;
+    EXPECT_EQ(analysis.bounds->growth_at_rest.low, infinity);
+    const Bounds size = analysis.bounds->size;
     EXPECT_TRUE(size.contains(analysis.cycles.front().size / servo.backlash));
     EXPECT_LT(size.high / size.low - 1.0, 1e-12);
   }
@@ -136,17 +136,16 @@ TEST(EdgeEnclosure, MasslessSidesAreEnclosed) {
                                     .backlash = 1.0};
         const LimitCycleAnalysis analysis = enclose_limit_cycles(servo, Reading::exact);
         ASSERT_TRUE(analysis.is_proved());
-        const CycleBounds& bounds = analysis.enclosure->bounds;
+        const CycleBounds& bounds = *analysis.bounds;
         EXPECT_TRUE(bounds.growth_at_rest.contains(analysis.growth_at_rest));
         if (analysis.verdict != Verdict::hunts) continue;
         // Computed to some 1e-14, enclosed to as much.
         EXPECT_NEAR(analysis.cycles.front().size, 0.5 * (bounds.size.low + bounds.size.high),
                     1e-11 * bounds.size.high);
         EXPECT_LT(bounds.size.high / bounds.size.low - 1.0, 1e-9);
-        EXPECT_NEAR(
-            analysis.cycles.front().multiplier,
-            0.5 * (analysis.enclosure->multiplier->low + analysis.enclosure->multiplier->high),
-            1e-11);
+        EXPECT_NEAR(analysis.cycles.front().multiplier,
+                    0.5 * (analysis.bounds->multiplier.low + analysis.bounds->multiplier.high),
+                    1e-11);
       }
     }
   }

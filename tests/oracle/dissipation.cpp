@@ -54,7 +54,7 @@ DissipationCheck check_dissipation(std::uint64_t seed, std::uint64_t index) {
   const ReferenceRun run =
       simulator.run(check.drawn.initial, {.until = until, .event_limit = most_events});
   check.exhausted = run.exhausted;
-  const Extended end = run.exhausted ? run.events.back().time : until;
+  if (run.exhausted) return check;
   const auto largest = [&](Extended from, Extended to) {
     Extended size = 0;
     for (const ReferenceEvent& event : run.events) {
@@ -68,8 +68,8 @@ DissipationCheck check_dissipation(std::uint64_t seed, std::uint64_t index) {
     return static_cast<double>(size);
   };
   check.early = largest(0, until / 100);
-  check.late = largest(end * 4 / 5, end);
-  check.dies = check.late < 0.1 * std::min(check.early, servo.backlash);
+  check.late = largest(until * 4 / 5, until);
+  check.hunts = !(check.late < 0.1 * std::min(check.early, servo.backlash));
   return check;
 }
 

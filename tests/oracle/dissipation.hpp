@@ -10,10 +10,11 @@ namespace gearlash::oracle {
 
 struct DissipationCheck {
   RandomCase drawn;
-  double early = 0.0;      ///< largest |y| at events and samples, over the first hundredth
-  double late = 0.0;       ///< and over the last fifth
-  bool exhausted = false;  ///< more bounces than are followed: `late` is of the last fifth of those
-  bool dies = false;       ///< late is below a tenth of both early and the backlash
+  double early = 0.0;  ///< largest |y| at events and samples, over the first hundredth
+  double late = 0.0;   ///< and over the last fifth
+  bool exhausted =
+      false;           ///< more bounces than are followed, as where e is 1 or nearly: not judged
+  bool hunts = false;  ///< late is not below a tenth of both early and the backlash
 };
 
 /// Case `index` of a seed: damping 0.71 … 10, inertia ratio 1e-2 … 1e2, a restitution of 0 … 1

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "comparison.hpp"
+#include "dissipation.hpp"
 #include "reference_cycle.hpp"
 
 namespace {
@@ -26,6 +27,7 @@ using gearlash::oracle::Method;
 struct Settings {
   std::uint64_t servos = 1000;
   std::uint64_t seed = 1960;
+  std::uint64_t dissipative = 5000;
   unsigned threads = 2;
   gearlash::oracle::ComparisonOptions comparison;
 };
@@ -36,26 +38,55 @@ void show_progress(std::uint64_t done, std::uint64_t all) {
                static_cast<unsigned long long>(all), done == all ? "\n" : "");
 }
 
+/// `work` on every index below `count`, on all threads.
+void for_all(const Settings& settings, std::uint64_t count,
+             const std::function<void(std::uint64_t)>& work) {
+  std::atomic<std::uint64_t> next = 0;
+  std::vector<std::thread> workers;
+  for (unsigned i = 0; i < settings.threads; ++i) {
+    workers.emplace_back([&] {
+      for (std::uint64_t index = next++; index < count; index = next++) {
+        work(index);
+        show_progress(std::min(next.load(), count), count);
+      }
+    });
+  }
+  for (std::thread& worker : workers) worker.join();
+}
+
 std::vector<CaseReport> compare_all(const Settings& settings) {
   std::vector<CaseReport> reports(settings.servos);
-  std::atomic<std::uint64_t> next = 0;
   std::mutex printing;
-  const auto work = [&] {
-    for (std::uint64_t index = next++; index < settings.servos; index = next++) {
-      const auto drawn = gearlash::oracle::random_case(settings.seed, index);
-      reports[index] = gearlash::oracle::compare(drawn, settings.comparison);
-      const std::lock_guard lock(printing);
-      if (!reports[index].failure.empty()) {
-        std::fprintf(stderr, "servo %llu: %s\n  %s\n", static_cast<unsigned long long>(index),
-                     reports[index].failure.c_str(), gearlash::oracle::describe(drawn).c_str());
-      }
-      show_progress(std::min(next.load(), settings.servos), settings.servos);
+  for_all(settings, settings.servos, [&](std::uint64_t index) {
+    const auto drawn = gearlash::oracle::random_case(settings.seed, index);
+    reports[index] = gearlash::oracle::compare(drawn, settings.comparison);
+    const std::lock_guard lock(printing);
+    if (!reports[index].failure.empty()) {
+      std::fprintf(stderr, "servo %llu: %s\n  %s\n", static_cast<unsigned long long>(index),
+                   reports[index].failure.c_str(), gearlash::oracle::describe(drawn).c_str());
     }
-  };
-  std::vector<std::thread> workers;
-  for (unsigned i = 0; i < settings.threads; ++i) workers.emplace_back(work);
-  for (std::thread& worker : workers) worker.join();
+  });
   return reports;
+}
+
+/// Servos that energy proves not to hunt.
+bool print_dissipative(const Settings& settings) {
+  std::atomic<std::uint64_t> hunting = 0;
+  std::atomic<std::uint64_t> exhausted = 0;
+  for_all(settings, settings.dissipative, [&](std::uint64_t index) {
+    const auto check = gearlash::oracle::check_dissipation(settings.seed, index);
+    exhausted += check.exhausted ? 1U : 0U;
+    hunting += check.hunts ? 1U : 0U;
+    if (!check.hunts) return;
+    std::fprintf(stderr, "%s goes on swinging by %g\n",
+                 gearlash::oracle::describe(check.drawn).c_str(), check.late);
+  });
+  std::printf(
+      "\n%llu servos that only take energy from the gap (1/c + 1/D <= 2 damping): %llu hunt, %llu "
+      "bounce more often than was followed.\n",
+      static_cast<unsigned long long>(settings.dissipative),
+      static_cast<unsigned long long>(hunting), static_cast<unsigned long long>(exhausted));
+  return hunting == 0;
 }
 
 /// Median and worst of one number over the reports.
@@ -163,6 +194,8 @@ int main(int argc, char** argv) {
   CLI::App app{"Random servos against an independent reference simulator"};
   app.add_option("--servos", settings.servos, "how many")->capture_default_str();
   app.add_option("--seed", settings.seed, "of the random servos")->capture_default_str();
+  app.add_option("--dissipative", settings.dissipative, "how many that energy proves not to hunt")
+      ->capture_default_str();
   app.add_option("--threads", settings.threads, "workers")
       ->capture_default_str()
       ->check(CLI::Range(1U, 256U));
@@ -179,7 +212,8 @@ int main(int argc, char** argv) {
               static_cast<unsigned long long>(settings.servos), settings.threads, elapsed.count());
   print_table(reports);
   const bool cycles_agree = print_cycles();
+  const bool none_hunts = print_dissipative(settings);
   const bool cases_agree = std::all_of(reports.begin(), reports.end(),
                                        [](const CaseReport& r) { return r.failure.empty(); });
-  return cases_agree && cycles_agree ? 0 : 1;
+  return cases_agree && cycles_agree && none_hunts ? 0 : 1;
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "comparison.hpp"
+#include "dissipation.hpp"
 #include "raw_equations.hpp"
 #include "reference_cycle.hpp"
 
@@ -49,6 +50,17 @@ TEST(Oracle, LimitCyclesAreWhatLongRunsOfTheReferenceSettleOn) {
                               << " against " << check.reference_size << ", period "
                               << check.library_period << " against " << check.reference_period;
   }
+}
+
+TEST(Oracle, ServosThatOnlyTakeEnergyFromTheGapComeToRest) {
+  int followed = 0;
+  for (std::uint64_t index = 0; index < 100; ++index) {
+    const DissipationCheck check = check_dissipation(seed, index);
+    followed += check.exhausted ? 0 : 1;
+    EXPECT_FALSE(check.hunts) << "seed " << seed << ", " << describe(check.drawn) << ": "
+                              << check.late << " after " << check.early;
+  }
+  EXPECT_GT(followed, 80);
 }
 
 TEST(Oracle, IrregularHuntingIsAsLargeAsInALongRunOfTheReference) {

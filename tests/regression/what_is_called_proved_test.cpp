@@ -109,7 +109,7 @@ TEST(RegressionProved, NothingIsProvedWhereTheEnclosureTouchesOne) {
   const auto certainty_of = [&](double value) {
     const NormalizedServo servo = servo_of(value, .07958454908395947, 2.043082623864931e-06);
     const LimitCycleAnalysis analysis = enclose_limit_cycles(servo, Reading::exact);
-    const Bounds& growth = analysis.enclosure->bounds.growth_at_rest;
+    const Bounds& growth = analysis.bounds->growth_at_rest;
     if (analysis.verdict == Verdict::undecided) {
       EXPECT_FALSE(analysis.is_proved());
       EXPECT_TRUE(growth.contains(1.0));

@@ -56,10 +56,14 @@ struct CycleBounds {
   /// Of the cycle, if there is one: half peak-to-peak of the load over the backlash.
   Bounds size{0.0, infinity};
   Bounds period{0.0, infinity};  ///< likewise, in units of 1/ω_n
+  Bounds multiplier{0.0, 1.0};   ///< likewise, Floquet's; where it was asked for
+  bool has_cycle = false;        ///< all hunt, and all of the above are bounds of their cycles
 
   bool none_hunt() const { return growth_at_rest.high <= 1.0; }
   bool all_hunt() const { return growth_at_rest.low > 1.0; }
 };
+
+enum class MultiplierBounds { left_out, wanted };
 
 /// By interval arithmetic on the closed forms (base/interval.hpp), rounded outward: where a
 /// function is monotone (the divided differences of exp in their rates, the time to the first zero
@@ -68,6 +72,7 @@ struct CycleBounds {
 /// proportion to its width. `guessed_flight_time` is of a servo in the box that hunts, and NaN
 /// where none is known: bounds are narrower where it is good, and true where it is not. Sources:
 /// Moore, Interval Analysis (1966), chapter 4; the monotony: docs/mathematics.md.
-CycleBounds bound_cycles(const ServoBox& box, double guessed_flight_time);
+CycleBounds bound_cycles(const ServoBox& box, double guessed_flight_time,
+                         MultiplierBounds multiplier = MultiplierBounds::left_out);
 
 }  // namespace gearlash

@@ -68,16 +68,6 @@ enum class Certainty {
   theorem    ///< proved, by exact comparisons alone
 };
 
-/// What interval arithmetic proves of a servo with plastic contact.
-struct CycleEnclosure {
-  CycleBounds bounds;
-  /// Of the one symmetric cycle; none where it is not bounded.
-  std::optional<Bounds> multiplier;
-  /// Of the statement that the cycle is stable, and that every motion ends in it but those that end
-  /// at rest: `enclosed`, or `computed` where the bounds leave it open.
-  Certainty attraction = Certainty::computed;
-};
-
 struct LimitCycleAnalysis {
   Verdict verdict = Verdict::cannot_hunt;
   /// Of the verdict, and of the number of limit cycles that mirror themselves.
@@ -97,7 +87,7 @@ struct LimitCycleAnalysis {
   /// Half the peak-to-peak of bounded motion that was not seen to repeat, which may exist beside a
   /// stable cycle; NaN where every start ended in a cycle or at rest.
   double irregular_size = std::numeric_limits<double>::quiet_NaN();
-  std::optional<CycleEnclosure> enclosure;  ///< where it was asked for and contact is plastic
+  std::optional<CycleBounds> bounds;  ///< proved; where that was asked for and contact is plastic
 
   bool is_proved() const { return certainty >= Certainty::enclosed; }
 };
@@ -117,7 +107,7 @@ LimitCycleAnalysis analyse_limit_cycles(const NormalizedServo& servo);
 /// The same, proved: with plastic contact the growth at rest, the cycle and its multiplier are
 /// enclosed for every servo of `box`, which holds the data that `servo` was rounded from. The
 /// verdict is `enclosed` where all of the box agree with it, and else undecided; then
-/// enclosure->bounds.growth_at_rest says how wide it is about 1.
+/// bounds->growth_at_rest says how wide it is about 1.
 /// Throws InvalidInput.
 LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, const ServoBox& box);
 /// Of the servo itself, or of the decimals that its numbers stand for.
