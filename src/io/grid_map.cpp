@@ -33,7 +33,7 @@ ContourMap map_of(const GridTable& table, CycleQuantity quantity) {
   map.hatching = hatching(table, paper);
   if (!table.dissipative_boundary) return map;
   map.inner_boundary = *table.dissipative_boundary;
-  map.inner_meaning = "none with any restitution";
+  map.inner_meaning = "none, any restitution";
   map.inner_hatching =
       hatching(map.inner_boundary, paper,
                {.stretch =

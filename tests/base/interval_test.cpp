@@ -164,6 +164,8 @@ TEST(EdgeInterval, OverflowAndUnderflowAreBounded) {
   EXPECT_GT(exp(Interval(-2000.0)).high, 0.0);
   EXPECT_EQ(exp(Interval(2000.0)).high, infinity);
   EXPECT_EQ(log(Interval(0.0, 1.0)).low, -infinity);
+  EXPECT_EQ(log(Interval(-1.0, 0.0)).high, -infinity);
+  EXPECT_EQ(log1p(Interval(-2.0, -1.0)).high, -infinity);
 }
 
 }  // namespace

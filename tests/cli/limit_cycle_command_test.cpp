@@ -4,8 +4,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "gearlash/cycle/growth_at_rest.hpp"
 #include "gearlash/cycle/limit_cycle.hpp"
 #include "gearlash/io/servo_file.hpp"
+#include "gearlash/servo/range_check.hpp"
 #include "gearlash/version.hpp"
 #include "tool.hpp"
 
@@ -68,6 +70,61 @@ TEST(LimitCycleCommand, JsonReadsBackAsExactlyWhatTheLibraryFinds) {
   // Published numbers, so that a fault shared with the library would be seen.
   EXPECT_NEAR(printed["cycles"][0]["size"].get<double>(), 0.241611108, 1e-9);
   EXPECT_NEAR(printed["cycles"][0]["period"].get<double>(), 6.456205, 1e-6);
+}
+
+TEST(LimitCycleCommand, BoundsAreProvedAndHoldWhatIsComputed) {
+  const json printed = parsed(run_tool(with_sample_servo({"limit-cycle", "--format", "json"})));
+  for (const char* statement : {"verdict", "stability", "completeness"}) {
+    EXPECT_EQ(printed["certainty"][statement], "enclosed");
+  }
+  const auto expect_within = [](const json& range, double value) {
+    EXPECT_LE(range[0].get<double>(), value);
+    EXPECT_GE(range[1].get<double>(), value);
+    EXPECT_LT(range[1].get<double>() - range[0].get<double>(), 1e-12 * value);
+  };
+  const json& cycle = printed["cycles"][0];
+  expect_within(printed["bounds"]["growth_at_rest"], printed["growth_at_rest"]);
+  expect_within(printed["bounds"]["size_over_backlash"], cycle["size"].get<double>() / 0.3);
+  expect_within(printed["bounds"]["period"], cycle["period"]);
+  expect_within(printed["bounds"]["multiplier"], cycle["multiplier"]);
+  const json searched = parsed(
+      run_tool(with_sample_servo({"limit-cycle", "--format", "json", "--restitution", "0.3"})));
+  EXPECT_EQ(searched["certainty"]["verdict"], "searched");
+  EXPECT_EQ(searched["certainty"]["stability"], "computed");
+  EXPECT_TRUE(searched["bounds"].is_null());
+}
+
+TEST(LimitCycleCommand, WhereTheEnclosureTouchesOneItIsUndecidedAndSaysHowWideItIs) {
+  // ζ of the boundary for J_L/J_M = 1, F_L/F = 1/2 (c = D = 2ζ), to the last digit.
+  double quiet = 1.0;
+  double hunting = 0.3;
+  while (true) {
+    const double middle = 0.5 * (quiet + hunting);
+    if (middle == quiet || middle == hunting) break;
+    const NormalizedServo servo{.damping = middle, .backlash = 0.3};
+    (growth_at_rest(servo_dynamics(servo)) > 1.0 ? hunting : quiet) = middle;
+  }
+  const Outcome run = run_tool({"limit-cycle", "--damping", exact_text(hunting), "--inertia-ratio",
+                                "1", "--friction-ratio", "0.5", "--backlash", "0.3"});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.out, HasSubstr("its growth at rest is 1 to within "));
+  EXPECT_THAT(run.out, HasSubstr("e-1"));
+  EXPECT_THAT(run.err, HasSubstr("undecided"));
+}
+
+TEST(LimitCycleCommand, EnergyProvesWhatNoSearchCan) {
+  const std::vector<std::string> servo = {
+      "limit-cycle", "--damping",  "1.2", "--inertia-ratio", "1", "--friction-ratio",
+      "0.5",         "--backlash", "0.3", "--restitution",   "1"};
+  const Outcome text = run_tool(servo);
+  EXPECT_EQ(text.status, 0);
+  EXPECT_THAT(text.out, HasSubstr("No restitution can make this\nservo hunt"));
+  EXPECT_THAT(text.out, HasSubstr("This is proved."));
+  std::vector<std::string> as_json = servo;
+  as_json.insert(as_json.end(), {"--format", "json"});
+  const json printed = parsed(run_tool(as_json));
+  EXPECT_EQ(printed["dissipative"], true);
+  EXPECT_EQ(printed["certainty"]["verdict"], "theorem");
 }
 
 TEST(LimitCycleCommand, BouncingContactHasItsCyclesInJsonToo) {

@@ -64,6 +64,27 @@ TEST(MapCommand, PointsAreSingleCallsAndTheBoundaryIsWhereGrowthIsOne) {
   }
 }
 
+TEST(MapCommand, TheRegionOfAnyRestitutionIsTheEnergys) {
+  const Scratch scratch;
+  ASSERT_EQ(run_tool(map_into(scratch / "map.json", {"--proved"})).status, 0);
+  const auto map = nlohmann::json::parse(file_text(scratch / "map.json"));
+  EXPECT_EQ(map["certainty"], "enclosed");
+  ASSERT_EQ(map["dissipative_boundary"].size(), 1U);
+  ASSERT_GT(map["dissipative_boundary"][0].size(), 10U);
+  for (const auto& point : map["dissipative_boundary"][0]) {
+    const double friction = point[0];
+    const double damping = point[1];
+    // 1/c + 1/D = 2ζ with J_L/J_M = 2; at the edge of the map a corner may stand for it.
+    const double needed = friction + 2.0 * (1.0 - friction);
+    const double given = 12.0 * damping * damping * friction * (1.0 - friction);
+    EXPECT_NEAR(needed, given, 1e-3 * given);
+  }
+  // Every servo within it is one that cannot hunt.
+  ASSERT_EQ(run_tool(map_into(scratch / "bouncing.json", {"--restitution", "0.5"})).status, 0);
+  const auto bouncing = nlohmann::json::parse(file_text(scratch / "bouncing.json"));
+  EXPECT_EQ(bouncing["certainty"], "computed for plastic contact, searched for restitution > 0");
+}
+
 TEST(MapCommand, TableHasALineAPoint) {
   const Scratch scratch;
   EXPECT_EQ(run_tool(map_into(scratch / "map.csv")).status, 0);

@@ -185,18 +185,16 @@ inline double library_above(double x) { return -library_below(-x); }
 
 /// −∞ for what is not positive.
 inline Interval log(const Interval& x) {
-  const auto of = [](double value) {
-    return value > 0.0 ? std::log(value) : -std::numeric_limits<double>::infinity();
-  };
-  return settled(outward::library_below(of(x.low)), outward::library_above(of(x.high)));
+  constexpr double nothing = -std::numeric_limits<double>::infinity();
+  return settled(x.low > 0.0 ? outward::library_below(std::log(x.low)) : nothing,
+                 x.high > 0.0 ? outward::library_above(std::log(x.high)) : nothing);
 }
 
 /// ln(1 + x); −∞ for x ≤ −1.
 inline Interval log1p(const Interval& x) {
-  const auto of = [](double value) {
-    return value > -1.0 ? std::log1p(value) : -std::numeric_limits<double>::infinity();
-  };
-  return settled(outward::library_below(of(x.low)), outward::library_above(of(x.high)));
+  constexpr double nothing = -std::numeric_limits<double>::infinity();
+  return settled(x.low > -1.0 ? outward::library_below(std::log1p(x.low)) : nothing,
+                 x.high > -1.0 ? outward::library_above(std::log1p(x.high)) : nothing);
 }
 
 /// The angle in [0, π] of the point (x, y). Precondition: y ≥ 0, and not both contain 0.
