@@ -42,9 +42,7 @@ class BoxedHalfCycle {
   /// makes the amplitude at parting, measured in gaps crossed, smaller.
   Interval thrust(const Interval& time, const BoxedEnd& end) const;
 
-  const Interval& damping() const { return damping_; }
   const Interval& motor_rate() const { return motor_rate_; }
-  const Interval& load_rate() const { return load_rate_; }
   bool has_two_masses() const { return !massless_motor_ && !massless_load_; }
 
  private:

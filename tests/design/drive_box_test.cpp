@@ -2,10 +2,13 @@
 // drawn from them, in a hundred and twenty digits.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "../cycle/exact_half_cycle.hpp"
 #include "../servo/seeded_draws.hpp"
@@ -54,6 +57,7 @@ class OracleDriveBox : public testing::TestWithParam<std::uint64_t> {};
 TEST_P(OracleDriveBox, HoldsEveryDriveWithin) {
   SeededDraws draws(GetParam());
   int hunting = 0;
+  std::vector<double> widths;  // of points, in epsilons
   for (std::size_t i = 0; i < 3000 && !HasFailure(); ++i) {
     const ChangeableDrive drive(drawn_servo(draws), draws.log_uniform(0.1, 100.0));
     const Parameter parameter = parameters[i % std::size(parameters)];
@@ -71,7 +75,12 @@ TEST_P(OracleDriveBox, HoldsEveryDriveWithin) {
     const DriveBox box = drive.box(parameter, values);
     const CycleBounds bounds = bound_cycles(box.servo, guess);
     const ExactHalfCycle exact = exact_of(drawn);
-    expect_holds(bounds.growth_at_rest, exact.growth_at_rest());
+    const Digits growth = exact.growth_at_rest();
+    expect_holds(bounds.growth_at_rest, growth);
+    if (i % 3 == 0 && growth > 0) {
+      widths.push_back((bounds.growth_at_rest.high - bounds.growth_at_rest.low) /
+                       static_cast<double>(growth) / 0x1p-52);
+    }
     if (!(guess > 0.0)) continue;
     ++hunting;
     EXPECT_FALSE(bounds.none_hunt());
@@ -84,6 +93,10 @@ TEST_P(OracleDriveBox, HoldsEveryDriveWithin) {
     expect_holds(box.backlash, drawn.backlash);
   }
   EXPECT_GT(hunting, 1500);
+  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+  std::nth_element(widths.begin(), middle, widths.end());
+  RecordProperty("median width of the growth of points, epsilons", std::to_string(*middle));
+  EXPECT_LT(*middle, 2000.0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, OracleDriveBox, testing::Values(1841, 1842));

@@ -76,7 +76,6 @@ struct Interval {
 
   constexpr Bounds bounds() const { return {low, high}; }
   constexpr bool contains(double value) const { return low <= value && value <= high; }
-  constexpr bool is_point() const { return low == high; }
   double width() const { return outward::above(high - low); }
 };
 
@@ -128,11 +127,6 @@ inline Interval operator/(const Interval& x, const Interval& y) {
   }
   return Interval::whole_line();
 }
-
-inline Interval& operator+=(Interval& x, const Interval& y) { return x = x + y; }
-inline Interval& operator-=(Interval& x, const Interval& y) { return x = x - y; }
-inline Interval& operator*=(Interval& x, const Interval& y) { return x = x * y; }
-inline Interval& operator/=(Interval& x, const Interval& y) { return x = x / y; }
 
 /// The smallest interval around both.
 inline Interval hull(const Interval& x, const Interval& y) {
