@@ -152,14 +152,15 @@ std::string draw(const LimitCycleReport& report, const LimitCycleOptions& option
 
 /// Proved of the data of the file: of a data sheet's numbers with their units, or of the decimals
 /// of a normalised servo.
-LimitCycleAnalysis proved_analysis(const ServoFile& file, const ChangeableDrive& drive) {
-  if (file.drivetrain && !drive.is_normalized()) {
-    return enclose_limit_cycles(file.servo, drive.box().servo);
-  }
-  if (file.drivetrain && !file.datasheet) {
+LimitCycleAnalysis proved_analysis(const ServoFile& file, const ChangeableDrive& drive,
+                                   bool is_drive) {
+  if (!drive.is_normalized()) return enclose_limit_cycles(file.servo, drive.box().servo);
+  if (is_drive && file.drivetrain) {
     return enclose_limit_cycles(file.servo, box_between(*file.drivetrain, *file.drivetrain).servo);
   }
-  return enclose_limit_cycles(file.servo, Reading::decimal);
+  // Of a data sheet with options some numbers are typed, the others worked out.
+  const bool is_typed = !is_drive && !file.datasheet;
+  return enclose_limit_cycles(file.servo, is_typed ? Reading::decimal : Reading::converted);
 }
 
 /// `is_drive`: it was described as a drive, whose closed form this is.
@@ -167,7 +168,7 @@ ExitStatus analyse_servo(const ServoFile& file, bool is_drive, const LimitCycleO
                          PictureFormat picture_kind, const Provenance& provenance) {
   const ChangeableDrive drive = drive_of(file, options.servo);
   LimitCycleReport report{.servo = file.servo,
-                          .analysis = proved_analysis(file, drive),
+                          .analysis = proved_analysis(file, drive, is_drive),
                           .units = report_units(file),
                           .provenance = provenance,
                           .is_drive = is_drive};

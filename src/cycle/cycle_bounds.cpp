@@ -20,7 +20,10 @@ bool is_short_decimal(double value) {
   return false;
 }
 
+Interval known(double value, double error) { return value * Interval(1.0 - error, 1.0 + error); }
+
 Interval number(double value, Reading reading) {
+  if (reading == Reading::converted && std::isfinite(value)) return known(value, DataError{}.each);
   if (reading == Reading::exact || std::isinf(value) || is_short_decimal(value)) return value;
   return {outward::below(value), outward::above(value)};
 }
@@ -36,10 +39,6 @@ struct KnownDrive {
         load_friction(known(drive.load_friction, error.each)),
         stiffness(known(drive.stiffness, error.each)),
         backlash(known(drive.backlash, error.each)) {}
-
-  static Interval known(double value, double error) {
-    return value * Interval(1.0 - error, 1.0 + error);
-  }
 
   /// Of a shaft: its friction over its inertia, and its share of all inertia.
   static Interval rate(const Interval& friction, const Interval& inertia) {

@@ -145,7 +145,10 @@ LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, const Serv
 
 LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, Reading reading) {
   require_none(validate(servo));
-  return enclosed(servo, box_of(servo, reading), is_dissipative(servo, reading));
+  const ServoBox box = box_of(servo, reading);
+  const bool dissipative =
+      reading == Reading::converted ? is_dissipative(box) : is_dissipative(servo, reading);
+  return enclosed(servo, box, dissipative);
 }
 
 const LimitCycle* largest_stable(const LimitCycleAnalysis& analysis) {

@@ -106,9 +106,10 @@ TEST(PropertyEnclosure, DecimalsAndDrivetrainsHoldTheServoToo) {
     if (servo.friction_ratio == 0.0 || servo.friction_ratio == 1.0) continue;
     const ExactHalfCycle exact(servo.damping, servo.inertia_ratio, servo.friction_ratio);
     const Digits growth = exact.growth_at_rest();
-    const auto of_decimals = enclose_limit_cycles(servo, Reading::decimal);
-    const Bounds bounds = of_decimals.bounds->growth_at_rest;
-    ASSERT_TRUE(Digits(bounds.low) <= growth && growth <= Digits(bounds.high));
+    for (const Reading reading : {Reading::decimal, Reading::converted}) {
+      const Bounds bounds = enclose_limit_cycles(servo, reading).bounds->growth_at_rest;
+      ASSERT_TRUE(Digits(bounds.low) <= growth && growth <= Digits(bounds.high));
+    }
   }
 }
 

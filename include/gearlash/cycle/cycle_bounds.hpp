@@ -23,19 +23,20 @@ struct ServoBox {
 
 /// Which number a double stands for.
 enum class Reading {
-  exact,   ///< itself
-  decimal  ///< the shortest decimal that reads back as it: what an author wrote, as 0.19
+  exact,     ///< itself
+  decimal,   ///< the shortest decimal that reads back as it: what an author wrote, as 0.19
+  converted  ///< what it was worked out as from data with units, to DataError
 };
 
-/// The box of one servo. Precondition: validate(servo) is empty.
-ServoBox box_of(const NormalizedServo& servo, Reading reading);
-
-/// How far the numbers of a drivetrain may be from the data that they were rounded from, as shares
-/// of themselves: decimals, their units, and products of a few of them. A 0 is one.
+/// How far numbers may be from the data that they were worked out from, as shares of themselves:
+/// decimals, their units, and products of a few of them. A 0 is one.
 struct DataError {
   double each = 0x1p-46;            ///< sixty-four units in the last place
   double motor_friction = 0x1p-46;  ///< of F_M: more where it was worked out from a friction ratio
 };
+
+/// The box of one servo. Precondition: validate(servo) is empty.
+ServoBox box_of(const NormalizedServo& servo, Reading reading);
 
 /// Drives, with plastic contact; and how many seconds their unit of time, 1/ω_n, lasts.
 struct DriveBox {

@@ -14,7 +14,8 @@ namespace gearlash {
 /// H(s) u for the mesh torque N, and Im H(jω) < 0 for all ω > 0 just when this holds; a contact
 /// absorbs ∫N u̇ dt ≥ 0 (theorem and proof: docs/mathematics.md, Absence by energy). The polynomial
 /// is decided exactly, in rational numbers, of the doubles themselves or of the decimals that they
-/// stand for. Precondition: validate(servo) is empty.
+/// stand for. Precondition: validate(servo) is empty, and the
+/// reading is exact or decimal: converted numbers make a box.
 bool is_dissipative(const NormalizedServo& servo, Reading reading = Reading::exact);
 
 /// Whether that holds of every servo of the box; not where rounding leaves it open.
