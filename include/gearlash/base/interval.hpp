@@ -35,15 +35,26 @@ namespace outward {
 /// Units in the last place by which results of the C library are widened.
 inline constexpr double library_error = 4.0;
 
+/// A little more than half a unit in the last place of 1, of a number between 1 and 2.
+inline constexpr double half_unit = 0x1p-53 * (1.0 + 0x1p-52);
+
 /// A neighbour of x below it, or the next: of results that are not 0 but by being exact.
 inline double below(double x) {
-  constexpr double half_unit = 0x1p-53 * (1.0 + 0x1p-52);
   if (x == 0.0) return x;
   const double lower = x - (half_unit * std::abs(x) + std::numeric_limits<double>::denorm_min());
   // An overflow: all that is known is that the number is large.
   return x == std::numeric_limits<double>::infinity() ? std::numeric_limits<double>::max() : lower;
 }
 inline double above(double x) { return -below(-x); }
+
+/// The same of positive products and quotients, which may be rounded to 0, or to infinity: then the
+/// lower is 0 (std::max drops the not-a-number).
+inline double positive_below(double x) {
+  return std::max(0.0, x - (half_unit * x + std::numeric_limits<double>::denorm_min()));
+}
+inline double positive_above(double x) {
+  return x + (half_unit * x + std::numeric_limits<double>::denorm_min());
+}
 
 /// Of a product or quotient, which may be rounded to 0.
 inline double product_below(double x, bool is_exact) {
@@ -112,8 +123,7 @@ inline Interval operator-(const Interval& x, const Interval& y) { return x + -y;
 inline Interval operator*(const Interval& x, const Interval& y) {
   // The most frequent: both positive and bounded.
   if (x.low > 0.0 && y.low > 0.0) {
-    return settled(std::max(0.0, outward::below(x.low * y.low)),
-                   outward::product_above(x.high * y.high, false));
+    return {outward::positive_below(x.low * y.low), outward::positive_above(x.high * y.high)};
   }
   return product_of_any_signs(x, y);
 }
@@ -121,6 +131,9 @@ inline Interval operator*(const Interval& x, const Interval& y) {
 /// The whole line where y contains 0, but [x.low/y.high, ∞) where both are not negative.
 inline Interval operator/(const Interval& x, const Interval& y) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (x.low > 0.0 && y.low > 0.0 && y.low < infinity) {
+    return {outward::positive_below(x.low / y.high), outward::positive_above(x.high / y.low)};
+  }
   if (y.high < 0.0) return -x / -y;
   if (y.low > 0.0) {
     const double low = x.low / (x.low >= 0.0 ? y.high : y.low);
