@@ -61,9 +61,9 @@ fuzz:  ## feed random bytes to the reader of data sheets for FUZZ_SECONDS (30)
 	cmake --preset fuzz
 	$(BUILD) fuzz --target servo_file_fuzzer
 	mkdir -p build/fuzz/found
-	build/fuzz/tests/io/fuzz/servo_file_fuzzer -max_total_time=$(FUZZ_SECONDS) -print_final_stats=1 \
-	  -dict=tests/io/fuzz/servo_file.dict -artifact_prefix=build/fuzz/ \
-	  build/fuzz/found tests/io/fuzz/corpus
+	build/fuzz/tests/input/fuzz/servo_file_fuzzer -max_total_time=$(FUZZ_SECONDS) -print_final_stats=1 \
+	  -dict=tests/input/fuzz/servo_file.dict -artifact_prefix=build/fuzz/ \
+	  build/fuzz/found tests/input/fuzz/corpus
 
 oracle: programs  ## 1,000 random servos beside a slow and independent integration
 	$(RELEASE)/tests/oracle/oracle_run

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "gearlash/chart/design_chart.hpp"
+#include "analysis/grid/design_chart.hpp"
 
 namespace gearlash::benchmarks {
 namespace {

@@ -2,15 +2,15 @@
 
 #include <cmath>
 
+#include "closed_form/growth_at_rest.hpp"
+#include "closed_form/lanes/cycle_batch.hpp"
+#include "closed_form/limit_cycle.hpp"
+#include "closed_form/phase.hpp"
+#include "closed_form/trajectory.hpp"
+#include "closed_form/unit_half_cycle.hpp"
 #include "cvode_rival.hpp"
-#include "gearlash/chart/cycle_batch.hpp"
-#include "gearlash/cycle/growth_at_rest.hpp"
-#include "gearlash/cycle/limit_cycle.hpp"
-#include "gearlash/cycle/unit_half_cycle.hpp"
-#include "gearlash/heritage/settled_cycle.hpp"
-#include "gearlash/motion/phase.hpp"
-#include "gearlash/motion/trajectory.hpp"
 #include "odeint_rival.hpp"
+#include "thesis/settled_cycle.hpp"
 
 namespace gearlash::benchmarks {
 namespace {
@@ -160,8 +160,8 @@ SingleTask prepare_phases(const Problem& problem) {
 }
 
 SingleTask prepare_program_of_1960(const Problem& problem) {
-  return [parameters = heritage::program_parameters(problem.servo)] {
-    const heritage::SettledCycle cycle = heritage::run_until_settled(parameters);
+  return [parameters = thesis::program_parameters(problem.servo)] {
+    const thesis::SettledCycle cycle = thesis::run_until_settled(parameters);
     return RivalCycle{cycle.size, cycle.period, 2 * cycle.cycles, cycle.settled && cycle.hunts};
   };
 }

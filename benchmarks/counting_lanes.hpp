@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "cycle_kernel_lanes.hpp"
+#include "closed_form/lanes/cycle_kernel_lanes.hpp"
 #include "operations.hpp"
 
 namespace gearlash::benchmarks {

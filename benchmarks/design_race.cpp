@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "gearlash/cycle/cycle_sensitivity.hpp"
-#include "gearlash/cycle/limit_cycle.hpp"
-#include "gearlash/design/feasible_values.hpp"
-#include "gearlash/design/hunting_margin.hpp"
-#include "gearlash/design/tolerance_study.hpp"
+#include "analysis/design/feasible_values.hpp"
+#include "analysis/design/hunting_margin.hpp"
+#include "analysis/design/tolerance_study.hpp"
+#include "closed_form/cycle_sensitivity.hpp"
+#include "closed_form/limit_cycle.hpp"
 
 namespace gearlash::benchmarks {
 namespace {

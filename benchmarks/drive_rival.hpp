@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "cvode_rival.hpp"
-#include "gearlash/drive/drive.hpp"
+#include "model/drive.hpp"
 
 namespace gearlash::benchmarks {
 

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "cycle_kernel.hpp"
+#include "closed_form/lanes/cycle_kernel.hpp"
 
 namespace gearlash::benchmarks {
 

@@ -1,4 +1,4 @@
-#include "cycle_kernel_lanes.hpp"
+#include "closed_form/lanes/cycle_kernel_lanes.hpp"
 #include "fused_kernel.hpp"
 
 namespace gearlash::benchmarks {

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <memory>
 
+#include "closed_form/lanes/cycle_table.hpp"
 #include "contestants.hpp"
-#include "gearlash/chart/cycle_table.hpp"
 #include "servo_lists.hpp"
 
 namespace gearlash::benchmarks {

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "../tests/hybrid/servo_system.hpp"
+#include "closed_form/limit_cycle.hpp"
 #include "cvode_rival.hpp"
 #include "drive_rival.hpp"
-#include "gearlash/cycle/limit_cycle.hpp"
-#include "gearlash/drive/drive_system.hpp"
-#include "gearlash/hybrid/hybrid_trajectory.hpp"
+#include "general/assemble/drive_system.hpp"
+#include "hybrid/hybrid_trajectory.hpp"
+#include "hybrid/servo_system.hpp"
 #include "odeint_rival.hpp"
 
 namespace gearlash::benchmarks {

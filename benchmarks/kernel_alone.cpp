@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <memory>
 
-#include "cycle_kernel.hpp"
+#include "closed_form/lanes/cycle_kernel.hpp"
+#include "closed_form/lanes/cycle_table.hpp"
 #include "fused_kernel.hpp"
-#include "gearlash/chart/cycle_table.hpp"
 #include "servo_lists.hpp"
 
 namespace gearlash::benchmarks {

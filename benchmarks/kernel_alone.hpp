@@ -4,8 +4,8 @@
 
 #include <string>
 
+#include "closed_form/lanes/cycle_batch.hpp"
 #include "fastest_times.hpp"
-#include "gearlash/chart/cycle_batch.hpp"
 
 namespace gearlash::benchmarks {
 

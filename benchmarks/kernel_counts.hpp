@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-#include "gearlash/servo/normalized_servo.hpp"
+#include "model/normalized_servo.hpp"
 #include "operations.hpp"
 
 namespace gearlash::benchmarks {

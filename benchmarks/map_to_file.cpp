@@ -21,10 +21,10 @@
 #include <system_error>
 #include <vector>
 
-#include "gearlash/chart/hunting_boundary.hpp"
-#include "gearlash/io/grid_netcdf.hpp"
-#include "gearlash/io/grid_pieces.hpp"
+#include "analysis/grid/hunting_boundary.hpp"
 #include "gearlash/version.hpp"
+#include "output/grid_netcdf.hpp"
+#include "output/grid_pieces.hpp"
 
 namespace gearlash::benchmarks {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "gearlash/cycle/limit_cycle.hpp"
-#include "gearlash/servo/normalized_servo.hpp"
+#include "closed_form/limit_cycle.hpp"
+#include "model/normalized_servo.hpp"
 
 namespace gearlash::benchmarks {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "gearlash/servo/normalized_servo.hpp"
+#include "model/normalized_servo.hpp"
 
 namespace gearlash::benchmarks {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <thread>
 
-#include "gearlash/chart/cycle_table.hpp"
+#include "closed_form/lanes/cycle_table.hpp"
 #include "servo_lists.hpp"
 #include "vector_functions.hpp"
 

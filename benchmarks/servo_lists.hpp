@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "gearlash/chart/servo_grid.hpp"
+#include "analysis/grid/servo_grid.hpp"
 
 namespace gearlash::benchmarks {
 

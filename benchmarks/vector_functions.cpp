@@ -2,7 +2,7 @@
 
 namespace gearlash::benchmarks {
 
-// Two vectors go together (src/chart/twin_lanes.hpp).
+// Two vectors go together (src/closed_form/lanes/twin_lanes.hpp).
 std::size_t lanes_in_step(VectorUnit unit) {
   switch (unit) {
     case VectorUnit::baseline:

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "gearlash/chart/cycle_batch.hpp"
+#include "closed_form/lanes/cycle_batch.hpp"
 #include "operations.hpp"
 
 namespace gearlash::benchmarks {

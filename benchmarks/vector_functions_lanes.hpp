@@ -2,7 +2,7 @@
 // template of the unit for the same reason.
 #pragma once
 
-#include "cycle_kernel_lanes.hpp"
+#include "closed_form/lanes/cycle_kernel_lanes.hpp"
 #include "vector_functions.hpp"
 
 namespace gearlash::benchmarks {

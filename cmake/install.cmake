@@ -1,38 +1,29 @@
 # What `cmake --install` lays down, so that another project can say
-#   find_package(gearlash 0.1 CONFIG REQUIRED)                  # the numerics; needs only Eigen
-#   find_package(gearlash 0.1 CONFIG REQUIRED COMPONENTS chart design io)  # also many servos at
-#                                                  # once, what must change, the reader of data sheets
-#   target_link_libraries(... gearlash::gearlash)  # or ::base, ::servo, ::motion, ::cycle, ::hybrid, ::drive, ::chart,
-#                                                  # ::design, ::io
+#   find_package(gearlash 0.1 CONFIG REQUIRED)                  # the numerics
+#   find_package(gearlash 0.1 CONFIG REQUIRED COMPONENTS files) # also readers, reports, pictures
+#   target_link_libraries(... gearlash::gearlash)               # or gearlash::picture with them
 
 include(CMakePackageConfigHelpers)
 set(gearlash_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/gearlash")
 
-set(layers base servo motion cycle hybrid drive chart design)
-install(TARGETS gearlash gearlash_base gearlash_servo gearlash_motion gearlash_cycle gearlash_hybrid
-                gearlash_drive
+install(TARGETS gearlash gearlash_base gearlash_numeric gearlash_model gearlash_hybrid
+                gearlash_closed_form gearlash_general gearlash_analysis
         EXPORT gearlash_numerics)
 install(EXPORT gearlash_numerics NAMESPACE gearlash:: FILE gearlashTargets.cmake
         DESTINATION "${gearlash_package_dir}")
 
-# Sets of their own: users of the numerics alone need not have the packages that chart and io link.
-install(TARGETS gearlash_chart gearlash_design EXPORT gearlash_chart)
-install(EXPORT gearlash_chart NAMESPACE gearlash:: FILE gearlashChartTargets.cmake
-        DESTINATION "${gearlash_package_dir}")
-
+# A set of their own: users of the numerics alone need not have the packages that these link.
 if(GEARLASH_BUILD_IO)
-  list(APPEND layers io)
-  install(TARGETS gearlash_io EXPORT gearlash_io)
-  install(EXPORT gearlash_io NAMESPACE gearlash:: FILE gearlashIoTargets.cmake
+  install(TARGETS gearlash_input gearlash_output gearlash_picture EXPORT gearlash_files)
+  install(EXPORT gearlash_files NAMESPACE gearlash:: FILE gearlashFilesTargets.cmake
           DESTINATION "${gearlash_package_dir}")
   install(FILES cmake/FindNetCDF.cmake cmake/FindUDUNITS2.cmake
           DESTINATION "${gearlash_package_dir}")
 endif()
 
-foreach(layer IN LISTS layers)
-  install(DIRECTORY include/gearlash/${layer} DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/gearlash"
-          FILES_MATCHING PATTERN "*.hpp")
-endforeach()
+# The headers of the rooms, until the public interface stands in include/gearlash.
+install(DIRECTORY src/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/gearlash/rooms"
+        FILES_MATCHING PATTERN "*.hpp")
 install(FILES "${PROJECT_BINARY_DIR}/include/gearlash/version.hpp"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/gearlash")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")

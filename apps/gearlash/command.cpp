@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "gearlash/io/units.hpp"
+#include "input/units.hpp"
 
 namespace gearlash::cli {
 namespace {

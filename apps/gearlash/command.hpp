@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "gearlash/io/report_units.hpp"
+#include "output/report_units.hpp"
 
 namespace gearlash::cli {
 

@@ -5,10 +5,10 @@
 #include <sstream>
 
 #include "command.hpp"
-#include "gearlash/drive/time_scale.hpp"
-#include "gearlash/io/comparison_report.hpp"
-#include "gearlash/io/output_file.hpp"
-#include "gearlash/io/units.hpp"
+#include "general/assemble/time_scale.hpp"
+#include "input/units.hpp"
+#include "output/comparison_report.hpp"
+#include "output/output_file.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 

@@ -3,13 +3,13 @@
 #include <cstdio>
 #include <memory>
 
+#include "analysis/drive_verdict.hpp"
+#include "closed_form/limit_cycle.hpp"
 #include "command.hpp"
-#include "gearlash/cycle/limit_cycle.hpp"
-#include "gearlash/drive/drive_verdict.hpp"
-#include "gearlash/io/describe_report.hpp"
-#include "gearlash/io/nyquist_picture.hpp"
-#include "gearlash/io/output_file.hpp"
-#include "gearlash/io/units.hpp"
+#include "input/units.hpp"
+#include "output/describe_report.hpp"
+#include "output/output_file.hpp"
+#include "picture/nyquist_picture.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 

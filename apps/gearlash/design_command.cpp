@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "command.hpp"
-#include "gearlash/io/design_report.hpp"
-#include "gearlash/io/output_file.hpp"
-#include "gearlash/io/region_map.hpp"
-#include "gearlash/io/target_text.hpp"
+#include "input/target_text.hpp"
+#include "output/design_report.hpp"
+#include "output/output_file.hpp"
+#include "picture/region_map.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 

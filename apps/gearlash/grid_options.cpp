@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <optional>
 
-#include "gearlash/chart/hunting_boundary.hpp"
-#include "gearlash/io/axis_text.hpp"
-#include "gearlash/servo/range_check.hpp"
+#include "analysis/grid/hunting_boundary.hpp"
+#include "base/range_check.hpp"
+#include "input/axis_text.hpp"
 #include "terminal.hpp"
 
 namespace gearlash::cli {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "gearlash/io/grid_netcdf.hpp"
-#include "gearlash/io/grid_table.hpp"
+#include "output/grid_netcdf.hpp"
+#include "output/grid_table.hpp"
 #include "servo_options.hpp"
 
 namespace gearlash::cli {

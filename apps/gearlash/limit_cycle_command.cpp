@@ -5,12 +5,12 @@
 #include <numbers>
 
 #include "command.hpp"
-#include "gearlash/io/attractor_report.hpp"
-#include "gearlash/io/change_report.hpp"
-#include "gearlash/io/limit_cycle_report.hpp"
-#include "gearlash/io/output_file.hpp"
-#include "gearlash/io/picture.hpp"
-#include "gearlash/io/units.hpp"
+#include "input/units.hpp"
+#include "output/attractor_report.hpp"
+#include "output/change_report.hpp"
+#include "output/limit_cycle_report.hpp"
+#include "output/output_file.hpp"
+#include "picture/picture.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 

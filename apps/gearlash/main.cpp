@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "base/violation.hpp"
 #include "command.hpp"
-#include "gearlash/io/output_file.hpp"
-#include "gearlash/io/units.hpp"
-#include "gearlash/servo/violation.hpp"
 #include "gearlash/version.hpp"
+#include "input/units.hpp"
+#include "output/output_file.hpp"
 
 namespace gearlash::cli {
 namespace {

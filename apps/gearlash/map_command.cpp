@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "command.hpp"
-#include "gearlash/io/grid_map.hpp"
 #include "grid_options.hpp"
+#include "picture/grid_map.hpp"
 
 namespace gearlash::cli {
 namespace {

@@ -2,9 +2,9 @@
 #include <memory>
 
 #include "command.hpp"
-#include "gearlash/io/output_file.hpp"
-#include "gearlash/io/units.hpp"
+#include "input/units.hpp"
 #include "motor_procedure.hpp"
+#include "output/output_file.hpp"
 #include "written_values.hpp"
 
 namespace gearlash::cli {

@@ -6,9 +6,9 @@
 #include <cmath>
 #include <vector>
 
-#include "gearlash/cycle/limit_cycle.hpp"
-#include "gearlash/io/limit_cycle_report.hpp"
-#include "gearlash/servo/overloaded.hpp"
+#include "base/overloaded.hpp"
+#include "closed_form/limit_cycle.hpp"
+#include "output/limit_cycle_report.hpp"
 
 namespace gearlash::cli {
 namespace {

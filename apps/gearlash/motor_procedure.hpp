@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "gearlash/io/servo_file.hpp"
+#include "input/servo_file.hpp"
 
 namespace gearlash::cli {
 

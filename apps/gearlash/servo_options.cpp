@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <map>
 
-#include "gearlash/drive/proportional_servo.hpp"
-#include "gearlash/io/units.hpp"
+#include "input/units.hpp"
+#include "model/proportional_servo.hpp"
 
 namespace gearlash::cli {
 namespace {

@@ -7,11 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "gearlash/design/changeable_drive.hpp"
-#include "gearlash/io/drive_file.hpp"
-#include "gearlash/io/report_units.hpp"
-#include "gearlash/io/servo_file.hpp"
-#include "gearlash/io/units.hpp"
+#include "analysis/design/changeable_drive.hpp"
+#include "input/drive_file.hpp"
+#include "input/servo_file.hpp"
+#include "input/units.hpp"
+#include "output/report_units.hpp"
 
 namespace gearlash::cli {
 

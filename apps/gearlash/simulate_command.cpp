@@ -6,10 +6,10 @@
 #include <memory>
 #include <numbers>
 
+#include "base/range_check.hpp"
 #include "command.hpp"
-#include "gearlash/io/picture.hpp"
-#include "gearlash/io/units.hpp"
-#include "gearlash/servo/range_check.hpp"
+#include "input/units.hpp"
+#include "picture/picture.hpp"
 #include "servo_options.hpp"
 #include "simulate_options.hpp"
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "gearlash/drive/time_scale.hpp"
-#include "gearlash/io/drive_motion_report.hpp"
-#include "gearlash/io/units.hpp"
-#include "gearlash/servo/range_check.hpp"
+#include "base/range_check.hpp"
+#include "general/assemble/time_scale.hpp"
+#include "input/units.hpp"
+#include "output/drive_motion_report.hpp"
 #include "simulate_options.hpp"
 
 namespace gearlash::cli {

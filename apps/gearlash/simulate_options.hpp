@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "command.hpp"
-#include "gearlash/io/motion_report.hpp"
-#include "gearlash/io/output_file.hpp"
-#include "gearlash/io/picture.hpp"
+#include "output/motion_report.hpp"
+#include "output/output_file.hpp"
+#include "picture/picture.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 

@@ -7,13 +7,13 @@
 #include <optional>
 
 #include "command.hpp"
-#include "gearlash/io/output_file.hpp"
-#include "gearlash/io/sweep_file.hpp"
-#include "gearlash/io/sweep_run.hpp"
-#include "gearlash/io/units.hpp"
 #include "grid_options.hpp"
+#include "input/sweep_file.hpp"
+#include "input/units.hpp"
+#include "output/output_file.hpp"
 #include "servo_options.hpp"
 #include "stop_request.hpp"
+#include "sweep_run.hpp"
 #include "terminal.hpp"
 
 namespace gearlash::cli {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "gearlash/io/report_units.hpp"
+#include "output/report_units.hpp"
 
 namespace gearlash::cli {
 namespace {

@@ -7,14 +7,14 @@
 #include <functional>
 #include <memory>
 
-#include "gearlash/cycle/limit_cycle.hpp"
-#include "gearlash/heritage/chart_reading.hpp"
-#include "gearlash/heritage/extensions.hpp"
-#include "gearlash/heritage/figures.hpp"
-#include "gearlash/io/columns.hpp"
-#include "gearlash/io/output_file.hpp"
+#include "closed_form/limit_cycle.hpp"
+#include "output/columns.hpp"
+#include "output/output_file.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
+#include "thesis/chart_reading.hpp"
+#include "thesis/extensions.hpp"
+#include "thesis/figures.hpp"
 #include "thesis_command.hpp"
 
 namespace gearlash::cli {
@@ -29,8 +29,8 @@ constexpr char figure_examples[] =
 
 std::vector<int> figure_numbers() {
   std::vector<int> numbers;
-  for (const auto& figure : heritage::thesis_figures()) numbers.push_back(figure.number);
-  for (const auto& figure : heritage::thesis_phase_figures()) numbers.push_back(figure.number);
+  for (const auto& figure : thesis::thesis_figures()) numbers.push_back(figure.number);
+  for (const auto& figure : thesis::thesis_phase_figures()) numbers.push_back(figure.number);
   return numbers;
 }
 
@@ -52,19 +52,19 @@ int read_figure_number(const std::string& text) {
 
 /// Works the figure out and draws it; `done` hears how far it is.
 std::string draw_figure(int number, PictureFormat format, const std::function<void(double)>& done) {
-  for (const auto& figure : heritage::thesis_phase_figures()) {
+  for (const auto& figure : thesis::thesis_phase_figures()) {
     if (figure.number == number) return draw_line_chart(chart_of(figure), format);
   }
-  const auto& figures = heritage::thesis_figures();
+  const auto& figures = thesis::thesis_figures();
   const auto figure = std::find_if(figures.begin(), figures.end(), [&](const auto& candidate) {
     return candidate.number == number;
   });
-  std::vector<heritage::FigureCurveData> data;
+  std::vector<thesis::FigureCurveData> data;
   const auto count = static_cast<double>(figure->curves.size());
   for (const auto& curve : figure->curves) {
     const auto before = static_cast<double>(data.size());
     data.push_back(
-        heritage::work_out(*figure, curve, [&](double share) { done((before + share) / count); }));
+        thesis::work_out(*figure, curve, [&](double share) { done((before + share) / count); }));
   }
   return draw_line_chart(chart_of(*figure, data), format);
 }
@@ -76,8 +76,7 @@ constexpr char chart_reading_examples[] =
     "      --backlash .1\n"
     "  gearlash thesis chart-reading examples/elinco-fd162.toml\n";
 
-std::string chart_reading_text(const NormalizedServo& servo,
-                               const heritage::ChartReading& reading) {
+std::string chart_reading_text(const NormalizedServo& servo, const thesis::ChartReading& reading) {
   std::string text = "Reading the charts of 1960 (Appendix C of the thesis)\n\n";
   text += fmt::format("  1. The variables: damping {}, inertia ratio {}, friction ratio {}\n",
                       significant(servo.damping, 4), significant(servo.inertia_ratio, 4),
@@ -103,7 +102,7 @@ std::string chart_reading_text(const NormalizedServo& servo,
   const double size = exact.cycles.front().size;
   text += fmt::format("\nExactly: ±{} rad; reading the chart is off by {:+.1f} %\n",
                       significant(size, 6), 100.0 * (reading.size / size - 1.0));
-  const auto error = heritage::reading_error(servo, reading);
+  const auto error = thesis::reading_error(servo, reading);
   if (!error) return text;
   const auto row = [](const char* cause, double part) {
     return fmt::format("  {:<56}{:+.1f} %\n", cause, 100.0 * part);
@@ -196,7 +195,7 @@ void add_thesis_chart_reading(CLI::App& thesis, Action& action) {
       Faults faults;
       const ServoFile file = resolve_servo(*options, faults);
       faults.require_none();
-      write_file("-", chart_reading_text(file.servo, heritage::read_chart(file.servo)));
+      write_file("-", chart_reading_text(file.servo, thesis::read_chart(file.servo)));
       return ExitStatus::done;
     };
   });
@@ -231,7 +230,7 @@ void add_thesis_extension(CLI::App& thesis, Action& action) {
           faults.collect([&] { return picture_format("--output", file); }, PictureFormat::svg);
       faults.require_none();
       Progress progress("Extension " + options->number);
-      const heritage::Extension extension = heritage::extension(
+      const thesis::Extension extension = thesis::extension(
           std::stoi(options->number), [&](double share) { progress.show(share); });
       write_file(file, draw_line_chart(extension.chart, format));
       write_file("-", wrapped(fmt::format("{}. {}", extension.number, extension.wish)) + "\n" +

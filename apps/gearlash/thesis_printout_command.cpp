@@ -5,23 +5,23 @@
 #include <memory>
 #include <optional>
 
-#include "gearlash/heritage/float_1604.hpp"
-#include "gearlash/heritage/listing.hpp"
-#include "gearlash/heritage/mendings.hpp"
-#include "gearlash/heritage/printout.hpp"
-#include "gearlash/heritage/thesis_machine.hpp"
-#include "gearlash/io/output_file.hpp"
+#include "output/output_file.hpp"
 #include "servo_options.hpp"
+#include "thesis/float_1604.hpp"
+#include "thesis/listing.hpp"
+#include "thesis/mendings.hpp"
+#include "thesis/printout.hpp"
+#include "thesis/thesis_machine.hpp"
 #include "thesis_command.hpp"
 
 namespace gearlash::cli {
 namespace {
 
-using heritage::FloatRules;
-using heritage::Number1604;
-using heritage::PrintedLine;
-using heritage::PrintedNumber;
-using heritage::PrintedRow;
+using thesis::FloatRules;
+using thesis::Number1604;
+using thesis::PrintedLine;
+using thesis::PrintedNumber;
+using thesis::PrintedRow;
 
 // --- table-2 ---
 
@@ -32,9 +32,9 @@ constexpr char table_2_examples[] =
 
 std::vector<PrintedLine> run_listed_program(const std::string& arithmetic, std::size_t lines) {
   if (arithmetic == "1604") {
-    return heritage::printout<Number1604<FloatRules{}>>(heritage::listed_parameters, lines);
+    return thesis::printout<Number1604<FloatRules{}>>(thesis::listed_parameters, lines);
   }
-  return heritage::printout<double>(heritage::listed_parameters, lines);
+  return thesis::printout<double>(thesis::listed_parameters, lines);
 }
 
 std::string row_text(const PrintedRow& row) {
@@ -45,15 +45,15 @@ std::string row_text(const PrintedRow& row) {
 
 /// Lines of a printout beside those of Table II.
 std::string beside_table_2(const std::vector<PrintedLine>& lines) {
-  const auto& printed = heritage::thesis_table_2();
+  const auto& printed = thesis::thesis_table_2();
   const std::string heading = fmt::format("{:<13}{:<13}{:<13}{:<13}{:<13}", "TIME", "MOTOR SPEED",
                                           "MOTOR POS.", "LOAD SPEED", "LOAD POS.");
   std::string text = fmt::format("{:<68}{}\n", "now", "1960");
   text += heading + "   " + heading.substr(0, heading.find_last_not_of(' ') + 1) + "\n";
-  heritage::Reproduction result;
+  thesis::Reproduction result;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const PrintedRow now = printed_row(lines[i]);
-    heritage::compare(printed[i], now, i, result);
+    thesis::compare(printed[i], now, i, result);
     const std::string row = row_text(now) + "   " + row_text(printed[i]);
     text += row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
   }
@@ -72,8 +72,8 @@ std::string beside_table_2(const std::vector<PrintedLine>& lines) {
 std::string properties_text() {
   std::string text =
       "Numbers of Table II, of 190, that come out within one unit of the eighth digit\n\n";
-  for (const heritage::NamedMending& one : heritage::mendings()) {
-    text += fmt::format("  {:<54}{:>3}\n", one.name, heritage::numbers_reproduced(one.mending));
+  for (const thesis::NamedMending& one : thesis::mendings()) {
+    text += fmt::format("  {:<54}{:>3}\n", one.name, thesis::numbers_reproduced(one.mending));
   }
   return text;
 }
@@ -93,21 +93,21 @@ struct MachineOptions {
 };
 
 /// How many numbers of Table II the port prints under each set of rules.
-template <heritage::SumRule sum, heritage::LengthRule product, heritage::LengthRule quotient>
+template <thesis::SumRule sum, thesis::LengthRule product, thesis::LengthRule quotient>
 int digits_reproduced() {
-  const auto& printed = heritage::thesis_table_2();
-  const auto lines = heritage::printout<Number1604<FloatRules{sum, product, quotient}>>(
-      heritage::listed_parameters, printed.size());
-  heritage::Reproduction result;
+  const auto& printed = thesis::thesis_table_2();
+  const auto lines = thesis::printout<Number1604<FloatRules{sum, product, quotient}>>(
+      thesis::listed_parameters, printed.size());
+  thesis::Reproduction result;
   for (std::size_t i = 0; i < lines.size(); ++i)
-    heritage::compare(printed[i], printed_row(lines[i]), i, result);
+    thesis::compare(printed[i], printed_row(lines[i]), i, result);
   return result.exact;
 }
 
-template <heritage::SumRule sum>
+template <thesis::SumRule sum>
 std::string rules_rows(const std::string& name) {
-  constexpr auto cut = heritage::LengthRule::truncated;
-  constexpr auto round = heritage::LengthRule::rounded;
+  constexpr auto cut = thesis::LengthRule::truncated;
+  constexpr auto round = thesis::LengthRule::rounded;
   const auto row = [&](const char* product, const char* quotient, int exact) {
     return fmt::format("  {:<44}{:<12}{:<12}{}\n", name, product, quotient, exact);
   };
@@ -118,7 +118,7 @@ std::string rules_rows(const std::string& name) {
 }
 
 std::string rules_text() {
-  using heritage::SumRule;
+  using thesis::SumRule;
   return "Rules of rounding, and how many of the 190 numbers of Table II they give digit for "
          "digit\n"
          "\n" +
@@ -129,14 +129,14 @@ std::string rules_text() {
 }
 
 std::string listing_text() {
-  const auto differences = heritage::differences_of_listing();
+  const auto differences = thesis::differences_of_listing();
   std::string text = fmt::format(
       "Table I: {} words. Its symbolic column assembles to its octal column but for {}:\n",
-      heritage::thesis_table_1().octal.size(), differences.size());
+      thesis::thesis_table_1().octal.size(), differences.size());
   for (const auto& difference : differences) {
     text += fmt::format("  {:05o}  listed     {}\n", difference.address,
-                        heritage::octal_text(difference.listed));
-    text += fmt::format("         assembled  {}   {}\n", heritage::octal_text(difference.assembled),
+                        thesis::octal_text(difference.listed));
+    text += fmt::format("         assembled  {}   {}\n", thesis::octal_text(difference.assembled),
                         difference.source);
   }
   return text;
@@ -144,31 +144,31 @@ std::string listing_text() {
 
 /// The first instructions with the registers before each, and the registers after the last.
 std::string trace_text(int count) {
-  heritage::ThesisMachine thesis;
+  thesis::ThesisMachine thesis;
   std::string text = "   P      instruction         A                 B1 … B6\n";
-  const auto registers_text = [](const heritage::Registers& registers) {
+  const auto registers_text = [](const thesis::Registers& registers) {
     std::string indices;
     for (std::size_t b = 1; b < registers.index.size(); ++b) {
       indices += fmt::format(" {:05o}", registers.index[b]);
     }
     return fmt::format("{:016o} {}", registers.a, indices);
   };
-  thesis.machine().set_trace([&](const heritage::Registers& registers,
-                                 const heritage::Instruction& instruction) {
-    text += fmt::format("  {:05o} {}  {:<4} {} {:05o}  {}\n", registers.p,
-                        registers.in_lower ? "L" : "U", heritage::mnemonic(instruction.operation),
-                        instruction.designator, instruction.operand, registers_text(registers));
-  });
+  thesis.machine().set_trace(
+      [&](const thesis::Registers& registers, const thesis::Instruction& instruction) {
+        text += fmt::format("  {:05o} {}  {:<4} {} {:05o}  {}\n", registers.p,
+                            registers.in_lower ? "L" : "U", thesis::mnemonic(instruction.operation),
+                            instruction.designator, instruction.operand, registers_text(registers));
+      });
   for (int i = 0; i < count; ++i) thesis.machine().step();
-  const heritage::Registers& last = thesis.machine().registers();
+  const thesis::Registers& last = thesis.machine().registers();
   return text + fmt::format("  {:05o} {}  {:<12}  {}\n", last.p, last.in_lower ? "L" : "U", "",
                             registers_text(last));
 }
 
 std::string machine_text() {
-  heritage::ThesisMachine thesis;
+  thesis::ThesisMachine thesis;
   std::vector<PrintedLine> lines;
-  while (lines.size() < heritage::thesis_table_2().size()) lines.push_back(thesis.next_line());
+  while (lines.size() < thesis::thesis_table_2().size()) lines.push_back(thesis.next_line());
   return "Table II: the octal words of Table I run by an emulated CDC 1604, and what it printed "
          "in 1960\n\n" +
          beside_table_2(lines) +
@@ -215,7 +215,7 @@ void add_thesis_table_2(CLI::App& thesis, Action& action) {
         write_file("-", properties_text());
         return ExitStatus::done;
       }
-      const std::size_t lines = heritage::thesis_table_2().size();
+      const std::size_t lines = thesis::thesis_table_2().size();
       write_file("-", "Table II: the program of 1960 run again, and what it printed then\n\n" +
                           beside_table_2(run_listed_program(options->arithmetic, lines)));
       return ExitStatus::done;

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <memory>
 
-#include "gearlash/heritage/chart_errors.hpp"
-#include "gearlash/heritage/mendings.hpp"
-#include "gearlash/heritage/settled_cycle.hpp"
-#include "gearlash/io/output_file.hpp"
+#include "output/output_file.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
+#include "thesis/chart_errors.hpp"
+#include "thesis/mendings.hpp"
+#include "thesis/settled_cycle.hpp"
 #include "thesis_command.hpp"
 
 namespace gearlash::cli {
@@ -26,7 +26,7 @@ constexpr char run_examples[] =
     "  gearlash thesis run --all --machine\n"
     "  gearlash thesis run --causes\n";
 
-std::string run_text(const NormalizedServo& servo, const heritage::SettledCycle& cycle) {
+std::string run_text(const NormalizedServo& servo, const thesis::SettledCycle& cycle) {
   std::string text =
       fmt::format("The program of 1960, {} s of the servo's time in steps of 0.01 s (ω_n = 1):\n",
                   significant(cycle.run_time, 4));
@@ -60,13 +60,13 @@ std::string run_text(const NormalizedServo& servo, const heritage::SettledCycle&
 }
 
 /// Errors of the charts in per cent, a table for each friction ratio.
-std::string errors_text(const std::vector<heritage::ChartError>& errors) {
+std::string errors_text(const std::vector<thesis::ChartError>& errors) {
   std::string text =
       "Sizes of the program of 1960 against the exact ones, in per cent\n"
       "(·: neither hunts; then, now: only the program or only the exact servo hunts)\n";
   std::vector<double> sizes;
-  const heritage::ChartError* before = nullptr;
-  for (const heritage::ChartError& error : errors) {
+  const thesis::ChartError* before = nullptr;
+  for (const thesis::ChartError& error : errors) {
     const NormalizedServo& servo = error.servo;
     if (before == nullptr || before->servo.friction_ratio != servo.friction_ratio) {
       text += fmt::format("\n\nfriction ratio {:<8}", servo.friction_ratio);
@@ -110,10 +110,10 @@ std::string causes_text() {
   text += row("damping", &NormalizedServo::damping) +
           row("inertia ratio", &NormalizedServo::inertia_ratio) +
           row("friction ratio", &NormalizedServo::friction_ratio) + "\n";
-  for (const heritage::NamedMending& one : heritage::mendings()) {
+  for (const thesis::NamedMending& one : thesis::mendings()) {
     text += fmt::format("  {:<54}", one.name);
     for (const NormalizedServo& servo : servos) {
-      const double error = heritage::size_error(servo, one.mending);
+      const double error = thesis::size_error(servo, one.mending);
       text += std::isnan(error) ? fmt::format("{:>7}", "rests")
                                 : fmt::format("{:>+7.2f}", 100.0 * error);
     }
@@ -125,7 +125,7 @@ std::string causes_text() {
 /// All of the thesis's charts, by the port or by the emulated machine: what each of them gave, and
 /// what it took.
 struct AllRuns {
-  std::vector<heritage::ChartError> errors;
+  std::vector<thesis::ChartError> errors;
   std::string effort;  ///< of the emulated machine, a line
 };
 
@@ -133,16 +133,16 @@ AllRuns run_all(bool on_machine) {
   Progress progress("Charts");
   const auto show = [&](double share) { progress.show(share); };
   if (!on_machine) {
-    const auto run = [](const heritage::ProgramParameters& parameters) {
-      return heritage::run_until_settled(parameters);
+    const auto run = [](const thesis::ProgramParameters& parameters) {
+      return thesis::run_until_settled(parameters);
     };
-    return {heritage::chart_errors(run, show), ""};
+    return {thesis::chart_errors(run, show), ""};
   }
   const auto start = std::chrono::steady_clock::now();
   std::size_t instructions = 0;
-  const auto errors = heritage::chart_errors(
-      [&](const heritage::ProgramParameters& parameters) {
-        const heritage::MachineRun run = heritage::run_machine_until_settled(parameters);
+  const auto errors = thesis::chart_errors(
+      [&](const thesis::ProgramParameters& parameters) {
+        const thesis::MachineRun run = thesis::run_machine_until_settled(parameters);
         instructions += run.instructions;
         return run.cycle;
       },
@@ -186,10 +186,10 @@ ExitStatus run_program(const RunOptions& options) {
   Faults faults;
   const ServoFile file = resolve_servo(typed, faults);
   faults.require_none();
-  const auto parameters = heritage::program_parameters(file.servo);
-  const heritage::SettledCycle cycle = options.machine
-                                           ? heritage::run_machine_until_settled(parameters).cycle
-                                           : heritage::run_until_settled(parameters);
+  const auto parameters = thesis::program_parameters(file.servo);
+  const thesis::SettledCycle cycle = options.machine
+                                         ? thesis::run_machine_until_settled(parameters).cycle
+                                         : thesis::run_until_settled(parameters);
   write_file("-", run_text(file.servo, cycle));
   return cycle.settled ? ExitStatus::done : ExitStatus::undecided;
 }

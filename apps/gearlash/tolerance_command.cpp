@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "command.hpp"
-#include "gearlash/io/output_file.hpp"
-#include "gearlash/io/target_text.hpp"
-#include "gearlash/io/tolerance_data.hpp"
-#include "gearlash/io/tolerance_pictures.hpp"
-#include "gearlash/io/tolerance_report.hpp"
+#include "input/target_text.hpp"
+#include "output/output_file.hpp"
+#include "output/tolerance_data.hpp"
+#include "output/tolerance_report.hpp"
+#include "picture/tolerance_pictures.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <system_error>
 
-#include "gearlash/io/units.hpp"
+#include "input/units.hpp"
 
 namespace gearlash::cli {
 

@@ -6,7 +6,8 @@
 // '' using 1:5).
 #include <cmath>
 #include <cstdio>
-#include <gearlash/drive/attractors.hpp>
+
+#include "general/attractors/attractors.hpp"
 
 using namespace gearlash::drive;
 

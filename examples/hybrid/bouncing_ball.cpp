@@ -1,7 +1,8 @@
 // A ball that bounces to rest: infinitely many bounces in a finite time.
 #include <cmath>
 #include <cstdio>
-#include <gearlash/hybrid/hybrid_trajectory.hpp>
+
+#include "hybrid/hybrid_trajectory.hpp"
 
 using namespace gearlash::hybrid;
 

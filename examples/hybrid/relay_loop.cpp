@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <gearlash/hybrid/periodic_orbit.hpp>
 #include <numbers>
+
+#include "hybrid/periodic_orbit.hpp"
 
 using namespace gearlash::hybrid;
 

@@ -1,8 +1,9 @@
 // A wheel of spokes without a rim, rolling down a slope: the speed that it settles to.
 #include <cmath>
 #include <cstdio>
-#include <gearlash/hybrid/periodic_orbit.hpp>
 #include <numbers>
+
+#include "hybrid/periodic_orbit.hpp"
 
 using namespace gearlash::hybrid;
 

@@ -1,11 +1,11 @@
-#include "gearlash/hybrid/continuation.hpp"
+#include "hybrid/continuation.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "shooting.hpp"
+#include "hybrid/shooting.hpp"
 
 namespace gearlash::hybrid {
 namespace {

@@ -1,4 +1,4 @@
-#include "fast_decays.hpp"
+#include "hybrid/fast_decays.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

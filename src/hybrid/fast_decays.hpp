@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "gearlash/hybrid/hybrid_system.hpp"
+#include "hybrid/hybrid_system.hpp"
 
 namespace gearlash::hybrid {
 

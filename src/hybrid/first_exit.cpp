@@ -1,4 +1,4 @@
-#include "gearlash/hybrid/first_exit.hpp"
+#include "hybrid/first_exit.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>

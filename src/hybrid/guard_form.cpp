@@ -1,10 +1,10 @@
-#include "guard_form.hpp"
+#include "hybrid/guard_form.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "gearlash/hybrid/first_exit.hpp"
+#include "hybrid/first_exit.hpp"
 
 namespace gearlash::hybrid {
 

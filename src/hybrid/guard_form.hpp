@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "linear_flow.hpp"
+#include "hybrid/linear_flow.hpp"
 
 namespace gearlash::hybrid {
 

@@ -1,4 +1,4 @@
-#include "gearlash/hybrid/hybrid_system.hpp"
+#include "hybrid/hybrid_system.hpp"
 
 #include <cmath>
 

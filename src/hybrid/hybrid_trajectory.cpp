@@ -1,8 +1,8 @@
-#include "gearlash/hybrid/hybrid_trajectory.hpp"
+#include "hybrid/hybrid_trajectory.hpp"
 
 #include <algorithm>
 
-#include "preparation.hpp"
+#include "hybrid/preparation.hpp"
 
 namespace gearlash::hybrid {
 

@@ -1,4 +1,4 @@
-#include "linear_flow.hpp"
+#include "hybrid/linear_flow.hpp"
 
 #include <algorithm>
 #include <array>

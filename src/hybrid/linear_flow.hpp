@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "gearlash/hybrid/hybrid_system.hpp"
+#include "hybrid/hybrid_system.hpp"
 
 namespace gearlash::hybrid {
 

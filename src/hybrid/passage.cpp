@@ -1,4 +1,4 @@
-#include "passage.hpp"
+#include "hybrid/passage.hpp"
 
 #include <algorithm>
 #include <cmath>

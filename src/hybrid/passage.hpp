@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "gearlash/hybrid/hybrid_trajectory.hpp"
+#include "hybrid/hybrid_trajectory.hpp"
 
 namespace gearlash::hybrid {
 

@@ -1,9 +1,9 @@
-#include "gearlash/hybrid/periodic_orbit.hpp"
+#include "hybrid/periodic_orbit.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "shooting.hpp"
+#include "hybrid/shooting.hpp"
 
 namespace gearlash::hybrid {
 namespace {

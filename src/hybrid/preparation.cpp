@@ -1,4 +1,4 @@
-#include "preparation.hpp"
+#include "hybrid/preparation.hpp"
 
 #include <cmath>
 

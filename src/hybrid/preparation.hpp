@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "fast_decays.hpp"
-#include "guard_form.hpp"
+#include "hybrid/fast_decays.hpp"
+#include "hybrid/guard_form.hpp"
 
 namespace gearlash::hybrid {
 

@@ -1,4 +1,4 @@
-#include "shooting.hpp"
+#include "hybrid/shooting.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "gearlash/hybrid/periodic_orbit.hpp"
-#include "passage.hpp"
+#include "hybrid/passage.hpp"
+#include "hybrid/periodic_orbit.hpp"
 
 namespace gearlash::hybrid {
 

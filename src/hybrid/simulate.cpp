@@ -5,9 +5,9 @@
 #include <span>
 #include <stdexcept>
 
-#include "gearlash/hybrid/first_exit.hpp"
-#include "gearlash/hybrid/hybrid_trajectory.hpp"
-#include "preparation.hpp"
+#include "hybrid/first_exit.hpp"
+#include "hybrid/hybrid_trajectory.hpp"
+#include "hybrid/preparation.hpp"
 
 namespace gearlash::hybrid {
 namespace {

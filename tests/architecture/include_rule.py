@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Checks the include rule: a layer includes only the layers that stand to its left.
+"""Checks the include rule: a room includes only the rooms that stand before it in this list.
 
-    base <- servo <- motion <- cycle <- chart <- design <- io <- apps
-              hybrid <- drive /             heritage uses all; no layer uses it
+    base, numeric, model, hybrid, closed_form, general, analysis, input, output, picture, thesis
 
-Nothing left of io prints, reads files or looks at clocks, so that the numerics compile for any
-machine (WebAssembly too) and give the same answer wherever they are called from.
+hybrid knows nothing of gears: it includes only base and numeric. closed_form and general do not
+know each other. No room includes thesis. Nothing before input prints, reads files or looks at
+clocks, so that the numerics compile for any machine (WebAssembly too) and give the same answer
+wherever they are called from. Public headers, in include/gearlash, include no room at all.
 
 Usage: include_rule.py ROOT       prints every violation as file:line: reason; exit status 1 if any
 """
@@ -14,38 +15,37 @@ import pathlib
 import re
 import sys
 
-# Layer -> the other layers that it may include.
-PERMITTED_LAYERS = {
+NUMERICS = ("base", "numeric", "model", "hybrid", "closed_form", "general", "analysis")
+MODEL = {"base", "numeric", "model"}
+
+# Room -> the other rooms that it may include.
+PERMITTED_ROOMS = {
     "base": set(),
-    "servo": {"base"},
-    "motion": {"base", "servo"},
-    "cycle": {"base", "servo", "motion"},
-    "chart": {"base", "servo", "motion", "cycle"},
-    "design": {"base", "servo", "motion", "cycle", "chart"},
-    "hybrid": set(),
-    "drive": {"base", "servo", "motion", "cycle", "hybrid"},
-    "io": {"base", "servo", "motion", "cycle", "chart", "design", "hybrid", "drive"},
-    "heritage": {"base", "servo", "motion", "cycle", "chart", "design", "hybrid", "drive", "io"},
+    "numeric": {"base"},
+    "model": {"base", "numeric"},
+    "hybrid": {"base", "numeric"},
+    "closed_form": MODEL,
+    "general": MODEL | {"hybrid"},
+    "analysis": MODEL | {"hybrid", "closed_form", "general"},
+    "input": set(NUMERICS),
+    # Some reports still draw their own pictures; these move to picture with the one report.
+    "output": set(NUMERICS) | {"input", "picture"},
+    "picture": set(NUMERICS) | {"input", "output"},
+    "thesis": set(NUMERICS) | {"input", "output", "picture"},
 }
 
-# Layer left of io -> the libraries that its .cpp files and private headers may include.
+# Room of the numerics -> the libraries that it may include.
+EIGEN = ("Eigen/", "unsupported/Eigen/MatrixFunctions")
 PERMITTED_LIBRARIES = {
-    "base": (),
-    "servo": (),
-    "motion": ("boost/math/",),
-    "cycle": ("boost/math/", "boost/multiprecision/", "Eigen/",
-              "unsupported/Eigen/AutoDiff"),
-    "chart": ("boost/math/", "Eigen/", "xsimd/", "tbb/", "oneapi/tbb"),
-    "design": ("boost/math/", "boost/random/", "Eigen/", "tbb/", "oneapi/tbb"),
-    "hybrid": ("boost/math/", "Eigen/", "unsupported/Eigen/MatrixFunctions"),
-    "drive": ("boost/math/", "boost/multiprecision/", "Eigen/",
-              "unsupported/Eigen/MatrixFunctions"),
+    "base": ("boost/math/", "tbb/"),
+    "numeric": ("boost/math/", *EIGEN),
+    "model": ("boost/math/", "boost/multiprecision/", "Eigen/"),
+    "hybrid": ("boost/math/", *EIGEN),
+    "closed_form": ("boost/math/", "boost/multiprecision/", "Eigen/",
+                    "unsupported/Eigen/AutoDiff", "xsimd/"),
+    "general": ("boost/math/", "boost/multiprecision/", *EIGEN),
+    "analysis": ("boost/math/", "boost/multiprecision/", "boost/random/", *EIGEN, "tbb/"),
 }
-
-# What the public headers of the numerics may include: users of an installed Gearlash then need that
-# package too, and gearlashConfig.cmake must find it.
-PERMITTED_IN_PUBLIC_HEADERS = {"base": (), "servo": (), "motion": (), "cycle": ("Eigen/",),
-                               "chart": ("Eigen/",)}
 
 PRINTS_OR_READS = {
     "iostream", "istream", "ostream", "fstream", "syncstream", "print", "cstdio", "stdio.h",
@@ -61,57 +61,60 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 CPP_SUFFIXES = {".hpp", ".cpp", ".h"}
 
 
-def reason_against_layer(layer, name):
-    """Why `layer` may not include the project header `name` ("gearlash/cycle/..."), or None."""
-    parts = name.split("/")
-    if len(parts) == 2:  # gearlash/version.hpp stands left of every layer
+def reason_against_room(room, name):
+    """Why `room` may not include the header `name` ("closed_form/..."), or None."""
+    other = name.split("/")[0]
+    if other == "gearlash":  # the public interface stands before every room
         return None
-    other = parts[1]
-    if other not in PERMITTED_LAYERS:
-        return f"includes {name}: {other} is no layer of the include rule"
-    if other != layer and other not in PERMITTED_LAYERS[layer]:
-        permitted = ", ".join(sorted(PERMITTED_LAYERS[layer])) or "no other layer"
-        return f"{layer} includes {name}: it may include {permitted}"
+    if other not in PERMITTED_ROOMS:
+        return f'includes "{name}": {other} is no room of the include rule'
+    if other != room and other not in PERMITTED_ROOMS[room]:
+        permitted = ", ".join(sorted(PERMITTED_ROOMS[room])) or "no other room"
+        return f"{room} includes {name}: it may include {permitted}"
     return None
 
 
-def reason_against_outside_header(layer, name, public):
-    """Why `layer`, left of io, may not include the header `name` of another project, or None."""
+def reason_against_outside_header(room, name):
+    """Why `room`, of the numerics, may not include the header `name` of another project, or None."""
     if name in PRINTS_OR_READS:
-        return f"{layer} includes <{name}>: nothing left of io prints or reads files"
+        return f"{room} includes <{name}>: nothing before input prints or reads files"
     if name in LOOKS_AT_CLOCKS:
-        return f"{layer} includes <{name}>: nothing left of io looks at clocks"
+        return f"{room} includes <{name}>: nothing before input looks at clocks"
     if name in NOT_IN_WEB_ASSEMBLY:
-        return f"{layer} includes <{name}>: it must also compile for WebAssembly with clang 14"
+        return f"{room} includes <{name}>: it must also compile for WebAssembly with clang 14"
     if "/" not in name and "." not in name:  # the rest of the standard library
         return None
-    libraries = PERMITTED_LIBRARIES[layer]
-    what = layer
-    if public:
-        libraries = PERMITTED_IN_PUBLIC_HEADERS.get(layer, libraries)
-        what = f"public header of {layer}"
+    libraries = PERMITTED_LIBRARIES[room]
     if name.startswith(libraries):
         return None
-    permitted = ", ".join(libraries) or "the standard library alone"
-    return f"{what} includes <{name}>: it may include {permitted}"
+    return f"{room} includes <{name}>: it may include {', '.join(libraries)}"
 
 
-def reasons_against(layer, file, public):
-    """(line, reason) for each include of `file` that breaks the rule."""
+def reason_against_public_include(quoted, name):
+    """Why a public header may not include `name`, or None."""
+    if name.startswith("gearlash/") or (not quoted and "/" not in name and "." not in name):
+        return None
+    return f"public header includes {name}: it may include gearlash/ and the standard library"
+
+
+def reasons_against(room, file):
+    """(line, reason) for each include of `file` that breaks the rule; no room: a public header."""
     for number, line in enumerate(file.read_text(encoding="utf-8").splitlines(), start=1):
         match = INCLUDE.match(line)
         if not match:
             continue
         quoted, name = match.group(1) == '"', match.group(2)
         reason = None
-        if name.startswith("gearlash/"):
-            reason = reason_against_layer(layer, name)
-        elif quoted and not (file.parent / name).is_file():
-            reason = f"includes \"{name}\", which is not beside it: write gearlash/<layer>/<file>"
+        if room is None:
+            reason = reason_against_public_include(quoted, name)
         elif ".." in name.split("/"):
-            reason = f"includes \"{name}\": a path may not climb out of its layer"
-        elif not quoted and layer in PERMITTED_LIBRARIES:
-            reason = reason_against_outside_header(layer, name, public)
+            reason = f'includes "{name}": write the whole path, <room>/<file>'
+        elif name.split("/")[0] in PERMITTED_ROOMS or name.startswith("gearlash/"):
+            reason = reason_against_room(room, name)
+        elif quoted:
+            reason = f'includes "{name}": write the whole path, <room>/<file>'
+        elif room in PERMITTED_LIBRARIES:
+            reason = reason_against_outside_header(room, name)
         if reason:
             yield number, reason
 
@@ -124,19 +127,23 @@ def forbidden_names(root):
                 yield f"{path.relative_to(root)}: a name that says nothing of what it holds"
 
 
+def cpp_files(folder):
+    return [file for file in sorted(folder.rglob("*")) if file.suffix in CPP_SUFFIXES]
+
+
 def violations(root):
     """Every violation below `root`, as "file:line: reason"."""
     found = list(forbidden_names(root))
-    for top, public in ((root / "include" / "gearlash", True), (root / "src", False)):
-        for folder in sorted(path for path in top.glob("*") if path.is_dir()):
-            if folder.name not in PERMITTED_LAYERS:
-                found.append(f"{folder.relative_to(root)}: no layer of the include rule")
-                continue
-            for file in sorted(folder.rglob("*")):
-                if file.suffix in CPP_SUFFIXES:
-                    where = file.relative_to(root)
-                    for line, reason in reasons_against(folder.name, file, public):
-                        found.append(f"{where}:{line}: {reason}")
+    folders = [(None, root / "include" / "gearlash")]
+    for folder in sorted(path for path in (root / "src").glob("*") if path.is_dir()):
+        if folder.name in PERMITTED_ROOMS:
+            folders.append((folder.name, folder))
+        else:
+            found.append(f"{folder.relative_to(root)}: no room of the include rule")
+    for room, folder in folders:
+        for file in cpp_files(folder):
+            where = file.relative_to(root)
+            found += [f"{where}:{line}: {why}" for line, why in reasons_against(room, file)]
     return found
 
 
@@ -145,8 +152,8 @@ def main(arguments):
         print(__doc__, file=sys.stderr)
         return 2
     root = pathlib.Path(arguments[0])
-    if not (root / "include" / "gearlash").is_dir():
-        print(f"ROOT = {root}: must hold include/gearlash", file=sys.stderr)
+    if not (root / "src").is_dir():
+        print(f"ROOT = {root}: must hold src", file=sys.stderr)
         return 2
     found = violations(root)
     for violation in found:

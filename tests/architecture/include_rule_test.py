@@ -14,7 +14,7 @@ def check(files):
     """Exit status and output of the checker on a tree of these files (path -> text)."""
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
-        (root / "include" / "gearlash").mkdir(parents=True)
+        (root / "src").mkdir(parents=True)
         for path, text in files.items():
             file = root / path
             file.parent.mkdir(parents=True, exist_ok=True)
@@ -35,55 +35,61 @@ class IncludeRule(unittest.TestCase):
 
     def test_a_sound_tree_passes(self):
         self.assert_sound({
-            "include/gearlash/servo/shaft.hpp": '#include <vector>\n',
-            "include/gearlash/motion/flow.hpp": '#include "gearlash/servo/shaft.hpp"\n',
-            "src/motion/flow.cpp": '#include <boost/math/tools/roots.hpp>\n#include "roots.hpp"\n',
-            "src/motion/roots.hpp": '#include "gearlash/motion/flow.hpp"\n',
-            "src/io/reader.cpp": '#include <fstream>\n#include "gearlash/motion/flow.hpp"\n',
-            "include/gearlash/heritage/run.hpp": '#include "gearlash/io/reader.hpp"\n',
+            "include/gearlash/drive.hpp": '#include <vector>\n',
+            "include/gearlash/answer.hpp": '#include "gearlash/drive.hpp"\n',
+            "src/closed_form/flow.cpp": '#include <boost/math/tools/roots.hpp>\n'
+                                        '#include "closed_form/roots.hpp"\n'
+                                        '#include "model/shaft.hpp"\n'
+                                        '#include <gearlash/drive.hpp>\n',
+            "src/analysis/grid/axis.hpp": '#include "closed_form/lanes/batch.hpp"\n',
+            "src/input/reader.cpp": '#include <fstream>\n#include "model/shaft.hpp"\n',
+            "src/thesis/run.hpp": '#include "input/reader.hpp"\n',
         })
 
-    def test_a_layer_may_not_include_one_to_its_right(self):
-        self.assert_refused("src/servo/shaft.cpp",
-                            '#include <cmath>\n#include "gearlash/motion/flow.hpp"\n', line=2)
-        self.assert_refused("include/gearlash/cycle/map.hpp", '#include "gearlash/io/reader.hpp"\n')
-        self.assert_refused("src/motion/flow.cpp", '  #  include <gearlash/cycle/map.hpp>\n')
+    def test_a_room_may_not_include_a_later_one(self):
+        self.assert_refused("src/model/shaft.cpp",
+                            '#include <cmath>\n#include "closed_form/flow.hpp"\n', line=2)
+        self.assert_refused("src/analysis/grid/map.hpp", '#include "input/reader.hpp"\n')
+        self.assert_refused("src/base/root.cpp", '  #  include <closed_form/flow.hpp>\n')
 
     def test_hybrid_knows_nothing_of_gears(self):
-        self.assert_refused("src/hybrid/mode.cpp", '#include "gearlash/servo/shaft.hpp"\n')
+        self.assert_refused("src/hybrid/mode.cpp", '#include "model/shaft.hpp"\n')
 
-    def test_no_layer_uses_heritage(self):
-        self.assert_refused("src/io/reader.cpp", '#include "gearlash/heritage/run.hpp"\n')
+    def test_the_two_engines_do_not_know_each_other(self):
+        self.assert_refused("src/general/assemble/mode.cpp", '#include "closed_form/flow.hpp"\n')
+        self.assert_refused("src/closed_form/flow.cpp", '#include "general/assemble/mode.hpp"\n')
+
+    def test_no_room_uses_thesis(self):
+        self.assert_refused("src/picture/curve.cpp", '#include "thesis/run.hpp"\n')
 
     def test_numerics_do_not_print_read_or_look_at_clocks(self):
         for header in ("iostream", "cstdio", "fstream", "filesystem", "chrono", "ctime", "time.h"):
-            self.assert_refused("src/cycle/map.cpp", f"#include <{header}>\n")
+            self.assert_refused("src/closed_form/map.cpp", f"#include <{header}>\n")
 
-    def test_numerics_do_not_use_the_libraries_of_io(self):
+    def test_numerics_do_not_use_the_libraries_of_files(self):
         for header in ("fmt/format.h", "toml++/toml.h", "nlohmann/json.hpp", "udunits2.h"):
-            self.assert_refused("src/servo/shaft.cpp", f"#include <{header}>\n")
+            self.assert_refused("src/model/shaft.cpp", f"#include <{header}>\n")
 
-    def test_public_headers_of_the_numerics_burden_no_user_with_boost(self):
-        self.assert_refused("include/gearlash/cycle/map.hpp", "#include <boost/math/tools/roots.hpp>\n")
+    def test_public_headers_burden_no_user_with_a_library_or_a_room(self):
+        for header in ("<Eigen/Core>", "<boost/math/tools/roots.hpp>", '"base/bounds.hpp"'):
+            self.assert_refused("include/gearlash/answer.hpp", f"#include {header}\n")
 
     def test_numerics_keep_to_what_web_assembly_has(self):
-        self.assert_refused("src/drive/controller.cpp", "#include <format>\n")
+        self.assert_refused("src/model/controller.cpp", "#include <format>\n")
 
     def test_no_way_around_through_a_path(self):
-        self.assert_refused("src/servo/shaft.cpp", '#include "../cycle/map.hpp"\n')
-        status, output = check({"src/servo/shaft.cpp": '#include "../cycle/map.hpp"\n',
-                                "src/cycle/map.hpp": ""})
-        self.assertEqual(status, 1, output)
+        self.assert_refused("src/base/root.cpp", '#include "../closed_form/map.hpp"\n')
+        self.assert_refused("src/base/root.cpp", '#include "bounds.hpp"\n')
 
-    def test_an_unknown_layer_is_refused(self):
+    def test_an_unknown_room_is_refused(self):
         status, output = check({"src/extras/thing.cpp": ""})
         self.assertEqual(status, 1)
         self.assertIn("src/extras", output)
 
     def test_a_name_that_says_nothing_is_refused(self):
-        status, output = check({"src/servo/utils.cpp": ""})
+        status, output = check({"src/base/utils.cpp": ""})
         self.assertEqual(status, 1)
-        self.assertIn("src/servo/utils.cpp", output)
+        self.assertIn("src/base/utils.cpp", output)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 // Intervals against fifty digits, the C library against what is documented of it, and the ends of
 // the range.
-#include "gearlash/base/interval.hpp"
+#include "base/interval.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <functional>
 
-#include "../motion/fifty_digits.hpp"
-#include "../servo/seeded_draws.hpp"
+#include "base/fifty_digits.hpp"
+#include "base/seeded_draws.hpp"
 
 namespace gearlash {
 namespace {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "gearlash/cycle/limit_cycle.hpp"
+#include "closed_form/limit_cycle.hpp"
 #include "tool.hpp"
 
 namespace gearlash {

@@ -4,11 +4,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "gearlash/cycle/growth_at_rest.hpp"
-#include "gearlash/cycle/limit_cycle.hpp"
-#include "gearlash/io/servo_file.hpp"
-#include "gearlash/servo/range_check.hpp"
+#include "base/range_check.hpp"
+#include "closed_form/growth_at_rest.hpp"
+#include "closed_form/limit_cycle.hpp"
 #include "gearlash/version.hpp"
+#include "input/servo_file.hpp"
 #include "tool.hpp"
 
 namespace gearlash {

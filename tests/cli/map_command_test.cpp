@@ -5,8 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "gearlash/cycle/growth_at_rest.hpp"
-#include "gearlash/cycle/limit_cycle.hpp"
+#include "closed_form/growth_at_rest.hpp"
+#include "closed_form/limit_cycle.hpp"
 #include "tool.hpp"
 
 namespace gearlash {

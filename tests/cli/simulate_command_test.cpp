@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "gearlash/io/motion_report.hpp"
-#include "gearlash/io/servo_file.hpp"
+#include "input/servo_file.hpp"
+#include "output/motion_report.hpp"
 #include "tool.hpp"
 
 namespace gearlash {

@@ -1,13 +1,13 @@
 // Branches of orbits: folds and grazings that are known.
-#include "gearlash/hybrid/continuation.hpp"
+#include "hybrid/continuation.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "../servo/correct_digits.hpp"
-#include "gearlash/cycle/limit_cycle.hpp"
+#include "base/correct_digits.hpp"
+#include "closed_form/limit_cycle.hpp"
 #include "servo_system.hpp"
 
 namespace gearlash::hybrid {

@@ -1,5 +1,5 @@
 // Exits of polynomials whose zeros are known.
-#include "gearlash/hybrid/first_exit.hpp"
+#include "hybrid/first_exit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "../servo/seeded_draws.hpp"
+#include "base/seeded_draws.hpp"
 
 namespace gearlash::hybrid {
 namespace {

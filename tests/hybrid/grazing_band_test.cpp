@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "../motion/fifty_digits.hpp"
-#include "../servo/seeded_draws.hpp"
-#include "gearlash/hybrid/hybrid_trajectory.hpp"
+#include "base/fifty_digits.hpp"
+#include "base/seeded_draws.hpp"
+#include "hybrid/hybrid_trajectory.hpp"
 
 namespace gearlash::hybrid {
 namespace {

@@ -1,5 +1,5 @@
 // Orbits of the servo against its closed form, of forced and of sampled systems.
-#include "gearlash/hybrid/periodic_orbit.hpp"
+#include "hybrid/periodic_orbit.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "../servo/seeded_draws.hpp"
-#include "gearlash/cycle/limit_cycle.hpp"
-#include "gearlash/servo/range_check.hpp"
+#include "base/range_check.hpp"
+#include "base/seeded_draws.hpp"
+#include "closed_form/limit_cycle.hpp"
 #include "servo_system.hpp"
 
 namespace gearlash {

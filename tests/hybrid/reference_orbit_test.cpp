@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "gearlash/hybrid/periodic_orbit.hpp"
+#include "hybrid/periodic_orbit.hpp"
 
 namespace gearlash::hybrid {
 namespace {

@@ -10,9 +10,9 @@
 #include <numbers>
 #include <utility>
 
-#include "../servo/correct_digits.hpp"
-#include "gearlash/hybrid/periodic_orbit.hpp"
+#include "base/correct_digits.hpp"
 #include "hybrid/passage.hpp"
+#include "hybrid/periodic_orbit.hpp"
 
 namespace gearlash::hybrid {
 namespace {

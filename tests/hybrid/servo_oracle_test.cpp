@@ -5,10 +5,10 @@
 #include <cmath>
 #include <string>
 
-#include "../servo/seeded_draws.hpp"
-#include "gearlash/hybrid/hybrid_trajectory.hpp"
-#include "gearlash/motion/trajectory.hpp"
-#include "gearlash/servo/range_check.hpp"
+#include "base/range_check.hpp"
+#include "base/seeded_draws.hpp"
+#include "closed_form/trajectory.hpp"
+#include "hybrid/hybrid_trajectory.hpp"
 #include "servo_system.hpp"
 
 namespace gearlash {

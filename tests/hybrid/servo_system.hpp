@@ -1,8 +1,8 @@
 // The rigid servo of design section 2 as a hybrid system, written down from its equations.
 #pragma once
 
-#include "gearlash/hybrid/hybrid_system.hpp"
-#include "gearlash/servo/normalized_servo.hpp"
+#include "hybrid/hybrid_system.hpp"
+#include "model/normalized_servo.hpp"
 
 namespace gearlash {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "../servo/correct_digits.hpp"
-#include "gearlash/hybrid/hybrid_trajectory.hpp"
+#include "base/correct_digits.hpp"
+#include "hybrid/hybrid_trajectory.hpp"
 
 namespace gearlash::hybrid {
 namespace {

@@ -21,16 +21,11 @@ execute_process(
   COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND "${CMAKE_COMMAND}" --build "${WORK}/build" COMMAND_ERROR_IS_FATAL ANY)
 
-execute_process(COMMAND "${WORK}/build/consumer" COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND "${WORK}/build/hybrid_consumer" COMMAND_ERROR_IS_FATAL ANY)
-if("chart" IN_LIST COMPONENTS)
-  execute_process(COMMAND "${WORK}/build/batch_consumer" COMMAND_ERROR_IS_FATAL ANY)
-  execute_process(COMMAND "${WORK}/build/design_chart_consumer" COMMAND_ERROR_IS_FATAL ANY)
-endif()
-if("design" IN_LIST COMPONENTS)
-  execute_process(COMMAND "${WORK}/build/design_consumer" COMMAND_ERROR_IS_FATAL ANY)
-endif()
-if("io" IN_LIST COMPONENTS)
+foreach(program IN ITEMS consumer hybrid_consumer batch_consumer design_chart_consumer
+                         design_consumer)
+  execute_process(COMMAND "${WORK}/build/${program}" COMMAND_ERROR_IS_FATAL ANY)
+endforeach()
+if("files" IN_LIST COMPONENTS)
   execute_process(COMMAND "${WORK}/build/data_sheet_consumer" "${DATA_SHEET}"
                   COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND "${WORK}/prefix/bin/gearlash" --version COMMAND_ERROR_IS_FATAL ANY)

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "gearlash/motion/trajectory.hpp"
+#include "closed_form/trajectory.hpp"
 #include "segment_certificate.hpp"
 
 namespace gearlash::oracle {

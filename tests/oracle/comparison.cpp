@@ -7,7 +7,7 @@
 #include <sstream>
 #include <vector>
 
-#include "gearlash/motion/trajectory.hpp"
+#include "closed_form/trajectory.hpp"
 #include "reference_simulator.hpp"
 
 namespace gearlash::oracle {

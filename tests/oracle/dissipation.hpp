@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "gearlash/servo/normalized_servo.hpp"
+#include "model/normalized_servo.hpp"
 #include "random_servo.hpp"
 
 namespace gearlash::oracle {

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string>
 
-#include "gearlash/motion/trajectory.hpp"
-#include "gearlash/servo/normalized_servo.hpp"
+#include "closed_form/trajectory.hpp"
+#include "model/normalized_servo.hpp"
 
 namespace gearlash::oracle {
 

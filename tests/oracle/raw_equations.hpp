@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "gearlash/servo/normalized_servo.hpp"
+#include "model/normalized_servo.hpp"
 
 namespace gearlash::oracle {
 

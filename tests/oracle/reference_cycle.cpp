@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "gearlash/cycle/limit_cycle.hpp"
+#include "closed_form/limit_cycle.hpp"
 #include "reference_simulator.hpp"
 
 namespace gearlash::oracle {

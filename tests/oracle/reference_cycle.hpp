@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "gearlash/servo/normalized_servo.hpp"
+#include "model/normalized_servo.hpp"
 
 namespace gearlash::oracle {
 

@@ -18,7 +18,7 @@
 #include <random>
 #include <vector>
 
-#include "gearlash/motion/trajectory.hpp"
+#include "closed_form/trajectory.hpp"
 #include "propagator.hpp"
 #include "raw_equations.hpp"
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <sstream>
 
-#include "gearlash/motion/trajectory.hpp"
+#include "closed_form/trajectory.hpp"
 #include "raw_equations.hpp"
 
 namespace gearlash::oracle {

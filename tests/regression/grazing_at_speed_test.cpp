@@ -2,8 +2,8 @@
 // nearly alike: a state held the motor's speed v + u̇ alone, and u̇ was taken from their difference.
 #include <gtest/gtest.h>
 
-#include "../motion/raw_flight.hpp"
-#include "gearlash/motion/trajectory.hpp"
+#include "closed_form/raw_flight.hpp"
+#include "closed_form/trajectory.hpp"
 
 namespace gearlash {
 namespace {

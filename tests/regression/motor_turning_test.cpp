@@ -3,11 +3,11 @@
 // decay, not the motor's, is fast.
 #include <gtest/gtest.h>
 
-#include "gearlash/chart/cycle_table.hpp"
-#include "gearlash/cycle/limit_cycle.hpp"
-#include "gearlash/motion/bracketed_root.hpp"
-#include "gearlash/motion/extremes.hpp"
-#include "gearlash/motion/trajectory.hpp"
+#include "base/bracketed_root.hpp"
+#include "closed_form/extremes.hpp"
+#include "closed_form/lanes/cycle_table.hpp"
+#include "closed_form/limit_cycle.hpp"
+#include "closed_form/trajectory.hpp"
 
 namespace gearlash {
 namespace {

@@ -4,7 +4,7 @@
 // was short in their norm left the position out.
 #include <gtest/gtest.h>
 
-#include "gearlash/hybrid/hybrid_trajectory.hpp"
+#include "hybrid/hybrid_trajectory.hpp"
 
 namespace gearlash::hybrid {
 namespace {

@@ -2,7 +2,7 @@
 // motion that grew for long was handed to simulate() beyond the range of its starts.
 #include <gtest/gtest.h>
 
-#include "gearlash/cycle/limit_cycle.hpp"
+#include "closed_form/limit_cycle.hpp"
 
 namespace gearlash {
 namespace {

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "gearlash/cycle/growth_at_rest.hpp"
-#include "gearlash/cycle/limit_cycle.hpp"
-#include "gearlash/design/feasible_values.hpp"
-#include "gearlash/motion/trajectory.hpp"
+#include "analysis/design/feasible_values.hpp"
+#include "closed_form/growth_at_rest.hpp"
+#include "closed_form/limit_cycle.hpp"
+#include "closed_form/trajectory.hpp"
 
 namespace gearlash {
 namespace {

@@ -1,7 +1,8 @@
 // A project that works many servos out through the installed component chart.
 #include <cstdio>
-#include <gearlash/chart/servo_grid.hpp>
 #include <vector>
+
+#include "analysis/grid/servo_grid.hpp"
 
 int main() {
   const gearlash::ServoGrid grid{

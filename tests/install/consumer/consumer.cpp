@@ -1,8 +1,9 @@
 // What another project does first with Gearlash: the limit cycle of one servo.
 #include <cmath>
 #include <cstdio>
-#include <gearlash/cycle/limit_cycle.hpp>
 #include <gearlash/version.hpp>
+
+#include "closed_form/limit_cycle.hpp"
 
 int main() {
   const gearlash::LimitCycleAnalysis analysis = gearlash::analyse_limit_cycles({

@@ -1,6 +1,7 @@
 // A project that reads data sheets through the installed component io.
 #include <cstdio>
-#include <gearlash/io/servo_file.hpp>
+
+#include "input/servo_file.hpp"
 
 int main(int argument_count, char** arguments) {
   if (argument_count != 2) {

@@ -1,7 +1,8 @@
 // A project that builds a chart once and looks many servos up in it.
 #include <cmath>
 #include <cstdio>
-#include <gearlash/chart/design_chart.hpp>
+
+#include "analysis/grid/design_chart.hpp"
 
 int main() {
   using namespace gearlash;

@@ -1,8 +1,9 @@
 // A project whose optimiser asks how much backlash a servo may have, and what its size depends on.
 #include <cmath>
 #include <cstdio>
-#include <gearlash/cycle/cycle_sensitivity.hpp>
-#include <gearlash/design/feasible_values.hpp>
+
+#include "analysis/design/feasible_values.hpp"
+#include "closed_form/cycle_sensitivity.hpp"
 
 int main() {
   using namespace gearlash;

@@ -1,7 +1,8 @@
 // The engine by itself: an oscillator whose stop throws it back, with no gear in sight.
 #include <cmath>
 #include <cstdio>
-#include <gearlash/hybrid/hybrid_trajectory.hpp>
+
+#include "hybrid/hybrid_trajectory.hpp"
 
 using namespace gearlash::hybrid;
 

@@ -1,0 +1,346 @@
+#include "analysis/describing/describing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "model/rational_function.hpp"
+
+namespace gearlash::drive {
+namespace {
+
+constexpr double turn = 2.0 * std::numbers::pi;
+
+// ---- the linear parts ---------------------------------------------------------------------------
+
+/// Torque taken back by θ_M and θ_L, s-functions before the delay.
+struct Feedback {
+  RationalFunction from_load;
+  RationalFunction from_motor;
+  RationalFunction anti_windup;  ///< what the torque given adds to the torque asked for
+  double delay = 0.0;
+
+  RationalFunction whole() const { return from_load + from_motor; }
+};
+
+/// z by s, z = e^{sT} to second order.
+RationalFunction forward_shift(double period) {
+  const RationalFunction half = RationalFunction(Rational(period) / 2) * variable();
+  return (RationalFunction(1.0) + half) / (RationalFunction(1.0) - half);
+}
+
+Feedback feedback_of(const Drive& drive, TorqueGiven torque) {
+  const bool is_sampled = drive.sampling.has_value();
+  const LinearController controller = is_sampled
+                                          ? sampled_controller(drive.controller, *drive.sampling)
+                                          : linear_controller(drive.controller);
+  ExactControllerTransfer transfer = exact_transfer(controller, torque);
+  RationalFunction speed_by_position = variable();
+  double delay = 0.0;
+  if (is_sampled) {
+    const RationalFunction shift = forward_shift(drive.sampling->period);
+    transfer.position = composed(transfer.position, shift);
+    transfer.speed = composed(transfer.speed, shift);
+    transfer.given = composed(transfer.given, shift);
+    if (drive.sampling->speed_by_differences) {
+      speed_by_position = (RationalFunction(1.0) - RationalFunction(1.0) / shift) /
+                          RationalFunction(drive.sampling->period);
+    }
+    delay = 0.5 * drive.sampling->period + drive.sampling->delay;
+  }
+  const RationalFunction minus(-1.0);
+  const RationalFunction position = minus * transfer.position;
+  const RationalFunction speed = minus * transfer.speed * speed_by_position;
+  const RationalFunction one(1.0);
+  const RationalFunction position_share(drive.sensing.load_share_of_position);
+  const RationalFunction speed_share(drive.sensing.load_share_of_speed);
+  return {position_share * position + speed_share * speed,
+          (one - position_share) * position + (one - speed_share) * speed, transfer.given, delay};
+}
+
+/// J s² + F s.
+RationalFunction inertia_and_friction(const Rational& inertia, const Rational& friction) {
+  return {Polynomial{Rational(0), friction, inertia}, Polynomial(Rational(1))};
+}
+
+RationalFunction plant_of(const Shaft& shaft) {
+  return inertia_and_friction(Rational(shaft.inertia), Rational(shaft.friction.viscous));
+}
+
+RationalFunction plant_of(const Drive& drive) {
+  return plant_of(drive.motor) + plant_of(drive.load);
+}
+
+// ---- assumptions --------------------------------------------------------------------------------
+
+bool is_always_0(const Signal& signal) {
+  const auto* number = std::get_if<double>(&signal);
+  return number != nullptr && *number == 0.0;
+}
+
+double coulomb_of(const Drive& drive) {
+  return drive.motor.friction.coulomb + drive.load.friction.coulomb;
+}
+
+bool is_dry(const Drive& drive) {
+  return drive.motor.friction.is_dry() || drive.load.friction.is_dry();
+}
+
+/// Whether the torque at which a shaft breaks away is more than what then slows it down.
+bool has_stiction(const Drive& drive) {
+  const auto sticks = [](const ShaftFriction& friction) {
+    return friction.breakaway > friction.coulomb;
+  };
+  return sticks(drive.motor.friction) || sticks(drive.load.friction);
+}
+
+/// What is left out of the drive for the part to stand alone.
+std::vector<Assumption> omissions(const Drive& drive, DescribedPart part, bool delay_is_rational) {
+  std::vector<Assumption> found;
+  const auto add = [&](bool applies, Assumption assumption) {
+    if (applies) found.push_back(assumption);
+  };
+  const bool is_friction = part == DescribedPart::coulomb_friction;
+  add(part == DescribedPart::torque_limit || is_friction, Assumption::gap_left_out);
+  add(part != DescribedPart::torque_limit && std::isfinite(drive.torque_limit),
+      Assumption::torque_limit_left_out);
+  add(!is_friction && is_dry(drive), Assumption::coulomb_left_out);
+  add(is_friction && has_stiction(drive), Assumption::breakaway_left_out);
+  add(drive.sampling.has_value(), Assumption::sampling_as_delay);
+  add(delay_is_rational, Assumption::delay_as_rational);
+  add(drive.sensing.resolution > 0.0 || drive.sensing.resolution_of_speed > 0.0,
+      Assumption::encoder_left_out);
+  add(!is_always_0(drive.reference) || !is_always_0(drive.load_torque),
+      Assumption::signals_left_out);
+  return found;
+}
+
+// ---- the search ---------------------------------------------------------------------------------
+
+/// Poles, zeros and where |L| is 1 on the asymptote of high frequencies.
+Bounds searched_frequencies(const TransferFunction& loop) {
+  Bounds range = natural_frequency_range(loop);
+  const FactoredTransferFunction factors = factored(loop);
+  const double order =
+      static_cast<double>(factors.poles.size()) - static_cast<double>(factors.zeros.size());
+  if (order > 0.0) {
+    const double crossover = std::pow(std::abs(factors.gain), 1.0 / order);
+    range.low = std::min(range.low, 1e-6 * crossover);
+    // A delay has its own end: past it the phase turns without end.
+    if (loop.delay == 0.0) range.high = std::max(range.high, 1e6 * crossover);
+  }
+  range.low *= 1e-3;
+  return range;
+}
+
+double modulus(const TransferFunction& transfer, double frequency) {
+  return std::abs(frequency_response(transfer, frequency).value);
+}
+
+DescribedMotion motion_of(const DescribingAnalysis& analysis, const PredictedCycle& cycle,
+                          double gap) {
+  DescribedMotion motion{.balance = cycle};
+  motion.motor_size = cycle.amplitude / modulus(analysis.input_per_motor, cycle.frequency);
+  motion.size =
+      analysis.load_per_motor
+          ? motion.motor_size * modulus(*analysis.load_per_motor, cycle.frequency)
+          : load_size(analysis.part == DescribedPart::gap_load_held ? LoadInGap::held_by_friction
+                                                                    : LoadInGap::coasting,
+                      cycle, gap);
+  return motion;
+}
+
+void find_cycles(DescribingAnalysis& analysis, double gap) {
+  if (!is_in_loop(analysis)) return;
+  HarmonicBalance balance =
+      harmonic_balance(analysis.nonlinearity, analysis.loop, searched_frequencies(analysis.loop));
+  analysis.unresolved = std::move(balance.unresolved);
+  for (const PredictedCycle& cycle : balance.cycles) {
+    analysis.cycles.push_back(motion_of(analysis, cycle, gap));
+  }
+}
+
+// ---- one part at a time -------------------------------------------------------------------------
+
+/// A loop, and whether its delay had to be replaced.
+struct LinearLoop {
+  TransferFunction function;
+  bool delay_is_rational = false;
+};
+
+LinearLoop gap_loop(const Drive& drive, const Feedback& feedback) {
+  if (feedback.from_motor.is_zero()) {
+    return {rounded(feedback.from_load / plant_of(drive), feedback.delay)};
+  }
+  const RationalFunction delay = delay_approximation(feedback.delay);
+  const bool is_rational = feedback.delay > 0.0;
+  if (feedback.from_load.is_zero()) {
+    return {rounded(plant_of(drive.load) / (plant_of(drive.motor) + feedback.from_motor * delay)),
+            is_rational};
+  }
+  return {rounded(feedback.from_load * delay / (plant_of(drive) + feedback.from_motor * delay)),
+          is_rational};
+}
+
+DescribingAnalysis described_gap(const Drive& drive, DescribedPart part) {
+  const Feedback feedback = feedback_of(drive, TorqueGiven::as_asked);
+  const LinearLoop loop = gap_loop(drive, feedback);
+  DescribingAnalysis analysis{.part = part,
+                              .nonlinearity = FrictionControlledBacklash{drive.backlash},
+                              .loop = loop.function,
+                              .input_per_motor = {{1.0}, {1.0}}};
+  if (part == DescribedPart::gap_load_coasting) {
+    analysis.nonlinearity = InertiaControlledBacklash{drive.backlash};
+  }
+  analysis.assumptions = omissions(drive, part, loop.delay_is_rational);
+  const bool reacts = feedback.from_load.is_zero() && !feedback.from_motor.is_zero();
+  analysis.assumptions.insert(analysis.assumptions.begin(),
+                              reacts ? Assumption::load_reacts : Assumption::motor_carries_all);
+  find_cycles(analysis, drive.backlash);
+  return analysis;
+}
+
+DescribingAnalysis described_elastic_gap(const Drive& drive, const CompliantContact& contact) {
+  const Feedback feedback = feedback_of(drive, TorqueGiven::as_asked);
+  const RationalFunction delay = delay_approximation(feedback.delay);
+  const RationalFunction from_load = feedback.from_load * delay;
+  const RationalFunction motor = plant_of(drive.motor) + feedback.from_motor * delay;
+  const RationalFunction load = plant_of(drive.load);
+  const RationalFunction damping =
+      RationalFunction(1.0) +
+      RationalFunction(Rational(contact.damping) / Rational(contact.stiffness)) * variable();
+  const RationalFunction whole = motor + load + from_load;
+  DescribingAnalysis analysis{
+      .part = DescribedPart::elastic_gap,
+      .nonlinearity = DeadZone{0.5 * drive.backlash, contact.stiffness},
+      .loop = rounded(damping * whole / (motor * load)),
+      .input_per_motor = rounded(whole / (load + from_load)),
+      .load_per_motor = rounded(RationalFunction(-1.0) * motor / (load + from_load)),
+      .assumptions = omissions(drive, DescribedPart::elastic_gap, feedback.delay > 0.0)};
+  find_cycles(analysis, drive.backlash);
+  return analysis;
+}
+
+DescribingAnalysis described_torque_limit(const Drive& drive) {
+  const Feedback feedback = feedback_of(drive, TorqueGiven::limited);
+  const bool winds_back = !feedback.anti_windup.is_zero();
+  const RationalFunction plant = plant_of(drive);
+  const RationalFunction delay =
+      winds_back ? delay_approximation(feedback.delay) : RationalFunction(1.0);
+  const RationalFunction loop = feedback.whole() * delay / plant - feedback.anti_windup;
+  DescribingAnalysis analysis{.part = DescribedPart::torque_limit,
+                              .nonlinearity = Saturation{drive.torque_limit, 1.0},
+                              .loop = rounded(loop, winds_back ? 0.0 : feedback.delay),
+                              .input_per_motor = rounded(loop * plant),
+                              .load_per_motor = TransferFunction{{1.0}, {1.0}},
+                              .assumptions = omissions(drive, DescribedPart::torque_limit,
+                                                       winds_back && feedback.delay > 0.0)};
+  find_cycles(analysis, drive.backlash);
+  return analysis;
+}
+
+DescribingAnalysis described_coulomb_friction(const Drive& drive) {
+  const Feedback feedback = feedback_of(drive, TorqueGiven::as_asked);
+  const RationalFunction back = feedback.whole() * delay_approximation(feedback.delay);
+  DescribingAnalysis analysis{
+      .part = DescribedPart::coulomb_friction,
+      .nonlinearity = CoulombFriction{coulomb_of(drive)},
+      .loop = rounded(variable() / (plant_of(drive) + back)),
+      .input_per_motor = rounded(variable()),
+      .load_per_motor = TransferFunction{{1.0}, {1.0}},
+      .assumptions = omissions(drive, DescribedPart::coulomb_friction, feedback.delay > 0.0)};
+  find_cycles(analysis, drive.backlash);
+  return analysis;
+}
+
+}  // namespace
+
+std::vector<DescribingAnalysis> describing_analyses(const Drive& drive) {
+  require_none(validate(drive));
+  std::vector<DescribingAnalysis> analyses = {
+      described_gap(drive, DescribedPart::gap_load_held),
+      described_gap(drive, DescribedPart::gap_load_coasting)};
+  if (const auto* compliant = std::get_if<CompliantContact>(&drive.contact)) {
+    analyses.push_back(described_elastic_gap(drive, *compliant));
+  }
+  if (std::isfinite(drive.torque_limit)) analyses.push_back(described_torque_limit(drive));
+  if (coulomb_of(drive) > 0.0) analyses.push_back(described_coulomb_friction(drive));
+  return analyses;
+}
+
+bool is_in_loop(const DescribingAnalysis& analysis) {
+  const std::vector<double>& numerator = analysis.loop.numerator;
+  return std::any_of(numerator.begin(), numerator.end(),
+                     [](double coefficient) { return coefficient != 0.0; });
+}
+
+const char* name_of(DescribedPart part) {
+  switch (part) {
+    case DescribedPart::gap_load_held:
+      return "gap, load held by friction";
+    case DescribedPart::gap_load_coasting:
+      return "gap, load coasting";
+    case DescribedPart::elastic_gap:
+      return "gap with elastic faces";
+    case DescribedPart::torque_limit:
+      return "torque limit";
+    case DescribedPart::coulomb_friction:
+      return "Coulomb friction";
+  }
+  return "";
+}
+
+const char* description_of(Assumption assumption) {
+  switch (assumption) {
+    case Assumption::motor_carries_all:
+      return "the motor drives all inertia and viscous friction at all times";
+    case Assumption::load_reacts:
+      return "the sensors are on the motor, so that by positions alone the gap is outside of the "
+             "loop and causes no cycle; described is the first harmonic of the load's inertia and "
+             "viscous friction acting back on the motor";
+    case Assumption::gap_left_out:
+      return "there is no gap: both shafts turn as one";
+    case Assumption::torque_limit_left_out:
+      return "the torque is not limited";
+    case Assumption::coulomb_left_out:
+      return "friction is viscous alone";
+    case Assumption::breakaway_left_out:
+      return "breakaway torque has no share, for a sine rests at no time: of hunting that comes of "
+             "stiction this says nothing";
+    case Assumption::sampling_as_delay:
+      return "the controller acts in continuous time, later by half a sampling period and its "
+             "computational delay";
+    case Assumption::delay_as_rational:
+      return "that delay within the loop is a rational function of order 4";
+    case Assumption::encoder_left_out:
+      return "encoders have no steps";
+    case Assumption::signals_left_out:
+      return "reference and load torque are 0";
+  }
+  return "";
+}
+
+std::optional<PredictionError> prediction_error(const DescribedMotion& predicted,
+                                                const std::vector<ExactCycle>& exact) {
+  std::optional<PredictionError> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    const ExactCycle& cycle = exact[i];
+    if (cycle.stable != predicted.balance.stable) continue;
+    const double size = predicted.size / cycle.size;
+    const double period = predicted.balance.period / cycle.period;
+    const double distance = std::abs(std::log(size)) + std::abs(std::log(period));
+    if (!(distance < least)) continue;
+    least = distance;
+    nearest = PredictionError{i, size - 1.0, predicted.motor_size / cycle.motor_size - 1.0,
+                              period - 1.0, 1.0 / period - 1.0};
+  }
+  return nearest;
+}
+
+double input_amplitude(const DescribingAnalysis& analysis, const ExactCycle& exact) {
+  return exact.motor_size * modulus(analysis.input_per_motor, turn / exact.period);
+}
+
+}  // namespace gearlash::drive

@@ -1,0 +1,89 @@
+#include "analysis/design/drawn_cycles.hpp"
+
+#include <limits>
+
+#include "analysis/design/drive_per_backlash.hpp"
+#include "closed_form/lanes/cycle_table.hpp"
+
+namespace gearlash::detail {
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+void write_refused(DrawnCycles& cycles, std::size_t row) {
+  cycles.verdict[row] = Verdict::undecided;
+  cycles.size_per_backlash[row] = nothing;
+  cycles.growth_at_rest[row] = nothing;
+  cycles.frequency[row] = nothing;
+}
+
+double known_size(Verdict verdict, double size) {
+  if (verdict == Verdict::cannot_hunt) return 0.0;
+  if (verdict == Verdict::grows_without_bound) return std::numeric_limits<double>::infinity();
+  return size;
+}
+
+double highest_restitution(const TolerancedDrive& drive) {
+  for (const VariedNumber& varied : drive.varied) {
+    if (varied.number == DriveNumber::contact_restitution ||
+        varied.number == DriveNumber::servo_restitution) {
+      return drawn_range_of(varied.distribution).high;
+    }
+  }
+  const Datasheet* datasheet = std::get_if<Datasheet>(&drive.nominal);
+  return datasheet != nullptr ? datasheet->contact.restitution
+                              : std::get<NormalizedServo>(drive.nominal).restitution;
+}
+
+}  // namespace
+
+Performance DrawnCycles::performance(std::size_t row) const {
+  return {.verdict = verdict[row],
+          .growth_at_rest = growth_at_rest[row],
+          .size = size(row),
+          .frequency = frequency[row]};
+}
+
+DrawnCycles solve(const TolerancedDrive& drive, std::size_t rows, std::span<const double> values,
+                  VectorUnit unit) {
+  const NormalizedServo stand_in{.damping = 1.0};  // where the values make no drive
+  DrawnCycles cycles;
+  cycles.backlash.resize(rows);
+  std::vector<NormalizedServo> servos(rows);
+  std::vector<double> natural_frequency(rows, 1.0);
+  std::vector<std::size_t> refused;
+  const std::size_t width = drive.varied.size();
+  for (std::size_t row = 0; row < rows; ++row) {
+    const auto drawn = sound_drive_per_backlash(drive, values.subspan(row * width, width));
+    if (!drawn) {
+      servos[row] = stand_in;
+      refused.push_back(row);
+      continue;
+    }
+    servos[row] = drawn->drive.servo;
+    natural_frequency[row] = drawn->drive.natural_frequency;
+    cycles.backlash[row] = drawn->backlash;
+  }
+  CycleTable table(rows);
+  cycles.solved = find_limit_cycles(servos, table.columns(), unit);
+  cycles.verdict = table.verdict;
+  cycles.growth_at_rest = table[CycleQuantity::growth_at_rest];
+  const std::vector<double>& size = table[CycleQuantity::size];
+  const std::vector<double>& period = table[CycleQuantity::period];
+  cycles.size_per_backlash.resize(rows);
+  cycles.frequency.resize(rows);
+  for (std::size_t row = 0; row < rows; ++row) {
+    cycles.size_per_backlash[row] = known_size(cycles.verdict[row], size[row]);
+    cycles.frequency[row] = natural_frequency[row] / period[row];
+  }
+  for (const std::size_t row : refused) write_refused(cycles, row);
+  cycles.refused = refused.size();
+  cycles.solved.one_by_one -= refused.size();  // a servo without a gap is not for the lanes
+  return cycles;
+}
+
+std::size_t drives_at_a_time(const TolerancedDrive& drive) {
+  return highest_restitution(drive) > 0.0 ? 8 : 1024;
+}
+
+}  // namespace gearlash::detail

@@ -1,0 +1,54 @@
+// Where two parameters together meet a target, and what that costs.
+#pragma once
+
+#include <vector>
+
+#include "analysis/design/changeable_drive.hpp"
+#include "analysis/design/target.hpp"
+#include "analysis/grid/contours.hpp"
+#include "analysis/grid/region_boundary.hpp"
+
+namespace gearlash {
+
+/// What a change costs, or gains.
+enum class Cost {
+  bandwidth,  ///< ω_n, times the present one
+  damping,    ///< ζ
+  stiffness   ///< K, times the present one
+};
+
+/// "bandwidth", "damping", "stiffness".
+const char* name_of(Cost cost);
+
+/// A parameter on an axis of a picture, in the parameter's own unit.
+struct ParameterAxis {
+  Parameter parameter = Parameter::backlash;
+  Axis values;  ///< its `input` says nothing
+};
+
+/// `count` values of the range, by ratio where low > 0.
+ParameterAxis parameter_axis(Parameter parameter, const Bounds& range, std::size_t count);
+
+/// How many values an axis takes in a fraction of a second, or, with bounces, of a minute.
+std::size_t values_to_draw(const ChangeableDrive& drive, Parameter x, Parameter y);
+
+/// A thirtieth to thirty times the present value; what may be 0, from 0 to critical damping.
+Bounds range_to_draw(const ChangeableDrive& drive, Parameter parameter);
+
+struct FeasibleRegion {
+  ParameterAxis x;
+  ParameterAxis y;
+  std::vector<MapCurve> boundary;  ///< the region on its left; see boundary_of_region()
+  std::vector<Contour> costs;      ///< lines of equal cost at round values
+};
+
+/// What is narrower than a cell between the axes' values can be missed, as by boundary_of_region().
+/// Precondition: two different parameters, validate(target) is empty.
+FeasibleRegion feasible_region(const ChangeableDrive& drive, const ParameterAxis& x,
+                               const ParameterAxis& y, const Target& target, Cost cost);
+
+/// Whether the target is met at a place, unknown where there is no such drive.
+Side side_of_target(const ChangeableDrive& drive, const FeasibleRegion& region,
+                    const MapPoint& place, const Target& target);
+
+}  // namespace gearlash

@@ -1,0 +1,416 @@
+#include "analysis/design/feasible_values.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "base/bracketed_root.hpp"
+#include "base/on_threads.hpp"
+#include "closed_form/growth_at_rest.hpp"
+
+namespace gearlash {
+namespace {
+
+/// A part of the range, and what is known of it.
+struct Part {
+  Bounds values;
+  Judgement judgement;
+  /// One of its ends, or what was met with while closing in, has no cycle that is known.
+  bool is_unknown = false;
+};
+
+/// Values all over a range: by ratio where that is wide, from 0 on over the last four decades; of a
+/// restitution evenly.
+std::vector<double> spread_over(const Bounds& range, std::size_t count, bool evenly) {
+  constexpr double decades = 1e-4;
+  const double low = range.low > 0.0 ? range.low : decades * range.high;
+  const bool by_ratio = !evenly && range.high > 4.0 * low;
+  std::vector<double> values;
+  if (by_ratio && low > range.low) values.push_back(range.low);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(count);
+    values.push_back(by_ratio ? low * std::pow(range.high / low, share)
+                              : range.low + share * (range.high - range.low));
+  }
+  values.push_back(range.high);
+  return values;
+}
+
+void sort_by_value(std::vector<TriedValue>& tried) {
+  std::sort(tried.begin(), tried.end(),
+            [](const TriedValue& a, const TriedValue& b) { return a.value < b.value; });
+}
+
+bool has_two_masses(const ChangeableDrive& drive) {
+  return drive.drivetrain().motor_inertia > 0.0 && drive.drivetrain().load_inertia > 0.0;
+}
+
+bool has_bounces(const ChangeableDrive& drive, Parameter parameter) {
+  return has_two_masses(drive) &&
+         (parameter == Parameter::restitution || drive.drivetrain().restitution > 0.0);
+}
+
+class Search {
+ public:
+  Search(const ChangeableDrive& drive, Parameter parameter, const Target& target)
+      : drive_(drive), parameter_(parameter), target_(target) {
+    if (parameter == Parameter::backlash && has_bounces(drive, parameter)) {
+      at_present_ = performance_of(drive.drivetrain());
+    }
+  }
+
+  std::size_t evaluations() const { return evaluations_; }
+
+  bool is_met_at(double value) {
+    ++evaluations_;
+    return is_met(target_, performance_at(value));
+  }
+
+  /// The range in parts, in order: proved ones, and slivers of which nothing is known. What is not
+  /// proved is halved, all of it by turns, so that a stretch that resists leaves no other
+  /// unsearched.
+  std::vector<Part> certified(const Bounds& range) {
+    std::vector<Part> proved;
+    std::vector<Bounds> open = {range};
+    while (!open.empty()) {
+      std::vector<Bounds> halves;
+      for (const Bounds& values : open) {
+        const Judgement judgement = judge_part(values);
+        if (judgement != Judgement::some || is_sliver(values, range.high)) {
+          proved.push_back({values, judgement});
+          continue;
+        }
+        const double middle = middle_of(values.low, values.high);
+        halves.push_back({values.low, middle});
+        halves.push_back({middle, values.high});
+      }
+      open = std::move(halves);
+      constexpr std::size_t most_open = 20'000;
+      if (open.size() <= most_open) continue;
+      for (const Bounds& values : open) proved.push_back({values, Judgement::some});
+      break;
+    }
+    std::sort(proved.begin(), proved.end(),
+              [](const Part& a, const Part& b) { return a.values.low < b.values.low; });
+    return proved;
+  }
+
+  /// The parts of a scan: none is a sliver, and each is judged by its ends.
+  std::vector<Part> scanned(const Bounds& range) {
+    std::vector<Part> parts;
+    const std::vector<TriedValue> tried = tried_values(range);
+    for (std::size_t i = 0; i + 1 < tried.size(); ++i) {
+      const Performance& low = tried[i].performance;
+      const Performance& high = tried[i + 1].performance;
+      const bool met = is_met(target_, low);
+      const Judgement alike = met ? Judgement::all : Judgement::none;
+      parts.push_back({{tried[i].value, tried[i + 1].value},
+                       met == is_met(target_, high) ? alike : Judgement::some,
+                       !is_known(target_, low) || !is_known(target_, high)});
+    }
+    return parts;
+  }
+
+  /// Of two values, the one that meets the target and one that does not, the last to meet it.
+  struct LastMet {
+    double value;
+    bool met_unknown = false;  ///< between the two there is motion of which no cycle is known
+  };
+  LastMet last_met(double met, double unmet) {
+    bool met_unknown = false;
+    const bool bounces = has_bounces(drive_, parameter_);
+    if (bounces) {
+      // Growth at rest is soon worked out, and what it does not rule out is met as a rule.
+      const double allowed = last_allowed_by_growth(met, unmet);
+      if (allowed == met || is_met_at(allowed)) return {allowed};
+      unmet = allowed;
+    }
+    double met_by = 1.0;
+    double missed_by = 1.0;
+    const auto signed_excess = [&](double value) {
+      ++evaluations_;
+      const Performance performance = performance_at(value);
+      const bool here = is_met(target_, performance);
+      met_unknown = met_unknown || (bounces && !is_known(target_, performance));
+      (here ? met : unmet) = value;
+      // Its size makes the way shorter, its sign alone counts.
+      const double size = std::abs(excess(target_, performance));
+      const double usable = std::clamp(std::isnan(size) ? 1.0 : size, least, 1.0);
+      (here ? met_by : missed_by) = usable;
+      return here ? -usable : usable;
+    };
+    // A jump need not be known so well that each step to it is worth a search for cycles.
+    const auto resolution = [&] {
+      constexpr double near = 1e-3;
+      const bool jumps = bounces && !(met_by < near && missed_by < near);
+      return jumps ? 1e-6 : 4.0 * std::numeric_limits<double>::epsilon();
+    };
+    const auto is_close = [&](double low, double high) {
+      return high - low <= resolution() * high;
+    };
+    const double low = std::min(met, unmet);
+    const double high = std::max(met, unmet);
+    if (is_close(low, high)) return {met};
+    const double at_low = signed_excess(low);
+    const double at_high = signed_excess(high);
+    std::uintmax_t most = 400;
+    boost::math::tools::toms748_solve(signed_excess, low, high, at_low, at_high, is_close, most);
+    return {met, met_unknown};
+  }
+
+  /// The value that comes closest to the target.
+  TriedValue closest(const Bounds& range) {
+    std::vector<TriedValue> tried = tried_values(range);
+    tried.push_back(at(drive_.present_value(parameter_)));
+    const auto beyond = [&](const TriedValue& one) { return excess(target_, one.performance); };
+    return *std::min_element(tried.begin(), tried.end(),
+                             [&](const auto& a, const auto& b) { return beyond(a) < beyond(b); });
+  }
+
+ private:
+  bool is_unknown(const TriedValue& tried) const { return !is_known(target_, tried.performance); }
+
+  static bool hunts(const TriedValue& tried) {
+    return tried.performance.verdict != Verdict::cannot_hunt;
+  }
+
+  static double middle_of(double low, double high) {
+    return low == 0.0 && high < least ? 0.5 * high : detail::middle_of(low, high);
+  }
+
+  /// Undecided where there is no such drive: beside a shaft without friction a little on the other
+  /// is less than a servo may have.
+  Performance performance_at(double value) const {
+    if (at_present_) {
+      Performance scaled = *at_present_;
+      scaled.size *= value / drive_.drivetrain().backlash;
+      return scaled;
+    }
+    const Drivetrain drive = drive_.with(parameter_, value);
+    return validate(drive).empty() ? performance_for(target_, drive) : Performance{};
+  }
+
+  TriedValue at(double value) const { return {value, performance_at(value)}; }
+
+  std::vector<TriedValue> at_all(const std::vector<double>& values) {
+    std::vector<TriedValue> tried(values.size());
+    on_threads(0, values.size(), [&](std::size_t i) { tried[i] = at(values[i]); });
+    evaluations_ += values.size();
+    return tried;
+  }
+
+  /// All over the range, in order, and the nearer the closer a limit is.
+  const std::vector<TriedValue>& tried_values(const Bounds& range) {
+    if (!tried_.empty()) return tried_;
+    tried_ = at_all(first_values(range));
+    constexpr int most_halvings = 6;
+    constexpr int halvings_everywhere = 2;
+    for (int i = 0; i < most_halvings; ++i) {
+      const bool met_unknown = std::any_of(tried_.begin(), tried_.end(),
+                                           [&](const auto& one) { return is_unknown(one); });
+      const bool everywhere = met_unknown && i < halvings_everywhere;
+      const std::vector<TriedValue> between = at_all(middles_to_try(everywhere));
+      if (between.empty()) break;
+      tried_.insert(tried_.end(), between.begin(), between.end());
+      sort_by_value(tried_);
+    }
+    return tried_;
+  }
+
+  std::vector<double> first_values(const Bounds& range) {
+    const bool bounces = has_bounces(drive_, parameter_);
+    const bool evenly = parameter_ == Parameter::restitution;
+    std::vector<double> values = spread_over(range, bounces ? coarse : fine, evenly);
+    if (!bounces) return values;
+    // Growth at rest is soon worked out: between these values it passes 1, or a limit.
+    const std::vector<double> looked_at = spread_over(range, fine, evenly);
+    std::vector<double> growths(looked_at.size());
+    on_threads(0, looked_at.size(), [&](std::size_t i) { growths[i] = growth_at(looked_at[i]); });
+    const auto differ = [&](double a, double b) {
+      return (a > 1.0) != (b > 1.0) || is_ruled_out(target_, a) != is_ruled_out(target_, b);
+    };
+    for (std::size_t i = 0; i + 1 < looked_at.size(); ++i) {
+      if (!differ(growths[i], growths[i + 1])) continue;
+      values.push_back(looked_at[i]);
+      values.push_back(looked_at[i + 1]);
+    }
+    std::sort(values.begin(), values.end());
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+    return values;
+  }
+
+  /// NaN where there is no such drive.
+  double growth_at(double value) const {
+    const Drivetrain drive = drive_.with(parameter_, value);
+    if (!validate(drive).empty()) return std::numeric_limits<double>::quiet_NaN();
+    return growth_at_rest(servo_dynamics(normalize(drive)));
+  }
+
+  /// The last value, from one that meets the target on, that growth at rest does not rule out; nor
+  /// is it so near 1 there that the search for cycles cannot tell rest from hunting.
+  double last_allowed_by_growth(double met, double unmet) const {
+    constexpr double told_apart = 1e-6;
+    const auto is_allowed = [&](double value) {
+      const double growth = growth_at(value);
+      return !is_ruled_out(target_, growth) && !(target_.no_hunting && growth > 1.0 - told_apart);
+    };
+    if (is_allowed(unmet)) return unmet;
+    for (;;) {
+      const double middle = middle_of(std::min(met, unmet), std::max(met, unmet));
+      if (middle == met || middle == unmet) return met;
+      (is_allowed(middle) ? met : unmet) = middle;
+    }
+  }
+
+  /// Between neighbours on one side of a limit of the cycle which is no farther than they, or one
+  /// of them and the next, are from each other; and beside motion of which no cycle is known, or
+  /// everywhere that it hunts: beside irregular motion there are windows of others.
+  std::vector<double> middles_to_try(bool everywhere) const {
+    const Target of_cycles{.size = target_.size, .frequency = target_.frequency};
+    std::vector<double> beyond;
+    for (const TriedValue& one : tried_) beyond.push_back(excess(of_cycles, one.performance));
+    const auto change = [&](std::size_t i) {
+      return i + 1 < beyond.size() ? std::abs(beyond[i + 1] - beyond[i]) : 0.0;
+    };
+    std::vector<double> middles;
+    const auto is_near_limit = [&](std::size_t i) {
+      const bool is_crossed = (beyond[i] > 0.0) != (beyond[i + 1] > 0.0);
+      const double distance = std::min(std::abs(beyond[i]), std::abs(beyond[i + 1]));
+      const double steepest = std::max({change(i), i > 0 ? change(i - 1) : 0.0, change(i + 1)});
+      return !is_crossed && std::isfinite(distance) && steepest > distance;
+    };
+    const auto is_wanted = [&](std::size_t i) {
+      if (is_near_limit(i) || is_unknown(tried_[i]) != is_unknown(tried_[i + 1])) return true;
+      return everywhere && hunts(tried_[i]) && hunts(tried_[i + 1]);
+    };
+    for (std::size_t i = 0; i + 1 < beyond.size(); ++i) {
+      if (!is_wanted(i)) continue;
+      const double low = tried_[i].value;
+      const double high = tried_[i + 1].value;
+      middles.push_back(low == 0.0 ? 0.5 * high : middle_of(low, high));
+    }
+    return middles;
+  }
+
+  Judgement judge_part(const Bounds& values) {
+    ++evaluations_;
+    return judge(target_, drive_.box(parameter_, values), guessed_flight_time(values));
+  }
+
+  /// Of a servo in the middle, or at an end.
+  double guessed_flight_time(const Bounds& values) {
+    for (const double value : {middle_of(values.low, values.high), values.low, values.high}) {
+      const double time = performance_at(value).flight_time;
+      if (!std::isnan(time)) return time;
+    }
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+
+  static bool is_sliver(const Bounds& values, double top) {
+    constexpr double width = 1e-10;
+    return values.high - values.low <= width * values.high || values.high <= width * width * top;
+  }
+
+  static constexpr double least = 1e-300;
+  static constexpr std::size_t coarse = 64;  ///< with bounces a servo takes milliseconds
+  static constexpr std::size_t fine = 1024;
+
+  const ChangeableDrive& drive_;
+  Parameter parameter_;
+  const Target& target_;
+  std::optional<Performance> at_present_;  ///< of backlash, to which sizes are in proportion
+  std::vector<TriedValue> tried_;
+  std::size_t evaluations_ = 0;
+};
+
+/// Neighbours that are judged alike are one.
+std::vector<Part> joined(const std::vector<Part>& parts) {
+  std::vector<Part> all;
+  for (const Part& part : parts) {
+    if (!all.empty() && all.back().judgement == part.judgement) {
+      all.back().values.high = part.values.high;
+    } else {
+      all.push_back(part);
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+bool FeasibleValues::contains(double value) const {
+  return std::any_of(intervals.begin(), intervals.end(), [&](const Bounds& interval) {
+    return value >= interval.low && value <= interval.high;
+  });
+}
+
+double FeasibleValues::nearest() const {
+  double nearest = std::numeric_limits<double>::quiet_NaN();
+  const auto distance = [&](double value) {
+    return present > 0.0 && value > 0.0 ? std::abs(std::log(value / present))
+                                        : std::abs(value - present);
+  };
+  for (const Bounds& interval : intervals) {
+    const double here = std::clamp(present, interval.low, interval.high);
+    if (std::isnan(nearest) || distance(here) < distance(nearest)) nearest = here;
+  }
+  return nearest;
+}
+
+FeasibleValues feasible_values(const ChangeableDrive& drive, Parameter parameter,
+                               const Target& target) {
+  FeasibleValues found;
+  found.parameter = parameter;
+  found.present = drive.present_value(parameter);
+  found.searched = drive.range(parameter);
+  found.kind = has_bounces(drive, parameter) ? SearchKind::scanned : SearchKind::certified;
+  Search search(drive, parameter, target);
+  const std::vector<Part> parts = found.kind == SearchKind::certified
+                                      ? joined(search.certified(found.searched))
+                                      : search.scanned(found.searched);
+  const auto add = [&](double low, double high) {
+    if (!found.intervals.empty() && found.intervals.back().high >= low) {
+      found.intervals.back().high = high;
+    } else {
+      found.intervals.push_back({low, high});
+    }
+  };
+  const auto add_undecided = [&](double low, double high) {
+    if (!found.undecided.empty() && found.undecided.back().high >= low) {
+      found.undecided.back().high = high;
+    } else {
+      found.undecided.push_back({low, high});
+    }
+  };
+  for (const Part& part : parts) {
+    const Bounds& values = part.values;
+    if (part.is_unknown) {
+      add_undecided(values.low, values.high);
+      continue;
+    }
+    if (part.judgement == Judgement::all) add(values.low, values.high);
+    if (part.judgement != Judgement::some) continue;
+    // What its ends are is what its neighbours are.
+    const bool low_met = search.is_met_at(values.low);
+    const bool high_met = search.is_met_at(values.high);
+    if (low_met == high_met) {
+      if (values.low > 0.0) add_undecided(values.low, values.high);  // at 0 the range ends
+      if (low_met) add(values.low, values.high);
+    } else if (low_met) {
+      const auto [last, met_unknown] = search.last_met(values.low, values.high);
+      add(values.low, last);
+      if (met_unknown) add_undecided(last, values.high);
+    } else {
+      const auto [first, met_unknown] = search.last_met(values.high, values.low);
+      if (met_unknown) add_undecided(values.low, first);
+      add(first, values.high);
+    }
+  }
+  if (found.intervals.empty()) found.closest = search.closest(found.searched);
+  found.evaluations = search.evaluations();
+  return found;
+}
+
+}  // namespace gearlash

@@ -1,0 +1,302 @@
+#include "analysis/design/hunting_margin.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "analysis/design/drive_sensitivity.hpp"
+#include "analysis/design/target.hpp"
+#include "closed_form/growth_at_rest.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+using Change = Eigen::Matrix<double, 5, 1>;  // logarithms, in the order of LogChange
+
+Drivetrain changed(const Drivetrain& drive, const Change& change) {
+  Drivetrain result = drive;
+  result.motor_inertia *= std::exp(change(0));
+  result.load_inertia *= std::exp(change(1));
+  result.motor_friction *= std::exp(change(2));
+  result.load_friction *= std::exp(change(3));
+  result.stiffness *= std::exp(change(4));
+  return result;
+}
+
+/// ln μ₀ about a drive, as a function of the change; NaN where that is no sound drive.
+class LogGrowth {
+ public:
+  explicit LogGrowth(const Drivetrain& drive) : drive_(drive) {}
+
+  double value(const Change& change) const {
+    const Drivetrain here = changed(drive_, change);
+    if (!validate(here).empty()) return nan;
+    return std::log(growth_at_rest(servo_dynamics(normalize(here))));
+  }
+
+  struct ValueAndGradient {
+    double value = nan;
+    Change gradient = Change::Constant(nan);
+  };
+  ValueAndGradient with_gradient(const Change& change) const {
+    const Drivetrain here = changed(drive_, change);
+    if (!validate(here).empty()) return {};
+    const auto [growth, slopes] = drivetrain_growth(here);
+    Change gradient;
+    gradient << slopes.motor_inertia * here.motor_inertia, slopes.load_inertia * here.load_inertia,
+        slopes.motor_friction * here.motor_friction, slopes.load_friction * here.load_friction,
+        slopes.stiffness * here.stiffness;
+    return {std::log(growth), gradient / growth};
+  }
+
+ private:
+  Drivetrain drive_;
+};
+
+// ---- rays ---------------------------------------------------------------------------------------
+
+constexpr double longest_change = 10.0;
+constexpr double ray_step = 0.02;
+
+/// Where ln μ₀ first changes its sign along a ray, up to `reach`.
+std::optional<double> first_crossing(const LogGrowth& growth, const Change& direction,
+                                     double reach) {
+  const auto hunts_at = [&](double length) { return growth.value(length * direction) > 0.0; };
+  const bool hunts = hunts_at(0.0);
+  double low = 0.0;
+  while (low < reach) {
+    double high = std::min(low + ray_step, reach);
+    if (std::isnan(growth.value(high * direction))) return std::nullopt;
+    if (hunts_at(high) == hunts) {
+      low = high;
+      continue;
+    }
+    for (double middle = 0.5 * (low + high); middle > low && middle < high;
+         middle = 0.5 * (low + high)) {
+      (hunts_at(middle) == hunts ? low : high) = middle;
+    }
+    return high;
+  }
+  return std::nullopt;
+}
+
+/// Unit vectors along the axes, both ways, and spread evenly over the space that is left when the
+/// units of torque, (1, 1, 1, 1, 1), and of time, (2, 2, 1, 1, 0), are taken out (a spiral on the
+/// sphere with the golden angle).
+std::vector<Change> ray_directions() {
+  Eigen::Matrix<double, 5, 3> basis;
+  basis.col(0) = Change(1.0, -1.0, 0.0, 0.0, 0.0) / std::sqrt(2.0);
+  basis.col(1) = Change(0.0, 0.0, 1.0, -1.0, 0.0) / std::sqrt(2.0);
+  basis.col(2) = Change(-1.0, -1.0, 2.0, 2.0, -2.0) / std::sqrt(14.0);
+  std::vector<Change> directions;
+  for (Eigen::Index axis = 0; axis < 5; ++axis) {
+    directions.push_back(Change::Unit(axis));
+    directions.push_back(-Change::Unit(axis));
+  }
+  constexpr int count = 128;
+  const double golden_angle = std::numbers::pi * (3.0 - std::sqrt(5.0));
+  for (int i = 0; i < count; ++i) {
+    const double height = 1.0 - (2.0 * i + 1.0) / count;
+    const double radius = std::sqrt(1.0 - height * height);
+    const Eigen::Vector3d point(radius * std::cos(golden_angle * i),
+                                radius * std::sin(golden_angle * i), height);
+    directions.push_back(basis * point);
+  }
+  return directions;
+}
+
+/// The crossings met, the nearest first; rays are followed a little beyond the nearest so far.
+std::vector<Change> crossings(const LogGrowth& growth) {
+  std::vector<Change> met;
+  double nearest = longest_change;
+  for (const Change& direction : ray_directions()) {
+    constexpr double beyond = 2.0;
+    const double reach = std::min(longest_change, beyond * nearest);
+    const auto length = first_crossing(growth, direction, reach);
+    if (!length) continue;
+    met.push_back(*length * direction);
+    nearest = std::min(nearest, *length);
+  }
+  std::sort(met.begin(), met.end(),
+            [](const Change& a, const Change& b) { return a.squaredNorm() < b.squaredNorm(); });
+  return met;
+}
+
+// ---- the least change ---------------------------------------------------------------------------
+
+/// One cut-short step towards the nearest point of the linearised boundary; nothing where no step
+/// lowers ½|x|² + k|ln μ₀|.
+std::optional<Change> improved(const LogGrowth& growth, const Change& at,
+                               const LogGrowth::ValueAndGradient& here) {
+  const double square = here.gradient.squaredNorm();
+  const Change target = here.gradient * ((here.gradient.dot(at) - here.value) / square);
+  const double weight = 2.0 * std::max(at.norm(), target.norm()) / std::sqrt(square) + 1e-3;
+  const auto merit = [&](const Change& x, double value) {
+    return 0.5 * x.squaredNorm() + weight * std::abs(value);
+  };
+  const double present = merit(at, here.value);
+  constexpr int most_halvings = 30;
+  double share = 1.0;
+  for (int i = 0; i < most_halvings; ++i, share *= 0.5) {
+    const Change next = at + share * (target - at);
+    const double value = growth.value(next);
+    if (!std::isnan(value) && merit(next, value) < present) return next;
+  }
+  return std::nullopt;
+}
+
+/// Onto the boundary, by Newton's method along the gradient.
+std::optional<Change> on_boundary(const LogGrowth& growth, Change at) {
+  constexpr double near = 1e-13;
+  for (int i = 0; i < 20; ++i) {
+    const auto here = growth.with_gradient(at);
+    if (!std::isfinite(here.value) || !(here.gradient.squaredNorm() > 0.0)) return std::nullopt;
+    if (std::abs(here.value) <= near) return at;
+    at -= here.gradient * (here.value / here.gradient.squaredNorm());
+  }
+  constexpr double acceptable = 1e-11;
+  if (std::abs(growth.value(at)) <= acceptable) return at;
+  return std::nullopt;
+}
+
+/// Second derivatives of ln μ₀ by differences of its exact gradient.
+Eigen::Matrix<double, 5, 5> curvature(const LogGrowth& growth, const Change& at) {
+  constexpr double step = 1e-5;
+  Eigen::Matrix<double, 5, 5> second;
+  for (Eigen::Index i = 0; i < 5; ++i) {
+    const Change aside = step * Change::Unit(i);
+    second.col(i) =
+        (growth.with_gradient(at + aside).gradient - growth.with_gradient(at - aside).gradient) /
+        (2.0 * step);
+  }
+  return 0.5 * (second + second.transpose());
+}
+
+/// Newton's method on x = λg, ln μ₀ = 0, from near a solution: where the boundary bends as much as
+/// the sphere about the present drive, the steps above go to and fro.
+std::optional<Change> stationary_change(const LogGrowth& growth, Change at) {
+  double multiplier = nan;
+  for (int i = 0; i < 30; ++i) {
+    const auto here = growth.with_gradient(at);
+    if (!std::isfinite(here.value) || !(here.gradient.squaredNorm() > 0.0)) return std::nullopt;
+    if (i == 0) multiplier = at.dot(here.gradient) / here.gradient.squaredNorm();
+    Eigen::Matrix<double, 6, 6> slope = Eigen::Matrix<double, 6, 6>::Zero();
+    slope.topLeftCorner<5, 5>().setIdentity();
+    slope.topLeftCorner<5, 5>() -= multiplier * curvature(growth, at);
+    slope.topRightCorner<5, 1>() = -here.gradient;
+    slope.bottomLeftCorner<1, 5>() = here.gradient.transpose();
+    Eigen::Matrix<double, 6, 1> residual;
+    residual << at - multiplier * here.gradient, here.value;
+    const Eigen::Matrix<double, 6, 1> step = slope.partialPivLu().solve(-residual);
+    if (!step.allFinite()) return std::nullopt;
+    at += step.head<5>();
+    multiplier += step(5);
+    constexpr double short_step = 1e-11;
+    if (step.head<5>().norm() <= short_step * (1.0 + at.norm())) return on_boundary(growth, at);
+  }
+  return std::nullopt;
+}
+
+/// A point of the boundary where it is square to the change, as next to every least one; nothing
+/// where the steps do not end in one.
+std::optional<Change> least_change(const LogGrowth& growth, Change at) {
+  constexpr int most_steps = 30;
+  for (int i = 0; i < most_steps; ++i) {
+    const auto here = growth.with_gradient(at);
+    if (!std::isfinite(here.value) || !(here.gradient.squaredNorm() > 0.0)) return std::nullopt;
+    const auto next = improved(growth, at, here);
+    if (!next) break;
+    constexpr double short_step = 1e-4;
+    const bool is_near = (*next - at).norm() <= short_step * (1.0 + at.norm());
+    at = *next;
+    if (is_near) break;
+  }
+  return stationary_change(growth, at);
+}
+
+void accept(OverallMargin& margin, const LogGrowth& growth, const Drivetrain& drive,
+            const Change& change) {
+  const double distance = change.norm();
+  if (!std::isnan(margin.distance) && margin.distance <= distance) return;
+  const double growth_there = std::exp(growth.value(change));
+  constexpr double acceptable = 1e-10;
+  if (!(std::abs(growth_there - 1.0) < acceptable)) return;
+  margin.outcome = MarginOutcome::found;
+  margin.distance = distance;
+  margin.change = {change(0), change(1), change(2), change(3), change(4)};
+  margin.at_boundary = changed(drive, change);
+  margin.growth_at_boundary = growth_there;
+}
+
+std::optional<MarginOutcome> outcome_without_search(const Drivetrain& drive) {
+  if (drive.backlash == 0.0) return MarginOutcome::never_hunts;
+  if (drive.motor_friction == 0.0 || drive.load_friction == 0.0) return MarginOutcome::always_hunts;
+  return std::nullopt;
+}
+
+}  // namespace
+
+double LogChange::length() const {
+  return Change(motor_inertia, load_inertia, motor_friction, load_friction, stiffness).norm();
+}
+
+OverallMargin overall_margin(const Drivetrain& drive) {
+  const NormalizedServo servo = normalize(drive);
+  OverallMargin margin;
+  margin.hunts = drive.backlash > 0.0 && growth_at_rest(servo_dynamics(servo)) > 1.0;
+  if (const auto outcome = outcome_without_search(drive)) {
+    margin.outcome = *outcome;
+    return margin;
+  }
+  const LogGrowth growth(drive);
+  std::vector<Change> starts = crossings(growth);
+  for (const Change& crossing : starts) accept(margin, growth, drive, crossing);
+  constexpr std::size_t most_crossings = 8;
+  if (starts.size() > most_crossings) starts.resize(most_crossings);
+  starts.push_back(Change::Zero());
+  margin.starts = starts.size();
+  for (const Change& start : starts) {
+    const auto least = least_change(growth, start);
+    if (!least) continue;
+    ++margin.converged;
+    accept(margin, growth, drive, *least);
+  }
+  if (margin.outcome != MarginOutcome::found) margin.outcome = MarginOutcome::out_of_reach;
+  return margin;
+}
+
+ParameterMargin parameter_margin(const ChangeableDrive& drive, Parameter parameter) {
+  const FeasibleValues quiet = feasible_values(drive, parameter, Target{.no_hunting = true});
+  ParameterMargin margin{.parameter = parameter,
+                         .present = quiet.present,
+                         .searched = quiet.searched,
+                         .kind = quiet.kind,
+                         .hunts = !quiet.contains(quiet.present)};
+  for (const Bounds& interval : quiet.intervals) {
+    for (const double end : {interval.low, interval.high}) {
+      if (end == quiet.searched.low || end == quiet.searched.high) continue;
+      if (end <= quiet.present) margin.below = std::fmax(margin.below, end);
+      if (end >= quiet.present) margin.above = std::fmin(margin.above, end);
+    }
+  }
+  return margin;
+}
+
+HuntingMargin hunting_margin(const ChangeableDrive& drive,
+                             const std::function<void(double share)>& hear) {
+  HuntingMargin margin;
+  margin.growth_at_rest = growth_at_rest(servo_dynamics(normalize(drive.drivetrain())));
+  for (const Parameter parameter : all_parameters) {
+    if (parameter == Parameter::restitution && drive.drivetrain().restitution == 0.0) continue;
+    margin.parameters.push_back(parameter_margin(drive, parameter));
+    if (hear) hear(static_cast<double>(margin.parameters.size()) / (parameter_count + 1));
+  }
+  margin.overall = overall_margin(drive.drivetrain());
+  return margin;
+}
+
+}  // namespace gearlash

@@ -1,0 +1,162 @@
+#include "analysis/design/replicates.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <mutex>
+
+#include "base/on_threads.hpp"
+
+namespace gearlash::detail {
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// The bits of a double ≥ 0 rise with it.
+std::uint64_t bits_of(double value) {
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+double from_bits(std::uint64_t bits) {
+  double value = 0.0;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+}  // namespace
+
+Estimate estimate_of(double value, std::span<const double> of_replicates) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const double one : of_replicates) {
+    if (std::isnan(one)) continue;
+    sum += one;
+    count += 1.0;
+  }
+  if (count < 2.0) return {value, nothing};
+  double squares = 0.0;
+  for (const double one : of_replicates) {
+    if (!std::isnan(one)) squares += (one - sum / count) * (one - sum / count);
+  }
+  return {value, std::sqrt(squares / (count * (count - 1.0)))};
+}
+
+Estimate ratio_of(std::span<const double> numerators, std::span<const double> denominators) {
+  double numerator = 0.0;
+  double denominator = 0.0;
+  for (std::size_t i = 0; i < numerators.size(); ++i) {
+    numerator += numerators[i];
+    denominator += denominators[i];
+  }
+  if (!(denominator > 0.0)) return {};
+  const double ratio = numerator / denominator;
+  const double mean = denominator / static_cast<double>(denominators.size());
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < numerators.size(); ++i) {
+    differences.push_back((numerators[i] - ratio * denominators[i]) / mean);
+  }
+  return estimate_of(ratio, differences);
+}
+
+std::size_t SortedReplicates::size() const {
+  std::size_t all = 0;
+  for (const auto& replicate : replicates) all += replicate.size();
+  return all;
+}
+
+double SortedReplicates::smallest(std::size_t k) const {
+  std::uint64_t low = 0;
+  std::uint64_t high = bits_of(std::numeric_limits<double>::infinity());
+  while (low < high) {
+    const std::uint64_t middle = low + (high - low) / 2;
+    const double value = from_bits(middle);
+    std::size_t not_above = 0;
+    for (const auto& replicate : replicates) {
+      not_above += static_cast<std::size_t>(
+          std::upper_bound(replicate.begin(), replicate.end(), value) - replicate.begin());
+    }
+    if (not_above > k) {
+      high = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  return from_bits(low);
+}
+
+double SortedReplicates::quantile(double p) const {
+  const std::size_t count = size();
+  if (count == 0) return nothing;
+  const double last = static_cast<double>(count - 1);
+  const double rank = std::clamp(p * static_cast<double>(count) - 0.5, 0.0, last);
+  const double whole = std::floor(rank);
+  const double low = smallest(static_cast<std::size_t>(whole));
+  if (rank == whole) return low;
+  const double high = smallest(static_cast<std::size_t>(whole) + 1);
+  return high == low ? low : low + (rank - whole) * (high - low);
+}
+
+Estimate SortedReplicates::estimated_quantile(double p) const {
+  std::vector<double> each;
+  for (const auto& replicate : replicates)
+    each.push_back(SortedReplicates{{replicate}}.quantile(p));
+  return estimate_of(quantile(p), each);
+}
+
+std::size_t SortedReplicates::count_between(double low, double high) const {
+  std::size_t count = 0;
+  for (const auto& replicate : replicates) {
+    count += static_cast<std::size_t>(std::lower_bound(replicate.begin(), replicate.end(), high) -
+                                      std::lower_bound(replicate.begin(), replicate.end(), low));
+  }
+  return count;
+}
+
+SortedReplicates SortedReplicates::above(double floor) const {
+  SortedReplicates part;
+  for (const auto& replicate : replicates) {
+    part.replicates.emplace_back(std::upper_bound(replicate.begin(), replicate.end(), floor),
+                                 replicate.end());
+  }
+  return part;
+}
+
+SortedReplicates SortedReplicates::finite() const {
+  SortedReplicates part;
+  for (const auto& replicate : replicates) {
+    part.replicates.emplace_back(replicate.begin(),
+                                 std::lower_bound(replicate.begin(), replicate.end(),
+                                                  std::numeric_limits<double>::infinity()));
+  }
+  return part;
+}
+
+std::size_t block_count(const Sampling& sampling, std::size_t points_at_a_time) {
+  return (sampling.points + points_at_a_time - 1) / points_at_a_time * sampling.replicates;
+}
+
+bool for_all_blocks(const Sampling& sampling, std::size_t points_at_a_time,
+                    const GridEvaluation& how,
+                    const std::function<void(const SampleBlock&)>& work) {
+  const std::size_t blocks = block_count(sampling, points_at_a_time);
+  const std::size_t of_replicate = blocks / sampling.replicates;
+  std::mutex telling;
+  std::size_t done = 0;
+  std::atomic<bool> stopped = false;
+  on_threads(how.threads, blocks, [&](std::size_t index) {
+    if (stopped) return;
+    const std::size_t first = index % of_replicate * points_at_a_time;
+    const std::size_t count = std::min(points_at_a_time, sampling.points - first);
+    work({index, index / of_replicate, first, count});
+    const std::scoped_lock lock(telling);
+    done += count;
+    if (how.going_on && !stopped && !how.going_on(done)) stopped = true;
+  });
+  return !stopped || done == sampling.samples();
+}
+
+}  // namespace gearlash::detail

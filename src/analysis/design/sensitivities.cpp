@@ -1,0 +1,207 @@
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/design/drawn_cycles.hpp"
+#include "analysis/design/drawn_values.hpp"
+#include "analysis/design/replicates.hpp"
+#include "analysis/design/tolerance_study.hpp"
+#include "base/range_check.hpp"
+
+namespace gearlash {
+namespace {
+
+/// Of a function f at the points A, B and AB_i, less a constant near its mean.
+struct Sums {
+  explicit Sums(std::size_t numbers = 0) : first(numbers), shift(numbers), total(numbers) {}
+
+  double points = 0.0;
+  double both = 0.0;          ///< Σ f(A) + f(B)
+  double both_squared = 0.0;  ///< Σ f(A)² + f(B)²
+  std::vector<double> first;  ///< Σ f(B)(f(AB_i) − f(A)), by number
+  std::vector<double> shift;  ///< Σ f(AB_i) − f(A)
+  std::vector<double> total;  ///< Σ (f(A) − f(AB_i))²
+
+  void add_point(double at_a, double at_b) {
+    points += 1.0;
+    both += at_a + at_b;
+    both_squared += at_a * at_a + at_b * at_b;
+  }
+  void add_number(std::size_t number, double at_a, double at_b, double at_mixed) {
+    const double change = at_mixed - at_a;
+    first[number] += at_b * change;
+    shift[number] += change;
+    total[number] += change * change;
+  }
+  void add(const Sums& others) {
+    points += others.points;
+    both += others.both;
+    both_squared += others.both_squared;
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      first[i] += others.first[i];
+      shift[i] += others.shift[i];
+      total[i] += others.total[i];
+    }
+  }
+
+  double mean() const { return both / (2.0 * points); }
+  double variance() const { return both_squared / (2.0 * points) - mean() * mean(); }
+  double first_variance(std::size_t number) const {
+    return (first[number] - mean() * shift[number]) / points;
+  }
+  double total_variance(std::size_t number) const { return total[number] / (2.0 * points); }
+};
+
+struct BlockSums {
+  Sums size;
+  Sums hunting;
+  std::size_t left_out = 0;
+  std::size_t refused = 0;
+
+  void add(const BlockSums& others) {
+    size.add(others.size);
+    hunting.add(others.hunting);
+    left_out += others.left_out;
+    refused += others.refused;
+  }
+};
+
+/// For each point the values of A, of B, and of each AB_i: numbers + 2 drives.
+std::vector<double> mixed_values(const std::vector<double>& both_sets, std::size_t numbers) {
+  std::vector<double> values;
+  values.reserve(both_sets.size() / 2 * (numbers + 2));
+  for (std::size_t point = 0; point < both_sets.size(); point += 2 * numbers) {
+    const double* a = &both_sets[point];
+    const double* b = a + numbers;
+    values.insert(values.end(), a, b);
+    values.insert(values.end(), b, b + numbers);
+    for (std::size_t i = 0; i < numbers; ++i) {
+      values.insert(values.end(), a, b);
+      values[values.size() - numbers + i] = b[i];
+    }
+  }
+  return values;
+}
+
+/// Of the drives of mixed_values(); `usual_size` is subtracted from sizes.
+BlockSums sums_of(const detail::DrawnCycles& cycles, std::size_t numbers, double usual_size) {
+  BlockSums sums{Sums(numbers), Sums(numbers), 0, cycles.refused};
+  for (std::size_t point = 0; point < cycles.rows(); point += numbers + 2) {
+    const auto size = [&](std::size_t of) { return cycles.size(point + of) - usual_size; };
+    const auto hunts = [&](std::size_t of) { return cycles.hunts(point + of) ? 1.0 : 0.0; };
+    bool all_known = true;
+    for (std::size_t i = 0; i < numbers + 2; ++i) all_known = all_known && std::isfinite(size(i));
+    if (!all_known) {
+      ++sums.left_out;
+      continue;
+    }
+    sums.size.add_point(size(0), size(1));
+    sums.hunting.add_point(hunts(0), hunts(1));
+    for (std::size_t i = 0; i < numbers; ++i) {
+      sums.size.add_number(i, size(0), size(1), size(i + 2));
+      sums.hunting.add_number(i, hunts(0), hunts(1), hunts(i + 2));
+    }
+  }
+  return sums;
+}
+
+/// Nearer to the mean size than 0, so that a small variance is not a difference of large numbers.
+double size_of_mean_drive(const TolerancedDrive& drive, VectorUnit unit) {
+  std::vector<double> values;
+  for (const VariedNumber& varied : drive.varied) values.push_back(mean_of(varied.distribution));
+  const double size = detail::solve(drive, 1, values, unit).size(0);
+  return std::isfinite(size) ? size : 0.0;
+}
+
+/// The indices of one quantity, replicate by replicate; none where its variance is rounding.
+class Indices {
+ public:
+  Indices(const std::vector<const Sums*>& replicates, double usual) : replicates_(replicates) {
+    double sum = 0.0;
+    double largest = std::abs(usual);
+    for (const Sums* sums : replicates_) {
+      variances_.push_back(sums->points > 0.0 ? sums->variance() : 0.0);
+      sum += variances_.back();
+      if (sums->points > 0.0) largest = std::max(largest, std::abs(sums->mean() + usual));
+    }
+    const double mean = sum / static_cast<double>(variances_.size());
+    variance_ = detail::estimate_of(mean, variances_);
+    constexpr double rounding = 1e-12;
+    varies_ = mean > rounding * largest * rounding * largest;
+  }
+
+  Estimate variance() const { return variance_; }
+  SensitivityIndices of(std::size_t number) const {
+    if (!varies_) return {};
+    std::vector<double> first;
+    std::vector<double> total;
+    for (const Sums* sums : replicates_) {
+      first.push_back(sums->points > 0.0 ? sums->first_variance(number) : 0.0);
+      total.push_back(sums->points > 0.0 ? sums->total_variance(number) : 0.0);
+    }
+    return {detail::ratio_of(first, variances_), detail::ratio_of(total, variances_)};
+  }
+
+ private:
+  std::vector<const Sums*> replicates_;
+  std::vector<double> variances_;
+  Estimate variance_;
+  bool varies_ = false;
+};
+
+SensitivityStudy study_of(const TolerancedDrive& drive, const Sampling& sampling,
+                          const std::vector<BlockSums>& blocks, double usual_size) {
+  const std::size_t numbers = drive.varied.size();
+  std::vector<BlockSums> replicates(sampling.replicates, {Sums(numbers), Sums(numbers)});
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    replicates[i / (blocks.size() / sampling.replicates)].add(blocks[i]);
+  }
+  SensitivityStudy study;
+  study.sampling = sampling;
+  std::vector<const Sums*> sizes;
+  std::vector<const Sums*> hunting;
+  for (const BlockSums& replicate : replicates) {
+    sizes.push_back(&replicate.size);
+    hunting.push_back(&replicate.hunting);
+    study.left_out += replicate.left_out;
+    study.refused += replicate.refused;
+  }
+  const Indices of_size(sizes, usual_size);
+  const Indices of_hunting(hunting, 0.0);
+  study.size_variance = of_size.variance();
+  study.hunting_variance = of_hunting.variance();
+  for (std::size_t i = 0; i < numbers; ++i) {
+    study.numbers.push_back({drive.varied[i].number, of_size.of(i), of_hunting.of(i)});
+  }
+  return study;
+}
+
+}  // namespace
+
+SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const Sampling& sampling,
+                                     const GridEvaluation& how) {
+  RangeCheck check;
+  require_none(check.include(validate(drive)).include(validate(sampling)).violations());
+  const std::size_t numbers = drive.varied.size();
+  if (numbers == 0) {
+    SensitivityStudy nothing;
+    nothing.sampling = sampling;
+    return nothing;
+  }
+  const detail::DrawnValues values(drive, sampling, 2);
+  // A quarter of the usual number: each point is numbers + 2 drives, each block a set of sums.
+  const std::size_t at_a_time = detail::drives_at_a_time(drive) / 4;
+  const double usual_size = size_of_mean_drive(drive, how.unit);
+  std::vector<BlockSums> blocks(detail::block_count(sampling, at_a_time),
+                                {Sums(numbers), Sums(numbers)});
+  const auto work = [&](const detail::SampleBlock& block) {
+    const detail::DrawnCycles cycles = detail::solve(
+        drive, block.count * (numbers + 2), mixed_values(values.of(block), numbers), how.unit);
+    blocks[block.index] = sums_of(cycles, numbers, usual_size);
+  };
+  const bool all_done = detail::for_all_blocks(sampling, at_a_time, how, work);
+  SensitivityStudy study = study_of(drive, sampling, blocks, usual_size);
+  study.stopped = !all_done;
+  return study;
+}
+
+}  // namespace gearlash

@@ -1,0 +1,28 @@
+// Sobol's points, shifted at random, from any index on.
+#pragma once
+
+#include <boost/random/sobol.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "analysis/design/sampling.hpp"
+
+namespace gearlash::detail {
+
+class ShiftedSobol {
+ public:
+  ShiftedSobol(std::size_t dimensions, const Sampling& sampling);
+
+  /// Points `first` … of a replicate, one after another, as many as fill `coordinates`; each
+  /// coordinate is (k + ½)/2⁵², k from 0 to 2⁵² − 1, so that it lies between 0 and 1.
+  void fill(std::size_t replicate, std::size_t first, std::span<double> coordinates) const;
+
+ private:
+  std::size_t dimensions_;
+  boost::random::sobol sequence_;      ///< at its start: copied and sought
+  std::vector<std::uint64_t> shifts_;  ///< by replicate and dimension
+};
+
+}  // namespace gearlash::detail

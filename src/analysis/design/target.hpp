@@ -1,0 +1,68 @@
+// What a servo should do: targets for its limit cycle.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "analysis/design/changeable_drive.hpp"
+#include "base/violation.hpp"
+#include "closed_form/limit_cycle.hpp"
+
+namespace gearlash {
+
+/// Limits that a servo has to keep all together. One that cannot hunt has size 0 and no frequency.
+struct Target {
+  bool no_hunting = false;               ///< it comes to rest from everywhere: Verdict::cannot_hunt
+  Bounds size{0.0, infinity};            ///< rad at the load's shaft, half peak-to-peak
+  Bounds frequency{0.0, infinity};       ///< Hz, of a servo that hunts
+  Bounds growth_at_rest{0.0, infinity};  ///< below 1 it is a margin to hunting
+
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  bool operator==(const Target&) const = default;
+};
+
+/// What a target is compared with.
+struct Performance {
+  Verdict verdict = Verdict::undecided;
+  double growth_at_rest = std::numeric_limits<double>::quiet_NaN();
+  double size = std::numeric_limits<double>::quiet_NaN();       ///< rad; 0 where it cannot hunt
+  double frequency = std::numeric_limits<double>::quiet_NaN();  ///< Hz; NaN where it cannot hunt
+  double flight_time =
+      std::numeric_limits<double>::quiet_NaN();  ///< of half a plastic cycle, ω_n t
+};
+
+/// By analyse_limit_cycles(). Throws InvalidInput.
+Performance performance_of(const Drivetrain& drive);
+
+/// Whether a drive with backlash, of this growth at rest, misses the target whatever its cycles
+/// are.
+bool is_ruled_out(const Target& target, double growth_at_rest);
+
+/// As performance_of(), as far as the target asks for it: with bounces the search for cycles, which
+/// takes milliseconds, is left out where the growth at rest rules the drive out. The verdict is
+/// then `hunts` or `undecided`, and the rest NaN. Throws InvalidInput.
+Performance performance_for(const Target& target, const Drivetrain& drive);
+
+/// Whether all limits are kept. What is not known keeps none.
+bool is_met(const Target& target, const Performance& performance);
+
+/// Whether it is known that the target is met, or missed: not where a search for cycles came to no
+/// end, or motion does not repeat.
+bool is_known(const Target& target, const Performance& performance);
+
+/// ln(value/limit) of the limit that is kept least, but for rounding ≤ 0 where all are kept;
+/// growth at rest stands for no-hunting, whose limit is 1. −∞ where nothing comes near a limit, ∞
+/// where a limit cannot be compared with.
+double excess(const Target& target, const Performance& performance);
+
+/// How many of the drives of a box keep all limits; `some`: that is not known.
+enum class Judgement { none, some, all };
+
+/// By bound_cycles(): proved. The guess is as there.
+Judgement judge(const Target& target, const DriveBox& box, double guessed_flight_time);
+
+/// Limits that contradict each other ("size <= 1 deg and size >= 2 deg"), or that nothing can keep,
+/// each as a violation of the field `target`.
+std::vector<Violation> validate(const Target& target);
+
+}  // namespace gearlash

@@ -1,0 +1,197 @@
+#include "analysis/design/tolerance_study.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/design/drawn_cycles.hpp"
+#include "analysis/design/drawn_values.hpp"
+#include "analysis/design/replicates.hpp"
+#include "base/on_threads.hpp"
+#include "base/range_check.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double no_cycle = -1.0;  // in the column of frequencies, to be sorted first
+
+/// What is counted; counts of blocks add up the same in any order, the sum of sizes in theirs.
+struct Counts {
+  std::size_t hunting = 0;
+  std::size_t meeting = 0;
+  std::size_t undecided = 0;
+  std::size_t unknown_sizes = 0;
+  std::size_t finite_sizes = 0;
+  std::size_t refused = 0;
+  BatchCount solved;
+  double sum_of_sizes = 0.0;
+
+  void add(const Counts& others) {
+    hunting += others.hunting;
+    meeting += others.meeting;
+    undecided += others.undecided;
+    unknown_sizes += others.unknown_sizes;
+    finite_sizes += others.finite_sizes;
+    refused += others.refused;
+    solved.side_by_side += others.solved.side_by_side;
+    solved.one_by_one += others.solved.one_by_one;
+    sum_of_sizes += others.sum_of_sizes;
+  }
+};
+
+/// Replicate by replicate.
+struct Columns {
+  std::vector<double> size;       ///< infinite where not known
+  std::vector<double> frequency;  ///< no_cycle where there is none
+};
+
+Counts count_block(const detail::DrawnCycles& cycles, const Target& target, std::size_t place,
+                   Columns& columns) {
+  Counts counts{.refused = cycles.refused, .solved = cycles.solved};
+  for (std::size_t row = 0; row < cycles.rows(); ++row) {
+    const double size = cycles.size(row);
+    const double frequency = cycles.frequency[row];
+    if (cycles.hunts(row)) ++counts.hunting;
+    if (is_met(target, cycles.performance(row))) ++counts.meeting;
+    if (cycles.verdict[row] == Verdict::undecided) ++counts.undecided;
+    if (std::isnan(size)) ++counts.unknown_sizes;
+    if (std::isfinite(size)) {
+      ++counts.finite_sizes;
+      counts.sum_of_sizes += size;
+    }
+    columns.size[place + row] = std::isnan(size) ? infinity : size;
+    columns.frequency[place + row] = std::isnan(frequency) ? no_cycle : frequency;
+  }
+  return counts;
+}
+
+/// Each replicate's numbers put in order.
+detail::SortedReplicates sorted(std::vector<double>& column, const Sampling& sampling,
+                                std::size_t threads) {
+  const auto replicate = [&](std::size_t i) {
+    return std::span<double>(column).subspan(i * sampling.points, sampling.points);
+  };
+  on_threads(threads, sampling.replicates,
+             [&](std::size_t i) { std::sort(replicate(i).begin(), replicate(i).end()); });
+  detail::SortedReplicates all;
+  for (std::size_t i = 0; i < sampling.replicates; ++i) all.replicates.emplace_back(replicate(i));
+  return all;
+}
+
+std::vector<QuantileEstimate> quantiles_of(const detail::SortedReplicates& numbers,
+                                           const std::vector<double>& shares) {
+  std::vector<QuantileEstimate> quantiles;
+  for (const double share : shares) {
+    quantiles.push_back({share, numbers.estimated_quantile(share)});
+  }
+  return quantiles;
+}
+
+SizeHistogram histogram_of(const detail::SortedReplicates& sizes, std::size_t bins) {
+  const detail::SortedReplicates hunting = sizes.above(0.0).finite();
+  const std::size_t count = hunting.size();
+  SizeHistogram histogram;
+  histogram.quiet = sizes.count_between(0.0, std::numeric_limits<double>::denorm_min());
+  histogram.unknown = sizes.size() - histogram.quiet - count;
+  if (count == 0 || bins == 0) return histogram;
+  const double low = hunting.smallest(0);
+  const double high = hunting.smallest(count - 1);
+  for (std::size_t i = 0; i < bins; ++i) {
+    histogram.edges.push_back(low +
+                              (high - low) * static_cast<double>(i) / static_cast<double>(bins));
+  }
+  histogram.edges.push_back(high);
+  for (std::size_t i = 0; i < bins; ++i) {
+    const bool is_last = i + 1 == bins;
+    histogram.counts.push_back(
+        hunting.count_between(histogram.edges[i], is_last ? infinity : histogram.edges[i + 1]));
+  }
+  return histogram;
+}
+
+/// Σ quantity/Σ all, over the replicates.
+template <class Quantity, class All>
+Estimate share_of(const std::vector<Counts>& replicates, Quantity quantity, All all) {
+  std::vector<double> quantities;
+  std::vector<double> wholes;
+  for (const Counts& counts : replicates) {
+    quantities.push_back(static_cast<double>(quantity(counts)));
+    wholes.push_back(static_cast<double>(all(counts)));
+  }
+  return detail::ratio_of(quantities, wholes);
+}
+
+/// What counting alone tells.
+ToleranceStudy counted(const Sampling& sampling, const std::vector<Counts>& blocks) {
+  std::vector<Counts> replicates(sampling.replicates);
+  Counts total;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    replicates[i / (blocks.size() / sampling.replicates)].add(blocks[i]);
+    total.add(blocks[i]);
+  }
+  const auto points = [&](const Counts&) { return sampling.points; };
+  ToleranceStudy study;
+  study.sampling = sampling;
+  study.hunting = share_of(
+      replicates, [](const Counts& c) { return c.hunting; }, points);
+  study.yield = share_of(
+      replicates, [](const Counts& c) { return c.meeting; }, points);
+  study.mean_size = share_of(
+      replicates, [](const Counts& c) { return c.sum_of_sizes; },
+      [](const Counts& c) { return c.finite_sizes; });
+  study.undecided = total.undecided;
+  study.unknown_sizes = total.unknown_sizes;
+  study.refused = total.refused;
+  study.solved = total.solved;
+  return study;
+}
+
+void require_sound(const TolerancedDrive& drive, const Sampling& sampling,
+                   const StudyQuestions& questions) {
+  RangeCheck check;
+  check.include(validate(drive)).include(validate(sampling)).include(validate(questions));
+  require_none(check.violations());
+}
+
+}  // namespace
+
+std::vector<Violation> validate(const StudyQuestions& questions) {
+  RangeCheck check;
+  check.include(validate(questions.target));
+  for (const double share : questions.shares) check.within("quantile", share, 0.0, 1.0);
+  constexpr std::size_t most_bins = 1'000'000;
+  if (questions.bins > most_bins) {
+    check.refuse("bins", std::to_string(questions.bins),
+                 "must be at most " + std::to_string(most_bins));
+  }
+  return check.violations();
+}
+
+ToleranceStudy study_tolerances(const TolerancedDrive& drive, const Sampling& sampling,
+                                const StudyQuestions& questions, const GridEvaluation& how) {
+  require_sound(drive, sampling, questions);
+  const detail::DrawnValues values(drive, sampling, 1);
+  const std::size_t at_a_time = detail::drives_at_a_time(drive);
+  Columns columns{std::vector<double>(sampling.samples()), std::vector<double>(sampling.samples())};
+  std::vector<Counts> blocks(detail::block_count(sampling, at_a_time));
+  const auto work = [&](const detail::SampleBlock& block) {
+    const detail::DrawnCycles cycles =
+        detail::solve(drive, block.count, values.of(block), how.unit);
+    blocks[block.index] = count_block(cycles, questions.target,
+                                      block.replicate * sampling.points + block.first, columns);
+  };
+  const bool all_done = detail::for_all_blocks(sampling, at_a_time, how, work);
+  ToleranceStudy study = counted(sampling, blocks);
+  study.stopped = !all_done;
+  if (study.stopped) return study;
+  const detail::SortedReplicates sizes = sorted(columns.size, sampling, how.threads);
+  study.size = quantiles_of(sizes, questions.shares);
+  study.size_of_hunting = quantiles_of(sizes.above(0.0), questions.shares);
+  study.histogram = histogram_of(sizes, questions.bins);
+  const detail::SortedReplicates frequencies = sorted(columns.frequency, sampling, how.threads);
+  study.frequency = quantiles_of(frequencies.above(no_cycle), questions.shares);
+  return study;
+}
+
+}  // namespace gearlash

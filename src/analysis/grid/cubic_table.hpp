@@ -1,0 +1,82 @@
+// A table over one or more axes, with cubics between its values.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "analysis/grid/axis.hpp"
+
+namespace gearlash {
+
+/// The cubic through four neighbouring values of an axis, at one place: Σ weights[k] f[first + k].
+struct CubicPlace {
+  std::size_t interval;  ///< the place stands between value number `interval` and the next
+  std::size_t first;     ///< of the four values
+  std::array<double, 4> weights;
+};
+
+/// Lagrange's cubic in s, which is the input's value or, on a logarithmic axis, its logarithm:
+///   weights[k] = Π_{j≠k} (s − s_j)/(s_k − s_j),
+/// over two values on either side of the place, or the four at an end of the axis. The interval is
+/// found at once where the values are evenly spaced in s, else by bisection.
+class CubicAxis {
+ public:
+  static constexpr std::size_t fewest_values = 4;
+
+  /// Precondition: validate(axis) is empty; fewest_values or more, finite, positive where
+  /// logarithmic.
+  explicit CubicAxis(const Axis& axis);
+
+  std::size_t intervals() const { return intervals_.size(); }
+
+  /// Between the ends of the axis, both included; false for NaN.
+  bool contains(double value) const { return value >= lowest_ && value <= highest_; }
+
+  /// Precondition: contains(value).
+  CubicPlace at(double value) const;
+  /// By the cubic of that interval, whether the value stands in it or not.
+  CubicPlace at(double value, std::size_t interval) const;
+
+ private:
+  struct Interval {
+    std::array<double, 4> places;         ///< s_k
+    std::array<double, 4> inverse_spans;  ///< 1/Π_{j≠k} (s_k − s_j)
+  };
+
+  double place_of(double value) const;
+  std::size_t interval_of(double place) const;
+  CubicPlace weighted(double place, std::size_t interval) const;
+
+  bool logarithmic_;
+  bool even_;
+  double lowest_;
+  double highest_;
+  double intervals_a_place_;  ///< where even
+  std::vector<double> places_;
+  std::vector<Interval> intervals_;
+};
+
+/// Tensor product of the axes' cubics: 4ⁿ values for n axes.
+class CubicTable {
+ public:
+  static constexpr std::size_t most_axes = all_inputs.size();
+
+  CubicTable() = default;
+  /// Precondition: 1 to most_axes axes as CubicAxis wants them; a value for each combination, the
+  /// last axis fastest.
+  CubicTable(const std::vector<Axis>& axes, std::vector<double> values);
+
+  const std::vector<CubicAxis>& axes() const { return axes_; }
+
+  /// NaN where one of the 4ⁿ values is. Precondition: one place for each axis.
+  double at(std::span<const CubicPlace> places) const;
+
+ private:
+  std::vector<CubicAxis> axes_;
+  std::array<std::size_t, most_axes> strides_ = {};
+  std::vector<double> values_;
+};
+
+}  // namespace gearlash

@@ -1,0 +1,28 @@
+// Bisection between two places on different sides of a region's boundary.
+#pragma once
+
+#include "analysis/grid/region_boundary.hpp"
+
+namespace gearlash {
+
+struct SideChange {
+  double place = 0.0;           ///< the last that is inside
+  Side beyond = Side::outside;  ///< what comes after it
+};
+
+/// By so many halvings, or as many as numbers permit. Whatever lies between, the side changes at
+/// the place that is found.
+template <class SideAt>
+SideChange bisect_sides(const SideAt& side_at, double inside, double outside, int halvings) {
+  Side beyond = Side::outside;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    if (middle == inside || middle == outside) break;
+    const Side side = side_at(middle);
+    if (side != Side::inside) beyond = side;
+    (side == Side::inside ? inside : outside) = middle;
+  }
+  return {inside, beyond};
+}
+
+}  // namespace gearlash

@@ -1,0 +1,88 @@
+#include "closed_form/energy_balance.hpp"
+
+#include <array>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include "base/interval.hpp"
+
+namespace gearlash {
+namespace {
+
+using Rational = boost::multiprecision::cpp_rational;
+
+/// f + (1 − f) r and 4ζ² f (1 − f)(1 + r), both divided by 1 + r: by the shafts' shares of inertia.
+template <class Number>
+struct Sides {
+  Number needed;
+  Number given;
+
+  Sides(const Number& damping, const Number& motor_share, const Number& load_share,
+        const Number& friction_ratio)
+      : needed(friction_ratio * motor_share + (1 - friction_ratio) * load_share),
+        given(4 * damping * damping * friction_ratio * (1 - friction_ratio)) {}
+};
+
+/// The shortest decimal that reads back as the number.
+Rational decimal(double value) {
+  std::array<char, 32> text{};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific);
+  std::string digits(text.data(), end.ptr);
+  const std::size_t exponent_at = digits.find('e');
+  int power = std::atoi(digits.c_str() + exponent_at + 1);
+  digits.resize(exponent_at);
+  if (const std::size_t point = digits.find('.'); point != std::string::npos) {
+    power -= static_cast<int>(digits.size() - point - 1);
+    digits.erase(point, 1);
+  }
+  digits.erase(0,
+               std::min(digits.find_first_not_of('0'), digits.size() - 1));  // else read as octal
+  const Rational scale = boost::multiprecision::pow(boost::multiprecision::cpp_int(10),
+                                                    static_cast<unsigned>(std::abs(power)));
+  const Rational mantissa{boost::multiprecision::cpp_int(digits)};
+  return power < 0 ? Rational(mantissa / scale) : Rational(mantissa * scale);
+}
+
+bool is_dissipative_exactly(const NormalizedServo& servo, Reading reading) {
+  const auto number = [&](double value) {
+    return reading == Reading::exact ? Rational(value) : decimal(value);
+  };
+  const bool massless_motor = std::isinf(servo.inertia_ratio);
+  const Rational ratio = massless_motor ? Rational(0) : number(servo.inertia_ratio);
+  const Rational motor_share = massless_motor ? Rational(0) : Rational(1 / (1 + ratio));
+  const Sides<Rational> sides(number(servo.damping), motor_share, 1 - motor_share,
+                              number(servo.friction_ratio));
+  return sides.needed <= sides.given;
+}
+
+}  // namespace
+
+bool is_dissipative(const NormalizedServo& servo, Reading reading) {
+  const double ratio = servo.inertia_ratio;
+  const double motor_share = 1.0 / (1.0 + ratio);
+  const double load_share = std::isinf(ratio) ? 1.0 : ratio / (1.0 + ratio);
+  const Sides<double> sides(servo.damping, motor_share, load_share, servo.friction_ratio);
+  // All terms are positive and each is off by a few units in the last place, but for those of 1 −
+  // f, which both sides have in common, and which a decimal puts off by 1e-13 of itself at most
+  // here.
+  constexpr double clearly = 1e-12;
+  const double friction_left = 1.0 - servo.friction_ratio;
+  if (friction_left > 1e-3 && std::abs(sides.needed - sides.given) > clearly * sides.needed) {
+    return sides.needed < sides.given;
+  }
+  return is_dissipative_exactly(servo, reading);
+}
+
+bool is_dissipative(const ServoBox& box) {
+  const auto time_constant = [](const Bounds& rate) {
+    return std::isinf(rate.low) ? Interval(0.0) : 1.0 / Interval(rate);
+  };
+  const Interval needed = time_constant(box.motor_rate) + time_constant(box.load_rate);
+  return needed.high <= (2.0 * Interval(box.damping)).low;
+}
+
+}  // namespace gearlash

@@ -1,0 +1,206 @@
+#include "closed_form/limit_cycle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "closed_form/bouncing_cycles.hpp"
+#include "closed_form/energy_balance.hpp"
+#include "closed_form/growth_at_rest.hpp"
+#include "closed_form/plastic_cycle.hpp"
+
+namespace gearlash {
+namespace {
+
+/// Plastic contact: the theorem of docs/mathematics.md decides.
+void analyse_plastic(const ServoDynamics& dynamics, LimitCycleAnalysis& analysis) {
+  analysis.certainty =
+      std::isinf(analysis.growth_at_rest) ? Certainty::theorem : Certainty::computed;
+  if (analysis.growth_at_rest <= 1.0) {
+    analysis.verdict = Verdict::cannot_hunt;
+    return;
+  }
+  const auto half = balanced_half_cycle(dynamics, analysis.growth_at_rest);
+  if (half) analysis.cycles.push_back(plastic_cycle(dynamics, *half));
+  // Else growth at rest is 1 + rounding: the theorem says that there is a cycle, and a stable one.
+  if (half && analysis.cycles.front().stable) {
+    analysis.verdict = Verdict::hunts;
+    return;
+  }
+  analysis.verdict = Verdict::undecided;
+  analysis.certainty = Certainty::computed;
+  analysis.cycles.clear();
+}
+
+Verdict bouncing_verdict(double growth, const BouncingCycles& found) {
+  if (std::isnan(growth)) return Verdict::undecided;
+  const bool any_stable = std::any_of(found.cycles.begin(), found.cycles.end(),
+                                      [](const LimitCycle& cycle) { return cycle.stable; });
+  if ((found.cut_short || found.any_neutral) && !any_stable) return Verdict::undecided;
+  const bool any_lasting = any_stable || !std::isnan(found.irregular_size);
+  if (growth > 1.0 && !any_lasting) return Verdict::undecided;
+  if (growth > 1.0) return any_stable ? Verdict::hunts : Verdict::hunts_irregularly;
+  if (any_stable || !found.all_starts_settled) return Verdict::hunts_if_disturbed;
+  return Verdict::cannot_hunt;
+}
+
+void analyse_bouncing(const NormalizedServo& servo, const ServoDynamics& dynamics,
+                      LimitCycleAnalysis& analysis) {
+  const BouncingCycles found = find_bouncing_cycles(servo, dynamics);
+  analysis.cycles = found.cycles;
+  analysis.neutral_swings = found.any_neutral;
+  analysis.irregular_size = found.irregular_size;
+  analysis.verdict = bouncing_verdict(analysis.growth_at_rest, found);
+}
+
+/// Verdicts that need no growth at rest, by exact comparisons.
+std::optional<Verdict> verdict_by_theorem(const ServoDynamics& dynamics, bool is_dissipative) {
+  if (dynamics.backlash == 0.0) {
+    return dynamics.damping == 0.0 ? Verdict::undamped : Verdict::cannot_hunt;
+  }
+  if (dynamics.damping == 0.0 && dynamics.plastic_contact()) return Verdict::grows_without_bound;
+  if (is_dissipative) return Verdict::cannot_hunt;
+  return std::nullopt;
+}
+
+/// All that needs no search; the verdict where a theorem gives it.
+LimitCycleAnalysis begun(const ServoDynamics& dynamics, bool is_dissipative) {
+  LimitCycleAnalysis analysis;
+  analysis.growth_at_rest = growth_at_rest(dynamics);
+  analysis.is_dissipative = is_dissipative;
+  analysis.rests_engaged = dynamics.damping >= 1.0;
+  if (const auto verdict = verdict_by_theorem(dynamics, is_dissipative)) {
+    analysis.verdict = *verdict;
+    analysis.certainty = Certainty::theorem;
+  } else if (dynamics.damping == 0.0) {
+    analysis.verdict = Verdict::grows_without_bound;
+  } else {
+    analysis.verdict = Verdict::undecided;
+  }
+  return analysis;
+}
+
+LimitCycleAnalysis analyse(const NormalizedServo& servo, bool is_dissipative) {
+  const ServoDynamics dynamics = servo_dynamics(servo);
+  LimitCycleAnalysis analysis = begun(dynamics, is_dissipative);
+  if (analysis.verdict != Verdict::undecided) return analysis;
+  if (dynamics.plastic_contact()) {
+    analyse_plastic(dynamics, analysis);
+  } else {
+    analyse_bouncing(servo, dynamics, analysis);
+  }
+  return analysis;
+}
+
+/// The cycle that is proved to exist, as far as doubles can find it: next to the boundary it may be
+/// missing, and its multiplier be 1 by rounding.
+void add_proved_cycle(const ServoDynamics& dynamics, LimitCycleAnalysis& analysis) {
+  const double least = 1.0 + std::numeric_limits<double>::epsilon();
+  const auto half = balanced_half_cycle(dynamics, std::max(analysis.growth_at_rest, least));
+  if (!half) return;
+  analysis.cycles.push_back(plastic_cycle(dynamics, *half));
+  analysis.cycles.front().stable = true;
+}
+
+/// Plastic contact and damping: what holds of all servos of the box.
+LimitCycleAnalysis enclose_plastic(const ServoDynamics& dynamics, const ServoBox& box,
+                                   bool is_dissipative) {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  LimitCycleAnalysis analysis = begun(dynamics, is_dissipative);
+  const CycleBounds bounds = bound_cycles(box, unknown);
+  analysis.growth_at_rest =
+      std::clamp(analysis.growth_at_rest, bounds.growth_at_rest.low, bounds.growth_at_rest.high);
+  const bool is_theorem =
+      analysis.verdict != Verdict::undecided || std::isinf(bounds.growth_at_rest.low);
+  if (bounds.all_hunt()) analysis.verdict = Verdict::hunts;
+  if (bounds.none_hunt()) analysis.verdict = Verdict::cannot_hunt;
+  analysis.certainty = is_theorem                               ? Certainty::theorem
+                       : analysis.verdict != Verdict::undecided ? Certainty::enclosed
+                                                                : Certainty::computed;
+  if (analysis.verdict == Verdict::hunts) add_proved_cycle(dynamics, analysis);
+  const double flight_time =
+      analysis.cycles.empty() ? unknown : 0.5 * analysis.cycles.front().separated_time;
+  analysis.bounds = bound_cycles(box, flight_time, MultiplierBounds::wanted);
+  return analysis;
+}
+
+LimitCycleAnalysis enclosed(const NormalizedServo& servo, const ServoBox& box,
+                            bool is_dissipative) {
+  const ServoDynamics dynamics = servo_dynamics(servo);
+  const bool may_hunt = dynamics.backlash > 0.0 && dynamics.damping > 0.0;
+  return may_hunt && dynamics.plastic_contact() ? enclose_plastic(dynamics, box, is_dissipative)
+                                                : analyse(servo, is_dissipative);
+}
+
+}  // namespace
+
+LimitCycleAnalysis analyse_limit_cycles(const NormalizedServo& servo) {
+  require_none(validate(servo));
+  return analyse(servo, is_dissipative(servo));
+}
+
+LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, const ServoBox& box) {
+  require_none(validate(servo));
+  return enclosed(servo, box, is_dissipative(box));
+}
+
+LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, Reading reading) {
+  require_none(validate(servo));
+  const ServoBox box = box_of(servo, reading);
+  const bool dissipative =
+      reading == Reading::converted ? is_dissipative(box) : is_dissipative(servo, reading);
+  return enclosed(servo, box, dissipative);
+}
+
+const LimitCycle* largest_stable(const LimitCycleAnalysis& analysis) {
+  const auto stable = std::find_if(analysis.cycles.begin(), analysis.cycles.end(),
+                                   [](const LimitCycle& cycle) { return cycle.stable; });
+  return stable == analysis.cycles.end() ? nullptr : &*stable;
+}
+
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::cannot_hunt:
+      return "cannot hunt";
+    case Verdict::hunts:
+      return "hunts";
+    case Verdict::hunts_if_disturbed:
+      return "hunts if disturbed";
+    case Verdict::hunts_irregularly:
+      return "hunts irregularly";
+    case Verdict::grows_without_bound:
+      return "grows without bound";
+    case Verdict::undamped:
+      return "undamped";
+    case Verdict::undecided:
+      return "undecided";
+  }
+  return "";
+}
+
+const char* name_of(Certainty certainty) {
+  switch (certainty) {
+    case Certainty::searched:
+      return "searched";
+    case Certainty::computed:
+      return "computed";
+    case Certainty::enclosed:
+      return "enclosed";
+    case Certainty::theorem:
+      return "theorem";
+  }
+  return "";
+}
+
+const char* name_of(CycleKind kind) {
+  switch (kind) {
+    case CycleKind::symmetric:
+      return "symmetric";
+    case CycleKind::asymmetric:
+      return "asymmetric";
+    case CycleKind::subharmonic:
+      return "subharmonic";
+  }
+  return "";
+}
+
+}  // namespace gearlash

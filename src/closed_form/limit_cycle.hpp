@@ -1,0 +1,126 @@
+// Whether the servo hunts, how big and how fast: its limit cycles and the verdict on them.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "closed_form/cycle_bounds.hpp"
+#include "closed_form/trajectory.hpp"
+#include "model/normalized_servo.hpp"
+
+namespace gearlash {
+
+enum class CycleKind {
+  symmetric,   ///< the second half mirrors the first
+  asymmetric,  ///< repeats after one traversal of the gap each way, without mirror symmetry
+  subharmonic  ///< repeats only after several traversals each way
+};
+
+/// Energy fed in by the loop equals the sum of the losses. Units of K rad², over a whole period.
+struct CycleEnergy {
+  double motor_friction = std::numeric_limits<double>::quiet_NaN();
+  double load_friction = std::numeric_limits<double>::quiet_NaN();
+  double impacts = std::numeric_limits<double>::quiet_NaN();
+
+  double lost() const { return motor_friction + load_friction + impacts; }
+};
+
+/// Times in units of 1/ω_n, angles in rad at the load shaft. NaN where not computed.
+struct LimitCycle {
+  CycleKind kind = CycleKind::symmetric;
+  bool stable = false;                                           ///< |multiplier| < 1
+  double size = std::numeric_limits<double>::quiet_NaN();        ///< half peak-to-peak of the load
+  double motor_size = std::numeric_limits<double>::quiet_NaN();  ///< the same of the motor
+  double period = std::numeric_limits<double>::quiet_NaN();
+  double multiplier = std::numeric_limits<double>::quiet_NaN();    ///< Floquet's, largest modulus,
+                                                                   ///< over a whole period
+  double impact_speed = std::numeric_limits<double>::quiet_NaN();  ///< |v_M − v_L| before the
+                                                                   ///< hardest impact
+  double engaged_time = std::numeric_limits<double>::quiet_NaN();  ///< a period's share
+  double separated_time = std::numeric_limits<double>::quiet_NaN();  ///< a period's share
+  double residual = std::numeric_limits<double>::quiet_NaN();  ///< relative mismatch of the state
+                                                               ///< after one map, of its size
+  std::size_t impacts_per_period = 0;  ///< impacts counted one by one; a settling adds none more
+  bool settles = false;                ///< bounces settle (or are plastic) before each separation
+  CycleEnergy energy;
+  ServoState start;  ///< a state on the cycle, about reference 0: as the faces part forward
+                     ///< (plastic contact), or just after an impact on the forward face
+};
+
+enum class Verdict {
+  cannot_hunt,          ///< every motion tends to the reference; for e > 0 as far as was searched,
+                        ///< where it is not proved
+  hunts,                ///< rest is unstable; a stable limit cycle was found
+  hunts_if_disturbed,   ///< rest is stable, but so is a limit cycle beside it
+  hunts_irregularly,    ///< rest is unstable; the motion stayed bounded and did not repeat
+  grows_without_bound,  ///< no friction at all: the oscillation has no bound
+  undamped,             ///< neither friction nor backlash: any amplitude persists
+  undecided  ///< on the boundary to within rounding, or more bounces than can be followed
+};
+
+/// How sure a statement is, from the least to the most.
+enum class Certainty {
+  searched,  ///< found by a search, which may have missed something
+  computed,  ///< decided by a formula in floating point, whose rounding is not bounded
+  enclosed,  ///< proved of this servo: a theorem, whose condition interval arithmetic decides
+  theorem    ///< proved, by exact comparisons alone
+};
+
+struct LimitCycleAnalysis {
+  Verdict verdict = Verdict::cannot_hunt;
+  /// Of the verdict, and of the number of limit cycles that mirror themselves.
+  Certainty certainty = Certainty::searched;
+  double growth_at_rest = std::numeric_limits<double>::quiet_NaN();  ///< μ₀, see growth_at_rest()
+  /// Whether no restitution whatever can make it hunt: 1/c + 1/D ≤ 2ζ, decided exactly of the
+  /// numbers given (docs/mathematics.md, Absence by energy).
+  bool is_dissipative = false;
+  /// Whether some motions end at rest with the faces together, on either: ζ ≥ 1. Such a servo has
+  /// rest beside its limit cycle: small motion in the gap grows, a large one ends with the faces
+  /// together (docs/mathematics.md, One cycle or none).
+  bool rests_engaged = false;
+  /// Whether cycles were met that could not be told from their neighbours, their multiplier being 1
+  /// to within rounding (on a boundary in the parameters, or ζ below 1e-9). They are not listed.
+  bool neutral_swings = false;
+  std::vector<LimitCycle> cycles;  ///< by decreasing size
+  /// Half the peak-to-peak of bounded motion that was not seen to repeat, which may exist beside a
+  /// stable cycle; NaN where every start ended in a cycle or at rest.
+  double irregular_size = std::numeric_limits<double>::quiet_NaN();
+  std::optional<CycleBounds> bounds;  ///< proved; where that was asked for and contact is plastic
+
+  bool is_proved() const { return certainty >= Certainty::enclosed; }
+};
+
+/// All limit cycles that can be found, and the verdict.
+///
+/// e = 0 (or a massless side): the return map is one-dimensional, and there is exactly one cycle
+/// that mirrors itself when growth_at_rest > 1 and none otherwise (proof: docs/mathematics.md); it
+/// is the root of one scalar equation and always found. The verdict is `computed`, and a `theorem`
+/// where growth at rest is not needed (a shaft, or both, without friction; no backlash; 1/c + 1/D ≤
+/// 2ζ). 0 < e ≤ 1: nothing can hunt where 1/c + 1/D ≤ 2ζ, a `theorem`. Else fixed points of the
+/// return map by Newton's method (return_map.hpp), from a scan over amplitudes and from the motions
+/// that small, middle and large starts end in. Complete as far as the scan is fine, hence
+/// `searched`; every cycle reported is one, to its residual. Throws InvalidInput.
+LimitCycleAnalysis analyse_limit_cycles(const NormalizedServo& servo);
+
+/// The same, proved: with plastic contact the growth at rest, the cycle and its multiplier are
+/// enclosed for every servo of `box`, which holds the data that `servo` was rounded from. The
+/// verdict is `enclosed` where all of the box agree with it, and else undecided; then
+/// bounds->growth_at_rest says how wide it is about 1.
+/// Throws InvalidInput.
+LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, const ServoBox& box);
+/// Of the servo itself, or of the decimals that its numbers stand for.
+LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, Reading reading);
+
+/// The cycle that is seen in practice: the largest stable one, or nullptr.
+const LimitCycle* largest_stable(const LimitCycleAnalysis& analysis);
+
+/// "cannot hunt", "hunts", … as printed and as the JSON key `verdict` has it.
+const char* name_of(Verdict verdict);
+/// "searched", "computed", "enclosed", "theorem".
+const char* name_of(Certainty certainty);
+/// "symmetric", "asymmetric", "subharmonic".
+const char* name_of(CycleKind kind);
+
+}  // namespace gearlash

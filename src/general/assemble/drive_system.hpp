@@ -1,0 +1,83 @@
+// A drive as a hybrid system.
+#pragma once
+
+#include "hybrid/hybrid_trajectory.hpp"
+#include "model/drive.hpp"
+
+namespace gearlash::drive {
+
+/// Places of a drive's own numbers in the state; the controller's follow, and then what it holds
+/// and reads, and the generators of reference and load torque.
+enum DriveNumber : Eigen::Index {
+  motor_position,
+  motor_speed,
+  load_position,
+  load_speed,
+  controller_states
+};
+
+/// How faces and friction are, in one mode.
+enum class ContactState {
+  apart,
+  forward,
+  backward,
+  forward_limited,
+  backward_limited,
+  forward_letting_go,
+  backward_letting_go
+};
+enum class FrictionState { viscous, forward, backward, sticking };
+enum class TorqueState { linear, highest, lowest };
+
+struct DriveMode {
+  ContactState contact = ContactState::apart;
+  FrictionState motor = FrictionState::viscous;
+  FrictionState load = FrictionState::viscous;
+  TorqueState torque = TorqueState::linear;
+
+  bool operator==(const DriveMode&) const = default;
+};
+
+struct DriveSystem {
+  hybrid::HybridSystem system;
+  std::vector<DriveMode> modes;  ///< of the system, in order
+  hybrid::Vector start;          ///< of all numbers at time 0, but for the shafts' 0
+  hybrid::Reset first_readings;  ///< of encoders, once the shafts are where they start
+  hybrid::AffineForm reference;
+  hybrid::AffineForm load_torque;
+  std::vector<hybrid::AffineForm> motor_torque;  ///< in each of the modes
+
+  std::size_t index_of(const DriveMode& mode) const;
+};
+
+/// Positions rad, speeds rad/s.
+struct ShaftStates {
+  double motor_position = 0.0;
+  double motor_speed = 0.0;
+  double load_position = 0.0;
+  double load_speed = 0.0;
+};
+
+ShaftStates shafts_of(const hybrid::State& state);
+
+/// Equations of motion: with τ the motor's torque, N that of the mesh on the load, T the load
+/// torque,
+///   J_M ω_M′ = τ − N − friction_M,   J_L ω_L′ = N + T − friction_L.
+/// A shaft with dry friction comes to rest where its speed passes 0 and what is applied is at most
+/// its breakaway torque; then it sticks until that is exceeded. Rigid faces: impacts keep the
+/// momentum and turn the relative speed into −e of itself; engaged they move as one, and stick as
+/// one.
+///
+/// A sampled controller reads, computes and gives out at the ticks of clocks. An encoder under a
+/// continuous one is a number that changes by a step where the position comes half a step from it.
+/// Signals are straight or quadratic between the ticks of their clock, sines an oscillator of two
+/// numbers. Throws InvalidInput.
+DriveSystem drive_system(const Drive& drive);
+
+/// A start at time 0 with the controller's states 0. The mode follows: faces in contact where the
+/// gap is closed (rigid ones where the shafts then move as one, else they meet at once), friction
+/// from the speeds, a dry shaft at rest sticks. Throws InvalidInput where rigid faces would be
+/// beyond each other.
+hybrid::State drive_start(const Drive& drive, const DriveSystem& system, const ShaftStates& shafts);
+
+}  // namespace gearlash::drive

@@ -1,0 +1,148 @@
+#include "general/assemble/moving_frame.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace gearlash::drive {
+namespace {
+
+using hybrid::AffineForm;
+using hybrid::Reset;
+using hybrid::Vector;
+
+class Rewriter {
+ public:
+  explicit Rewriter(const MovingFrame& frame) : frame_(frame) {}
+
+  void rewrite(hybrid::HybridSystem& system) const {
+    for (hybrid::Mode& mode : system.modes) rewrite(mode);
+    for (hybrid::Clock& clock : system.clocks) {
+      for (Vector& addition : clock.additions) addition = divided(addition);
+    }
+  }
+
+ private:
+  Vector divided(const Vector& numbers) const { return numbers.cwiseQuotient(frame_.scale); }
+
+  hybrid::Matrix similar(const hybrid::Matrix& matrix) const {
+    return frame_.scale.cwiseInverse().asDiagonal() * matrix * frame_.scale.asDiagonal();
+  }
+
+  void rewrite(hybrid::Mode& mode) const {
+    hybrid::AffineFlow& flow = mode.flow;
+    flow.offset = divided(flow.matrix * frame_.shift + flow.offset - frame_.drift);
+    flow.matrix = similar(flow.matrix);
+    for (hybrid::Transition& transition : mode.transitions) {
+      rewrite(transition.guard);
+      rewrite(transition.reset);
+      rewrite(transition.alternatives);
+      if (!transition.settling) continue;
+      rewrite(transition.settling->reset);
+      rewrite(transition.settling->alternatives);
+    }
+    for (hybrid::TimedTransition& timed : mode.timed) {
+      rewrite(timed.reset);
+      rewrite(timed.alternatives);
+    }
+  }
+
+  void rewrite(AffineForm& form) const {
+    form.offset += form.normal.dot(frame_.shift);
+    form.normal = form.normal.cwiseProduct(frame_.scale);
+  }
+
+  void rewrite(std::vector<hybrid::Alternative>& alternatives) const {
+    for (hybrid::Alternative& alternative : alternatives) {
+      for (AffineForm& form : alternative.positive) rewrite(form);
+    }
+  }
+
+  void rewrite(Reset& reset) const {
+    Vector offset =
+        reset.offset.size() == 0 ? Vector(Vector::Zero(frame_.shift.size())) : reset.offset;
+    if (reset.matrix.size() != 0) {
+      offset += reset.matrix * frame_.shift - frame_.shift;
+      reset.matrix = similar(reset.matrix);
+    }
+    reset.offset = divided(offset);
+    for (hybrid::Quantizer& quantizer : reset.quantizers) {
+      rewrite(quantizer.measured);
+      quantizer.gain = divided(quantizer.gain);
+    }
+  }
+
+  const MovingFrame& frame_;
+};
+
+constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+
+/// Whether each row's product with a vector is 0 for all that rounding can tell.
+bool is_nothing(const hybrid::Matrix& matrix, const Vector& way) {
+  const Vector terms = matrix.cwiseAbs() * way.cwiseAbs();
+  return ((matrix * way).array().abs() <= rounding * terms.array()).all();
+}
+
+bool is_unseen(const AffineForm& form, const Vector& way) {
+  return is_nothing(form.normal.transpose(), way);
+}
+
+bool is_unseen(const std::vector<hybrid::Alternative>& alternatives, const Vector& way) {
+  return std::all_of(alternatives.begin(), alternatives.end(), [&](const auto& alternative) {
+    return std::all_of(alternative.positive.begin(), alternative.positive.end(),
+                       [&](const AffineForm& form) { return is_unseen(form, way); });
+  });
+}
+
+bool is_kept(const Reset& reset, const Vector& way) {
+  if (!reset.quantizers.empty()) return false;
+  if (reset.matrix.size() == 0) return true;
+  const Vector terms = reset.matrix.cwiseAbs() * way.cwiseAbs() + way.cwiseAbs();
+  return ((reset.matrix * way - way).array().abs() <= rounding * terms.array()).all();
+}
+
+bool is_carried_along(const hybrid::Mode& mode, const Vector& way) {
+  return is_nothing(mode.flow.matrix, way) &&
+         std::all_of(
+             mode.transitions.begin(), mode.transitions.end(),
+             [&](const hybrid::Transition& transition) {
+               return is_unseen(transition.guard, way) && is_kept(transition.reset, way) &&
+                      is_unseen(transition.alternatives, way) &&
+                      (!transition.settling || (is_kept(transition.settling->reset, way) &&
+                                                is_unseen(transition.settling->alternatives, way)));
+             }) &&
+         std::all_of(mode.timed.begin(), mode.timed.end(), [&](const auto& timed) {
+           return is_kept(timed.reset, way) && is_unseen(timed.alternatives, way);
+         });
+}
+
+}  // namespace
+
+Vector MovingFrame::inside(const Vector& numbers, double time) const {
+  return (numbers - shift - drift * time).cwiseQuotient(scale);
+}
+
+Vector MovingFrame::outside(const Vector& numbers, double time) const {
+  return scale.cwiseProduct(numbers) + shift + drift * time;
+}
+
+bool is_carried_along(const hybrid::HybridSystem& system, const Vector& way) {
+  return std::all_of(system.modes.begin(), system.modes.end(),
+                     [&](const hybrid::Mode& mode) { return is_carried_along(mode, way); });
+}
+
+hybrid::HybridSystem seen_in(const hybrid::HybridSystem& system, const MovingFrame& frame) {
+  hybrid::HybridSystem result = system;
+  Rewriter(frame).rewrite(result);
+  return result;
+}
+
+hybrid::PeriodicOrbit unscaled(hybrid::PeriodicOrbit orbit, const Vector& scale) {
+  orbit.start.numbers = orbit.start.numbers.cwiseProduct(scale);
+  for (hybrid::Event& event : orbit.events) {
+    event.before = event.before.cwiseProduct(scale);
+    event.after = event.after.cwiseProduct(scale);
+  }
+  return orbit;
+}
+
+}  // namespace gearlash::drive

@@ -1,0 +1,29 @@
+// A hybrid system written in other numbers: scaled, shifted, and carried along.
+#pragma once
+
+#include "hybrid/periodic_orbit.hpp"
+
+namespace gearlash::drive {
+
+/// x = scale ∘ x′ + shift + drift t, x′ the numbers in the frame. Scales are powers of 2, so that
+/// they round nothing.
+struct MovingFrame {
+  hybrid::Vector scale;
+  hybrid::Vector shift;
+  hybrid::Vector drift;
+
+  hybrid::Vector inside(const hybrid::Vector& numbers, double time) const;
+  hybrid::Vector outside(const hybrid::Vector& numbers, double time) const;
+};
+
+/// Whether a system does not notice that its numbers are all moved along `way`, at any time:
+/// A way = 0, no guard and no alternative sees it, resets keep it, no quantizer reads it.
+bool is_carried_along(const hybrid::HybridSystem& system, const hybrid::Vector& way);
+
+/// Precondition: is_carried_along(system, frame.drift).
+hybrid::HybridSystem seen_in(const hybrid::HybridSystem& system, const MovingFrame& frame);
+
+/// An orbit of seen_in(system, {scale, …}) in the frame without the scale.
+hybrid::PeriodicOrbit unscaled(hybrid::PeriodicOrbit orbit, const hybrid::Vector& scale);
+
+}  // namespace gearlash::drive

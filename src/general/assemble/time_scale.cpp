@@ -1,0 +1,115 @@
+#include "general/assemble/time_scale.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <unsupported/Eigen/MatrixFunctions>
+#include <vector>
+
+#include "general/assemble/drive_system.hpp"
+
+namespace gearlash::drive {
+namespace {
+
+using hybrid::Matrix;
+
+constexpr double turn = 2.0 * std::numbers::pi;
+
+/// The drive without what is not linear in it but the gap.
+Drive linear_drive(Drive drive) {
+  drive.reference = 0.0;
+  drive.load_torque = 0.0;
+  drive.sensing.resolution = 0.0;
+  drive.sensing.resolution_of_speed = 0.0;
+  drive.torque_limit = std::numeric_limits<double>::infinity();
+  for (ShaftFriction* friction : {&drive.motor.friction, &drive.load.friction}) {
+    friction->coulomb = friction->breakaway = 0.0;
+  }
+  return drive;
+}
+
+/// Of a matrix by all numbers, that by the numbers of shafts that are one.
+Matrix of_shafts_as_one(const Matrix& matrix) {
+  const Eigen::Index left = matrix.rows() - load_position;
+  Matrix as_one = matrix.bottomRightCorner(left, left);
+  for (const auto& [motor, load] :
+       {std::pair{motor_position, load_position}, std::pair{motor_speed, load_speed}}) {
+    as_one.col(load - load_position) += matrix.col(motor).tail(left);
+  }
+  return as_one;
+}
+
+/// Eigenvalues of the loop with the faces together, per s; of a sampled one those of the flow that
+/// would do the same from sample to sample.
+std::vector<std::complex<double>> loop_eigenvalues(const Drive& drive) {
+  const Drive linear = linear_drive(drive);
+  const DriveSystem built = drive_system(linear);
+  const hybrid::Mode& mode = built.system.modes[built.index_of({ContactState::forward})];
+  const bool is_rigid = std::holds_alternative<RigidContact>(linear.contact);
+  const auto reduced = [&](const Matrix& matrix) {
+    return is_rigid ? of_shafts_as_one(matrix) : matrix;
+  };
+  const Matrix flow = reduced(mode.flow.matrix);
+  std::vector<std::complex<double>> values;
+  if (!linear.sampling) {
+    const Eigen::VectorXcd all = flow.eigenvalues();
+    values.assign(all.begin(), all.end());
+    return values;
+  }
+  const double period = linear.sampling->period;
+  const double delay = linear.sampling->delay;
+  Matrix map = reduced(mode.timed.front().reset.matrix);
+  if (mode.timed.size() > 1) {
+    map = (flow * (period - delay)).exp() * reduced(mode.timed.back().reset.matrix) *
+          (flow * delay).exp() * map;
+  } else {
+    map = (flow * period).exp() * map;
+  }
+  const Eigen::VectorXcd all = map.eigenvalues();
+  for (const std::complex<double>& value : all) {
+    constexpr double dead_beat = 1e-12;
+    if (std::abs(value) > dead_beat) values.push_back(std::log(value) / period);
+  }
+  return values;
+}
+
+/// A free number's eigenvalue is 0, to rounding.
+std::vector<std::complex<double>> without_free_numbers(std::vector<std::complex<double>> values) {
+  double fastest = 0.0;
+  for (const auto& value : values) fastest = std::max(fastest, std::abs(value));
+  constexpr double nothing = 1e-9;
+  std::erase_if(values, [&](const auto& value) { return std::abs(value) <= nothing * fastest; });
+  return values;
+}
+
+}  // namespace
+
+TimeScales time_scales(const Drive& drive) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double slowest = infinity;
+  double slowest_swing = infinity;
+  double slowest_decay = infinity;
+  for (const auto& value : without_free_numbers(loop_eigenvalues(drive))) {
+    const double rate = std::abs(value);
+    constexpr double share = 0.1;
+    if (std::abs(value.imag()) > share * rate) slowest_swing = std::min(slowest_swing, rate);
+    slowest = std::min(slowest, rate);
+    constexpr double least_damping = 1e-3;
+    slowest_decay = std::min(slowest_decay, std::max(-value.real(), least_damping * rate));
+  }
+  const double rate = std::isfinite(slowest_swing) ? slowest_swing : slowest;
+  double swing = std::isfinite(rate) ? turn / rate : 1.0;
+  for (const Signal& signal : {drive.reference, drive.load_torque}) {
+    if (const auto* sine = std::get_if<Sine>(&signal)) {
+      swing = std::max(swing, turn / sine->frequency);
+    }
+  }
+  constexpr double samples = 10.0;
+  if (drive.sampling) swing = std::max(swing, samples * drive.sampling->period);
+  return {swing, std::isfinite(slowest_decay) ? 1.0 / slowest_decay : 0.0};
+}
+
+}  // namespace gearlash::drive

@@ -1,0 +1,158 @@
+// What a drive ends in: cycles, rest, motion that does not repeat; as far as a search finds them.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "general/assemble/drive_system.hpp"
+#include "hybrid/periodic_orbit.hpp"
+
+namespace gearlash::drive {
+
+/// In which coordinates the search was done. Positions are told from the reference in all of them:
+/// from its mean where it is a sine.
+enum class Coordinates {
+  fixed,
+  co_moving,  ///< with a reference that is a ramp
+  in_place    ///< a ramp that the drive's numbers cannot be carried along with (encoders read by a
+              ///< sampled controller, a controller that does not act on the error): motion is
+              ///< measured, cycles are not closed and rest is motion of no size
+};
+
+/// By all multipliers but those of disturbances that cannot be: rigid shafts together that move
+/// apart, an encoder beside its own grid.
+enum class Stability {
+  stable,
+  neutral,  ///< a multiplier is on the unit circle to within 1e-6: one of a family, or at a fold
+  unstable
+};
+
+/// Lowest and highest.
+struct Extent {
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -std::numeric_limits<double>::infinity();
+
+  void include(double value);
+};
+
+struct FoundCycle {
+  hybrid::PeriodicOrbit orbit;  ///< of AttractorSearch::system; with residual and all multipliers
+  Stability stability = Stability::unstable;
+  double size = 0.0;        ///< rad, half the peak-to-peak of the load; 0 where the motor hunts
+                            ///< within the gap and the load stands
+  double motor_size = 0.0;  ///< rad, of the motor
+  double center = 0.0;      ///< rad, mean of the load's extremes, from the reference
+  /// rad, of all that count as this one: mirror images, and neutral cycles of one period, which are
+  /// a family.
+  Extent centers;
+  Extent sizes;               ///< rad, likewise
+  double frequency = 0.0;     ///< rad/s, 2π/period
+  double impact_speed = 0.0;  ///< rad/s, |ω_M − ω_L| as faces meet hardest; 0 where none do
+  double multiplier = 0.0;    ///< the largest modulus of the orbit's
+  /// Half a period later the drive is its mirror image about the reference.
+  bool is_symmetric = false;
+  /// Not symmetric, and its mirror image was found too; both count as this one.
+  bool has_mirror_image = false;
+  std::size_t starts = 0;  ///< that led here; 0 where Newton's method alone did
+
+  double period() const { return orbit.period; }
+};
+
+/// All rest there is: with dry friction, or in the gap, it is a set.
+struct RestFound {
+  Extent load;   ///< rad, from the reference, over the starts that led here
+  Extent motor;  ///< rad
+  Extent error;  ///< rad, reference − load
+  std::size_t starts = 0;
+  /// Rest that is neared by ever smaller and longer swings across the gap is never reached; it was
+  /// told from their ratio, of which this is the largest. NaN where all came to rest.
+  double swing_ratio = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Motion that is bounded and was not seen to close, measured over the last part of what was seen:
+/// a cycle that is locked to nothing, quasi-periodic motion, chaos, or a slow transient.
+struct IrregularFound {
+  double size = 0.0;        ///< rad, half the peak-to-peak of the load
+  double motor_size = 0.0;  ///< rad, of the motor
+  double center = 0.0;      ///< rad, of the load, from the reference
+  /// Within the gap, while the load hardly moves: swings and periods are then the motor's.
+  bool is_motor_alone = false;
+  double period = 0.0;  ///< s, mean, from one passing of the center upwards to the next
+  double period_deviation = 0.0;
+  double half_swing = 0.0;  ///< rad, mean, half of extreme to extreme
+  double half_swing_deviation = 0.0;
+  /// The least mean difference of swings and those some swings later, as a share: 0 where they
+  /// repeat.
+  double mismatch = 0.0;
+  /// 1/s, mean rate at which neighbours part (largest Lyapunov exponent), by the variational
+  /// equations with saltation: above 0 for chaos, about 0 for quasi-periodic motion.
+  double exponent = 0.0;
+  double watched = 0.0;  ///< s, over which all this was measured
+  std::size_t starts = 0;
+};
+
+enum class MotionEnd { rest, cycle, irregular, diverges, undecided };
+
+/// Where a start led.
+struct Outcome {
+  ShaftStates start;
+  MotionEnd end = MotionEnd::undecided;
+  std::size_t which = 0;  ///< of the cycles, or of the irregular motions
+  double watched = 0.0;   ///< s
+  std::string reason;     ///< of an undecided one
+};
+
+/// Between two starts that led elsewhere motion was sought that goes to neither.
+struct Edge {
+  std::size_t first = 0;   ///< of the outcomes
+  std::size_t second = 0;  ///< of the outcomes
+  /// The unstable cycle that separates them, of the cycles; nothing where none was closed: the
+  /// border may be through a grazing, a sticking or an irregular motion.
+  std::optional<std::size_t> cycle;
+};
+
+struct AttractorSearch {
+  Coordinates coordinates = Coordinates::fixed;
+  hybrid::HybridSystem system;     ///< of the settled signals, positions from the reference
+  std::vector<FoundCycle> cycles;  ///< stable ones first, by falling size
+  std::optional<RestFound> rest;
+  std::vector<IrregularFound> irregular;
+  std::vector<Outcome> outcomes;  ///< of every start, in order
+  std::vector<Edge> edges;
+  /// s, of the linear loop with faces together: 2π/|slowest eigenvalue that oscillates|, or of all
+  /// where none does; at least a sine's period and ten samples.
+  double swing_time = 0.0;
+  double settling_time = 0.0;  ///< s, of that loop: 1/slowest decay
+  double watch_time = 0.0;     ///< s, the longest that a start is watched; twenty times that where
+                               ///< hardly anything happens
+  bool is_complete = true;     ///< not stopped
+
+  std::size_t count(MotionEnd end) const;
+};
+
+struct AttractorOptions {
+  /// Instead of the search's own: at rest at 0.01 to 100 times the backlash (or less and more:
+  /// encoder steps, and what friction, load torque, torque limit and a sine reference amount to as
+  /// positions), on either face, and passing the reference at some speed. Absolute positions.
+  std::vector<ShaftStates> starts{};
+  double swing_times = 200.0;         ///< that a start is watched; and 30 settling times,
+                                      ///< but twice as long at most
+  std::size_t most_events = 100'000;  ///< of a start; and ten times as many ticks of a clock
+  std::size_t most_edges = 3;         ///< sought between starts that led elsewhere; 0: none
+  hybrid::ShootingOptions shooting{.most_events = 2000};
+  /// Told the share that is done; false stops the search.
+  std::function<bool(double share)> go_on{};
+};
+
+/// Each start is watched until it comes to rest, runs away, or Newton's method (closing_orbit())
+/// closes a cycle that it is on; unstable cycles passed by are kept. Between starts that led to
+/// different ends bisection finds motion on the border, and Newton's method the unstable cycle that
+/// it hovers at. Of the signals settled() counts. Complete it cannot be: what was searched is told.
+/// The same from run to run. Throws InvalidInput, also where the load torque is a ramp in the end.
+AttractorSearch find_attractors(const Drive& drive, const AttractorOptions& options = {});
+
+}  // namespace gearlash::drive

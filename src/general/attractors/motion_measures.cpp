@@ -1,0 +1,229 @@
+#include "general/attractors/motion_measures.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/roots.hpp>
+#include <cmath>
+#include <unsupported/Eigen/MatrixFunctions>
+
+namespace gearlash::drive {
+namespace {
+
+using hybrid::Event;
+using hybrid::HybridSystem;
+using hybrid::Matrix;
+using hybrid::State;
+using hybrid::Trajectory;
+using hybrid::Vector;
+
+/// One mode alone, with events where a form changes its sign.
+HybridSystem turning_system(const HybridSystem& system, std::size_t mode,
+                            const hybrid::AffineForm& speed) {
+  hybrid::Mode alone;
+  alone.flow = system.modes[mode].flow;
+  alone.transitions.push_back({});
+  alone.transitions.back().guard = speed;
+  alone.transitions.back().direction = hybrid::Direction::either;
+  HybridSystem result;
+  result.state_names = system.state_names;
+  result.modes.push_back(std::move(alone));
+  return result;
+}
+
+bool may_turn(const Vector& before, const Vector& after, const hybrid::AffineForm& speed) {
+  return speed.at(before) * speed.at(after) < 0.0;
+}
+
+/// Calls visit(mode, from, start, to, end) for each stretch between events, ends of no duration
+/// included; `end` is before what happens there.
+template <class Visit>
+void for_each_stretch(const Trajectory& motion, Visit&& visit) {
+  State here = motion.at(motion.start_time());
+  double time = motion.start_time();
+  if (!motion.events().empty() && motion.events().front().time == time) {
+    // at() is after the events there.
+    here = {motion.events().front().mode, motion.events().front().before};
+  }
+  for (const Event& event : motion.events()) {
+    visit(here, time, event.time, event.before);
+    here = {event.mode_after, event.after};
+    time = event.time;
+  }
+  visit(here, time, motion.end_time(), motion.end().numbers);
+}
+
+/// The mode's own derivative by time.
+Vector velocity(const HybridSystem& system, std::size_t mode, const Vector& numbers) {
+  return system.modes[mode].flow.matrix * numbers + system.modes[mode].flow.offset;
+}
+
+const hybrid::Reset& reset_of(const hybrid::Mode& mode, const Event& event) {
+  if (event.kind == hybrid::EventKind::timed) return mode.timed[event.transition].reset;
+  const hybrid::Transition& transition = mode.transitions[event.transition];
+  return event.kind == hybrid::EventKind::settling ? transition.settling->reset : transition.reset;
+}
+
+/// A disturbance, and by how much it delays the last event.
+struct Disturbance {
+  Vector numbers;
+  double delay = 0.0;
+};
+
+/// At an event. One that another brings about at its own instant is delayed as that one is. Where a
+/// guard is met at no speed there is no derivative; the delay is then left as it was.
+void carry_over(const HybridSystem& system, const Event& event, bool is_chained,
+                Disturbance& disturbance) {
+  const hybrid::Mode& mode = system.modes[event.mode];
+  const Matrix reset = reset_of(mode, event).slope(system.size());
+  const Vector before = velocity(system, event.mode, event.before);
+  const Vector after = velocity(system, event.mode_after, event.after);
+  if (event.kind == hybrid::EventKind::timed) {
+    disturbance.delay = 0.0;
+  } else if (!is_chained) {
+    const Vector& normal = mode.transitions[event.transition].guard.normal;
+    const double speed = normal.dot(before);
+    if (speed != 0.0) disturbance.delay = -normal.dot(disturbance.numbers) / speed;
+  }
+  disturbance.numbers = reset * disturbance.numbers - (after - reset * before) * disturbance.delay;
+}
+
+}  // namespace
+
+void Range::include(double value) {
+  lowest = std::min(lowest, value);
+  highest = std::max(highest, value);
+}
+
+std::vector<Sample> samples(const HybridSystem& system, const Trajectory& motion,
+                            const Watched& watched, double short_time) {
+  std::vector<Sample> result;
+  for_each_stretch(motion, [&](const State& start, double from, double to, const Vector& end) {
+    result.push_back({from, watched.value.at(start.numbers)});
+    const bool is_worth = to - from > short_time || may_turn(start.numbers, end, watched.speed);
+    if (is_worth && to > from) {
+      const HybridSystem alone = turning_system(system, start.mode, watched.speed);
+      const Trajectory stretch = simulate(alone, {0, start.numbers}, {.until = to - from});
+      for (const Event& event : stretch.events()) {
+        result.push_back({from + event.time, watched.value.at(event.before)});
+      }
+    }
+    result.push_back({to, watched.value.at(end)});
+  });
+  return result;
+}
+
+std::vector<Sample> extremes(const std::vector<Sample>& samples) {
+  std::vector<Sample> result;
+  double way = 0.0;
+  for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
+    const double change = samples[i + 1].value - samples[i].value;
+    if (change == 0.0) continue;
+    const double next = change > 0.0 ? 1.0 : -1.0;
+    if (way != 0.0 && next != way) result.push_back(samples[i]);
+    way = next;
+  }
+  return result;
+}
+
+Range range_of(const std::vector<Sample>& samples) {
+  Range range;
+  for (const Sample& sample : samples) range.include(sample.value);
+  return range;
+}
+
+std::vector<Range> ranges(const Trajectory& motion, double from) {
+  std::vector<Range> result(static_cast<std::size_t>(motion.end().numbers.size()));
+  const auto include = [&](const Vector& numbers) {
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      result[i].include(numbers[static_cast<Eigen::Index>(i)]);
+    }
+  };
+  constexpr int between = 8;  // where there are no events
+  for (int i = 0; i <= between; ++i) {
+    include(motion.at(from + (motion.end_time() - from) * i / between).numbers);
+  }
+  for (const Event& event : motion.events()) {
+    if (event.time <= from) continue;
+    include(event.before);
+    include(event.after);
+  }
+  return result;
+}
+
+Spread spread_of(const std::vector<double>& values) {
+  if (values.empty()) return {};
+  Spread spread{0.0, 0.0};
+  for (const double value : values) spread.mean += value;
+  spread.mean /= static_cast<double>(values.size());
+  for (const double value : values) {
+    spread.deviation += (value - spread.mean) * (value - spread.mean);
+  }
+  spread.deviation = std::sqrt(spread.deviation / static_cast<double>(values.size()));
+  return spread;
+}
+
+std::vector<double> upward_passings(const Trajectory& motion, const Watched& watched,
+                                    const std::vector<Sample>& samples, double level,
+                                    double after) {
+  std::vector<double> times;
+  for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
+    const Sample& low = samples[i];
+    const Sample& high = samples[i + 1];
+    if (low.time < after || low.value >= level || high.value < level) continue;
+    const auto above = [&](double time) {
+      return watched.value.at(motion.at(time).numbers) - level;
+    };
+    std::uintmax_t most = 30;
+    const auto [left, right] = boost::math::tools::toms748_solve(
+        above, low.time, high.time, low.value - level, high.value - level,
+        boost::math::tools::eps_tolerance<double>(40), most);
+    times.push_back(0.5 * (left + right));
+  }
+  return times;
+}
+
+double least_mismatch(const std::vector<Sample>& extremes) {
+  std::vector<double> swings;
+  for (std::size_t i = 0; i + 1 < extremes.size(); ++i) {
+    swings.push_back(std::abs(extremes[i + 1].value - extremes[i].value));
+  }
+  double least = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t lag = 1; 2 * lag <= swings.size(); ++lag) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i + lag < swings.size(); ++i) {
+      sum += std::abs(swings[i + lag] - swings[i]);
+    }
+    const double mean = sum / static_cast<double>(swings.size() - lag) / spread_of(swings).mean;
+    if (!(mean >= least)) least = mean;
+  }
+  return least;
+}
+
+double largest_exponent(const HybridSystem& system, const Trajectory& motion, Eigen::Index own) {
+  Disturbance disturbance{Vector::Zero(system.size())};
+  // No way is distinguished; any growing one has a part of it.
+  for (Eigen::Index i = 0; i < own; ++i) {
+    disturbance.numbers[i] = 1.0 / std::sqrt(2.0 + static_cast<double>(i));
+  }
+  double logarithm = 0.0;
+  std::size_t next = 0;
+  const std::vector<Event>& events = motion.events();
+  for_each_stretch(motion, [&](const State& start, double from, double to, const Vector&) {
+    if (to > from) {
+      disturbance.numbers =
+          (system.modes[start.mode].flow.matrix * (to - from)).exp() * disturbance.numbers;
+    }
+    if (next == events.size()) return;
+    const bool is_chained = next > 0 && events[next].time == events[next - 1].time;
+    carry_over(system, events[next++], is_chained, disturbance);
+    const double size = disturbance.numbers.norm();
+    if (!(size > 0.0)) return;
+    logarithm += std::log(size);
+    disturbance.numbers /= size;
+    disturbance.delay /= size;
+  });
+  const double last = disturbance.numbers.norm();
+  if (last == 0.0) return -std::numeric_limits<double>::infinity();
+  return (logarithm + std::log(last)) / (motion.end_time() - motion.start_time());
+}
+
+}  // namespace gearlash::drive

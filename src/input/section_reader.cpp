@@ -1,0 +1,302 @@
+#include "input/section_reader.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace gearlash {
+namespace {
+
+// In range for every key, so that they cause no findings of their own.
+constexpr double placeholder_quantity = 1.0;
+constexpr double placeholder_number = 0.5;
+
+/// Levenshtein's: insertions, deletions and replacements that turn one into the other.
+std::size_t edit_distance(std::string_view from, std::string_view to) {
+  std::vector<std::size_t> row(to.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (std::size_t j = 0; j < to.size(); ++j) {
+      const std::size_t replaced = diagonal + (from[i] == to[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+    }
+  }
+  return row.back();
+}
+
+std::optional<std::string> nearest(const std::vector<std::string>& known,
+                                   std::string_view written) {
+  constexpr std::size_t longest_worth_a_guess = 40;
+  if (written.size() > longest_worth_a_guess) return std::nullopt;
+  std::optional<std::string> best;
+  std::size_t best_distance = std::max<std::size_t>(2, written.size() / 3) + 1;
+  for (const std::string& candidate : known) {
+    const std::size_t distance = edit_distance(written, candidate);
+    if (distance < best_distance && distance < candidate.size()) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+/// A number without unit: of TOML, or in text (a fraction).
+double exact_number(const std::string& field, const toml::node& value) {
+  if (const auto* integer = value.as_integer()) return static_cast<double>(integer->get());
+  if (const auto* floating = value.as_floating_point()) {
+    return floating->get() + 0.0;  // no negative zero
+  }
+  if (const auto* text = value.as_string()) return read_number(field, text->get());
+  throw InvalidInput({{field, "", "must be a number without unit, such as 0.25 or \"1/9\"", ""}});
+}
+
+}  // namespace
+
+std::string one_of(const std::vector<std::string>& known, std::string_view written) {
+  std::string text = "must be one of ";
+  for (const std::string& name : known) text += (&name == &known.front() ? "" : ", ") + name;
+  if (const auto guess = nearest(known, written)) text += " (did you mean " + *guess + "?)";
+  return text;
+}
+
+void Findings::missing(Place place, const std::string& field, const std::string& permitted) {
+  refuse(place, field, "", permitted);
+}
+
+void Findings::refuse(const std::string& field, const toml::node& value,
+                      const std::string& permitted) {
+  refuse(value.source().begin, field, document_.written(value), permitted);
+}
+
+void Findings::refuse(Place place, const std::string& field, const std::string& value,
+                      const std::string& permitted) {
+  if (!fields_.insert(field).second) return;
+  found_.push_back({place, {field, value, permitted, document_.where(place)}});
+}
+
+void Findings::take(const std::vector<Violation>& violations,
+                    const std::function<std::string(const std::string&)>& field_of,
+                    Place otherwise) {
+  const bool complete = none();
+  for (const Violation& violation : violations) {
+    const std::string field = field_of(violation.field);
+    const auto value = values_.find(field);
+    if (value != values_.end()) {
+      refuse(field, *value->second, violation.permitted);
+    } else if (complete) {
+      refuse(otherwise, field, violation.value, violation.permitted);
+    }
+  }
+}
+
+void Findings::require_none() {
+  std::stable_sort(found_.begin(), found_.end(), [](const Found& one, const Found& other) {
+    return std::pair(one.place.line, one.place.column) <
+           std::pair(other.place.line, other.place.column);
+  });
+  std::vector<Violation> violations;
+  for (Found& found : found_) violations.push_back(std::move(found.violation));
+  gearlash::require_none(std::move(violations));
+}
+
+SectionReader::SectionReader(const TomlDocument& document, Findings& findings, std::string name,
+                             bool required, std::string contents)
+    : document_(document), findings_(findings), name_(std::move(name)) {
+  const toml::node* node = document.root().get(name_);
+  if (node == nullptr) {
+    if (required) findings_.missing({1, 1}, name_, "must be a section [" + name_ + "] " + contents);
+    return;
+  }
+  table_ = node->as_table();
+  if (table_ == nullptr) {
+    findings_.refuse(name_, *node, "must be a section [" + name_ + "] " + contents);
+  }
+}
+
+Quantity SectionReader::quantity(const std::string& key, const Dimension& expected) {
+  const toml::node* value = require(
+      key, "must be " + std::string(expected.name) + ", such as " + std::string(expected.unit));
+  return value != nullptr ? read(key, *value, expected) : Quantity{.si = placeholder_quantity};
+}
+
+std::optional<Quantity> SectionReader::optional_quantity(const std::string& key,
+                                                         const Dimension& expected) {
+  const toml::node* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  return read(key, *value, expected);
+}
+
+double SectionReader::number(const std::string& key, const std::string& permitted) {
+  const toml::node* value = require(key, "must be " + permitted);
+  return value != nullptr ? read(key, *value) : placeholder_number;
+}
+
+double SectionReader::number(const std::string& key, double if_missing) {
+  const toml::node* value = find(key);
+  return value != nullptr ? read(key, *value) : if_missing;
+}
+
+std::optional<std::string> SectionReader::choice(const std::string& key,
+                                                 const std::vector<std::string>& choices,
+                                                 bool required) {
+  const toml::node* value = required ? require(key, one_of(choices, "")) : find(key);
+  if (value == nullptr) return std::nullopt;
+  const std::optional<std::string> text = value->value_exact<std::string>();
+  if (text && std::find(choices.begin(), choices.end(), *text) != choices.end()) {
+    findings_.remember(field(key), *value);
+    return text;
+  }
+  findings_.refuse(field(key), *value, one_of(choices, text.value_or("")));
+  return std::nullopt;
+}
+
+std::vector<std::string> SectionReader::texts(const std::string& key,
+                                              const std::string& permitted) {
+  const toml::node* value = permitted.empty() ? find(key) : require(key, "must be " + permitted);
+  if (value == nullptr) return {};
+  const toml::array* array = value->as_array();
+  if (array == nullptr || array->empty()) {
+    findings_.refuse(field(key), *value, "must be a list of texts: [\"…\", \"…\"]");
+    return {};
+  }
+  std::vector<std::string> list;
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    const std::string name = field(key) + "[" + std::to_string(i) + "]";
+    const toml::node& element = *array->get(i);
+    findings_.remember(name, element);
+    if (!element.is_string()) findings_.refuse(name, element, "must be a text: \"…\"");
+    list.push_back(element.value_or(std::string()));
+  }
+  return list;
+}
+
+std::string SectionReader::text(const std::string& key, const std::string& permitted) {
+  const toml::node* value = permitted.empty() ? find(key) : require(key, "must be " + permitted);
+  if (value == nullptr) return {};
+  findings_.remember(field(key), *value);
+  if (!value->is_string()) findings_.refuse(field(key), *value, "must be a text: \"…\"");
+  return value->value_or(std::string());
+}
+
+std::vector<double> SectionReader::numbers(const std::string& key, const std::string& permitted) {
+  const toml::node* value = require(key, "must be " + permitted);
+  return value != nullptr ? read_list(field(key), *value, permitted) : std::vector<double>{};
+}
+
+std::vector<double> SectionReader::read_list(const std::string& name, const toml::node& value,
+                                             const std::string& permitted) {
+  findings_.remember(name, value);
+  const toml::array* array = value.as_array();
+  if (array == nullptr) {
+    findings_.refuse(name, value, "must be " + permitted);
+    return {};
+  }
+  std::vector<double> list;
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    const std::string element = name + "[" + std::to_string(i) + "]";
+    const toml::node& node = *array->get(i);
+    findings_.remember(element, node);
+    try {
+      list.push_back(exact_number(element, node));
+    } catch (const InvalidInput& problem) {
+      findings_.refuse(element, node, problem.violations().front().permitted);
+      list.push_back(placeholder_number);
+    }
+  }
+  return list;
+}
+
+std::vector<std::vector<double>> SectionReader::rows(const std::string& key,
+                                                     const std::string& permitted) {
+  const toml::node* value = require(key, "must be " + permitted);
+  if (value == nullptr) return {};
+  const toml::array* array = value->as_array();
+  findings_.remember(field(key), *value);
+  if (array == nullptr) {
+    findings_.refuse(field(key), *value, "must be " + permitted);
+    return {};
+  }
+  std::vector<std::vector<double>> result;
+  for (std::size_t i = 0; i < array->size(); ++i) {
+    const std::string name = field(key) + "[" + std::to_string(i) + "]";
+    result.push_back(read_list(name, *array->get(i), permitted));
+  }
+  return result;
+}
+
+void SectionReader::refuse(const std::string& key, const std::string& permitted) {
+  if (const toml::node* value = find(key)) findings_.refuse(field(key), *value, permitted);
+}
+
+void SectionReader::refuse_other_keys() {
+  if (table_ == nullptr) return;
+  for (const auto& [key, value] : *table_) {
+    if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
+    findings_.refuse(key.source().begin, field(shown(key.str())), document_.written(value),
+                     "is no key of [" + name_ + "]: " + one_of(known_, key.str()));
+  }
+}
+
+Place SectionReader::place() const {
+  return table_ != nullptr ? table_->source().begin : Place{1, 1};
+}
+
+const toml::node* SectionReader::find(const std::string& key) {
+  known_.push_back(key);
+  return table_ != nullptr ? table_->get(key) : nullptr;
+}
+
+const toml::node* SectionReader::require(const std::string& key, const std::string& permitted) {
+  const toml::node* value = find(key);
+  if (value == nullptr && table_ != nullptr) findings_.missing(place(), field(key), permitted);
+  return value;
+}
+
+Quantity SectionReader::read(const std::string& key, const toml::node& value,
+                             const Dimension& expected) {
+  const auto read_exact = [&](const std::string& name, const toml::node& node) -> Quantity {
+    if (bare_numbers_ && node.is_number()) {
+      return {.si = exact_number(name, node), .unit = std::string(expected.unit)};
+    }
+    const std::optional<std::string> text = node.value_exact<std::string>();
+    if (text) return read_quantity(name, *text, expected);
+    throw InvalidInput({{name, "",
+                         "must be text of a number and a unit of " + std::string(expected.name) +
+                             ", such as \"1 " + std::string(expected.unit) + "\"",
+                         ""}});
+  };
+  return read(key, value, read_exact, placeholder_quantity);
+}
+
+double SectionReader::read(const std::string& key, const toml::node& value) {
+  const auto read_exact = [](const std::string& name, const toml::node& node) -> Quantity {
+    return {.si = exact_number(name, node)};
+  };
+  return read(key, value, read_exact, placeholder_number).si;
+}
+
+Quantity SectionReader::read(const std::string& key, const toml::node& value,
+                             const ExactReader& read_exact, double placeholder) {
+  try {
+    const std::string name = field(key);
+    const TolerancedValue read = varied_ != nullptr
+                                     ? read_toleranced(name, value, read_exact)
+                                     : TolerancedValue{read_exact(name, value), std::nullopt};
+    if (read.distribution) {
+      const std::optional<DriveNumber> number = drive_number_named(name);
+      if (!number) throw InvalidInput({{name, "", "must not carry a tolerance", ""}});
+      require_none(validate(*read.distribution, name));
+      varied_->push_back({*number, *read.distribution});
+    }
+    findings_.remember(name, value);
+    return read.nominal;
+  } catch (const InvalidInput& problem) {
+    findings_.refuse(field(key), value, problem.violations().front().permitted);
+    return {.si = placeholder};
+  }
+}
+
+}  // namespace gearlash

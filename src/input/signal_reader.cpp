@@ -1,0 +1,177 @@
+#include "input/signal_reader.hpp"
+
+#define CSV_IO_NO_THREAD  // small files
+#include <libfccp/csv.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "input/text_file.hpp"
+#include "input/units.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr std::size_t largest_table = 64 * 1024 * 1024;  ///< bytes
+
+// ---- tables -------------------------------------------------------------------------------------
+
+/// A column's head, "position (deg)", with the unit of its numbers.
+struct Column {
+  std::string field;
+  double unit_in_si = 1.0;
+};
+
+Column read_head(const std::string& place, const std::string& head, const Dimension& dimension) {
+  const std::size_t open = head.find('(');
+  const std::size_t close = head.rfind(')');
+  const std::string permitted = "must be a name and a unit of " + std::string(dimension.name) +
+                                ", such as \"" + std::string(dimension.name) + " (" +
+                                std::string(dimension.unit) + ")\"";
+  if (open == std::string::npos || close == std::string::npos || close < open) {
+    throw InvalidInput({{place, shown(head), permitted, ""}});
+  }
+  const std::string unit = head.substr(open + 1, close - open - 1);
+  return {place, to_si(place, "1 " + unit, dimension)};
+}
+
+double read_cell(const std::string& place, const std::string& text, const Column& column) {
+  return read_number(place, text) * column.unit_in_si;
+}
+
+InvalidInput wrong_row(const std::string& name, int line, const std::string& found) {
+  return InvalidInput({{name + ":" + std::to_string(line) + ": row", found,
+                        "must have two columns, separated by a comma: times and values", ""}});
+}
+
+/// Comma-separated, the first row telling names and units; lines that begin with # are remarks.
+drive::Table read_table(const std::filesystem::path& path, const Dimension& values) {
+  const std::string text = read_text_file(path, largest_table);
+  const std::string name = path.string();
+  using Reader = io::CSVReader<2, io::trim_chars<' ', '\t'>, io::no_quote_escape<','>,
+                               io::throw_on_overflow, io::single_line_comment<'#'>>;
+  drive::Table table;
+  try {
+    Reader reader(name, text.data(), text.data() + text.size());
+    reader.set_header("time", "value");
+    std::string time;
+    std::string value;
+    const auto place = [&](const char* column) {
+      return name + ":" + std::to_string(reader.get_file_line()) + ": " + column;
+    };
+    if (!reader.read_row(time, value)) {
+      throw InvalidInput(
+          {{name, "an empty table", "must have a row of names and rows of numbers", ""}});
+    }
+    const Column times = read_head(place("first column"), time, dimensions::time);
+    const Column second = read_head(place("second column"), value, values);
+    while (reader.read_row(time, value)) {
+      table.times.push_back(read_cell(place("time"), time, times));
+      table.values.push_back(read_cell(place("value"), value, second));
+      const std::size_t count = table.times.size();
+      if (count > 1 && !(table.times[count - 1] > table.times[count - 2])) {
+        throw InvalidInput(
+            {{place("time"), shown(time),
+              "must be later than the row before: a table goes forward in time", ""}});
+      }
+    }
+  } catch (const io::error::too_few_columns& fault) {
+    throw wrong_row(name, fault.file_line, "one column");
+  } catch (const io::error::too_many_columns& fault) {
+    throw wrong_row(name, fault.file_line, "more than two columns");
+  } catch (const io::error::base& fault) {
+    throw InvalidInput({{name, "a table that cannot be read", fault.what(), ""}});
+  }
+  if (table.times.empty()) {
+    throw InvalidInput({{name, "a table without rows", "must have at least one", ""}});
+  }
+  return table;
+}
+
+// ---- sections -----------------------------------------------------------------------------------
+
+class SignalReader {
+ public:
+  SignalReader(SectionReader& section, const std::filesystem::path& folder, const Dimension& value)
+      : section_(section), folder_(folder), value_(value) {}
+
+  drive::Signal read(const std::vector<std::string>& kinds) {
+    const std::string kind = section_.choice("kind", kinds, true).value_or("");
+    const drive::Signal signal = read_kind(kind);
+    if (!kind.empty()) section_.refuse_other_keys();
+    return signal;
+  }
+
+ private:
+  double value(const char* key) { return section_.quantity(key, value_).si; }
+  double value(const char* key, double otherwise) {
+    return section_.optional_quantity(key, value_).value_or(Quantity{.si = otherwise}).si;
+  }
+  double start_time() {
+    return section_.optional_quantity("time", dimensions::time).value_or(Quantity{}).si;
+  }
+
+  drive::Signal read_kind(const std::string& kind) {
+    // Members are initialised in the order of their declaration, which is that of the keys.
+    if (kind == "constant") return value("value");
+    if (kind == "step") {
+      return drive::StepSignal{
+          .before = value("before", 0.0), .after = value("after"), .time = start_time()};
+    }
+    if (kind == "ramp") {
+      return drive::Ramp{.value = value("value", 0.0),
+                         .rate = section_.quantity("rate", dimensions::angular_speed).si,
+                         .time = start_time()};
+    }
+    if (kind == "sine") return read_sine();
+    if (kind == "trapezoid") {
+      return drive::Trapezoid{
+          .from = value("from", 0.0),
+          .to = value("to"),
+          .speed = section_.quantity("speed", dimensions::angular_speed).si,
+          .acceleration = section_.quantity("acceleration", dimensions::angular_acceleration).si,
+          .time = start_time()};
+    }
+    if (kind == "table") return read_file();
+    return 0.0;
+  }
+
+  drive::Sine read_sine() {
+    return {
+        .mean = value("mean", 0.0),
+        .amplitude = value("amplitude"),
+        .frequency = section_.quantity("frequency", dimensions::angular_frequency).si,
+        .phase = section_.optional_quantity("phase", dimensions::angle).value_or(Quantity{}).si};
+  }
+
+  drive::Signal read_file() {
+    const std::string file = section_.text("file", "the name of a CSV file");
+    if (file.empty()) return 0.0;
+    try {
+      return read_table(folder_ / file, value_);
+    } catch (const InvalidInput& problem) {
+      const Violation& fault = problem.violations().front();
+      const bool is_read = fault.field != "file";
+      section_.refuse("file", is_read ? "holds " + to_string(fault) : fault.permitted);
+      return 0.0;
+    }
+  }
+
+  SectionReader& section_;
+  const std::filesystem::path& folder_;
+  const Dimension& value_;
+};
+
+}  // namespace
+
+drive::Signal read_reference(SectionReader& section, const std::filesystem::path& folder) {
+  return SignalReader(section, folder, dimensions::angle)
+      .read({"constant", "step", "ramp", "sine", "trapezoid", "table"});
+}
+
+drive::Signal read_load_torque(SectionReader& section, const std::filesystem::path& folder) {
+  return SignalReader(section, folder, dimensions::torque)
+      .read({"constant", "step", "sine", "table"});
+}
+
+}  // namespace gearlash

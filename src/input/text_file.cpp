@@ -1,0 +1,33 @@
+#include "input/text_file.hpp"
+
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#include "base/violation.hpp"
+#include "input/units.hpp"
+
+namespace gearlash {
+namespace {
+
+[[noreturn]] void refuse_file(const std::filesystem::path& path, const std::string& problem) {
+  throw InvalidInput({{"file", shown(path.string(), std::string_view::npos),
+                       "must be a readable file (" + problem + ")", ""}});
+}
+
+}  // namespace
+
+std::string read_text_file(const std::filesystem::path& path, std::size_t largest) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) refuse_file(path, "it is a directory");
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) refuse_file(path, std::generic_category().message(errno));
+  std::string text(largest + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (stream.bad()) refuse_file(path, std::generic_category().message(errno));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
+}
+
+}  // namespace gearlash

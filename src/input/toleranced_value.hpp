@@ -1,0 +1,33 @@
+// Values of a TOML file that differ from piece to piece: "0.61 oz in2 ± 10 %", { min, max }, lots.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "analysis/design/distribution.hpp"
+#include "input/units.hpp"
+
+namespace gearlash {
+
+struct TolerancedValue {
+  Quantity nominal;
+  std::optional<Distribution> distribution;  ///< in SI; nothing where it is one exact value
+};
+
+/// Reads one exact value, named `field` in errors. Throws InvalidInput.
+using ExactReader = std::function<Quantity(const std::string& field, const toml::node& value)>;
+
+/// What `read_exact` reads, or
+///   "A ± B", "A ± 10 %"                 uniform about A (also "+-", "+/-")
+///   { value = A, tolerance = B }        the same; A or B with units, or B in per cent
+///   { value = A, normal = B }           Gauss's with standard deviation B, with min and max too
+///   { min = A, max = B }                uniform between; value = nominal, or their middle
+///   { lots = [A, { value = B, weight = 3 }] }   nominal: the first of the heaviest
+/// Throws InvalidInput with one violation.
+TolerancedValue read_toleranced(const std::string& field, const toml::node& value,
+                                const ExactReader& read_exact);
+
+}  // namespace gearlash

@@ -1,0 +1,195 @@
+#include "input/toml_document.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "input/units.hpp"
+#include "input/utf8.hpp"
+
+namespace gearlash {
+namespace {
+
+/// Deeper dotted keys nest as many tables, whose destructors recurse until the stack is full.
+/// toml++ bounds the nesting of brackets and braces (256), not of keys.
+constexpr int deepest_key = 16;
+
+std::string named_place(const std::string& source_name, Place place) {
+  // The parser leaves the place of a table that no header announces at 0.
+  return source_name + ":" + std::to_string(std::max(place.line, 1U)) + ":" +
+         std::to_string(std::max(place.column, 1U));
+}
+
+[[noreturn]] void refuse(const std::string& where, const std::string& field,
+                         const std::string& value, const std::string& permitted) {
+  throw InvalidInput({{field, value, permitted, where}});
+}
+
+bool is_ascii(char c) { return static_cast<unsigned char>(c) < 0x80; }
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  if (text.starts_with(mark)) text.remove_prefix(mark.size());
+  return text;
+}
+
+void require_text(std::string_view text, const std::string& source_name) {
+  Place place{1, 1};
+  while (!text.empty()) {
+    const std::string_view before = text;
+    const std::optional<char32_t> c = take_code_point(text);
+    if (!c || *c == U'\0') {
+      refuse(named_place(source_name, place), "file",
+             "binary data (" + shown(before.substr(0, 1)) + ")", "must be text in UTF-8");
+    }
+    place = *c == U'\n' ? Place{place.line + 1, 1} : Place{place.line, place.column + 1};
+  }
+}
+
+/// Where the string that begins with `quotes` at the start of `text` ends: behind its closing
+/// quotes. 0 where it has none, on its line unless it is a multi-line string; and where toml++
+/// looks for blanks within it (see unparsable_at), behind a backslash of a multi-line one.
+std::size_t end_of_string(std::string_view text, std::string_view quotes) {
+  const bool multi_line = quotes.size() == 3;
+  bool after_backslash = false;
+  for (std::size_t at = quotes.size(); at < text.size(); ++at) {
+    if (!is_ascii(text[at]) && after_backslash && multi_line) return 0;
+    if (text[at] == '\n' && !multi_line) return 0;
+    if (text[at] == '\\' && quotes[0] == '"') {
+      after_backslash = true;
+      if (at + 1 < text.size() && is_ascii(text[at + 1])) ++at;
+    } else if (text.substr(at).starts_with(quotes)) {
+      at += quotes.size();
+      // A multi-line string may end in one or two quotes of its own.
+      for (int i = 0; multi_line && i < 2 && text.substr(at).starts_with(quotes[0]); ++i) ++at;
+      return at;
+    }
+  }
+  return 0;
+}
+
+/// The text with comments and strings painted over, newlines kept. Of a string that follows a word
+/// without a blank, in which toml++ looks for the end of the word, signs beyond ASCII are kept too.
+std::string structure_of(std::string_view text) {
+  std::string result(text);
+  for (std::size_t at = 0; at < text.size();) {
+    const std::string_view rest = text.substr(at);
+    std::size_t length = 0;
+    if (rest[0] == '#') length = std::min(rest.find('\n'), rest.size());
+    for (const std::string_view quotes : {"'", "\"", "'''", "\"\"\""}) {
+      if (!rest.starts_with(quotes)) continue;
+      length = end_of_string(rest, quotes);
+      if (length == 0 && quotes.size() == 3) return result;  // nothing behind it can be told apart
+    }
+    const bool stands_alone =
+        rest[0] == '#' || at == 0 ||
+        std::string_view(" \t\n=[{,").find(text[at - 1]) != std::string_view::npos;
+    for (std::size_t i = at; i < at + length; ++i) {
+      if (result[i] != '\n' && (stands_alone || is_ascii(result[i]))) result[i] = '_';
+    }
+    at += std::max<std::size_t>(length, 1);
+  }
+  return result;
+}
+
+/// The column (from 0) of what toml++ 3.3 should not see: keys nested too deep, and signs beyond
+/// ASCII outside strings and comments, where TOML has none (its test for blanks among them runs
+/// into code declared unreachable).
+std::optional<std::size_t> unparsable_at(std::string_view structure) {
+  int dots = 0;
+  for (std::size_t at = 0; at < structure.size(); ++at) {
+    const char c = structure[at];
+    if (c == '.') ++dots;
+    if (std::string_view("=[]{},").find(c) != std::string_view::npos) dots = 0;
+    if (dots > deepest_key || !is_ascii(c)) return at;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string_view> split_lines(std::string_view text) {
+  std::vector<std::string_view> lines;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string_view line = text.substr(begin, end - begin);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    lines.push_back(line);
+    begin = end + 1;
+  }
+  return lines;
+}
+
+/// The column, from 1, of the character at `byte`.
+toml::source_index column_of(std::string_view line, std::size_t byte) {
+  toml::source_index column = 1;
+  for (std::string_view rest = line; line.size() - rest.size() < byte && take_code_point(rest);) {
+    ++column;
+  }
+  return column;
+}
+
+void require_parsable(std::string_view text, const std::vector<std::string_view>& lines,
+                      const std::string& source_name) {
+  const std::string structure = structure_of(text);
+  const std::vector<std::string_view> structure_lines = split_lines(structure);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::optional<std::size_t> byte = unparsable_at(structure_lines[i]);
+    if (!byte) continue;
+    const bool ascii = is_ascii(structure_lines[i][*byte]);
+    refuse(named_place(source_name,
+                       {static_cast<toml::source_index>(i + 1), column_of(lines[i], *byte)}),
+           "line", shown(lines[i]),
+           ascii ? "must not nest keys deeper than section.key"
+                 : "must be TOML: signs beyond ASCII belong in closed quotes");
+  }
+}
+
+/// The characters of `line` from column `begin` to before `end`.
+std::string_view columns(std::string_view line, std::size_t begin, std::size_t end) {
+  std::string_view rest = line;
+  std::size_t first = line.size();
+  for (std::size_t column = 1; !rest.empty() && column < end; ++column) {
+    if (column == begin) first = line.size() - rest.size();
+    if (!take_code_point(rest)) break;
+  }
+  const std::size_t last = line.size() - rest.size();
+  return first < last ? line.substr(first, last - first) : std::string_view();
+}
+
+}  // namespace
+
+TomlDocument::TomlDocument(std::string_view text, std::string_view source_name, std::size_t largest)
+    : source_name_(shown(source_name, std::string_view::npos)) {
+  if (text.size() > largest) {
+    refuse(named_place(source_name_, {1, 1}), "file", "over " + std::to_string(largest) + " bytes",
+           "must be a data sheet of at most " + std::to_string(largest) + " bytes");
+  }
+  text = without_byte_order_mark(text);
+  require_text(text, source_name_);
+  lines_ = split_lines(text);
+  require_parsable(text, lines_, source_name_);
+  try {
+    root_ = toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    const Place place = error.source().begin;
+    refuse(where(place), "line", shown(line(place.line)),
+           "must be TOML: " + shown(error.description(), 200));
+  }
+}
+
+std::string TomlDocument::where(Place place) const { return named_place(source_name_, place); }
+
+std::string_view TomlDocument::line(std::size_t number) const {
+  return number >= 1 && number <= lines_.size() ? lines_[number - 1] : std::string_view();
+}
+
+std::string TomlDocument::written(const toml::node& node) const {
+  if (const auto* string = node.as_string()) return shown(string->get());
+  const toml::source_region& source = node.source();
+  if (source.begin.line == source.end.line) {
+    return shown(columns(line(source.begin.line), source.begin.column, source.end.column));
+  }
+  return shown(
+      std::string(columns(line(source.begin.line), source.begin.column, std::string_view::npos)) +
+      " …");
+}
+
+}  // namespace gearlash

@@ -1,0 +1,42 @@
+// A TOML text with the places of its values, guarded against what the parser should not see.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/violation.hpp"
+
+namespace gearlash {
+
+/// Line and column, from 1; the column counts characters.
+using Place = toml::source_position;
+
+class TomlDocument {
+ public:
+  /// Parses `text`, which must outlive the document. Throws InvalidInput with one violation for a
+  /// text that is longer than `largest` bytes, holds NUL or is not UTF-8, nests too deep, or is not
+  /// TOML.
+  TomlDocument(std::string_view text, std::string_view source_name, std::size_t largest);
+
+  const toml::table& root() const { return root_; }
+
+  /// "servo.toml:3:11".
+  std::string where(Place place) const;
+
+  /// A value as its author wrote it: the characters of a string, the source text of anything else;
+  /// fit for one line.
+  std::string written(const toml::node& node) const;
+
+ private:
+  std::string_view line(std::size_t number) const;
+
+  std::string source_name_;
+  std::vector<std::string_view> lines_;
+  toml::table root_;
+};
+
+}  // namespace gearlash

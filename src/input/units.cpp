@@ -1,0 +1,192 @@
+#include "input/units.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "input/unit_expression.hpp"
+#include "input/utf8.hpp"
+
+namespace gearlash {
+namespace {
+
+[[noreturn]] void refuse(std::string_view field, std::string_view text,
+                         const std::string& permitted) {
+  throw InvalidInput({{std::string(field), shown(text), permitted, ""}});
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t";
+  const std::size_t begin = text.find_first_not_of(blanks);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
+
+/// A number that is the whole of `text`. Empty where it is none, NaN where no double holds it.
+std::optional<double> decimal(std::string_view text) {
+  if (text.empty() || number_length(text) != text.size()) return std::nullopt;
+  if (text[0] == '+') text.remove_prefix(1);  // from_chars knows no plus
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc()) return std::numeric_limits<double>::quiet_NaN();
+  return value;
+}
+
+std::string expectation(const Dimension& expected) {
+  return std::string(expected.name) + ", such as " + std::string(expected.unit);
+}
+
+bool same_but_for_angle(const UnitPowers& powers, const Dimension& expected) {
+  return powers.metre == expected.metre && powers.kilogram == expected.kilogram &&
+         powers.second == expected.second && powers.ampere == expected.ampere && !powers.foreign;
+}
+
+bool angle_fits(const UnitPowers& powers, const Dimension& expected) {
+  if (powers.radian == expected.radian) return true;
+  return expected.angle == AngleRule::optional && powers.radian == 0;
+}
+
+/// The mistakes that data sheets invite, where the dimension is off by just what they make.
+std::string advice(std::string_view unit, const UnitPowers& powers, const Dimension& expected) {
+  const int metre = powers.metre - expected.metre;
+  const int second = powers.second - expected.second;
+  const bool like_mass_for_force =
+      powers.kilogram == expected.kilogram && powers.ampere == expected.ampere && !powers.foreign;
+  if (like_mass_for_force && ((metre == -1 && second == 2) || (metre == 1 && second == -2))) {
+    return "; oz, lb, g and kg are masses, the forces are ozf, lbf, gf and kgf";
+  }
+  if (expected.radian == 1 && expected.second == 0 && powers == UnitPowers{.second = 1}) {
+    return "; minutes and seconds of arc are arcmin and arcsec";
+  }
+  if (expected.radian == 1 && expected.second == 0 && powers == UnitPowers{.metre = 1}) {
+    return "; this is a length, milliradians are mrad";
+  }
+  const std::size_t slash = std::min(unit.find('/'), unit.find(" per "));
+  const std::size_t divisor =
+      slash == std::string_view::npos ? slash : unit.find_first_not_of("/per ", slash);
+  if (divisor != std::string_view::npos && unit[divisor] >= '0' && unit[divisor] <= '9') {
+    return "; x/1000 rpm is (x/1000) rpm, write x/(1000 rpm)";
+  }
+  if (slash != std::string_view::npos && unit.find('/', slash + 1) != std::string_view::npos) {
+    return "; x/rad/s is x/(rad s), write x/(rad/s)";
+  }
+  if (!same_but_for_angle(powers, expected)) return "";
+  if (expected.angle == AngleRule::absent) return "; there is no angle in it";
+  return powers.radian == 0 ? "; the angle has to be written" : "";
+}
+
+void require_dimension(std::string_view field, std::string_view text, std::string_view name,
+                       const Unit& unit, const Dimension& expected) {
+  if (!same_but_for_angle(unit.powers, expected) || !angle_fits(unit.powers, expected)) {
+    refuse(field, text, "must be " + expectation(expected) + advice(name, unit.powers, expected));
+  }
+  if (unit.powers.radian != expected.radian && unit.counts_minutes) {
+    refuse(field, text,
+           "must be " + expectation(expected) +
+               "; per minute may mean rad or turns, write rpm, rev/min or rad/min");
+  }
+}
+
+/// Length of the text of a control character or another that would break or disguise a line.
+bool is_unfit_for_line(char32_t c) {
+  return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x2028 || c == 0x2029 ||
+         (c >= 0x200B && c <= 0x200F) || (c >= 0x202A && c <= 0x202E) ||
+         (c >= 0x2066 && c <= 0x2069) || c == 0xFEFF;
+}
+
+std::string hexadecimal(std::uint32_t value, std::size_t digits) {
+  std::string text(digits, '0');
+  for (std::size_t i = digits; i-- > 0; value >>= 4U) text[i] = "0123456789abcdef"[value & 0xFU];
+  return text;
+}
+
+std::string escaped(char32_t c) {
+  if (c == '\n') return "\\n";
+  if (c == '\r') return "\\r";
+  if (c == '\t') return "\\t";
+  return c < 0x80 ? "\\x" + hexadecimal(c, 2) : "\\u" + hexadecimal(c, 4);
+}
+
+}  // namespace
+
+Quantity read_quantity(std::string_view field, std::string_view text, const Dimension& expected) {
+  const std::string_view trimmed_text = trimmed(text);
+  const std::size_t length = number_length(trimmed_text);
+  const std::string_view name = trimmed(trimmed_text.substr(length));
+  if (length == 0 || name.empty()) {
+    refuse(field, text, "must be a number and a unit of " + expectation(expected));
+  }
+  if (name.starts_with(',')) {
+    refuse(field, text, "must be " + expectation(expected) + "; the decimal sign is a point");
+  }
+  try {
+    const Unit unit = read_unit(name);
+    require_dimension(field, text, name, unit, expected);
+    const double number = *decimal(trimmed_text.substr(0, length));
+    const double value = number * unit.factor;
+    const bool vanished = value == 0.0 && number != 0.0;
+    if (!std::isfinite(value) || !std::isnormal(unit.factor) || vanished) {
+      refuse(field, text, "must be a number from 1e-308 to 1e308 in SI units, or zero");
+    }
+    // No negative zero: the ratio of two inertias must not be −infinity.
+    return {.si = value + 0.0, .unit_in_si = unit.factor, .unit = std::string(name)};
+  } catch (const NotAUnit& problem) {
+    refuse(field, text, "must be " + expectation(expected) + "; " + problem.what());
+  }
+}
+
+double to_si(std::string_view field, std::string_view text, const Dimension& expected) {
+  return read_quantity(field, text, expected).si;
+}
+
+double read_number(std::string_view field, std::string_view text) {
+  const std::string_view trimmed_text = trimmed(text);
+  if (trimmed_text == "inf" || trimmed_text == "+inf") {
+    return std::numeric_limits<double>::infinity();
+  }
+  const std::size_t slash = trimmed_text.find('/');
+  const std::optional<double> numerator = decimal(trimmed(trimmed_text.substr(0, slash)));
+  const std::optional<double> denominator =
+      slash == std::string_view::npos ? 1.0 : decimal(trimmed(trimmed_text.substr(slash + 1)));
+  if (!numerator || !denominator) {
+    refuse(field, text, "must be a number without unit, such as 0.25, 1e-3 or 1/9");
+  }
+  if (*denominator == 0.0) refuse(field, text, "must not be divided by 0");
+  const double value = *numerator / *denominator;
+  if (!std::isfinite(value)) refuse(field, text, "must be a number from -1e308 to 1e308");
+  return value + 0.0;
+}
+
+Quantity read_angle(std::string_view field, std::string_view text) {
+  std::optional<double> bare;
+  try {
+    bare = read_number(field, text);
+  } catch (const InvalidInput&) {  // its unit decides, if it has one
+    return read_quantity(field, text, dimensions::angle);
+  }
+  if (!std::isfinite(*bare)) refuse(field, text, "must be finite");
+  return {.si = *bare, .unit_in_si = 1.0, .unit = "rad"};
+}
+
+std::string shown(std::string_view text, std::size_t limit) {
+  if (trimmed(text).empty()) return "\"" + std::string(text.substr(0, limit)) + "\"";
+  std::string result;
+  for (std::size_t count = 0; !text.empty(); ++count) {
+    if (count == limit) return result + "…";
+    const std::string_view before = text;
+    const std::optional<char32_t> c = take_code_point(text);
+    if (!c) {
+      result += "\\x" + hexadecimal(static_cast<unsigned char>(text[0]), 2);
+      text.remove_prefix(1);
+    } else if (is_unfit_for_line(*c)) {
+      result += escaped(*c);
+    } else {
+      result += before.substr(0, before.size() - text.size());
+    }
+  }
+  return result;
+}
+
+}  // namespace gearlash

@@ -1,0 +1,100 @@
+#include "model/drive.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "base/overloaded.hpp"
+#include "base/range_check.hpp"
+
+namespace gearlash::drive {
+namespace {
+
+void check(RangeCheck& all, const std::string& name, const Shaft& shaft) {
+  all.positive(name + ".inertia", shaft.inertia, "kg m2");
+  all.not_negative(name + ".viscous", shaft.friction.viscous, "N m s/rad");
+  all.not_negative(name + ".coulomb", shaft.friction.coulomb, "N m");
+  if (!(shaft.friction.breakaway >= shaft.friction.coulomb) ||
+      std::isinf(shaft.friction.breakaway)) {
+    all.refuse(name + ".breakaway", exact_text(shaft.friction.breakaway),
+               "must be finite and at least " + name + ".coulomb, " +
+                   exact_text(shaft.friction.coulomb) + " N m");
+  }
+}
+
+/// Roots on the unit circle are integrators; rounding may put them a little beyond.
+constexpr double largest_radius = 1.0 + 1e-9;
+
+std::string pole_text(double radius) {
+  return "a pole of modulus " + exact_text(radius) + " from sample to sample";
+}
+
+/// Whatever the numerator and the period are.
+void check_poles(RangeCheck& all, const SampledTransfer& controller) {
+  const SampledTransfer poles{{1.0}, controller.denominator};
+  if (!validate(Controller(poles)).empty()) return;
+  const double radius = spectral_radius(linear_controller(poles));
+  if (radius <= largest_radius) return;
+  all.refuse("controller.denominator", pole_text(radius),
+             "must have its roots in the unit circle: what is remembered grows without end");
+}
+
+void check_sampling(RangeCheck& all, const Drive& drive) {
+  const auto* of_samples = std::get_if<SampledTransfer>(&drive.controller);
+  if (of_samples != nullptr) check_poles(all, *of_samples);
+  if (!drive.sampling) {
+    if (of_samples != nullptr) {
+      all.refuse("sampling", "missing", "must be given: the controller is a function of z");
+    }
+    return;
+  }
+  const Sampling& sampling = *drive.sampling;
+  RangeCheck check("sampling.");
+  check.positive("period", sampling.period, "s");
+  if (!check.violations().empty()) return void(all.include(check.violations()));
+  if (!(sampling.delay >= 0.0 && sampling.delay <= sampling.period)) {
+    check.refuse("delay", exact_text(sampling.delay),
+                 "must be from 0 to the period, " + exact_text(sampling.period) + " s");
+  }
+  all.include(check.violations());
+  const bool is_told = of_samples != nullptr || !check.violations().empty();
+  if (is_told || !validate(drive.controller).empty()) return;
+  const double radius = spectral_radius(sampled_controller(drive.controller, sampling));
+  if (radius <= largest_radius) return;
+  const std::string pole = pole_text(radius);
+  all.refuse("sampling.period", pole,
+             "must be so short that what the controller remembers does not grow without end (" +
+                 pole + "), or of another method");
+}
+
+}  // namespace
+
+std::vector<Violation> validate(const Drive& drive) {
+  RangeCheck all;
+  check(all, "motor", drive.motor);
+  check(all, "load", drive.load);
+  all.positive("backlash", drive.backlash, "rad");
+  std::visit(Overloaded{[&](const RigidContact& rigid) {
+                          all.within("contact.restitution", rigid.restitution, 0.0, 1.0);
+                        },
+                        [&](const CompliantContact& compliant) {
+                          all.positive("contact.stiffness", compliant.stiffness, "N m/rad");
+                          all.not_negative("contact.damping", compliant.damping, "N m s/rad");
+                        }},
+             drive.contact);
+  all.within("sensing.load_share_of_position", drive.sensing.load_share_of_position, 0.0, 1.0);
+  all.within("sensing.load_share_of_speed", drive.sensing.load_share_of_speed, 0.0, 1.0);
+  all.include(validate(drive.controller));
+  if (!(drive.torque_limit > 0.0)) {
+    all.refuse("torque_limit", exact_text(drive.torque_limit), "must be positive, N m");
+  }
+  all.not_negative("sensing.resolution", drive.sensing.resolution, "rad");
+  if (drive.sensing.resolution_of_speed != drive.sensing.resolution) {  // else it is one encoder
+    all.not_negative("sensing.resolution_of_speed", drive.sensing.resolution_of_speed, "rad");
+  }
+  all.include(validate(drive.reference, "reference"));
+  all.include(validate(drive.load_torque, "load_torque"));
+  check_sampling(all, drive);
+  return all.violations();
+}
+
+}  // namespace gearlash::drive

@@ -1,0 +1,80 @@
+// A geared drive as an engineer describes it: two shafts with a gap between them, friction, a
+// sensor, a controller, and what is asked of it. SI units, all referred to the load's shaft.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "base/violation.hpp"
+#include "model/controller.hpp"
+#include "model/signal.hpp"
+
+namespace gearlash::drive {
+
+/// Torque against the motion: viscous ω + coulomb sign ω. At rest whatever is applied, up to
+/// `breakaway`.
+struct ShaftFriction {
+  double viscous = 0.0;    ///< N m s/rad, ≥ 0
+  double coulomb = 0.0;    ///< N m, ≥ 0
+  double breakaway = 0.0;  ///< N m, ≥ coulomb
+
+  bool is_dry() const { return breakaway > 0.0; }
+};
+
+struct Shaft {
+  double inertia = 0.0;  ///< kg m², > 0
+  ShaftFriction friction{};
+};
+
+/// Faces that do not give: impacts.
+struct RigidContact {
+  double restitution = 0.0;  ///< 0 … 1
+};
+
+/// How the damping of faces that give acts. Neither law ever pulls.
+enum class ContactDamping {
+  /// Modelica's ElastoBacklash: at most the spring's own torque while faces close, so that torque
+  /// does not jump as they meet.
+  limited,
+  /// Modelica's ElastoBacklash2: from the first touch on.
+  full
+};
+
+/// Faces that give: torque stiffness · δ + damping · δ̇, δ how far they are pressed in.
+struct CompliantContact {
+  double stiffness = 0.0;  ///< N m/rad, > 0
+  double damping = 0.0;    ///< N m s/rad, ≥ 0
+  ContactDamping law = ContactDamping::limited;
+};
+
+using Contact = std::variant<RigidContact, CompliantContact>;
+
+/// What the controller is told of the position: load_share θ_L + (1 − load_share) θ_M; likewise of
+/// the speed.
+struct Sensing {
+  double load_share_of_position = 1.0;  ///< 0 … 1
+  double load_share_of_speed = 0.0;     ///< 0 … 1
+  /// Positions are read to whole multiples of these (encoders), halves away from 0.
+  double resolution = 0.0;           ///< rad, ≥ 0
+  double resolution_of_speed = 0.0;  ///< rad, ≥ 0; of that whose differences are the speed
+};
+
+struct Drive {
+  Shaft motor{};
+  Shaft load{};
+  double backlash = 0.0;  ///< rad, > 0, face to face
+  Contact contact{};
+  Sensing sensing{};
+  Controller controller{};
+  double torque_limit = std::numeric_limits<double>::infinity();  ///< N m, > 0
+  std::optional<Sampling> sampling{};  ///< else the controller is continuous
+  Signal reference{};                  ///< rad
+  Signal load_torque{};                ///< N m, on the load, forward
+};
+
+/// Every violation of the ranges above.
+std::vector<Violation> validate(const Drive& drive);
+
+}  // namespace gearlash::drive

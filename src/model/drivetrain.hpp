@@ -1,0 +1,35 @@
+// Motor, gearbox, load and loop referred to the load shaft, in SI units.
+#pragma once
+
+#include "model/normalized_servo.hpp"
+
+namespace gearlash {
+
+/// DESIGN's table of conventions in SI: what remains of any motor once it is referred to the load.
+struct Drivetrain {
+  double motor_inertia = 0.0;   ///< J_M, kg m², ≥ 0
+  double load_inertia = 0.0;    ///< J_L, kg m², ≥ 0; not both zero
+  double motor_friction = 0.0;  ///< F_M, N m s/rad, ≥ 0; includes back-EMF or speed-torque slope
+  double load_friction = 0.0;   ///< F_L, N m s/rad, ≥ 0
+  double stiffness = 0.0;       ///< K, N m/rad, > 0: torque at the load per unit position error
+  double backlash = 0.0;        ///< b, rad, ≥ 0, face to face at the load shaft
+  double restitution = 0.0;     ///< e, 0 … 1
+  Sensor sensor = Sensor::load;
+
+  bool operator==(const Drivetrain&) const = default;
+};
+
+/// Every violation of the ranges above and of those of the servo it normalises to.
+std::vector<Violation> validate(const Drivetrain& drivetrain);
+
+/// ω_n = √(K/(J_M+J_L)), rad/s.
+double natural_frequency(const Drivetrain& drivetrain);
+
+/// ζ, J_L/J_M, F_L/(F_M+F_L) and b (thesis Appendix A, steps 6 to 8). The friction ratio of a
+/// drivetrain without friction is reported as 0. Throws InvalidInput.
+NormalizedServo normalize(const Drivetrain& drivetrain);
+
+/// normalize() without its checks, for a drivetrain that is known to be sound.
+NormalizedServo normalize_sound(const Drivetrain& drivetrain);
+
+}  // namespace gearlash

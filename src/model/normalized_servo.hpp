@@ -1,0 +1,41 @@
+// The servo reduced to the numbers on which its hunting depends: ω_n = 1, J_M + J_L = 1, K = 1.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/violation.hpp"
+
+namespace gearlash {
+
+/// The shaft that carries the position sensor of the loop.
+enum class Sensor { load, motor };
+
+/// The six inputs of every chart of the 1960 thesis (restitution and sensor were fixed there).
+///
+/// With J_M + J_L = 1 and K = 1 the equations are, y being the load's position from the reference,
+///   engaged    ÿ + 2ζẏ + y = 0,
+///   separated  J_L ÿ_L + F_L ẏ_L = 0,   J_M ÿ_M + F_M ẏ_M + y_L = 0.
+struct NormalizedServo {
+  double damping = 0.0;         ///< ζ = (F_M+F_L)/(2 ω_n (J_M+J_L)), 0 or 1e-15 … 1000
+  double inertia_ratio = 1.0;   ///< J_L/J_M; 0, 1e-9 … 1e9, or infinity (a massless motor)
+  double friction_ratio = 0.5;  ///< F_L/(F_M+F_L), 0 … 1; without effect where damping is 0
+  double backlash = 0.0;        ///< b, rad at the load shaft, face to face, 0 or 1e-15 … 1e6
+  double restitution = 0.0;     ///< e, 0 (plastic) … 1 (elastic)
+  Sensor sensor = Sensor::load;
+
+  bool operator==(const NormalizedServo&) const = default;
+};
+
+/// What a field may be, as an error says it after "must be": permitted_values("friction_ratio") is
+/// "from 0 to 1". Empty for another name.
+std::string permitted_values(std::string_view field);
+
+/// Every violation of the ranges above, and of two rules that join fields: a massless load
+/// (inertia_ratio 0) needs load friction and a massless motor (infinity) needs motor friction,
+/// because a shaft with neither inertia nor friction has no law of motion in the gap.
+/// Sensor::motor is refused until drives are built. Empty when the servo is sound.
+std::vector<Violation> validate(const NormalizedServo& servo);
+
+}  // namespace gearlash

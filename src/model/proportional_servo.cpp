@@ -1,0 +1,58 @@
+#include "model/proportional_servo.hpp"
+
+#include <cmath>
+
+namespace gearlash::drive {
+namespace {
+
+/// Without states and with the same gain for reference and position.
+bool is_proportional(const LinearController& controller) {
+  return controller.order() == 0 && controller.direct[0] == -controller.direct[1];
+}
+
+bool is_undisturbed(const Drive& drive) {
+  const auto* load_torque = std::get_if<double>(&drive.load_torque);
+  return std::holds_alternative<double>(drive.reference) && load_torque != nullptr &&
+         *load_torque == 0.0;
+}
+
+bool is_smooth(const Drive& drive) {
+  return !drive.sampling && drive.sensing.resolution == 0.0 && std::isinf(drive.torque_limit) &&
+         !drive.motor.friction.is_dry() && !drive.load.friction.is_dry();
+}
+
+}  // namespace
+
+Drive drive_of(const Drivetrain& drivetrain) {
+  Drive drive;
+  drive.motor = {drivetrain.motor_inertia, {.viscous = drivetrain.motor_friction}};
+  drive.load = {drivetrain.load_inertia, {.viscous = drivetrain.load_friction}};
+  drive.backlash = drivetrain.backlash;
+  drive.contact = RigidContact{drivetrain.restitution};
+  drive.sensing.load_share_of_position = drivetrain.sensor == Sensor::load ? 1.0 : 0.0;
+  drive.controller = ProportionalDerivative{.proportional = drivetrain.stiffness};
+  return drive;
+}
+
+std::optional<Drivetrain> proportional_servo(const Drive& drive) {
+  const auto* rigid = std::get_if<RigidContact>(&drive.contact);
+  if (rigid == nullptr || !is_smooth(drive) || !is_undisturbed(drive)) return std::nullopt;
+  if (drive.sensing.load_share_of_position != 1.0) return std::nullopt;
+  const LinearController controller = linear_controller(drive.controller);
+  if (!is_proportional(controller)) return std::nullopt;
+  // The torque is the motor's: only there is it friction.
+  const double feedback = -controller.direct[2];
+  if (feedback != 0.0 && drive.sensing.load_share_of_speed != 0.0) return std::nullopt;
+  Drivetrain drivetrain;
+  drivetrain.motor_inertia = drive.motor.inertia;
+  drivetrain.load_inertia = drive.load.inertia;
+  drivetrain.motor_friction = drive.motor.friction.viscous + feedback;
+  drivetrain.load_friction = drive.load.friction.viscous;
+  drivetrain.stiffness = controller.direct[0];
+  drivetrain.backlash = drive.backlash;
+  drivetrain.restitution = rigid->restitution;
+  if (!validate(drivetrain).empty()) return std::nullopt;
+  return drivetrain;
+}
+
+}  // namespace gearlash::drive

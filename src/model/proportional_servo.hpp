@@ -1,0 +1,21 @@
+// The servo of the closed form as a drive, and drives that are one.
+#pragma once
+
+#include <optional>
+
+#include "model/drive.hpp"
+#include "model/drivetrain.hpp"
+
+namespace gearlash::drive {
+
+/// τ = K (r − θ) by what the sensor's shaft shows. Precondition: sound, both inertias and the
+/// backlash positive.
+Drive drive_of(const Drivetrain& drivetrain);
+
+/// The servo of the closed form that a drive is: proportional control of the load's position,
+/// continuous, read exactly and without limit, speed fed back from the motor alone (which is
+/// friction on it), faces rigid, no dry friction, a constant reference, no load torque. Nothing for
+/// any other drive. Precondition: validate(drive) is empty.
+std::optional<Drivetrain> proportional_servo(const Drive& drive);
+
+}  // namespace gearlash::drive

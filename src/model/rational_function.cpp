@@ -1,0 +1,195 @@
+#include "model/rational_function.hpp"
+
+#include <utility>
+
+namespace gearlash::drive {
+namespace {
+
+/// Euclid's, with remainders kept monic so that their coefficients stay short.
+Polynomial greatest_common_divisor(Polynomial a, Polynomial b) {
+  while (!b.is_zero()) {
+    Polynomial remainder = a % b;
+    if (!remainder.is_zero()) remainder /= Rational(remainder.data().back());
+    a = std::exchange(b, std::move(remainder));
+  }
+  return a;
+}
+
+Polynomial one() { return Polynomial(Rational(1)); }
+
+std::vector<double> descending(const Polynomial& polynomial) {
+  std::vector<double> coefficients;
+  for (auto i = polynomial.data().rbegin(); i != polynomial.data().rend(); ++i) {
+    coefficients.push_back(i->convert_to<double>());
+  }
+  if (coefficients.empty()) coefficients.push_back(0.0);
+  return coefficients;
+}
+
+/// By Horner's rule.
+RationalFunction value_at(const Polynomial& polynomial, const RationalFunction& argument) {
+  RationalFunction value;
+  for (auto i = polynomial.data().rbegin(); i != polynomial.data().rend(); ++i) {
+    value = value * argument + RationalFunction(*i);
+  }
+  return value;
+}
+
+}  // namespace
+
+RationalFunction::RationalFunction(const Rational& constant)
+    : numerator_(constant), denominator_(one()) {
+  numerator_.normalize();  // 0 has no coefficients
+}
+
+RationalFunction::RationalFunction(Polynomial numerator, Polynomial denominator)
+    : numerator_(std::move(numerator)), denominator_(std::move(denominator)) {
+  numerator_.normalize();
+  denominator_.normalize();
+  const Polynomial divisor = greatest_common_divisor(denominator_, numerator_);
+  if (divisor.degree() > 0) {
+    numerator_ /= divisor;
+    denominator_ /= divisor;
+  }
+  const Rational lead = denominator_.data().back();
+  numerator_ /= lead;
+  denominator_ /= lead;
+}
+
+RationalFunction operator+(const RationalFunction& a, const RationalFunction& b) {
+  return {a.numerator() * b.denominator() + b.numerator() * a.denominator(),
+          a.denominator() * b.denominator()};
+}
+
+RationalFunction operator-(const RationalFunction& a, const RationalFunction& b) {
+  return {a.numerator() * b.denominator() - b.numerator() * a.denominator(),
+          a.denominator() * b.denominator()};
+}
+
+RationalFunction operator*(const RationalFunction& a, const RationalFunction& b) {
+  return {a.numerator() * b.numerator(), a.denominator() * b.denominator()};
+}
+
+RationalFunction operator/(const RationalFunction& a, const RationalFunction& b) {
+  return {a.numerator() * b.denominator(), a.denominator() * b.numerator()};
+}
+
+RationalFunction variable() { return {Polynomial{Rational(0), Rational(1)}, one()}; }
+
+RationalFunction composed(const RationalFunction& function, const RationalFunction& argument) {
+  return value_at(function.numerator(), argument) / value_at(function.denominator(), argument);
+}
+
+RationalFunction delay_approximation(double delay) {
+  constexpr int order = 4;
+  // The coefficient of xᵏ is (2n − k)! n!/((2n)! k! (n − k)!), each from the one before.
+  std::vector<Rational> ahead = {Rational(1)};
+  std::vector<Rational> behind = {Rational(1)};
+  Rational coefficient = 1;
+  for (int k = 1; k <= order; ++k) {
+    coefficient *= Rational(delay) * Rational(order - k + 1, k * (2 * order - k + 1));
+    behind.push_back(coefficient);
+    ahead.push_back(k % 2 == 0 ? coefficient : Rational(-coefficient));
+  }
+  return {Polynomial(std::move(ahead)), Polynomial(std::move(behind))};
+}
+
+TransferFunction rounded(const RationalFunction& function, double delay) {
+  return {descending(function.numerator()), descending(function.denominator()), delay};
+}
+
+// ---- controllers --------------------------------------------------------------------------------
+
+namespace {
+
+using Row = std::vector<Rational>;
+using Square = std::vector<Row>;
+
+/// A controller whose anti-windup, if it is to act, is one of its inputs:
+/// τ − τ_asked = τ − output z − direct u.
+struct ExactController {
+  Square state_matrix;
+  Square input_columns;  ///< of r, y, v and the torque given
+  Row output;
+  Row direct;
+};
+
+ExactController exact(const LinearController& given, TorqueGiven torque) {
+  const std::size_t order = given.order();
+  const bool winds_back = torque == TorqueGiven::limited && !given.anti_windup.empty();
+  const auto draw = [&](std::size_t i) {
+    return Rational(winds_back ? given.anti_windup[i] : 0.0);
+  };
+  ExactController result;
+  result.output.assign(given.output.begin(), given.output.end());
+  result.direct.assign(given.direct.begin(), given.direct.end());
+  result.direct.emplace_back(0);
+  result.input_columns.assign(4, Row(order));
+  for (std::size_t i = 0; i < order; ++i) {
+    result.state_matrix.emplace_back(given.state_matrix[i].begin(), given.state_matrix[i].end());
+    for (std::size_t j = 0; j < order; ++j) {
+      result.state_matrix[i][j] -= draw(i) * result.output[j];
+    }
+    for (std::size_t j = 0; j < 3; ++j) {
+      result.input_columns[j][i] = Rational(given.input_matrix[i][j]) - draw(i) * result.direct[j];
+    }
+    result.input_columns[3][i] = draw(i);
+  }
+  return result;
+}
+
+/// a b + shift I
+Square product(const Square& a, const Square& b, const Rational& shift) {
+  const std::size_t order = a.size();
+  Square result(order, Row(order));
+  for (std::size_t i = 0; i < order; ++i) {
+    for (std::size_t j = 0; j < order; ++j) {
+      for (std::size_t k = 0; k < order; ++k) result[i][j] += a[i][k] * b[k][j];
+    }
+    result[i][i] += shift;
+  }
+  return result;
+}
+
+Rational trace(const Square& matrix) {
+  Rational sum = 0;
+  for (std::size_t i = 0; i < matrix.size(); ++i) sum += matrix[i][i];
+  return sum;
+}
+
+Rational between(const Row& output, const Square& matrix, const Row& input) {
+  Rational sum = 0;
+  for (std::size_t i = 0; i < output.size(); ++i) {
+    for (std::size_t j = 0; j < input.size(); ++j) sum += output[i] * matrix[i][j] * input[j];
+  }
+  return sum;
+}
+
+}  // namespace
+
+/// (sI − A)⁻¹ = Σ Mₖ sⁿ⁻ᵏ/Σ cₖ sⁿ⁻ᵏ with M₁ = I, cₖ = −tr(A Mₖ)/k, Mₖ₊₁ = A Mₖ + cₖ I
+/// (Faddeev and Leverrier), which loses digits in floating point and none here.
+ExactControllerTransfer exact_transfer(const LinearController& controller, TorqueGiven torque) {
+  const ExactController given = exact(controller, torque);
+  const std::size_t order = controller.order();
+  std::vector<Rational> denominator(order + 1, Rational(0));  // ascending powers
+  std::vector<std::vector<Rational>> numerators(4, denominator);
+  denominator[order] = 1;
+  const Square zero(order, Row(order));
+  Square adjugate = product(zero, zero, 1);
+  for (std::size_t k = 1; k <= order; ++k) {
+    for (std::size_t input = 0; input < 4; ++input) {
+      numerators[input][order - k] = between(given.output, adjugate, given.input_columns[input]);
+    }
+    const Square moved = product(given.state_matrix, adjugate, 0);
+    denominator[order - k] = -trace(moved) / Rational(static_cast<long long>(k));
+    adjugate = product(given.state_matrix, adjugate, denominator[order - k]);
+  }
+  const Polynomial below(denominator);
+  const auto transfer = [&](std::size_t input) {
+    return RationalFunction(Polynomial(numerators[input]) + below * given.direct[input], below);
+  };
+  return {transfer(0), transfer(1), transfer(2), transfer(3)};
+}
+
+}  // namespace gearlash::drive

@@ -1,0 +1,165 @@
+#include "model/signal.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/overloaded.hpp"
+#include "base/range_check.hpp"
+
+namespace gearlash::drive {
+namespace {
+
+/// The stretches of a signal at all times, the first of them from −∞ on; its start is not used.
+using Stretches = std::vector<SignalStretch>;
+
+SignalStretch at_rest(double start, double value) { return {start, value, 0.0, 0.0}; }
+
+Stretches all_of(double value) { return {at_rest(0.0, value)}; }
+
+Stretches all_of(const StepSignal& step) {
+  return {at_rest(step.time, step.before), at_rest(step.time, step.after)};
+}
+
+Stretches all_of(const Ramp& ramp) {
+  return {at_rest(ramp.time, ramp.value), {ramp.time, ramp.value, ramp.rate, 0.0}};
+}
+
+Stretches all_of(const Trapezoid& move) {
+  const double way = move.to < move.from ? -1.0 : 1.0;
+  const double distance = std::abs(move.to - move.from);
+  if (distance == 0.0) return all_of(move.to);
+  // Where the distance is too short to reach the speed it turns over at half of it.
+  const double top = std::min(move.speed, std::sqrt(distance * move.acceleration));
+  const double rising = top / move.acceleration;
+  const double cruising = std::max(0.0, distance / top - rising);
+  const double braking = move.time + rising + cruising;
+  const double risen = 0.5 * top * rising;
+  Stretches result = {at_rest(move.time, move.from),
+                      {move.time, move.from, 0.0, way * move.acceleration}};
+  if (cruising > 0.0) {
+    result.push_back({move.time + rising, move.from + way * risen, way * top, 0.0});
+  }
+  result.push_back({braking, move.to - way * risen, way * top, -way * move.acceleration});
+  result.push_back(at_rest(braking + rising, move.to));
+  return result;
+}
+
+Stretches all_of(const Table& table) {
+  Stretches result = {at_rest(table.times.front(), table.values.front())};
+  for (std::size_t i = 0; i + 1 < table.times.size(); ++i) {
+    const double rate =
+        (table.values[i + 1] - table.values[i]) / (table.times[i + 1] - table.times[i]);
+    result.push_back({table.times[i], table.values[i], rate, 0.0});
+  }
+  result.push_back(at_rest(table.times.back(), table.values.back()));
+  return result;
+}
+
+/// Has none.
+Stretches all_of(const Sine&) { return {}; }
+
+Stretches all_stretches(const Signal& signal) {
+  return std::visit([](const auto& one) { return all_of(one); }, signal);
+}
+
+SignalStretch moved_to(const SignalStretch& stretch, double start) {
+  const double after = start - stretch.start;
+  return {start, stretch.value + after * (stretch.rate + 0.5 * after * stretch.acceleration),
+          stretch.rate + after * stretch.acceleration, stretch.acceleration};
+}
+
+/// The last one that has begun, or the first.
+const SignalStretch& stretch_at(const Stretches& all, double time) {
+  std::size_t found = 0;
+  for (std::size_t i = 1; i < all.size() && all[i].start <= time; ++i) found = i;
+  return all[found];
+}
+
+void inspect(RangeCheck& check, double value) { check.finite("value", value); }
+
+void inspect(RangeCheck& check, const StepSignal& step) {
+  check.finite("before", step.before);
+  check.finite("after", step.after);
+  check.finite("time", step.time);
+}
+
+void inspect(RangeCheck& check, const Ramp& ramp) {
+  check.finite("value", ramp.value);
+  check.finite("rate", ramp.rate);
+  check.finite("time", ramp.time);
+}
+
+void inspect(RangeCheck& check, const Sine& sine) {
+  check.finite("mean", sine.mean);
+  check.finite("amplitude", sine.amplitude);
+  check.finite("phase", sine.phase);
+  check.positive("frequency", sine.frequency, "rad/s");
+}
+
+void inspect(RangeCheck& check, const Trapezoid& move) {
+  check.finite("from", move.from);
+  check.finite("to", move.to);
+  check.finite("time", move.time);
+  check.positive("speed", move.speed, "per s");
+  check.positive("acceleration", move.acceleration, "per s2");
+}
+
+void inspect(RangeCheck& check, const Table& table) {
+  if (table.times.empty() || table.times.size() != table.values.size()) {
+    check.refuse("times",
+                 std::to_string(table.times.size()) + " for " +
+                     std::to_string(table.values.size()) + " values",
+                 "must be as many as values, at least one");
+    return;
+  }
+  for (std::size_t i = 0; i < table.times.size(); ++i) {
+    const std::string place = "[" + std::to_string(i) + "]";
+    check.finite("times" + place, table.times[i]);
+    check.finite("values" + place, table.values[i]);
+    if (i > 0 && table.times[i] <= table.times[i - 1]) {
+      check.refuse("times" + place, exact_text(table.times[i]),
+                   "must be later than the time before it, " + exact_text(table.times[i - 1]) +
+                       ": a table goes forward in time");
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Violation> validate(const Signal& signal, const std::string& field) {
+  RangeCheck check(field + ".");
+  std::visit([&](const auto& one) { inspect(check, one); }, signal);
+  return check.violations();
+}
+
+double value_at(const Signal& signal, double time) {
+  if (const auto* sine = std::get_if<Sine>(&signal)) {
+    return sine->mean + sine->amplitude * std::sin(sine->frequency * time + sine->phase);
+  }
+  return moved_to(stretch_at(all_stretches(signal), time), time).value;
+}
+
+Signal settled(const Signal& signal) {
+  if (std::holds_alternative<Sine>(signal)) return signal;
+  if (const auto* ramp = std::get_if<Ramp>(&signal); ramp != nullptr && ramp->rate != 0.0) {
+    return Ramp{ramp->value, ramp->rate, 0.0};
+  }
+  return all_stretches(signal).back().value;
+}
+
+double settling_time(const Signal& signal) {
+  const Stretches all = all_stretches(signal);
+  return all.size() < 2 ? 0.0 : std::max(0.0, all.back().start);
+}
+
+std::vector<SignalStretch> stretches(const Signal& signal) {
+  const Stretches all = all_stretches(signal);
+  if (all.empty()) return {};
+  Stretches result = {moved_to(stretch_at(all, 0.0), 0.0)};
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    if (all[i].start > 0.0) result.push_back(all[i]);
+  }
+  return result;
+}
+
+}  // namespace gearlash::drive

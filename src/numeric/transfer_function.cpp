@@ -1,0 +1,231 @@
+#include "numeric/transfer_function.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string_view>
+
+#include "base/range_check.hpp"
+
+namespace gearlash {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+void check_polynomial(RangeCheck& check, std::string_view field,
+                      const std::vector<double>& coefficients) {
+  for (const double coefficient : coefficients) check.finite(field, coefficient);
+  const bool has_some = std::any_of(coefficients.begin(), coefficients.end(),
+                                    [](double coefficient) { return coefficient != 0.0; });
+  if (!has_some) check.refuse(field, "", "must have a coefficient other than 0");
+}
+
+struct PolynomialValue {
+  Complex value;
+  Complex slope;
+};
+
+PolynomialValue polynomial_at(const std::vector<double>& coefficients, const Complex& s) {
+  PolynomialValue at{0.0, 0.0};
+  for (const double coefficient : coefficients) {
+    at.slope = at.slope * s + at.value;
+    at.value = at.value * s + coefficient;
+  }
+  return at;
+}
+
+/// Without the zeros that lead, and without those at the end, which are roots at the origin.
+struct StrippedPolynomial {
+  std::vector<double> coefficients;
+  std::size_t roots_at_origin;
+};
+
+StrippedPolynomial stripped(const std::vector<double>& coefficients) {
+  const auto is_not_zero = [](double coefficient) { return coefficient != 0.0; };
+  const auto first = std::find_if(coefficients.begin(), coefficients.end(), is_not_zero);
+  const auto end = std::find_if(coefficients.rbegin(), coefficients.rend(), is_not_zero).base();
+  return {{first, end}, static_cast<std::size_t>(coefficients.end() - end)};
+}
+
+/// In the variable s/scale, so that the product of the roots has modulus 1 and no coefficient of a
+/// physical unit makes the matrix lopsided.
+Eigen::MatrixXd companion_matrix(const std::vector<double>& coefficients, double scale) {
+  const auto degree = static_cast<Eigen::Index>(coefficients.size()) - 1;
+  Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(degree, degree);
+  companion.diagonal(-1).setOnes();
+  double power = 1.0;
+  for (Eigen::Index column = degree - 1; column >= 0; --column) {
+    power *= scale;
+    const double coefficient = coefficients[static_cast<std::size_t>(degree - column)];
+    companion(column, degree - 1) = -coefficient / coefficients.front() / power;
+  }
+  return companion;
+}
+
+/// Rows and columns scaled by powers of two until their sizes are alike (Parlett and Reinsch,
+/// Numerische Mathematik 13 (1969) 293), which the eigenvalues do not notice and rounding does.
+void balance(Eigen::MatrixXd& matrix) {
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+      const double column = matrix.col(i).lpNorm<1>() - std::abs(matrix(i, i));
+      const double row = matrix.row(i).lpNorm<1>() - std::abs(matrix(i, i));
+      if (column == 0.0 || row == 0.0) continue;
+      const double factor = std::exp2(std::round(0.5 * std::log2(row / column)));
+      if (column * factor + row / factor >= 0.95 * (column + row)) continue;
+      matrix.col(i) *= factor;
+      matrix.row(i) /= factor;
+      changed = true;
+    }
+  }
+}
+
+Complex without_noise(const Complex& root) {
+  constexpr double noise = 1e-9;
+  return std::abs(root.real()) <= noise * std::abs(root) ? Complex{0.0, root.imag()} : root;
+}
+
+std::vector<Complex> roots_of(const std::vector<double>& polynomial) {
+  const StrippedPolynomial rest = stripped(polynomial);
+  std::vector<Complex> roots(rest.roots_at_origin, 0.0);
+  const std::size_t degree = rest.coefficients.size() - 1;
+  if (degree == 0) return roots;
+  const double product = std::abs(rest.coefficients.back() / rest.coefficients.front());
+  const double scale = std::pow(product, 1.0 / static_cast<double>(degree));
+  Eigen::MatrixXd companion = companion_matrix(rest.coefficients, scale);
+  balance(companion);
+  const Eigen::VectorXcd eigenvalues = companion.eigenvalues();
+  for (const Complex& eigenvalue : eigenvalues) roots.push_back(without_noise(scale * eigenvalue));
+  return roots;
+}
+
+// ---- Bounds of one factor jω − root, d = ω − Im root, x = Re root.
+
+struct FactorBounds {
+  Bounds log_gain;
+  Bounds phase;
+  Bounds log_gain_slope;
+  Bounds phase_slope;
+};
+
+struct Distances {
+  double low;
+  double high;
+  double nearest;
+  double farthest;
+};
+
+Distances distances(double imaginary, double low, double high) {
+  const double from = low - imaginary;
+  const double to = high - imaginary;
+  const bool passes = from < 0.0 && to > 0.0;
+  return {from, to, passes ? 0.0 : std::min(std::abs(from), std::abs(to)),
+          std::max(std::abs(from), std::abs(to))};
+}
+
+/// Of −x + jd: in the right half plane for x < 0; for x > 0 in the left one, passed clockwise.
+Bounds phase_bounds(double real, const Distances& d) {
+  if (real < 0.0) return {std::atan2(d.low, -real), std::atan2(d.high, -real)};
+  if (real > 0.0) return {pi - std::atan2(d.high, real), pi - std::atan2(d.low, real)};
+  return {d.low < 0.0 ? -0.5 * pi : 0.5 * pi, d.high > 0.0 ? 0.5 * pi : -0.5 * pi};
+}
+
+/// d/(x² + d²), odd, with its extremes ±1/(2|x|) at d = ±|x|.
+Bounds log_gain_slope_bounds(double real, const Distances& d) {
+  if (real == 0.0 && d.nearest == 0.0) return {-infinity, infinity};
+  const auto slope = [real](double distance) {
+    return 1.0 / (distance + (distance == 0.0 ? infinity : real * (real / distance)));
+  };
+  const double x = std::abs(real);
+  Bounds bounds{std::min(slope(d.low), slope(d.high)), std::max(slope(d.low), slope(d.high))};
+  if (d.low < x && x < d.high) bounds.high = 0.5 / x;
+  if (d.low < -x && -x < d.high) bounds.low = -0.5 / x;
+  return bounds;
+}
+
+/// −x/(x² + d²).
+Bounds phase_slope_bounds(double real, const Distances& d) {
+  if (real == 0.0) return {0.0, 0.0};
+  const auto slope = [real](double distance) {
+    return -1.0 / (real + distance * (distance / real));
+  };
+  const double nearest = slope(d.nearest);
+  const double farthest = slope(d.farthest);
+  return {std::min(nearest, farthest), std::max(nearest, farthest)};
+}
+
+FactorBounds factor_bounds(const Complex& root, double low, double high) {
+  const Distances d = distances(root.imag(), low, high);
+  return {
+      {std::log(std::hypot(root.real(), d.nearest)), std::log(std::hypot(root.real(), d.farthest))},
+      phase_bounds(root.real(), d),
+      log_gain_slope_bounds(root.real(), d),
+      phase_slope_bounds(root.real(), d)};
+}
+
+void add(Bounds& sum, const Bounds& term) {
+  sum.low += term.low;
+  sum.high += term.high;
+}
+void subtract(Bounds& sum, const Bounds& term) {
+  sum.low -= term.high;
+  sum.high -= term.low;
+}
+
+}  // namespace
+
+std::vector<Violation> validate(const TransferFunction& transfer) {
+  RangeCheck check;
+  check_polynomial(check, "numerator", transfer.numerator);
+  check_polynomial(check, "denominator", transfer.denominator);
+  check.not_negative("delay", transfer.delay, "");
+  return check.violations();
+}
+
+FrequencyResponse frequency_response(const TransferFunction& transfer, double frequency) {
+  constexpr Complex j{0.0, 1.0};
+  const Complex s{0.0, frequency};
+  const PolynomialValue numerator = polynomial_at(transfer.numerator, s);
+  const PolynomialValue denominator = polynomial_at(transfer.denominator, s);
+  return {numerator.value / denominator.value * std::polar(1.0, -frequency * transfer.delay),
+          j * (numerator.slope / numerator.value - denominator.slope / denominator.value -
+               transfer.delay)};
+}
+
+FactoredTransferFunction factored(const TransferFunction& transfer) {
+  require_none(validate(transfer));
+  const double gain = stripped(transfer.numerator).coefficients.front() /
+                      stripped(transfer.denominator).coefficients.front();
+  return {gain, roots_of(transfer.numerator), roots_of(transfer.denominator), transfer.delay};
+}
+
+ResponseBounds response_bounds(const FactoredTransferFunction& transfer, double low, double high) {
+  const double log_gain = std::log(std::abs(transfer.gain));
+  const double phase = transfer.gain < 0.0 ? pi : 0.0;
+  const double delay = transfer.delay;
+  ResponseBounds sum{{log_gain, log_gain},
+                     {phase - delay * high, phase - delay * low},
+                     {0.0, 0.0},
+                     {-delay, -delay}};
+  for (const Complex& zero : transfer.zeros) {
+    const FactorBounds factor = factor_bounds(zero, low, high);
+    add(sum.log_gain, factor.log_gain);
+    add(sum.phase, factor.phase);
+    add(sum.log_gain_slope, factor.log_gain_slope);
+    add(sum.phase_slope, factor.phase_slope);
+  }
+  for (const Complex& pole : transfer.poles) {
+    const FactorBounds factor = factor_bounds(pole, low, high);
+    subtract(sum.log_gain, factor.log_gain);
+    subtract(sum.phase, factor.phase);
+    subtract(sum.log_gain_slope, factor.log_gain_slope);
+    subtract(sum.phase_slope, factor.phase_slope);
+  }
+  return sum;
+}
+
+}  // namespace gearlash

@@ -1,0 +1,195 @@
+#include "output/comparison_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "output/columns.hpp"
+#include "output/json_values.hpp"
+#include "picture/line_chart.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr int digits = 4;
+
+const DriveFile& file_of(const ComparisonReport& report) {
+  return report.cases.front().attractors.file;
+}
+
+std::string angle(const ComparisonReport& report, double radians) {
+  const AngleUnit& unit = file_of(report).backlash_unit;
+  return significant(unit.from_radians(radians), digits) + " " + unit.name;
+}
+
+std::string time(const ComparisonReport& report, double seconds) {
+  if (std::isnan(seconds)) return "–";
+  return significant(seconds, digits) + (file_of(report).is_normalized ? " / ω_n" : " s");
+}
+
+// ---- one cell each ------------------------------------------------------------------------------
+
+std::string size_text(const ComparisonReport& report, const SensorCase& one) {
+  const drive::AttractorSearch& search = one.attractors.search;
+  if (const drive::FoundCycle* cycle = drive::largest_stable(search)) {
+    return "±" + angle(report, cycle->size);
+  }
+  if (!search.irregular.empty()) return "up to ±" + angle(report, search.irregular.front().size);
+  return "–";
+}
+
+std::string pace_text(const ComparisonReport& report, const SensorCase& one) {
+  const drive::AttractorSearch& search = one.attractors.search;
+  const drive::FoundCycle* cycle = drive::largest_stable(search);
+  if (cycle == nullptr && search.irregular.empty()) return "–";
+  const double period = cycle != nullptr ? cycle->period() : search.irregular.front().period;
+  if (file_of(report).is_normalized) return "period " + time(report, period);
+  return significant(1.0 / period, digits) + " Hz";
+}
+
+std::string static_error(const ComparisonReport& report, const SensorCase& one) {
+  const std::optional<drive::RestFound>& rest = one.attractors.search.rest;
+  const bool is_known = one.attractors.search.count(drive::MotionEnd::undecided) == 0;
+  if (!rest) return is_known ? "never at rest" : "not known";
+  const double low = rest->error.lowest;
+  const double high = rest->error.highest;
+  const double size = std::max(std::abs(low), std::abs(high));
+  // Rest that is one place is told by one number.
+  if (high - low <= 1e-6 * size) return angle(report, low);
+  const AngleUnit& unit = file_of(report).backlash_unit;
+  return significant(unit.from_radians(low), digits) + " … " + angle(report, high);
+}
+
+std::string resolution(const ComparisonReport& report, const SensorCase& one) {
+  const double step = one.attractors.file.drive.sensing.resolution;
+  return step > 0.0 ? angle(report, step) : "–";
+}
+
+template <class Cell>
+std::vector<std::string> row(const ComparisonReport& report, const std::string& name,
+                             const Cell& cell) {
+  std::vector<std::string> cells = {name};
+  for (const SensorCase& one : report.cases) cells.push_back(cell(one));
+  return cells;
+}
+
+bool uses_speed(const drive::Drive& drive) {
+  const drive::LinearController controller =
+      drive.sampling ? drive::sampled_controller(drive.controller, *drive.sampling)
+                     : drive::linear_controller(drive.controller);
+  return controller.direct[2] != 0.0 ||
+         std::any_of(controller.input_matrix.begin(), controller.input_matrix.end(),
+                     [](const std::vector<double>& row) { return row[2] != 0.0; });
+}
+
+std::string meaning(const ComparisonReport& report) {
+  std::string text;
+  for (const SensorCase& one : report.cases) {
+    if (one.place == SensorPlace::motor) {
+      text +=
+          "With the sensor on the motor the gap is outside the loop: the loop does not see where "
+          "in it the load is. ";
+    } else if (one.place == SensorPlace::both) {
+      text += "Both: position of the load, speed of the motor";
+      text += uses_speed(one.attractors.file.drive) ? ". "
+                                                    : ", which this controller makes no use of. ";
+    }
+  }
+  for (const SensorCase& one : report.cases) {
+    if (one.response.stop_reason == hybrid::StopReason::reached_end) continue;
+    text += fmt::format("With the sensor on {} the step response could be followed for {} only. ",
+                        name_of(one.place), time(report, one.response.until));
+  }
+  return text +
+         "Rest and cycles are those that a search from several starts found (limit-cycle "
+         "tells each); step responses are exact motions from rest.";
+}
+
+}  // namespace
+
+std::string comparison_text(const ComparisonReport& report) {
+  const auto response = [&](const auto& number) {
+    return [&report, number](const SensorCase& one) { return time(report, number(one.response)); };
+  };
+  const drive::StepResponse& first = report.cases.front().response;
+  std::vector<std::vector<std::string>> rows = {
+      row(report, "sensor on",
+          [](const SensorCase& one) { return std::string(name_of(one.place)); }),
+      row(report, "encoder step at the load",
+          [&](const SensorCase& one) { return resolution(report, one); }),
+      row(report, "hunting",
+          [](const SensorCase& one) {
+            return std::string(drive::name_of(drive::verdict_of(one.attractors.search)));
+          }),
+      row(report, "  size, load", [&](const SensorCase& one) { return size_text(report, one); }),
+      row(report, "  frequency", [&](const SensorCase& one) { return pace_text(report, one); }),
+      row(report, "error at rest, load",
+          [&](const SensorCase& one) { return static_error(report, one); }),
+      row(report, "step of " + angle(report, first.step),
+          [](const SensorCase&) { return std::string(); }),
+      row(report, "  rise, 10 % to 90 %",
+          response([](const drive::StepResponse& one) { return one.rise_time; })),
+      row(report, "  overshoot",
+          [](const SensorCase& one) {
+            return fmt::format("{:.1f} %", 100.0 * one.response.overshoot);
+          }),
+      row(report, "  settled to 5 %",
+          response([](const drive::StepResponse& one) { return one.settling_time; })),
+      row(report, "  error at last",
+          [&](const SensorCase& one) { return angle(report, one.response.final_error); }),
+      row(report, "  swing at last",
+          [&](const SensorCase& one) { return "±" + angle(report, one.response.ripple); })};
+  return table_text(rows) + "\n" + wrapped(meaning(report));
+}
+
+std::string comparison_json(const ComparisonReport& report) {
+  Json cases = Json::array();
+  for (const SensorCase& one : report.cases) {
+    const drive::StepResponse& response = one.response;
+    Json json = {{"sensor", name_of(one.place)},
+                 {"encoder_step", json_number(one.attractors.file.drive.sensing.resolution)},
+                 {"step_response",
+                  {{"step", json_number(response.step)},
+                   {"watched", json_number(response.until)},
+                   {"rise_time", json_number(response.rise_time)},
+                   {"overshoot", json_number(response.overshoot)},
+                   {"settling_time", json_number(response.settling_time)},
+                   {"band", json_number(response.band)},
+                   {"final_error", json_number(response.final_error)},
+                   {"ripple", json_number(response.ripple)}}}};
+    json["limit_cycle"] = Json::parse(attractor_json(one.attractors));
+    json["limit_cycle"].erase("provenance");
+    cases.push_back(std::move(json));
+  }
+  const Json json = {{"cases", std::move(cases)},
+                     {"provenance", json_provenance(report.provenance)}};
+  return json.dump(2) + "\n";
+}
+
+std::string draw_comparison(const ComparisonReport& report, PictureFormat format) {
+  const DriveFile& file = file_of(report);
+  const AngleUnit& unit = file.backlash_unit;
+  const double step = report.cases.front().response.step;
+  LineChart chart;
+  chart.title = "Step of " + angle(report, step) + " by the place of the sensor";
+  chart.subtitle = "backlash " + angle(report, file.drive.backlash);
+  chart.x.label = file.is_normalized ? "time, 1/ω_n" : "time, s";
+  chart.y.label = "position of the load, " + unit.name;
+  for (const SensorCase& one : report.cases) {
+    ChartCurve curve;
+    curve.name = std::string("sensor on ") + name_of(one.place);
+    const hybrid::Trajectory motion =
+        drive::step_motion(one.attractors.file.drive, step, one.response.until);
+    constexpr int samples = 2000;
+    for (int i = 0; i <= samples; ++i) {
+      const double at = motion.end_time() * i / samples;
+      curve.line.push_back({at, unit.from_radians(motion.at(at).numbers[drive::load_position])});
+    }
+    chart.curves.push_back(std::move(curve));
+  }
+  return draw_line_chart(chart, format);
+}
+
+}  // namespace gearlash

@@ -1,0 +1,32 @@
+// The same drive with its sensor before and after the gap, side by side.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/step_response.hpp"
+#include "output/attractor_report.hpp"
+
+namespace gearlash {
+
+struct SensorCase {
+  SensorPlace place = SensorPlace::load;
+  AttractorReport attractors;
+  drive::StepResponse response;
+};
+
+struct ComparisonReport {
+  std::vector<SensorCase> cases;  ///< at least one
+  Provenance provenance = {};
+};
+
+/// A column each: hunting, static error at the load, step response. Ends with a newline.
+std::string comparison_text(const ComparisonReport& report);
+
+/// As docs/command-line.md lays down.
+std::string comparison_json(const ComparisonReport& report);
+
+/// The step responses of the load.
+std::string draw_comparison(const ComparisonReport& report, PictureFormat format);
+
+}  // namespace gearlash

@@ -1,0 +1,292 @@
+#include "output/describe_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/overloaded.hpp"
+#include "output/columns.hpp"
+#include "output/json_values.hpp"
+
+namespace gearlash {
+namespace {
+
+using drive::DescribedMotion;
+using drive::DescribingAnalysis;
+using drive::ExactCycle;
+using drive::PredictionError;
+
+constexpr double turn = 2.0 * std::numbers::pi;
+constexpr int digits = 4;
+
+bool in_seconds(const std::string& time_unit) { return time_unit == "s"; }
+
+const char* stability(bool stable) { return stable ? "stable" : "unstable"; }
+
+// ---- text ---------------------------------------------------------------------------------------
+
+using Cells = std::vector<std::string>;
+
+std::string with_capital(std::string text) {
+  if (text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
+struct Motion {
+  double size;
+  double motor_size;
+  double period;
+};
+
+Cells motion_row(const std::string& name, const Motion& motion, const DescribeReport& report) {
+  return {name, swing_text(motion.size, report.angle, digits),
+          fmt::format("±{} {}", significant(report.angle.from_radians(motion.motor_size), digits),
+                      report.angle.name),
+          period_text(motion.period, report.time_unit, digits),
+          frequency_text(motion.period, report.time_unit, digits)};
+}
+
+Cells error_row(const PredictionError& error) {
+  const auto text = [](double part) { return change_text(1.0 + part); };
+  return {"  error", text(error.size), text(error.motor_size), text(error.period),
+          text(error.frequency)};
+}
+
+/// What was predicted, each beside the exact cycle that it is a prediction of.
+std::string cycle_table(const DescribingAnalysis& analysis, const DescribeReport& report) {
+  std::vector<Cells> rows = {{"", "size", "motor", "period", "frequency"}};
+  for (const DescribedMotion& cycle : analysis.cycles) {
+    const std::string kind = stability(cycle.balance.stable);
+    rows.push_back(motion_row("predicted, " + kind,
+                              {cycle.size, cycle.motor_size, cycle.balance.period}, report));
+    if (report.is_driven) continue;
+    const auto error = drive::prediction_error(cycle, report.exact);
+    if (!error && cycle.balance.stable) rows.push_back({"  exact", "no stable cycle"});
+    if (!error) continue;
+    const ExactCycle& exact = report.exact[error->exact];
+    rows.push_back(motion_row("  exact", {exact.size, exact.motor_size, exact.period}, report));
+    rows.push_back(error_row(*error));
+  }
+  return table_text(rows);
+}
+
+/// "s² + 0.38 s + 5".
+std::string polynomial_text(const std::vector<double>& coefficients) {
+  std::string text;
+  for (std::size_t i = 0; i < coefficients.size(); ++i) {
+    const double coefficient = coefficients[i];
+    if (coefficient == 0.0) continue;
+    const std::size_t power = coefficients.size() - 1 - i;
+    const std::string factor = significant(std::abs(coefficient), digits);
+    text += coefficient < 0.0 ? (text.empty() ? "−" : " − ") : (text.empty() ? "" : " + ");
+    if (power == 0 || factor != "1") text += factor + (power > 0 ? " " : "");
+    if (power > 0) text += "s";
+    if (power > 1) text += power < 4 ? (power == 2 ? "²" : "³") : fmt::format("^{}", power);
+  }
+  return text.empty() ? "0" : text;
+}
+
+/// "= 25/(s² + 5 s)", or how long it is.
+std::string transfer_text(const TransferFunction& transfer) {
+  constexpr std::size_t longest = 6;
+  if (transfer.denominator.size() > longest) {
+    return fmt::format("of order {}; its coefficients are in the JSON",
+                       transfer.denominator.size() - 1);
+  }
+  const auto in_brackets = [](const std::vector<double>& coefficients) {
+    const std::string text = polynomial_text(coefficients);
+    return text.find(' ') == std::string::npos ? text : "(" + text + ")";
+  };
+  const bool has_denominator = transfer.denominator != std::vector<double>{1.0};
+  std::string text = "= ";
+  text += has_denominator
+              ? in_brackets(transfer.numerator) + "/" + in_brackets(transfer.denominator)
+              : polynomial_text(transfer.numerator);
+  if (transfer.delay > 0.0)
+    text += fmt::format(" · e^(−{} s)", significant(transfer.delay, digits));
+  return text;
+}
+
+std::string unresolved_text(const DescribingAnalysis& analysis) {
+  if (analysis.unresolved.empty()) return "";
+  const Bounds whole{analysis.unresolved.front().low, analysis.unresolved.back().high};
+  return fmt::format(
+      "Between the angular frequencies {} and {} the balance could not be decided: solutions there "
+      "fill a range or merge. ",
+      significant(whole.low, digits), significant(whole.high, digits));
+}
+
+std::string assumptions_text(const DescribingAnalysis& analysis) {
+  std::string text;
+  for (const drive::Assumption assumption : analysis.assumptions) {
+    text += (text.empty() ? "Assumed: " : "; ") + std::string(description_of(assumption));
+  }
+  return text.empty() ? "" : text + ".";
+}
+
+std::string indented(const std::string& text) {
+  std::string result;
+  std::size_t start = 0;
+  while (start < text.size()) {
+    const std::size_t end = text.find('\n', start);
+    result += "  " + text.substr(start, end - start) + "\n";
+    start = end + 1;
+  }
+  return result;
+}
+
+std::string analysis_text(const DescribingAnalysis& analysis, const DescribeReport& report) {
+  std::string text = with_capital(name_of(analysis.part)) + "\n";
+  if (!is_in_loop(analysis)) {
+    return text + "  no cycle: nothing is fed back through it\n";
+  }
+  text += analysis.cycles.empty() ? "  no cycle predicted\n" : cycle_table(analysis, report);
+  text += "  L(s) " + transfer_text(analysis.loop) + "\n";
+  const std::string remarks = unresolved_text(analysis) + assumptions_text(analysis);
+  return remarks.empty() ? text : text + indented(wrapped(remarks));
+}
+
+std::string exact_text(const DescribeReport& report) {
+  std::string text = "exact: " + report.exact_verdict;
+  for (const ExactCycle& cycle : report.exact) {
+    if (!cycle.stable) continue;
+    text += fmt::format(", {}, {}", swing_text(cycle.size, report.angle, digits),
+                        frequency_text(cycle.period, report.time_unit, digits));
+  }
+  return text + "\n";
+}
+
+// ---- JSON ---------------------------------------------------------------------------------------
+
+Json json_nonlinearity(const Nonlinearity& nonlinearity) {
+  return std::visit(
+      Overloaded{[](const FrictionControlledBacklash& gap) -> Json {
+                   return {{"kind", "friction-controlled backlash"}, {"gap", json_number(gap.gap)}};
+                 },
+                 [](const InertiaControlledBacklash& gap) -> Json {
+                   return {{"kind", "inertia-controlled backlash"}, {"gap", json_number(gap.gap)}};
+                 },
+                 [](const Relay& relay) -> Json {
+                   return {{"kind", "relay"}, {"level", json_number(relay.level)}};
+                 },
+                 [](const RelayWithHysteresis& relay) -> Json {
+                   return {{"kind", "relay with hysteresis"},
+                           {"level", json_number(relay.level)},
+                           {"half_width", json_number(relay.half_width)}};
+                 },
+                 [](const Saturation& saturation) -> Json {
+                   return {{"kind", "saturation"},
+                           {"limit", json_number(saturation.limit)},
+                           {"slope", json_number(saturation.slope)}};
+                 },
+                 [](const CoulombFriction& friction) -> Json {
+                   return {{"kind", "Coulomb friction"}, {"torque", json_number(friction.torque)}};
+                 },
+                 [](const DeadZone& zone) -> Json {
+                   return {{"kind", "dead zone"},
+                           {"half_width", json_number(zone.half_width)},
+                           {"slope", json_number(zone.slope)}};
+                 }},
+      nonlinearity);
+}
+
+Json json_transfer(const TransferFunction& transfer) {
+  return {{"numerator", transfer.numerator},
+          {"denominator", transfer.denominator},
+          {"delay", json_number(transfer.delay)}};
+}
+
+Json json_error(const std::optional<PredictionError>& error) {
+  if (!error) return nullptr;
+  return {{"of_exact_cycle", error->exact},
+          {"size", json_number(error->size)},
+          {"motor_size", json_number(error->motor_size)},
+          {"period", json_number(error->period)},
+          {"frequency", json_number(error->frequency)}};
+}
+
+Json json_motion(const DescribedMotion& motion, const DescribeReport& report) {
+  const PredictedCycle& balance = motion.balance;
+  const auto error = report.is_driven ? std::nullopt : prediction_error(motion, report.exact);
+  return {{"stable", balance.stable},
+          {"size", json_number(motion.size)},
+          {"motor_size", json_number(motion.motor_size)},
+          {"period", json_number(balance.period)},
+          {"frequency", json_number(1.0 / balance.period)},
+          {"input_amplitude", json_number(balance.amplitude)},
+          {"gain",
+           {{"real", json_number(balance.gain.real())},
+            {"imaginary", json_number(balance.gain.imag())}}},
+          {"residual", json_number(balance.residual)},
+          {"error", json_error(error)}};
+}
+
+Json json_analysis(const DescribingAnalysis& analysis, const DescribeReport& report) {
+  Json assumptions = Json::array();
+  for (const drive::Assumption assumption : analysis.assumptions) {
+    assumptions.push_back(description_of(assumption));
+  }
+  Json cycles = Json::array();
+  for (const DescribedMotion& motion : analysis.cycles) {
+    cycles.push_back(json_motion(motion, report));
+  }
+  Json unresolved = Json::array();
+  for (const Bounds& range : analysis.unresolved) {
+    unresolved.push_back({{"from", json_number(range.low)}, {"to", json_number(range.high)}});
+  }
+  return {{"part", name_of(analysis.part)},
+          {"nonlinearity", json_nonlinearity(analysis.nonlinearity)},
+          {"in_loop", is_in_loop(analysis)},
+          {"loop", json_transfer(analysis.loop)},
+          {"assumptions", std::move(assumptions)},
+          {"cycles", std::move(cycles)},
+          {"unresolved_angular_frequencies", std::move(unresolved)}};
+}
+
+Json json_exact(const DescribeReport& report) {
+  Json cycles = Json::array();
+  for (const ExactCycle& cycle : report.exact) {
+    cycles.push_back({{"stable", cycle.stable},
+                      {"size", json_number(cycle.size)},
+                      {"motor_size", json_number(cycle.motor_size)},
+                      {"period", json_number(cycle.period)},
+                      {"frequency", json_number(1.0 / cycle.period)}});
+  }
+  return {{"verdict", report.exact_verdict}, {"cycles", std::move(cycles)}};
+}
+
+}  // namespace
+
+std::string period_text(double period, const std::string& time_unit, int digits_shown) {
+  if (in_seconds(time_unit)) return significant(period, digits_shown) + " s";
+  return significant(period, digits_shown) + " / ω_n";
+}
+
+std::string frequency_text(double period, const std::string& time_unit, int digits_shown) {
+  if (in_seconds(time_unit)) return significant(1.0 / period, digits_shown) + " Hz";
+  return "ω = " + significant(turn / period, digits_shown) + " ω_n";
+}
+
+std::string describe_text(const DescribeReport& report) {
+  std::string text = exact_text(report);
+  for (const DescribingAnalysis& analysis : report.analyses) {
+    text += "\n" + analysis_text(analysis, report);
+  }
+  return text;
+}
+
+std::string describe_json(const DescribeReport& report) {
+  Json analyses = Json::array();
+  for (const DescribingAnalysis& analysis : report.analyses) {
+    analyses.push_back(json_analysis(analysis, report));
+  }
+  const Json json = {{"exact", json_exact(report)},
+                     {"analyses", std::move(analyses)},
+                     {"time_unit", report.time_unit},
+                     {"provenance", json_provenance(report.provenance)}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace gearlash

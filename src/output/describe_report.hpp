@@ -1,0 +1,33 @@
+// What describing functions predict of a drive beside what is exact, for a person and a program.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analysis/describing/describing.hpp"
+#include "output/report_units.hpp"
+
+namespace gearlash {
+
+struct DescribeReport {
+  std::vector<drive::DescribingAnalysis> analyses = {};
+  std::vector<drive::ExactCycle> exact = {};
+  std::string exact_verdict = {};  ///< "hunts", "cannot hunt", …: in a word, what is exact
+  bool is_driven = false;          ///< what is exact swings as it is driven: nothing predicts it
+  AngleUnit angle = {};            ///< in which the author gave the backlash
+  std::string time_unit = "s";     ///< of the drive; else periods are told in it, and ω as angles
+  Provenance provenance = {};
+};
+
+/// "0.54 s", "1.85 Hz"; in another unit of time "6.456 / ω_n", "ω = 0.973 ω_n".
+std::string period_text(double period, const std::string& time_unit, int digits);
+std::string frequency_text(double period, const std::string& time_unit, int digits);
+
+/// What is exact in a line; for each analysis a table of what is predicted, what is exact and the
+/// error in per cent, the loop and what is assumed. Ends with a newline.
+std::string describe_text(const DescribeReport& report);
+
+/// The contract of docs/command-line.md, ending with a newline; numbers read back exactly.
+std::string describe_json(const DescribeReport& report);
+
+}  // namespace gearlash

@@ -1,0 +1,283 @@
+#include "output/design_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "output/columns.hpp"
+#include "output/json_values.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr int digits = 6;
+
+/// A limit in so few digits that it lies on the wanted side of the exact one.
+std::string rounded(double value, bool up) {
+  std::string text = significant(value, digits);
+  const double read = std::stod(text);
+  if (value == 0.0 || (up ? read >= value : read <= value)) return text;
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - (digits - 1));
+  return significant(read + (up ? unit : -unit), digits);
+}
+
+/// In the unit in which the author thinks of the backlash, else as it is.
+struct ShownUnit {
+  std::string name;
+  double size = 1.0;
+};
+
+ShownUnit shown_unit(const DesignReport& report, Parameter parameter) {
+  if (parameter == Parameter::backlash) {
+    return {" " + report.units.angle.name, report.units.angle.radians};
+  }
+  const std::string unit = report.drive.unit_of(parameter);
+  return {unit == "1" ? "" : " " + unit, 1.0};
+}
+
+std::string interval_text(const Bounds& interval, const Bounds& searched, const ShownUnit& unit) {
+  const std::string low = rounded(interval.low / unit.size, true);
+  const std::string high = rounded(interval.high / unit.size, false);
+  const bool from_start = interval.low <= searched.low;
+  const bool to_end = interval.high >= searched.high;
+  if (from_start && to_end) return "any";
+  if (from_start) return "at most " + high + unit.name;
+  if (to_end) return "at least " + low + unit.name;
+  return low + " to " + high + unit.name;
+}
+
+/// Nothing where there was none of it.
+std::string change_text(double value, double present) {
+  if (value == present) return "0 %";
+  return present == 0.0 ? "" : gearlash::change_text(value / present);
+}
+
+std::string performance_text(const Performance& performance, const DesignReport& report) {
+  if (performance.verdict == Verdict::cannot_hunt) {
+    return "at rest (growth " + significant(performance.growth_at_rest, 3) + ")";
+  }
+  if (std::isnan(performance.size)) return name_of(performance.verdict);
+  std::string text = swing_text(performance.size, report.units.angle, 3);
+  if (report.units.natural_frequency) {
+    text += " at " + significant(performance.frequency, 3) + " Hz";
+  }
+  return text;
+}
+
+/// The value nearest to the present one within an interval.
+double nearest_in(const Bounds& interval, double present) {
+  return std::clamp(present, interval.low, interval.high);
+}
+
+std::vector<std::string> header() {
+  return {"parameter", "now", "meets the target", "change", "ω_n", "ζ", "K", "then"};
+}
+
+/// The first of a parameter names it, the others are further ways.
+std::vector<std::string> interval_row(const DesignReport& report, const FeasibleValues& values,
+                                      std::size_t index) {
+  const Parameter parameter = values.parameter;
+  const Bounds& interval = values.intervals[index];
+  const ShownUnit unit = shown_unit(report, parameter);
+  const double value = nearest_in(interval, values.present);
+  const Drivetrain& present = report.drive.drivetrain();
+  const Drivetrain changed = report.drive.with(parameter, value);
+  const bool is_first = index == 0;
+  return {is_first ? name_of(parameter) : "  or",
+          is_first ? significant(values.present / unit.size, digits) + unit.name : "",
+          interval_text(interval, values.searched, unit),
+          change_text(value, values.present),
+          change_text(natural_frequency(changed), natural_frequency(present)),
+          significant(normalize(changed).damping, 3),
+          change_text(changed.stiffness, present.stiffness),
+          performance_text(performance_of(changed), report)};
+}
+
+/// Why no value does it, as far as one line can say.
+std::string reason(const DesignReport& report, const FeasibleValues& values) {
+  const ShownUnit unit = shown_unit(report, values.parameter);
+  const auto shown = [&](double value) {
+    return significant(value / unit.size, digits) + unit.name;
+  };
+  std::string text = std::string(name_of(values.parameter)) + ": ";
+  if (values.searched.low == values.searched.high) return text + "is 0, and has no multiples";
+  if (values.parameter == Parameter::backlash &&
+      (report.target.no_hunting || !std::isinf(report.target.growth_at_rest.high))) {
+    return text + "however small, it leaves the hunting; only its size follows";
+  }
+  text += fmt::format("no value from {} to {}", shown(values.searched.low),
+                      shown(values.searched.high));
+  text += values.kind == SearchKind::certified ? "" : " that was looked at";
+  const Performance closest =
+      performance_of(report.drive.with(values.parameter, values.closest->value));
+  return text + fmt::format("; closest is {} with {} (growth at rest {})",
+                            shown(values.closest->value), performance_text(closest, report),
+                            significant(closest.growth_at_rest, 3));
+}
+
+/// Bounds close in on a limit to a billionth of a value as a rule; wider parts are worth a word.
+bool is_worth_naming(const FeasibleValues& answer) {
+  constexpr double narrow = 1e-6;
+  return std::any_of(answer.undecided.begin(), answer.undecided.end(), [&](const Bounds& part) {
+    return answer.kind == SearchKind::scanned || part.high - part.low > narrow * part.high;
+  });
+}
+
+/// The parts of the range of which nothing is known, of all parameters that were searched so.
+std::string undecided_parts(const DesignReport& report, SearchKind kind) {
+  std::string parts;
+  for (const FeasibleValues& answer : report.answers) {
+    if (answer.kind != kind || !is_worth_naming(answer)) continue;
+    const ShownUnit unit = shown_unit(report, answer.parameter);
+    parts += (parts.empty() ? "" : "; ") + std::string(name_of(answer.parameter));
+    constexpr std::size_t most_named = 4;
+    const std::size_t named = std::min(most_named, answer.undecided.size());
+    for (std::size_t i = 0; i < named; ++i) {
+      const Bounds& part = answer.undecided[i];
+      parts += fmt::format("{} {} to {}{}", i == 0 ? "" : ",", rounded(part.low / unit.size, false),
+                           rounded(part.high / unit.size, true), unit.name);
+    }
+    if (named < answer.undecided.size()) {
+      parts += fmt::format(" and {} more", answer.undecided.size() - named);
+    }
+  }
+  return parts;
+}
+
+std::string certainty(const DesignReport& report) {
+  std::string text =
+      "This list is complete for 0.001 to 1000 times the present value; for friction and feedback, "
+      "up to ten times critical damping. Interval bounds over the whole range prove it";
+  std::string scanned;
+  for (const FeasibleValues& answer : report.answers) {
+    if (answer.kind == SearchKind::certified) continue;
+    scanned += (scanned.empty() ? "" : ", ") + std::string(name_of(answer.parameter));
+  }
+  text += scanned.empty() ? "."
+                          : ", except for " + scanned +
+                                ": with bounces, many values were tried, and others may be missed.";
+  if (const std::string open = undecided_parts(report, SearchKind::certified); !open.empty()) {
+    text += " The bounds leave open, because a limit is touched there to within rounding: " + open +
+            ".";
+  }
+  if (const std::string open = undecided_parts(report, SearchKind::scanned); !open.empty()) {
+    text +=
+        " Nothing is said of these parts, because motion there does not repeat or is too long "
+        "to follow, so that values which meet the target may come and go: " +
+        open + ".";
+  }
+  return text;
+}
+
+Json json_performance(const Performance& performance, bool has_frequency) {
+  Json json = {{"verdict", name_of(performance.verdict)},
+               {"growth_at_rest", json_number(performance.growth_at_rest)},
+               {"size", json_number(performance.size)}};
+  if (has_frequency) json["frequency"] = json_number(performance.frequency);
+  return json;
+}
+
+Json json_drive(const Drivetrain& drive) {
+  return {{"natural_frequency", json_number(natural_frequency(drive))},
+          {"damping", json_number(normalize(drive).damping)},
+          {"stiffness", json_number(drive.stiffness)}};
+}
+
+Json json_bounds(const Bounds& bounds) {
+  return {{"from", json_number(bounds.low)}, {"to", json_number(bounds.high)}};
+}
+
+Json json_answer(const DesignReport& report, const FeasibleValues& values) {
+  const bool has_frequency = report.units.natural_frequency.has_value();
+  Json intervals = Json::array();
+  for (const Bounds& interval : values.intervals) intervals.push_back(json_bounds(interval));
+  Json undecided = Json::array();
+  for (const Bounds& sliver : values.undecided) undecided.push_back(json_bounds(sliver));
+  Json json = {{"parameter", name_of(values.parameter)},
+               {"description", description_of(values.parameter)},
+               {"unit", report.drive.unit_of(values.parameter)},
+               {"present", json_number(values.present)},
+               {"searched", json_bounds(values.searched)},
+               {"certified", values.kind == SearchKind::certified},
+               {"intervals", std::move(intervals)},
+               {"undecided", std::move(undecided)}};
+  const double nearest = values.nearest();
+  if (std::isnan(nearest)) {
+    const Drivetrain closest = report.drive.with(values.parameter, values.closest->value);
+    json["closest"] = {{"value", json_number(values.closest->value)},
+                       {"performance", json_performance(performance_of(closest), has_frequency)}};
+    return json;
+  }
+  const Drivetrain changed = report.drive.with(values.parameter, nearest);
+  json["nearest"] = {{"value", json_number(nearest)},
+                     {"change_percent", json_number(100.0 * (nearest / values.present - 1.0))},
+                     {"performance", json_performance(performance_of(changed), has_frequency)},
+                     {"drive", json_drive(changed)}};
+  return json;
+}
+
+}  // namespace
+
+namespace {
+
+/// Whether the target is met at present: with plastic contact as far as that is proved of the data.
+Judgement judge_present(const DesignReport& report, const Performance& present) {
+  const Drivetrain& drive = report.drive.drivetrain();
+  if (servo_dynamics(normalize(drive)).plastic_contact()) {
+    return judge(report.target, report.drive.box(), present.flight_time);
+  }
+  return is_met(report.target, present) ? Judgement::all : Judgement::none;
+}
+
+const char* words_of(Judgement judgement) {
+  if (judgement == Judgement::some) return "on the limit of the target, to within rounding";
+  return judgement == Judgement::all ? "met" : "not met";
+}
+
+Json json_of(Judgement judgement) {
+  if (judgement == Judgement::some) return nullptr;
+  return judgement == Judgement::all;
+}
+
+}  // namespace
+
+std::string design_text(const DesignReport& report) {
+  const Performance present = performance_of(report.drive.drivetrain());
+  std::string text =
+      fmt::format("target: {}\nat present: {}, {}\n\n", report.target_text,
+                  performance_text(present, report), words_of(judge_present(report, present)));
+  std::vector<std::vector<std::string>> rows = {header()};
+  std::string reasons;
+  for (const FeasibleValues& answer : report.answers) {
+    for (std::size_t i = 0; i < answer.intervals.size(); ++i) {
+      rows.push_back(interval_row(report, answer, i));
+    }
+    if (answer.intervals.empty()) reasons += "  " + reason(report, answer) + "\n";
+  }
+  if (rows.size() > 1) {
+    text += "One change by itself, all else as it is; ω_n, ζ and K are what it costs\n" +
+            table_text(rows) + "\n";
+  }
+  if (!reasons.empty()) text += "No value does it\n" + reasons + "\n";
+  return text + wrapped(certainty(report));
+}
+
+std::string design_json(const DesignReport& report) {
+  const Performance present = performance_of(report.drive.drivetrain());
+  Json answers = Json::array();
+  for (const FeasibleValues& answer : report.answers)
+    answers.push_back(json_answer(report, answer));
+  const Json json = {
+      {"target", report.target_text},
+      {"met", json_of(judge_present(report, present))},
+      {"present",
+       {{"servo", json_servo(normalize(report.drive.drivetrain()))},
+        {"performance", json_performance(present, report.units.natural_frequency.has_value())},
+        {"drive", json_drive(report.drive.drivetrain())}}},
+      {"answers", std::move(answers)},
+      {"provenance", json_provenance(report.provenance)}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace gearlash

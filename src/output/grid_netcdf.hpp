@@ -1,0 +1,74 @@
+// The limit cycles of a grid of servos as a NetCDF-4 file, written whole or piece by piece.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "analysis/grid/region_boundary.hpp"
+#include "analysis/grid/servo_grid.hpp"
+#include "closed_form/lanes/cycle_table.hpp"
+#include "output/grid_pieces.hpp"
+#include "output/output_file.hpp"
+#include "output/report_units.hpp"
+
+namespace gearlash {
+
+/// What a file of a grid says.
+struct GridContents {
+  ServoGrid grid;
+  std::vector<CycleQuantity> quantities;  ///< beside the verdict
+  Provenance provenance;
+  std::string source_text = {};  ///< of the file that asked for it; empty when there was none
+};
+
+/// A file that is being written. One dimension an axis, named as its input, with the axis's values;
+/// the other inputs as numbers; the verdict as flags and each quantity over all dimensions, NaN
+/// where it is not known, each with its long_name and with units as UDUNITS knows them, for which
+/// times, speeds and energies are normalised (ω_n = 1, K = 1); the command and the version of
+/// Gearlash. The boundary is a list of points, with NaN between curves. CF conventions 1.8; the
+/// same grid gives the same bytes, in whatever pieces it is written.
+///
+/// Every member throws OutputError, naming the file as `shown_name`, where it cannot be written.
+class GridNetcdf {
+ public:
+  /// A new file in which every value has its place and none is written yet.
+  static GridNetcdf create(const std::filesystem::path& path, const std::string& shown_name,
+                           const GridContents& contents);
+  /// A file that create() made of the same contents, to go on with.
+  static GridNetcdf reopen(const std::filesystem::path& path, const std::string& shown_name,
+                           const GridContents& contents);
+  ~GridNetcdf();
+  GridNetcdf(GridNetcdf&& other) noexcept;
+  GridNetcdf& operator=(GridNetcdf&& other) = delete;
+
+  void write(const GridPiece& piece);
+  /// Of a map, whose axes are y and x, once; no curve: nothing is written.
+  void write_boundary(const std::vector<MapCurve>& boundary);
+  /// Brings what was written to the disk (fsync).
+  void flush();
+  void close();
+
+ private:
+  class Layout;
+  explicit GridNetcdf(std::unique_ptr<Layout> layout);
+
+  std::unique_ptr<Layout> layout_;
+};
+
+/// Bytes that the values of such a file take.
+std::size_t netcdf_bytes(const GridContents& contents);
+
+/// What a file of a grid says besides: where hunting ends, which a map tells.
+enum class GridBoundary { none, hunting };
+
+/// Works out the grid with every quantity and writes it, in place of output.write(): while one
+/// piece is written, the next is worked out. `going_on` as in evaluate_in_pieces(); where it stops,
+/// the file is not whole. Throws OutputError where it cannot be written, and for "-" and devices,
+/// into which NetCDF cannot write.
+GridCount make_grid_netcdf(const ServoGrid& grid, GridBoundary boundary,
+                           const Provenance& provenance, const OutputFile& output,
+                           const GoingOn& going_on = {});
+
+}  // namespace gearlash

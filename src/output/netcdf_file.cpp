@@ -1,0 +1,161 @@
+#include "output/netcdf_file.hpp"
+
+#include <fcntl.h>
+#include <netcdf.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include "output/output_file.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr int closed = -1;
+
+/// "No space left on device", where the system said so, is clearer than "NetCDF: HDF error".
+[[noreturn]] void refuse(const std::string& shown_name, int status, int system_error) {
+  const std::string reason = status == NC_EHDFERR && system_error != 0
+                                 ? std::generic_category().message(system_error)
+                                 : nc_strerror(status);
+  throw OutputError(shown_name + ": cannot be written: " + reason);
+}
+
+}  // namespace
+
+template <class Call, class... Arguments>
+void NetcdfFile::require(Call call, Arguments... arguments) const {
+  errno = 0;
+  const int status = call(id_, arguments...);
+  if (status != NC_NOERR) refuse(shown_name_, status, errno);
+}
+
+NetcdfFile NetcdfFile::create(const std::filesystem::path& path, std::string shown_name) {
+  int id = closed;
+  errno = 0;
+  const int status = nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &id);
+  if (status != NC_NOERR) refuse(shown_name, status, errno);
+  return {id, path, std::move(shown_name)};
+}
+
+NetcdfFile NetcdfFile::reopen(const std::filesystem::path& path, std::string shown_name) {
+  int id = closed;
+  const int status = nc_open(path.c_str(), NC_WRITE, &id);
+  if (status != NC_NOERR) refuse(shown_name, status, 0);
+  return {id, path, std::move(shown_name)};
+}
+
+NetcdfFile::~NetcdfFile() {
+  if (id_ != closed) nc_close(id_);
+}
+
+NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept
+    : id_(std::exchange(other.id_, closed)),
+      path_(std::move(other.path_)),
+      shown_name_(std::move(other.shown_name_)) {}
+
+NetcdfDimension NetcdfFile::add_dimension(const std::string& name, std::size_t length) {
+  NetcdfDimension dimension = 0;
+  require(nc_def_dim, name.c_str(), length, &dimension);
+  return dimension;
+}
+
+NetcdfVariable NetcdfFile::add_numbers(const std::string& name,
+                                       const std::vector<NetcdfDimension>& dimensions,
+                                       const std::string& long_name, const std::string& units) {
+  NetcdfVariable variable = 0;
+  require(nc_def_var, name.c_str(), NC_DOUBLE, static_cast<int>(dimensions.size()),
+          dimensions.data(), &variable);
+  if (!dimensions.empty()) {
+    require(nc_def_var_chunking, variable, NC_CONTIGUOUS, nullptr);
+    require(nc_def_var_fill, variable, NC_NOFILL, nullptr);
+  }
+  set_attribute(variable, "long_name", long_name);
+  set_attribute(variable, "units", units);
+  return variable;
+}
+
+void NetcdfFile::declare_nan_missing(NetcdfVariable variable) {
+  const double missing = std::numeric_limits<double>::quiet_NaN();
+  require(nc_put_att_double, variable, "missing_value", NC_DOUBLE, std::size_t{1}, &missing);
+}
+
+NetcdfVariable NetcdfFile::add_flags(const std::string& name,
+                                     const std::vector<NetcdfDimension>& dimensions,
+                                     const std::string& long_name,
+                                     const std::vector<std::string>& meanings) {
+  NetcdfVariable variable = 0;
+  require(nc_def_var, name.c_str(), NC_BYTE, static_cast<int>(dimensions.size()), dimensions.data(),
+          &variable);
+  if (!dimensions.empty()) {
+    require(nc_def_var_chunking, variable, NC_CONTIGUOUS, nullptr);
+    require(nc_def_var_fill, variable, NC_NOFILL, nullptr);
+  }
+  std::vector<signed char> values;
+  std::string words;
+  for (const std::string& meaning : meanings) {
+    values.push_back(static_cast<signed char>(values.size()));
+    words += (words.empty() ? "" : " ") + meaning;
+  }
+  require(nc_put_att_schar, variable, "flag_values", NC_BYTE, values.size(), values.data());
+  set_attribute(variable, "flag_meanings", words);
+  set_attribute(variable, "long_name", long_name);
+  return variable;
+}
+
+void NetcdfFile::set_attribute(NetcdfVariable variable, const std::string& name,
+                               const std::string& text) {
+  require(nc_put_att_text, variable, name.c_str(), text.size(), text.c_str());
+}
+
+void NetcdfFile::set_attribute_of_file(const std::string& name, const std::string& text) {
+  set_attribute(NC_GLOBAL, name, text);
+}
+
+void NetcdfFile::end_description() { require(nc_enddef); }
+void NetcdfFile::resume_description() { require(nc_redef); }
+
+NetcdfVariable NetcdfFile::variable(const std::string& name) const {
+  NetcdfVariable variable = 0;
+  require(nc_inq_varid, name.c_str(), &variable);
+  return variable;
+}
+
+void NetcdfFile::write(NetcdfVariable variable, const std::vector<std::size_t>& start,
+                       const std::vector<std::size_t>& extent, std::span<const double> values) {
+  require(nc_put_vara_double, variable, start.data(), extent.data(), values.data());
+}
+
+void NetcdfFile::write(NetcdfVariable variable, const std::vector<std::size_t>& start,
+                       const std::vector<std::size_t>& extent, std::span<const signed char> flags) {
+  require(nc_put_vara_schar, variable, start.data(), extent.data(), flags.data());
+}
+
+void NetcdfFile::begin_flush() const {
+#ifdef SYNC_FILE_RANGE_WRITE  // Linux
+  const int descriptor = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  static_cast<void>(sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE));  // to the end
+  ::close(descriptor);
+#endif
+}
+
+void NetcdfFile::flush() {
+  require(nc_sync);
+  const int descriptor = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool brought = descriptor >= 0 && fsync(descriptor) == 0;
+  const int system_error = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!brought) refuse(shown_name_, NC_EHDFERR, system_error);
+}
+
+void NetcdfFile::close() {
+  errno = 0;
+  const int status = nc_close(std::exchange(id_, closed));
+  if (status != NC_NOERR) refuse(shown_name_, status, errno);
+}
+
+}  // namespace gearlash

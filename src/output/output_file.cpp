@@ -1,0 +1,197 @@
+#include "output/output_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <csignal>
+#include <cstring>
+#include <system_error>
+
+#include "input/units.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr std::size_t buffer_size = std::size_t{1} << 16U;
+
+/// Names of hidden files, where a signal handler finds them without allocating or locking.
+struct UnfinishedOutput {
+  std::atomic<bool> taken = false;
+  std::atomic<bool> exists = false;  ///< `name` is complete and is that of a file
+  std::array<char, PATH_MAX> name{};
+};
+std::array<UnfinishedOutput, 8> unfinished_outputs;
+
+int claim_slot() {
+  for (std::size_t i = 0; i < unfinished_outputs.size(); ++i) {
+    if (!unfinished_outputs[i].taken.exchange(true)) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+UnfinishedOutput& output_in(int slot) { return unfinished_outputs[static_cast<std::size_t>(slot)]; }
+
+std::string system_message(int error) { return std::generic_category().message(error); }
+
+/// No signal is heard while this lives: a file is made and noted for removal in one.
+class SignalsHeld {
+ public:
+  SignalsHeld() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~SignalsHeld() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  SignalsHeld(const SignalsHeld&) = delete;
+  SignalsHeld& operator=(const SignalsHeld&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
+bool is_regular_or_new(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  return status.type() == std::filesystem::file_type::regular ||
+         status.type() == std::filesystem::file_type::not_found;
+}
+
+/// /dev/stdout and its like may lead to a regular file, which the shell has opened and goes on
+/// using: renaming another over it would lose what else is written there.
+bool names_open_descriptor(const std::filesystem::path& path) {
+  const std::string text = path.string();
+  return text == "/dev/stdout" || text == "/dev/stderr" || text.starts_with("/dev/fd/") ||
+         text.starts_with("/proc/");
+}
+
+/// Permissions of the file to be replaced, or those that a new file is given.
+mode_t permissions_of(const std::filesystem::path& target) {
+  struct stat existing {};
+  if (stat(target.c_str(), &existing) == 0) return existing.st_mode & 0777U;
+  const mode_t mask = umask(0);
+  umask(mask);
+  return 0666U & ~mask;
+}
+
+}  // namespace
+
+void remove_unfinished_outputs() noexcept {
+  for (UnfinishedOutput& output : unfinished_outputs) {
+    if (output.exists.exchange(false)) unlink(output.name.data());
+  }
+}
+
+OutputFile::OutputFile(const std::filesystem::path& path)
+    : shown_name_(path == "-" ? "standard output" : shown(path.string(), std::string::npos)) {
+  buffer_.reserve(buffer_size);
+  if (path.empty()) {
+    errno = ENOENT;
+    refuse("cannot be written");
+  }
+  if (path == "-" || path == "/dev/stdout") {
+    descriptor_ = STDOUT_FILENO;
+  } else if (names_open_descriptor(path) || !is_regular_or_new(path)) {
+    open_directly(path);
+  } else {
+    std::error_code error;
+    const std::filesystem::path resolved = std::filesystem::weakly_canonical(path, error);
+    open_beside(error ? path : resolved);
+  }
+}
+
+OutputFile::~OutputFile() { abandon(); }
+
+void OutputFile::open_directly(const std::filesystem::path& path) {
+  descriptor_ = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (descriptor_ < 0) refuse("cannot be opened for writing");
+  owns_descriptor_ = true;
+}
+
+void OutputFile::open_beside(const std::filesystem::path& target) {
+  const std::string hidden =
+      (target.parent_path() / ("." + target.filename().string() + ".XXXXXX")).string();
+  slot_ = claim_slot();
+  if (slot_ < 0) throw OutputError(shown_name_ + ": too many files are being written at once");
+  UnfinishedOutput& output = output_in(slot_);
+  if (hidden.size() >= output.name.size()) {
+    errno = ENAMETOOLONG;
+    refuse("cannot be written");
+  }
+  std::memcpy(output.name.data(), hidden.c_str(), hidden.size() + 1);
+  {
+    const SignalsHeld held;
+    descriptor_ = mkostemp(output.name.data(), O_CLOEXEC);
+    output.exists = descriptor_ >= 0;
+  }
+  if (descriptor_ < 0) refuse("cannot be written");
+  owns_descriptor_ = true;
+  target_ = target;
+  if (fchmod(descriptor_, permissions_of(target)) != 0) refuse("cannot be written");
+}
+
+void OutputFile::write(std::string_view text) {
+  if (buffer_.size() + text.size() > buffer_size) flush();
+  buffer_.append(text);
+  if (buffer_.size() > buffer_size) flush();
+}
+
+void OutputFile::flush() {
+  std::string_view rest = buffer_;
+  while (!rest.empty()) {
+    const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
+    if (written < 0) {
+      if (errno == EINTR) continue;
+      if (errno == EPIPE) throw ReaderGone();
+      refuse("cannot be written");
+    }
+    rest.remove_prefix(static_cast<std::size_t>(written));
+  }
+  buffer_.clear();
+}
+
+std::filesystem::path OutputFile::hidden_file() const {
+  if (target_.empty()) {
+    throw OutputError(shown_name_ +
+                      ": must be a file: its format is not written from front to back");
+  }
+  return output_in(slot_).name.data();
+}
+
+void OutputFile::commit() {
+  flush();
+  if (!owns_descriptor_) return;
+  if (!target_.empty() && fsync(descriptor_) != 0) refuse("cannot be written");
+  const int closed = close(descriptor_);
+  owns_descriptor_ = false;
+  descriptor_ = -1;
+  if (closed != 0) refuse("cannot be written");
+  if (target_.empty()) return;
+  UnfinishedOutput& output = output_in(slot_);
+  if (std::rename(output.name.data(), target_.c_str()) != 0) refuse("cannot be written");
+  output.exists = false;
+}
+
+void OutputFile::refuse(const std::string& action) const {
+  throw OutputError(shown_name_ + ": " + action + ": " + system_message(errno));
+}
+
+void OutputFile::abandon() noexcept {
+  if (owns_descriptor_) close(descriptor_);
+  if (slot_ < 0) return;
+  UnfinishedOutput& output = output_in(slot_);
+  if (output.exists.exchange(false)) unlink(output.name.data());
+  output.taken = false;
+}
+
+void write_file(const std::filesystem::path& path, std::string_view text) {
+  OutputFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+}  // namespace gearlash

@@ -1,0 +1,221 @@
+#include "output/tolerance_data.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "base/range_check.hpp"
+#include "output/netcdf_file.hpp"
+
+namespace gearlash {
+namespace {
+
+/// Empty where it is not known.
+std::string cell(double value) { return std::isnan(value) ? "" : exact_text(value); }
+
+/// A quantity estimated at several shares, and what it is.
+struct QuantileSeries {
+  const char* name;
+  const char* long_name;
+  const char* units;
+  const std::vector<QuantileEstimate>& quantiles;
+};
+
+std::vector<QuantileSeries> quantile_series(const ToleranceReport& report) {
+  const ToleranceStudy& study = report.study;
+  std::vector<QuantileSeries> series = {
+      {"size", "size of limit cycle, 0 where the piece cannot hunt", "rad", study.size},
+      {"size_of_hunting", "size of limit cycle, of pieces that hunt", "rad",
+       study.size_of_hunting}};
+  if (report.units.natural_frequency) {
+    series.push_back(
+        {"frequency", "frequency of limit cycle, of pieces that hunt", "Hz", study.frequency});
+  }
+  return series;
+}
+
+/// An index of every number, and what it is.
+struct IndexSeries {
+  const char* name;
+  const char* long_name;
+  std::function<Estimate(const NumberSensitivity&)> of;
+};
+
+const std::array<IndexSeries, 4>& index_series() {
+  static const std::array<IndexSeries, 4> series = {
+      {{"first_order_index_of_size", "first-order Sobol index of the size",
+        [](const NumberSensitivity& number) { return number.of_size.first_order; }},
+       {"total_index_of_size", "total Sobol index of the size",
+        [](const NumberSensitivity& number) { return number.of_size.total; }},
+       {"first_order_index_of_hunting", "first-order Sobol index of whether it hunts",
+        [](const NumberSensitivity& number) { return number.of_hunting.first_order; }},
+       {"total_index_of_hunting", "total Sobol index of whether it hunts",
+        [](const NumberSensitivity& number) { return number.of_hunting.total; }}}};
+  return series;
+}
+
+/// Single estimates by their names.
+std::vector<std::pair<const char*, Estimate>> single_estimates(const ToleranceReport& report) {
+  std::vector<std::pair<const char*, Estimate>> estimates = {{"hunting", report.study.hunting},
+                                                             {"mean_size", report.study.mean_size}};
+  if (!report.target_text.empty()) estimates.emplace_back("yield", report.study.yield);
+  return estimates;
+}
+
+// --- NetCDF ---
+
+/// Describes variables now and writes their values when all are described.
+class TwoPassFile {
+ public:
+  explicit TwoPassFile(NetcdfFile file) : file_(std::move(file)) {}
+
+  NetcdfFile& file() { return file_; }
+
+  NetcdfVariable add(const std::string& name, const std::vector<NetcdfDimension>& dimensions,
+                     const std::string& long_name, const std::string& units,
+                     std::vector<double> values) {
+    const NetcdfVariable variable = file_.add_numbers(name, dimensions, long_name, units);
+    written_.push_back({variable, dimensions.empty(), std::move(values)});
+    return variable;
+  }
+
+  void add_estimates(const std::string& name, const std::vector<NetcdfDimension>& dimensions,
+                     const std::string& long_name, const std::string& units,
+                     const std::vector<Estimate>& estimates) {
+    std::vector<double> values;
+    std::vector<double> errors;
+    for (const Estimate& estimate : estimates) {
+      values.push_back(estimate.value);
+      errors.push_back(estimate.standard_error);
+    }
+    for (const NetcdfVariable variable :
+         {add(name, dimensions, long_name, units, std::move(values)),
+          add(name + "_standard_error", dimensions, "standard error of the " + long_name, units,
+              std::move(errors))}) {
+      if (!dimensions.empty()) file_.declare_nan_missing(variable);
+    }
+  }
+
+  void finish() {
+    file_.end_description();
+    for (const Written& one : written_) {
+      if (one.is_single) {
+        file_.write(one.variable, {}, {}, one.values);
+      } else {
+        file_.write(one.variable, {0}, {one.values.size()}, one.values);
+      }
+    }
+    file_.close();
+  }
+
+ private:
+  struct Written {
+    NetcdfVariable variable;
+    bool is_single;
+    std::vector<double> values;
+  };
+  NetcdfFile file_;
+  std::vector<Written> written_;
+};
+
+void add_quantiles(const ToleranceReport& report, TwoPassFile& file) {
+  std::vector<double> shares;
+  for (const QuantileEstimate& quantile : report.study.size) shares.push_back(quantile.share);
+  const NetcdfDimension share = file.file().add_dimension("share", shares.size());
+  file.add("share", {share}, "share of pieces up to the value", "1", shares);
+  for (const QuantileSeries& series : quantile_series(report)) {
+    std::vector<Estimate> estimates;
+    for (const QuantileEstimate& quantile : series.quantiles) estimates.push_back(quantile.value);
+    file.add_estimates(std::string(series.name) + "_quantile", {share}, series.long_name,
+                       series.units, estimates);
+  }
+}
+
+void add_indices(const ToleranceReport& report, TwoPassFile& file) {
+  const std::vector<NumberSensitivity>& numbers = report.sensitivities.numbers;
+  const NetcdfDimension number = file.file().add_dimension("number", numbers.size());
+  std::vector<double> places;
+  std::string names;
+  for (const NumberSensitivity& one : numbers) {
+    names += (names.empty() ? "" : " ") + std::string(name_of(one.number));
+    places.push_back(static_cast<double>(places.size()));
+  }
+  const NetcdfVariable variable =
+      file.add("number", {number}, "number of the data sheet that varies", "1", places);
+  file.file().set_attribute(variable, "flag_meanings", names);
+  for (const IndexSeries& series : index_series()) {
+    std::vector<Estimate> estimates;
+    for (const NumberSensitivity& one : numbers) estimates.push_back(series.of(one));
+    file.add_estimates(series.name, {number}, series.long_name, "1", estimates);
+  }
+}
+
+void add_histogram(const ToleranceReport& report, TwoPassFile& file) {
+  const SizeHistogram& histogram = report.study.histogram;
+  if (histogram.counts.empty()) return;
+  const NetcdfDimension bin = file.file().add_dimension("bin", histogram.counts.size());
+  file.add("size_from", {bin}, "least size of the step", "rad",
+           {histogram.edges.begin(), histogram.edges.end() - 1});
+  file.add("size_to", {bin}, "largest size of the step", "rad",
+           {histogram.edges.begin() + 1, histogram.edges.end()});
+  std::vector<double> counts;
+  for (const std::size_t count : histogram.counts) counts.push_back(static_cast<double>(count));
+  file.add("pieces", {bin}, "pieces with such a size", "1", std::move(counts));
+}
+
+}  // namespace
+
+void write_tolerance_csv(const ToleranceReport& report, const TextSink& sink) {
+  const Sampling& sampling = report.study.sampling;
+  sink(fmt::format("# gearlash {}: {}\n", report.provenance.version, report.provenance.command));
+  sink(fmt::format("# {} replicates of {} points, seed {}\n", sampling.replicates, sampling.points,
+                   sampling.seed));
+  sink("quantity,of,value,standard_error\n");
+  const auto line = [&](const std::string& quantity, const std::string& of,
+                        const Estimate& estimate) {
+    sink(quantity + "," + of + "," + cell(estimate.value) + "," + cell(estimate.standard_error) +
+         "\n");
+  };
+  for (const auto& [name, estimate] : single_estimates(report)) line(name, "", estimate);
+  for (const QuantileSeries& series : quantile_series(report)) {
+    for (const QuantileEstimate& quantile : series.quantiles) {
+      line(std::string(series.name) + "_quantile", exact_text(quantile.share), quantile.value);
+    }
+  }
+  for (const IndexSeries& series : index_series()) {
+    for (const NumberSensitivity& number : report.sensitivities.numbers) {
+      line(series.name, name_of(number.number), series.of(number));
+    }
+  }
+  const SizeHistogram& histogram = report.study.histogram;
+  for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
+    line("pieces", exact_text(histogram.edges[i]) + " to " + exact_text(histogram.edges[i + 1]),
+         {.value = static_cast<double>(histogram.counts[i])});
+  }
+}
+
+void write_tolerance_netcdf(const ToleranceReport& report, const OutputFile& output) {
+  TwoPassFile file(NetcdfFile::create(output.hidden_file(), output.shown_name()));
+  NetcdfFile& description = file.file();
+  description.set_attribute_of_file("Conventions", "CF-1.8");
+  description.set_attribute_of_file("title", "Production run of a geared servo with backlash");
+  description.set_attribute_of_file("source", "gearlash " + report.provenance.version);
+  description.set_attribute_of_file("history", report.provenance.command);
+  if (!report.target_text.empty()) {
+    description.set_attribute_of_file("target", report.target_text);
+  }
+  for (const auto& [name, estimate] : single_estimates(report)) {
+    const bool is_size = std::string(name) == "mean_size";
+    file.add_estimates(name, {}, is_size ? "mean size of all pieces" : "share of all pieces",
+                       is_size ? "rad" : "1", {estimate});
+  }
+  add_quantiles(report, file);
+  add_indices(report, file);
+  add_histogram(report, file);
+  file.finish();
+}
+
+}  // namespace gearlash

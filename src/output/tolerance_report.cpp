@@ -1,0 +1,294 @@
+#include "output/tolerance_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/overloaded.hpp"
+#include "output/columns.hpp"
+#include "output/json_values.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr int digits = 4;
+/// Two standard errors: about 95 % of such intervals hold the truth.
+constexpr double bar = 2.0;
+
+using Row = std::vector<std::string>;
+
+bool has_frequency(const ToleranceReport& report) {
+  return report.units.natural_frequency.has_value();
+}
+
+/// "12.3 ± 0.2 %": a probability with two standard errors.
+std::string percent_text(const Estimate& estimate) {
+  if (std::isnan(estimate.value)) return "not known";
+  return fmt::format("{} ± {} %", significant(100.0 * estimate.value, digits),
+                     significant(100.0 * bar * estimate.standard_error, 2));
+}
+
+std::string angle_text(double angle, const ToleranceReport& report) {
+  const AngleUnit& unit = report.units.angle;
+  return significant(unit.from_radians(angle), digits) + " " + unit.name;
+}
+
+std::string size_text(const Estimate& estimate, const ToleranceReport& report) {
+  if (std::isnan(estimate.value)) return "none";
+  return "±" + angle_text(estimate.value, report);
+}
+
+std::string frequency_text(const Estimate& estimate) {
+  return std::isnan(estimate.value) ? "none" : significant(estimate.value, digits) + " Hz";
+}
+
+std::vector<Row> headline_rows(const ToleranceReport& report) {
+  const ToleranceStudy& study = report.study;
+  std::vector<Row> rows = {{"hunt", percent_text(study.hunting)}};
+  if (!report.target_text.empty()) {
+    rows.push_back({"meet \"" + report.target_text + "\"", percent_text(study.yield)});
+  }
+  rows.push_back({"size, mean of all", size_text(study.mean_size, report)});
+  return rows;
+}
+
+std::vector<Row> quantile_rows(const ToleranceReport& report) {
+  const ToleranceStudy& study = report.study;
+  std::vector<Row> rows = {{"share of pieces up to it", "size", "size, of those that hunt"}};
+  if (has_frequency(report)) rows.front().emplace_back("frequency");
+  for (std::size_t i = 0; i < study.size.size(); ++i) {
+    Row row = {significant(100.0 * study.size[i].share, digits) + " %",
+               size_text(study.size[i].value, report),
+               size_text(study.size_of_hunting[i].value, report)};
+    if (has_frequency(report)) row.push_back(frequency_text(study.frequency[i].value));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::string index_text(const Estimate& estimate) {
+  if (std::isnan(estimate.value)) return "–";
+  return fmt::format("{:.3f}", std::max(0.0, estimate.value));  // below 0 only by its error
+}
+
+/// Angles in the author's unit, all else in its own.
+std::string number_text(DriveNumber number, double value, const ToleranceReport& report) {
+  const std::string unit = unit_of(number);
+  if (unit == "rad") return angle_text(value, report);
+  return significant(value, digits) + (unit == "1" ? "" : " " + unit);
+}
+
+/// "± 5 %", "0.05 rad to 0.15 rad", "normal, 3 %", "2 lots".
+std::string spread_text(const VariedNumber& varied, const ToleranceReport& report) {
+  const auto share = [](double spread, double nominal) {
+    return significant(100.0 * spread / std::abs(nominal), digits) + " %";
+  };
+  const auto value = [&](double number) { return number_text(varied.number, number, report); };
+  return std::visit(
+      Overloaded{
+          [&](const ExactValue& exact) { return value(exact.value); },
+          [&](const UniformBetween& between) {
+            return value(between.min) + " to " + value(between.max);
+          },
+          [&](const UniformAbout& about) {
+            return "± " + (about.nominal == 0.0 ? value(about.tolerance)
+                                                : share(about.tolerance, about.nominal));
+          },
+          [&](const Normal& normal) {
+            std::string text =
+                "normal, " + (normal.mean == 0.0 ? value(normal.standard_deviation)
+                                                 : share(normal.standard_deviation, normal.mean));
+            if (normal.min) text += ", from " + value(*normal.min);
+            if (normal.max) text += ", to " + value(*normal.max);
+            return text;
+          },
+          [&](const DiscreteLots& lots) { return fmt::format("{} lots", lots.lots.size()); }},
+      varied.distribution);
+}
+
+/// Two standard errors of the least certain index.
+double widest_bar(const SensitivityStudy& study) {
+  double widest = 0.0;
+  for (const NumberSensitivity& number : study.numbers) {
+    for (const SensitivityIndices& indices : {number.of_size, number.of_hunting}) {
+      for (const Estimate& estimate : {indices.first_order, indices.total}) {
+        widest = std::fmax(widest, bar * estimate.standard_error);
+      }
+    }
+  }
+  return widest;
+}
+
+std::vector<Row> number_rows(const ToleranceReport& report) {
+  std::vector<Row> rows = {
+      {"number", "varies", "size", "in all", "hunting", "in all", "worst piece"}};
+  for (std::size_t i = 0; i < report.drive.varied.size(); ++i) {
+    const VariedNumber& varied = report.drive.varied[i];
+    const NumberSensitivity& indices = report.sensitivities.numbers[i];
+    const WorstNumber& worst = report.worst.numbers[i];
+    rows.push_back({name_of(varied.number), spread_text(varied, report),
+                    index_text(indices.of_size.first_order), index_text(indices.of_size.total),
+                    index_text(indices.of_hunting.first_order),
+                    index_text(indices.of_hunting.total),
+                    number_text(worst.number, worst.value, report) + ", " + name_of(worst.place)});
+  }
+  return rows;
+}
+
+std::string worst_text(const ToleranceReport& report) {
+  const Performance& worst = report.worst.performance;
+  std::string text;
+  if (worst.verdict == Verdict::cannot_hunt) {
+    text = "The worst piece within the tolerances cannot hunt (growth at rest " +
+           significant(worst.growth_at_rest, digits) + ")";
+  } else {
+    text = "The worst piece within the tolerances swings " +
+           swing_text(worst.size, report.units.angle, digits);
+    if (has_frequency(report)) text += " at " + significant(worst.frequency, digits) + " Hz";
+  }
+  return text +
+         ", as far as a search by climbing finds; a normal without an end is cut at three "
+         "standard deviations for it.";
+}
+
+std::string backlash_text(const ToleranceReport& report) {
+  if (report.demanded_yield == 0.0) return "";
+  const std::string demand = significant(100.0 * report.demanded_yield, digits) + " %";
+  if (!report.backlash) {
+    return "\n" + wrapped("No tolerance of the backlash gives a yield of " + demand + ".");
+  }
+  const WidestBacklash& widest = *report.backlash;
+  const auto angle = [&](double value) {
+    return std::isinf(value) ? std::string("any") : angle_text(value, report);
+  };
+  return "\n" + wrapped(fmt::format(
+                    "A yield of {} needs a backlash between {} and at most {} ({} to {} within the "
+                    "error of the estimate).",
+                    demand, angle(widest.min), angle(widest.max), angle(widest.uncertainty.low),
+                    angle(widest.uncertainty.high)));
+}
+
+std::string counts_text(const ToleranceReport& report) {
+  const ToleranceStudy& study = report.study;
+  std::string text = fmt::format(
+      "{} pieces: {} times {} points of Sobol's sequence, shifted at random (seed {}). Error bars "
+      "are "
+      "two standard errors.",
+      study.sampling.samples(), study.sampling.replicates, study.sampling.points,
+      study.sampling.seed);
+  if (study.undecided + study.unknown_sizes + study.refused > 0) {
+    text += fmt::format(
+        " Not decided: {}; hunting of a size that is not known: {}; draws that were no drive: {}.",
+        study.undecided, study.unknown_sizes, study.refused);
+  }
+  return wrapped(text);
+}
+
+Json json_estimate(const Estimate& estimate) {
+  return {{"value", json_number(estimate.value)},
+          {"standard_error", json_number(estimate.standard_error)}};
+}
+
+Json json_quantiles(const std::vector<QuantileEstimate>& quantiles) {
+  Json json = Json::array();
+  for (const QuantileEstimate& quantile : quantiles) {
+    Json entry = {{"share", json_number(quantile.share)}};
+    entry.update(json_estimate(quantile.value));
+    json.push_back(std::move(entry));
+  }
+  return json;
+}
+
+Json json_indices(const SensitivityIndices& indices) {
+  return {{"first_order", json_estimate(indices.first_order)},
+          {"total", json_estimate(indices.total)}};
+}
+
+Json json_numbers(const ToleranceReport& report) {
+  Json numbers = Json::array();
+  for (std::size_t i = 0; i < report.drive.varied.size(); ++i) {
+    const VariedNumber& varied = report.drive.varied[i];
+    const NumberSensitivity& indices = report.sensitivities.numbers[i];
+    const WorstNumber& worst = report.worst.numbers[i];
+    numbers.push_back(
+        {{"name", name_of(varied.number)},
+         {"unit", unit_of(varied.number)},
+         {"distribution", text_of(varied.distribution)},
+         {"mean", json_number(mean_of(varied.distribution))},
+         {"standard_deviation", json_number(standard_deviation_of(varied.distribution))},
+         {"indices_of_size", json_indices(indices.of_size)},
+         {"indices_of_hunting", json_indices(indices.of_hunting)},
+         {"worst", {{"value", json_number(worst.value)}, {"place", name_of(worst.place)}}}});
+  }
+  return numbers;
+}
+
+Json json_histogram(const SizeHistogram& histogram) {
+  Json edges = Json::array();
+  for (const double edge : histogram.edges) edges.push_back(json_number(edge));
+  return {{"edges", std::move(edges)},
+          {"counts", histogram.counts},
+          {"quiet", histogram.quiet},
+          {"unknown", histogram.unknown}};
+}
+
+Json json_backlash(const ToleranceReport& report) {
+  if (!report.backlash) return nullptr;
+  const WidestBacklash& widest = *report.backlash;
+  return {{"min", json_number(widest.min)},
+          {"max", json_number(widest.max)},
+          {"yield", json_estimate(widest.yield)},
+          {"uncertainty",
+           {{"from", json_number(widest.uncertainty.low)},
+            {"to", json_number(widest.uncertainty.high)}}}};
+}
+
+}  // namespace
+
+std::string tolerance_text(const ToleranceReport& report) {
+  return "Of all pieces\n" + table_text(headline_rows(report)) + "\n" +
+         table_text(quantile_rows(report)) +
+         fmt::format(
+             "\nWhat decides: the share of the variance of size and of hunting that goes with "
+             "a number\nalone, and in all, with what it does together with others (Sobol's "
+             "indices, ± {})\n",
+             significant(widest_bar(report.sensitivities), 1)) +
+         table_text(number_rows(report)) + "\n" + wrapped(worst_text(report)) +
+         backlash_text(report) + "\n" + counts_text(report);
+}
+
+std::string tolerance_json(const ToleranceReport& report) {
+  const ToleranceStudy& study = report.study;
+  const Performance& worst = report.worst.performance;
+  Json json = {{"sampling",
+                {{"points", study.sampling.points},
+                 {"replicates", study.sampling.replicates},
+                 {"seed", study.sampling.seed}}},
+               {"hunting", json_estimate(study.hunting)}};
+  if (!report.target_text.empty()) {
+    json["target"] = report.target_text;
+    json["yield"] = json_estimate(study.yield);
+  }
+  json["mean_size"] = json_estimate(study.mean_size);
+  json["size"] = json_quantiles(study.size);
+  json["size_of_hunting"] = json_quantiles(study.size_of_hunting);
+  if (has_frequency(report)) json["frequency"] = json_quantiles(study.frequency);
+  json["histogram"] = json_histogram(study.histogram);
+  json["numbers"] = json_numbers(report);
+  json["worst"] = {{"verdict", name_of(worst.verdict)},
+                   {"growth_at_rest", json_number(worst.growth_at_rest)},
+                   {"size", json_number(worst.size)}};
+  if (has_frequency(report)) json["worst"]["frequency"] = json_number(worst.frequency);
+  if (report.demanded_yield > 0.0) {
+    json["backlash"] = json_backlash(report);
+    json["backlash_for_yield"] = json_number(report.demanded_yield);
+  }
+  json["undecided"] = study.undecided;
+  json["unknown_sizes"] = study.unknown_sizes;
+  json["refused"] = study.refused;
+  json["provenance"] = json_provenance(report.provenance);
+  return json.dump(2) + "\n";
+}
+
+}  // namespace gearlash

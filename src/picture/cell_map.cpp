@@ -1,0 +1,88 @@
+#include "picture/cell_map.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "picture/gnuplot.hpp"
+#include "picture/gnuplot_script.hpp"
+
+namespace gearlash {
+namespace {
+
+std::string tics(char axis, const std::vector<std::string>& names) {
+  std::string text = fmt::format("set {}tics (", axis);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    text += fmt::format("{}{} {}", i == 0 ? "" : ", ", quoted(names[i]), i);
+  }
+  return text + ") scale 0\n";
+}
+
+struct Cells {
+  DataBlock numbers;
+  DataBlock dots;
+};
+
+Cells cells_of(const CellPanel& panel, const std::string& name) {
+  Cells cells{DataBlock(name), DataBlock(name + "_dots")};
+  for (std::size_t row = 0; row < panel.values.size(); ++row) {
+    for (std::size_t column = 0; column < panel.values[row].size(); ++column) {
+      const double value = panel.values[row][column];
+      if (std::isnan(value)) continue;
+      const auto x = static_cast<double>(column);
+      const auto y = static_cast<double>(row);
+      std::isinf(value) ? cells.dots.row(x, y) : cells.numbers.row(x, y, value);
+    }
+  }
+  return cells;
+}
+
+}  // namespace
+
+std::string draw_cell_map(const CellMap& map, PictureFormat format) {
+  constexpr std::size_t panels_a_line = 3;
+  std::string data;
+  std::string plots;
+  for (std::size_t i = 0; i < map.panels.size(); ++i) {
+    const std::string name = fmt::format("panel{}", i);
+    const Cells cells = cells_of(map.panels[i], name);
+    data += cells.numbers.text() + cells.dots.text();
+    plots += "set title " + quoted(map.panels[i].title) + " offset 0,-0.4\n";
+    plots += i % panels_a_line == 0 ? "set ylabel " + quoted(map.y_label) + "\n" : "unset ylabel\n";
+    plots += i + panels_a_line >= map.panels.size() ? "set xlabel " + quoted(map.x_label) + "\n"
+                                                    : "unset xlabel\n";
+    std::vector<std::string> layers;
+    if (!cells.numbers.is_empty()) {
+      layers.push_back(fmt::format(
+          "${0} using 1:2:(0.48):(0.48):3 with boxxyerror fill solid noborder linecolor palette "
+          "notitle, ${0} using 1:2:(sprintf('{{/*0.7 %+.1f}}',$3)) with labels notitle",
+          name));
+    }
+    if (!cells.dots.is_empty()) {
+      layers.push_back(fmt::format("${}_dots using 1:2:('·') with labels notitle", name));
+    }
+    if (layers.empty()) layers.push_back("1/0 notitle");  // keeps the axes
+    plots += plot_command(layers);
+  }
+  std::string script = std::string(terminal(format)) + "unset bmargin\nset encoding utf8\n";
+  script += fmt::format(
+      "set palette defined (-1 '#5aa7d6', 0 '#ffffff', 1 '#f0a868')\nset cbrange [{}:{}]\n"
+      "unset colorbox\nset border linewidth 0.8\n",
+      -map.largest, map.largest);
+  script += tics('x', map.columns) + tics('y', map.rows);
+  script += fmt::format("set xrange [-0.5:{}]\nset yrange [-0.5:{}]\n",
+                        static_cast<double>(map.columns.size()) - 0.5,
+                        static_cast<double>(map.rows.size()) - 0.5);
+  script += data;
+  script += fmt::format("set multiplot layout {},{} margins 0.09,0.97,0.1,0.84 spacing 0.06,0.12\n",
+                        (map.panels.size() + panels_a_line - 1) / panels_a_line, panels_a_line);
+  script += "set label 1 " + quoted(map.title, "/:Bold") + " at screen 0.5, 0.96 center\n";
+  script += "set label 2 " + quoted(map.subtitle, "/*0.87") + " at screen 0.5, 0.915 center\n";
+  const std::size_t first_end = plots.find("plot ");
+  const std::size_t after_first = plots.find('\n', first_end) + 1;
+  script += plots.substr(0, after_first) + "unset label 1\nunset label 2\n" +
+            plots.substr(after_first) + "unset multiplot\n";
+  return run_gnuplot(script);
+}
+
+}  // namespace gearlash

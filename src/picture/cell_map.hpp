@@ -1,0 +1,32 @@
+// Maps of coloured cells with their numbers, in panels, drawn by gnuplot.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "picture/picture.hpp"
+
+namespace gearlash {
+
+struct CellPanel {
+  std::string title;
+  std::vector<std::vector<double>> values;  ///< [row][column]; NaN leaves a cell empty,
+                                            ///< infinity has a dot in place of a number
+};
+
+struct CellMap {
+  std::string title = {};
+  std::string subtitle = {};
+  std::string x_label = {};
+  std::string y_label = {};
+  std::vector<std::string> columns = {};
+  std::vector<std::string> rows = {};  ///< the lowest first
+  std::vector<CellPanel> panels = {};  ///< up to six, three a line
+  double largest = 1.0;                ///< colours run from −largest to largest
+};
+
+/// Bytes of the picture; the same map gives the same SVG. Throws OutputError where gnuplot is
+/// missing or fails.
+std::string draw_cell_map(const CellMap& map, PictureFormat format);
+
+}  // namespace gearlash

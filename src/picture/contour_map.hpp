@@ -1,0 +1,37 @@
+// Maps of contours, with the hunting-free boundary and hatching, drawn by gnuplot.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/grid/contours.hpp"
+#include "picture/line_chart.hpp"
+
+namespace gearlash {
+
+/// Curves are in the axes' own values. Both axes have their ends.
+struct ContourMap {
+  std::string title = {};
+  std::string subtitle = {};
+  ChartAxis x = {};
+  ChartAxis y = {};
+  std::vector<Contour> contours = {};   ///< by rising level: from light to dark, with their numbers
+  std::vector<MapCurve> boundary = {};  ///< bold
+  std::vector<MapCurve> hatching = {};  ///< thin
+  std::vector<MapCurve> inner_boundary = {};  ///< dashed
+  std::vector<MapCurve> inner_hatching = {};  ///< between the lines of the other
+  std::optional<MapPoint> mark = std::nullopt;
+  std::string contour_meaning = {};  ///< told in the legend, like the others
+  std::string boundary_meaning = {};
+  std::string hatching_meaning = {};
+  std::string inner_meaning = {};
+  std::string mark_meaning = {};
+};
+
+/// Bytes of the picture; the same map gives the same SVG. Curves are thinned out as far as no eye
+/// can see, so that the finest grid makes a small file. Throws OutputError where gnuplot is missing
+/// or fails.
+std::string draw_contour_map(const ContourMap& map, PictureFormat format);
+
+}  // namespace gearlash

@@ -1,0 +1,112 @@
+#include "picture/hatching.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "analysis/grid/hunting_boundary.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr double spacing = 0.13;  ///< of the lines, up the paper
+constexpr double step = 0.02;     ///< along them, to the right
+
+/// A line up = right + offset, and where it may begin or end.
+struct Diagonal {
+  double offset;
+  std::vector<double> rights;
+
+  PaperPoint at(double right) const { return {right, right + offset}; }
+};
+
+/// All diagonals, each from side to side of the paper and with its crossings of the boundary.
+std::vector<Diagonal> diagonals(const std::vector<MapCurve>& boundary, const Paper& paper,
+                                HatchLines which) {
+  const double shift = which == HatchLines::second ? 0.5 * spacing : 0.0;
+  const auto lowest = static_cast<long>(std::ceil(-Paper::width / spacing));
+  const auto highest = static_cast<long>(std::floor(Paper::height / spacing));
+  std::map<long, Diagonal> lines;
+  for (long i = lowest; i <= highest; ++i) {
+    const double offset = spacing * static_cast<double>(i) + shift;
+    lines[i] = {offset, {std::max(0.0, -offset), std::min(Paper::width, Paper::height - offset)}};
+  }
+  for (const MapCurve& curve : boundary) {
+    const PaperLine line = paper.line_on_paper(curve);
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+      const double from = line[k].up - line[k].right - shift;
+      const double to = line[k + 1].up - line[k + 1].right - shift;
+      const auto first = static_cast<long>(std::ceil(std::min(from, to) / spacing));
+      for (long i = first; spacing * static_cast<double>(i) < std::max(from, to); ++i) {
+        if (!lines.contains(i)) continue;
+        const double share = (lines[i].offset - shift - from) / (to - from);
+        lines[i].rights.push_back(line[k].right + share * (line[k + 1].right - line[k].right));
+      }
+    }
+  }
+  std::vector<Diagonal> sorted;
+  for (auto& [number, line] : lines) {
+    std::sort(line.rights.begin(), line.rights.end());
+    sorted.push_back(std::move(line));
+  }
+  return sorted;
+}
+
+/// Whether the cell round a place that is at rest speaks for it: all its points are known, some are
+/// at rest, and those have no limit cycle.
+bool is_at_rest_for_good(const GridTable& table, const MapPoint& point) {
+  const Axis& x = table.grid.axes[1];
+  const std::size_t row = interval_of(table.grid.axes[0], point.y) * x.values.size();
+  const std::size_t first = row + interval_of(x, point.x);
+  bool any = false;
+  for (const std::size_t corner :
+       {first, first + 1, first + x.values.size(), first + x.values.size() + 1}) {
+    const double growth = table.cycles[CycleQuantity::growth_at_rest][corner];
+    if (std::isnan(growth)) return false;
+    if (growth > 1.0) continue;
+    if (table.cycles.verdict[corner] != Verdict::cannot_hunt) return false;
+    any = true;
+  }
+  return any;
+}
+
+/// The parts from `begin` to `end`, which the boundary does not cross.
+void hatch(const Hatched& hatched, const Paper& paper, const Diagonal& line, double begin,
+           double end, std::vector<MapCurve>& lines) {
+  const auto map_at = [&](double right) { return paper.point_on_map(line.at(right)); };
+  if (!(end - begin > 1e-3) || !hatched.stretch(map_at(0.5 * (begin + end)))) return;
+  const double steps = hatched.left_out ? std::ceil((end - begin) / step) : 0.0;
+  const auto place = [&](double i) { return begin + (end - begin) * i / steps; };
+  double start = begin;
+  for (double i = 0.0; i < steps; i += 1.0) {
+    if (!hatched.left_out(map_at(0.5 * (place(i) + place(i + 1.0))))) continue;
+    if (start < place(i)) lines.push_back({map_at(start), map_at(place(i))});
+    start = place(i + 1.0);
+  }
+  if (start < end) lines.push_back({map_at(start), map_at(end)});
+}
+
+}  // namespace
+
+std::vector<MapCurve> hatching(const std::vector<MapCurve>& boundary, const Paper& paper,
+                               const Hatched& hatched, HatchLines which) {
+  std::vector<MapCurve> lines;
+  for (const Diagonal& line : diagonals(boundary, paper, which)) {
+    for (std::size_t i = 0; i + 1 < line.rights.size(); ++i) {
+      hatch(hatched, paper, line, line.rights[i], line.rights[i + 1], lines);
+    }
+  }
+  return lines;
+}
+
+std::vector<MapCurve> hatching(const GridTable& table, const Paper& paper) {
+  return hatching(
+      table.hunting_boundary.value(), paper,
+      {.stretch =
+           [&](const MapPoint& middle) {
+             return side_of_hunting(servo_at(table.grid, middle)) == Side::outside;
+           },
+       .left_out = [&](const MapPoint& middle) { return !is_at_rest_for_good(table, middle); }});
+}
+
+}  // namespace gearlash

@@ -1,0 +1,47 @@
+// A map's curves as lengths on paper, where straightness, distance and slope are what the eye sees.
+#pragma once
+
+#include <vector>
+
+#include "analysis/grid/region_boundary.hpp"
+#include "picture/line_chart.hpp"
+
+namespace gearlash {
+
+/// In ninths of a picture's width, to the right and up from the corner of the axes.
+struct PaperPoint {
+  double right = 0.0;
+  double up = 0.0;
+};
+using PaperLine = std::vector<PaperPoint>;
+
+double distance(const PaperPoint& one, const PaperPoint& other);
+
+double length_of(const PaperLine& line);
+
+/// The rectangle between the axes of a map.
+class Paper {
+ public:
+  static constexpr double left_margin = 0.11;  ///< shares of the picture
+  static constexpr double right_margin = 0.965;
+  static constexpr double bottom_margin = 0.185;
+  static constexpr double top_margin = 0.88;
+  static constexpr double width = 9.0 * (right_margin - left_margin);
+  static constexpr double height = 7.0 * (top_margin - bottom_margin);
+
+  /// Precondition: both axes have their ends.
+  Paper(const ChartAxis& x, const ChartAxis& y);
+
+  PaperPoint point_on_paper(const MapPoint& point) const;
+  MapPoint point_on_map(const PaperPoint& point) const;
+  PaperLine line_on_paper(const MapCurve& curve) const;
+
+ private:
+  Axis x_;
+  Axis y_;
+};
+
+/// With as few of its points as keep it within `tolerance` (Douglas and Peucker, 1973).
+PaperLine thinned(const PaperLine& line, double tolerance);
+
+}  // namespace gearlash

@@ -1,0 +1,71 @@
+#include "picture/region_map.hpp"
+
+#include "picture/hatching.hpp"
+
+namespace gearlash {
+namespace {
+
+/// In the author's unit of angles where it is one.
+double unit_of_axis(const RegionMapTask& task, Parameter parameter) {
+  return parameter == Parameter::backlash ? task.angle.radians : 1.0;
+}
+
+ChartAxis chart_axis(const RegionMapTask& task, const ParameterAxis& axis) {
+  const Parameter parameter = axis.parameter;
+  const std::string unit =
+      parameter == Parameter::backlash ? task.angle.name : task.drive.unit_of(parameter);
+  return {.label = std::string(description_of(parameter)) + (unit == "1" ? "" : " (" + unit + ")"),
+          .logarithmic = axis.values.logarithmic,
+          .low = axis.values.values.front() / unit_of_axis(task, parameter),
+          .high = axis.values.values.back() / unit_of_axis(task, parameter)};
+}
+
+std::string meaning_of(Cost cost) {
+  switch (cost) {
+    case Cost::bandwidth:
+      return "bandwidth, times now";
+    case Cost::stiffness:
+      return "stiffness, times now";
+    case Cost::damping:
+      break;
+  }
+  return "damping coefficient";
+}
+
+}  // namespace
+
+ContourMap map_of(const RegionMapTask& task, const ParameterAxis& x, const ParameterAxis& y) {
+  const FeasibleRegion region = feasible_region(task.drive, x, y, task.target, task.cost);
+  const MapPoint unit{unit_of_axis(task, x.parameter), unit_of_axis(task, y.parameter)};
+  const auto shown = [&](std::vector<MapCurve> curves) {
+    for (MapCurve& curve : curves) {
+      for (MapPoint& point : curve) point = {point.x / unit.x, point.y / unit.y};
+    }
+    return curves;
+  };
+  ContourMap map{.title = "Target: " + task.target_text,
+                 .x = chart_axis(task, x),
+                 .y = chart_axis(task, y),
+                 .boundary = shown(region.boundary),
+                 .contour_meaning = meaning_of(task.cost),
+                 .boundary_meaning = "limit",
+                 .hatching_meaning = "not met",
+                 .mark_meaning = "now"};
+  for (const Contour& contour : region.costs) {
+    map.contours.push_back({contour.level, shown(contour.curves)});
+  }
+  const MapPoint now{task.drive.present_value(x.parameter) / unit.x,
+                     task.drive.present_value(y.parameter) / unit.y};
+  const auto within = [](const ChartAxis& axis, double value) {
+    return value >= *axis.low && value <= *axis.high;
+  };
+  if (within(map.x, now.x) && within(map.y, now.y)) map.mark = now;
+  map.hatching =
+      hatching(map.boundary, Paper(map.x, map.y), {.stretch = [&](const MapPoint& middle) {
+                 return side_of_target(task.drive, region, {middle.x * unit.x, middle.y * unit.y},
+                                       task.target) == Side::outside;
+               }});
+  return map;
+}
+
+}  // namespace gearlash

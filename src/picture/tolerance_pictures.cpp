@@ -1,0 +1,106 @@
+#include "picture/tolerance_pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "picture/bar_chart.hpp"
+#include "picture/line_chart.hpp"
+
+namespace gearlash {
+namespace {
+
+std::string run_in_words(const ToleranceReport& report) {
+  return fmt::format("{} pieces, {} % of them hunt", report.study.sampling.samples(),
+                     significant(100.0 * report.study.hunting.value, 3));
+}
+
+ChartAxis size_axis(const ToleranceReport& report) {
+  const AngleUnit& unit = report.units.angle;
+  return {.label = "size of the limit cycle (" + unit.name + ")",
+          .low = 0.0,
+          .high = unit.from_radians(report.study.histogram.edges.back())};
+}
+
+/// Per cent of all pieces in each bin, of those that hunt.
+LineChart distribution_of(const ToleranceReport& report) {
+  const SizeHistogram& histogram = report.study.histogram;
+  const double all = static_cast<double>(report.study.sampling.samples());
+  ChartCurve curve;
+  const auto add = [&](double edge, double percent) {
+    curve.line.push_back({report.units.angle.from_radians(edge), percent});
+  };
+  add(histogram.edges.front(), 0.0);
+  for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
+    const double percent = 100.0 * static_cast<double>(histogram.counts[i]) / all;
+    add(histogram.edges[i], percent);
+    add(histogram.edges[i + 1], percent);
+  }
+  add(histogram.edges.back(), 0.0);
+  return {.title = "Sizes of a production run",
+          .subtitle = run_in_words(report),
+          .x = size_axis(report),
+          .y = {.label = fmt::format("pieces in each of {} steps (%)", histogram.counts.size()),
+                .low = 0.0},
+          .curves = {curve}};
+}
+
+LineChart yield_of(const ToleranceReport& report) {
+  const SizeHistogram& histogram = report.study.histogram;
+  const double all = static_cast<double>(report.study.sampling.samples());
+  ChartCurve curve;
+  double pieces = static_cast<double>(histogram.quiet);
+  const auto add = [&](double edge) {
+    curve.line.push_back({report.units.angle.from_radians(edge), 100.0 * pieces / all});
+  };
+  add(0.0);
+  add(histogram.edges.front());
+  for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
+    pieces += static_cast<double>(histogram.counts[i]);
+    add(histogram.edges[i + 1]);
+  }
+  return {.title = "Yield against a limit of the size",
+          .subtitle = run_in_words(report),
+          .x = size_axis(report),
+          .y = {.label = "pieces up to that size (%)", .low = 0.0, .high = 100.0},
+          .curves = {curve}};
+}
+
+BarChart indices_of(const ToleranceReport& report) {
+  BarChart chart{.title = "What decides the size",
+                 .subtitle = run_in_words(report),
+                 .label = "share of the variance (Sobol's indices)",
+                 .value_meaning = "in all",
+                 .part_meaning = "alone"};
+  for (const NumberSensitivity& number : report.sensitivities.numbers) {
+    const SensitivityIndices& indices = number.of_size;
+    if (std::isnan(indices.total.value)) continue;
+    chart.bars.push_back({name_of(number.number), std::max(0.0, indices.total.value),
+                          std::max(0.0, indices.first_order.value)});
+  }
+  std::stable_sort(chart.bars.begin(), chart.bars.end(),
+                   [](const Bar& a, const Bar& b) { return a.value > b.value; });
+  return chart;
+}
+
+}  // namespace
+
+std::string draw_tolerances(const ToleranceReport& report, TolerancePicture picture,
+                            PictureFormat format) {
+  const BarChart indices = indices_of(report);
+  if (report.study.histogram.edges.empty() || indices.bars.empty()) {
+    throw InvalidInput({{"--plot", "", "must be left out: no piece hunts, or all alike", ""}});
+  }
+  switch (picture) {
+    case TolerancePicture::distribution:
+      return draw_line_chart(distribution_of(report), format);
+    case TolerancePicture::yield:
+      return draw_line_chart(yield_of(report), format);
+    case TolerancePicture::indices:
+      break;
+  }
+  return draw_bar_chart(indices, format);
+}
+
+}  // namespace gearlash

@@ -1,0 +1,83 @@
+#include "thesis/chart_errors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "thesis/exact_curve.hpp"
+
+namespace gearlash::thesis {
+namespace {
+
+constexpr std::array friction_ratios = {0.04, 0.1, 0.2, 0.4, 0.6, 1.0};
+constexpr std::array inertia_ratios = {1.0 / 9.0, 0.25, 1.0, 4.0, 9.0};
+constexpr int dampings = 6;  // 0.1 … 0.6
+
+}  // namespace
+
+std::vector<NormalizedServo> charted_servos() {
+  constexpr double backlash = 0.3;
+  std::vector<NormalizedServo> servos;
+  for (const double friction_ratio : friction_ratios) {
+    for (int tenth = 1; tenth <= dampings; ++tenth) {
+      for (const double inertia_ratio : inertia_ratios) {
+        const bool in_figure_2_or_3 = tenth == 1 || inertia_ratio == 1.0;
+        if (friction_ratio == 0.04 && !in_figure_2_or_3) continue;
+        servos.push_back({.damping = tenth / 10.0,
+                          .inertia_ratio = inertia_ratio,
+                          .friction_ratio = friction_ratio,
+                          .backlash = backlash});
+      }
+    }
+  }
+  return servos;
+}
+
+std::vector<ChartError> chart_errors(
+    const std::function<SettledCycle(const ProgramParameters&)>& size_of,
+    const std::function<void(double share)>& done) {
+  const std::vector<NormalizedServo> servos = charted_servos();
+  std::vector<ChartError> errors;
+  for (const NormalizedServo& servo : servos) {
+    const SettledCycle cycle = size_of(program_parameters(servo));
+    errors.push_back(
+        {servo, cycle.hunts ? std::optional(cycle.size) : std::nullopt, exact_size(servo)});
+    if (done) done(static_cast<double>(errors.size()) / static_cast<double>(servos.size()));
+  }
+  return errors;
+}
+
+CellMap error_map(const std::vector<ChartError>& errors) {
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  constexpr double rests = std::numeric_limits<double>::infinity();
+  constexpr double largest = 4.0;
+  CellMap map{.title = "The charts of 1960 against the exact sizes",
+              .subtitle =
+                  "error of the size in per cent; · where the servo comes to rest, empty where "
+                  "the thesis has no point",
+              .x_label = "inertia ratio",
+              .y_label = "damping",
+              .columns = {"1/9", "1/4", "1", "4", "9"},
+              .largest = largest};
+  for (int tenth = 1; tenth <= dampings; ++tenth) map.rows.push_back(fmt::format("0.{}", tenth));
+  for (const double friction_ratio : friction_ratios) {
+    CellPanel panel{fmt::format("friction ratio {}", friction_ratio),
+                    std::vector(dampings, std::vector(inertia_ratios.size(), nothing))};
+    for (const ChartError& error : errors) {
+      if (error.servo.friction_ratio != friction_ratio) continue;
+      const auto row = static_cast<std::size_t>(std::lround(10.0 * error.servo.damping) - 1);
+      const auto column = static_cast<std::size_t>(
+          std::find(inertia_ratios.begin(), inertia_ratios.end(), error.servo.inertia_ratio) -
+          inertia_ratios.begin());
+      panel.values.at(row).at(column) = 100.0 * error.relative().value_or(rests);
+    }
+    map.panels.push_back(std::move(panel));
+  }
+  return map;
+}
+
+}  // namespace gearlash::thesis

@@ -1,0 +1,132 @@
+#include "thesis/chart_reading.hpp"
+
+#include <algorithm>
+#include <boost/math/interpolators/makima.hpp>
+#include <cmath>
+#include <utility>
+
+#include "base/range_check.hpp"
+#include "thesis/exact_curve.hpp"
+#include "thesis/figures.hpp"
+#include "thesis/settled_cycle.hpp"
+
+namespace gearlash::thesis {
+namespace {
+
+constexpr double charted_backlash = 0.3;
+
+std::vector<DesignChart1960> make_charts() {
+  std::vector<DesignChart1960> charts;
+  for (const Figure& figure : thesis_figures()) {
+    if (figure.along != Along::inertia_ratio) continue;
+    DesignChart1960 chart;
+    chart.figure = figure.number;
+    chart.friction_ratio = figure.curves.front().servo.friction_ratio;
+    chart.inertia_ratios = figure.grid;
+    for (const FigureCurve& curve : figure.curves) {
+      chart.dampings.push_back(curve.servo.damping);
+      std::vector<double> sizes;
+      for (const double place : figure.grid) {
+        sizes.push_back(run_until_settled(program_parameters(servo_at(figure, curve, place))).size);
+      }
+      chart.sizes.push_back(std::move(sizes));
+    }
+    charts.push_back(std::move(chart));
+  }
+  return charts;
+}
+
+/// A smooth curve through the five points of a damping, over the logarithm of the inertia ratio, as
+/// a French curve draws it: makima's, which does not overshoot.
+double read_curve(const std::vector<double>& inertia_ratios, std::vector<double> sizes,
+                  double inertia_ratio) {
+  std::vector<double> places;
+  for (const double ratio : inertia_ratios) places.push_back(std::log(ratio));
+  const double place = std::clamp(std::log(inertia_ratio), places.front(), places.back());
+  return std::max(0.0, boost::math::interpolators::makima<std::vector<double>>(
+                           std::move(places), std::move(sizes))(place));
+}
+
+/// Between the curves of two dampings, in proportion to the damping.
+double between(const std::array<double, 2>& dampings, const std::array<double, 2>& sizes,
+               double damping) {
+  const double share = (damping - dampings[0]) / (dampings[1] - dampings[0]);
+  return (1.0 - share) * sizes[0] + share * sizes[1];
+}
+
+}  // namespace
+
+const std::vector<DesignChart1960>& design_charts_1960() {
+  static const std::vector<DesignChart1960> charts = make_charts();
+  return charts;
+}
+
+ChartReading read_chart(const NormalizedServo& servo) {
+  require_none(validate(servo));
+  const auto& charts = design_charts_1960();
+  const std::vector<double>& ratios = charts.front().inertia_ratios;
+  RangeCheck check;
+  check.within("damping", servo.damping, charts.front().dampings.front(),
+               charts.front().dampings.back());
+  // Numbers that are typed as decimals may miss 1/9 by their rounding.
+  constexpr double rounding = 1e-3;
+  if (!(servo.inertia_ratio >= ratios.front() * (1.0 - rounding) &&
+        servo.inertia_ratio <= ratios.back() * (1.0 + rounding))) {
+    check.refuse("inertia_ratio", exact_text(servo.inertia_ratio),
+                 "must be from 1/9 to 9, where the charts of 1960 end");
+  }
+  require_none(check.violations());
+
+  ChartReading reading;
+  reading.chart = &*std::min_element(charts.begin(), charts.end(),
+                                     [&](const DesignChart1960& one, const DesignChart1960& other) {
+                                       return std::abs(one.friction_ratio - servo.friction_ratio) <
+                                              std::abs(other.friction_ratio - servo.friction_ratio);
+                                     });
+  const DesignChart1960& chart = *reading.chart;
+  std::size_t below = 0;
+  while (below + 2 < chart.dampings.size() && servo.damping > chart.dampings[below + 1]) ++below;
+  reading.neighbours = {chart.dampings[below], chart.dampings[below + 1]};
+  reading.read = {read_curve(ratios, chart.sizes[below], servo.inertia_ratio),
+                  read_curve(ratios, chart.sizes[below + 1], servo.inertia_ratio)};
+  reading.chart_size = between(reading.neighbours, reading.read, servo.damping);
+  reading.size = reading.chart_size * servo.backlash / charted_backlash;
+  return reading;
+}
+
+std::optional<ReadingError> reading_error(const NormalizedServo& servo,
+                                          const ChartReading& reading) {
+  NormalizedServo charted = servo;
+  charted.backlash = charted_backlash;
+  const auto size_at = [&](double damping, double inertia_ratio) {
+    NormalizedServo one = charted;
+    one.damping = damping;
+    one.inertia_ratio = inertia_ratio;
+    return exact_size(one).value_or(0.0);
+  };
+  const double exact = size_at(servo.damping, servo.inertia_ratio);
+  charted.friction_ratio = reading.chart->friction_ratio;
+  const double on_chart = size_at(servo.damping, servo.inertia_ratio);
+  std::array<double, 2> at_ratio{};
+  std::array<double, 2> through_points{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    std::vector<double> sizes;
+    for (const double ratio : reading.chart->inertia_ratios) {
+      sizes.push_back(size_at(reading.neighbours[i], ratio));
+    }
+    at_ratio[i] = size_at(reading.neighbours[i], servo.inertia_ratio);
+    through_points[i] =
+        read_curve(reading.chart->inertia_ratios, std::move(sizes), servo.inertia_ratio);
+    if (at_ratio[i] == 0.0 || through_points[i] == 0.0) return std::nullopt;
+  }
+  if (exact == 0.0 || on_chart == 0.0) return std::nullopt;
+  const double along_line = between(reading.neighbours, at_ratio, servo.damping);
+  const double along_curves = between(reading.neighbours, through_points, servo.damping);
+  return ReadingError{.friction_ratio = on_chart / exact - 1.0,
+                      .damping = along_line / on_chart - 1.0,
+                      .inertia_ratio = along_curves / along_line - 1.0,
+                      .program = reading.chart_size / along_curves - 1.0,
+                      .whole = reading.chart_size / exact - 1.0};
+}
+
+}  // namespace gearlash::thesis

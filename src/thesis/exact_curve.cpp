@@ -1,0 +1,42 @@
+#include "thesis/exact_curve.hpp"
+
+#include <limits>
+
+#include "closed_form/limit_cycle.hpp"
+#include "picture/hunting_curve.hpp"
+
+namespace gearlash::thesis {
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+bool has_gap(const NormalizedServo& servo) {
+  return validate(servo).empty() && servo.backlash > 0.0;
+}
+
+}  // namespace
+
+std::optional<double> exact_size(const NormalizedServo& servo) {
+  const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
+  const LimitCycle* cycle = largest_stable(analysis);
+  return cycle != nullptr ? std::optional(cycle->size) : std::nullopt;
+}
+
+ExactCurve exact_curve(const std::vector<double>& places,
+                       const std::function<NormalizedServo(double place)>& servo_at) {
+  std::vector<CurveServo> servos;
+  servos.reserve(places.size());
+  for (const double place : places) {
+    const NormalizedServo servo = servo_at(place);
+    if (has_gap(servo)) {
+      const std::optional<double> size = exact_size(servo);
+      servos.push_back({place, size.value_or(nothing), size.has_value()});
+    } else {
+      servos.push_back({place, servo.backlash == 0.0 ? 0.0 : nothing});
+    }
+  }
+  ChartCurve curve = curve_to_hunting_ends(servos, servo_at, 0.0);
+  return {std::move(curve.line), std::move(curve.ends)};
+}
+
+}  // namespace gearlash::thesis

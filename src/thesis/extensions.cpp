@@ -1,0 +1,180 @@
+#include "thesis/extensions.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "closed_form/limit_cycle.hpp"
+#include "thesis/exact_curve.hpp"
+
+namespace gearlash::thesis {
+namespace {
+
+constexpr double charted_backlash = 0.3;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+ChartCurve curve(std::string name, const std::vector<double>& places,
+                 const std::function<NormalizedServo(double)>& servo_at) {
+  ExactCurve exact = exact_curve(places, servo_at);
+  return {.name = std::move(name), .line = std::move(exact.line), .ends = std::move(exact.ends)};
+}
+
+/// With bounces: steady swings as marks joined by a line, parted where one leaps to the next, and
+/// the extent of those that do not repeat as open circles.
+ChartCurve bouncing_curve(std::string name, const std::vector<double>& places,
+                          const std::function<NormalizedServo(double)>& servo_at) {
+  constexpr double leap = 0.08;
+  ChartCurve result{.name = std::move(name)};
+  double before = nothing;
+  for (const double place : places) {
+    const LimitCycleAnalysis analysis = analyse_limit_cycles(servo_at(place));
+    const LimitCycle* cycle = largest_stable(analysis);
+    const double size = cycle != nullptr ? cycle->size : nothing;
+    if (std::abs(size / before - 1.0) > leap) result.line.push_back({place, nothing});
+    result.line.push_back({place, size});
+    (cycle != nullptr ? result.marks : result.ends)
+        .push_back({place, cycle != nullptr ? size : analysis.irregular_size});
+    before = size;
+  }
+  return result;
+}
+
+std::vector<double> evenly(double low, double high, int count) {
+  std::vector<double> places;
+  for (int i = 0; i < count; ++i) places.push_back(low + (high - low) * i / (count - 1));
+  return places;
+}
+
+std::vector<double> evenly_in_logarithm(double low, double high, int count) {
+  std::vector<double> places;
+  for (const double exponent : evenly(std::log(low), std::log(high), count)) {
+    places.push_back(std::exp(exponent));
+  }
+  return places;
+}
+
+const ChartAxis size_axis{.label = "size of limit cycle (rad)", .low = 0.0};
+
+Extension zero_friction_and_inertia() {
+  Extension result{
+      .number = 2,
+      .wish = "Extend the program to include the zero friction and zero inertia cases.",
+      .lesson =
+          "With friction all on one side the servo hunts whatever its inertias, as long as both "
+          "sides have some; at this damping the lighter the load the more. At a friction ratio of "
+          "0 the size is, for the inertia ratios 1/4 to 4 drawn here, within four per cent of that "
+          "at 0.04, which the thesis took for it. A side without inertia takes no energy at the "
+          "impact; the servo hunts all the same. As the friction moves to the load the swing of a "
+          "motor without inertia vanishes, that of a load without inertia grows.",
+      .chart = {.title = "Recommendation 2: zero friction and zero inertia",
+                .subtitle = "damping 0.2, backlash 0.3",
+                .x = {.label = "friction ratio, load friction to total friction",
+                      .low = 0.0,
+                      .high = 1.0},
+                .y = size_axis}};
+  const std::vector<std::pair<std::string, double>> ratios = {{"massless load", 0.0},
+                                                              {"J_L/J_M 1/4", 0.25},
+                                                              {"J_L/J_M 1", 1.0},
+                                                              {"J_L/J_M 4", 4.0},
+                                                              {"massless motor", infinity}};
+  for (const auto& [name, ratio] : ratios) {
+    result.chart.curves.push_back(
+        curve(name, evenly(0.0, 1.0, 201), [ratio = ratio](double friction_ratio) {
+          return NormalizedServo{.damping = 0.2,
+                                 .inertia_ratio = ratio,
+                                 .friction_ratio = friction_ratio,
+                                 .backlash = charted_backlash};
+        }));
+  }
+  return result;
+}
+
+Extension wide_inertia_ratios() {
+  Extension result{
+      .number = 3,
+      .wish = "Extend the program to include a larger range of inertia ratios.",
+      .lesson =
+          "At a friction ratio of 0.2 the curves are flat beyond an inertia ratio of 30: for the "
+          "same damping coefficient a heavier load neither calms the servo nor makes it worse, the "
+          "motor's inertia then being negligible. Below 1/10 everything depends on damping: at 0.1 "
+          "the servo swings by two to three times the backlash, from 0.4 on it comes to rest.",
+      .chart = {.title = "Recommendation 3: inertia ratios from 1/1000 to 1000",
+                .subtitle = "friction ratio 0.2, backlash 0.3",
+                .x = {.label = "inertia ratio, load to motor",
+                      .logarithmic = true,
+                      .low = 1e-3,
+                      .high = 1e3},
+                .y = size_axis,
+                .end_meaning = "hunting ends"}};
+  constexpr int dampings = 6;
+  for (int tenth = 1; tenth <= dampings; ++tenth) {
+    result.chart.curves.push_back(curve(fmt::format("damping 0.{}", tenth),
+                                        evenly_in_logarithm(1e-3, 1e3, 601), [tenth](double ratio) {
+                                          return NormalizedServo{.damping = tenth / 10.0,
+                                                                 .inertia_ratio = ratio,
+                                                                 .friction_ratio = 0.2,
+                                                                 .backlash = charted_backlash};
+                                        }));
+  }
+  return result;
+}
+
+Extension elastic_contact(const std::function<void(double share)>& done) {
+  Extension result{
+      .number = 4,
+      .wish =
+          "Reprogram the contact phase to include the case of elastic contact and to include "
+          "the \"lossy\" case for all types of contact between elastic contact and plastic "
+          "contact.",
+      .lesson =
+          "For these servos the swing becomes smaller on the whole as restitution rises, and up to "
+          "a half the plastic charts are right within five per cent, on the safe side. Elsewhere "
+          "on "
+          "the charts a restitution of a half can take a third off the swing, add a half to it, or "
+          "keep it from repeating; up to a tenth they hold within one per cent. Beyond a half, "
+          "steady swings end and "
+          "begin again, and one gives way to another at a leap: where a curve is broken none was "
+          "found, and the motion goes on without repeating.",
+      .chart = {.title = "Recommendation 4: from plastic to elastic contact",
+                .subtitle = "friction ratio 0.1, inertia ratio 2, backlash 0.3",
+                .x = {.label = "restitution", .low = 0.0, .high = 1.0},
+                .y = size_axis,
+                .mark_meaning = "steady swing, the largest",
+                .end_meaning = "does not repeat: half its extent",
+                .mark_size = 0.3}};
+  constexpr std::array dampings = {0.1, 0.19, 0.3, 0.5};
+  for (const double damping : dampings) {
+    const auto servo_at = [damping](double restitution) {
+      return NormalizedServo{.damping = damping,
+                             .inertia_ratio = 2.0,
+                             .friction_ratio = 0.1,
+                             .backlash = charted_backlash,
+                             .restitution = restitution};
+    };
+    result.chart.curves.push_back(
+        bouncing_curve(fmt::format("damping {}", damping), evenly(0.0, 1.0, 51), servo_at));
+    if (done) done(static_cast<double>(result.chart.curves.size()) / dampings.size());
+  }
+  return result;
+}
+
+}  // namespace
+
+Extension extension(int number, const std::function<void(double share)>& done) {
+  switch (number) {
+    case 2:
+      return zero_friction_and_inertia();
+    case 3:
+      return wide_inertia_ratios();
+    case 4:
+      return elastic_contact(done);
+    default:
+      throw std::out_of_range("no such recommendation");
+  }
+}
+
+}  // namespace gearlash::thesis

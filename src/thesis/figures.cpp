@@ -1,0 +1,270 @@
+#include "thesis/figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "closed_form/trajectory.hpp"
+#include "thesis/exact_curve.hpp"
+#include "thesis/settled_cycle.hpp"
+
+namespace gearlash::thesis {
+namespace {
+
+constexpr double charted_backlash = 0.3;
+constexpr double least_friction_ratio = 0.04;  // "representative of the zero friction ratio case"
+
+const std::vector<double> inertia_ratios = {1.0 / 9.0, 1.0 / 4.0, 1.0, 4.0, 9.0};
+const std::vector<double> friction_ratios = {0.04, 0.1, 0.2, 0.4, 0.6, 1.0};
+const std::vector<double> backlashes = {0.1, 0.2, 0.3, 0.4, 0.5};
+constexpr int dampings = 6;  // 0.1 … 0.6
+
+std::string ratio_text(double ratio) {
+  return ratio < 1.0 ? fmt::format("1/{:.0f}", 1.0 / ratio) : fmt::format("{:.0f}", ratio);
+}
+
+std::vector<FigureCurve> by_damping(double inertia_ratio, double friction_ratio) {
+  std::vector<FigureCurve> curves;
+  for (int tenth = 1; tenth <= dampings; ++tenth) {
+    curves.push_back({fmt::format("damping 0.{}", tenth),
+                      {.damping = tenth / 10.0,
+                       .inertia_ratio = inertia_ratio,
+                       .friction_ratio = friction_ratio,
+                       .backlash = charted_backlash}});
+  }
+  return curves;
+}
+
+std::vector<FigureCurve> by_inertia_ratio(const std::vector<double>& ratios,
+                                          double friction_ratio) {
+  std::vector<FigureCurve> curves;
+  for (const double ratio : ratios) {
+    curves.push_back({"J_L/J_M " + ratio_text(ratio),
+                      {.damping = 0.1,
+                       .inertia_ratio = ratio,
+                       .friction_ratio = friction_ratio,
+                       .backlash = charted_backlash}});
+  }
+  return curves;
+}
+
+Figure design_chart(int number, double friction_ratio) {
+  return {number,
+          fmt::format("Design chart for friction ratio of {:.1f} and backlash equal to 0.3",
+                      friction_ratio),
+          Along::inertia_ratio, inertia_ratios, by_damping(1.0, friction_ratio)};
+}
+
+std::vector<Figure> make_figures() {
+  return {{2, "Size of limit cycle for damping coefficient equal to 0.1 and backlash equal to 0.3",
+           Along::friction_ratio, friction_ratios, by_inertia_ratio(inertia_ratios, 0.2)},
+          {3, "Size of limit cycle for balanced inertia and backlash equal to 0.3",
+           Along::friction_ratio, friction_ratios, by_damping(1.0, 0.2)},
+          {4, "Size of limit cycle for balanced inertia and friction ratio of 0.2", Along::backlash,
+           backlashes, by_damping(1.0, 0.2)},
+          {5,
+           "Size of limit cycle for balanced inertia, friction ratio equal to all values, damping "
+           "coefficient 0.1",
+           Along::backlash,
+           backlashes,
+           {{"friction ratio 0.04", {0.1, 1.0, 0.04, charted_backlash}},
+            {"friction ratio 0.2", {0.1, 1.0, 0.2, charted_backlash}},
+            {"friction ratio 1.0", {0.1, 1.0, 1.0, charted_backlash}}}},
+          {6, "Size of limit cycle for friction ratio of 0.2 and damping coefficient of 0.1",
+           Along::backlash, backlashes, by_inertia_ratio({1.0 / 4.0, 1.0, 4.0}, 0.2)},
+          design_chart(7, 0.1),
+          design_chart(8, 0.2),
+          design_chart(9, 0.4),
+          design_chart(10, 0.6),
+          design_chart(11, 1.0)};
+}
+
+/// Where the continuum is looked at: from end to end of the grid.
+std::vector<double> places(const Figure& figure) {
+  constexpr int count = 400;
+  const double low = figure.along == Along::backlash ? 0.0 : figure.grid.front();
+  const double high = figure.grid.back();
+  std::vector<double> result;
+  for (int i = 0; i <= count; ++i) {
+    const double share = static_cast<double>(i) / count;
+    result.push_back(figure.along == Along::backlash ? low + share * (high - low)
+                                                     : low * std::pow(high / low, share));
+  }
+  result.back() = high;
+  return result;
+}
+
+ChartAxis axis_of(const Figure& figure) {
+  switch (figure.along) {
+    case Along::friction_ratio:
+      return {.label = "friction ratio, load friction to total friction",
+              .logarithmic = true,
+              .low = least_friction_ratio,
+              .high = 1.0,
+              .tics = {{"0.04", 0.04},
+                       {"0.1", 0.1},
+                       {"0.2", 0.2},
+                       {"0.4", 0.4},
+                       {"0.6", 0.6},
+                       {"1.0", 1.0}}};
+    case Along::backlash:
+      return {.label = "backlash (rad)", .low = 0.0, .high = figure.grid.back()};
+    case Along::inertia_ratio:
+      break;
+  }
+  return {.label = "inertia ratio, load to motor",
+          .logarithmic = true,
+          .low = 1.0 / 9.0,
+          .high = 9.0,
+          .tics = {{"1/9", 1.0 / 9.0}, {"1/4", 0.25}, {"1", 1.0}, {"4", 4.0}, {"9", 9.0}}};
+}
+
+// --- phase trajectories ---
+
+PhaseFigure phase_figure(int number, double damping, double inertia_ratio, double friction_ratio,
+                         double mark_size) {
+  constexpr double until = 25.0;
+  return {number,
+          fmt::format("Phase trajectory for J_L/J_M = {}, F_L/F_Total = {:.1f}, damping {:.1f} and "
+                      "backlash 0.3; marks every 0.08 s",
+                      inertia_ratio < 1.0 ? "0.25" : ratio_text(inertia_ratio), friction_ratio,
+                      damping),
+          {.damping = damping,
+           .inertia_ratio = inertia_ratio,
+           .friction_ratio = friction_ratio,
+           .backlash = charted_backlash},
+          until,
+          mark_size};
+}
+
+struct PhaseCurves {
+  ChartCurve load{.name = "load"};
+  ChartCurve motor{.name = "motor, in the gap"};
+};
+
+/// The step response of the program and of the exact servo, both from rest on the forward face.
+void add_exact(const PhaseFigure& figure, PhaseCurves& curves) {
+  constexpr double spacing = 0.02;
+  const double half_gap = 0.5 * figure.servo.backlash;
+  const Trajectory motion = simulate(figure.servo, engaged_start(figure.servo, 0.0, 0.0, 1.0),
+                                     {.until = figure.until, .reference = 1.0});
+  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+  for (const Segment& segment : motion.segments()) {
+    const bool apart = segment.phase.mode == Mode::separated;
+    const int points = std::max(1, static_cast<int>((segment.end - segment.start) / spacing));
+    for (int i = 0; i <= points; ++i) {
+      const double share = static_cast<double>(i) / points;
+      // Just short of the end, where the state is already that after the event.
+      const double time =
+          segment.start + (i == points ? 1.0 - 1e-12 : share) * (segment.end - segment.start);
+      const ServoState state = motion.at(time);
+      curves.load.line.push_back({state.load_position, state.load_speed});
+      if (!apart) continue;
+      const double motor = state.motor_position - segment.phase.face * half_gap;
+      curves.motor.line.push_back({motor, state.motor_speed});
+    }
+    curves.motor.line.push_back({nothing, nothing});
+  }
+}
+
+void add_program(const PhaseFigure& figure, PhaseCurves& curves) {
+  Program1960<double> program(program_parameters(figure.servo));
+  while (program.line().time < figure.until) {
+    program.step([&](const PrintedLine& line) {
+      curves.load.marks.push_back({line.load_position, line.load_speed});
+      if (!program.combined() && !line.at_contact) {
+        curves.motor.marks.push_back({line.motor_position, line.motor_speed});
+      }
+    });
+  }
+}
+
+}  // namespace
+
+const std::vector<PhaseFigure>& thesis_phase_figures() {
+  static const std::vector<PhaseFigure> figures = {
+      phase_figure(12, 0.1, 0.25, 0.2, 0.45), phase_figure(13, 0.6, 4.0, 0.2, 0.2),
+      phase_figure(14, 0.1, 1.0, 1.0, 0.45), phase_figure(15, 0.2, 1.0, 1.0, 0.45)};
+  return figures;
+}
+
+LineChart chart_of(const PhaseFigure& figure) {
+  PhaseCurves curves;
+  add_exact(figure, curves);
+  add_program(figure, curves);
+  return {.title = fmt::format("Figure {}", figure.number),
+          .subtitle = figure.caption,
+          .x = {.label = "position angle, θ (rad)"},
+          .y = {.label = "time rate of change of position angle (rad/s)"},
+          .curves = {std::move(curves.load), std::move(curves.motor)},
+          .line_meaning = "exact",
+          .mark_meaning = "program of 1960",
+          .mark_size = figure.mark_size};
+}
+
+const std::vector<Figure>& thesis_figures() {
+  static const std::vector<Figure> figures = make_figures();
+  return figures;
+}
+
+NormalizedServo servo_at(const Figure& figure, const FigureCurve& curve, double place) {
+  NormalizedServo servo = curve.servo;
+  switch (figure.along) {
+    case Along::friction_ratio:
+      servo.friction_ratio = place;
+      break;
+    case Along::backlash:
+      servo.backlash = place;
+      break;
+    case Along::inertia_ratio:
+      servo.inertia_ratio = place;
+      break;
+  }
+  return servo;
+}
+
+FigureCurveData work_out(const Figure& figure, const FigureCurve& curve,
+                         const std::function<void(double share)>& done) {
+  FigureCurveData data;
+  for (std::size_t i = 0; i < figure.grid.size(); ++i) {
+    const double place = figure.grid[i];
+    const SettledCycle cycle =
+        run_until_settled(program_parameters(servo_at(figure, curve, place)));
+    if (cycle.hunts) data.program.push_back({place, cycle.size});
+    if (done) done(static_cast<double>(i + 1) / static_cast<double>(figure.grid.size()));
+  }
+  const ExactCurve exact =
+      exact_curve(places(figure), [&](double place) { return servo_at(figure, curve, place); });
+  data.exact = exact.line;
+  data.boundaries = exact.ends;
+  return data;
+}
+
+LineChart chart_of(const Figure& figure, const std::vector<FigureCurveData>& data) {
+  LineChart chart{.title = fmt::format("Figure {}", figure.number),
+                  .subtitle = figure.caption,
+                  .x = axis_of(figure),
+                  .y = {.label = "size of limit cycle (rad)", .low = 0.0},
+                  .line_meaning = "exact",
+                  .mark_meaning = "program of 1960",
+                  .mark_size = 0.65};
+  if (figure.along == Along::inertia_ratio) chart.y.high = 1.0;  // one scale for all design charts
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    const bool hunts =
+        std::any_of(data[i].exact.begin(), data[i].exact.end(),
+                    [](const ChartPoint& point) { return point.x > 0.0 && !std::isnan(point.y); });
+    ChartCurve curve;
+    curve.name = figure.curves[i].name + (hunts ? "" : ": rests");
+    if (hunts) curve.line = data[i].exact;
+    curve.marks = data[i].program;
+    curve.ends = data[i].boundaries;
+    chart.curves.push_back(std::move(curve));
+    if (!data[i].boundaries.empty()) chart.end_meaning = "hunting ends";
+  }
+  return chart;
+}
+
+}  // namespace gearlash::thesis

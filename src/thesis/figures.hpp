@@ -1,0 +1,65 @@
+// Figures 2 to 15 of the thesis: its charts and phase trajectories, from the program of 1960 and
+// exactly.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "model/normalized_servo.hpp"
+#include "picture/line_chart.hpp"
+
+namespace gearlash::thesis {
+
+/// What a figure has along its axis.
+enum class Along { friction_ratio, backlash, inertia_ratio };
+
+struct FigureCurve {
+  std::string name;
+  NormalizedServo servo;  ///< but for what stands along the axis
+};
+
+struct Figure {
+  int number;
+  std::string caption;  ///< as in the thesis
+  Along along;
+  std::vector<double> grid;  ///< at which the program was run
+  std::vector<FigureCurve> curves;
+};
+
+/// Figures 2 … 11 on the grids of the thesis (backlash 0.3, 0.04 standing for friction ratio 0).
+const std::vector<Figure>& thesis_figures();
+
+/// The servo of a curve at one place of the axis.
+NormalizedServo servo_at(const Figure& figure, const FigureCurve& curve, double place);
+
+/// A curve worked out. Sizes are half peak-to-peak of the load, rad.
+struct FigureCurveData {
+  std::vector<ChartPoint> program;     ///< at the grid, where the program hunts
+  std::vector<ChartPoint> exact;       ///< through the continuum; NaN where there is no cycle
+  std::vector<ChartPoint> boundaries;  ///< where the exact cycle begins or ends
+};
+
+/// Calls `done(share)` now and then.
+FigureCurveData work_out(const Figure& figure, const FigureCurve& curve,
+                         const std::function<void(double share)>& done = {});
+
+/// The figure as a chart to be drawn.
+LineChart chart_of(const Figure& figure, const std::vector<FigureCurveData>& data);
+
+/// Figures 12 … 15: the step response in the phase plane, motor and load apart in the gap.
+struct PhaseFigure {
+  int number;
+  std::string caption;
+  NormalizedServo servo;
+  double until;      ///< s, ω_n = 1
+  double mark_size;  ///< of the program's points, which lie close in a small cycle
+};
+
+const std::vector<PhaseFigure>& thesis_phase_figures();
+
+/// The exact trajectories, and marks where the program prints, every 0.08 s. In the thesis's
+/// coordinate the motor is where the load is while they are together, whichever the face.
+LineChart chart_of(const PhaseFigure& figure);
+
+}  // namespace gearlash::thesis

@@ -1,0 +1,94 @@
+// A CDC 1604, as far as the program of the thesis and its library routine need one.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "thesis/float_1604.hpp"
+
+namespace gearlash::thesis {
+
+inline constexpr std::size_t memory_words = 32768;
+
+/// An instruction: operation (6 bits), designator b (3), operand m (15). Two make a word, the upper
+/// one first.
+struct Instruction {
+  unsigned operation = 0;
+  unsigned designator = 0;
+  unsigned operand = 0;
+};
+constexpr Instruction lower_instruction(Word word) {
+  return {static_cast<unsigned>(word >> 18U) & 077U, static_cast<unsigned>(word >> 15U) & 07U,
+          static_cast<unsigned>(word) & 077777U};
+}
+constexpr Instruction upper_instruction(Word word) { return lower_instruction(word >> 24U); }
+/// "LDA", or the operation's number in octal where this machine does not know it.
+std::string mnemonic(unsigned operation);
+/// The operation of a mnemonic, or −1.
+int operation_of(const std::string& mnemonic);
+
+struct Registers {
+  Word a = 0;                       ///< accumulator
+  unsigned p = 0;                   ///< address of the word under way
+  bool in_lower = false;            ///< which of its instructions comes next
+  std::array<unsigned, 7> index{};  ///< B1 … B6; [0] stays zero
+  std::size_t executed = 0;         ///< instructions so far
+};
+
+/// Thrown for what the machine would stop at, or what is not known of it; names the address.
+class MachineFault : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Memory, registers, and the instructions of docs/thesis.md. Integers are one's complement with a
+/// subtractive adder (x − x is +0); floating point is that of `rules`. A return jump writes P+1
+/// into the upper address of the word it goes to and goes on with that word's lower instruction.
+class Machine1604 {
+ public:
+  explicit Machine1604(FloatRules rules = {}) : rules_(rules), memory_(memory_words, 0) {}
+
+  /// Addresses are taken modulo the size of the memory.
+  Word read(unsigned address) const { return memory_[address % memory_words]; }
+  void write(unsigned address, Word word) { memory_[address % memory_words] = word & word_bits; }
+  const Registers& registers() const { return registers_; }
+
+  /// A routine of the host, entered by a return jump to `address`; it is given the address of the
+  /// word after the jump and gives the address to return to.
+  using HostRoutine = std::function<unsigned(Machine1604&, unsigned return_address)>;
+  void provide(unsigned address, HostRoutine routine);
+
+  /// Before each instruction, for the curious.
+  using Trace = std::function<void(const Registers&, const Instruction&)>;
+  void set_trace(Trace trace) { trace_ = std::move(trace); }
+
+  void start_at(unsigned address);
+  /// One instruction.
+  void step();
+
+ private:
+  unsigned address_of(const Instruction& instruction) const;
+  void jump(unsigned address);
+  void return_jump(unsigned address);
+  void advance();
+  void exit_fully_if(bool condition);
+  unsigned& index_register(unsigned designator);
+  void execute(const Instruction& instruction);
+  bool execute_accumulator(const Instruction& instruction);
+  bool execute_index(const Instruction& instruction);
+  bool execute_jump(const Instruction& instruction);
+  [[noreturn]] void fault(const std::string& what) const;
+
+  FloatRules rules_;
+  std::vector<Word> memory_;
+  Registers registers_;
+  std::map<unsigned, HostRoutine> routines_;
+  Trace trace_;
+};
+
+}  // namespace gearlash::thesis

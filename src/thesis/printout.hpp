@@ -1,0 +1,60 @@
+// Numbers as the thesis prints them, and its Table II.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "thesis/program_1960.hpp"
+
+namespace gearlash::thesis {
+
+/// Eight decimal digits d and an exponent: ±.dddddddd × 10^exponent; zero has neither.
+struct PrintedNumber {
+  std::int32_t digits = 0;  ///< with the sign
+  int exponent = 0;
+
+  bool operator==(const PrintedNumber&) const = default;
+};
+
+/// The number cut off after eight digits, towards zero, from its exact value.
+PrintedNumber printed_number(double value);
+/// As in Table II: "77040630- 1", "15278417", "10086982 1"; signs of numbers stand before them.
+std::string printed_text(const PrintedNumber& number);
+/// The distance of a value from a printed number, in units of its eighth digit.
+double units_apart(double value, const PrintedNumber& printed);
+
+/// Time, motor speed, motor position, load speed, load position.
+using PrintedRow = std::array<PrintedNumber, 5>;
+PrintedRow printed_row(const PrintedLine& line);
+
+/// The 38 lines of Table II as transcribed from the thesis (src/thesis/data/table-2.txt).
+const std::vector<PrintedRow>& thesis_table_2();
+
+/// How many numbers of a printout have the digits of 1960, and how many are within one unit of the
+/// eighth; the others in words.
+struct Reproduction {
+  int exact = 0;
+  int within_one = 0;
+  std::vector<std::string> near = {};    ///< off by one
+  std::vector<std::string> others = {};  ///< farther off
+};
+
+/// Adds a row, of line `line` counted from 0.
+void compare(const PrintedRow& printed, const PrintedRow& now, std::size_t line,
+             Reproduction& result);
+
+/// The first lines that the program prints with these parameters.
+template <class Number>
+std::vector<PrintedLine> printout(const ProgramParameters& parameters, std::size_t lines,
+                                  const Mending& mending = {}) {
+  Program1960<Number> program(parameters, mending);
+  std::vector<PrintedLine> printed;
+  while (printed.size() < lines) {
+    program.step([&](const PrintedLine& line) { printed.push_back(line); });
+  }
+  printed.resize(lines);
+  return printed;
+}
+
+}  // namespace gearlash::thesis

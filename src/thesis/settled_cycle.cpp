@@ -1,0 +1,139 @@
+#include "thesis/settled_cycle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include "thesis/thesis_machine.hpp"
+
+namespace gearlash::thesis {
+namespace {
+
+constexpr std::size_t window = 20;  // cycles
+
+struct Cycle {
+  double end;
+  double size;
+};
+
+/// Gathers the cycles of a running program: each ends at every second contact.
+class Cycles {
+ public:
+  /// After each step: where the load is, and whether there has been a contact.
+  void take(const PrintedLine& now, bool contact) {
+    time_ = now.time;
+    motor_position_ = now.motor_position;
+    load_position_ = now.load_position;
+    low_ = std::min(low_, now.load_position);
+    high_ = std::max(high_, now.load_position);
+    if (!contact) return;
+    last_contact_ = now.time;
+    if (++contacts_ % 2 != 0) return;
+    if (contacts_ > 2) cycles_.push_back({now.time, 0.5 * (high_ - low_)});
+    low_ = high_ = now.load_position;
+  }
+
+  const std::vector<Cycle>& all() const { return cycles_; }
+  /// A servo at rest, hunting or swinging out stays within some backlashes and steps.
+  bool out_of_bounds() const {
+    constexpr double bound = 1e12;
+    return !(std::abs(motor_position_) < bound) || !(std::abs(load_position_) < bound);
+  }
+  double last_contact() const { return last_contact_; }
+  double time() const { return time_; }
+
+ private:
+  std::vector<Cycle> cycles_;
+  std::size_t contacts_ = 0;
+  double last_contact_ = 0.0;
+  double time_ = 0.0;
+  double motor_position_ = 0.0;
+  double load_position_ = 0.0;
+  double low_ = std::numeric_limits<double>::infinity();
+  double high_ = -std::numeric_limits<double>::infinity();
+};
+
+double mean_size(const std::vector<Cycle>& cycles, std::size_t from) {
+  double sum = 0.0;
+  for (std::size_t i = from; i < from + window; ++i) sum += cycles[i].size;
+  return sum / static_cast<double>(window);
+}
+
+bool has_settled(const std::vector<Cycle>& cycles) {
+  constexpr double tolerance = 1e-3;
+  if (cycles.size() < 2 * window + 1) return false;
+  const double before = mean_size(cycles, cycles.size() - 2 * window);
+  const double now = mean_size(cycles, cycles.size() - window);
+  return std::abs(now - before) < tolerance * now;
+}
+
+void describe(const std::vector<Cycle>& cycles, SettledCycle& result) {
+  const std::size_t from = cycles.size() - window;
+  const auto [smallest, largest] =
+      std::minmax_element(cycles.begin() + static_cast<std::ptrdiff_t>(from), cycles.end(),
+                          [](const Cycle& a, const Cycle& b) { return a.size < b.size; });
+  result.size = mean_size(cycles, from);
+  result.smallest = smallest->size;
+  result.largest = largest->size;
+  result.period = (cycles.back().end - cycles[from - 1].end) / static_cast<double>(window);
+  result.cycles = window;
+}
+
+/// step(cycles) goes on by one step; false where the arithmetic has come to its end.
+template <class Step>
+SettledCycle settle(const Step& step) {
+  constexpr double longest_run = 20'000.0;
+  constexpr double longest_quiet = 100.0;
+  Cycles cycles;
+  SettledCycle result;
+  while (result.run_time < longest_run) {
+    const std::size_t count = cycles.all().size();
+    result.diverged = !step(cycles) || cycles.out_of_bounds();
+    if (result.diverged) return result;
+    result.run_time = cycles.time();
+    if (result.run_time - cycles.last_contact() > longest_quiet) {
+      result.settled = true;
+      return result;
+    }
+    if (cycles.all().size() == count || !has_settled(cycles.all())) continue;
+    result.settled = result.hunts = true;
+    describe(cycles.all(), result);
+    return result;
+  }
+  result.hunts = true;
+  if (cycles.all().size() > window) describe(cycles.all(), result);
+  return result;
+}
+
+}  // namespace
+
+SettledCycle run_until_settled(const ProgramParameters& parameters, const Mending& mending) {
+  Program1960<double> program(parameters, mending);
+  return settle([&](Cycles& cycles) {
+    bool contact = false;
+    program.step([&](const PrintedLine& line) { contact = contact || line.at_contact; });
+    cycles.take(program.line(), contact);
+    return true;
+  });
+}
+
+MachineRun run_machine_until_settled(const ProgramParameters& parameters) {
+  ThesisMachine machine;
+  machine.set(parameters);
+  MachineRun run;
+  run.cycle = settle([&](Cycles& cycles) {
+    try {
+      const bool contact = machine.step();
+      cycles.take(machine.state(), contact);
+      return true;
+    } catch (const std::overflow_error&) {  // the machine's exponent fault
+      return false;
+    }
+  });
+  run.instructions = machine.machine().registers().executed;
+  return run;
+}
+
+}  // namespace gearlash::thesis

@@ -1,0 +1,105 @@
+// Boxes of drives, from a point to a factor of three wide: what is bounded of them holds for drives
+// drawn from them, in a hundred and twenty digits.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "analysis/design/changeable_drive.hpp"
+#include "analysis/design/target.hpp"
+#include "base/seeded_draws.hpp"
+#include "closed_form/exact_half_cycle.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr Parameter parameters[] = {Parameter::backlash,       Parameter::gear_ratio,
+                                    Parameter::error_gain,     Parameter::load_friction,
+                                    Parameter::motor_friction, Parameter::tachometer,
+                                    Parameter::load_inertia,   Parameter::motor_inertia};
+
+NormalizedServo drawn_servo(SeededDraws& draws) {
+  const double share = draws.log_uniform(1e-6, 0.5);
+  return {.damping = draws.log_uniform(1e-3, 300.0),
+          .inertia_ratio = draws.log_uniform(1e-4, 1e4),
+          .friction_ratio = draws.happens(0.6)   ? draws.uniform(0.01, 0.99)
+                            : draws.happens(0.5) ? share
+                                                 : 1.0 - share,
+          .backlash = draws.log_uniform(1e-4, 1.0)};
+}
+
+ExactHalfCycle exact_of(const Drivetrain& drive) {
+  const Digits inertia = Digits(drive.motor_inertia) + Digits(drive.load_inertia);
+  const Digits friction = Digits(drive.motor_friction) + Digits(drive.load_friction);
+  return {friction / (2 * sqrt(inertia * Digits(drive.stiffness))),
+          Digits(drive.load_inertia) / Digits(drive.motor_inertia),
+          Digits(drive.load_friction) / friction};
+}
+
+/// A third are points, a third slivers.
+double drawn_width(SeededDraws& draws, std::size_t index) {
+  if (index % 3 == 0) return 0.0;
+  return index % 3 == 1 ? draws.log_uniform(1e-14, 1e-4) : draws.log_uniform(1e-4, 2.0);
+}
+
+void expect_holds(const Bounds& bounds, const Digits& exact) {
+  EXPECT_TRUE(Digits(bounds.low) <= exact && exact <= Digits(bounds.high))
+      << exact << " is not in " << bounds.low << " … " << bounds.high;
+}
+
+class OracleDriveBox : public testing::TestWithParam<std::uint64_t> {};
+
+TEST_P(OracleDriveBox, HoldsEveryDriveWithin) {
+  SeededDraws draws(GetParam());
+  int hunting = 0;
+  std::vector<double> widths;  // of points, in epsilons
+  for (std::size_t i = 0; i < 3000 && !HasFailure(); ++i) {
+    const ChangeableDrive drive(drawn_servo(draws), draws.log_uniform(0.1, 100.0));
+    const Parameter parameter = parameters[i % std::size(parameters)];
+    const Bounds range = drive.range(parameter);
+    const double low = parameter == Parameter::tachometer
+                           ? range.high * draws.log_uniform(1e-6, 0.3)
+                           : drive.present_value(parameter);
+    const Bounds values{low, std::min(range.high, low * (1.0 + drawn_width(draws, i)))};
+    SCOPED_TRACE(testing::Message() << "case " << i << ", " << name_of(parameter));
+    const double inside = values.low + draws.uniform(0.0, 1.0) * (values.high - values.low);
+    const double value = std::min(inside, values.high);
+    const Drivetrain drawn = drive.with(parameter, value);
+    if (!validate(drawn).empty()) continue;
+    const double guess = performance_of(drawn).flight_time;
+    const DriveBox box = drive.box(parameter, values);
+    const CycleBounds bounds = bound_cycles(box.servo, guess);
+    const ExactHalfCycle exact = exact_of(drawn);
+    const Digits growth = exact.growth_at_rest();
+    expect_holds(bounds.growth_at_rest, growth);
+    if (i % 3 == 0 && growth > 0) {
+      widths.push_back((bounds.growth_at_rest.high - bounds.growth_at_rest.low) /
+                       static_cast<double>(growth) / 0x1p-52);
+    }
+    if (!(guess > 0.0)) continue;
+    ++hunting;
+    EXPECT_FALSE(bounds.none_hunt());
+    const auto cycle = exact.cycle(guess);
+    if (!cycle) continue;
+    expect_holds(bounds.size, cycle->size_over_backlash);
+    expect_holds(bounds.period, cycle->period);
+    const Digits inertia = Digits(drawn.motor_inertia) + Digits(drawn.load_inertia);
+    expect_holds(box.time_unit, sqrt(inertia / Digits(drawn.stiffness)));
+    expect_holds(box.backlash, drawn.backlash);
+  }
+  EXPECT_GT(hunting, 1500);
+  const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+  std::nth_element(widths.begin(), middle, widths.end());
+  RecordProperty("median width of the growth of points, epsilons", std::to_string(*middle));
+  EXPECT_LT(*middle, 2000.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, OracleDriveBox, testing::Values(1841, 1842));
+
+}  // namespace
+}  // namespace gearlash

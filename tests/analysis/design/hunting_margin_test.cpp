@@ -1,0 +1,295 @@
+// Margins to the boundary of hunting against plain bisection, and against random directions.
+#include "analysis/design/hunting_margin.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "base/range_check.hpp"
+#include "base/seeded_draws.hpp"
+#include "closed_form/growth_at_rest.hpp"
+
+namespace gearlash {
+namespace {
+
+double growth_of(const Drivetrain& drive) {
+  return growth_at_rest(servo_dynamics(normalize(drive)));
+}
+bool hunts(const Drivetrain& drive) { return growth_of(drive) > 1.0; }
+
+/// One in eight has no load inertia, one in eight no motor inertia.
+NormalizedServo drawn_servo(SeededDraws& draws) {
+  const double kind = draws.uniform(0.0, 1.0);
+  const double inertia_ratio = kind < 0.125  ? 0.0
+                               : kind < 0.25 ? std::numeric_limits<double>::infinity()
+                                             : draws.log_uniform(1e-2, 1e2);
+  return {.damping = draws.log_uniform(0.01, 3.0),
+          .inertia_ratio = inertia_ratio,
+          .friction_ratio = draws.uniform(0.01, 0.99),
+          .backlash = 0.1};
+}
+
+std::string describe(const NormalizedServo& s) {
+  return "damping " + exact_text(s.damping) + " inertia_ratio " + exact_text(s.inertia_ratio) +
+         " friction_ratio " + exact_text(s.friction_ratio);
+}
+
+// ---- one parameter ------------------------------------------------------------------------------
+
+/// The first value from the present one towards `end` at which hunting starts or stops, in 4,000
+/// steps that grow by ratio, or evenly from 0; NaN if there is none.
+double first_change(const ChangeableDrive& drive, Parameter parameter, double end) {
+  const double present = drive.present_value(parameter);
+  const bool now = hunts(drive.drivetrain());
+  constexpr int steps = 4000;
+  double last = present;
+  for (int i = 1; i <= steps; ++i) {
+    const double share = static_cast<double>(i) / steps;
+    double value = present > 0.0 ? present * std::pow(end / present, share) : end * share;
+    if (hunts(drive.with(parameter, value)) == now) {
+      last = value;
+      continue;
+    }
+    for (double middle = 0.5 * (last + value); middle != last && middle != value;
+         middle = 0.5 * (last + value)) {
+      (hunts(drive.with(parameter, middle)) == now ? last : value) = middle;
+    }
+    return value;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+void expect_same(double found, double scanned) {
+  EXPECT_EQ(std::isnan(found), std::isnan(scanned)) << found << " " << scanned;
+  if (std::isnan(found)) return;
+  EXPECT_NEAR(found, scanned, 1e-10 * scanned);
+}
+
+TEST(PropertyHuntingMargin, OfEachParameterIsWhereBisectionEnds) {
+  constexpr std::uint64_t seed = 2401;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  int found = 0;
+  for (int i = 0; i < 20; ++i) {
+    const NormalizedServo servo = drawn_servo(draws);
+    SCOPED_TRACE(describe(servo));
+    const ChangeableDrive drive(servo);
+    for (const Parameter parameter :
+         {Parameter::gear_ratio, Parameter::error_gain, Parameter::load_friction,
+          Parameter::motor_friction, Parameter::tachometer, Parameter::load_inertia,
+          Parameter::motor_inertia}) {
+      SCOPED_TRACE(name_of(parameter));
+      const ParameterMargin margin = parameter_margin(drive, parameter);
+      EXPECT_EQ(margin.kind, SearchKind::certified);
+      EXPECT_EQ(margin.hunts, hunts(drive.drivetrain()));
+      expect_same(margin.above, first_change(drive, parameter, margin.searched.high));
+      found += !std::isnan(margin.above) + !std::isnan(margin.below);
+      if (parameter == Parameter::tachometer) {
+        EXPECT_TRUE(std::isnan(margin.below));
+        continue;
+      }
+      const double low = std::max(margin.searched.low, 1e-6 * margin.present);
+      expect_same(margin.below, first_change(drive, parameter, low));
+    }
+  }
+  EXPECT_GT(found, 100);
+}
+
+TEST(HuntingMargin, InPerCentOfThePresentValue) {
+  const ChangeableDrive drive(NormalizedServo{
+      .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3});
+  const ParameterMargin gain = parameter_margin(drive, Parameter::error_gain);
+  EXPECT_TRUE(gain.hunts);
+  EXPECT_TRUE(std::isnan(gain.above));  // stiffer loops hunt
+  EXPECT_LT(gain.per_cent_below(), 0.0);
+  EXPECT_FALSE(hunts(drive.with(Parameter::error_gain, gain.below)));
+  EXPECT_TRUE(hunts(drive.with(Parameter::error_gain, gain.below * (1.0 + 1e-12))));
+  EXPECT_DOUBLE_EQ(gain.per_cent_below(), 100.0 * (gain.below - 1.0));
+  const ParameterMargin backlash = parameter_margin(drive, Parameter::backlash);
+  EXPECT_TRUE(std::isnan(backlash.below) && std::isnan(backlash.above));
+}
+
+// ---- all together -------------------------------------------------------------------------------
+
+using Direction = std::array<double, 5>;
+
+Direction unit(Direction direction) {
+  double square = 0.0;
+  for (const double component : direction) square += component * component;
+  for (double& component : direction) component /= std::sqrt(square);
+  return direction;
+}
+
+/// Evenly distributed.
+Direction drawn_direction(SeededDraws& draws) {
+  Direction direction;
+  for (double& component : direction) {
+    const double radius = std::sqrt(-2.0 * std::log(draws.uniform(1e-300, 1.0)));
+    component = radius * std::cos(draws.uniform(0.0, 2.0 * std::numbers::pi));
+  }
+  return unit(direction);
+}
+
+Drivetrain changed(Drivetrain drive, const Direction& direction, double length) {
+  drive.motor_inertia *= std::exp(length * direction[0]);
+  drive.load_inertia *= std::exp(length * direction[1]);
+  drive.motor_friction *= std::exp(length * direction[2]);
+  drive.load_friction *= std::exp(length * direction[3]);
+  drive.stiffness *= std::exp(length * direction[4]);
+  return drive;
+}
+
+/// How many of `steps` places up to `length` along it are beyond the boundary.
+int crossed(const Drivetrain& drive, const Direction& direction, double length, int steps) {
+  int count = 0;
+  for (int i = 1; i <= steps; ++i) {
+    count += hunts(changed(drive, direction, length * i / steps)) != hunts(drive);
+  }
+  return count;
+}
+
+Direction direction_of(const OverallMargin& margin) {
+  const LogChange& change = margin.change;
+  return unit({change.motor_inertia, change.load_inertia, change.motor_friction,
+               change.load_friction, change.stiffness});
+}
+
+TEST(PropertyHuntingMargin, NoRandomDirectionIsShorter) {
+  constexpr std::uint64_t seed = 2402;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  for (int i = 0; i < 40; ++i) {
+    const NormalizedServo servo = drawn_servo(draws);
+    SCOPED_TRACE(describe(servo));
+    const Drivetrain drive = ChangeableDrive(servo, draws.log_uniform(1.0, 100.0)).drivetrain();
+    const OverallMargin margin = overall_margin(drive);
+    ASSERT_EQ(margin.outcome, MarginOutcome::found);
+    EXPECT_GE(margin.converged, 1U);
+    EXPECT_NEAR(growth_of(margin.at_boundary), 1.0, 1e-10);
+    EXPECT_NEAR(margin.distance, margin.change.length(), 1e-15 * margin.distance);
+    const double shorter = margin.distance - 1e-6;
+    for (int k = 0; k < 2000; ++k) {
+      EXPECT_EQ(crossed(drive, drawn_direction(draws), shorter, 16), 0);
+    }
+    // And near the one found, where a shorter one would be likeliest.
+    for (int k = 0; k < 200; ++k) {
+      const double spread = draws.log_uniform(1e-3, 1.0);
+      const Direction aside = drawn_direction(draws);
+      Direction near = direction_of(margin);
+      for (std::size_t n = 0; n < near.size(); ++n) near[n] += spread * aside[n];
+      EXPECT_EQ(crossed(drive, unit(near), shorter, 4), 0);
+    }
+    EXPECT_NE(hunts(changed(drive, direction_of(margin), margin.distance + 1e-6)), hunts(drive));
+  }
+}
+
+TEST(PropertyHuntingMargin, ChangesNoUnit) {
+  constexpr std::uint64_t seed = 2403;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  for (int i = 0; i < 50; ++i) {
+    const NormalizedServo servo = drawn_servo(draws);
+    SCOPED_TRACE(describe(servo));
+    const OverallMargin margin = overall_margin(ChangeableDrive(servo).drivetrain());
+    ASSERT_EQ(margin.outcome, MarginOutcome::found);
+    const LogChange& x = margin.change;
+    const double inertias = x.motor_inertia + x.load_inertia;
+    const double frictions = x.motor_friction + x.load_friction;
+    EXPECT_NEAR(inertias + frictions + x.stiffness, 0.0, 1e-7 * margin.distance);
+    EXPECT_NEAR(2.0 * inertias + frictions, 0.0, 1e-7 * margin.distance);
+  }
+}
+
+/// The margin by one parameter alone is a change of all, so it is no shorter.
+TEST(PropertyHuntingMargin, OfAllTogetherIsShorterThanOfOne) {
+  constexpr std::uint64_t seed = 2404;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  for (int i = 0; i < 10; ++i) {
+    const NormalizedServo servo = drawn_servo(draws);
+    SCOPED_TRACE(describe(servo));
+    const HuntingMargin margin = hunting_margin(ChangeableDrive(servo));
+    ASSERT_EQ(margin.parameters.size(), parameter_count - 1);  // all but restitution
+    for (const ParameterMargin& one : margin.parameters) {
+      const bool is_number =
+          one.parameter == Parameter::load_friction || one.parameter == Parameter::motor_friction ||
+          one.parameter == Parameter::load_inertia || one.parameter == Parameter::motor_inertia ||
+          one.parameter == Parameter::error_gain;
+      if (!is_number) continue;
+      for (const double end : {one.below, one.above}) {
+        if (std::isnan(end)) continue;
+        EXPECT_GE(std::abs(std::log(end / one.present)), margin.overall.distance - 1e-9);
+      }
+    }
+  }
+}
+
+ChangeableDrive bouncing_drive() {
+  return ChangeableDrive(NormalizedServo{.damping = 0.3,
+                                         .inertia_ratio = 2.0,
+                                         .friction_ratio = 0.3,
+                                         .backlash = 0.3,
+                                         .restitution = 0.2});
+}
+
+TEST(HuntingMargin, WithBouncesOfAllTogetherIsWhereRestTurnsStable) {
+  const Drivetrain drive = bouncing_drive().drivetrain();
+  const OverallMargin margin = overall_margin(drive);
+  ASSERT_EQ(margin.outcome, MarginOutcome::found);
+  EXPECT_TRUE(margin.hunts);
+  EXPECT_NEAR(growth_of(margin.at_boundary), 1.0, 1e-10);
+  const Direction along = direction_of(margin);
+  EXPECT_EQ(performance_of(changed(drive, along, margin.distance + 1e-3)).verdict,
+            Verdict::cannot_hunt);
+  EXPECT_EQ(performance_of(changed(drive, along, margin.distance - 1e-3)).verdict, Verdict::hunts);
+  constexpr std::uint64_t seed = 2405;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  for (int k = 0; k < 500; ++k) {
+    EXPECT_EQ(crossed(drive, drawn_direction(draws), margin.distance - 1e-6, 8), 0);
+  }
+}
+
+TEST(HuntingMargin, WithBouncesOfOneIsWhereTheVerdictChanges) {
+  const ParameterMargin margin = parameter_margin(bouncing_drive(), Parameter::load_friction);
+  EXPECT_EQ(margin.kind, SearchKind::scanned);
+  EXPECT_TRUE(margin.hunts);
+  EXPECT_TRUE(std::isnan(margin.below));
+  const auto verdict_at = [](double value) {
+    return performance_of(bouncing_drive().with(Parameter::load_friction, value)).verdict;
+  };
+  EXPECT_EQ(verdict_at(margin.above), Verdict::cannot_hunt);
+  EXPECT_EQ(verdict_at(margin.above * (1.0 - 1e-4)), Verdict::hunts);
+}
+
+TEST(EdgeHuntingMargin, SaysWhatItIsNotWorkedOutFor) {
+  const auto outcome_of = [](NormalizedServo servo) {
+    return overall_margin(ChangeableDrive(servo).drivetrain()).outcome;
+  };
+  const NormalizedServo sample{
+      .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3};
+  NormalizedServo servo = sample;
+  servo.friction_ratio = 0.0;
+  EXPECT_EQ(outcome_of(servo), MarginOutcome::always_hunts);
+  servo = sample;
+  servo.backlash = 0.0;
+  EXPECT_EQ(outcome_of(servo), MarginOutcome::never_hunts);
+  servo.backlash = -1.0;
+  EXPECT_THROW(outcome_of(servo), InvalidInput);
+}
+
+/// Where the faces never part again growth at rest is 0 with no slope: the rays show the way.
+TEST(EdgeHuntingMargin, IsFoundWhereGrowthAtRestIsNought) {
+  const NormalizedServo servo{
+      .damping = 3.0, .inertia_ratio = 1.0, .friction_ratio = 0.5, .backlash = 0.1};
+  const Drivetrain drive = ChangeableDrive(servo).drivetrain();
+  ASSERT_EQ(growth_of(drive), 0.0);
+  const OverallMargin margin = overall_margin(drive);
+  ASSERT_EQ(margin.outcome, MarginOutcome::found);
+  EXPECT_FALSE(margin.hunts);
+  EXPECT_NEAR(growth_of(margin.at_boundary), 1.0, 1e-10);
+}
+
+}  // namespace
+}  // namespace gearlash

@@ -1,0 +1,395 @@
+// Studies of tolerances against closed cases.
+#include "analysis/design/tolerance_study.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+
+#include "analysis/design/feasible_values.hpp"
+#include "base/seeded_draws.hpp"
+#include "toleranced_samples.hpp"
+
+namespace gearlash {
+namespace {
+
+Target at_most(double size) {
+  Target target;
+  target.size.high = size;
+  return target;
+}
+Target no_hunting() {
+  Target target;
+  target.no_hunting = true;
+  return target;
+}
+
+/// Of the sample with one rad of backlash.
+double size_per_backlash(double load_friction) {
+  Datasheet datasheet = sample_datasheet();
+  datasheet.gearbox.backlash = 1.0;
+  datasheet.load.friction = load_friction;
+  return performance_of(to_drivetrain(datasheet)).size;
+}
+
+constexpr Sampling fixed_sampling{.points = 4096, .replicates = 16, .seed = 41};
+
+class OracleToleranceOfBacklash : public testing::TestWithParam<Distribution> {};
+
+TEST_P(OracleToleranceOfBacklash, SizesAreThoseOfTheBacklashScaled) {
+  SCOPED_TRACE(fixed_sampling.seed);
+  const Distribution& backlash = GetParam();
+  SCOPED_TRACE(text_of(backlash));
+  const double scale = size_per_backlash(0.038);
+  const StudyQuestions questions{.target = at_most(scale * quantile(backlash, 0.8))};
+  const ToleranceStudy study = study_tolerances(
+      toleranced({{DriveNumber::gearbox_backlash, backlash}}), fixed_sampling, questions);
+  EXPECT_EQ(study.hunting.value, 1.0);
+  EXPECT_EQ(study.refused, 0U);
+  EXPECT_EQ(study.unknown_sizes, 0U);
+  const double one = 1.0 / static_cast<double>(fixed_sampling.points);
+  EXPECT_NEAR(study.yield.value, 0.8, one);
+  // Each replicate has one point in each of `points` equal parts of the cube of one dimension, so
+  // that its share below any value is true to one point.
+  for (const QuantileEstimate& found : study.size) {
+    EXPECT_GE(found.value.value, scale * quantile(backlash, found.share - one));
+    EXPECT_LE(found.value.value, scale * quantile(backlash, found.share + one));
+    EXPECT_NEAR(found.value.value, scale * quantile(backlash, found.share),
+                6.0 * found.value.standard_error);
+  }
+  EXPECT_NEAR(study.mean_size.value, scale * mean_of(backlash),
+              one * scale * standard_deviation_of(backlash));
+  const SensitivityStudy indices =
+      study_sensitivities(toleranced({{DriveNumber::gearbox_backlash, backlash}}), fixed_sampling);
+  const double variance = std::pow(scale * standard_deviation_of(backlash), 2);
+  EXPECT_NEAR(indices.size_variance.value, variance, 1e-2 * variance);
+  EXPECT_NEAR(indices.numbers[0].of_size.first_order.value, 1.0, 0.02);
+  EXPECT_NEAR(indices.numbers[0].of_size.total.value, 1.0, 0.02);
+  EXPECT_TRUE(std::isnan(indices.numbers[0].of_hunting.total.value));
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, OracleToleranceOfBacklash,
+                         testing::Values(Distribution(UniformBetween{0.05, 0.1}),
+                                         Distribution(within_share(0.3, 0.1)),
+                                         Distribution(UniformBetween{0.0, 0.2}),
+                                         Distribution(Normal{0.3, 0.02}),
+                                         Distribution(Normal{0.3, 0.2, 0.0, 0.7})));
+
+TEST(OracleToleranceStudy, OneThresholdDecidesHowManyHunt) {
+  const ChangeableDrive drive(sample_datasheet());
+  const FeasibleValues quiet = feasible_values(drive, Parameter::load_friction, no_hunting());
+  ASSERT_FALSE(quiet.intervals.empty());
+  const double threshold = quiet.intervals.front().low;
+  ASSERT_GT(threshold, 0.038);
+  SCOPED_TRACE(fixed_sampling.seed);
+  for (const double share : {0.013, 0.5, 0.77}) {
+    const double width = 0.5 * threshold;
+    const UniformBetween friction{threshold - share * width, threshold + (1.0 - share) * width};
+    ASSERT_GE(quiet.intervals.front().high, friction.max);
+    const TolerancedDrive varied = toleranced({{DriveNumber::load_friction, friction}});
+    const ToleranceStudy study = study_tolerances(
+        varied, fixed_sampling, {.target = no_hunting(), .shares = {0.5 * share, 0.99}});
+    const double one = 1.0 / static_cast<double>(fixed_sampling.points);
+    EXPECT_NEAR(study.hunting.value, share, one);
+    EXPECT_NEAR(study.hunting.value + study.yield.value, 1.0, 1e-15);
+    EXPECT_LT(study.hunting.standard_error, one);
+    EXPECT_EQ(study.histogram.quiet,
+              static_cast<std::size_t>(
+                  std::lround(study.yield.value * static_cast<double>(fixed_sampling.samples()))));
+    const SensitivityStudy indices = study_sensitivities(varied, fixed_sampling);
+    EXPECT_NEAR(indices.hunting_variance.value, share * (1.0 - share), 2.0 * one);
+    EXPECT_NEAR(indices.numbers[0].of_hunting.first_order.value, 1.0,
+                6.0 * indices.numbers[0].of_hunting.first_order.standard_error + 1e-3);
+    EXPECT_NEAR(indices.numbers[0].of_hunting.total.value, 1.0,
+                6.0 * indices.numbers[0].of_hunting.total.standard_error + 1e-3);
+  }
+}
+
+/// Size = b S(F_L), all hunting: moments of the factors.
+struct ProductCase {
+  UniformBetween backlash{0.1, 0.3};
+  UniformBetween friction{0.01, 0.06};
+
+  TolerancedDrive drive() const {
+    return toleranced(
+        {{DriveNumber::gearbox_backlash, backlash}, {DriveNumber::load_friction, friction}});
+  }
+  double moment(int power) const {
+    using boost::math::quadrature::gauss;
+    return gauss<double, 30>::integrate(
+               [&](double f) { return std::pow(size_per_backlash(f), power); }, friction.min,
+               friction.max) /
+           (friction.max - friction.min);
+  }
+};
+
+TEST(OracleToleranceStudy, IndicesOfAProductAreThoseOfItsFactors) {
+  const ProductCase product;
+  const double mean_b = mean_of(product.backlash);
+  const double variance_b = std::pow(standard_deviation_of(product.backlash), 2);
+  const double mean_s = product.moment(1);
+  const double variance_s = product.moment(2) - mean_s * mean_s;
+  const double of_b = variance_b * mean_s * mean_s;
+  const double of_s = variance_s * mean_b * mean_b;
+  const double of_both = variance_b * variance_s;
+  const double all = of_b + of_s + of_both;
+  const Sampling sampling{.points = 8192, .replicates = 16, .seed = 42};
+  SCOPED_TRACE(sampling.seed);
+  const SensitivityStudy found = study_sensitivities(product.drive(), sampling);
+  const auto expect = [](const Estimate& estimate, double value) {
+    EXPECT_NEAR(estimate.value, value, 6.0 * estimate.standard_error + 1e-9);
+    EXPECT_LT(estimate.standard_error, 2e-3);
+  };
+  expect(found.size_variance, all);
+  expect(found.numbers[0].of_size.first_order, of_b / all);
+  expect(found.numbers[1].of_size.first_order, of_s / all);
+  expect(found.numbers[0].of_size.total, (of_b + of_both) / all);
+  expect(found.numbers[1].of_size.total, (of_s + of_both) / all);
+}
+
+/// Slope of the straight line through points, by least squares.
+double slope_of(const std::vector<double>& x, const std::vector<double>& y) {
+  const auto count = static_cast<double>(x.size());
+  double sx = 0.0;
+  double sy = 0.0;
+  double sxx = 0.0;
+  double sxy = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    sx += x[i];
+    sy += y[i];
+    sxx += x[i] * x[i];
+    sxy += x[i] * y[i];
+  }
+  return (count * sxy - sx * sy) / (count * sxx - sx * sx);
+}
+
+TEST(OracleToleranceStudy, TheErrorFallsFasterThanAtRandom) {
+  const ProductCase product;
+  const double exact = mean_of(product.backlash) * product.moment(1);
+  std::vector<double> log_points;
+  std::vector<double> log_error;
+  std::vector<double> log_stated;
+  constexpr std::uint64_t seeds = 16;  // one error alone is near 0 by chance now and then
+  SCOPED_TRACE("seeds 100 to 115");
+  for (std::size_t points = 32; points <= 16384; points *= 2) {
+    double squares = 0.0;
+    double stated_squares = 0.0;
+    for (std::uint64_t seed = 100; seed < 100 + seeds; ++seed) {
+      const Sampling sampling{.points = points, .replicates = 16, .seed = seed};
+      const Estimate mean = study_tolerances(product.drive(), sampling).mean_size;
+      EXPECT_NEAR(mean.value, exact, 6.0 * mean.standard_error) << points << " " << seed;
+      squares += std::pow(mean.value - exact, 2);
+      stated_squares += std::pow(mean.standard_error, 2);
+    }
+    log_points.push_back(std::log(static_cast<double>(points)));
+    log_error.push_back(0.5 * std::log(squares));
+    log_stated.push_back(0.5 * std::log(stated_squares));
+    EXPECT_NEAR(log_error.back(), log_stated.back(), std::log(2.0));  // the bar is the error
+  }
+  const double slope = slope_of(log_points, log_error);
+  const double stated_slope = slope_of(log_points, log_stated);
+  RecordProperty("slope_of_error", std::to_string(slope));
+  EXPECT_LE(slope, -0.7);
+  EXPECT_LE(stated_slope, -0.7);
+}
+
+void expect_same(const Estimate& a, const Estimate& b) {
+  EXPECT_TRUE(a.value == b.value || (std::isnan(a.value) && std::isnan(b.value)));
+  EXPECT_TRUE(a.standard_error == b.standard_error ||
+              (std::isnan(a.standard_error) && std::isnan(b.standard_error)));
+}
+void expect_same(const std::vector<QuantileEstimate>& a, const std::vector<QuantileEstimate>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) expect_same(a[i].value, b[i].value);
+}
+
+TEST(PropertyToleranceStudy, AnyNumberOfThreadsGivesTheSameBits) {
+  const Sampling sampling{.points = 3000, .replicates = 5, .seed = 44};
+  SCOPED_TRACE(sampling.seed);
+  const TolerancedDrive drive = widely_toleranced();
+  const StudyQuestions questions{.target = at_most(0.1)};
+  const ToleranceStudy one = study_tolerances(drive, sampling, questions, {.threads = 1});
+  const SensitivityStudy one_index = study_sensitivities(drive, sampling, {.threads = 1});
+  for (const std::size_t threads : {2U, 3U}) {
+    const ToleranceStudy other = study_tolerances(drive, sampling, questions, {.threads = threads});
+    expect_same(one.hunting, other.hunting);
+    expect_same(one.yield, other.yield);
+    expect_same(one.mean_size, other.mean_size);
+    expect_same(one.size, other.size);
+    expect_same(one.size_of_hunting, other.size_of_hunting);
+    expect_same(one.frequency, other.frequency);
+    EXPECT_EQ(one.histogram.edges, other.histogram.edges);
+    EXPECT_EQ(one.histogram.counts, other.histogram.counts);
+    const SensitivityStudy index = study_sensitivities(drive, sampling, {.threads = threads});
+    for (std::size_t i = 0; i < drive.varied.size(); ++i) {
+      expect_same(one_index.numbers[i].of_size.first_order, index.numbers[i].of_size.first_order);
+      expect_same(one_index.numbers[i].of_hunting.total, index.numbers[i].of_hunting.total);
+    }
+  }
+}
+
+TEST(PropertyToleranceStudy, APlainCountOfDrivesAgrees) {
+  const Sampling sampling{.points = 2048, .replicates = 8, .seed = 45};
+  SCOPED_TRACE(sampling.seed);
+  const TolerancedDrive drive = widely_toleranced();
+  const Target target = at_most(0.1);
+  const ToleranceStudy study = study_tolerances(drive, sampling, {.target = target});
+  // Plain random draws, performance_of() one by one.
+  constexpr std::size_t draws = 20'000;
+  SeededDraws random(46);
+  double hunting = 0.0;
+  double meeting = 0.0;
+  std::vector<double> sizes;
+  for (std::size_t i = 0; i < draws; ++i) {
+    std::vector<double> values;
+    for (const VariedNumber& varied : drive.varied) {
+      values.push_back(quantile(varied.distribution, random.uniform(0x1p-53, 1.0)));
+    }
+    const TimedServo drawn = drive_with(drive, values);
+    const LimitCycleAnalysis analysis = analyse_limit_cycles(drawn.servo);
+    const LimitCycle* cycle = largest_stable(analysis);
+    sizes.push_back(cycle != nullptr ? cycle->size : 0.0);
+    if (cycle != nullptr) hunting += 1.0;
+    if (sizes.back() <= 0.1) meeting += 1.0;
+  }
+  const auto spread = [&](double p) { return std::sqrt(p * (1.0 - p) / draws); };
+  const double p = study.hunting.value;
+  const double y = study.yield.value;
+  EXPECT_GT(p, 0.1);
+  EXPECT_LT(p, 0.9);
+  EXPECT_NEAR(hunting / draws, p, 5.0 * (spread(p) + study.hunting.standard_error));
+  EXPECT_NEAR(meeting / draws, y, 5.0 * (spread(y) + study.yield.standard_error));
+  std::sort(sizes.begin(), sizes.end());
+  const auto share_below = [&](double size) {
+    return static_cast<double>(std::upper_bound(sizes.begin(), sizes.end(), size) - sizes.begin()) /
+           draws;
+  };
+  for (const QuantileEstimate& found : study.size) {
+    if (found.value.value == 0.0) continue;
+    EXPECT_NEAR(share_below(found.value.value), found.share, 6.0 * spread(found.share) + 1e-3);
+  }
+  std::size_t counted = study.histogram.quiet + study.histogram.unknown;
+  for (const std::size_t count : study.histogram.counts) counted += count;
+  EXPECT_EQ(counted, sampling.samples());
+}
+
+TEST(PropertyToleranceStudy, IndicesAreSharesOfOneWhole) {
+  const Sampling sampling{.points = 4096, .replicates = 8, .seed = 47};
+  SCOPED_TRACE(sampling.seed);
+  const SensitivityStudy study = study_sensitivities(widely_toleranced(), sampling);
+  double first_orders = 0.0;
+  for (const NumberSensitivity& number : study.numbers) {
+    for (const SensitivityIndices& indices : {number.of_size, number.of_hunting}) {
+      const double doubt =
+          6.0 * (indices.first_order.standard_error + indices.total.standard_error);
+      EXPECT_GE(indices.first_order.value, -doubt);
+      EXPECT_LE(indices.first_order.value, indices.total.value + doubt) << name_of(number.number);
+    }
+    first_orders += number.of_size.first_order.value;
+  }
+  EXPECT_GT(first_orders, 0.2);
+  EXPECT_LT(first_orders, 1.05);
+  EXPECT_EQ(study.left_out, 0U);
+}
+
+TEST(EdgeToleranceStudy, AnExactNumberHasNoInfluence) {
+  const SensitivityStudy study =
+      study_sensitivities(toleranced({{DriveNumber::gearbox_backlash, within_share(0.3, 0.1)},
+                                      {DriveNumber::load_inertia, ExactValue{0.6}}}),
+                          fixed_sampling);
+  EXPECT_EQ(study.numbers[1].of_size.first_order.value, 0.0);
+  EXPECT_EQ(study.numbers[1].of_size.total.value, 0.0);
+}
+
+TEST(EdgeToleranceStudy, WithoutVariedNumbersAllPiecesAreAlike) {
+  const ToleranceStudy study = study_tolerances(toleranced({}), {.points = 4, .replicates = 2});
+  const Performance nominal = performance_of(to_drivetrain(sample_datasheet()));
+  EXPECT_EQ(study.hunting.value, 1.0);
+  EXPECT_NEAR(study.size.front().value.value, nominal.size, 1e-13);
+  EXPECT_NEAR(study.frequency.back().value.value, nominal.frequency, 1e-13);
+  EXPECT_EQ(study.size.front().value.standard_error, 0.0);
+  EXPECT_EQ(study.histogram.counts.back(), 8U);
+}
+
+TEST(EdgeToleranceStudy, QuietDrivesHaveNoFrequency) {
+  const ToleranceStudy study = study_tolerances(
+      normalised_toleranced({{DriveNumber::servo_damping, UniformBetween{1.5, 2.0}}}),
+      {.points = 64, .replicates = 2});
+  EXPECT_EQ(study.hunting.value, 0.0);
+  EXPECT_EQ(study.size.back().value.value, 0.0);
+  EXPECT_TRUE(std::isnan(study.size_of_hunting.back().value.value));
+  EXPECT_TRUE(std::isnan(study.frequency.back().value.value));
+  EXPECT_TRUE(study.histogram.edges.empty());
+}
+
+TEST(EdgeToleranceStudy, NoFrictionGrowsWithoutBound) {
+  TolerancedDrive drive =
+      normalised_toleranced({{DriveNumber::servo_backlash, UniformBetween{0.1, 0.2}}});
+  std::get<NormalizedServo>(drive.nominal).damping = 0.0;
+  const ToleranceStudy study =
+      study_tolerances(drive, {.points = 4, .replicates = 2}, {.target = at_most(1.0)});
+  EXPECT_EQ(study.hunting.value, 1.0);
+  EXPECT_EQ(study.yield.value, 0.0);
+  EXPECT_TRUE(std::isinf(study.size.front().value.value));
+  EXPECT_EQ(study.histogram.unknown, 8U);
+  EXPECT_TRUE(std::isnan(study.mean_size.value));
+}
+
+TEST(EdgeToleranceStudy, BouncesAreFollowed) {
+  const ToleranceStudy study = study_tolerances(
+      normalised_toleranced({{DriveNumber::servo_restitution, UniformBetween{0.1, 0.5}},
+                             {DriveNumber::servo_backlash, within_share(0.3, 0.1)}}),
+      {.points = 16, .replicates = 2});
+  EXPECT_EQ(study.hunting.value, 1.0);
+  EXPECT_EQ(study.solved.one_by_one, 32U);
+  EXPECT_NEAR(study.size[2].value.value, 0.235, 0.02);
+}
+
+TEST(EdgeToleranceStudy, CanBeStopped) {
+  const Sampling sampling{.points = 4096, .replicates = 4};
+  const GridEvaluation how{.threads = 1, .going_on = [](std::size_t) { return false; }};
+  EXPECT_TRUE(study_tolerances(widely_toleranced(), sampling, {}, how).stopped);
+  EXPECT_TRUE(study_sensitivities(widely_toleranced(), sampling, how).stopped);
+}
+
+template <class Call>
+std::vector<std::string> faults_of(const Call& call) {
+  std::vector<std::string> lines;
+  try {
+    call();
+  } catch (const InvalidInput& error) {
+    for (const Violation& violation : error.violations()) lines.push_back(to_string(violation));
+  }
+  return lines;
+}
+
+TEST(EdgeToleranceStudy, EveryFaultIsNamed) {
+  using testing::ElementsAre;
+  StudyQuestions questions{.target = at_most(-1.0), .shares = {1.5}, .bins = 2'000'000};
+  const TolerancedDrive drive =
+      toleranced({{DriveNumber::motor_friction, UniformBetween{-1.0, 1.0}}});
+  EXPECT_THAT(
+      faults_of([&] { study_tolerances(drive, {.points = 0, .replicates = 1}, questions); }),
+      ElementsAre("motor.friction = uniform from -1 to 1: must not fall below zero",
+                  "sampling.points = 0: must be at least 1",
+                  "sampling.replicates = 1: must be at least 2: their scatter tells the "
+                  "error",
+                  "target = size >= 0 and size <= -1: must not contradict itself",
+                  "quantile = 1.5: must be from 0 to 1",
+                  "bins = 2000000: must be at most 1000000"));
+  EXPECT_THAT(faults_of([&] {
+                study_sensitivities(toleranced({}), {.points = 1'000'000'000, .replicates = 2});
+              }),
+              ElementsAre("sampling.points = 1000000000: must be at most 1000000000 with all "
+                          "replicates together"));
+}
+
+TEST(Sampling, HasAPowerOfTwoOfPoints) {
+  EXPECT_EQ(sampling_of(65536).points, 4096U);
+  EXPECT_EQ(sampling_of(65537).points, 8192U);
+  EXPECT_EQ(sampling_of(0).points, 1U);
+}
+
+}  // namespace
+}  // namespace gearlash

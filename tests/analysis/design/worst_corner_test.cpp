@@ -1,0 +1,195 @@
+// The worst corner: no point of a dense random search beats it.
+#include "analysis/design/worst_corner.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/seeded_draws.hpp"
+#include "closed_form/lanes/cycle_table.hpp"
+#include "toleranced_samples.hpp"
+
+namespace gearlash {
+namespace {
+
+std::vector<double> values_of(const WorstCorner& worst) {
+  std::vector<double> values;
+  for (const WorstNumber& number : worst.numbers) values.push_back(number.value);
+  return values;
+}
+
+/// The box that was searched, at random; of lots their values.
+std::vector<double> drawn_values(const TolerancedDrive& drive, SeededDraws& draws) {
+  std::vector<double> values;
+  for (const VariedNumber& varied : drive.varied) {
+    const Bounds range = three_sigma_range_of(varied.distribution);
+    const bool is_lots = std::holds_alternative<DiscreteLots>(varied.distribution);
+    values.push_back(is_lots ? quantile(varied.distribution, draws.uniform(1e-9, 1.0))
+                             : draws.uniform(range.low, range.high));
+  }
+  return values;
+}
+
+/// Nothing drawn is larger, or where nothing hunts grows more at rest.
+void expect_unbeaten(const TolerancedDrive& drive, std::uint64_t seed) {
+  SCOPED_TRACE(seed);
+  const WorstCorner worst = worst_corner(drive);
+  constexpr std::size_t count = 100'000;
+  std::vector<NormalizedServo> servos;
+  SeededDraws draws(seed);
+  for (std::size_t i = 0; i < count; ++i) {
+    servos.push_back(drive_with(drive, drawn_values(drive, draws)).servo);
+  }
+  CycleTable table(count);
+  find_limit_cycles(servos, table.columns());
+  const bool hunts = worst.performance.verdict != Verdict::cannot_hunt;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool here = table.verdict[i] != Verdict::cannot_hunt;
+    ASSERT_TRUE(hunts || !here);
+    const CycleQuantity of = hunts ? CycleQuantity::size : CycleQuantity::growth_at_rest;
+    if (here || !hunts) largest = std::max(largest, table[of][i]);
+  }
+  const double found = hunts ? worst.performance.size : worst.performance.growth_at_rest;
+  EXPECT_GT(found, largest);
+  // It is what its values make.
+  const NormalizedServo servo = drive_with(drive, values_of(worst)).servo;
+  const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
+  if (hunts) {
+    EXPECT_NEAR(largest_stable(analysis)->size, found, 1e-12 * found);
+  } else {
+    EXPECT_NEAR(analysis.growth_at_rest, found, 1e-12 * found);
+  }
+  for (const WorstNumber& number : worst.numbers) {
+    EXPECT_GE(number.value, number.range.low);
+    EXPECT_LE(number.value, number.range.high);
+  }
+}
+
+TEST(PropertyWorstCorner, IsNotBeatenAtRandom) {
+  expect_unbeaten(widely_toleranced(), 61);
+  expect_unbeaten(
+      normalised_toleranced({{DriveNumber::servo_damping, UniformBetween{0.05, 0.4}},
+                             {DriveNumber::servo_inertia_ratio, UniformBetween{0.1, 10.0}},
+                             {DriveNumber::servo_friction_ratio, UniformBetween{0.1, 0.9}}}),
+      62);
+  expect_unbeaten(
+      normalised_toleranced({{DriveNumber::servo_inertia_ratio, UniformBetween{0.1, 10.0}},
+                             {DriveNumber::servo_backlash, Normal{0.3, 0.03}}}),
+      63);
+}
+
+TEST(PropertyWorstCorner, WithoutHuntingIsTheLargestGrowth) {
+  expect_unbeaten(
+      normalised_toleranced({{DriveNumber::servo_damping, UniformBetween{0.6, 0.9}},
+                             {DriveNumber::servo_inertia_ratio, UniformBetween{0.2, 8.0}},
+                             {DriveNumber::servo_friction_ratio, UniformBetween{0.4, 0.6}}}),
+      64);
+}
+
+TEST(PropertyWorstCorner, OfRandomBoxesIsNotBeatenByTheirCornersAndMiddles) {
+  constexpr std::uint64_t seed = 65;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  for (int i = 0; i < 30; ++i) {
+    SCOPED_TRACE(i);
+    const double damping = draws.log_uniform(0.03, 0.5);
+    const double ratio = draws.log_uniform(0.1, 10.0);
+    const double share = draws.uniform(0.1, 0.8);
+    const TolerancedDrive drive = normalised_toleranced(
+        {{DriveNumber::servo_damping, within_share(damping, draws.uniform(0.0, 0.6))},
+         {DriveNumber::servo_inertia_ratio, within_share(ratio, draws.uniform(0.0, 0.9))},
+         {DriveNumber::servo_friction_ratio, within_share(share, draws.uniform(0.0, 0.2))}});
+    const WorstCorner worst = worst_corner(drive, {.samples = 64, .starts = 2});
+    for (int k = 0; k < 2000; ++k) {
+      const NormalizedServo servo = drive_with(drive, drawn_values(drive, draws)).servo;
+      const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
+      const LimitCycle* cycle = largest_stable(analysis);
+      if (cycle != nullptr) {
+        ASSERT_LE(cycle->size, worst.performance.size * (1.0 + 1e-9));
+      } else if (worst.performance.verdict == Verdict::cannot_hunt) {
+        ASSERT_LE(analysis.growth_at_rest, worst.performance.growth_at_rest * (1.0 + 1e-9));
+      }
+    }
+  }
+}
+
+TEST(OracleWorstCorner, OfBacklashIsTheWidest) {
+  const WorstCorner worst =
+      worst_corner(toleranced({{DriveNumber::gearbox_backlash, Normal{0.3, 0.01, 0.2, {}}}}));
+  const double nominal = performance_of(to_drivetrain(sample_datasheet())).size;
+  ASSERT_EQ(worst.numbers.size(), 1U);
+  EXPECT_EQ(worst.numbers[0].value, 0.3 + 3.0 * 0.01);
+  EXPECT_EQ(worst.numbers[0].place, PlaceInRange::at_high);
+  EXPECT_TRUE(worst.numbers[0].high_is_at_3_sigma);
+  EXPECT_FALSE(worst.numbers[0].low_is_at_3_sigma);
+  EXPECT_NEAR(worst.performance.size, nominal * 1.1, 1e-13);
+}
+
+TEST(OracleWorstCorner, MayLieInside) {
+  // The growth at rest does not change when the shafts change places, so that along the inertia
+  // ratio with equal friction it has its extreme at 1, and so along its logarithm.
+  const WorstCorner worst = worst_corner(
+      normalised_toleranced({{DriveNumber::servo_inertia_ratio, UniformBetween{0.1, 8.0}}}));
+  double largest = 0.0;
+  for (int i = 0; i <= 10'000; ++i) {
+    const double ratio = 0.1 + 7.9 * i / 10'000;
+    const NormalizedServo servo{
+        .damping = 0.19, .inertia_ratio = ratio, .friction_ratio = 0.1, .backlash = 0.3};
+    const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
+    if (const LimitCycle* cycle = largest_stable(analysis)) {
+      largest = std::max(largest, cycle->size);
+    }
+  }
+  EXPECT_GE(worst.performance.size, largest);
+  EXPECT_LT(worst.performance.size, largest * (1.0 + 1e-6));
+}
+
+TEST(EdgeWorstCorner, OfLotsIsOneOfThem) {
+  const WorstCorner worst = worst_corner(toleranced(
+      {{DriveNumber::gearbox_backlash, DiscreteLots{{{0.2, 1.0}, {0.4, 1.0}, {0.1, 1.0}}}},
+       {DriveNumber::load_inertia, ExactValue{0.5}}}));
+  EXPECT_EQ(worst.numbers[0].value, 0.4);
+  EXPECT_EQ(worst.numbers[1].place, PlaceInRange::fixed);
+}
+
+TEST(EdgeWorstCorner, NothingVariedIsTheNominalDrive) {
+  const WorstCorner worst = worst_corner(toleranced({}));
+  EXPECT_TRUE(worst.numbers.empty());
+  EXPECT_NEAR(worst.performance.size, performance_of(to_drivetrain(sample_datasheet())).size,
+              1e-13);
+}
+
+TEST(EdgeWorstCorner, AnyNumberOfThreadsGivesTheSameBits) {
+  const WorstCorner one = worst_corner(widely_toleranced(), {}, {.threads = 1});
+  const WorstCorner three = worst_corner(widely_toleranced(), {}, {.threads = 3});
+  EXPECT_EQ(values_of(one), values_of(three));
+  EXPECT_EQ(one.performance.size, three.performance.size);
+  EXPECT_EQ(one.evaluations, three.evaluations);
+}
+
+TEST(WorstCorner, TellsHowManyClimbsAreDone) {
+  std::vector<std::size_t> heard;
+  const auto hear = [&](std::size_t done) {
+    heard.push_back(done);
+    return true;
+  };
+  worst_corner(toleranced({{DriveNumber::gearbox_backlash, within_share(0.3, 0.5)}}),
+               {.samples = 16, .starts = 2}, {.going_on = hear});
+  EXPECT_THAT(heard, testing::ElementsAre(0, 1, 2, 3));
+}
+
+TEST(EdgeWorstCorner, EveryFaultIsNamed) {
+  try {
+    worst_corner(toleranced({{DriveNumber::load_friction, Normal{0.0, 1.0}}}), {.starts = 0});
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(error.what(),
+                 "load.friction = normal with mean 0 and standard deviation 1: must stay positive: "
+                 "give it a min\nstarts = 0: must be at least 1");
+  }
+}
+
+}  // namespace
+}  // namespace gearlash

@@ -1,0 +1,307 @@
+// The symmetric cycle of plastic contact: published numbers, its growth function, the return map
+// run by the simulator, the simulator's books, and its symmetries.
+#include "closed_form/plastic_cycle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+
+#include "base/range_check.hpp"
+#include "base/seeded_draws.hpp"
+#include "closed_form/extremes.hpp"
+#include "closed_form/growth_at_rest.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+LimitCycle only_cycle(const NormalizedServo& servo) {
+  const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
+  EXPECT_EQ(analysis.verdict, Verdict::hunts);
+  EXPECT_EQ(analysis.cycles.size(), 1U);
+  return analysis.cycles.empty() ? LimitCycle{} : analysis.cycles.front();
+}
+
+// ---- known numbers ------------------------------------------------------------------------------
+
+/// The scalar equation solved in forty digits from exponentials of the raw equations' matrices.
+struct Known {
+  double damping, inertia_ratio, friction_ratio, size, period;
+};
+
+TEST(OraclePlasticCycle, FortyDigitNumbers) {
+  for (const Known& known : {Known{0.19, 2.0, 0.1, 0.241611108023074, 6.45620541393174},
+                             {0.2, 4.0, 0.25, 0.160515768385224, 6.79190613743561},
+                             {0.1, 1.0, 0.2, 0.497055172184603, 6.055607459396},
+                             {0.1, 0.25, 0.2, 0.791450654824151, 6.05991062080386}}) {
+    const LimitCycle cycle = only_cycle({.damping = known.damping,
+                                         .inertia_ratio = known.inertia_ratio,
+                                         .friction_ratio = known.friction_ratio,
+                                         .backlash = 0.3});
+    // The condition of the root, 1/(1 − R′), is below 4 for these.
+    EXPECT_NEAR(cycle.size, known.size, 64.0 * epsilon * known.size);
+    EXPECT_NEAR(cycle.period, known.period, 64.0 * epsilon * known.period);
+    EXPECT_TRUE(cycle.stable);
+    EXPECT_TRUE(cycle.settles);
+    EXPECT_EQ(cycle.kind, CycleKind::symmetric);
+    EXPECT_EQ(cycle.impacts_per_period, 2U);
+    EXPECT_LE(cycle.residual, 64.0 * epsilon);
+  }
+}
+
+// ---- random servos that hunt --------------------------------------------------------------------
+
+NormalizedServo hunting_servo(SeededDraws& draws) {
+  while (true) {
+    const NormalizedServo servo{.damping = draws.uniform(0.02, 0.9),
+                                .inertia_ratio = draws.log_uniform(0.03, 30.0),
+                                .friction_ratio = draws.uniform(0.02, 0.98),
+                                .backlash = draws.log_uniform(0.01, 1.0)};
+    if (growth_at_rest(servo_dynamics(servo)) > 1.03) return servo;
+  }
+}
+
+std::string describe(const NormalizedServo& s) {
+  return "damping " + exact_text(s.damping) + " inertia_ratio " + exact_text(s.inertia_ratio) +
+         " friction_ratio " + exact_text(s.friction_ratio) + " backlash " + exact_text(s.backlash);
+}
+
+TEST(PropertyPlasticCycle, GrowthIncreasesWithTheSlopeItReports) {
+  constexpr std::uint64_t seed = 601;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  for (int i = 0; i < 500; ++i) {
+    NormalizedServo servo{.damping = draws.uniform(0.0, 2.0),
+                          .inertia_ratio = draws.log_uniform(0.03, 30.0),
+                          .friction_ratio = draws.uniform(0.0, 1.0),
+                          .backlash = 1.0};
+    const ServoDynamics dynamics = servo_dynamics(servo);
+    double before = -infinity;
+    for (double time = 0.05; time < 40.0; time *= 1.2) {
+      const UnitHalfCycle half = unit_half_cycle(dynamics, time);
+      if (half.log_growth == -infinity) continue;
+      const double noise = 1e-12 * (1.0 + std::abs(half.log_growth));
+      ASSERT_GE(half.log_growth, before - noise) << describe(servo) << " at " << time;
+      before = half.log_growth;
+      // Small against both the time and the scale on which ln ρ rises from −∞ where it starts.
+      const double step = 1e-4 * std::min(time, 1.0 / std::abs(half.log_growth_slope));
+      const double above = unit_half_cycle(dynamics, time + step).log_growth;
+      const double below = unit_half_cycle(dynamics, time - step).log_growth;
+      if (below == -infinity) continue;
+      const double slope = (above - below) / (2.0 * step);
+      // Central differences: (step/scale)² of the slope's own size, and rounding over the step.
+      ASSERT_NEAR(half.log_growth_slope, slope,
+                  1e-6 * std::abs(slope) + 1e-13 / step * (1.0 + std::abs(before)))
+          << describe(servo) << " at " << time;
+    }
+  }
+}
+
+TEST(PropertyPlasticCycle, GrowthTendsToTheGrowthAtRest) {
+  constexpr std::uint64_t seed = 602;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  for (int i = 0; i < 300; ++i) {
+    const NormalizedServo servo = hunting_servo(draws);
+    const ServoDynamics dynamics = servo_dynamics(servo);
+    const double slowest = std::min(dynamics.motor_rate, dynamics.load_rate);
+    const UnitHalfCycle half = unit_half_cycle(dynamics, 60.0 / slowest);
+    // e^{−60} is left; the sum of a creep of sixty time constants carries its epsilons.
+    ASSERT_NEAR(half.log_growth, std::log(growth_at_rest(dynamics)), 1e-11) << describe(servo);
+  }
+}
+
+/// Amplitude of the next parting, by the simulator: mirrored, so positive again.
+double next_amplitude(const NormalizedServo& servo, double amplitude) {
+  const TorqueFreeLine line = servo_dynamics(servo).torque_free_line;
+  const double y = amplitude * line.position;
+  const double v = amplitude * line.speed;
+  const ServoState start{y + 0.5 * servo.backlash, v, y, v};
+  const Trajectory motion =
+      simulate(servo, start, {.until = 1e6, .reference = 0.0, .event_limit = 20});
+  for (const Event& event : motion.events()) {
+    if (event.kind == EventKind::separation && event.face == Face::backward) {
+      return -(event.after.load_position * line.position + event.after.load_speed * line.speed);
+    }
+  }
+  return 0.0;
+}
+
+double amplitude_of(const NormalizedServo& servo, const LimitCycle& cycle) {
+  const TorqueFreeLine line = servo_dynamics(servo).torque_free_line;
+  return cycle.start.load_position * line.position + cycle.start.load_speed * line.speed;
+}
+
+TEST(PropertyPlasticCycle, ItIsAFixedPointOfTheSimulatedMapWithItsSlope) {
+  constexpr std::uint64_t seed = 603;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  for (int i = 0; i < 400 && !testing::Test::HasFailure(); ++i) {
+    const NormalizedServo servo = hunting_servo(draws);
+    SCOPED_TRACE(describe(servo));
+    const LimitCycle cycle = only_cycle(servo);
+    const double amplitude = amplitude_of(servo, cycle);
+    // A start state in positions loses an epsilon of the gap it is the difference of; crossing it
+    // takes the cycle's own condition, which the multiplier keeps of order one.
+    ASSERT_NEAR(next_amplitude(servo, amplitude), amplitude,
+                1e-11 * std::max(amplitude, servo.backlash));
+    const double step = 1e-4 * amplitude;
+    const double slope =
+        (next_amplitude(servo, amplitude + step) - next_amplitude(servo, amplitude - step)) /
+        (2.0 * step);
+    // Central differences: the third derivative times (1e-4)², about 1e-8, and 1e-15/1e-4.
+    ASSERT_NEAR(cycle.multiplier, slope * slope, 1e-6);
+    ASSERT_GT(slope, 0.0);  // the map increases (seen always, not proved)
+    ASSERT_EQ(cycle.stable, cycle.multiplier < 1.0);
+    ASSERT_TRUE(cycle.stable);  // R crosses the diagonal from above
+  }
+}
+
+TEST(PropertyPlasticCycle, EverythingAgreesWithASimulatedPeriod) {
+  constexpr std::uint64_t seed = 604;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  for (int i = 0; i < 400 && !testing::Test::HasFailure(); ++i) {
+    const NormalizedServo servo = hunting_servo(draws);
+    SCOPED_TRACE(describe(servo));
+    const LimitCycle cycle = only_cycle(servo);
+    // From just after the parting to just before the next but one: half a quarter of flight each
+    // way keeps every event clear of the ends.
+    const double offset = 0.125 * cycle.separated_time;
+    const Trajectory motion =
+        simulate(servo, cycle.start, {.until = cycle.period + offset, .reference = 0.0});
+    const double scale = std::max(cycle.size, cycle.motor_size);
+    const double tolerance = 1e-10 * scale;
+    const ServoState first = motion.at(offset);
+    const ServoState again = motion.at(offset + cycle.period);
+    ASSERT_NEAR(first.load_position, again.load_position, tolerance);
+    ASSERT_NEAR(first.motor_position, again.motor_position, tolerance);
+    ASSERT_NEAR(first.load_speed, again.load_speed, tolerance);
+    ASSERT_NEAR(first.motor_speed, again.motor_speed, tolerance);
+
+    const Extremes turns = extremes(motion, offset, offset + cycle.period);
+    ASSERT_NEAR(turns.load_size(), cycle.size, 1e-12 * scale);
+    ASSERT_NEAR(turns.motor_size(), cycle.motor_size, 1e-12 * scale);
+
+    double hardest = 0.0;
+    for (const Event& event : motion.events()) {
+      if (event.kind != EventKind::impact) continue;
+      hardest = std::max(hardest, std::abs(event.before.motor_speed - event.before.load_speed));
+    }
+    ASSERT_NEAR(cycle.impact_speed, hardest, 1e-10 * (scale + hardest));
+    ASSERT_NEAR(cycle.engaged_time + cycle.separated_time, cycle.period, 4.0 * epsilon * 10.0);
+
+    double engaged = 0.0;
+    for (const Segment& segment : motion.segments()) {
+      if (segment.phase.mode == Mode::separated) continue;
+      engaged += std::max(0.0, std::min(segment.end, cycle.period) - segment.start);
+    }
+    ASSERT_NEAR(engaged, cycle.engaged_time, 1e-9);
+
+    const EnergyAccount start = motion.energy_at(offset);
+    const EnergyAccount end = motion.energy_at(offset + cycle.period);
+    const double energy = 1e-9 * cycle.energy.lost();
+    ASSERT_NEAR(cycle.energy.motor_friction, end.motor_friction - start.motor_friction, energy);
+    ASSERT_NEAR(cycle.energy.load_friction, end.load_friction - start.load_friction, energy);
+    ASSERT_NEAR(cycle.energy.impacts, end.impacts - start.impacts, energy);
+    ASSERT_NEAR(cycle.energy.lost(), end.supplied - start.supplied, energy);
+  }
+}
+
+TEST(PropertyPlasticCycle, SizeIsExactlyProportionalToBacklash) {
+  constexpr std::uint64_t seed = 605;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  for (int i = 0; i < 500; ++i) {
+    const NormalizedServo servo = hunting_servo(draws);
+    const LimitCycle one = only_cycle(servo);
+    for (const double factor : {4.0, draws.log_uniform(1e-3, 1e3)}) {
+      NormalizedServo wider = servo;
+      wider.backlash *= factor;
+      const LimitCycle other = only_cycle(wider);
+      // The backlash enters by one product; each number after it by two or three roundings.
+      const double bits = factor == 4.0 ? 0.0 : 8.0 * epsilon;
+      ASSERT_EQ(one.period, other.period);
+      ASSERT_EQ(one.multiplier, other.multiplier);
+      ASSERT_NEAR(other.size, factor * one.size, bits * other.size);
+      ASSERT_NEAR(other.motor_size, factor * one.motor_size, bits * other.motor_size);
+      ASSERT_NEAR(other.impact_speed, factor * one.impact_speed, bits * other.impact_speed);
+      ASSERT_NEAR(other.energy.lost(), factor * factor * one.energy.lost(),
+                  8.0 * bits * other.energy.lost());
+    }
+  }
+}
+
+TEST(PropertyPlasticCycle, ExchangingMotorAndLoadKeepsItsTimes) {
+  constexpr std::uint64_t seed = 606;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  for (int i = 0; i < 500; ++i) {
+    const NormalizedServo servo = hunting_servo(draws);
+    NormalizedServo exchanged = servo;
+    exchanged.friction_ratio = 1.0 - servo.friction_ratio;
+    exchanged.inertia_ratio = 1.0 / servo.inertia_ratio;
+    const LimitCycle one = only_cycle(servo);
+    const LimitCycle other = only_cycle(exchanged);
+    // 1 − f and 1/r are rounded; the cycle's condition is 1/(1 − R′), R′ the half map's slope.
+    const double condition = 1.0 / (1.0 - std::sqrt(one.multiplier)) /
+                             std::min(servo.friction_ratio, 1.0 - servo.friction_ratio);
+    const double bits = 256.0 * epsilon * condition;
+    ASSERT_NEAR(one.period, other.period, bits * one.period) << describe(servo);
+    ASSERT_NEAR(one.engaged_time, other.engaged_time, bits * one.period) << describe(servo);
+    ASSERT_NEAR(one.separated_time, other.separated_time, bits * one.period) << describe(servo);
+    ASSERT_NEAR(one.multiplier, other.multiplier, bits) << describe(servo);
+    ASSERT_NEAR(one.impact_speed, other.impact_speed, bits * one.impact_speed) << describe(servo);
+    ASSERT_NEAR(one.energy.impacts, other.energy.impacts, bits * one.energy.impacts)
+        << describe(servo);
+  }
+}
+
+TEST(EdgePlasticCycle, ExtremesOfTheRangesThatHunt) {
+  for (const double damping : {1e-9, 1e-3, 0.2}) {
+    for (const double ratio : {0.0, 1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9, infinity}) {
+      for (const double share : {0.0, 1e-12, 1e-3, 0.1, 1.0 - 1e-3, 1.0}) {
+        const NormalizedServo servo{
+            .damping = damping, .inertia_ratio = ratio, .friction_ratio = share, .backlash = 0.3};
+        if (!validate(servo).empty()) continue;
+        const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
+        SCOPED_TRACE(describe(servo));
+        ASSERT_EQ(analysis.verdict == Verdict::hunts, analysis.growth_at_rest > 1.0);
+        if (analysis.verdict != Verdict::hunts) continue;
+        const LimitCycle& cycle = analysis.cycles.at(0);
+        EXPECT_TRUE(std::isfinite(cycle.size) && cycle.size > 0.0);
+        EXPECT_GE(cycle.motor_size, 0.0);
+        EXPECT_TRUE(cycle.stable);
+        EXPECT_GE(cycle.multiplier, 0.0);
+        EXPECT_LE(cycle.residual, 1e-12);
+        EXPECT_GE(cycle.energy.motor_friction, 0.0);
+        EXPECT_GE(cycle.energy.load_friction, 0.0);
+        EXPECT_GE(cycle.energy.impacts, 0.0);
+      }
+    }
+  }
+}
+
+TEST(EdgePlasticCycle, MasslessSidesAreTheLimitsOfLightOnes) {
+  for (const double share : {0.1, 0.4}) {
+    NormalizedServo servo{
+        .damping = 0.2, .inertia_ratio = 0.0, .friction_ratio = share, .backlash = 0.3};
+    for (const auto& [massless, light] : {std::pair{0.0, 1e-8}, std::pair{infinity, 1e8}}) {
+      servo.inertia_ratio = massless;
+      const LimitCycleAnalysis limit = analyse_limit_cycles(servo);
+      servo.inertia_ratio = light;
+      const LimitCycleAnalysis near = analyse_limit_cycles(servo);
+      ASSERT_EQ(limit.verdict, near.verdict) << massless;
+      if (limit.cycles.empty()) continue;
+      EXPECT_NEAR(limit.cycles[0].size, near.cycles[0].size, 1e-6) << massless << " " << share;
+      EXPECT_NEAR(limit.cycles[0].motor_size, near.cycles[0].motor_size, 1e-6);
+      EXPECT_NEAR(limit.cycles[0].period, near.cycles[0].period, 1e-5);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gearlash

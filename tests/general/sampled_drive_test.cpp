@@ -1,0 +1,173 @@
+// Controllers that run in computers, beside recursions from sample to sample.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <complex>
+
+#include "general/assemble/drive_system.hpp"
+
+namespace gearlash::drive {
+namespace {
+
+/// A motor by itself, far from both faces.
+Drive lone_motor() {
+  Drive drive;
+  drive.motor.inertia = 2.0;
+  drive.load.inertia = 1.0;
+  drive.backlash = 1e6;
+  drive.sensing.load_share_of_position = 0.0;
+  drive.reference = 1.0;
+  return drive;
+}
+
+hybrid::Trajectory run(const Drive& drive, const ShaftStates& start, double until) {
+  const DriveSystem built = drive_system(drive);
+  return simulate(built.system, drive_start(drive, built, start), {.until = until});
+}
+
+double rounded(double value, double step) {
+  return step > 0.0 ? step * std::round(value / step) : value;
+}
+
+/// The motor under a torque that is constant for a while.
+struct Motor {
+  double position;
+  double speed;
+
+  void coast(double torque, double time) {
+    const double acceleration = torque / 2.0;
+    position += time * (speed + 0.5 * time * acceleration);
+    speed += time * acceleration;
+  }
+};
+
+struct Sampled {
+  double delay;
+  double resolution;
+  double limit;
+};
+
+/// By hand: u = K (r − y) − D (y − y_last)/T, held, given out after the delay.
+TEST(OracleSampledDrive, IsARecursionFromSampleToSample) {
+  constexpr double period = 0.1;
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const std::array cases = {Sampled{0.0, 0.0, infinite},    Sampled{0.03, 0.0, infinite},
+                            Sampled{period, 0.0, infinite}, Sampled{0.0, 0.01, infinite},
+                            Sampled{0.03, 0.02, 2.0},       Sampled{period, 0.02, 1.5}};
+  for (const auto& [delay, resolution, limit] : cases) {
+    Drive drive = lone_motor();
+    drive.controller = ProportionalDerivative{4.0, 3.0};
+    drive.sampling = Sampling{.period = period, .delay = delay};
+    drive.sensing.resolution = resolution;
+    drive.sensing.resolution_of_speed = resolution;
+    drive.torque_limit = limit;
+    Motor motor{0.2, 0.3};
+    const auto motion = run(drive, {.motor_position = 0.2, .motor_speed = 0.3}, 20.0);
+    double last = rounded(0.2 - period * 0.3, resolution);
+    double given = 0.0;
+    for (int sample = 0; sample < 200; ++sample) {
+      const double reading = rounded(motor.position, resolution);
+      const double asked = 4.0 * (1.0 - reading) - 3.0 * (reading - last) / period;
+      last = reading;
+      motor.coast(given, delay);
+      given = std::clamp(asked, -limit, limit);
+      motor.coast(given, period - delay);
+      const hybrid::Vector numbers = motion.at(period * (sample + 1)).numbers;
+      ASSERT_NEAR(numbers[motor_position], motor.position, 2e-12) << delay << ' ' << sample;
+      ASSERT_NEAR(numbers[motor_speed], motor.speed, 2e-12) << delay << ' ' << sample;
+    }
+  }
+}
+
+/// A continuous controller with an encoder: between counts the torque is constant.
+TEST(OracleSampledDrive, AnEncoderHoldsTheTorqueBetweenItsCounts) {
+  Drive drive = lone_motor();
+  drive.controller = ProportionalDerivative{4.0, 0.0};
+  drive.sensing.resolution = 0.1;
+  const auto motion = run(drive, {}, 0.9);
+  // From 0 to the first count, at 0.05, by τ = 4; then by 4 · 0.9 until 0.15.
+  const auto& events = motion.events();
+  ASSERT_GE(events.size(), 2U);
+  const double first = std::sqrt(2.0 * 0.05 / 2.0);
+  EXPECT_NEAR(events[0].time, first, 1e-14);
+  const double speed = 2.0 * first;
+  const double acceleration = 1.8;
+  const double second =
+      (std::sqrt(speed * speed + 2.0 * acceleration * 0.1) - speed) / acceleration;
+  EXPECT_NEAR(events[1].time, first + second, 1e-14);
+}
+
+// ---- from continuous to sampled -----------------------------------------------------------------
+
+using Complex = std::complex<double>;
+
+/// From e to the torque asked for, of one or two states.
+Complex response(const LinearController& controller, Complex at) {
+  const std::size_t order = controller.order();
+  Complex sum = controller.direct[0];
+  if (order == 1) {
+    sum +=
+        controller.output[0] * controller.input_matrix[0][0] / (at - controller.state_matrix[0][0]);
+  } else if (order == 2) {
+    const auto& a = controller.state_matrix;
+    const Complex determinant = (at - a[0][0]) * (at - a[1][1]) - a[0][1] * a[1][0];
+    const double first = controller.input_matrix[0][0];
+    const double second = controller.input_matrix[1][0];
+    sum += (controller.output[0] * ((at - a[1][1]) * first + a[0][1] * second) +
+            controller.output[1] * (a[1][0] * first + (at - a[0][0]) * second)) /
+           determinant;
+  }
+  return sum;
+}
+
+TEST(OracleSampledController, IsTheContinuousOneWithAnotherDerivative) {
+  const Controller pid = ProportionalIntegralDerivative{3.0, 2.0, 0.7, 0.05, 0.4};
+  constexpr double period = 0.02;
+  for (const Complex z : {std::polar(1.0, 0.3), std::polar(0.9, 2.0), Complex(-0.8, 0.1)}) {
+    const auto expect = [&](Discretization method, Complex s) {
+      const LinearController sampled =
+          sampled_controller(pid, {.period = period, .method = method});
+      const Complex exact = 3.0 + 2.0 / s + 0.7 * s / (0.05 * s + 1.0);
+      EXPECT_LT(std::abs(response(sampled, z) - exact), 1e-12 * std::abs(exact));
+    };
+    expect(Discretization::tustin, 2.0 / period * (z - 1.0) / (z + 1.0));
+    expect(Discretization::backward, (z - 1.0) / (period * z));
+    expect(Discretization::forward, (z - 1.0) / period);
+  }
+  const Controller filter = SampledTransfer{{0.5, 0.1}, {1.0, -0.9}};
+  const Complex z = std::polar(1.0, 0.7);
+  EXPECT_LT(std::abs(response(sampled_controller(filter, {.period = period}), z) -
+                     (0.5 * z + 0.1) / (z - 0.9)),
+            1e-14);
+}
+
+TEST(EdgeSampledDrive, FaultsAreToldAllAtOnce) {
+  const auto fields_of = [](const Drive& drive) {
+    std::vector<std::string> fields;
+    for (const Violation& fault : validate(drive)) fields.push_back(fault.field);
+    return fields;
+  };
+  Drive drive = lone_motor();
+  drive.controller = SampledTransfer{{1.0}, {1.0, -2.0}};
+  const auto with_denominator = [](const std::string& other) {
+    return std::vector<std::string>{"controller.denominator", other};
+  };
+  EXPECT_EQ(fields_of(drive), with_denominator("sampling"));
+  drive.sampling = Sampling{.period = 0.0};
+  EXPECT_EQ(fields_of(drive), with_denominator("sampling.period"));
+  drive.sampling = Sampling{.period = 0.1, .delay = 0.2};
+  EXPECT_EQ(fields_of(drive), with_denominator("sampling.delay"));
+  drive.sampling = Sampling{.period = 0.1};
+  EXPECT_EQ(fields_of(drive), std::vector<std::string>{"controller.denominator"});
+  // A filter that forward differences cannot follow: 1 − T/T_f < −1.
+  drive.controller =
+      ProportionalIntegralDerivative{.proportional = 1.0, .derivative = 1.0, .filter = 0.04};
+  EXPECT_TRUE(validate(drive).empty());
+  drive.sampling->method = Discretization::forward;
+  EXPECT_EQ(fields_of(drive), std::vector<std::string>{"sampling.period"});
+  EXPECT_THROW(drive_system(drive), InvalidInput);
+}
+
+}  // namespace
+}  // namespace gearlash::drive

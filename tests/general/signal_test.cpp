@@ -1,0 +1,92 @@
+// References and load torques: what they are at any time, and what a drive is given of them.
+#include "model/signal.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "general/assemble/drive_system.hpp"
+
+namespace gearlash::drive {
+namespace {
+
+const Table table{{1.0, 2.0, 4.0}, {0.5, 1.5, -0.5}};
+const Trapezoid long_move{.from = 1.0, .to = -3.0, .speed = 2.0, .acceleration = 4.0, .time = 1.0};
+const Trapezoid short_move{.to = 1.0, .speed = 10.0, .acceleration = 4.0};
+
+TEST(OracleSignal, IsWhatItsNameSays) {
+  EXPECT_EQ(value_at(3.0, 17.0), 3.0);
+  const StepSignal step{1.0, 2.0, 0.5};
+  EXPECT_EQ(value_at(step, 0.4), 1.0);
+  EXPECT_EQ(value_at(step, 0.5), 2.0);
+  EXPECT_DOUBLE_EQ(value_at(Ramp{1.0, 2.0, 3.0}, 4.5), 4.0);
+  EXPECT_DOUBLE_EQ(value_at(Sine{1.0, 2.0, 3.0, 0.1}, 5.0), 1.0 + 2.0 * std::sin(15.1));
+  EXPECT_DOUBLE_EQ(value_at(table, 0.0), 0.5);
+  EXPECT_DOUBLE_EQ(value_at(table, 1.5), 1.0);
+  EXPECT_DOUBLE_EQ(value_at(table, 3.0), 0.5);
+  EXPECT_DOUBLE_EQ(value_at(table, 9.0), -0.5);
+}
+
+TEST(OracleSignal, ATrapezoidAcceleratesCruisesAndBrakes) {
+  // Half a second to each speed, over 0.5 each; 3 at full speed.
+  EXPECT_DOUBLE_EQ(value_at(long_move, 1.0), 1.0);
+  EXPECT_DOUBLE_EQ(value_at(long_move, 1.5), 0.5);
+  EXPECT_DOUBLE_EQ(value_at(long_move, 2.5), -1.5);
+  EXPECT_DOUBLE_EQ(value_at(long_move, 3.0), -2.5);
+  EXPECT_DOUBLE_EQ(value_at(long_move, 3.5), -3.0);
+  EXPECT_DOUBLE_EQ(settling_time(long_move), 3.5);
+  // Half a second up, half a second down.
+  EXPECT_DOUBLE_EQ(value_at(short_move, 0.5), 0.5);
+  EXPECT_DOUBLE_EQ(value_at(short_move, 1.0), 1.0);
+  EXPECT_EQ(std::get<double>(settled(short_move)), 1.0);
+}
+
+TEST(EdgeSignal, FaultsAreNamed) {
+  const auto faults = validate(Table{{0.0, 2.0, 1.0, 1.0}, {0.0, 0.0, 0.0, 0.0}}, "reference");
+  ASSERT_EQ(faults.size(), 2U);
+  EXPECT_EQ(faults[0].field, "reference.times[2]");
+  EXPECT_NE(faults[0].permitted.find("goes forward in time"), std::string::npos);
+  EXPECT_EQ(validate(Table{{0.0}, {}}, "reference").size(), 1U);
+  EXPECT_EQ(validate(Trapezoid{}, "reference").size(), 2U);
+  EXPECT_EQ(validate(Sine{}, "reference").size(), 1U);
+}
+
+/// A motor that nothing but the controller moves: ω = ∫∫ of what is asked, by hand.
+TEST(PropertySignal, ADriveIsGivenTheSignal) {
+  const std::vector<Signal> all = {0.7,   StepSignal{1.0, 2.0, 0.5}, long_move, Ramp{1.0, 2.0, 3.0},
+                                   table, Sine{1.0, 2.0, 3.0, 0.1},  short_move};
+  Drive drive;
+  drive.motor.inertia = 1.0;
+  drive.load.inertia = 1.0;
+  drive.backlash = 1e6;
+  for (const Signal& reference : all) {
+    for (const Signal& load_torque : all) {
+      drive.reference = reference;
+      drive.load_torque = load_torque;
+      const DriveSystem built = drive_system(drive);
+      const auto motion = simulate(built.system, drive_start(drive, built, {}), {.until = 6.0});
+      for (const double time : {0.0, 0.3, 0.5, 1.2, 1.9, 2.5, 3.2, 5.0, 6.0}) {
+        const hybrid::Vector numbers = motion.at(time).numbers;
+        EXPECT_NEAR(built.reference.at(numbers), value_at(reference, time), 1e-13);
+        EXPECT_NEAR(built.load_torque.at(numbers), value_at(load_torque, time), 1e-13);
+      }
+    }
+  }
+}
+
+/// J ω′ = T sin(Ωt): θ = (T/JΩ)(t − sin(Ωt)/Ω).
+TEST(OracleSignal, ALoadTorqueMovesTheLoad) {
+  Drive drive;
+  drive.motor.inertia = 1.0;
+  drive.load.inertia = 2.0;
+  drive.backlash = 1e6;
+  drive.load_torque = Sine{.amplitude = 3.0, .frequency = 5.0};
+  const DriveSystem built = drive_system(drive);
+  const auto motion = simulate(built.system, drive_start(drive, built, {}), {.until = 4.0});
+  const double exact = 3.0 / 2.0 / 5.0 * (4.0 - std::sin(20.0) / 5.0);
+  EXPECT_NEAR(motion.end().numbers[load_position], exact, 1e-13);
+}
+
+}  // namespace
+}  // namespace gearlash::drive

@@ -1,0 +1,337 @@
+// Drives from TOML: what is read, and every way it can be refused.
+#include "input/drive_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <string>
+
+#include "model/proportional_servo.hpp"
+
+namespace gearlash {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr double pi = std::numbers::pi;
+
+constexpr const char* joint = R"toml([motor]
+kind = "torque-controlled"
+inertia = "2 kg cm2"
+friction = "0.1 mN m s/rad"
+coulomb = "3 mN m"
+breakaway = "5 mN m"
+torque_limit = "0.2 N m"
+[gearbox]
+ratio = 50
+backlash = "12 arcmin"
+[load]
+inertia = "0.02 kg m2"
+friction = "0.01 N m s/rad"
+[contact]
+stiffness = "500 N m/rad"
+damping = "1 N m s/rad"
+law = "ElastoBacklash2"
+[sensor]
+position = "both"
+counts_per_turn = 4096
+speed_counts_per_turn = 100
+[controller]
+kind = "PID"
+proportional = "0.5 N m/rad"
+integral = "1 N m/(rad s)"
+derivative = "20 mN m s/rad"
+filter = "5 ms"
+tracking_time = "0.1 s"
+[sampling]
+period = "1 ms"
+delay = "0.5 ms"
+method = "backward"
+[reference]
+kind = "trapezoid"
+to = "90 deg"
+speed = "1 rad/s"
+acceleration = "2 rad/s2"
+[load_torque]
+kind = "step"
+after = "0.1 N m"
+time = "2 s"
+)toml";
+
+constexpr const char* plain = R"toml([motor]
+kind = "armature-controlled"
+inertia = "1e-5 kg m2"
+friction = "1e-5 N m s/rad"
+torque_constant = "0.02 N m/A"
+back_emf_constant = "0.02 V s/rad"
+resistance = "2 ohm"
+[gearbox]
+ratio = 10
+backlash = "1 deg"
+[load]
+inertia = "1e-3 kg m2"
+friction = "1e-3 N m s/rad"
+)toml";
+
+DriveFile drive_of(const std::string& text, const std::filesystem::path& folder = ".") {
+  return std::get<DriveFile>(parse_servo_or_drive(text, "drive.toml", folder));
+}
+
+/// "place: field = value: permitted" of every fault.
+std::vector<std::string> refusals(const std::string& text,
+                                  const std::filesystem::path& folder = ".") {
+  try {
+    parse_servo_or_drive(text, "drive.toml", folder);
+    return {};
+  } catch (const InvalidInput& refusal) {
+    std::vector<std::string> lines;
+    for (const Violation& violation : refusal.violations()) lines.push_back(to_string(violation));
+    return lines;
+  }
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(DriveFile, EveryBlockIsReadAndReferredToTheLoad) {
+  const DriveFile file = drive_of(joint);
+  const drive::Drive& drive = file.drive;
+  EXPECT_DOUBLE_EQ(drive.motor.inertia, 2e-4 * 2500.0);
+  EXPECT_DOUBLE_EQ(drive.motor.friction.viscous, 1e-4 * 2500.0);
+  EXPECT_DOUBLE_EQ(drive.motor.friction.coulomb, 0.15);
+  EXPECT_DOUBLE_EQ(drive.motor.friction.breakaway, 0.25);
+  EXPECT_DOUBLE_EQ(drive.torque_limit, 10.0);
+  EXPECT_DOUBLE_EQ(drive.load.inertia, 0.02);
+  EXPECT_EQ(drive.load.friction.breakaway, 0.0);
+  EXPECT_DOUBLE_EQ(drive.backlash, 0.2 * pi / 180.0);
+  const auto contact = std::get<drive::CompliantContact>(drive.contact);
+  EXPECT_EQ(contact.stiffness, 500.0);
+  EXPECT_EQ(contact.law, drive::ContactDamping::full);
+  EXPECT_EQ(drive.sensing.load_share_of_position, 1.0);
+  EXPECT_EQ(drive.sensing.load_share_of_speed, 0.0);
+  EXPECT_DOUBLE_EQ(drive.sensing.resolution, 2.0 * pi / 4096.0);
+  EXPECT_DOUBLE_EQ(drive.sensing.resolution_of_speed, 2.0 * pi / 5000.0);
+  const auto pid = std::get<drive::ProportionalIntegralDerivative>(drive.controller);
+  EXPECT_DOUBLE_EQ(pid.proportional, 25.0);
+  EXPECT_DOUBLE_EQ(pid.integral, 50.0);
+  EXPECT_DOUBLE_EQ(pid.derivative, 1.0);
+  EXPECT_DOUBLE_EQ(pid.filter, 0.005);
+  EXPECT_EQ(drive.sampling->method, drive::Discretization::backward);
+  EXPECT_DOUBLE_EQ(drive.sampling->delay, 5e-4);
+  EXPECT_DOUBLE_EQ(std::get<drive::Trapezoid>(drive.reference).to, 0.5 * pi);
+  EXPECT_DOUBLE_EQ(std::get<drive::StepSignal>(drive.load_torque).after, 0.1);
+  EXPECT_EQ(file.gear_ratio, 50.0);
+  EXPECT_EQ(file.backlash_unit.name, "arcmin");
+}
+
+/// Per angle of the motor a gain is as many times as much per angle of the load.
+TEST(DriveFile, GainsMayBePerAngleOfTheMotor) {
+  const DriveFile file =
+      drive_of(replaced(joint, "kind = \"PID\"", "kind = \"PID\"\nshaft = \"motor\""));
+  const auto pid = std::get<drive::ProportionalIntegralDerivative>(file.drive.controller);
+  EXPECT_DOUBLE_EQ(pid.proportional, 1250.0);
+}
+
+TEST(DriveFile, VoltsComeThroughTheArmature) {
+  const DriveFile file =
+      drive_of(replaced(plain, "resistance", "voltage_limit = \"12 V\"\nresistance") +
+               "[controller]\nkind = \"P\"\nproportional = \"3 V/rad\"\n");
+  // K₁ n / R = 0.1 N m at the load per volt.
+  EXPECT_DOUBLE_EQ(file.drive.torque_limit, 1.2);
+  EXPECT_DOUBLE_EQ(std::get<drive::ProportionalDerivative>(file.drive.controller).proportional,
+                   0.3);
+  EXPECT_DOUBLE_EQ(file.drive.motor.friction.viscous, 1e-3 + 0.02 * 0.02 / 2.0 * 100.0);
+}
+
+TEST(OracleDriveFile, AProportionalControllerIsTheServoOfALoop) {
+  const DriveFile file = drive_of(plain + std::string("[controller]\nkind = \"P\"\n"
+                                                      "proportional = \"3 V/rad\"\n"));
+  const auto servo =
+      std::get<ServoFile>(parse_servo_or_drive(plain + std::string("[loop]\nerror_gain = "
+                                                                   "\"3 V/rad\"\n"),
+                                               "servo.toml", "."));
+  // Its gain goes through n K₁/R in another order.
+  Drivetrain found = drive::proportional_servo(file.drive).value();
+  EXPECT_DOUBLE_EQ(found.stiffness, servo.drivetrain->stiffness);
+  found.stiffness = servo.drivetrain->stiffness;
+  EXPECT_EQ(found, servo.drivetrain);
+  EXPECT_EQ(drive::proportional_servo(drive_file_of(servo).drive), servo.drivetrain);
+  // Whatever it has besides has no closed form.
+  const auto with = [&](const std::string& more) {
+    return drive::proportional_servo(
+        drive_of(plain + std::string("[loop]\nerror_gain = \"3 V/rad\"\n") + more).drive);
+  };
+  EXPECT_FALSE(with("[sensor]\nposition = \"motor\"\n"));
+  EXPECT_FALSE(with("[sampling]\nperiod = \"1 ms\"\n"));
+  EXPECT_FALSE(with("[contact]\nstiffness = \"1 N m/rad\"\n"));
+  EXPECT_FALSE(with("[load_torque]\nkind = \"constant\"\nvalue = \"1 N m\"\n"));
+  EXPECT_TRUE(with("[reference]\nkind = \"constant\"\nvalue = \"1 rad\"\n"));
+  // Speed fed back from the motor is friction on it; from the load it is not.
+  const auto with_speed = [&](const std::string& shaft) {
+    return drive::proportional_servo(
+        drive_of(plain + ("[controller]\nkind = \"PD\"\nproportional = \"3 V/rad\"\n"
+                          "derivative = \"0.5 V s/rad\"\n[sensor]\nspeed = \"" +
+                          shaft + "\"\n"))
+            .drive);
+  };
+  ASSERT_TRUE(with_speed("motor"));
+  EXPECT_DOUBLE_EQ(with_speed("motor")->motor_friction, servo.drivetrain->motor_friction + 0.05);
+  EXPECT_FALSE(with_speed("load"));
+}
+
+TEST(DriveFile, ControllersOfEveryKind) {
+  const auto controller = [](const std::string& text) {
+    return drive_of(plain + std::string("[controller]\n") + text).drive.controller;
+  };
+  const auto lead = std::get<drive::LeadLag>(
+      controller("kind = \"lead-lag\"\ngain = \"1 V/rad\"\nzero = \"1 Hz\"\npole = \"9 rad/s\"\n"));
+  EXPECT_DOUBLE_EQ(lead.zero, 2.0 * pi);
+  const auto cascade = std::get<drive::Cascade>(
+      controller("kind = \"cascade\"\nposition = \"20 1/s\"\nspeed = \"0.5 V s/rad\"\n"
+                 "speed_integral = \"2 V/rad\"\n"));
+  EXPECT_DOUBLE_EQ(cascade.position, 20.0);
+  EXPECT_DOUBLE_EQ(cascade.speed_integral, 0.2);
+  const auto any = std::get<drive::ErrorTransfer>(controller(
+      "kind = \"transfer-function\"\ngain = \"10 V/rad\"\nnum = [1, 2.5]\nden = [0.5, 1, 0]\n"));
+  EXPECT_THAT(any.function.numerator, ElementsAre(1.0, 2.5));
+  const auto state = std::get<drive::LinearController>(
+      controller("kind = \"state-space\"\ngain = \"10 V/rad\"\nA = [[-1, 0], [1, -2]]\n"
+                 "B = [[1], [0]]\nC = [0, 1]\nD = [0.5]\n"));
+  EXPECT_THAT(state.input_matrix[0], ElementsAre(1.0, -1.0, 0.0));
+  EXPECT_THAT(state.direct, ElementsAre(0.5, -0.5, 0.0));
+  EXPECT_THAT(refusals(plain + std::string("[controller]\nkind = \"state-space\"\n"
+                                           "gain = \"1 V/rad\"\nA = [[1]]\nB = [[1]]\nC = [1, 2]\n"
+                                           "D = [0]\n")),
+              ElementsAre(HasSubstr("controller.A = [[1]]: must have 2 rows, as many as"),
+                          HasSubstr("controller.B = [[1]]: must have 2 rows, as many as")));
+  EXPECT_THAT(
+      refusals(plain + std::string("[controller]\nkind = \"state-space\"\n"
+                                   "gain = \"1 V/rad\"\nA = [[1]]\nB = [[1, 2]]\nC = [1]\n"
+                                   "D = []\n")),
+      ElementsAre(HasSubstr("controller.B = [[1, 2]]: must have 1 number a row, of the error"),
+                  HasSubstr("controller.D = []: must have 1 number a row, of the error")));
+}
+
+// ---- tables -------------------------------------------------------------------------------------
+
+class DriveFileTable : public ::testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::vector<std::string> refusals_of(const std::string& table) {
+    write(table);
+    return refusals(text_, folder_);
+  }
+  void write(const std::string& table) { std::ofstream(folder_ / "move.csv") << table; }
+
+  std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) /
+                                  ::testing::UnitTest::GetInstance()->current_test_info()->name();
+  std::string text_ = plain + std::string(
+                                  "[loop]\nerror_gain = \"3 V/rad\"\n"
+                                  "[reference]\nkind = \"table\"\nfile = \"move.csv\"\n");
+};
+
+TEST_F(DriveFileTable, IsReadWithItsUnits) {
+  write("# a move\ntime (ms), position (deg)\n0, 0\n500, 90\n1000, 45\n");
+  const auto table = std::get<drive::Table>(drive_of(text_, folder_).drive.reference);
+  EXPECT_THAT(table.times, ElementsAre(0.0, 0.5, 1.0));
+  EXPECT_THAT(table.values, ElementsAre(0.0, 0.5 * pi, 0.25 * pi));
+}
+
+TEST_F(DriveFileTable, EdgeFaultsNameTheLine) {
+  EXPECT_THAT(refusals_of("time (s),position (deg)\n0,0\n2,1\n1,1\n"),
+              ElementsAre(HasSubstr("move.csv:4: time = 1: must be later than the row before")));
+  EXPECT_THAT(refusals_of("time (s),position (kg)\n0,0\n"),
+              ElementsAre(HasSubstr("second column")));
+  EXPECT_THAT(refusals_of("time,position\n0,0\n"), ElementsAre(HasSubstr("first column = time")));
+  EXPECT_THAT(refusals_of("time (s),position (deg)\n0,x\n"), ElementsAre(HasSubstr(":2: value")));
+  EXPECT_THAT(refusals_of("time (s),position (deg)\n0\n"),
+              ElementsAre(HasSubstr("move.csv:2: row = one column: must have two columns")));
+  EXPECT_THAT(refusals_of("time (s),position (deg)\n0,1,2\n"),
+              ElementsAre(HasSubstr("move.csv:2: row = more than two columns: must have two")));
+  EXPECT_THAT(refusals_of("time (s),position (deg)\n"), ElementsAre(HasSubstr("without rows")));
+  EXPECT_THAT(refusals_of(""), ElementsAre(HasSubstr("an empty table")));
+  std::filesystem::remove(folder_ / "move.csv");
+  EXPECT_THAT(refusals(text_, folder_), ElementsAre(HasSubstr("move.csv")));
+}
+
+// ---- faults -------------------------------------------------------------------------------------
+
+TEST(EdgeDriveFile, EveryFaultIsToldAtOnce) {
+  std::string text = joint;
+  text = replaced(text, "breakaway = \"5 mN m\"", "breakaway = \"2 mN m\"");
+  text = replaced(text, "stiffness = \"500 N m/rad\"", "stiffness = \"-1 N m/rad\"");
+  text = replaced(text, "counts_per_turn = 4096", "counts_per_turn = 0");
+  text = replaced(text, "period = \"1 ms\"", "period = \"0 s\"");
+  text = replaced(text, "speed = \"1 rad/s\"", "speed = \"0 rad/s\"");
+  text = replaced(text, "after = \"0.1 N m\"", "after = \"0.1 rad\"");
+  EXPECT_THAT(refusals(text),
+              ElementsAre("drive.toml:6:13: motor.breakaway = 2 mN m: must be at least "
+                          "motor.coulomb: what is at rest is not easier to move than what moves",
+                          HasSubstr("contact.stiffness = -1 N m/rad: must be positive"),
+                          HasSubstr("sensor.counts_per_turn = 0: must be positive"),
+                          HasSubstr("sampling.period = 0 s: must be positive"),
+                          HasSubstr("reference.speed = 0 rad/s: must be positive"),
+                          HasSubstr("load_torque.after = 0.1 rad: must be torque")));
+}
+
+TEST(EdgeDriveFile, ControllersThatNothingCanBeGetALine) {
+  const auto refusal = [](const std::string& controller, const std::string& more = "") {
+    return refusals(plain +
+                    std::string("[controller]\nkind = \"transfer-function\"\n"
+                                "gain = \"1 V/rad\"\n") +
+                    controller + more);
+  };
+  const std::string sampling = "[sampling]\nperiod = \"10 ms\"\n";
+  EXPECT_THAT(refusal("num = [1, 0, 0]\nden = [1, 1]\n"),
+              ElementsAre(HasSubstr("controller.num = [1, 0, 0]: must be of no higher degree")));
+  EXPECT_THAT(refusal("num = [1]\nden = [1, -2]\nvariable = \"z\"\n", sampling),
+              ElementsAre(HasSubstr("controller.den = [1, -2]: must have its roots in the unit")));
+  EXPECT_THAT(refusal("num = [1]\nden = [1, -0.5]\nvariable = \"z\"\n"),
+              ElementsAre(HasSubstr("sampling")));
+  EXPECT_THAT(refusal("num = [1, 0]\nden = [0.004, 1]\n", sampling + "method = \"forward\"\n"),
+              ElementsAre(HasSubstr("sampling.period = 10 ms: must be so short")));
+  EXPECT_THAT(refusal("num = [1, 0]\nden = [0.004, 1]\n", sampling), IsEmpty());
+  EXPECT_THAT(refusal("num = \"1\"\nden = [0, 0]\n").size(), 2U);
+  EXPECT_THAT(refusal("num = [1, 0, 0]\nden = [1, -2]\nvariable = \"z\"\n",
+                      "[sampling]\nperiod = \"0 ms\"\n"),
+              ElementsAre(HasSubstr("controller.num = [1, 0, 0]: must be of no higher degree"),
+                          HasSubstr("controller.den = [1, -2]: must have its roots in the unit"),
+                          HasSubstr("sampling.period = 0 ms: must be positive")));
+}
+
+/// What is derived from a number at fault is not told as another fault.
+TEST(EdgeDriveFile, AFaultIsToldOnce) {
+  for (const std::string ratio : {"0", "inf", "nan"}) {
+    EXPECT_THAT(refusals(replaced(joint, "ratio = 50", "ratio = " + ratio)),
+                ElementsAre(HasSubstr("gearbox.ratio = " + ratio + ": must be positive")));
+  }
+  EXPECT_THAT(refusals(plain + std::string("[loop]\nerror_gain = \"3 V/rad\"\n"
+                                           "[sensor]\nresolution = \"-1 deg\"\n")),
+              ElementsAre(HasSubstr("sensor.resolution = -1 deg: must be zero or positive")));
+}
+
+TEST(EdgeDriveFile, WhatExcludesEachOtherIsTold) {
+  EXPECT_THAT(refusals(joint + std::string("[loop]\nerror_gain = \"1 N m/rad\"\n")),
+              ElementsAre(HasSubstr("loop")));
+  EXPECT_THAT(refusals(replaced(joint, "law =", "restitution = 0.5\nlaw =")),
+              ElementsAre(HasSubstr("contact.restitution = 0.5: must not stand beside stiffness")));
+  EXPECT_THAT(refusals(joint + std::string("[servo]\ndamping = 1\n")),
+              ElementsAre(HasSubstr("servo")));
+  EXPECT_THAT(refusals(replaced(joint, "torque_limit = \"0.2 N m\"", "voltage_limit = \"1 V\"")),
+              ElementsAre(HasSubstr("motor.voltage_limit = 1 V: is no key of [motor]")));
+  EXPECT_THAT(refusals(plain + std::string("[sensor]\nposition = \"load\"\n")),
+              ElementsAre(HasSubstr("loop is missing: must be a section [loop] with error_gain")));
+}
+
+}  // namespace
+}  // namespace gearlash

@@ -1,0 +1,77 @@
+// Sweep files: what is varied, what is not, and every fault with its place.
+#include "input/sweep_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "base/violation.hpp"
+
+namespace gearlash {
+namespace {
+
+using testing::ElementsAre;
+
+std::vector<std::string> faults(const std::string& toml) {
+  std::vector<std::string> lines;
+  try {
+    parse_sweep(toml, "s.toml");
+  } catch (const InvalidInput& refusal) {
+    for (const Violation& violation : refusal.violations()) lines.push_back(to_string(violation));
+  }
+  return lines;
+}
+
+TEST(SweepFile, TheExampleIsRead) {
+  const SweepFile file =
+      read_sweep_file(std::filesystem::path(GEARLASH_SOURCE_DIRECTORY) / "examples/sweep.toml");
+  ASSERT_EQ(file.grid.axes.size(), 3U);
+  EXPECT_EQ(file.grid.axes[0].input, Input::damping);
+  EXPECT_EQ(file.grid.size(), 56U * 97U * 101U);
+  EXPECT_TRUE(file.grid.axes[2].logarithmic);
+  EXPECT_EQ(file.grid.servo.backlash, 0.3);
+  EXPECT_THAT(file.quantities, ElementsAre(CycleQuantity::growth_at_rest, CycleQuantity::size,
+                                           CycleQuantity::period, CycleQuantity::multiplier));
+}
+
+TEST(SweepFile, WhatIsVariedNeedNotBeGiven) {
+  const SweepFile file = parse_sweep(
+      "[sweep]\naxes = ['damping=0.1,0.2', 'inertia-ratio=1,2', 'friction-ratio=0.1,0.2',\n"
+      "'restitution=0,0.1', 'backlash=1 arcmin, 2 arcmin']\n",
+      "s.toml");
+  EXPECT_EQ(file.grid.size(), 32U);
+  EXPECT_EQ(file.quantities.size(), quantity_count);
+  const SweepFile in_backlashes = parse_sweep(
+      "[sweep]\naxes = ['damping=0.1,0.2']\n[servo]\ninertia_ratio = 1\nfriction_ratio = '1/9'\n",
+      "s.toml");
+  EXPECT_EQ(in_backlashes.grid.servo.backlash, 1.0);
+  EXPECT_EQ(in_backlashes.grid.servo.friction_ratio, 1.0 / 9.0);
+  EXPECT_EQ(in_backlashes.grid.servo.restitution, 0.0);
+}
+
+TEST(SweepFile, FaultsAreToldWithTheirPlaces) {
+  EXPECT_THAT(faults("[servo]\ndamping = 1\n"),
+              ElementsAre("s.toml:1:1: sweep is missing: must be a section [sweep] with axes"));
+  EXPECT_THAT(faults("[sweep]\naxes = []\nspeed = 1\n"),
+              ElementsAre("s.toml:2:8: sweep.axes = []: must be a list of texts: [\"…\", \"…\"]",
+                          "s.toml:3:1: sweep.speed = 1: is no key of [sweep]: must be one of axes, "
+                          "quantities, verdicts"));
+  EXPECT_THAT(
+      faults("[sweep]\naxes = ['damping=0.1,0.2']\n[servo]\ninertia_ratio = 1\n"
+             "friction_ratio=1\n[contact]\nrestitution = 2\n[gearbox]\n"),
+      ElementsAre("s.toml:7:15: contact.restitution = 2: must be from 0 to 1",
+                  "s.toml:8:1: gearbox = [gearbox]: must not stand beside [servo], which is "
+                  "normalised"));
+  EXPECT_THAT(
+      faults("[sweep]\naxes = ['restitution=0,0.1']\n[servo]\ndamping = 0.1\n"
+             "inertia_ratio = 1\nfriction_ratio=1\n[contact]\nrestitution = 0.5\n"),
+      ElementsAre("s.toml:8:15: contact.restitution = 0.5: must be left out: [sweep] varies "
+                  "it"));
+  EXPECT_THAT(
+      faults("[sweep]\naxes = ['damping=0.1,0.2', 'inertia_ratio=1,2', "
+             "'friction_ratio=0,1', 'backlash=1,2', 'restitution=0,1', 'damping=1,2', "
+             "'damping=3,4']\n"),
+      ElementsAre(testing::HasSubstr("sweep.axes[6] = damping=3,4: must be at most 6 axes")));
+}
+
+}  // namespace
+}  // namespace gearlash

@@ -1,0 +1,71 @@
+// Targets as they are typed, and what is said of those that cannot be read.
+#include "input/target_text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <string>
+#include <vector>
+
+namespace gearlash {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+Target read(std::string_view text) { return read_target("--target", text, TimeScale::known); }
+
+TEST(TargetText, IsReadWithItsUnits) {
+  Target expected;
+  expected.size.high = degree;
+  EXPECT_EQ(read("size <= 1 deg"), expected);
+  EXPECT_EQ(read(" size<=1deg "), expected);
+  EXPECT_EQ(read("size ≤ 1 deg"), expected);
+  EXPECT_EQ(read("size < 1 deg"), expected);
+  expected.size.high = 0.25;
+  EXPECT_EQ(read("size <= 0.25"), expected);
+  EXPECT_EQ(read("size <= 1/4 and size <= 1"), expected);
+  expected.frequency.low = 5.0;
+  EXPECT_EQ(read("size <= 0.25 and frequency >= 5 Hz"), expected);
+  EXPECT_EQ(read("size <= 0.25 and period <= 0.2 s"), expected);
+  EXPECT_EQ(read("size <= 0.25 and period <= 200 ms").frequency.low, 5.0);
+  EXPECT_EQ(read("frequency >= 30 rad/s").frequency.low, 30.0 / (2.0 * std::numbers::pi));
+  EXPECT_TRUE(read("no-hunting").no_hunting);
+  EXPECT_EQ(read("growth-at-rest <= 0.9").growth_at_rest.high, 0.9);
+}
+
+std::vector<std::string> faults_of(std::string_view text, TimeScale scale = TimeScale::known) {
+  try {
+    read_target("--target", text, scale);
+  } catch (const InvalidInput& error) {
+    std::vector<std::string> lines;
+    for (const Violation& violation : error.violations()) lines.push_back(to_string(violation));
+    return lines;
+  }
+  return {};
+}
+
+TEST(EdgeTargetText, FaultsAreToldAtOnceEachInALine) {
+  using testing::ElementsAre;
+  using testing::StartsWith;
+  EXPECT_THAT(faults_of("speed <= 3 and size <= 1 kg and size"),
+              ElementsAre(StartsWith("--target = speed <= 3: must be no-hunting, or size"),
+                          StartsWith("--target = 1 kg: must be"),
+                          StartsWith("--target = size: must be no-hunting, or size")));
+  EXPECT_THAT(faults_of(""), ElementsAre(StartsWith("--target = \"\": must be no-hunting")));
+  EXPECT_THAT(faults_of("size <="), ElementsAre(StartsWith("--target = size <=: must be")));
+  EXPECT_THAT(faults_of("size <= -1"),
+              ElementsAre("--target = size <= -1: must have a limit of 0 or more"));
+  EXPECT_THAT(faults_of("period <= 0 s"),
+              ElementsAre("--target = period <= 0 s: must have a positive limit"));
+  EXPECT_THAT(faults_of("size <= 0.1 and size >= 0.2"),
+              ElementsAre("--target = size >= 0.2 and size <= 0.1: must not contradict itself"));
+  EXPECT_THAT(faults_of("no-hunting and size >= 0.2"),
+              ElementsAre("--target = no-hunting and size >= 0.2: must not contradict itself"));
+  EXPECT_THAT(faults_of("frequency >= 5 Hz", TimeScale::unknown),
+              ElementsAre("--target = frequency >= 5 Hz: must be told of a servo with a "
+                          "natural_frequency, or of a data sheet"));
+}
+
+}  // namespace
+}  // namespace gearlash

@@ -1,0 +1,113 @@
+// Transfer functions of controllers against C (sI − A)⁻¹ B + D worked out at single s.
+#include "model/controller_transfer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <complex>
+#include <random>
+
+namespace gearlash::drive {
+namespace {
+
+using Complex = std::complex<double>;
+using LongComplex = std::complex<long double>;
+
+/// In long double, for the direct way rounds too.
+Eigen::Matrix<LongComplex, 1, 3> direct_transfer(const LinearController& controller, Complex at) {
+  using Matrix = Eigen::Matrix<LongComplex, Eigen::Dynamic, Eigen::Dynamic>;
+  const auto order = static_cast<Eigen::Index>(controller.order());
+  Matrix dynamics = LongComplex(at) * Matrix::Identity(order, order);
+  Matrix input(order, 3);
+  Matrix output(1, order);
+  Eigen::Matrix<LongComplex, 1, 3> result;
+  for (Eigen::Index i = 0; i < order; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    for (Eigen::Index j = 0; j < order; ++j) {
+      dynamics(i, j) -= controller.state_matrix[row][static_cast<std::size_t>(j)];
+    }
+    for (Eigen::Index j = 0; j < 3; ++j) {
+      input(i, j) = controller.input_matrix[row][static_cast<std::size_t>(j)];
+    }
+    output(i) = controller.output[row];
+  }
+  for (Eigen::Index j = 0; j < 3; ++j) result(j) = controller.direct[static_cast<std::size_t>(j)];
+  if (order > 0) result += output * dynamics.partialPivLu().solve(input);
+  return result;
+}
+
+Complex value_of(const TransferFunction& transfer, Complex s) {
+  const auto polynomial = [s](const std::vector<double>& coefficients) {
+    Complex value = 0.0;
+    for (const double coefficient : coefficients) value = value * s + coefficient;
+    return value;
+  };
+  return polynomial(transfer.numerator) / polynomial(transfer.denominator);
+}
+
+void expect_same(const LinearController& controller, Complex s) {
+  const ControllerTransfer transfer = controller_transfer(controller);
+  const auto expected = direct_transfer(controller, s);
+  const TransferFunction* found[] = {&transfer.reference, &transfer.position, &transfer.speed};
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const Complex exact(expected(i));
+    EXPECT_LT(std::abs(value_of(*found[i], s) - exact), 1e-12 * std::abs(exact) + 1e-300)
+        << "input " << i << ", s = " << s;
+  }
+}
+
+TEST(OracleControllerTransfer, IsThatOfTheStateSpace) {
+  const std::vector<Controller> controllers = {
+      ProportionalDerivative{3.0, 0.7},
+      ProportionalIntegralDerivative{.proportional = 3.0, .integral = 2.0, .derivative = 0.7},
+      ProportionalIntegralDerivative{3.0, 2.0, 0.7, 0.05, 0.0},
+      ProportionalIntegralDerivative{3.0, 2.0, 0.7, 1e-4, 0.1, true},
+      Cascade{4.0, 0.6, 1.5, 0.2},
+      LeadLag{2.0, 1.5, 9.0},
+      ErrorTransfer{{{0.5, 2.0, 1.0, 3.0, 8.0, 1.0}, {0.5, 4.0, 1.0, 7.0, 1.0, 2.0, 3.0}}}};
+  for (const Controller& controller : controllers) {
+    for (const Complex s : {Complex{0.0, 0.03}, Complex{0.3, 1.7}, Complex{0.0, 900.0}}) {
+      expect_same(linear_controller(controller), s);
+    }
+  }
+}
+
+/// Full matrices of order 6, of rates from 1e-3 to 1e3 per second. The condition of the value by
+/// the coefficients is that of Horner's rule, which is why s is not next to a pole.
+TEST(PropertyControllerTransfer, HoldsForAnyMatrices) {
+  constexpr unsigned seed = 20260711;
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  std::normal_distribution<double> number;
+  std::uniform_real_distribution<double> decade(-3.0, 3.0);
+  for (int i = 0; i < 30; ++i) {
+    LinearController controller;
+    const std::size_t order = 1 + static_cast<std::size_t>(i) % 6;
+    for (std::size_t row = 0; row < order; ++row) {
+      const double rate = std::pow(10.0, decade(random));
+      controller.state_matrix.emplace_back();
+      for (std::size_t column = 0; column < order; ++column) {
+        controller.state_matrix[row].push_back(rate * number(random));
+      }
+      controller.input_matrix.push_back({number(random), number(random), number(random)});
+      controller.output.push_back(number(random));
+    }
+    controller.direct = {number(random), number(random), number(random)};
+    expect_same(controller, Complex{0.0, 2.0e4});
+    expect_same(controller, Complex{7.0e3, 1.0e4});
+  }
+}
+
+TEST(EdgeControllerTransfer, ModesThatTheTorqueDoesNotShowAreLeftOut) {
+  LinearController controller;
+  controller.state_matrix = {{-1.0, 0.0}, {0.0, 5.0}};
+  controller.input_matrix = {{1.0, -1.0, 0.0}, {1.0, -1.0, 0.0}};
+  controller.output = {3.0, 0.0};
+  const ControllerTransfer transfer = controller_transfer(controller);
+  EXPECT_EQ(transfer.reference, (TransferFunction{{3.0}, {1.0, 1.0}}));
+  EXPECT_EQ(transfer.position, (TransferFunction{{-3.0}, {1.0, 1.0}}));
+  EXPECT_EQ(transfer.speed, (TransferFunction{{0.0}, {1.0}}));
+}
+
+}  // namespace
+}  // namespace gearlash::drive

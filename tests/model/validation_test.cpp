@@ -1,0 +1,257 @@
+// What is refused, in which words, and that nothing is refused at the ends of the ranges.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/range_check.hpp"
+#include "model/datasheet.hpp"
+
+namespace gearlash {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAre;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<std::string> fields(const std::vector<Violation>& violations) {
+  std::vector<std::string> names;
+  for (const Violation& violation : violations) names.push_back(violation.field);
+  return names;
+}
+
+NormalizedServo sound_servo() {
+  return {.damping = 0.2,
+          .inertia_ratio = 2.0,
+          .friction_ratio = 0.25,
+          .backlash = 0.3,
+          .restitution = 0.5};
+}
+
+Drivetrain sound_drivetrain() {
+  return {.motor_inertia = 1.0,
+          .load_inertia = 2.0,
+          .motor_friction = 0.5,
+          .load_friction = 0.25,
+          .stiffness = 4.0,
+          .backlash = 0.1};
+}
+
+Datasheet sound_datasheet() {
+  return {.motor = ArmatureControlledMotor{.inertia = 1.0,
+                                           .friction = 1.0,
+                                           .torque_constant = 1.0,
+                                           .back_emf_constant = 1.0,
+                                           .resistance = 1.0},
+          .gearbox = {.ratio = 2.0, .backlash = 0.1},
+          .load = {.inertia = 3.0, .friction = 0.5},
+          .loop = {.error_gain = 2.0},
+          .contact = {}};
+}
+
+TEST(EdgeNormalizedServoRanges, EndsArePermitted) {
+  for (const double damping : {0.0, 1e-15, 1e3}) {
+    NormalizedServo servo = sound_servo();
+    servo.damping = damping;
+    EXPECT_THAT(validate(servo), IsEmpty()) << damping;
+  }
+  for (const double ratio : {0.0, 1e-9, 1e9, infinity}) {
+    NormalizedServo servo = sound_servo();
+    servo.inertia_ratio = ratio;
+    EXPECT_THAT(validate(servo), IsEmpty()) << ratio;
+  }
+  for (const double ratio : {0.0, 1.0}) {
+    NormalizedServo servo = sound_servo();
+    servo.friction_ratio = ratio;
+    servo.restitution = ratio;
+    EXPECT_THAT(validate(servo), IsEmpty()) << ratio;
+  }
+  for (const double backlash : {0.0, 1e-15, 1e6}) {
+    NormalizedServo servo = sound_servo();
+    servo.backlash = backlash;
+    EXPECT_THAT(validate(servo), IsEmpty()) << backlash;
+  }
+}
+
+TEST(EdgeNormalizedServoRanges, OneStepBeyondIsRefused) {
+  const auto refused = [](auto member, double value, const char* name) {
+    NormalizedServo servo = sound_servo();
+    servo.*member = value;
+    EXPECT_THAT(fields(validate(servo)), ElementsAre(name)) << value;
+  };
+  const double below_zero = -5e-324;
+  const double above_one = std::nextafter(1.0, 2.0);
+  for (const double bad : {below_zero, std::nextafter(1e-15, 0.0), std::nextafter(1e3, 1e4), nan,
+                           infinity, -infinity}) {
+    refused(&NormalizedServo::damping, bad, "damping");
+  }
+  for (const double bad : {below_zero, 5e-324, std::nextafter(1e-9, 0.0),
+                           std::nextafter(1e9, infinity), -infinity, nan}) {
+    refused(&NormalizedServo::inertia_ratio, bad, "inertia_ratio");
+  }
+  for (const double bad : {below_zero, above_one, nan, infinity}) {
+    refused(&NormalizedServo::friction_ratio, bad, "friction_ratio");
+    refused(&NormalizedServo::restitution, bad, "restitution");
+  }
+  for (const double bad :
+       {below_zero, std::nextafter(1e-15, 0.0), std::nextafter(1e6, 1e7), nan, infinity}) {
+    refused(&NormalizedServo::backlash, bad, "backlash");
+  }
+}
+
+TEST(EdgeNormalizedServoRanges, MasslessShaftsNeedFriction) {
+  NormalizedServo servo = sound_servo();
+  servo.inertia_ratio = 0.0;
+  servo.friction_ratio = 0.0;
+  EXPECT_THAT(fields(validate(servo)), ElementsAre("inertia_ratio"));
+  servo.friction_ratio = 1.0;
+  EXPECT_THAT(validate(servo), IsEmpty());
+  servo.inertia_ratio = infinity;
+  EXPECT_THAT(fields(validate(servo)), ElementsAre("inertia_ratio"));
+  servo.friction_ratio = 0.0;
+  EXPECT_THAT(validate(servo), IsEmpty());
+  servo.damping = 0.0;
+  EXPECT_THAT(fields(validate(servo)), ElementsAre("inertia_ratio"));
+}
+
+TEST(EdgeNormalizedServoRanges, AllViolationsAreListed) {
+  const NormalizedServo servo{.damping = -1.0,
+                              .inertia_ratio = -2.0,
+                              .friction_ratio = 3.0,
+                              .backlash = nan,
+                              .restitution = 2.0,
+                              .sensor = Sensor::motor};
+  EXPECT_THAT(fields(validate(servo)), ElementsAre("damping", "inertia_ratio", "friction_ratio",
+                                                   "backlash", "restitution", "sensor"));
+}
+
+TEST(EdgeDatasheetRanges, AllViolationsAreListedForEachMotor) {
+  Datasheet datasheet{.motor = ArmatureControlledMotor{-1.0, nan, 0.0, -1.0, 0.0},
+                      .gearbox = {.ratio = 0.0, .backlash = -1.0},
+                      .load = {.inertia = -1.0, .friction = infinity},
+                      .loop = {.error_gain = -2.0, .sensor = Sensor::motor},
+                      .contact = {.restitution = -0.5}};
+  EXPECT_THAT(fields(validate(datasheet)),
+              UnorderedElementsAre("motor.inertia", "motor.friction", "motor.torque_constant",
+                                   "motor.back_emf_constant", "motor.resistance", "gearbox.ratio",
+                                   "gearbox.backlash", "load.inertia", "load.friction",
+                                   "loop.error_gain", "loop.sensor", "contact.restitution"));
+  datasheet.motor = FieldControlledMotor{-1.0, -1.0, -1.0, -1.0};
+  EXPECT_THAT(fields(validate(datasheet)),
+              UnorderedElementsAre("motor.inertia", "motor.friction", "motor.torque_constant",
+                                   "motor.resistance", "gearbox.ratio", "gearbox.backlash",
+                                   "load.inertia", "load.friction", "loop.error_gain",
+                                   "loop.sensor", "contact.restitution"));
+  datasheet.motor = TwoPhaseMotor{-1.0, -1.0, 0.0, -1.0};
+  EXPECT_THAT(fields(validate(datasheet)),
+              UnorderedElementsAre("motor.inertia", "motor.friction", "motor.torque_per_volt",
+                                   "motor.torque_per_speed", "gearbox.ratio", "gearbox.backlash",
+                                   "load.inertia", "load.friction", "loop.error_gain",
+                                   "loop.sensor", "contact.restitution"));
+}
+
+TEST(EdgeDatasheetRanges, ZerosThatArePermitted) {
+  Datasheet datasheet = sound_datasheet();
+  datasheet.gearbox.backlash = 0.0;
+  datasheet.load = {.inertia = 0.0, .friction = 0.5};
+  EXPECT_THAT(validate(datasheet), IsEmpty());
+  datasheet.motor = TwoPhaseMotor{
+      .inertia = 0.0, .friction = 0.0, .torque_per_volt = 1.0, .torque_per_speed = 1.0};
+  datasheet.load = {.inertia = 1.0, .friction = 0.0};
+  EXPECT_THAT(validate(datasheet), IsEmpty());
+}
+
+TEST(EdgeDatasheetRanges, NoInertiaAnywhereIsRefused) {
+  Datasheet datasheet = sound_datasheet();
+  datasheet.motor = FieldControlledMotor{
+      .inertia = 0.0, .friction = 1.0, .torque_constant = 1.0, .resistance = 1.0};
+  datasheet.load.inertia = 0.0;
+  EXPECT_THAT(validate(datasheet), testing::SizeIs(1));
+  EXPECT_THROW(to_drivetrain(datasheet), InvalidInput);
+}
+
+TEST(EdgeDatasheetRanges, OverflowInReferringIsRefusedNotReturned) {
+  Datasheet datasheet = sound_datasheet();
+  datasheet.gearbox.ratio = 1e200;  // its square is no double
+  EXPECT_THAT(validate(datasheet), testing::Not(IsEmpty()));
+  EXPECT_THROW(to_drivetrain(datasheet), InvalidInput);
+}
+
+TEST(EdgeDrivetrainRanges, AllViolationsAreListed) {
+  const Drivetrain drivetrain{.motor_inertia = -1.0,
+                              .load_inertia = nan,
+                              .motor_friction = -1.0,
+                              .load_friction = infinity,
+                              .stiffness = 0.0};
+  EXPECT_THAT(
+      fields(validate(drivetrain)),
+      ElementsAre("motor_inertia", "load_inertia", "motor_friction", "load_friction", "stiffness"));
+  // Whatever is already wrong with the inertias, a backlash out of range is wrong too.
+  Drivetrain two_faults = sound_drivetrain();
+  two_faults.backlash = -1.0;
+  two_faults.restitution = 7.0;
+  EXPECT_THAT(fields(validate(two_faults)), ElementsAre("backlash", "restitution"));
+}
+
+TEST(EdgeDrivetrainRanges, EveryFieldAtFaultIsListedAtOnce) {
+  Drivetrain drivetrain = sound_drivetrain();
+  drivetrain.stiffness = -1.0;
+  drivetrain.backlash = -1.0;
+  drivetrain.restitution = 2.0;
+  drivetrain.sensor = Sensor::motor;
+  EXPECT_THAT(fields(validate(drivetrain)),
+              UnorderedElementsAre("stiffness", "backlash", "restitution", "sensor"));
+}
+
+TEST(EdgeDrivetrainRanges, NormalizeThrowsAllOfThem) {
+  Drivetrain drivetrain = sound_drivetrain();
+  drivetrain.motor_friction = nan;
+  drivetrain.stiffness = -1.0;
+  try {
+    normalize(drivetrain);
+    FAIL() << "accepted";
+  } catch (const InvalidInput& error) {
+    EXPECT_THAT(fields(error.violations()), ElementsAre("motor_friction", "stiffness"));
+    EXPECT_THAT(error.what(), HasSubstr("motor_friction = nan"));
+    EXPECT_THAT(error.what(), HasSubstr("\n"));  // a line each
+    EXPECT_THAT(error.what(), HasSubstr("stiffness = -1"));
+  }
+}
+
+TEST(EdgeViolationText, NamesFieldValueAndWhatIsPermitted) {
+  EXPECT_EQ(to_string({"motor.inertia", "-1 kg m2", "must be positive", "servo.toml:3:11"}),
+            "servo.toml:3:11: motor.inertia = -1 kg m2: must be positive");
+  EXPECT_EQ(to_string({"load.inertia", "", "needed", ""}), "load.inertia is missing: needed");
+  for (const Violation& violation : validate(NormalizedServo{.damping = -1.0})) {
+    EXPECT_FALSE(violation.value.empty());
+    EXPECT_FALSE(violation.permitted.empty());
+  }
+}
+
+TEST(EdgeViolationText, RequireNoneThrowsOnlyWhenThereIsOne) {
+  EXPECT_NO_THROW(require_none({}));
+  EXPECT_THROW(require_none({{"a", "b", "c", ""}}), InvalidInput);
+}
+
+TEST(PropertyExactText, ReadsBackAsTheSameDouble) {
+  for (const double value : {0.1, 1.0 / 3.0, 5e-324, 1.7976931348623157e308, -2.5e-17, 0.0, 1e22,
+                             123456789.0, std::nextafter(1.0, 2.0)}) {
+    // strtod, because stod refuses the subnormal.
+    EXPECT_EQ(std::strtod(exact_text(value).c_str(), nullptr), value);
+  }
+  EXPECT_EQ(exact_text(0.1), "0.1");
+  EXPECT_EQ(exact_text(infinity), "inf");
+  EXPECT_EQ(exact_text(-infinity), "-inf");
+  EXPECT_EQ(exact_text(nan), "nan");
+}
+
+}  // namespace
+}  // namespace gearlash

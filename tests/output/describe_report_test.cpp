@@ -1,0 +1,92 @@
+// What is told of describing functions: predicted, exact and the error between them.
+#include "output/describe_report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace gearlash {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// KT = 5: two cycles of a load held by friction.
+drive::Drive type_one_servo() {
+  drive::Drive drive;
+  drive.motor = {0.25, {.viscous = 0.75}};
+  drive.load = {0.75, {.viscous = 0.25}};
+  drive.backlash = 2.0;
+  drive.controller = drive::ProportionalDerivative{.proportional = 5.0};
+  return drive;
+}
+
+DescribeReport report_of(const drive::Drive& drive) {
+  return {.analyses = drive::describing_analyses(drive),
+          .exact = {{2.0, 3.0, 4.0, true}},
+          .exact_verdict = "hunts"};
+}
+
+TEST(DescribeReport, TextPutsTheErrorBelowWhatIsExact) {
+  const std::string text = describe_text(report_of(type_one_servo()));
+  EXPECT_THAT(text, testing::StartsWith("exact: hunts, ±2 rad (114.6°), 0.25 Hz\n\n"
+                                        "Gap, load held by friction\n"));
+  // 2.020632 − 1 of the load, 2π/1.591383 s.
+  EXPECT_THAT(text, HasSubstr("predicted, stable    ±1.021 rad (58.48°)   ±2.021 rad  3.948 s"));
+  EXPECT_THAT(text, HasSubstr("exact              ±2 rad (114.6°)       ±3 rad      4 s "));
+  EXPECT_THAT(text, HasSubstr("error              −49 %                 −32.6 %     −1.29 %"));
+  EXPECT_THAT(text, HasSubstr("L(s) = 5/(s² + s)\n"));
+  EXPECT_THAT(text, HasSubstr("Assumed: the motor drives all inertia"));
+}
+
+TEST(DescribeReport, APredictionWithoutAnExactCycleIsSaidToBeWrong) {
+  DescribeReport report = report_of(type_one_servo());
+  report.exact.clear();
+  report.exact_verdict = "cannot hunt";
+  const std::string text = describe_text(report);
+  EXPECT_THAT(text, testing::StartsWith("exact: cannot hunt\n"));
+  EXPECT_THAT(text, HasSubstr("  exact              no stable cycle\n"));
+  EXPECT_THAT(text, Not(HasSubstr("error")));
+}
+
+TEST(DescribeReport, JsonHasEveryNumber) {
+  drive::Drive drive = type_one_servo();
+  drive.torque_limit = 3.0;
+  drive.sampling = drive::Sampling{.period = 0.2, .delay = 0.05};
+  const DescribeReport report = report_of(drive);
+  const auto json = nlohmann::json::parse(describe_json(report));
+  ASSERT_EQ(json["analyses"].size(), 3U);
+  EXPECT_EQ(json["exact"]["verdict"], "hunts");
+  EXPECT_EQ(json["exact"]["cycles"][0]["frequency"], 0.25);
+  const auto& gap = json["analyses"][0];
+  EXPECT_EQ(gap["part"], "gap, load held by friction");
+  EXPECT_EQ(gap["nonlinearity"]["gap"], 2.0);
+  EXPECT_EQ(gap["loop"]["delay"], 0.1 + 0.05);
+  EXPECT_EQ(gap["loop"]["denominator"], (std::vector<double>{1.0, 1.0, 0.0}));
+  ASSERT_EQ(gap["cycles"].size(), report.analyses[0].cycles.size());
+  for (std::size_t i = 0; i < gap["cycles"].size(); ++i) {
+    const auto& motion = report.analyses[0].cycles[i];
+    EXPECT_EQ(gap["cycles"][i]["size"], motion.size);
+    EXPECT_EQ(gap["cycles"][i]["period"], motion.balance.period);
+    EXPECT_EQ(gap["cycles"][i]["error"].is_null(), !motion.balance.stable);
+  }
+  EXPECT_EQ(json["analyses"][2]["nonlinearity"]["kind"], "saturation");
+}
+
+TEST(EdgeDescribeReport, NormalisedTimesAreTold) {
+  DescribeReport report = report_of(type_one_servo());
+  report.time_unit = "1/ω_n";
+  EXPECT_THAT(describe_text(report), HasSubstr("3.948 / ω_n"));
+  EXPECT_THAT(describe_text(report), HasSubstr("ω = 1.591 ω_n"));
+  EXPECT_THAT(describe_text(report), Not(HasSubstr(" Hz")));
+}
+
+TEST(EdgeDescribeReport, WhatIsOutsideOfTheLoopHasNoCycle) {
+  drive::Drive drive = type_one_servo();
+  drive.controller = drive::ProportionalDerivative{};
+  EXPECT_THAT(describe_text(report_of(drive)), HasSubstr("no cycle: nothing is fed back"));
+}
+
+}  // namespace
+}  // namespace gearlash

@@ -1,0 +1,160 @@
+// What a map of a grid shows: hatching up to the boundary, contours, and nothing that is not known.
+#include "picture/grid_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "analysis/grid/hunting_boundary.hpp"
+
+namespace gearlash {
+namespace {
+
+GridTable worked_out(double restitution) {
+  const ServoGrid grid{{.inertia_ratio = 2.0, .backlash = 1.0, .restitution = restitution},
+                       {spaced_axis("y", Input::damping, 0.1, 0.9, 13, Spacing::logarithmic),
+                        spaced_axis("x", Input::friction_ratio, 0.05, 0.95, 17, Spacing::linear)}};
+  GridTable table{.grid = grid, .cycles = CycleTable(grid.size()), .provenance = {}};
+  evaluate(grid, 0, grid.size(), table.cycles.columns());
+  table.hunting_boundary = hunting_boundary(grid, table.cycles[CycleQuantity::growth_at_rest]);
+  return table;
+}
+
+/// A place in shares of the axes.
+struct Place {
+  double along;
+  double up;
+};
+
+Place place_of(const ServoGrid& grid, const MapPoint& point) {
+  return {position_on(grid.axes[1], point.x), position_on(grid.axes[0], point.y)};
+}
+
+double distance(const Place& point, const Place& from, const Place& to) {
+  const double along = to.along - from.along;
+  const double up = to.up - from.up;
+  const double way = (point.along - from.along) * along + (point.up - from.up) * up;
+  const double share = std::clamp(way / (along * along + up * up), 0.0, 1.0);
+  return std::hypot(point.along - from.along - share * along, point.up - from.up - share * up);
+}
+
+double distance(const ServoGrid& grid, const MapPoint& point, const std::vector<MapCurve>& curves) {
+  double nearest = INFINITY;
+  for (const MapCurve& curve : curves) {
+    for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
+      nearest = std::min(nearest, distance(place_of(grid, point), place_of(grid, curve[i]),
+                                           place_of(grid, curve[i + 1])));
+    }
+  }
+  return nearest;
+}
+
+bool is_at_edge(const ServoGrid& grid, const MapPoint& point) {
+  const Place place = place_of(grid, point);
+  return std::min({place.along, 1.0 - place.along, place.up, 1.0 - place.up}) < 1e-9;
+}
+
+TEST(GridMap, HatchingEndsAtTheBoundary) {
+  const GridTable table = worked_out(0.0);
+  const ContourMap map = map_of(table, CycleQuantity::size);
+  ASSERT_GT(map.hatching.size(), 10U);
+  for (const MapCurve& line : map.hatching) {
+    ASSERT_EQ(line.size(), 2U);
+    for (const MapPoint& end : line) {
+      // On the boundary as it is drawn, to rounding.
+      EXPECT_TRUE(is_at_edge(table.grid, end) ||
+                  distance(table.grid, end, *table.hunting_boundary) < 1e-9)
+          << end.x << ", " << end.y;
+    }
+    const MapPoint middle{0.5 * (line[0].x + line[1].x), std::sqrt(line[0].y * line[1].y)};
+    EXPECT_EQ(side_of_hunting(servo_at(table.grid, middle)), Side::outside);
+  }
+}
+
+TEST(GridMap, HatchingCoversAllThatHasNoCycleAndNothingElse) {
+  const GridTable table = worked_out(0.0);
+  const ContourMap map = map_of(table, CycleQuantity::size);
+  constexpr double spacing = 0.03;  // of the lines, in shares of the axes
+  std::size_t covered = 0;
+  for (std::size_t row = 0; row < table.grid.size(); ++row) {
+    const NormalizedServo servo = table.grid.at(row);
+    const MapPoint point{servo.friction_ratio, servo.damping};
+    if (distance(table.grid, point, *table.hunting_boundary) < spacing) continue;
+    const bool has_cycle = table.cycles.verdict[row] == Verdict::hunts;
+    // The first diagonals keep clear of two corners of the map.
+    if (is_at_edge(table.grid, point)) continue;
+    EXPECT_EQ(distance(table.grid, point, map.hatching) > spacing, has_cycle)
+        << point.x << ", " << point.y;
+    covered += has_cycle ? 0U : 1U;
+  }
+  EXPECT_GT(covered, 10U);
+}
+
+TEST(GridMap, ACellThatMayHuntOrIsNotKnownIsNotHatched) {
+  for (const bool known : {true, false}) {
+    GridTable table = worked_out(0.0);
+    const std::size_t row = 11 * 17 + 8;
+    const NormalizedServo servo = table.grid.at(row);
+    ASSERT_EQ(table.cycles.verdict[row], Verdict::cannot_hunt);
+    table.cycles.columns().verdict[row] = known ? Verdict::hunts_if_disturbed : Verdict::undecided;
+    if (!known) table.cycles.columns().growth_at_rest[row] = NAN;
+    const ContourMap map = map_of(table, CycleQuantity::size);
+    // A cell is 1/16 of the map wide and 1/12 high; lines are looked at in steps of 0.0026.
+    const double clear = distance(table.grid, {servo.friction_ratio, servo.damping}, map.hatching);
+    EXPECT_GT(clear, 1.0 / 16.0 - 0.004);
+    EXPECT_LT(clear, 0.1);
+  }
+}
+
+TEST(EdgeGridMap, WhatIsSmallerThanACellIsNotHatched) {
+  // Friction on one side only hunts, at either end: the quiet servos between are missed altogether.
+  const ServoGrid grid{{.inertia_ratio = 2.0, .backlash = 1.0},
+                       {{Input::damping, {0.5, 1.0}}, {Input::friction_ratio, {0.0, 1.0}}}};
+  GridTable table{.grid = grid, .cycles = CycleTable(4), .provenance = {}};
+  evaluate(grid, 0, 4, table.cycles.columns());
+  table.hunting_boundary = hunting_boundary(grid, table.cycles[CycleQuantity::growth_at_rest]);
+  EXPECT_TRUE(table.hunting_boundary->empty());
+  EXPECT_TRUE(map_of(table, CycleQuantity::size).hatching.empty());
+}
+
+TEST(GridMap, TheBoundaryIsNoContour) {
+  const GridTable table = worked_out(0.0);
+  const ContourMap map = map_of(table, CycleQuantity::growth_at_rest);
+  EXPECT_GE(map.contours.size(), 5U);
+  for (const Contour& contour : map.contours) EXPECT_NE(contour.level, 1.0);
+}
+
+std::string number_text(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
+TEST(GridMap, ItsPictureIsTheSameEachTimeAndHasItsNumbers) {
+  const ContourMap map = map_of(worked_out(0.0), CycleQuantity::size);
+  const std::string svg = draw_contour_map(map, PictureFormat::svg);
+  EXPECT_EQ(svg, draw_contour_map(map, PictureFormat::svg));
+  std::size_t numbers = 0;
+  for (const Contour& contour : map.contours) {
+    const bool shown = svg.find(">" + number_text(contour.level) + "<") != std::string::npos;
+    numbers += shown ? 1U : 0U;
+  }
+  EXPECT_GE(numbers + 3, map.contours.size());  // where it is too narrow there is none
+}
+
+TEST(EdgeGridMap, NothingKnownIsAnEmptyPicture) {
+  GridTable table = worked_out(0.0);
+  const std::size_t rows = table.grid.size();
+  table.cycles = CycleTable(rows);
+  table.hunting_boundary = std::vector<MapCurve>{};
+  const ContourMap map = map_of(table, CycleQuantity::size);
+  EXPECT_TRUE(map.contours.empty());
+  EXPECT_TRUE(map.hatching.empty());
+  EXPECT_NE(draw_contour_map(map, PictureFormat::svg).find("damping coefficient"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace gearlash

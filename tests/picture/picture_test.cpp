@@ -1,0 +1,230 @@
+// Pictures: of the kind their ending says, well formed, the same for the same motion.
+#include "picture/picture.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "picture/line_chart.hpp"
+
+namespace gearlash {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+MotionPicture sample_picture(double restitution = 0.0) {
+  const NormalizedServo servo{.damping = 0.19,
+                              .inertia_ratio = 2.0,
+                              .friction_ratio = 0.1,
+                              .backlash = 0.3,
+                              .restitution = restitution};
+  return {.title = "title",
+          .servo = servo,
+          .trajectory = simulate(servo, engaged_start(servo, 0.0, 0.0, 1.0),
+                                 {.until = 20.0, .reference = 1.0}),
+          .reference = 1.0,
+          .cycle = analyse_limit_cycles(servo).cycles.at(0),
+          .units = {}};
+}
+
+/// Every element of an XML text is closed in order. No more is asked of the text than gnuplot does.
+bool is_well_formed(const std::string& xml) {
+  std::vector<std::string> open;
+  std::size_t place = 0;
+  while ((place = xml.find('<', place)) != std::string::npos) {
+    const bool is_comment = xml.compare(place, 4, "<!--") == 0;
+    const std::size_t end = is_comment ? xml.find("-->", place) : xml.find('>', place);
+    if (end == std::string::npos) return false;
+    const std::string tag = xml.substr(place + 1, end - place - 1);
+    place = end;
+    if (tag.empty()) return false;
+    if (is_comment || tag[0] == '?' || tag[0] == '!' || tag.back() == '/') continue;
+    const std::string name =
+        tag.substr(tag[0] == '/' ? 1 : 0, tag.find_first_of(" \t\r\n") - (tag[0] == '/' ? 1U : 0U));
+    if (tag[0] != '/') {
+      open.push_back(name);
+    } else if (open.empty() || open.back() != name) {
+      return false;
+    } else {
+      open.pop_back();
+    }
+  }
+  return open.empty() && xml.find("<svg") != std::string::npos;
+}
+
+/// What a reader sees: the text between the tags.
+std::string visible_text(const std::string& svg) {
+  std::string text;
+  bool inside_tag = false;
+  for (const char c : svg) {
+    if (c == '<') inside_tag = true;
+    if (!inside_tag) text += c;
+    if (c == '>') inside_tag = false;
+  }
+  return text;
+}
+
+TEST(Picture, KindIsThatOfTheEnding) {
+  const MotionPicture picture = sample_picture();
+  for (const auto draw : {&draw_time_response, &draw_phase_plane}) {
+    EXPECT_TRUE(is_well_formed(draw(picture, PictureFormat::svg)));
+    EXPECT_THAT(draw(picture, PictureFormat::png), StartsWith("\x89PNG\r\n\x1a\n"));
+    const std::string pdf = draw(picture, PictureFormat::pdf);
+    EXPECT_THAT(pdf, StartsWith("%PDF-"));
+    EXPECT_THAT(pdf.substr(pdf.size() - 8), HasSubstr("%%EOF"));
+  }
+}
+
+TEST(Picture, EndingsAreThreeInSmallOrCapitalLetters) {
+  EXPECT_EQ(picture_format("--plot", "a.svg"), PictureFormat::svg);
+  EXPECT_EQ(picture_format("--plot", "a.b.PNG"), PictureFormat::png);
+  EXPECT_EQ(picture_format("--plot", "dir.svg/a.Pdf"), PictureFormat::pdf);
+  for (const char* name : {"a", "a.eps", "svg", ".svg", "a.svg.gz", ""}) {
+    EXPECT_THROW(picture_format("--plot", name), InvalidInput) << name;
+  }
+}
+
+TEST(Picture, SameMotionGivesTheSameBytes) {
+  for (const double restitution : {0.0, 0.6}) {
+    const MotionPicture picture = sample_picture(restitution);
+    EXPECT_EQ(draw_time_response(picture, PictureFormat::svg),
+              draw_time_response(picture, PictureFormat::svg));
+    EXPECT_EQ(draw_phase_plane(picture, PictureFormat::svg),
+              draw_phase_plane(picture, PictureFormat::svg));
+  }
+}
+
+TEST(Picture, LegendNamesWhatIsDrawn) {
+  const MotionPicture picture = sample_picture();
+  const std::string response = visible_text(draw_time_response(picture, PictureFormat::svg));
+  for (const char* word :
+       {"load", "motor", "reference", "gap", "faces apart", "impact", "time (", "position (rad)"}) {
+    EXPECT_THAT(response, HasSubstr(word));
+  }
+  const std::string plane = visible_text(draw_phase_plane(picture, PictureFormat::svg));
+  for (const char* word : {"load, limit cycle", "motor, limit cycle", "faces apart", "impact",
+                           "position from the reference (rad)", "damping 0.19"}) {
+    EXPECT_THAT(plane, HasSubstr(word));
+  }
+}
+
+TEST(Picture, AxesAreInTheUnitOfTheBacklashAndInSeconds) {
+  MotionPicture picture = sample_picture();
+  picture.units = {.natural_frequency = 14.5,
+                   .stiffness = std::nullopt,
+                   .angle = {.name = "arcmin", .radians = 2.908882086657216e-4}};
+  EXPECT_THAT(visible_text(draw_time_response(picture, PictureFormat::svg)),
+              testing::AllOf(HasSubstr("time (s)"), HasSubstr("position (arcmin)")));
+  EXPECT_THAT(visible_text(draw_phase_plane(picture, PictureFormat::svg)),
+              HasSubstr("speed (arcmin/s)"));
+}
+
+TEST(Picture, TitleIsTextWhateverItHolds) {
+  MotionPicture picture = sample_picture();
+  picture.title = "it's a \"title\" {/*9 big} a_b^c @d &e ~f \\n `date` $x <g> # h";
+  const std::string svg = draw_time_response(picture, PictureFormat::svg);
+  EXPECT_TRUE(is_well_formed(svg));
+  const std::string text = visible_text(svg);
+  EXPECT_THAT(text, HasSubstr("it's a "));
+  EXPECT_THAT(text, HasSubstr("{/*9 big} a_b^c @d "));
+  EXPECT_THAT(text, HasSubstr("`date` $x "));
+}
+
+TEST(Picture, DegenerateMotionsCanBeDrawn) {
+  for (const double backlash : {0.0, 0.3}) {
+    for (const double damping : {0.0, 0.5, 100.0}) {
+      const NormalizedServo servo{.damping = damping, .backlash = backlash};
+      for (const double reference : {0.0, 1.0}) {
+        const MotionPicture picture{
+            .title = "",
+            .servo = servo,
+            .trajectory = simulate(servo, engaged_start(servo, 0.0, 0.0, reference),
+                                   {.until = 10.0, .reference = reference}),
+            .reference = reference,
+            .cycle = std::nullopt,
+            .units = {}};
+        EXPECT_TRUE(is_well_formed(draw_time_response(picture, PictureFormat::svg)));
+        EXPECT_TRUE(is_well_formed(draw_phase_plane(picture, PictureFormat::svg)));
+      }
+    }
+  }
+}
+
+TEST(EdgePicture, AChartOfNothingHasItsAxesAndSaysWhy) {
+  LineChart chart{.title = "the title",
+                  .x = {.label = "across", .low = 0.7, .high = 0.9},
+                  .y = {.label = "upwards"},
+                  .curves = {{.name = "servo: rests"}},
+                  .empty_meaning = "no limit cycle"};
+  for (const auto low : {std::optional<double>{}, std::optional<double>{0.0}}) {
+    chart.y.low = low;
+    for (const double nothing : {NAN, INFINITY, -INFINITY}) {
+      chart.curves.front().line = {{0.7, nothing}, {0.9, nothing}};
+      const std::string text = visible_text(draw_line_chart(chart, PictureFormat::svg));
+      for (const char* word : {"the title", "across", "upwards", "no limit cycle", "0.75"}) {
+        EXPECT_THAT(text, HasSubstr(word));
+      }
+    }
+  }
+  chart.curves.front().line.clear();
+  chart.y = {.label = "upwards", .logarithmic = true};
+  EXPECT_THAT(visible_text(draw_line_chart(chart, PictureFormat::svg)), HasSubstr("servo: rests"));
+  EXPECT_THAT(draw_line_chart(chart, PictureFormat::png), StartsWith("\x89PNG"));
+  EXPECT_THAT(draw_line_chart(chart, PictureFormat::pdf), StartsWith("%PDF-"));
+}
+
+/// What stands below the x axis, from its ends given.
+std::string numbers_of_axis(double low, double high, bool logarithmic) {
+  const LineChart chart{.x = {.logarithmic = logarithmic, .low = low, .high = high},
+                        .y = {.low = 0.0, .high = 1.0},
+                        .curves = {{.line = {{low, 0.0}, {high, 1.0}}}}};
+  std::string text;
+  for (const char c : visible_text(draw_line_chart(chart, PictureFormat::svg))) {
+    if (std::isspace(static_cast<unsigned char>(c)) == 0) text += c;
+  }
+  return text;
+}
+
+TEST(EdgePicture, NumbersOfSmallAndWideAxesArePowersOfTen) {
+  const struct {
+    double low;
+    double high;
+    bool logarithmic;
+    const char* numbers;
+  } cases[] = {{1e-6, 1e3, true, "10-610-410-2100102"},
+               {1e-7, 1.0, true, "10-710-610-510-410-310-210-1100"},
+               {2e-5, 1.0, true, "10-410-310-210-1100"},
+               {1.0, 1e7, true, "100101102103104105106107"},
+               {2e-5, 9e-5, true, "2·10-55·10-5"},
+               {2e-5, 2.4e-5, true, "2·10-52.1·10-52.2·10-52.3·10-5"},
+               {1e-7, 2e-7, false, "1·10-71.2·10-71.4·10-71.6·10-71.8·10-7"}};
+  for (const auto& [low, high, logarithmic, numbers] : cases) {
+    const std::string text = numbers_of_axis(low, high, logarithmic);
+    EXPECT_THAT(text, HasSubstr(numbers));
+    EXPECT_THAT(text, Not(HasSubstr("0.000")));
+  }
+  EXPECT_THAT(numbers_of_axis(1e-4, 10.0, true), HasSubstr("0.00010.001"));
+}
+
+TEST(Picture, WhatCouldNotBeReadIsRefused) {
+  MotionPicture picture = sample_picture();
+  picture.trajectory = simulate(picture.servo, engaged_start(picture.servo, 0.0, 0.0, 1.0),
+                                {.until = 2.0 * longest_time_drawn, .reference = 1.0});
+  EXPECT_THROW(draw_time_response(picture, PictureFormat::svg), InvalidInput);
+  picture.servo.restitution = 0.999;
+  picture.trajectory = simulate(picture.servo, engaged_start(picture.servo, 0.0, 0.0, 0.001),
+                                {.until = 9000.0, .reference = 0.001, .event_limit = 30'000});
+  if (picture.trajectory.events().size() > most_events_drawn) {
+    EXPECT_THROW(draw_phase_plane(picture, PictureFormat::svg), InvalidInput);
+  }
+}
+
+}  // namespace
+}  // namespace gearlash

@@ -1,0 +1,132 @@
+// What the charts of the recommendations are said to teach, read off the charts themselves.
+#include "thesis/extensions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "closed_form/limit_cycle.hpp"
+#include "thesis/chart_errors.hpp"
+
+namespace gearlash::thesis {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+const ChartCurve& curve(const Extension& extension, const std::string& name) {
+  const auto found = std::find_if(extension.chart.curves.begin(), extension.chart.curves.end(),
+                                  [&](const ChartCurve& one) { return one.name == name; });
+  if (found == extension.chart.curves.end()) throw std::out_of_range(name);
+  return *found;
+}
+
+std::vector<double> sizes(const ChartCurve& curve, double low, double high) {
+  std::vector<double> found;
+  for (const ChartPoint& point : curve.line) {
+    if (point.x >= low * (1.0 - 1e-9) && point.x <= high * (1.0 + 1e-9)) found.push_back(point.y);
+  }
+  return found;
+}
+
+double at(const ChartCurve& curve, double place) {
+  const std::vector<double> found = sizes(curve, place, place);
+  return found.empty() ? std::nan("") : found.front();
+}
+
+/// The largest less the smallest, of the smallest; NaN where hunting ends.
+double spread(const std::vector<double>& values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  return *most / *least - 1.0;
+}
+
+TEST(Extensions, FrictionOnOneSideHuntsWhateverTheInertias) {
+  const Extension extension = thesis::extension(2);
+  for (const char* name : {"J_L/J_M 1/4", "J_L/J_M 1", "J_L/J_M 4"}) {
+    EXPECT_GT(at(curve(extension, name), 0.0), 0.0) << name;
+    EXPECT_GT(at(curve(extension, name), 1.0), 0.0) << name;
+    // 0.04 is where the thesis stood in for zero.
+    EXPECT_LT(std::abs(at(curve(extension, name), 0.0) / at(curve(extension, name), 0.04) - 1.0),
+              0.04)
+        << name;
+  }
+  for (const double end : {0.0, 1.0}) {
+    EXPECT_GT(at(curve(extension, "J_L/J_M 1/4"), end), at(curve(extension, "J_L/J_M 1"), end));
+    EXPECT_GT(at(curve(extension, "J_L/J_M 1"), end), at(curve(extension, "J_L/J_M 4"), end));
+  }
+  for (const double size : sizes(curve(extension, "massless load"), 0.005, 1.0)) {
+    EXPECT_GT(size, 0.19);
+  }
+  const ChartCurve& light_motor = curve(extension, "massless motor");
+  EXPECT_GT(at(light_motor, 0.0), 0.15);
+  EXPECT_LT(at(light_motor, 0.995), 0.001);
+  EXPECT_EQ(analyse_limit_cycles(
+                {.damping = 0.2, .inertia_ratio = 0.0, .friction_ratio = 0.5, .backlash = 0.3})
+                .cycles.front()
+                .energy.impacts,
+            0.0);
+}
+
+TEST(Extensions, HeavyLoadsAreAlikeAndLightOnesDependOnDamping) {
+  const Extension extension = thesis::extension(3);
+  for (int tenth = 1; tenth <= 6; ++tenth) {
+    const ChartCurve& one = curve(extension, "damping 0." + std::to_string(tenth));
+    EXPECT_LT(spread(sizes(one, 30.0, 1e3)), 0.05) << one.name;
+    if (tenth >= 4) {
+      EXPECT_EQ(one.ends.size(), 1U) << one.name;
+      for (const double size : sizes(one, 1e-3, 0.1)) EXPECT_TRUE(std::isnan(size)) << one.name;
+    }
+  }
+  for (const double size : sizes(curve(extension, "damping 0.1"), 1e-3, 0.1)) {
+    EXPECT_GT(size / 0.3, 2.2);
+    EXPECT_LT(size / 0.3, 3.2);
+  }
+}
+
+TEST(Extensions, RestitutionMakesTheSwingsDrawnSmaller) {
+  const Extension extension = thesis::extension(4);
+  ASSERT_EQ(extension.chart.curves.size(), 4U);
+  bool any_irregular = false;
+  for (const ChartCurve& one : extension.chart.curves) {
+    const double plastic = at(one, 0.0);
+    for (const ChartPoint& steady : one.marks) {
+      EXPECT_LE(steady.y, plastic * 1.001) << one.name << " at " << steady.x;
+      EXPECT_TRUE(steady.x > 0.5 || steady.y > 0.95 * plastic) << one.name << " at " << steady.x;
+    }
+    for (const ChartPoint& irregular : one.ends) {
+      any_irregular = true;
+      EXPECT_GT(irregular.x, 0.5) << one.name;
+      EXPECT_GT(irregular.y, 0.0) << one.name << " at " << irregular.x;
+    }
+    EXPECT_EQ(one.marks.size() + one.ends.size(), 51U) << one.name;
+  }
+  EXPECT_TRUE(any_irregular);
+}
+
+/// Over all servos of the thesis's charts that hunt.
+TEST(Extensions, RestitutionOverTheChartsOf1960) {
+  double least = infinity;
+  double most = 0.0;
+  bool any_irregular = false;
+  for (NormalizedServo servo : charted_servos()) {
+    const LimitCycleAnalysis plastic = analyse_limit_cycles(servo);
+    if (plastic.cycles.empty()) continue;
+    const double size = plastic.cycles.front().size;
+    servo.restitution = 0.1;
+    EXPECT_NEAR(largest_stable(analyse_limit_cycles(servo))->size, size, 0.01 * size);
+    servo.restitution = 0.5;
+    const LimitCycleAnalysis half = analyse_limit_cycles(servo);
+    const LimitCycle* cycle = largest_stable(half);
+    any_irregular = any_irregular || cycle == nullptr;
+    if (cycle == nullptr) continue;
+    least = std::min(least, cycle->size / size);
+    most = std::max(most, cycle->size / size);
+  }
+  EXPECT_NEAR(least, 2.0 / 3.0, 0.05);
+  EXPECT_NEAR(most, 1.5, 0.1);
+  EXPECT_TRUE(any_irregular);
+}
+
+}  // namespace
+}  // namespace gearlash::thesis
