@@ -18,7 +18,7 @@ constexpr NormalizedServo sample{
     .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3};
 
 /// Ten million pieces, of which three numbers and the backlash vary.
-constexpr Sampling sampling{.points = 625'000, .replicates = 16};
+constexpr SamplePlan sampling{.points = 625'000, .replicates = 16};
 
 TolerancedDrive toleranced() {
   return {.nominal = sample,
@@ -58,7 +58,7 @@ Line enter(const char* name, double things, const Work& work) {
 ReportPart enter_design_race() {
   const ChangeableDrive drive(sample);
   const TolerancedDrive pieces = toleranced();
-  const auto search = [drive](Parameter parameter, bool no_hunting) {
+  const auto search = [drive](DesignParameter parameter, bool no_hunting) {
     return feasible_values(drive, parameter, target_of(no_hunting)).intervals.size();
   };
   std::vector<Line> lines;
@@ -73,9 +73,9 @@ ReportPart enter_design_race() {
   lines.push_back(enter("exact sensitivities, cycle_sensitivity()", 1.0,
                         [] { return cycle_sensitivity(sample).size.value; }));
   lines.push_back(enter("certified search of the gain for no hunting, feasible_values()", 1.0,
-                        [search] { return search(Parameter::error_gain, true); }));
+                        [search] { return search(DesignParameter::error_gain, true); }));
   lines.push_back(enter("certified search of the gain for a size, feasible_values()", 1.0,
-                        [search] { return search(Parameter::error_gain, false); }));
+                        [search] { return search(DesignParameter::error_gain, false); }));
   lines.push_back(enter("margins of all parameters, hunting_margin()", 1.0,
                         [drive] { return hunting_margin(drive).overall.distance; }));
   return [lines](const FastestTimes& times) {

@@ -21,6 +21,8 @@ if(GEARLASH_BUILD_IO)
           DESTINATION "${gearlash_package_dir}")
 endif()
 
+install(DIRECTORY include/gearlash DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+        FILES_MATCHING PATTERN "*.hpp")
 # The headers of the rooms, until the public interface stands in include/gearlash.
 install(DIRECTORY src/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/gearlash/rooms"
         FILES_MATCHING PATTERN "*.hpp")

@@ -29,6 +29,7 @@ void add_describe_command(CLI::App& app, Action& action);
 void add_motor_command(CLI::App& app, Action& action);
 void add_tolerance_command(CLI::App& app, Action& action);
 void add_compare_command(CLI::App& app, Action& action);
+void add_show_command(CLI::App& app, Action& action);
 void add_thesis_command(CLI::App& app, Action& action);
 
 /// The end of every --help.

@@ -49,11 +49,12 @@ void refuse_normalized_options(const ServoOptions& options, const ServoFile& fil
 }
 
 /// "gear-ratio" is as good as "gear_ratio".
-std::vector<Parameter> read_parameters(const std::string& field,
-                                       const std::vector<std::string>& names, Faults& faults) {
-  std::vector<Parameter> parameters;
+std::vector<DesignParameter> read_parameters(const std::string& field,
+                                             const std::vector<std::string>& names,
+                                             Faults& faults) {
+  std::vector<DesignParameter> parameters;
   std::vector<std::string> choices;
-  for (const Parameter parameter : all_parameters) choices.emplace_back(name_of(parameter));
+  for (const DesignParameter parameter : all_parameters) choices.emplace_back(name_of(parameter));
   for (const std::string& name : names) {
     std::string underscored = name;
     std::replace(underscored.begin(), underscored.end(), '-', '_');
@@ -68,7 +69,7 @@ std::vector<Parameter> read_parameters(const std::string& field,
 
 /// What is drawn, if anything: the two parameters of --vary, y over x.
 struct Picture {
-  std::vector<Parameter> axes;
+  std::vector<DesignParameter> axes;
   Cost cost = Cost::bandwidth;
   PictureFormat format = PictureFormat::svg;
 };
@@ -100,7 +101,7 @@ Picture read_picture(const DesignOptions& options, Faults& faults) {
 /// A parameter that is 0 and may only be multiplied has no axis.
 void require_ranges(const ChangeableDrive& drive, const Picture& picture) {
   Faults faults;
-  for (const Parameter parameter : picture.axes) {
+  for (const DesignParameter parameter : picture.axes) {
     const Bounds range = range_to_draw(drive, parameter);
     if (range.low < range.high) continue;
     faults.add(
@@ -112,7 +113,7 @@ void require_ranges(const ChangeableDrive& drive, const Picture& picture) {
 void draw(const RegionMapTask& task, const Picture& picture, const std::string& file) {
   OutputFile output(file);
   const std::size_t count = values_to_draw(task.drive, picture.axes[0], picture.axes[1]);
-  const auto axis = [&](Parameter parameter) {
+  const auto axis = [&](DesignParameter parameter) {
     return parameter_axis(parameter, range_to_draw(task.drive, parameter), count);
   };
   output.write(
@@ -121,10 +122,10 @@ void draw(const RegionMapTask& task, const Picture& picture, const std::string& 
 }
 
 std::vector<FeasibleValues> work_out(const ChangeableDrive& drive, const Target& target,
-                                     const std::vector<Parameter>& parameters) {
+                                     const std::vector<DesignParameter>& parameters) {
   Progress progress("Design");
   std::vector<FeasibleValues> answers;
-  for (const Parameter parameter : parameters) {
+  for (const DesignParameter parameter : parameters) {
     progress.show(static_cast<double>(answers.size()) / static_cast<double>(parameters.size()));
     answers.push_back(feasible_values(drive, parameter, target));
   }
@@ -139,7 +140,8 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
   const TimeScale time_scale = file.natural_frequency ? TimeScale::known : TimeScale::unknown;
   const Target target =
       faults.collect([&] { return read_target("--target", options.target, time_scale); }, Target{});
-  std::vector<Parameter> parameters = read_parameters("--parameters", options.parameters, faults);
+  std::vector<DesignParameter> parameters =
+      read_parameters("--parameters", options.parameters, faults);
   const Picture picture = read_picture(options, faults);
   faults.require_distinct({{"SERVO.toml", options.servo.file}, {"--plot", options.plot}});
   faults.require_none();

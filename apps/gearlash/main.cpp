@@ -11,6 +11,7 @@
 #include "base/violation.hpp"
 #include "command.hpp"
 #include "gearlash/version.hpp"
+#include "input/section_reader.hpp"
 #include "input/units.hpp"
 #include "output/output_file.hpp"
 
@@ -76,9 +77,12 @@ void require_subcommand(const CLI::App& app, const std::string& typed,
     return command->get_name() == first;
   });
   if (known == commands.end()) {
-    throw InvalidInput(
-        {{"subcommand", first.empty() ? "" : shown(first),
-          "must be " + names_of_subcommands(app) + "; see " + typed + " --help", ""}});
+    std::vector<std::string> names;
+    for (const CLI::App* command : commands) names.push_back(command->get_name());
+    throw InvalidInput({{"subcommand", first.empty() ? "" : shown(first),
+                         "must be " + names_of_subcommands(app) + guess_of(names, first) +
+                             "; see " + typed + " --help",
+                         ""}});
   }
   require_subcommand(**known, typed + " " + first, {arguments.begin() + 1, arguments.end()});
 }
@@ -116,6 +120,7 @@ ExitStatus parse_and_run(int argument_count, char** arguments) {
   add_chart_command(app, action);
   add_map_command(app, action);
   add_sweep_command(app, action);
+  add_show_command(app, action);
   add_thesis_command(app, action);
   require_subcommand(app, "gearlash",
                      {arguments + std::min(argument_count, 1), arguments + argument_count});

@@ -27,7 +27,7 @@ struct Given {
   std::string unit;
 };
 
-std::vector<Given> motor_values(const Motor& motor) {
+std::vector<Given> motor_values(const SheetMotor& motor) {
   return std::visit(
       Overloaded{
           [](const ArmatureControlledMotor& armature) -> std::vector<Given> {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "input/text_file.hpp"
 #include "input/units.hpp"
 #include "model/proportional_servo.hpp"
 
@@ -44,7 +45,7 @@ void apply(const ServoOptions& options, const NumberOption& option, ServoFile& f
   }
   double& number = file.servo.*option.number;
   if (option.typed == &ServoOptions::backlash) {
-    const Quantity angle = faults.collect([&] { return read_angle(name, *typed); }, Quantity{});
+    const Measured angle = faults.collect([&] { return read_angle(name, *typed); }, Measured{});
     number = angle.si;
     file.backlash_unit = {.name = angle.unit, .radians = angle.unit_in_si};
   } else {
@@ -77,18 +78,74 @@ ServoFile stand_in_for(const std::string& file) {
   return stand_in;
 }
 
-ServoFile read_file(const ServoOptions& options, Faults& faults) {
-  const ServoFile stand_in = stand_in_for(options.file);
-  if (options.file.empty()) return stand_in;
-  return faults.collect([&] { return read_servo_file(options.file); }, stand_in);
-}
-
 std::optional<double> read_bare_number(std::string_view field, std::string_view text) {
   try {
     return read_number(field, text);
   } catch (const InvalidInput&) {
     return std::nullopt;  // its unit decides, if it has one
   }
+}
+
+/// The text of a drive, where it comes from, and where the files that it names are.
+struct Source {
+  std::string text;
+  std::string name;
+  std::filesystem::path folder;
+};
+
+/// Of the normal form that options describe, or of a file.
+Source source_of(const ServoOptions& options) {
+  if (options.file == "-") return {read_standard_input(largest_servo_file), "standard input", {}};
+  if (!options.file.empty()) {
+    const std::filesystem::path path = options.file;
+    return {read_text_file(path, largest_servo_file), path.string(), path.parent_path()};
+  }
+  std::string text = "[servo]\n";
+  for (const NumberOption& option : number_options) {
+    const std::optional<std::string>& typed = options.*option.typed;
+    if (!typed) continue;
+    const bool is_bare = option.typed == &ServoOptions::backlash && read_bare_number("", *typed);
+    if (option.typed == &ServoOptions::restitution) text += "[contact]\n";
+    text += std::string(option.name) + " = '" + *typed + (is_bare ? " rad'\n" : "'\n");
+  }
+  return {text, "the command line", {}};
+}
+
+/// Options beside a file that are settings of it.
+std::vector<Setting> settings_of_options(const ServoOptions& options, const Source& source) {
+  const bool is_normal_form = document_with(source.text, source.name, {}).root().contains("servo");
+  std::vector<Setting> settings;
+  for (const NumberOption& option : number_options) {
+    const std::optional<std::string>& typed = options.*option.typed;
+    if (!typed) continue;
+    std::string section = "servo.";
+    if (option.typed == &ServoOptions::restitution) section = "contact.";
+    if (option.typed == &ServoOptions::backlash && !is_normal_form) section = "gearbox.";
+    const bool is_bare = option.typed == &ServoOptions::backlash && read_bare_number("", *typed);
+    settings.push_back({section + option.name, *typed + (is_bare ? " rad" : "")});
+  }
+  if (options.sensor) settings.push_back({"sensor.position", *options.sensor});
+  return settings;
+}
+
+std::vector<Setting> settings_of(const ServoOptions& options, Faults& faults) {
+  std::vector<Setting> settings;
+  for (const std::string& text : options.settings) {
+    faults.collect([&] { return settings.push_back(read_setting(text)), 0; }, 0);
+  }
+  return settings;
+}
+
+ServoFile read_file(const ServoOptions& options, Faults& faults) {
+  const ServoFile stand_in = stand_in_for(options.file);
+  const std::vector<Setting> settings = settings_of(options, faults);
+  if (options.file.empty() && settings.empty()) return stand_in;
+  return faults.collect(
+      [&] {
+        const Source source = source_of(options);
+        return parse_servo(source.text, source.name, source.folder, settings);
+      },
+      stand_in);
 }
 
 void add_options(CLI::App& command, ServoOptions& options, const char* file_help,
@@ -114,6 +171,13 @@ void add_options(CLI::App& command, ServoOptions& options, const char* file_help
       ->group(servo_group);
   command.add_option("--sensor", options.sensor, sensor_help)
       ->type_name("SHAFT")
+      ->group(servo_group);
+  command
+      .add_option("--set", options.settings,
+                  "any parameter of the drive, with its unit, such as\n"
+                  "gearbox.backlash=\"12 arcmin\"; repeatable; gearlash show lists them")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false)
       ->group(servo_group);
 }
 
@@ -197,7 +261,7 @@ ServoFile with_options(ServoFile file, const ServoOptions& options, Faults& faul
   for (const NumberOption& option : number_options) apply(options, option, file, faults);
   if (options.sensor) {
     faults.require_choice("--sensor", *options.sensor, {"load", "motor"});
-    file.servo.sensor = *options.sensor == "motor" ? Sensor::motor : Sensor::load;
+    file.servo.sensor = *options.sensor == "motor" ? ShaftName::motor : ShaftName::load;
   }
   faults.add(faults_of_servo(file.servo, options));
   return file;
@@ -205,9 +269,14 @@ ServoFile with_options(ServoFile file, const ServoOptions& options, Faults& faul
 
 ServoOrDriveFile read_either(const ServoOptions& options, Faults& faults) {
   const ServoFile stand_in = stand_in_for(options.file);
-  if (options.file.empty()) return stand_in;
-  return faults.collect([&] { return read_servo_or_drive_file(options.file); },
-                        ServoOrDriveFile(stand_in));
+  const std::vector<Setting> settings = settings_of(options, faults);
+  if (options.file.empty() && settings.empty()) return stand_in;
+  return faults.collect(
+      [&] {
+        const Source source = source_of(options);
+        return parse_servo_or_drive(source.text, source.name, source.folder, settings);
+      },
+      ServoOrDriveFile(stand_in));
 }
 
 void apply(const ServoOptions& options, DriveFile& file, Faults& faults) {
@@ -216,8 +285,8 @@ void apply(const ServoOptions& options, DriveFile& file, Faults& faults) {
     if (!typed) continue;
     const std::string name = option_name(option.name);
     if (option.typed == &ServoOptions::backlash) {
-      const Quantity angle =
-          faults.collect([&] { return read_angle(name, *typed); }, Quantity{.si = 1.0});
+      const Measured angle =
+          faults.collect([&] { return read_angle(name, *typed); }, Measured{.si = 1.0});
       file.drive.backlash = angle.si;
       file.backlash_unit = {.name = angle.unit, .radians = angle.unit_in_si};
     } else if (auto* rigid = std::get_if<drive::RigidContact>(&file.drive.contact);
@@ -269,6 +338,23 @@ std::optional<ServoFile> closed_form_of(DriveFile file) {
   }
   servo.backlash_unit = file.backlash_unit;
   return servo;
+}
+
+std::optional<WrittenDrive> resolve_drive(const ServoOptions& options, Faults& faults) {
+  ServoOptions typed = options;
+  const bool has_file = !options.file.empty();
+  std::vector<Setting> settings = settings_of(options, faults);
+  return faults.collect(
+      [&] {
+        const Source source = source_of(typed);
+        if (has_file) {
+          for (Setting& setting : settings_of_options(options, source)) {
+            settings.push_back(std::move(setting));
+          }
+        }
+        return std::optional(parse_drive(source.text, source.name, source.folder, settings));
+      },
+      std::optional<WrittenDrive>());
 }
 
 ServoFile resolve_servo(const ServoOptions& options, Faults& faults) {

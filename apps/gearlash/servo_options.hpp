@@ -17,13 +17,14 @@ namespace gearlash::cli {
 
 /// As typed; empty where not given.
 struct ServoOptions {
-  std::string file;
+  std::string file;  ///< "-": standard input
   std::optional<std::string> damping;
   std::optional<std::string> inertia_ratio;
   std::optional<std::string> friction_ratio;
   std::optional<std::string> backlash;
   std::optional<std::string> restitution;
   std::optional<std::string> sensor;
+  std::vector<std::string> settings;  ///< of --set
 };
 
 /// "--inertia-ratio" for inertia_ratio.
@@ -67,6 +68,10 @@ class Faults {
 /// one with its unit ("50 ms"), which only a natural frequency gives a meaning.
 double read_scaled(std::string_view field, std::string_view text, const Dimension& dimension,
                    const ReportUnits& units, std::string_view unit);
+
+/// The drive as its user has it: the file, or the normal form of the options, with the settings of
+/// --set. Faults go to `faults`; there is a result, and it is sound, if there are none.
+std::optional<WrittenDrive> resolve_drive(const ServoOptions& options, Faults& faults);
 
 /// The servo, its file read and its options applied: an option changes the normalised number and
 /// leaves the natural frequency and the stiffness of a data sheet as they are. Faults of the file

@@ -103,7 +103,7 @@ double read_share(const std::string& field, std::string text, Faults& faults) {
 struct Task {
   TolerancedDrive drive;
   ReportUnits units;
-  Sampling sampling;
+  SamplePlan sampling;
   StudyQuestions questions;
   double yield = 0.0;  ///< demanded; 0: none
   WorstSearch worst_search;

@@ -1,12 +1,14 @@
 #include "input/drive_file.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "input/drive_reader.hpp"
-#include "input/servo_reader.hpp"
 #include "input/text_file.hpp"
 #include "input/toml_document.hpp"
+#include "model/parameters.hpp"
 #include "model/proportional_servo.hpp"
+#include "model/reduced_drive.hpp"
 
 namespace gearlash {
 namespace {
@@ -32,25 +34,155 @@ Drivetrain drivetrain_of(const ServoFile& file) {
   return drivetrain;
 }
 
+/// The data sheet of a proportional servo whose controller gives volts.
+std::optional<Datasheet> datasheet_of(const Drive& drive) {
+  const auto* pid = std::get_if<PID>(&drive.controller.law);
+  if (pid == nullptr || pid->terms != PIDTerms::P) return std::nullopt;
+  const double inertia = drive.motor.inertia;
+  const double friction = drive.motor.friction.viscous;
+  Datasheet sheet;
+  if (const auto* armature = std::get_if<ArmatureControl>(&drive.motor.kind)) {
+    sheet.motor = ArmatureControlledMotor{inertia, friction, armature->torque_constant,
+                                          armature->back_emf_constant, armature->resistance};
+  } else if (const auto* field = std::get_if<FieldControl>(&drive.motor.kind)) {
+    sheet.motor =
+        FieldControlledMotor{inertia, friction, field->torque_constant, field->resistance};
+  } else if (const auto* two_phase = std::get_if<TwoPhase>(&drive.motor.kind)) {
+    sheet.motor =
+        TwoPhaseMotor{inertia, friction, two_phase->torque_per_volt, two_phase->torque_per_speed};
+  } else {
+    return std::nullopt;
+  }
+  sheet.gearbox = {drive.gearbox.ratio, drive.gearbox.backlash};
+  sheet.load = {drive.load.inertia, drive.load.friction.viscous};
+  const double per_load = drive.controller.shaft == ShaftName::motor ? drive.gearbox.ratio : 1.0;
+  sheet.loop.error_gain = pid->proportional * per_load;
+  const auto* rigid = std::get_if<RigidContact>(&drive.contact);
+  sheet.contact.restitution = rigid == nullptr ? 0.0 : rigid->restitution;
+  return sheet;
+}
+
+/// The tolerances by the names that data sheets and the normal form have for them.
+std::vector<VariedNumber> varied_numbers(const WrittenDrive& written) {
+  std::vector<VariedNumber> varied;
+  for (const ParameterTolerance& tolerance : written.tolerances) {
+    std::string name = tolerance.path;
+    if (name == "controller.proportional") name = "loop.error_gain";
+    if (name == "contact.restitution" && written.drive.servo) name = "servo.restitution";
+    if (const auto number = drive_number_named(name)) {
+      varied.push_back({*number, tolerance.distribution});
+    }
+  }
+  return varied;
+}
+
+/// A value as TOML where it is one of its own, "[1, 2]" or "0.25"; else text: "30 arcmin".
+toml::table value_of(const std::string& text) {
+  try {
+    toml::table table = toml::parse("value = " + text);
+    if (table.size() == 1 && !table["value"].is_table()) return table;
+  } catch (const toml::parse_error&) {  // then it is text
+  }
+  toml::table table;
+  table.insert("value", text);
+  return table;
+}
+
+/// In the place of what the document says of that parameter, by whatever name.
+void apply(TomlDocument& document, const Setting& setting) {
+  const Parameter& parameter = *find_parameter(setting.path);
+  std::string place = setting.path;
+  const auto is_inverse = [&](const OtherForm& form) {
+    return form.dimension != nullptr && form.path == setting.path;
+  };
+  const bool is_direct =
+      std::none_of(parameter.other_forms.begin(), parameter.other_forms.end(), is_inverse);
+  const auto take_out = [&](std::string_view path, bool has_same_meaning) {
+    if (document.remove(path) && has_same_meaning && is_direct) place = path;
+  };
+  take_out(parameter.path, true);
+  for (const OtherForm& form : parameter.other_forms) {
+    take_out(form.path, form.dimension == nullptr);
+  }
+  document.set(place, *value_of(setting.text).get("value"));
+}
+
 }  // namespace
 
-ServoOrDriveFile parse_servo_or_drive(std::string_view toml, std::string_view source_name,
-                                      const std::filesystem::path& folder) {
-  const TomlDocument document(toml, source_name, largest_servo_file);
+TomlDocument document_with(std::string_view toml, std::string_view source_name,
+                           const std::vector<Setting>& settings) {
+  TomlDocument document(toml, source_name, largest_servo_file);
+  for (const Setting& setting : settings) apply(document, setting);
+  return document;
+}
+
+WrittenDrive parse_drive(std::string_view toml, std::string_view source_name,
+                         const std::filesystem::path& folder,
+                         const std::vector<Setting>& settings) {
+  const TomlDocument document = document_with(toml, source_name, settings);
   Findings findings(document);
-  if (!describes_drive(document)) {
-    ServoFile file = read_servo(document, findings);
-    findings.require_none();
-    return file;
-  }
-  DriveFile file = read_drive(document, findings, folder);
+  WrittenDrive written = read_drive(document, findings, folder);
   findings.require_none();
+  return written;
+}
+
+Setting read_setting(const std::string& text) {
+  const std::size_t sign = text.find('=');
+  if (sign == std::string::npos) {
+    throw InvalidInput(
+        {{"--set", shown(text), "must be PATH=VALUE, such as gearbox.ratio=50", ""}});
+  }
+  Setting setting{text.substr(0, sign), text.substr(sign + 1)};
+  if (find_parameter(setting.path) == nullptr) {
+    std::vector<std::string> paths;
+    for (const Parameter& parameter : all_parameters_of_drives()) {
+      paths.emplace_back(parameter.path);
+      for (const OtherForm& form : parameter.other_forms) paths.emplace_back(form.path);
+    }
+    throw InvalidInput({{"--set", shown(setting.path),
+                         "must be a parameter of a drive" + guess_of(paths, setting.path), ""}});
+  }
+  return setting;
+}
+
+std::optional<ServoFile> servo_file_of(const WrittenDrive& written) {
+  const Drive& drive = written.drive;
+  const std::optional<ClosedFormServo> closed = closed_form_servo(drive);
+  if (!closed) return std::nullopt;
+  ServoFile file{.servo = closed->servo, .backlash_unit = written.angle};
+  if (drive.servo) {
+    file.natural_frequency = drive.servo->natural_frequency;
+  } else {
+    file.natural_frequency = closed->natural_frequency;
+    file.datasheet = datasheet_of(drive);
+    file.drivetrain =
+        file.datasheet ? to_drivetrain_sound(*file.datasheet) : proportional_drivetrain(drive);
+    file.servo = normalize_sound(*file.drivetrain);
+    file.natural_frequency = natural_frequency(*file.drivetrain);
+  }
+  file.varied = varied_numbers(written);
   return file;
 }
 
-ServoOrDriveFile read_servo_or_drive_file(const std::filesystem::path& path) {
+ServoOrDriveFile parse_servo_or_drive(std::string_view toml, std::string_view source_name,
+                                      const std::filesystem::path& folder,
+                                      const std::vector<Setting>& settings) {
+  const WrittenDrive written = parse_drive(toml, source_name, folder, settings);
+  const Drive& drive = written.drive;
+  if (!drive.reference && !drive.load_torque) {
+    if (std::optional<ServoFile> servo = servo_file_of(written)) return *std::move(servo);
+  }
+  return DriveFile{.drive = reduce(drive),
+                   .gear_ratio = drive.gearbox.ratio,
+                   .backlash_unit = written.angle,
+                   .has_reference = drive.reference.has_value(),
+                   .is_normalized = drive.servo && !drive.servo->natural_frequency};
+}
+
+ServoOrDriveFile read_servo_or_drive_file(const std::filesystem::path& path,
+                                          const std::vector<Setting>& settings) {
   return parse_servo_or_drive(read_text_file(path, largest_servo_file), path.string(),
-                              path.parent_path());
+                              path.parent_path(), settings);
 }
 
 DriveFile drive_file_of(const ServoFile& servo) {

@@ -3,339 +3,392 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
-#include "input/controller_reader.hpp"
-#include "input/motor_reader.hpp"
 #include "input/signal_reader.hpp"
 #include "input/units.hpp"
+#include "model/normalized_servo.hpp"
+#include "model/parameters.hpp"
 
 namespace gearlash {
 namespace {
 
-constexpr char torque_controlled[] = "torque-controlled";
+/// What the normal form stands for.
+constexpr std::array plant_sections = {"motor", "gearbox", "load", "loop", "controller"};
+/// A data sheet's name for [controller] of kind "P".
+constexpr char loop[] = "loop";
 
-const std::vector<std::string> section_names = {"motor",     "gearbox",    "load",   "contact",
-                                                "loop",      "controller", "sensor", "sampling",
-                                                "reference", "load_torque"};
+bool is_choice(const Slot& slot) { return std::holds_alternative<Choice>(slot); }
 
-/// A key that only drives have.
-struct DriveKey {
-  const char* section;
-  const char* key;
-};
-constexpr std::array drive_keys = {
-    DriveKey{"motor", "coulomb"},      DriveKey{"motor", "breakaway"},
-    DriveKey{"motor", "torque_limit"}, DriveKey{"motor", "voltage_limit"},
-    DriveKey{"load", "coulomb"},       DriveKey{"load", "breakaway"},
-    DriveKey{"contact", "stiffness"},  DriveKey{"contact", "damping"},
-    DriveKey{"contact", "law"}};
-
-/// Names of files for those of drive::validate().
-std::string name_in_file(const std::string& field) {
-  static const std::vector<std::pair<std::string, std::string>> names = {
-      {"motor.viscous", "motor.friction"},
-      {"load.viscous", "load.friction"},
-      {"backlash", "gearbox.backlash"},
-      {"torque_limit", "motor.torque_limit"},
-      {"sensing.resolution", "sensor.resolution"},
-      {"sensing.resolution_of_speed", "sensor.speed_resolution"},
-      {"controller.numerator", "controller.num"},
-      {"controller.denominator", "controller.den"},
-      {"controller.state_matrix", "controller.A"},
-      {"controller.input_matrix", "controller.B"},
-      {"controller.output", "controller.C"},
-      {"controller.direct", "controller.D"}};
-  for (const auto& [from, to] : names) {
-    if (field == from) return to;
+/// Whether a value may be given by its reciprocal too.
+const OtherForm* inverse_form(const Parameter& parameter) {
+  for (const OtherForm& form : parameter.other_forms) {
+    if (form.dimension != nullptr) return &form;
   }
-  return field;
+  return nullptr;
 }
 
 class DriveReader {
  public:
-  DriveReader(const TomlDocument& document, Findings& findings, const std::filesystem::path& folder)
-      : document_(document), findings_(findings), folder_(folder) {}
+  DriveReader(const TomlDocument& document, Findings& findings, const std::filesystem::path& folder,
+              const Variation& variation)
+      : document_(document), findings_(findings), folder_(folder), variation_(variation) {}
 
-  DriveFile read() {
+  WrittenDrive read() {
+    if (is_normal_form()) drive().servo.emplace();
     refuse_other_sections();
-    read_drivetrain();
-    read_contact();
-    read_sensor();
-    read_control();
-    read_sampling();
-    read_signals();
-    findings_.take(drive::validate(file_.drive), &name_in_file, place_);
+    if (!has_anything()) return std::move(file_);
+    for (const Section& section : all_sections()) read_section(section);
+    check();
     return std::move(file_);
   }
 
  private:
+  Drive& drive() { return file_.drive; }
   bool has(std::string_view section) const { return document_.root().contains(section); }
+  bool is_varied(std::string_view path) const {
+    return variation_.paths.count(std::string(path)) > 0;
+  }
+  bool has_plant() const {
+    return std::any_of(plant_sections.begin(), plant_sections.end(),
+                       [&](const char* name) { return has(name); });
+  }
 
-  SectionReader section(std::string name, bool required, std::string contents) {
-    return SectionReader(document_, findings_, std::move(name), required, std::move(contents));
+  // ---- sections ---------------------------------------------------------------------------------
+
+  /// [servo] may be left out where everything that it must give is varied.
+  bool leaves_nothing_to_give() const {
+    return is_varied("servo.damping") && is_varied("servo.inertia_ratio") &&
+           is_varied("servo.friction_ratio");
+  }
+  bool is_normal_form() const {
+    return !has("motor") && (has("servo") || (leaves_nothing_to_give() && !has_plant()));
+  }
+
+  /// A file without motor and normal form has one fault, not one for each section.
+  bool has_anything() {
+    if (drive().servo || has_plant()) return true;
+    findings_.missing(
+        {1, 1}, "motor",
+        "must be a section [motor] with [gearbox], [load] and [loop] or [controller], "
+        "or [servo] in their place");
+    return false;
   }
 
   void refuse_other_sections() {
+    std::vector<std::string> names;
+    for (const Section& section : all_sections()) names.emplace_back(section.name);
+    names.emplace_back(loop);
     for (const auto& [key, value] : document_.root()) {
       const std::string name(key.str());
-      if (std::find(section_names.begin(), section_names.end(), name) != section_names.end()) {
-        continue;
+      if (name == variation_.section) continue;
+      if (std::find(names.begin(), names.end(), name) == names.end()) {
+        findings_.refuse(key.source().begin, shown(name), document_.written(value),
+                         "is no section: " + one_of(names, name));
       }
-      findings_.refuse(key.source().begin, shown(name), document_.written(value),
-                       name == "servo"
-                           ? "must not be of a drive, which has no closed form to normalise: give "
-                             "[motor], [gearbox] and [load]"
-                           : "is no section: " + one_of(section_names, name));
+    }
+    if (has("servo") && has("motor")) {
+      refuse_section("servo", "must not stand beside [motor]: a file describes its drive once");
+    }
+    if (drive().servo) {
+      for (const char* name : plant_sections) {
+        refuse_section(name, "must not stand beside [servo], which is normalised");
+      }
+    }
+    if (has(loop) && has("controller")) {
+      refuse_section(loop, "must not stand beside [controller]: a drive has one of them");
     }
   }
 
-  // ---- motor, gearbox, load ---------------------------------------------------------------------
-
-  void read_drivetrain() {
-    SectionReader motor = section("motor", true, "with a kind and its constants");
-    place_ = motor.place();
-    std::vector<std::string> kinds = motor_kinds;
-    kinds.emplace_back(torque_controlled);
-    const std::string kind = motor.choice("kind", kinds, true).value_or("");
-    const double inertia = motor.quantity("inertia", dimensions::inertia).si;
-    const double friction = motor.quantity("friction", dimensions::torque_per_speed).si;
-    Datasheet datasheet;
-    datasheet.loop.error_gain = 1.0;
-    if (kind == torque_controlled) {
-      // Torque for torque, in the place of volts.
-      datasheet.motor = FieldControlledMotor{inertia, friction, 1.0, 1.0};
-    } else {
-      datasheet.motor = read_motor_constants(motor, kind, inertia, friction);
-    }
-    const drive::ShaftFriction dry = read_dry_friction(motor, "motor");
-    units_.is_voltage = kind != torque_controlled;
-    const char* limit_key = units_.is_voltage ? "voltage_limit" : "torque_limit";
-    const std::optional<Quantity> limit = motor.optional_quantity(
-        limit_key, units_.is_voltage ? dimensions::voltage : dimensions::torque);
-    if (!kind.empty()) motor.refuse_other_keys();
-    read_gearbox(datasheet);
-    read_load(datasheet);
-    findings_.take(
-        validate(datasheet), [](const std::string& field) { return field; }, place_);
-    // So that what is referred by it is not found at fault as well.
-    const double ratio = datasheet.gearbox.ratio;
-    if (!(ratio > 0.0 && std::isfinite(ratio))) datasheet.gearbox.ratio = 1.0;
-    refer(datasheet, dry);
-    if (limit) set_limit(limit_key, *limit);
-  }
-
-  drive::ShaftFriction read_dry_friction(SectionReader& shaft, const std::string& name) {
-    const auto torque = [&](const char* key) {
-      return shaft.optional_quantity(key, dimensions::torque);
-    };
-    const std::optional<Quantity> coulomb = torque("coulomb");
-    const std::optional<Quantity> breakaway = torque("breakaway");
-    drive::ShaftFriction friction;
-    friction.coulomb = coulomb.value_or(Quantity{}).si;
-    friction.breakaway = breakaway ? breakaway->si : friction.coulomb;
-    if (breakaway && !(breakaway->si >= friction.coulomb)) {
-      findings_.take({{name + ".breakaway", "",
-                       "must be at least " + name +
-                           ".coulomb: what is at rest is not easier to "
-                           "move than what moves",
-                       ""}},
-                     &name_in_file, shaft.place());
-      friction.breakaway = friction.coulomb;
-    }
-    return friction;
-  }
-
-  void read_gearbox(Datasheet& datasheet) {
-    SectionReader gearbox = section("gearbox", true, "with ratio and backlash");
-    datasheet.gearbox.ratio = gearbox.number("ratio", "positive, motor turns per load turn");
-    const Quantity backlash = gearbox.quantity("backlash", dimensions::angle);
-    file_.backlash_unit = {.name = backlash.unit, .radians = backlash.unit_in_si};
-    datasheet.gearbox.backlash = backlash.si;
-    gearbox.refuse_other_keys();
-  }
-
-  void read_load(Datasheet& datasheet) {
-    SectionReader load = section("load", true, "with inertia and friction");
-    datasheet.load.inertia = load.quantity("inertia", dimensions::inertia).si;
-    datasheet.load.friction = load.quantity("friction", dimensions::torque_per_speed).si;
-    file_.drive.load.friction = read_dry_friction(load, "load");
-    load.refuse_other_keys();
-  }
-
-  /// To the load's shaft.
-  void refer(const Datasheet& datasheet, const drive::ShaftFriction& dry) {
-    const double ratio = datasheet.gearbox.ratio;
-    const ReferredMotor referred = refer_to_load(datasheet);
-    drive::Drive& drive = file_.drive;
-    drive.motor = {referred.inertia,
-                   {.viscous = referred.mechanical_friction + referred.electrical_friction,
-                    .coulomb = ratio * dry.coulomb,
-                    .breakaway = ratio * dry.breakaway}};
-    drive.load.inertia = datasheet.load.inertia;
-    drive.load.friction.viscous = datasheet.load.friction;
-    drive.backlash = datasheet.gearbox.backlash;
-    file_.gear_ratio = ratio;
-    units_.gear_ratio = ratio;
-    units_.torque_per_output = referred.stiffness;  // per volt: error_gain is 1
-  }
-
-  void set_limit(const std::string& key, const Quantity& limit) {
-    if (limit.si > 0.0) {
-      file_.drive.torque_limit = units_.torque_per_output * limit.si;
-    } else {
-      findings_.take({{"motor." + key, "", "must be positive", ""}}, &name_in_file, place_);
+  void refuse_section(const char* name, const std::string& permitted) {
+    if (const toml::node* node = document_.root().get(name)) {
+      findings_.refuse(name, *node, permitted);
     }
   }
 
-  // ---- contact ----------------------------------------------------------------------------------
-
-  void read_contact() {
-    SectionReader contact = section("contact", false, "with restitution, or stiffness and damping");
-    if (!contact.has("stiffness") && !contact.has("damping") && !contact.has("law")) {
-      file_.drive.contact = drive::RigidContact{contact.number("restitution", 0.0)};
-    } else {
-      contact.refuse("restitution",
-                     "must not stand beside stiffness: faces are rigid or they give");
-      drive::CompliantContact compliant;
-      compliant.stiffness = contact.quantity("stiffness", dimensions::torque_per_angle).si;
-      compliant.damping = contact.optional_quantity("damping", dimensions::torque_per_speed)
-                              .value_or(Quantity{})
-                              .si;
-      const auto law = contact.choice("law", {"ElastoBacklash", "ElastoBacklash2"}, false);
-      compliant.law =
-          law == "ElastoBacklash2" ? drive::ContactDamping::full : drive::ContactDamping::limited;
-      file_.drive.contact = compliant;
-    }
-    contact.refuse_other_keys();
-  }
-
-  // ---- sensors ----------------------------------------------------------------------------------
-
-  void read_sensor() {
-    SectionReader sensor = section("sensor", false, "with the shafts that are measured");
-    const std::string position =
-        sensor.choice("position", {"load", "motor", "both"}, false).value_or("load");
-    const std::string speed = sensor.choice("speed", {"load", "motor"}, false)
-                                  .value_or(position == "load" ? "load" : "motor");
-    drive::Sensing& sensing = file_.drive.sensing;
-    const bool is_on_load = position != "motor";
-    sensing.load_share_of_position = is_on_load ? 1.0 : 0.0;
-    sensing.load_share_of_speed = speed == "load" ? 1.0 : 0.0;
-    sensing.resolution = read_resolution(sensor, "", is_on_load).value_or(0.0);
-    const bool same_shaft = is_on_load == (speed == "load");
-    sensing.resolution_of_speed = read_resolution(sensor, "speed_", speed == "load")
-                                      .value_or(same_shaft ? sensing.resolution : 0.0);
-    sensor.refuse_other_keys();
-  }
-
-  /// Of an encoder on one of the shafts, at the load's.
-  std::optional<double> read_resolution(SectionReader& sensor, const std::string& prefix,
-                                        bool is_on_load) {
-    const std::string counts_key = prefix + "counts_per_turn";
-    const double referred = is_on_load ? 1.0 : 1.0 / file_.gear_ratio;
-    const std::optional<Quantity> resolution =
-        sensor.optional_quantity(prefix + "resolution", dimensions::angle);
-    const bool counted = sensor.has(counts_key);
-    const double counts = sensor.number(counts_key, 1.0);
-    if (resolution && counted) {
-      sensor.refuse(counts_key, "must not stand beside resolution: one tells the other");
-    }
-    if (resolution) return referred * resolution->si;
-    if (!counted) return std::nullopt;
-    if (!(counts > 0.0)) sensor.refuse(counts_key, "must be positive");
-    return referred * 2.0 * std::numbers::pi / (counts > 0.0 ? counts : 1.0);
-  }
-
-  // ---- controller -------------------------------------------------------------------------------
-
-  void read_control() {
-    if (!has("controller")) {
-      read_loop();
+  void read_section(const Section& section) {
+    const std::string name(section.name);
+    const bool is_plant =
+        std::find(plant_sections.begin(), plant_sections.end(), name) != plant_sections.end();
+    const bool is_servo = name == "servo";
+    if (is_plant && drive().servo) return;
+    if (is_servo && !drive().servo) return;
+    if (name == "controller" && has(loop) && !has("controller")) {
+      read_keys(loop, true, "with error_gain, or [controller] in its place");
       return;
     }
-    if (has("loop")) {
-      findings_.refuse("loop", *document_.root().get("loop"),
-                       "must not stand beside [controller]: a drive has one of them");
-    }
-    SectionReader controller = section("controller", true, "");
-    file_.drive.controller = read_controller(controller, units_);
+    const bool is_required = is_plant || (is_servo && !leaves_nothing_to_give());
+    if (has(name) && !section.is_present(drive())) section.add(drive());
+    if (!is_required && !is_servo && !has(name)) return;
+    if (name == "contact") infer_kind_of_contact();
+    const char* contents =
+        name == "controller" ? "with a kind and its gains, or [loop]" : section.contents.data();
+    read_keys(name, is_required, contents);
   }
 
-  void read_loop() {
-    SectionReader loop = section("loop", true, "with error_gain, or [controller] in its place");
-    const double error_gain =
-        loop.quantity("error_gain", units_.is_voltage ? dimensions::voltage_per_angle
-                                                      : dimensions::torque_per_angle)
-            .si;
-    if (const auto sensor = loop.choice("sensor", {"load", "motor"}, false)) {
-      if (has("sensor")) {
-        loop.refuse("sensor", "must not stand beside [sensor], which says it");
-      } else {
-        file_.drive.sensing.load_share_of_position = sensor == "load" ? 1.0 : 0.0;
-        file_.drive.sensing.load_share_of_speed = sensor == "load" ? 1.0 : 0.0;
+  /// Faces with a stiffness are compliant without being called so.
+  void infer_kind_of_contact() {
+    const toml::table* table = document_.root()["contact"].as_table();
+    if (table == nullptr || table->contains("kind")) return;
+    if (table->contains("stiffness") || table->contains("damping") || table->contains("law")) {
+      drive().contact = CompliantContact{};
+    }
+  }
+
+  // ---- keys -------------------------------------------------------------------------------------
+
+  /// One way in which a section gives a parameter.
+  struct Key {
+    const Parameter* parameter;
+    const OtherForm* form;  ///< nullptr: by its own name
+    std::string name;
+  };
+
+  /// The keys by which `section` may give `parameter`, its own name first.
+  static std::vector<Key> keys_of(const Parameter& parameter, std::string_view section) {
+    std::vector<Key> keys;
+    if (parameter.section() == section) {
+      keys.push_back({&parameter, nullptr, std::string(parameter.key())});
+    }
+    for (const OtherForm& form : parameter.other_forms) {
+      const std::size_t point = form.path.find('.');
+      if (form.path.substr(0, point) == section) {
+        keys.push_back({&parameter, &form, std::string(form.path.substr(point + 1))});
       }
     }
-    loop.refuse_other_keys();
-    file_.drive.controller =
-        drive::ProportionalDerivative{.proportional = units_.torque_per_output * error_gain};
+    return keys;
   }
 
-  void read_sampling() {
-    if (!has("sampling")) return;
-    SectionReader section = this->section("sampling", true, "with its period");
-    drive::Sampling sampling;
-    sampling.period = section.quantity("period", dimensions::time).si;
-    sampling.delay = section.optional_quantity("delay", dimensions::time).value_or(Quantity{}).si;
-    const auto method = section.choice("method", {"tustin", "backward", "forward"}, false);
-    if (method == "backward") sampling.method = drive::Discretization::backward;
-    if (method == "forward") sampling.method = drive::Discretization::forward;
-    sampling.speed_by_differences =
-        section.choice("speed", {"differences", "tachometer"}, false) != "tachometer";
-    section.refuse_other_keys();
-    file_.drive.sampling = sampling;
+  void read_keys(const std::string& name, bool is_required, const char* contents) {
+    SectionReader section(document_, findings_, name, is_required, contents);
+    section.collect_tolerances(file_.tolerances);
+    if (name == "servo") section.accept_bare_numbers();
+    if (place_.line == 0 || name == "motor") place_ = section.place();
+    bool kind_is_known = true;
+    for (const Parameter& parameter : all_parameters_of_drives()) {
+      const std::vector<Key> keys = keys_of(parameter, name);
+      if (keys.empty()) continue;
+      const Slot slot = parameter.slot(drive());
+      const bool is_kind = parameter.is_required && !parameter.choices.empty();
+      if (std::holds_alternative<std::monostate>(slot)) {
+        if (!kind_is_known) check_value(section, parameter, keys.front());
+        continue;
+      }
+      const Key key = key_given(section, keys);
+      if (is_kind) {
+        kind_is_known = read_choice(section, parameter, key, std::get<Choice>(slot));
+      } else {
+        read_value(section, parameter, key, slot, kind_is_known);
+      }
+    }
+    if (name == "motor") motor_is_known_ = kind_is_known;
+    refuse_rivals(section, name);
+    if (kind_is_known) section.refuse_other_keys();
   }
 
-  // ---- signals ----------------------------------------------------------------------------------
+  /// The first of the keys that the section has; of several the others are refused.
+  Key key_given(SectionReader& section, const std::vector<Key>& keys) {
+    const Key* given = nullptr;
+    for (const Key& key : keys) {
+      section.know(key.name);
+      if (!section.has(key.name)) continue;
+      if (given == nullptr) {
+        given = &key;
+      } else {
+        section.refuse(key.name, "must not stand beside " + given->name + ": one gives the other");
+      }
+    }
+    return given == nullptr ? keys.front() : *given;
+  }
 
-  void read_signals() {
-    if (has("reference")) {
-      SectionReader reference = section("reference", true, "with a kind");
-      file_.drive.reference = read_reference(reference, folder_);
-      file_.has_reference = true;
+  /// Keys that another one, given beside them, has taken out of the drive.
+  void refuse_rivals(SectionReader& section, const std::string& name) {
+    if (name == "sensor") {
+      for (const char* prefix : {"", "speed_"}) {
+        const std::string counts = std::string(prefix) + "counts_per_turn";
+        const std::string resolution = std::string(prefix) + "resolution";
+        if (section.has(counts) && section.has(resolution)) {
+          section.refuse(resolution, "must not stand beside " + counts + ": one gives the other");
+        }
+      }
     }
-    if (has("load_torque")) {
-      SectionReader load_torque = section("load_torque", true, "with a kind");
-      file_.drive.load_torque = read_load_torque(load_torque, folder_);
+    if (name == "contact" && std::holds_alternative<CompliantContact>(drive().contact)) {
+      section.refuse("restitution",
+                     "must not stand beside stiffness: faces are rigid or compliant");
     }
+    if (name == loop && has("sensor")) {
+      section.refuse("sensor", "must not stand beside [sensor], which says it");
+    }
+  }
+
+  bool read_choice(SectionReader& section, const Parameter& parameter, const Key& key,
+                   const Choice& choice) {
+    const std::vector<std::string> words(parameter.choices.begin(), parameter.choices.end());
+    const bool is_required = parameter.is_required && key.form == nullptr;
+    const std::optional<std::string> word = section.choice(key.name, words, is_required);
+    if (!word) return !is_required;
+    const auto place = std::find(words.begin(), words.end(), *word) - words.begin();
+    choice.choose(drive(), static_cast<std::size_t>(place));
+    return true;
+  }
+
+  void read_value(SectionReader& section, const Parameter& parameter, const Key& key,
+                  const Slot& slot, bool kind_is_known) {
+    if (is_varied(parameter.path)) {
+      section.refuse(key.name, "must be left out: [" + variation_.section + "] varies it");
+      set_number(slot, stand_in(parameter));
+      return;
+    }
+    const bool is_required = parameter.is_required && kind_is_known && !may_be_left_out(parameter);
+    const std::string wanted = wanted_text(parameter);
+    if (is_choice(slot)) {
+      read_choice(section, parameter, key, std::get<Choice>(slot));
+    } else if (auto* const* list = std::get_if<std::vector<double>*>(&slot)) {
+      **list = section.numbers(key.name, wanted);
+    } else if (auto* const* rows = std::get_if<Rows*>(&slot)) {
+      **rows = section.rows(key.name, wanted);
+    } else if (auto* const* text = std::get_if<std::string*>(&slot)) {
+      **text = section.text(key.name, wanted);
+      read_table(section, parameter, **text);
+    } else if (is_required || section.has(key.name)) {
+      set_number(slot, read_number_of(section, parameter, key));
+    } else {
+      section.know(key.name);
+      if (may_be_left_out(parameter)) set_number(slot, 1.0);
+    }
+  }
+
+  static void set_number(const Slot& slot, double number) {
+    if (auto* const* place = std::get_if<double*>(&slot)) **place = number;
+    if (auto* const* place = std::get_if<std::optional<double>*>(&slot)) **place = number;
+  }
+
+  /// Where sizes are per backlash.
+  bool may_be_left_out(const Parameter& parameter) const {
+    return !variation_.section.empty() && parameter.path == "servo.backlash";
+  }
+
+  static double stand_in(const Parameter& parameter) {
+    return parameter.path == "servo.backlash" || parameter.path == "servo.inertia_ratio" ? 1.0
+                                                                                         : 0.5;
+  }
+
+  static std::string wanted_text(const Parameter& parameter) {
+    if (parameter.permitted == Permitted::of_normal_form) {
+      return permitted_values(parameter.key());
+    }
+    return std::string(parameter.wanted);
+  }
+
+  double read_number_of(SectionReader& section, const Parameter& parameter, const Key& key) {
+    const Dimension* dimension = parameter.dimension(drive());
+    if (parameter.section() == "controller" && !motor_is_known_) {
+      section.know(key.name);  // its unit depends on the motor
+      return 1.0;
+    }
+    if (key.form != nullptr && key.form->dimension != nullptr) {
+      return key.form->inverse / section.quantity(key.name, *key.form->dimension).si;
+    }
+    if (dimension == nullptr) return section.number(key.name, wanted_text(parameter));
+    const OtherForm* inverse = inverse_form(parameter);
+    if (inverse != nullptr && section.is_of(key.name, *inverse->dimension)) {
+      return inverse->inverse / section.quantity(key.name, *inverse->dimension).si;
+    }
+    const Measured value = section.quantity(key.name, *dimension);
+    if (parameter.path == "gearbox.backlash" || parameter.path == "servo.backlash") {
+      file_.angle = {.name = value.unit, .radians = value.unit_in_si};
+    }
+    return value.si;
+  }
+
+  /// A value of a kind that could not be read: that it is one at all, and within its range.
+  void check_value(SectionReader& section, const Parameter& parameter, const Key& key) {
+    const Dimension* dimension = parameter.dimension(drive());
+    if (dimension == nullptr || parameter.section() == "controller") return;
+    const auto value = section.optional_quantity(key.name, *dimension);
+    if (!value) return;
+    RangeCheck check;
+    check_number(check, parameter, value->si, dimension->unit);
+    if (!check.violations().empty()) {
+      section.refuse(key.name, check.violations().front().permitted);
+    }
+  }
+
+  void read_table(SectionReader& section, const Parameter& parameter, const std::string& file) {
+    if (file.empty()) return;
+    const bool is_reference = parameter.section() == "reference";
+    std::optional<Signal>& signal = is_reference ? drive().reference : drive().load_torque;
+    const Dimension& dimension = is_reference ? dimensions::angle : dimensions::torque;
+    try {
+      TableSignal table = read_signal_table(folder_ / file, dimension);
+      table.file = file;
+      signal = std::move(table);
+    } catch (const InvalidInput& problem) {
+      const Violation& fault = problem.violations().front();
+      const bool is_read = fault.field != "file";
+      section.refuse(std::string(parameter.key()),
+                     is_read ? "holds " + to_string(fault) : fault.permitted);
+    }
+  }
+
+  // ---- the whole --------------------------------------------------------------------------------
+
+  void check() {
+    findings_.take(
+        faults(sanitized()), [&](const std::string& field) { return name_in_file(field); }, place_);
+    if (findings_.none()) check_tolerances();
+  }
+
+  /// Without numbers that would only cause faults elsewhere.
+  Drive sanitized() const {
+    Drive copy = file_.drive;
+    for (std::optional<Signal>* signal : {&copy.reference, &copy.load_torque}) {
+      if (!*signal) continue;
+      const auto* table = std::get_if<TableSignal>(&**signal);
+      if (table != nullptr && table->times.empty()) *signal = 0.0;  // its file was refused
+    }
+    return copy;
+  }
+
+  void check_tolerances() {
+    for (const ParameterTolerance& tolerance : file_.tolerances) {
+      findings_.take(
+          validate(tolerance.distribution, tolerance.path),
+          [&](const std::string&) { return tolerance.path; }, place_);
+    }
+    for (ParameterTolerance& tolerance : file_.tolerances) {
+      tolerance.path = std::string(find_parameter(tolerance.path)->path);
+    }
+  }
+
+  /// The key under which the file gives a parameter.
+  std::string name_in_file(const std::string& path) const {
+    if (path == "controller.proportional" && has(loop)) return "loop.error_gain";
+    const Parameter* parameter = find_parameter(path);
+    if (parameter == nullptr) return path;
+    for (const OtherForm& form : parameter->other_forms) {
+      const std::size_t point = form.path.find('.');
+      const toml::table* table = document_.root()[form.path.substr(0, point)].as_table();
+      if (table != nullptr && table->contains(form.path.substr(point + 1))) {
+        return std::string(form.path);
+      }
+    }
+    return path;
   }
 
   const TomlDocument& document_;
   Findings& findings_;
   const std::filesystem::path& folder_;
-  DriveFile file_;
-  ControllerUnits units_;
-  Place place_;
+  const Variation& variation_;
+  WrittenDrive file_;
+  Place place_{0, 0};
+  bool motor_is_known_ = true;
 };
 
 }  // namespace
 
-bool describes_drive(const TomlDocument& document) {
-  const toml::table& root = document.root();
-  const bool has_section =
-      std::any_of(drive_sections.begin(), drive_sections.end(),
-                  [&](std::string_view section) { return root.contains(section); });
-  const bool has_key = std::any_of(drive_keys.begin(), drive_keys.end(), [&](const DriveKey& key) {
-    return static_cast<bool>(root[key.section][key.key]);
-  });
-  return has_section || has_key ||
-         root["motor"]["kind"].value<std::string>() == torque_controlled ||
-         root["loop"]["sensor"].value<std::string>() == "motor";
-}
-
-DriveFile read_drive(const TomlDocument& document, Findings& findings,
-                     const std::filesystem::path& folder) {
-  return DriveReader(document, findings, folder).read();
+WrittenDrive read_drive(const TomlDocument& document, Findings& findings,
+                        const std::filesystem::path& folder, const Variation& variation) {
+  return DriveReader(document, findings, folder, variation).read();
 }
 
 }  // namespace gearlash

@@ -1,9 +1,9 @@
-// Reading the sections of a TOML file that describe a drive.
+// The one reader of drives: every key of a file is a parameter (model/parameters.hpp).
 #pragma once
 
-#include <array>
 #include <filesystem>
-#include <string_view>
+#include <set>
+#include <string>
 
 #include "input/drive_file.hpp"
 #include "input/section_reader.hpp"
@@ -11,15 +11,15 @@
 
 namespace gearlash {
 
-/// Sections that no servo file has.
-inline constexpr std::array<std::string_view, 5> drive_sections = {
-    "controller", "sensor", "sampling", "reference", "load_torque"};
+/// What a file varies besides describing a drive: its section, and the paths that it varies.
+struct Variation {
+  std::string section = {};
+  std::set<std::string> paths = {};
+};
 
-/// Whether it has what a servo file has not (drive_file.hpp).
-bool describes_drive(const TomlDocument& document);
-
-/// The drive; sound where nothing was found at fault.
-DriveFile read_drive(const TomlDocument& document, Findings& findings,
-                     const std::filesystem::path& folder);
+/// The drive; sound where nothing was found at fault. A file may not give what it varies, for which
+/// stand-ins are returned; the backlash of the normal form is then 1 where it is left out.
+WrittenDrive read_drive(const TomlDocument& document, Findings& findings,
+                        const std::filesystem::path& folder, const Variation& variation = {});
 
 }  // namespace gearlash

@@ -31,6 +31,11 @@ std::optional<std::string> nearest(const std::vector<std::string>& known,
                                    std::string_view written) {
   constexpr std::size_t longest_worth_a_guess = 40;
   if (written.size() > longest_worth_a_guess) return std::nullopt;
+  const auto begins = [&](const std::string& candidate) {
+    return !written.empty() && candidate.starts_with(written);
+  };
+  const auto longer = std::find_if(known.begin(), known.end(), begins);
+  if (longer != known.end()) return *longer;
   std::optional<std::string> best;
   std::size_t best_distance = std::max<std::size_t>(2, written.size() / 3) + 1;
   for (const std::string& candidate : known) {
@@ -58,8 +63,12 @@ double exact_number(const std::string& field, const toml::node& value) {
 std::string one_of(const std::vector<std::string>& known, std::string_view written) {
   std::string text = "must be one of ";
   for (const std::string& name : known) text += (&name == &known.front() ? "" : ", ") + name;
-  if (const auto guess = nearest(known, written)) text += " (did you mean " + *guess + "?)";
-  return text;
+  return text + guess_of(known, written);
+}
+
+std::string guess_of(const std::vector<std::string>& known, std::string_view written) {
+  const auto guess = nearest(known, written);
+  return guess ? " (did you mean " + *guess + "?)" : "";
 }
 
 void Findings::missing(Place place, const std::string& field, const std::string& permitted) {
@@ -116,13 +125,13 @@ SectionReader::SectionReader(const TomlDocument& document, Findings& findings, s
   }
 }
 
-Quantity SectionReader::quantity(const std::string& key, const Dimension& expected) {
+Measured SectionReader::quantity(const std::string& key, const Dimension& expected) {
   const toml::node* value = require(
       key, "must be " + std::string(expected.name) + ", such as " + std::string(expected.unit));
-  return value != nullptr ? read(key, *value, expected) : Quantity{.si = placeholder_quantity};
+  return value != nullptr ? read(key, *value, expected) : Measured{.si = placeholder_quantity};
 }
 
-std::optional<Quantity> SectionReader::optional_quantity(const std::string& key,
+std::optional<Measured> SectionReader::optional_quantity(const std::string& key,
                                                          const Dimension& expected) {
   const toml::node* value = find(key);
   if (value == nullptr) return std::nullopt;
@@ -231,6 +240,18 @@ void SectionReader::refuse(const std::string& key, const std::string& permitted)
   if (const toml::node* value = find(key)) findings_.refuse(field(key), *value, permitted);
 }
 
+bool SectionReader::is_of(const std::string& key, const Dimension& dimension) {
+  const toml::node* value = table_ != nullptr ? table_->get(key) : nullptr;
+  const auto text = value != nullptr ? value->value_exact<std::string>() : std::nullopt;
+  if (!text) return false;
+  try {
+    read_quantity(key, *text, dimension);
+    return true;
+  } catch (const InvalidInput&) {
+    return false;
+  }
+}
+
 void SectionReader::refuse_other_keys() {
   if (table_ == nullptr) return;
   for (const auto& [key, value] : *table_) {
@@ -244,8 +265,12 @@ Place SectionReader::place() const {
   return table_ != nullptr ? table_->source().begin : Place{1, 1};
 }
 
+void SectionReader::know(const std::string& key) {
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
+}
+
 const toml::node* SectionReader::find(const std::string& key) {
-  known_.push_back(key);
+  know(key);
   return table_ != nullptr ? table_->get(key) : nullptr;
 }
 
@@ -255,9 +280,9 @@ const toml::node* SectionReader::require(const std::string& key, const std::stri
   return value;
 }
 
-Quantity SectionReader::read(const std::string& key, const toml::node& value,
+Measured SectionReader::read(const std::string& key, const toml::node& value,
                              const Dimension& expected) {
-  const auto read_exact = [&](const std::string& name, const toml::node& node) -> Quantity {
+  const auto read_exact = [&](const std::string& name, const toml::node& node) -> Measured {
     if (bare_numbers_ && node.is_number()) {
       return {.si = exact_number(name, node), .unit = std::string(expected.unit)};
     }
@@ -272,24 +297,22 @@ Quantity SectionReader::read(const std::string& key, const toml::node& value,
 }
 
 double SectionReader::read(const std::string& key, const toml::node& value) {
-  const auto read_exact = [](const std::string& name, const toml::node& node) -> Quantity {
+  const auto read_exact = [](const std::string& name, const toml::node& node) -> Measured {
     return {.si = exact_number(name, node)};
   };
   return read(key, value, read_exact, placeholder_number).si;
 }
 
-Quantity SectionReader::read(const std::string& key, const toml::node& value,
+Measured SectionReader::read(const std::string& key, const toml::node& value,
                              const ExactReader& read_exact, double placeholder) {
   try {
     const std::string name = field(key);
-    const TolerancedValue read = varied_ != nullptr
+    const TolerancedValue read = tolerances_ != nullptr
                                      ? read_toleranced(name, value, read_exact)
                                      : TolerancedValue{read_exact(name, value), std::nullopt};
     if (read.distribution) {
-      const std::optional<DriveNumber> number = drive_number_named(name);
-      if (!number) throw InvalidInput({{name, "", "must not carry a tolerance", ""}});
       require_none(validate(*read.distribution, name));
-      varied_->push_back({*number, *read.distribution});
+      tolerances_->push_back({name, *read.distribution});
     }
     findings_.remember(name, value);
     return read.nominal;

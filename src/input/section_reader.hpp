@@ -65,12 +65,19 @@ class SectionReader {
   /// From now on a quantity may be a bare number, in its dimension's SI unit.
   void accept_bare_numbers() { bare_numbers_ = true; }
 
-  /// From now on numbers of a drive may carry tolerances, which are added to `varied`.
-  void collect_tolerances(std::vector<VariedNumber>& varied) { varied_ = &varied; }
+  /// From now on numbers may carry tolerances, which are added to `tolerances` by their keys.
+  void collect_tolerances(std::vector<ParameterTolerance>& tolerances) {
+    tolerances_ = &tolerances;
+  }
+
+  /// A key of this section that is not given.
+  void know(const std::string& key);
+  /// Whether the key has a quantity of that dimension.
+  bool is_of(const std::string& key, const Dimension& dimension);
 
   /// A number with a unit, in text.
-  Quantity quantity(const std::string& key, const Dimension& expected);
-  std::optional<Quantity> optional_quantity(const std::string& key, const Dimension& expected);
+  Measured quantity(const std::string& key, const Dimension& expected);
+  std::optional<Measured> optional_quantity(const std::string& key, const Dimension& expected);
   /// A number without unit: of TOML, or in text (a fraction). Where it is missing, `permitted` says
   /// what it must be.
   double number(const std::string& key, const std::string& permitted);
@@ -102,11 +109,11 @@ class SectionReader {
  private:
   const toml::node* find(const std::string& key);
   const toml::node* require(const std::string& key, const std::string& permitted);
-  Quantity read(const std::string& key, const toml::node& value, const Dimension& expected);
+  Measured read(const std::string& key, const toml::node& value, const Dimension& expected);
   double read(const std::string& key, const toml::node& value);
   std::vector<double> read_list(const std::string& name, const toml::node& value,
                                 const std::string& permitted);
-  Quantity read(const std::string& key, const toml::node& value, const ExactReader& read_exact,
+  Measured read(const std::string& key, const toml::node& value, const ExactReader& read_exact,
                 double placeholder);
   std::string field(const std::string& key) const { return name_ + "." + key; }
 
@@ -114,10 +121,13 @@ class SectionReader {
   Findings& findings_;
   std::string name_;
   bool bare_numbers_ = false;
-  std::vector<VariedNumber>* varied_ = nullptr;
+  std::vector<ParameterTolerance>* tolerances_ = nullptr;
   const toml::table* table_ = nullptr;
   std::vector<std::string> known_;
 };
+
+/// " (did you mean b?)", or nothing where none is near.
+std::string guess_of(const std::vector<std::string>& known, std::string_view written);
 
 /// "must be one of a, b, c (did you mean b?)".
 std::string one_of(const std::vector<std::string>& known, std::string_view written);

@@ -29,28 +29,37 @@ struct AngleUnit {
 
 /// Either form of file ends in a normalised servo; what only a data sheet knows is optional.
 struct ServoFile {
-  NormalizedServo servo;                    ///< sound: validate(servo) is empty
-  std::optional<double> natural_frequency;  ///< ω_n, rad/s: of the drivetrain, or as [servo] says
-  std::optional<Datasheet> datasheet;       ///< with [motor], sound
-  std::optional<Drivetrain> drivetrain;     ///< with [motor], that of the data sheet
-  AngleUnit backlash_unit;                  ///< in which the file gives the backlash
+  NormalizedServo servo{};                    ///< sound: validate(servo) is empty
+  std::optional<double> natural_frequency{};  ///< ω_n, rad/s: of the drivetrain, or as [servo] says
+  std::optional<Datasheet> datasheet{};       ///< with [motor], sound
+  std::optional<Drivetrain> drivetrain{};     ///< with [motor], that of the data sheet
+  AngleUnit backlash_unit{};                  ///< in which the file gives the backlash
   /// Numbers with tolerances, in the order of the file; all else here is of nominal values.
   std::vector<VariedNumber> varied = {};
 
   bool operator==(const ServoFile&) const = default;
 };
 
+/// One parameter by its path, as text: a number with its unit, a word, a TOML list.
+struct Setting {
+  std::string path;
+  std::string text;
+};
+
 inline constexpr std::size_t largest_servo_file = 1024 * 1024;  ///< bytes
 
 /// Reads TOML text of at most largest_servo_file bytes. The keys, their units and defaults are in
-/// docs/data-sheets.md. `source_name` is what error lines call the text.
+/// docs/drives.md. `source_name` is what error lines call the text; `settings` take the place of
+/// what it says, and their faults are located at "--set".
 ///
 /// Throws InvalidInput, and nothing else but std::bad_alloc. It lists every violation, in the order
 /// of the file, each located at the value at fault, or at the header of the section where a key is
 /// missing: unknown sections and keys (with the nearest known one), missing ones, values of another
 /// type, units or dimension, values out of range. Text that is not TOML, not UTF-8 or too long is
 /// one violation.
-ServoFile parse_servo(std::string_view toml, std::string_view source_name);
+ServoFile parse_servo(std::string_view toml, std::string_view source_name,
+                      const std::filesystem::path& folder = {},
+                      const std::vector<Setting>& settings = {});
 
 /// parse_servo of what the file holds, read no further than the size limit. A file that is missing,
 /// unreadable or a directory is an InvalidInput too.

@@ -45,12 +45,12 @@ InvalidInput wrong_row(const std::string& name, int line, const std::string& fou
 }
 
 /// Comma-separated, the first row telling names and units; lines that begin with # are remarks.
-drive::Table read_table(const std::filesystem::path& path, const Dimension& values) {
+TableSignal read_table(const std::filesystem::path& path, const Dimension& values) {
   const std::string text = read_text_file(path, largest_table);
   const std::string name = path.string();
   using Reader = io::CSVReader<2, io::trim_chars<' ', '\t'>, io::no_quote_escape<','>,
                                io::throw_on_overflow, io::single_line_comment<'#'>>;
-  drive::Table table;
+  TableSignal table;
   try {
     Reader reader(name, text.data(), text.data() + text.size());
     reader.set_header("time", "value");
@@ -88,90 +88,10 @@ drive::Table read_table(const std::filesystem::path& path, const Dimension& valu
   return table;
 }
 
-// ---- sections -----------------------------------------------------------------------------------
-
-class SignalReader {
- public:
-  SignalReader(SectionReader& section, const std::filesystem::path& folder, const Dimension& value)
-      : section_(section), folder_(folder), value_(value) {}
-
-  drive::Signal read(const std::vector<std::string>& kinds) {
-    const std::string kind = section_.choice("kind", kinds, true).value_or("");
-    const drive::Signal signal = read_kind(kind);
-    if (!kind.empty()) section_.refuse_other_keys();
-    return signal;
-  }
-
- private:
-  double value(const char* key) { return section_.quantity(key, value_).si; }
-  double value(const char* key, double otherwise) {
-    return section_.optional_quantity(key, value_).value_or(Quantity{.si = otherwise}).si;
-  }
-  double start_time() {
-    return section_.optional_quantity("time", dimensions::time).value_or(Quantity{}).si;
-  }
-
-  drive::Signal read_kind(const std::string& kind) {
-    // Members are initialised in the order of their declaration, which is that of the keys.
-    if (kind == "constant") return value("value");
-    if (kind == "step") {
-      return drive::StepSignal{
-          .before = value("before", 0.0), .after = value("after"), .time = start_time()};
-    }
-    if (kind == "ramp") {
-      return drive::Ramp{.value = value("value", 0.0),
-                         .rate = section_.quantity("rate", dimensions::angular_speed).si,
-                         .time = start_time()};
-    }
-    if (kind == "sine") return read_sine();
-    if (kind == "trapezoid") {
-      return drive::Trapezoid{
-          .from = value("from", 0.0),
-          .to = value("to"),
-          .speed = section_.quantity("speed", dimensions::angular_speed).si,
-          .acceleration = section_.quantity("acceleration", dimensions::angular_acceleration).si,
-          .time = start_time()};
-    }
-    if (kind == "table") return read_file();
-    return 0.0;
-  }
-
-  drive::Sine read_sine() {
-    return {
-        .mean = value("mean", 0.0),
-        .amplitude = value("amplitude"),
-        .frequency = section_.quantity("frequency", dimensions::angular_frequency).si,
-        .phase = section_.optional_quantity("phase", dimensions::angle).value_or(Quantity{}).si};
-  }
-
-  drive::Signal read_file() {
-    const std::string file = section_.text("file", "the name of a CSV file");
-    if (file.empty()) return 0.0;
-    try {
-      return read_table(folder_ / file, value_);
-    } catch (const InvalidInput& problem) {
-      const Violation& fault = problem.violations().front();
-      const bool is_read = fault.field != "file";
-      section_.refuse("file", is_read ? "holds " + to_string(fault) : fault.permitted);
-      return 0.0;
-    }
-  }
-
-  SectionReader& section_;
-  const std::filesystem::path& folder_;
-  const Dimension& value_;
-};
-
 }  // namespace
 
-drive::Signal read_reference(SectionReader& section, const std::filesystem::path& folder) {
-  return SignalReader(section, folder, dimensions::angle)
-      .read({"constant", "step", "ramp", "sine", "trapezoid", "table"});
-}
-
-drive::Signal read_load_torque(SectionReader& section, const std::filesystem::path& folder) {
-  return SignalReader(section, folder, dimensions::torque)
-      .read({"constant", "step", "sine", "table"});
+TableSignal read_signal_table(const std::filesystem::path& path, const Dimension& values) {
+  return read_table(path, values);
 }
 
 }  // namespace gearlash

@@ -1,16 +1,16 @@
-// Reading a reference or a load torque.
+// Reading the table of a reference or of a load torque.
 #pragma once
 
 #include <filesystem>
 
-#include "input/section_reader.hpp"
-#include "model/signal.hpp"
+#include "gearlash/signal.hpp"
+#include "model/dimension.hpp"
 
 namespace gearlash {
 
-/// From a section with a kind and its keys; a table's file is beside the text, in `folder`. Of kind
-/// "ramp" and "trapezoid" are references only.
-drive::Signal read_reference(SectionReader& section, const std::filesystem::path& folder);
-drive::Signal read_load_torque(SectionReader& section, const std::filesystem::path& folder);
+/// A CSV file of two columns, times and `values`, whose first row names them with their units;
+/// lines that begin with # are remarks. Throws InvalidInput with one violation, of "file" where the
+/// file cannot be read.
+TableSignal read_signal_table(const std::filesystem::path& path, const Dimension& values);
 
 }  // namespace gearlash

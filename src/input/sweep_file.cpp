@@ -3,8 +3,8 @@
 #include <set>
 
 #include "input/axis_text.hpp"
+#include "input/drive_reader.hpp"
 #include "input/section_reader.hpp"
-#include "input/servo_reader.hpp"
 #include "input/text_file.hpp"
 #include "input/toml_document.hpp"
 
@@ -15,6 +15,11 @@ constexpr char section_name[] = "sweep";
 
 std::string numbered(const char* key, std::size_t number) {
   return std::string(section_name) + "." + key + "[" + std::to_string(number) + "]";
+}
+
+std::string path_of(Input input) {
+  return input == Input::restitution ? "contact.restitution"
+                                     : std::string("servo.") + name_of(input);
 }
 
 std::string same_field(const std::string& field) { return field; }
@@ -32,9 +37,12 @@ class SweepReader {
     file.grid.proved = section.choice("verdicts", {"computed", "proved"}, false) == "proved";
     section.refuse_other_keys();
     findings_.require_none();  // else it is not known what the servo has to give
-    ServoVariation variation{.section = section_name};
-    for (const Axis& axis : file.grid.axes) variation.inputs.insert(axis.input);
-    file.grid.servo = read_servo(document_, findings_, variation).servo;
+    Variation variation{.section = section_name};
+    for (const Axis& axis : file.grid.axes) variation.paths.insert(path_of(axis.input));
+    const WrittenDrive written = read_drive(document_, findings_, {}, variation);
+    if (findings_.none()) {
+      if (const auto servo = servo_file_of(written)) file.grid.servo = servo->servo;
+    }
     findings_.take(validate(file.grid, axis_fields_), &same_field, section.place());
     findings_.require_none();
     return file;

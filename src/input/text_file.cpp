@@ -2,6 +2,7 @@
 
 #include <cerrno>
 #include <fstream>
+#include <iostream>
 #include <system_error>
 
 #include "base/violation.hpp"
@@ -27,6 +28,13 @@ std::string read_text_file(const std::filesystem::path& path, std::size_t larges
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad()) refuse_file(path, std::generic_category().message(errno));
   text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
+}
+
+std::string read_standard_input(std::size_t largest) {
+  std::string text(largest + 1, '\0');
+  std::cin.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(std::cin.gcount()));
   return text;
 }
 

@@ -12,4 +12,7 @@ namespace gearlash {
 /// missing, unreadable or a directory.
 std::string read_text_file(const std::filesystem::path& path, std::size_t largest);
 
+/// The same of standard input.
+std::string read_standard_input(std::size_t largest);
+
 }  // namespace gearlash

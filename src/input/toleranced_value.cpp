@@ -54,7 +54,7 @@ class TolerancedReader {
   }
 
  private:
-  Quantity exact(const std::string& text) const {
+  Measured exact(const std::string& text) const {
     return read_exact_(field_, toml::value<std::string>(text));
   }
 
@@ -63,7 +63,7 @@ class TolerancedReader {
     if (!is_percent(halves.tolerance) && is_bare(nominal_text)) {
       nominal_text += " " + unit_of(halves.tolerance);  // "0.61 ± 0.05 oz in2"
     }
-    const Quantity nominal = exact(nominal_text);
+    const Measured nominal = exact(nominal_text);
     return {nominal, UniformAbout{nominal.si, spread(halves.tolerance, nominal.si)}};
   }
 
@@ -117,12 +117,12 @@ class TolerancedReader {
     const toml::node* tolerance = table.get("tolerance");
     const bool is_between = normal == nullptr && tolerance == nullptr && min && max;
     if (is_between && value == nullptr) {
-      Quantity middle = read_exact_(field_, *table.get("min"));
+      Measured middle = read_exact_(field_, *table.get("min"));
       middle.si = 0.5 * (*min + *max);
       return {middle, UniformBetween{*min, *max}};
     }
     if (value == nullptr) refuse(field_, "", forms());
-    const Quantity nominal = read_exact_(field_, *value);
+    const Measured nominal = read_exact_(field_, *value);
     if (is_between) return {nominal, UniformBetween{*min, *max}};
     if (normal != nullptr && tolerance == nullptr) {
       return {nominal, Normal{nominal.si, spread(*normal, nominal.si), min, max}};
@@ -137,7 +137,7 @@ class TolerancedReader {
     const toml::array* array = node.as_array();
     if (array == nullptr || array->empty() || table.size() > 1) refuse(field_, "", forms());
     DiscreteLots lots;
-    std::vector<Quantity> values;
+    std::vector<Measured> values;
     for (const toml::node& element : *array) {
       double weight = 1.0;
       const toml::node* value = &element;

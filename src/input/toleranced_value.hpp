@@ -13,12 +13,12 @@
 namespace gearlash {
 
 struct TolerancedValue {
-  Quantity nominal;
+  Measured nominal;
   std::optional<Distribution> distribution;  ///< in SI; nothing where it is one exact value
 };
 
 /// Reads one exact value, named `field` in errors. Throws InvalidInput.
-using ExactReader = std::function<Quantity(const std::string& field, const toml::node& value)>;
+using ExactReader = std::function<Measured(const std::string& field, const toml::node& value)>;
 
 /// What `read_exact` reads, or
 ///   "A ± B", "A ± 10 %"                 uniform about A (also "+-", "+/-")

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <sstream>
 
 #include "input/units.hpp"
 #include "input/utf8.hpp"
@@ -175,7 +176,26 @@ TomlDocument::TomlDocument(std::string_view text, std::string_view source_name, 
   }
 }
 
-std::string TomlDocument::where(Place place) const { return named_place(source_name_, place); }
+void TomlDocument::set(std::string_view path, const toml::node& value) {
+  const std::size_t point = path.find('.');
+  const std::string_view section = path.substr(0, point);
+  if (!root_[section].is_table()) root_.insert_or_assign(section, toml::table{});
+  value.visit([&](const auto& typed) {
+    root_[section].as_table()->insert_or_assign(path.substr(point + 1), typed);
+  });
+}
+
+bool TomlDocument::remove(std::string_view path) {
+  const std::size_t point = path.find('.');
+  toml::table* section = root_[path.substr(0, point)].as_table();
+  if (section == nullptr || section->erase(path.substr(point + 1)) == 0) return false;
+  if (section->empty()) root_.erase(path.substr(0, point));
+  return true;
+}
+
+std::string TomlDocument::where(Place place) const {
+  return place.line == 0 ? "--set" : named_place(source_name_, place);
+}
 
 std::string_view TomlDocument::line(std::size_t number) const {
   return number >= 1 && number <= lines_.size() ? lines_[number - 1] : std::string_view();
@@ -184,6 +204,11 @@ std::string_view TomlDocument::line(std::size_t number) const {
 std::string TomlDocument::written(const toml::node& node) const {
   if (const auto* string = node.as_string()) return shown(string->get());
   const toml::source_region& source = node.source();
+  if (source.begin.line == 0) {
+    std::ostringstream text;
+    node.visit([&](const auto& typed) { text << typed; });
+    return shown(text.str());
+  }
   if (source.begin.line == source.end.line) {
     return shown(columns(line(source.begin.line), source.begin.column, source.end.column));
   }

@@ -24,7 +24,12 @@ class TomlDocument {
 
   const toml::table& root() const { return root_; }
 
-  /// "servo.toml:3:11".
+  /// Gives the key `path`, "section.key", another value, which stands nowhere in the text.
+  void set(std::string_view path, const toml::node& value);
+  /// Takes the key out of its section, and a section that is then empty; whether it was there.
+  bool remove(std::string_view path);
+
+  /// "servo.toml:3:11"; "--set" for what set() has given.
   std::string where(Place place) const;
 
   /// A value as its author wrote it: the characters of a string, the source text of anything else;

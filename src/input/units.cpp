@@ -111,7 +111,7 @@ std::string escaped(char32_t c) {
 
 }  // namespace
 
-Quantity read_quantity(std::string_view field, std::string_view text, const Dimension& expected) {
+Measured read_quantity(std::string_view field, std::string_view text, const Dimension& expected) {
   const std::string_view trimmed_text = trimmed(text);
   const std::size_t length = number_length(trimmed_text);
   const std::string_view name = trimmed(trimmed_text.substr(length));
@@ -146,7 +146,7 @@ double read_number(std::string_view field, std::string_view text) {
   if (trimmed_text == "inf" || trimmed_text == "+inf") {
     return std::numeric_limits<double>::infinity();
   }
-  const std::size_t slash = trimmed_text.find('/');
+  const std::size_t slash = trimmed_text.find_first_of("/:");
   const std::optional<double> numerator = decimal(trimmed(trimmed_text.substr(0, slash)));
   const std::optional<double> denominator =
       slash == std::string_view::npos ? 1.0 : decimal(trimmed(trimmed_text.substr(slash + 1)));
@@ -159,7 +159,7 @@ double read_number(std::string_view field, std::string_view text) {
   return value + 0.0;
 }
 
-Quantity read_angle(std::string_view field, std::string_view text) {
+Measured read_angle(std::string_view field, std::string_view text) {
   std::optional<double> bare;
   try {
     bare = read_number(field, text);

@@ -10,7 +10,7 @@
 namespace gearlash {
 namespace {
 
-std::vector<Violation> validate(const Motor& motor) {
+std::vector<Violation> validate(const SheetMotor& motor) {
   RangeCheck check("motor.");
   std::visit(
       [&](const auto& any) {
@@ -48,7 +48,8 @@ constexpr std::array origins = {
     Origin{"damping", "friction/(2 sqrt(stiffness * inertia)), everything at the load"},
     Origin{"inertia_ratio", "load.inertia/(motor.inertia * gearbox.ratio^2)"}};
 
-/// Names of the fields of a data sheet for those that a drivetrain or a normalised servo reports.
+}  // namespace
+
 std::vector<Violation> named_for_datasheet(std::vector<Violation> violations) {
   for (Violation& violation : violations) {
     for (const Origin& origin : origins) {
@@ -62,8 +63,6 @@ std::vector<Violation> named_for_datasheet(std::vector<Violation> violations) {
   return violations;
 }
 
-}  // namespace
-
 std::vector<Violation> validate(const Datasheet& datasheet) {
   RangeCheck check;
   check.include(validate(datasheet.motor));
@@ -73,7 +72,7 @@ std::vector<Violation> validate(const Datasheet& datasheet) {
   check.not_negative("load.friction", datasheet.load.friction, "N m s/rad");
   check.positive("loop.error_gain", datasheet.loop.error_gain, "V/rad");
   check.within("contact.restitution", datasheet.contact.restitution, 0.0, 1.0);
-  if (datasheet.loop.sensor != Sensor::load) {
+  if (datasheet.loop.sensor != ShaftName::load) {
     check.refuse("loop.sensor", "motor", "must be " + permitted_values("sensor"));
   }
   if (!check.violations().empty()) return check.violations();

@@ -39,44 +39,47 @@ struct TwoPhaseMotor {
   bool operator==(const TwoPhaseMotor&) const = default;
 };
 
-using Motor = std::variant<ArmatureControlledMotor, FieldControlledMotor, TwoPhaseMotor>;
+using SheetMotor = std::variant<ArmatureControlledMotor, FieldControlledMotor, TwoPhaseMotor>;
 
-struct Gearbox {
+struct SheetGearbox {
   double ratio = 1.0;     ///< n, motor turns per load turn, > 0
   double backlash = 0.0;  ///< b, rad at the load shaft, face to face, ≥ 0
 
-  bool operator==(const Gearbox&) const = default;
+  bool operator==(const SheetGearbox&) const = default;
 };
 
-struct Load {
+struct SheetLoad {
   double inertia = 0.0;   ///< J_L, kg m², ≥ 0
   double friction = 0.0;  ///< F_L, N m s/rad, ≥ 0
 
-  bool operator==(const Load&) const = default;
+  bool operator==(const SheetLoad&) const = default;
 };
 
-struct Loop {
+struct SheetLoop {
   double error_gain = 0.0;  ///< K₃, volts per radian of load error, > 0
-  Sensor sensor = Sensor::load;
+  ShaftName sensor = ShaftName::load;
 
-  bool operator==(const Loop&) const = default;
+  bool operator==(const SheetLoop&) const = default;
 };
 
-struct Contact {
+struct SheetContact {
   double restitution = 0.0;  ///< e, 0 … 1
 
-  bool operator==(const Contact&) const = default;
+  bool operator==(const SheetContact&) const = default;
 };
 
 struct Datasheet {
-  Motor motor;
-  Gearbox gearbox;
-  Load load;
-  Loop loop;
-  Contact contact;
+  SheetMotor motor;
+  SheetGearbox gearbox;
+  SheetLoad load;
+  SheetLoop loop;
+  SheetContact contact;
 
   bool operator==(const Datasheet&) const = default;
 };
+
+/// Names of the fields of a data sheet for those that a drivetrain or its normal form reports.
+std::vector<Violation> named_for_datasheet(std::vector<Violation> violations);
 
 /// Every violation, field by field ("motor.resistance", …).
 std::vector<Violation> validate(const Datasheet& datasheet);

@@ -14,7 +14,7 @@ struct Drivetrain {
   double stiffness = 0.0;       ///< K, N m/rad, > 0: torque at the load per unit position error
   double backlash = 0.0;        ///< b, rad, ≥ 0, face to face at the load shaft
   double restitution = 0.0;     ///< e, 0 … 1
-  Sensor sensor = Sensor::load;
+  ShaftName sensor = ShaftName::load;
 
   bool operator==(const Drivetrain&) const = default;
 };

@@ -55,7 +55,7 @@ std::vector<Violation> validate(const NormalizedServo& servo) {
   require(share_range.includes(servo.friction_ratio), "friction_ratio", servo.friction_ratio);
   require(backlash_range.includes(servo.backlash), "backlash", servo.backlash);
   require(share_range.includes(servo.restitution), "restitution", servo.restitution);
-  if (servo.sensor != Sensor::load) {
+  if (servo.sensor != ShaftName::load) {
     check.refuse("sensor", "motor", "must be " + permitted_values("sensor"));
   }
   const double load_friction = servo.damping * servo.friction_ratio;

@@ -6,11 +6,9 @@
 #include <vector>
 
 #include "base/violation.hpp"
+#include "gearlash/controller.hpp"
 
 namespace gearlash {
-
-/// The shaft that carries the position sensor of the loop.
-enum class Sensor { load, motor };
 
 /// The six inputs of every chart of the 1960 thesis (restitution and sensor were fixed there).
 ///
@@ -23,7 +21,7 @@ struct NormalizedServo {
   double friction_ratio = 0.5;  ///< F_L/(F_M+F_L), 0 … 1; without effect where damping is 0
   double backlash = 0.0;        ///< b, rad at the load shaft, face to face, 0 or 1e-15 … 1e6
   double restitution = 0.0;     ///< e, 0 (plastic) … 1 (elastic)
-  Sensor sensor = Sensor::load;
+  ShaftName sensor = ShaftName::load;
 
   bool operator==(const NormalizedServo&) const = default;
 };
@@ -35,7 +33,7 @@ std::string permitted_values(std::string_view field);
 /// Every violation of the ranges above, and of two rules that join fields: a massless load
 /// (inertia_ratio 0) needs load friction and a massless motor (infinity) needs motor friction,
 /// because a shaft with neither inertia nor friction has no law of motion in the gap.
-/// Sensor::motor is refused until drives are built. Empty when the servo is sound.
+/// ShaftName::motor is refused until drives are built. Empty when the servo is sound.
 std::vector<Violation> validate(const NormalizedServo& servo);
 
 }  // namespace gearlash

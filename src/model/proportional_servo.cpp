@@ -1,13 +1,17 @@
 #include "model/proportional_servo.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gearlash::drive {
 namespace {
 
-/// Without states and with the same gain for reference and position.
+/// The same gain for reference and position, and no state that reaches the output: an integrator
+/// without gain and a lead-lag element whose zero is its pole are proportional too.
 bool is_proportional(const LinearController& controller) {
-  return controller.order() == 0 && controller.direct[0] == -controller.direct[1];
+  const auto is_zero = [](double gain) { return gain == 0.0; };
+  return std::all_of(controller.output.begin(), controller.output.end(), is_zero) &&
+         controller.direct[0] == -controller.direct[1];
 }
 
 bool is_undisturbed(const Drive& drive) {
@@ -29,12 +33,17 @@ Drive drive_of(const Drivetrain& drivetrain) {
   drive.load = {drivetrain.load_inertia, {.viscous = drivetrain.load_friction}};
   drive.backlash = drivetrain.backlash;
   drive.contact = RigidContact{drivetrain.restitution};
-  drive.sensing.load_share_of_position = drivetrain.sensor == Sensor::load ? 1.0 : 0.0;
+  drive.sensing.load_share_of_position = drivetrain.sensor == ShaftName::load ? 1.0 : 0.0;
   drive.controller = ProportionalDerivative{.proportional = drivetrain.stiffness};
   return drive;
 }
 
 std::optional<Drivetrain> proportional_servo(const Drive& drive) {
+  const std::optional<Drivetrain> drivetrain = proportional_drivetrain(drive);
+  return drivetrain && validate(*drivetrain).empty() ? drivetrain : std::nullopt;
+}
+
+std::optional<Drivetrain> proportional_drivetrain(const Drive& drive) {
   const auto* rigid = std::get_if<RigidContact>(&drive.contact);
   if (rigid == nullptr || !is_smooth(drive) || !is_undisturbed(drive)) return std::nullopt;
   if (drive.sensing.load_share_of_position != 1.0) return std::nullopt;
@@ -51,7 +60,6 @@ std::optional<Drivetrain> proportional_servo(const Drive& drive) {
   drivetrain.stiffness = controller.direct[0];
   drivetrain.backlash = drive.backlash;
   drivetrain.restitution = rigid->restitution;
-  if (!validate(drivetrain).empty()) return std::nullopt;
   return drivetrain;
 }
 

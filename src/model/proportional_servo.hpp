@@ -18,4 +18,8 @@ Drive drive_of(const Drivetrain& drivetrain);
 /// any other drive. Precondition: validate(drive) is empty.
 std::optional<Drivetrain> proportional_servo(const Drive& drive);
 
+/// The same without the check that its numbers are within the ranges of the closed form.
+/// Precondition: the controller is sound.
+std::optional<Drivetrain> proportional_drivetrain(const Drive& drive);
+
 }  // namespace gearlash::drive

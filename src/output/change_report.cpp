@@ -13,9 +13,9 @@ namespace {
 
 constexpr int digits = 4;
 
-std::string value_text(const ChangeableDrive& drive, Parameter parameter, double value,
+std::string value_text(const ChangeableDrive& drive, DesignParameter parameter, double value,
                        const ReportUnits& units) {
-  if (parameter == Parameter::backlash) {
+  if (parameter == DesignParameter::backlash) {
     return significant(units.angle.from_radians(value), digits) + " " + units.angle.name;
   }
   const std::string unit = drive.unit_of(parameter);

@@ -28,8 +28,8 @@ struct ShownUnit {
   double size = 1.0;
 };
 
-ShownUnit shown_unit(const DesignReport& report, Parameter parameter) {
-  if (parameter == Parameter::backlash) {
+ShownUnit shown_unit(const DesignReport& report, DesignParameter parameter) {
+  if (parameter == DesignParameter::backlash) {
     return {" " + report.units.angle.name, report.units.angle.radians};
   }
   const std::string unit = report.drive.unit_of(parameter);
@@ -77,7 +77,7 @@ std::vector<std::string> header() {
 /// The first of a parameter names it, the others are further ways.
 std::vector<std::string> interval_row(const DesignReport& report, const FeasibleValues& values,
                                       std::size_t index) {
-  const Parameter parameter = values.parameter;
+  const DesignParameter parameter = values.parameter;
   const Bounds& interval = values.intervals[index];
   const ShownUnit unit = shown_unit(report, parameter);
   const double value = nearest_in(interval, values.present);
@@ -102,7 +102,7 @@ std::string reason(const DesignReport& report, const FeasibleValues& values) {
   };
   std::string text = std::string(name_of(values.parameter)) + ": ";
   if (values.searched.low == values.searched.high) return text + "is 0, and has no multiples";
-  if (values.parameter == Parameter::backlash &&
+  if (values.parameter == DesignParameter::backlash &&
       (report.target.no_hunting || !std::isinf(report.target.growth_at_rest.high))) {
     return text + "however small, it leaves the hunting; only its size follows";
   }

@@ -136,7 +136,7 @@ class GridNetcdf::Layout {
     file_.set_attribute_of_file("source", "gearlash " + contents.provenance.version);
     file_.set_attribute_of_file("history", contents.provenance.command);
     file_.set_attribute_of_file("certainty", certainty_of(grid_));
-    file_.set_attribute_of_file("sensor", grid_.servo.sensor == Sensor::load ? "load" : "motor");
+    file_.set_attribute_of_file("sensor", grid_.servo.sensor == ShaftName::load ? "load" : "motor");
     file_.set_attribute_of_file(
         "comment",
         "Angles at the load shaft. Times, speeds and energies are normalised: undamped natural "

@@ -24,7 +24,7 @@ inline Json json_servo(const NormalizedServo& servo) {
           {"friction_ratio", json_number(servo.friction_ratio)},
           {"backlash", json_number(servo.backlash)},
           {"restitution", json_number(servo.restitution)},
-          {"sensor", servo.sensor == Sensor::load ? "load" : "motor"}};
+          {"sensor", servo.sensor == ShaftName::load ? "load" : "motor"}};
 }
 
 inline Json json_provenance(const Provenance& provenance) {

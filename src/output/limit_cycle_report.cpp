@@ -170,7 +170,7 @@ std::string servo_table(const LimitCycleReport& report) {
   rows.push_back({"backlash, b", number(unit.from_radians(servo.backlash)) + " " + unit.name,
                   unit.radians == 1.0 ? "" : number(servo.backlash) + " rad"});
   rows.push_back({"restitution, e", number(servo.restitution), ""});
-  rows.push_back({"position sensor", servo.sensor == Sensor::load ? "load" : "motor", ""});
+  rows.push_back({"position sensor", servo.sensor == ShaftName::load ? "load" : "motor", ""});
   const double growth = report.analysis.growth_at_rest;
   rows.push_back({"growth at rest, μ₀", std::isnan(growth) ? "not known" : number(growth),
                   "of small motion in half a cycle"});

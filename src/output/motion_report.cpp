@@ -52,12 +52,12 @@ void write_provenance(const MotionReport& report, const TextSink& sink) {
   if (report.is_drive) {
     sink("# worked out in closed form: the drive is a servo with proportional control\n");
   }
-  sink(
-      fmt::format("# damping = {}, inertia_ratio = {}, friction_ratio = {}, backlash = {} rad, "
-                  "restitution = {}, sensor = {}\n",
-                  exact_text(servo.damping), exact_text(servo.inertia_ratio),
-                  exact_text(servo.friction_ratio), exact_text(servo.backlash),
-                  exact_text(servo.restitution), servo.sensor == Sensor::load ? "load" : "motor"));
+  sink(fmt::format(
+      "# damping = {}, inertia_ratio = {}, friction_ratio = {}, backlash = {} rad, "
+      "restitution = {}, sensor = {}\n",
+      exact_text(servo.damping), exact_text(servo.inertia_ratio), exact_text(servo.friction_ratio),
+      exact_text(servo.backlash), exact_text(servo.restitution),
+      servo.sensor == ShaftName::load ? "load" : "motor"));
   if (report.units.natural_frequency) {
     sink(fmt::format("# natural_frequency = {} rad/s\n",
                      exact_text(*report.units.natural_frequency)));

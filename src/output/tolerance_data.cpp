@@ -169,7 +169,7 @@ void add_histogram(const ToleranceReport& report, TwoPassFile& file) {
 }  // namespace
 
 void write_tolerance_csv(const ToleranceReport& report, const TextSink& sink) {
-  const Sampling& sampling = report.study.sampling;
+  const SamplePlan& sampling = report.study.sampling;
   sink(fmt::format("# gearlash {}: {}\n", report.provenance.version, report.provenance.command));
   sink(fmt::format("# {} replicates of {} points, seed {}\n", sampling.replicates, sampling.points,
                    sampling.seed));

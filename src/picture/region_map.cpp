@@ -6,14 +6,14 @@ namespace gearlash {
 namespace {
 
 /// In the author's unit of angles where it is one.
-double unit_of_axis(const RegionMapTask& task, Parameter parameter) {
-  return parameter == Parameter::backlash ? task.angle.radians : 1.0;
+double unit_of_axis(const RegionMapTask& task, DesignParameter parameter) {
+  return parameter == DesignParameter::backlash ? task.angle.radians : 1.0;
 }
 
 ChartAxis chart_axis(const RegionMapTask& task, const ParameterAxis& axis) {
-  const Parameter parameter = axis.parameter;
+  const DesignParameter parameter = axis.parameter;
   const std::string unit =
-      parameter == Parameter::backlash ? task.angle.name : task.drive.unit_of(parameter);
+      parameter == DesignParameter::backlash ? task.angle.name : task.drive.unit_of(parameter);
   return {.label = std::string(description_of(parameter)) + (unit == "1" ? "" : " (" + unit + ")"),
           .logarithmic = axis.values.logarithmic,
           .low = axis.values.values.front() / unit_of_axis(task, parameter),

@@ -192,7 +192,7 @@ TEST(ThesisCommand, FaultsAreOneLine) {
   EXPECT_EQ(subcommand.status, 2);
   EXPECT_EQ(subcommand.err,
             "gearlash: subcommand = table-9: must be table-2, machine, run, figure, chart-reading, "
-            "extension or all; see gearlash thesis --help\n");
+            "extension or all (did you mean table-2?); see gearlash thesis --help\n");
   const Outcome none = run_tool({"thesis"});
   EXPECT_EQ(none.status, 2);
   EXPECT_EQ(none.err,

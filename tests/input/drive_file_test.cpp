@@ -10,6 +10,7 @@
 #include <string>
 
 #include "model/proportional_servo.hpp"
+#include "model/reduced_drive.hpp"
 
 namespace gearlash {
 namespace {
@@ -152,22 +153,22 @@ TEST(DriveFile, VoltsComeThroughTheArmature) {
 }
 
 TEST(OracleDriveFile, AProportionalControllerIsTheServoOfALoop) {
-  const DriveFile file = drive_of(plain + std::string("[controller]\nkind = \"P\"\n"
-                                                      "proportional = \"3 V/rad\"\n"));
+  const auto file =
+      std::get<ServoFile>(parse_servo_or_drive(plain + std::string("[controller]\nkind = \"P\"\n"
+                                                                   "proportional = \"3 V/rad\"\n"),
+                                               "drive.toml", "."));
   const auto servo =
       std::get<ServoFile>(parse_servo_or_drive(plain + std::string("[loop]\nerror_gain = "
                                                                    "\"3 V/rad\"\n"),
                                                "servo.toml", "."));
-  // Its gain goes through n K₁/R in another order.
-  Drivetrain found = drive::proportional_servo(file.drive).value();
-  EXPECT_DOUBLE_EQ(found.stiffness, servo.drivetrain->stiffness);
-  found.stiffness = servo.drivetrain->stiffness;
-  EXPECT_EQ(found, servo.drivetrain);
+  EXPECT_EQ(file, servo);
   EXPECT_EQ(drive::proportional_servo(drive_file_of(servo).drive), servo.drivetrain);
   // Whatever it has besides has no closed form.
   const auto with = [&](const std::string& more) {
-    return drive::proportional_servo(
-        drive_of(plain + std::string("[loop]\nerror_gain = \"3 V/rad\"\n") + more).drive);
+    return closed_form_servo(
+        parse_drive(plain + std::string("[loop]\nerror_gain = \"3 V/rad\"\n") + more, "drive.toml",
+                    ".")
+            .drive);
   };
   EXPECT_FALSE(with("[sensor]\nposition = \"motor\"\n"));
   EXPECT_FALSE(with("[sampling]\nperiod = \"1 ms\"\n"));
@@ -176,10 +177,11 @@ TEST(OracleDriveFile, AProportionalControllerIsTheServoOfALoop) {
   EXPECT_TRUE(with("[reference]\nkind = \"constant\"\nvalue = \"1 rad\"\n"));
   // Speed fed back from the motor is friction on it; from the load it is not.
   const auto with_speed = [&](const std::string& shaft) {
-    return drive::proportional_servo(
-        drive_of(plain + ("[controller]\nkind = \"PD\"\nproportional = \"3 V/rad\"\n"
-                          "derivative = \"0.5 V s/rad\"\n[sensor]\nspeed = \"" +
-                          shaft + "\"\n"))
+    return proportional_drivetrain(
+        parse_drive(plain + ("[controller]\nkind = \"PD\"\nproportional = \"3 V/rad\"\n"
+                             "derivative = \"0.5 V s/rad\"\n[sensor]\nspeed = \"" +
+                             shaft + "\"\n"),
+                    "drive.toml", ".")
             .drive);
   };
   ASSERT_TRUE(with_speed("motor"));
@@ -330,7 +332,7 @@ TEST(EdgeDriveFile, WhatExcludesEachOtherIsTold) {
   EXPECT_THAT(refusals(replaced(joint, "torque_limit = \"0.2 N m\"", "voltage_limit = \"1 V\"")),
               ElementsAre(HasSubstr("motor.voltage_limit = 1 V: is no key of [motor]")));
   EXPECT_THAT(refusals(plain + std::string("[sensor]\nposition = \"load\"\n")),
-              ElementsAre(HasSubstr("loop is missing: must be a section [loop] with error_gain")));
+              ElementsAre(HasSubstr("controller is missing: must be a section [controller] with")));
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ TEST(ServoFile, ReadsTheSampleProblem) {
   EXPECT_NEAR(motor.torque_constant, 28.2 * ounce_force * 0.0254, 8 * epsilon);
   EXPECT_EQ(motor.back_emf_constant, 0.233);
   EXPECT_EQ(motor.resistance, 282.0);
-  EXPECT_EQ(file.datasheet->loop.sensor, Sensor::load);
+  EXPECT_EQ(file.datasheet->loop.sensor, ShaftName::load);
   EXPECT_EQ(file.datasheet->contact.restitution, 0.0);
   EXPECT_EQ(file.drivetrain, to_drivetrain(*file.datasheet));
   EXPECT_EQ(file.servo, normalize(*file.drivetrain));
@@ -261,13 +261,14 @@ sensor = "motor"
 restitution = 1.5
 )toml"),
       ElementsAre(
-          "s.toml:1:2: moter = [moter]: is no section: must be one of motor, gearbox, load, "
-          "loop, contact, servo (did you mean motor?)",
+          "s.toml:1:2: moter = [moter]: is no section: must be one of servo, motor, gearbox, "
+          "load, contact, sensor, controller, sampling, reference, load_torque, loop (did you mean "
+          "motor?)",
           "s.toml:2:1: motor.back_emf_constant is missing: must be voltage per angular "
           "speed, such as V s/rad",
           "s.toml:4:1: motor.inertai = 3 kg m2: is no key of [motor]: must be one of kind, "
-          "inertia, friction, torque_constant, back_emf_constant, resistance (did you mean "
-          "inertia?)",
+          "inertia, friction, torque_constant, back_emf_constant, speed_constant, resistance, "
+          "coulomb, breakaway, voltage_limit (did you mean inertia?)",
           "s.toml:5:11: motor.inertia = -0.61 oz in2: must be zero or positive, and finite",
           "s.toml:6:12: motor.friction = 3: must be text of a number and a unit of torque "
           "per angular speed, such as \"1 N m s/rad\"",
@@ -284,8 +285,6 @@ restitution = 1.5
           "angular speed, such as N m s/rad",
           "s.toml:17:14: loop.error_gain = 10 V: must be voltage per angle, such as V/rad; "
           "the angle has to be written",
-          "s.toml:18:10: loop.sensor = motor: must be load (limit-cycle, "
-          "simulate, describe and compare take one on the motor)",
           "s.toml:20:15: contact.restitution = 1.5: must be from 0 to 1"));
 }
 
@@ -309,8 +308,9 @@ TEST(ServoFileRefusal, EachSectionOfADataSheetIsNeeded) {
     const std::vector<std::string> lines =
         refusals(replaced(sample, "[" + name + "]", "[contact." + name + "]"));
     ASSERT_FALSE(lines.empty());
-    EXPECT_THAT(lines[0], StartsWith("s.toml:1:1: " + name + " is missing: must be a section [" +
-                                     name + "] with "))
+    const std::string section = name == "loop" ? "controller" : name;
+    EXPECT_THAT(lines[0], StartsWith("s.toml:1:1: " + section + " is missing: must be a section [" +
+                                     section + "] with "))
         << name;
   }
 }
@@ -318,21 +318,22 @@ TEST(ServoFileRefusal, EachSectionOfADataSheetIsNeeded) {
 TEST(ServoFileRefusal, OneFormOfServo) {
   EXPECT_THAT(refusals(""),
               ElementsAre("s.toml:1:1: motor is missing: must be a section [motor] with [gearbox], "
-                          "[load] and [loop], or [servo] in their place"));
+                          "[load] and [loop] or [controller], or [servo] in their place"));
   EXPECT_EQ(refusals("# nothing\n").size(), 1U);
   EXPECT_THAT(refusals(std::string(sample) + normalized),
               ElementsAre("s.toml:16:1: servo = [servo]: must not stand beside [motor]: a file "
-                          "describes its servo once"));
+                          "describes its drive once"));
   EXPECT_THAT(refusals(std::string(normalized) + "[loop]\nerror_gain = \"1 V/rad\"\n"),
               ElementsAre("s.toml:6:1: loop = [loop]: must not stand beside [servo], which is "
                           "normalised"));
 }
 
 TEST(ServoFileRefusal, KindOfMotor) {
-  EXPECT_THAT(refusals(replaced(sample, "\"armature-controlled\"", "\"armature controlled\"")),
-              ElementsAre("s.toml:2:8: motor.kind = armature controlled: must be one of "
-                          "armature-controlled, field-controlled, two-phase (did you mean "
-                          "armature-controlled?)"));
+  EXPECT_THAT(
+      refusals(replaced(sample, "\"armature-controlled\"", "\"armature controlled\"")),
+      ElementsAre("s.toml:2:8: motor.kind = armature controlled: must be one of "
+                  "armature-controlled, field-controlled, two-phase, torque-controlled (did "
+                  "you mean armature-controlled?)"));
   EXPECT_THAT(refusals(replaced(sample, "\"armature-controlled\"", "3")),
               ElementsAre(StartsWith("s.toml:2:8: motor.kind = 3: must be one of ")));
   EXPECT_THAT(refusals(replaced(sample, "armature-", "field-")),
@@ -419,7 +420,7 @@ TEST(ServoFileRefusal, OfAnotherType) {
                             ": must be text of a number and a unit of electrical resistance, such "
                             "as \"1 ohm\""));
   }
-  for (const char* value : {"true", "[1]", "\"one\"", "\"1:1\""}) {
+  for (const char* value : {"true", "[1]", "\"one\"", "\"1:1:1\""}) {
     EXPECT_THAT(refusals(replaced(sample, "ratio = 1", std::string("ratio = ") + value)),
                 ElementsAre(HasSubstr("must be a number without unit, such as ")))
         << value;

@@ -304,7 +304,7 @@ TEST(Units, NamesTheWordOrSignItCannotRead) {
 }
 
 TEST(Units, QuantityKeepsTheUnitAsWritten) {
-  const Quantity quantity = read_quantity("key", " 12  arcmin ", angle);
+  const Measured quantity = read_quantity("key", " 12  arcmin ", angle);
   EXPECT_EQ(quantity.unit, "arcmin");
   EXPECT_NEAR(quantity.unit_in_si, degree / 60, tolerance);
   EXPECT_EQ(quantity.si, 12 * quantity.unit_in_si);

@@ -128,7 +128,7 @@ TEST(EdgeNormalizedServoRanges, AllViolationsAreListed) {
                               .friction_ratio = 3.0,
                               .backlash = nan,
                               .restitution = 2.0,
-                              .sensor = Sensor::motor};
+                              .sensor = ShaftName::motor};
   EXPECT_THAT(fields(validate(servo)), ElementsAre("damping", "inertia_ratio", "friction_ratio",
                                                    "backlash", "restitution", "sensor"));
 }
@@ -137,7 +137,7 @@ TEST(EdgeDatasheetRanges, AllViolationsAreListedForEachMotor) {
   Datasheet datasheet{.motor = ArmatureControlledMotor{-1.0, nan, 0.0, -1.0, 0.0},
                       .gearbox = {.ratio = 0.0, .backlash = -1.0},
                       .load = {.inertia = -1.0, .friction = infinity},
-                      .loop = {.error_gain = -2.0, .sensor = Sensor::motor},
+                      .loop = {.error_gain = -2.0, .sensor = ShaftName::motor},
                       .contact = {.restitution = -0.5}};
   EXPECT_THAT(fields(validate(datasheet)),
               UnorderedElementsAre("motor.inertia", "motor.friction", "motor.torque_constant",
@@ -206,7 +206,7 @@ TEST(EdgeDrivetrainRanges, EveryFieldAtFaultIsListedAtOnce) {
   drivetrain.stiffness = -1.0;
   drivetrain.backlash = -1.0;
   drivetrain.restitution = 2.0;
-  drivetrain.sensor = Sensor::motor;
+  drivetrain.sensor = ShaftName::motor;
   EXPECT_THAT(fields(validate(drivetrain)),
               UnorderedElementsAre("stiffness", "backlash", "restitution", "sensor"));
 }

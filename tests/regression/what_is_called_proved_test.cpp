@@ -59,7 +59,7 @@ TEST(RegressionProved, DesignLeavesOpenWhatTheDataLeaveOpen) {
   const auto values_below = [&](double growth) {
     Target target;
     target.growth_at_rest.high = growth;
-    return feasible_values(drive, Parameter::backlash, target);
+    return feasible_values(drive, DesignParameter::backlash, target);
   };
   // Version 0.1 called it proved that no backlash does it. The growth is .0083170867724 of the
   // doubles and .0083170868353 of the decimals: 1 − f has seven digits less than f.
@@ -82,7 +82,7 @@ TEST(RegressionProved, DesignDoesNotContradictItself) {
       servo_of(67.15170913401705, .07958454908395947, 2.043082623864931e-06);
   const ChangeableDrive drive(servo);
   const FeasibleValues values =
-      feasible_values(drive, Parameter::backlash, Target{.no_hunting = true});
+      feasible_values(drive, DesignParameter::backlash, Target{.no_hunting = true});
   const Judgement at_present =
       judge(Target{.no_hunting = true}, drive.box(), std::numeric_limits<double>::quiet_NaN());
   // Growth at rest has nothing to do with the backlash: the whole range is as the present value is.

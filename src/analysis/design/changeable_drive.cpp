@@ -15,7 +15,7 @@ struct Naming {
   const char* unit;  ///< of a data sheet's
 };
 
-/// By Parameter.
+/// By DesignParameter.
 constexpr std::array<Naming, parameter_count> namings = {
     {{"backlash", "backlash, face to face at the load", "rad"},
      {"gear_ratio", "gear ratio, motor turns per load turn", "1"},
@@ -27,21 +27,21 @@ constexpr std::array<Naming, parameter_count> namings = {
      {"motor_inertia", "inertia of the motor", "kg m2"},
      {"restitution", "coefficient of restitution", "1"}}};
 
-const Naming& naming_of(Parameter parameter) {
+const Naming& naming_of(DesignParameter parameter) {
   return namings[static_cast<std::size_t>(parameter)];
 }
 
-double torque_per_volt(const Motor& motor) {
+double torque_per_volt(const SheetMotor& motor) {
   return std::visit(Overloaded{[](const TwoPhaseMotor& of) { return of.torque_per_volt; },
                                [](const auto& of) { return of.torque_constant / of.resistance; }},
                     motor);
 }
 
-double friction_of(const Motor& motor) {
+double friction_of(const SheetMotor& motor) {
   return std::visit([](const auto& any) { return any.friction; }, motor);
 }
 
-double inertia_of(const Motor& motor) {
+double inertia_of(const SheetMotor& motor) {
   return std::visit([](const auto& any) { return any.inertia; }, motor);
 }
 
@@ -62,18 +62,18 @@ Drivetrain drivetrain_of(const NormalizedServo& servo, double natural_frequency)
 
 /// When a parameter is changed among others: feedback adds to the motor's friction as it then is,
 /// and gears carry all of it to the load.
-int turn_of(Parameter parameter) {
-  if (parameter == Parameter::gear_ratio) return 2;
-  return parameter == Parameter::tachometer ? 1 : 0;
+int turn_of(DesignParameter parameter) {
+  if (parameter == DesignParameter::gear_ratio) return 2;
+  return parameter == DesignParameter::tachometer ? 1 : 0;
 }
 
 }  // namespace
 
-const char* name_of(Parameter parameter) { return naming_of(parameter).name; }
-const char* description_of(Parameter parameter) { return naming_of(parameter).description; }
+const char* name_of(DesignParameter parameter) { return naming_of(parameter).name; }
+const char* description_of(DesignParameter parameter) { return naming_of(parameter).description; }
 
-std::optional<Parameter> parameter_named(std::string_view name) {
-  for (const Parameter parameter : all_parameters) {
+std::optional<DesignParameter> parameter_named(std::string_view name) {
+  for (const DesignParameter parameter : all_parameters) {
     if (name == name_of(parameter)) return parameter;
   }
   return std::nullopt;
@@ -113,17 +113,17 @@ ChangeableDrive::ChangeableDrive(const NormalizedServo& servo, double natural_fr
   }
 }
 
-const char* ChangeableDrive::unit_of(Parameter parameter) const {
-  return is_normalized_ && parameter != Parameter::backlash ? "1" : naming_of(parameter).unit;
+const char* ChangeableDrive::unit_of(DesignParameter parameter) const {
+  return is_normalized_ && parameter != DesignParameter::backlash ? "1" : naming_of(parameter).unit;
 }
 
-Drivetrain ChangeableDrive::with(Parameter parameter, double value) const {
+Drivetrain ChangeableDrive::with(DesignParameter parameter, double value) const {
   Drivetrain drive = drivetrain_;
   change(drive, parameter, value);
   return drive;
 }
 
-Drivetrain ChangeableDrive::with(Parameter parameter, double value, Parameter other,
+Drivetrain ChangeableDrive::with(DesignParameter parameter, double value, DesignParameter other,
                                  double other_value) const {
   Drivetrain drive = drivetrain_;
   const bool comes_first = turn_of(parameter) <= turn_of(other);
@@ -133,69 +133,69 @@ Drivetrain ChangeableDrive::with(Parameter parameter, double value, Parameter ot
   return drive;
 }
 
-void ChangeableDrive::change(Drivetrain& drive, Parameter parameter, double value) const {
+void ChangeableDrive::change(Drivetrain& drive, DesignParameter parameter, double value) const {
   const double factor = value / present_value(parameter);
   switch (parameter) {
-    case Parameter::backlash:
+    case DesignParameter::backlash:
       drive.backlash = value;
       break;
-    case Parameter::gear_ratio:
+    case DesignParameter::gear_ratio:
       drive.motor_inertia *= factor * factor;
       drive.motor_friction *= factor * factor;
       drive.stiffness *= factor;
       break;
-    case Parameter::error_gain:
+    case DesignParameter::error_gain:
       drive.stiffness *= factor;
       break;
-    case Parameter::load_friction:
+    case DesignParameter::load_friction:
       drive.load_friction = load_friction_unit_ * value;
       break;
-    case Parameter::motor_friction:
+    case DesignParameter::motor_friction:
       drive.motor_friction = motor_friction_unit_ * value + electrical_friction_;
       break;
-    case Parameter::tachometer:
+    case DesignParameter::tachometer:
       drive.motor_friction += tachometer_unit_ * value;
       break;
-    case Parameter::load_inertia:
+    case DesignParameter::load_inertia:
       drive.load_inertia = value;
       break;
-    case Parameter::motor_inertia:
+    case DesignParameter::motor_inertia:
       drive.motor_inertia = motor_inertia_unit_ * value;
       break;
-    case Parameter::restitution:
+    case DesignParameter::restitution:
       drive.restitution = value;
       break;
   }
 }
 
-DrivetrainSlopes ChangeableDrive::slopes(Parameter parameter) const {
+DrivetrainSlopes ChangeableDrive::slopes(DesignParameter parameter) const {
   const double present = present_value(parameter);
   switch (parameter) {
-    case Parameter::backlash:
+    case DesignParameter::backlash:
       return {.backlash = 1.0};
-    case Parameter::gear_ratio:
+    case DesignParameter::gear_ratio:
       return {.motor_inertia = 2.0 * drivetrain_.motor_inertia / present,
               .motor_friction = 2.0 * drivetrain_.motor_friction / present,
               .stiffness = drivetrain_.stiffness / present};
-    case Parameter::error_gain:
+    case DesignParameter::error_gain:
       return {.stiffness = drivetrain_.stiffness / present};
-    case Parameter::load_friction:
+    case DesignParameter::load_friction:
       return {.load_friction = load_friction_unit_};
-    case Parameter::motor_friction:
+    case DesignParameter::motor_friction:
       return {.motor_friction = motor_friction_unit_};
-    case Parameter::tachometer:
+    case DesignParameter::tachometer:
       return {.motor_friction = tachometer_unit_};
-    case Parameter::load_inertia:
+    case DesignParameter::load_inertia:
       return {.load_inertia = 1.0};
-    case Parameter::motor_inertia:
+    case DesignParameter::motor_inertia:
       return {.motor_inertia = motor_inertia_unit_};
-    case Parameter::restitution:
+    case DesignParameter::restitution:
       return {.restitution = 1.0};
   }
   return {};
 }
 
-Bounds ChangeableDrive::range(Parameter parameter) const {
+Bounds ChangeableDrive::range(DesignParameter parameter) const {
   constexpr double factor = 1e3;
   constexpr double times_critical = 10.0;
   const double critical = 2.0 * std::sqrt(drivetrain_.stiffness) *
@@ -209,27 +209,27 @@ Bounds ChangeableDrive::range(Parameter parameter) const {
     return wanted;
   };
   switch (parameter) {
-    case Parameter::restitution:
+    case DesignParameter::restitution:
       return {0.0, 1.0};
-    case Parameter::load_friction:
+    case DesignParameter::load_friction:
       return {reach(present, 0.0), reach(present, times_critical * critical / load_friction_unit_)};
-    case Parameter::motor_friction:
+    case DesignParameter::motor_friction:
       return {reach(present, 0.0),
               reach(present, times_critical * critical / motor_friction_unit_)};
-    case Parameter::tachometer:
+    case DesignParameter::tachometer:
       return {0.0, reach(present, times_critical * critical / tachometer_unit_)};
-    case Parameter::backlash:
-    case Parameter::gear_ratio:
-    case Parameter::error_gain:
-    case Parameter::load_inertia:
-    case Parameter::motor_inertia:
+    case DesignParameter::backlash:
+    case DesignParameter::gear_ratio:
+    case DesignParameter::error_gain:
+    case DesignParameter::load_inertia:
+    case DesignParameter::motor_inertia:
       break;
   }
   if (present == 0.0) return {0.0, 0.0};  // nothing to be a multiple of
   return {reach(present, present / factor), reach(present, present * factor)};
 }
 
-DriveBox ChangeableDrive::box(Parameter parameter, const Bounds& values) const {
+DriveBox ChangeableDrive::box(DesignParameter parameter, const Bounds& values) const {
   return box_between(with(parameter, values.low), with(parameter, values.high), data_error_);
 }
 

@@ -14,7 +14,7 @@ namespace gearlash {
 /// What a designer may change by itself, all else being as it is. Of a data sheet they are its own
 /// numbers; of a normalised servo shares of what it has at present: of all inertia, of the critical
 /// friction 2ω_n(J_M + J_L), of the gear ratio and of the gain.
-enum class Parameter {
+enum class DesignParameter {
   backlash,        ///< b
   gear_ratio,      ///< n: J_M and F_M go as n², K as n; b stays, being that of the load's shaft
   error_gain,      ///< K₃: K goes with it
@@ -26,16 +26,16 @@ enum class Parameter {
   restitution      ///< e
 };
 inline constexpr std::size_t parameter_count = 9;
-inline constexpr std::array<Parameter, parameter_count> all_parameters = {
-    Parameter::backlash,      Parameter::gear_ratio,     Parameter::error_gain,
-    Parameter::load_friction, Parameter::motor_friction, Parameter::tachometer,
-    Parameter::load_inertia,  Parameter::motor_inertia,  Parameter::restitution};
+inline constexpr std::array<DesignParameter, parameter_count> all_parameters = {
+    DesignParameter::backlash,      DesignParameter::gear_ratio,     DesignParameter::error_gain,
+    DesignParameter::load_friction, DesignParameter::motor_friction, DesignParameter::tachometer,
+    DesignParameter::load_inertia,  DesignParameter::motor_inertia,  DesignParameter::restitution};
 
 /// "backlash", "gear_ratio", …
-const char* name_of(Parameter parameter);
-std::optional<Parameter> parameter_named(std::string_view name);
+const char* name_of(DesignParameter parameter);
+std::optional<DesignParameter> parameter_named(std::string_view name);
 /// "gear ratio", "added tachometer feedback", …
-const char* description_of(Parameter parameter);
+const char* description_of(DesignParameter parameter);
 
 /// One derivative for each number of a Drivetrain: of it, or by it.
 struct DrivetrainSlopes {
@@ -59,31 +59,32 @@ class ChangeableDrive {
   const Drivetrain& drivetrain() const { return drivetrain_; }
 
   /// In SI units, or as a share.
-  double present_value(Parameter parameter) const {
+  double present_value(DesignParameter parameter) const {
     return present_values_[static_cast<std::size_t>(parameter)];
   }
   /// "rad", "V/rad", "N m s/rad", "V s/rad", "kg m2", or "1" where it is a number.
-  const char* unit_of(Parameter parameter) const;
+  const char* unit_of(DesignParameter parameter) const;
   /// Values worth looking at: a thousandth to a thousand times the present one; friction and
   /// feedback, which may be 0 at present, from 0 to where they alone damp the servo ten times
   /// critically; restitution from 0 to 1. Less where that is not permitted (validate(Drivetrain)).
-  Bounds range(Parameter parameter) const;
+  Bounds range(DesignParameter parameter) const;
 
   /// The drive with another value of one parameter, or of two; it need not be sound.
-  Drivetrain with(Parameter parameter, double value) const;
-  Drivetrain with(Parameter parameter, double value, Parameter other, double other_value) const;
+  Drivetrain with(DesignParameter parameter, double value) const;
+  Drivetrain with(DesignParameter parameter, double value, DesignParameter other,
+                  double other_value) const;
 
   /// All drives with a parameter within bounds, as the data have them.
-  DriveBox box(Parameter parameter, const Bounds& values) const;
+  DriveBox box(DesignParameter parameter, const Bounds& values) const;
   /// The drive as it is.
   DriveBox box() const { return box_between(drivetrain_, drivetrain_, data_error_); }
 
   /// How the drive's numbers change with a parameter: the derivatives of with() at its present
   /// value.
-  DrivetrainSlopes slopes(Parameter parameter) const;
+  DrivetrainSlopes slopes(DesignParameter parameter) const;
 
  private:
-  void change(Drivetrain& drive, Parameter parameter, double value) const;
+  void change(Drivetrain& drive, DesignParameter parameter, double value) const;
 
   Drivetrain drivetrain_;
   std::array<double, parameter_count> present_values_{};

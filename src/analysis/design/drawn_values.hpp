@@ -13,7 +13,7 @@ namespace gearlash::detail {
 class DrawnValues {
  public:
   /// `sets` independent sets of values at each point.
-  DrawnValues(const TolerancedDrive& drive, const Sampling& sampling, std::size_t sets)
+  DrawnValues(const TolerancedDrive& drive, const SamplePlan& sampling, std::size_t sets)
       : points_(drive.varied.size() * sets, sampling), width_(drive.varied.size() * sets) {
     for (const VariedNumber& varied : drive.varied) quantiles_.emplace_back(varied.distribution);
   }

@@ -206,7 +206,7 @@ const ParameterSensitivity* DriveSensitivity::find(const std::string& name) cons
 DriveSensitivity drive_sensitivity(const ChangeableDrive& drive) {
   const DrivetrainSensitivity of_numbers = drivetrain_sensitivity(drive.drivetrain());
   DriveSensitivity sensitivity = empty_sensitivity(of_numbers);
-  for (const Parameter parameter : all_parameters) {
+  for (const DesignParameter parameter : all_parameters) {
     add(sensitivity, of_numbers, name_of(parameter), drive.present_value(parameter),
         drive.slopes(parameter));
   }

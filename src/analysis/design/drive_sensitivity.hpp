@@ -83,7 +83,7 @@ struct DriveSensitivity {
   const ParameterSensitivity* find(const std::string& name) const;
 };
 
-/// By every Parameter, in the order of all_parameters, named by name_of(Parameter).
+/// By every DesignParameter, in the order of all_parameters, named by name_of(DesignParameter).
 DriveSensitivity drive_sensitivity(const ChangeableDrive& drive);
 
 /// By every number of the data sheet, all others as they are, named as the file names them:

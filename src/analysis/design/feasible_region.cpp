@@ -79,23 +79,23 @@ const char* name_of(Cost cost) {
   return "stiffness";
 }
 
-ParameterAxis parameter_axis(Parameter parameter, const Bounds& range, std::size_t count) {
+ParameterAxis parameter_axis(DesignParameter parameter, const Bounds& range, std::size_t count) {
   return {parameter, spaced_axis(name_of(parameter), Input::damping, range.low, range.high, count,
                                  range.low > 0.0 ? Spacing::logarithmic : Spacing::linear)};
 }
 
-std::size_t values_to_draw(const ChangeableDrive& drive, Parameter x, Parameter y) {
-  const bool may_bounce = drive.drivetrain().restitution > 0.0 || x == Parameter::restitution ||
-                          y == Parameter::restitution;
+std::size_t values_to_draw(const ChangeableDrive& drive, DesignParameter x, DesignParameter y) {
+  const bool may_bounce = drive.drivetrain().restitution > 0.0 ||
+                          x == DesignParameter::restitution || y == DesignParameter::restitution;
   return may_bounce ? 40 : 400;
 }
 
-Bounds range_to_draw(const ChangeableDrive& drive, Parameter parameter) {
+Bounds range_to_draw(const ChangeableDrive& drive, DesignParameter parameter) {
   constexpr double factor = 30.0;
   constexpr double of_ten_times_critical = 0.1;
   const Bounds whole = drive.range(parameter);
   const double present = drive.present_value(parameter);
-  if (parameter == Parameter::restitution) return whole;
+  if (parameter == DesignParameter::restitution) return whole;
   if (present == 0.0) return {whole.low, of_ten_times_critical * whole.high};
   return {std::max(whole.low, present / factor), std::min(whole.high, present * factor)};
 }

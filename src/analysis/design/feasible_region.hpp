@@ -22,18 +22,18 @@ const char* name_of(Cost cost);
 
 /// A parameter on an axis of a picture, in the parameter's own unit.
 struct ParameterAxis {
-  Parameter parameter = Parameter::backlash;
+  DesignParameter parameter = DesignParameter::backlash;
   Axis values;  ///< its `input` says nothing
 };
 
 /// `count` values of the range, by ratio where low > 0.
-ParameterAxis parameter_axis(Parameter parameter, const Bounds& range, std::size_t count);
+ParameterAxis parameter_axis(DesignParameter parameter, const Bounds& range, std::size_t count);
 
 /// How many values an axis takes in a fraction of a second, or, with bounces, of a minute.
-std::size_t values_to_draw(const ChangeableDrive& drive, Parameter x, Parameter y);
+std::size_t values_to_draw(const ChangeableDrive& drive, DesignParameter x, DesignParameter y);
 
 /// A thirtieth to thirty times the present value; what may be 0, from 0 to critical damping.
-Bounds range_to_draw(const ChangeableDrive& drive, Parameter parameter);
+Bounds range_to_draw(const ChangeableDrive& drive, DesignParameter parameter);
 
 struct FeasibleRegion {
   ParameterAxis x;

@@ -47,16 +47,16 @@ bool has_two_masses(const ChangeableDrive& drive) {
   return drive.drivetrain().motor_inertia > 0.0 && drive.drivetrain().load_inertia > 0.0;
 }
 
-bool has_bounces(const ChangeableDrive& drive, Parameter parameter) {
+bool has_bounces(const ChangeableDrive& drive, DesignParameter parameter) {
   return has_two_masses(drive) &&
-         (parameter == Parameter::restitution || drive.drivetrain().restitution > 0.0);
+         (parameter == DesignParameter::restitution || drive.drivetrain().restitution > 0.0);
 }
 
 class Search {
  public:
-  Search(const ChangeableDrive& drive, Parameter parameter, const Target& target)
+  Search(const ChangeableDrive& drive, DesignParameter parameter, const Target& target)
       : drive_(drive), parameter_(parameter), target_(target) {
-    if (parameter == Parameter::backlash && has_bounces(drive, parameter)) {
+    if (parameter == DesignParameter::backlash && has_bounces(drive, parameter)) {
       at_present_ = performance_of(drive.drivetrain());
     }
   }
@@ -221,7 +221,7 @@ class Search {
 
   std::vector<double> first_values(const Bounds& range) {
     const bool bounces = has_bounces(drive_, parameter_);
-    const bool evenly = parameter_ == Parameter::restitution;
+    const bool evenly = parameter_ == DesignParameter::restitution;
     std::vector<double> values = spread_over(range, bounces ? coarse : fine, evenly);
     if (!bounces) return values;
     // Growth at rest is soon worked out: between these values it passes 1, or a limit.
@@ -318,7 +318,7 @@ class Search {
   static constexpr std::size_t fine = 1024;
 
   const ChangeableDrive& drive_;
-  Parameter parameter_;
+  DesignParameter parameter_;
   const Target& target_;
   std::optional<Performance> at_present_;  ///< of backlash, to which sizes are in proportion
   std::vector<TriedValue> tried_;
@@ -359,7 +359,7 @@ double FeasibleValues::nearest() const {
   return nearest;
 }
 
-FeasibleValues feasible_values(const ChangeableDrive& drive, Parameter parameter,
+FeasibleValues feasible_values(const ChangeableDrive& drive, DesignParameter parameter,
                                const Target& target) {
   FeasibleValues found;
   found.parameter = parameter;

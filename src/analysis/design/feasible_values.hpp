@@ -23,7 +23,7 @@ struct TriedValue {
 };
 
 struct FeasibleValues {
-  Parameter parameter = Parameter::backlash;
+  DesignParameter parameter = DesignParameter::backlash;
   double present = 0.0;
   Bounds searched;
   SearchKind kind = SearchKind::certified;
@@ -59,7 +59,7 @@ struct FeasibleValues {
 /// finds. Backlash is not scanned: sizes are in proportion to it, and nothing else depends on it.
 ///
 /// Precondition: validate(target) is empty.
-FeasibleValues feasible_values(const ChangeableDrive& drive, Parameter parameter,
+FeasibleValues feasible_values(const ChangeableDrive& drive, DesignParameter parameter,
                                const Target& target);
 
 }  // namespace gearlash

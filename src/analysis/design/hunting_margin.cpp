@@ -269,7 +269,7 @@ OverallMargin overall_margin(const Drivetrain& drive) {
   return margin;
 }
 
-ParameterMargin parameter_margin(const ChangeableDrive& drive, Parameter parameter) {
+ParameterMargin parameter_margin(const ChangeableDrive& drive, DesignParameter parameter) {
   const FeasibleValues quiet = feasible_values(drive, parameter, Target{.no_hunting = true});
   ParameterMargin margin{.parameter = parameter,
                          .present = quiet.present,
@@ -290,8 +290,9 @@ HuntingMargin hunting_margin(const ChangeableDrive& drive,
                              const std::function<void(double share)>& hear) {
   HuntingMargin margin;
   margin.growth_at_rest = growth_at_rest(servo_dynamics(normalize(drive.drivetrain())));
-  for (const Parameter parameter : all_parameters) {
-    if (parameter == Parameter::restitution && drive.drivetrain().restitution == 0.0) continue;
+  for (const DesignParameter parameter : all_parameters) {
+    if (parameter == DesignParameter::restitution && drive.drivetrain().restitution == 0.0)
+      continue;
     margin.parameters.push_back(parameter_margin(drive, parameter));
     if (hear) hear(static_cast<double>(margin.parameters.size()) / (parameter_count + 1));
   }

@@ -14,7 +14,7 @@ namespace gearlash {
 /// The nearest values below and above the present one at which hunting starts, or stops where the
 /// drive hunts at present; NaN where there is none in the range searched.
 struct ParameterMargin {
-  Parameter parameter = Parameter::backlash;
+  DesignParameter parameter = DesignParameter::backlash;
   double present = 0.0;
   Bounds searched;
   SearchKind kind = SearchKind::certified;  ///< certified: there is no nearer one (feasible_values)
@@ -30,7 +30,7 @@ struct ParameterMargin {
 
 /// By feasible_values() for a target of no hunting, whose ends they are: the last value without
 /// hunting, to some 1e-15 of itself.
-ParameterMargin parameter_margin(const ChangeableDrive& drive, Parameter parameter);
+ParameterMargin parameter_margin(const ChangeableDrive& drive, DesignParameter parameter);
 
 enum class MarginOutcome {
   found,

@@ -135,11 +135,11 @@ SortedReplicates SortedReplicates::finite() const {
   return part;
 }
 
-std::size_t block_count(const Sampling& sampling, std::size_t points_at_a_time) {
+std::size_t block_count(const SamplePlan& sampling, std::size_t points_at_a_time) {
   return (sampling.points + points_at_a_time - 1) / points_at_a_time * sampling.replicates;
 }
 
-bool for_all_blocks(const Sampling& sampling, std::size_t points_at_a_time,
+bool for_all_blocks(const SamplePlan& sampling, std::size_t points_at_a_time,
                     const GridEvaluation& how,
                     const std::function<void(const SampleBlock&)>& work) {
   const std::size_t blocks = block_count(sampling, points_at_a_time);

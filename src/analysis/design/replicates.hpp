@@ -45,8 +45,8 @@ struct SampleBlock {
 
 /// All blocks of a sampling on all cores; false where how.going_on() has stopped it. What a block's
 /// work is does not depend on the number of threads.
-bool for_all_blocks(const Sampling& sampling, std::size_t points_at_a_time,
+bool for_all_blocks(const SamplePlan& sampling, std::size_t points_at_a_time,
                     const GridEvaluation& how, const std::function<void(const SampleBlock&)>& work);
-std::size_t block_count(const Sampling& sampling, std::size_t points_at_a_time);
+std::size_t block_count(const SamplePlan& sampling, std::size_t points_at_a_time);
 
 }  // namespace gearlash::detail

@@ -4,14 +4,14 @@
 
 namespace gearlash {
 
-Sampling sampling_of(std::size_t samples, const Sampling& like) {
-  Sampling sampling = like;
+SamplePlan sampling_of(std::size_t samples, const SamplePlan& like) {
+  SamplePlan sampling = like;
   sampling.points = 1;
   while (sampling.samples() < samples && sampling.samples() <= most_samples) sampling.points *= 2;
   return sampling;
 }
 
-std::vector<Violation> validate(const Sampling& sampling) {
+std::vector<Violation> validate(const SamplePlan& sampling) {
   RangeCheck check("sampling.");
   if (sampling.points < 1) check.refuse("points", "0", "must be at least 1");
   if (sampling.replicates < 2) {

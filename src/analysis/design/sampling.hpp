@@ -22,21 +22,21 @@ struct Estimate {
 /// of Joe and Kuo, SIAM J. Sci. Comput. 30, 2008), several times over, each time shifted digit by
 /// digit (exclusive or) with random bits, independently from replicate to replicate, so that each
 /// replicate is without bias and their scatter tells the error (Owen; L'Ecuyer and Lemieux, 2002).
-struct Sampling {
+struct SamplePlan {
   std::size_t points = 4096;    ///< of a replicate, ≥ 1; even over the cube at powers of two
   std::size_t replicates = 16;  ///< ≥ 2
   std::uint64_t seed = 1960;    ///< of the shifts; the same seed, the same bits on every machine
 
   std::size_t samples() const { return points * replicates; }
-  bool operator==(const Sampling&) const = default;
+  bool operator==(const SamplePlan&) const = default;
 };
 
 inline constexpr std::size_t most_samples = 1'000'000'000;
 
 /// The least sampling with at least so many samples whose points are a power of two.
-Sampling sampling_of(std::size_t samples, const Sampling& like = {});
+SamplePlan sampling_of(std::size_t samples, const SamplePlan& like = {});
 
 /// Every violation of the ranges above, and of more than most_samples.
-std::vector<Violation> validate(const Sampling& sampling);
+std::vector<Violation> validate(const SamplePlan& sampling);
 
 }  // namespace gearlash

@@ -148,7 +148,7 @@ class Indices {
   bool varies_ = false;
 };
 
-SensitivityStudy study_of(const TolerancedDrive& drive, const Sampling& sampling,
+SensitivityStudy study_of(const TolerancedDrive& drive, const SamplePlan& sampling,
                           const std::vector<BlockSums>& blocks, double usual_size) {
   const std::size_t numbers = drive.varied.size();
   std::vector<BlockSums> replicates(sampling.replicates, {Sums(numbers), Sums(numbers)});
@@ -177,7 +177,7 @@ SensitivityStudy study_of(const TolerancedDrive& drive, const Sampling& sampling
 
 }  // namespace
 
-SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const Sampling& sampling,
+SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SamplePlan& sampling,
                                      const GridEvaluation& how) {
   RangeCheck check;
   require_none(check.include(validate(drive)).include(validate(sampling)).violations());

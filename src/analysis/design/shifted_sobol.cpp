@@ -5,7 +5,7 @@
 
 namespace gearlash::detail {
 
-ShiftedSobol::ShiftedSobol(std::size_t dimensions, const Sampling& sampling)
+ShiftedSobol::ShiftedSobol(std::size_t dimensions, const SamplePlan& sampling)
     : dimensions_(dimensions), sequence_(std::max<std::size_t>(dimensions, 1)) {
   static_assert(boost::random::sobol::max() == ~std::uint64_t{0});
   std::mt19937_64 bits(sampling.seed);

@@ -13,7 +13,7 @@ namespace gearlash::detail {
 
 class ShiftedSobol {
  public:
-  ShiftedSobol(std::size_t dimensions, const Sampling& sampling);
+  ShiftedSobol(std::size_t dimensions, const SamplePlan& sampling);
 
   /// Points `first` … of a replicate, one after another, as many as fill `coordinates`; each
   /// coordinate is (k + ½)/2⁵², k from 0 to 2⁵² − 1, so that it lies between 0 and 1.

@@ -67,7 +67,7 @@ Counts count_block(const detail::DrawnCycles& cycles, const Target& target, std:
 }
 
 /// Each replicate's numbers put in order.
-detail::SortedReplicates sorted(std::vector<double>& column, const Sampling& sampling,
+detail::SortedReplicates sorted(std::vector<double>& column, const SamplePlan& sampling,
                                 std::size_t threads) {
   const auto replicate = [&](std::size_t i) {
     return std::span<double>(column).subspan(i * sampling.points, sampling.points);
@@ -123,7 +123,7 @@ Estimate share_of(const std::vector<Counts>& replicates, Quantity quantity, All 
 }
 
 /// What counting alone tells.
-ToleranceStudy counted(const Sampling& sampling, const std::vector<Counts>& blocks) {
+ToleranceStudy counted(const SamplePlan& sampling, const std::vector<Counts>& blocks) {
   std::vector<Counts> replicates(sampling.replicates);
   Counts total;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -147,7 +147,7 @@ ToleranceStudy counted(const Sampling& sampling, const std::vector<Counts>& bloc
   return study;
 }
 
-void require_sound(const TolerancedDrive& drive, const Sampling& sampling,
+void require_sound(const TolerancedDrive& drive, const SamplePlan& sampling,
                    const StudyQuestions& questions) {
   RangeCheck check;
   check.include(validate(drive)).include(validate(sampling)).include(validate(questions));
@@ -168,7 +168,7 @@ std::vector<Violation> validate(const StudyQuestions& questions) {
   return check.violations();
 }
 
-ToleranceStudy study_tolerances(const TolerancedDrive& drive, const Sampling& sampling,
+ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& sampling,
                                 const StudyQuestions& questions, const GridEvaluation& how) {
   require_sound(drive, sampling, questions);
   const detail::DrawnValues values(drive, sampling, 1);

@@ -40,7 +40,7 @@ struct SizeHistogram {
 /// cannot_hunt and undecided). Where a size is not known (irregular hunting, undecided) it counts
 /// as infinite in quantiles; such a drive meets no target. The mean is that of finite sizes.
 struct ToleranceStudy {
-  Sampling sampling;
+  SamplePlan sampling;
   Estimate hunting = {};                          ///< probability
   Estimate yield;                                 ///< probability of meeting the target
   Estimate mean_size;                             ///< rad, 0 where quiet
@@ -59,7 +59,7 @@ struct ToleranceStudy {
 /// a sample are kept (size and frequency, for the quantiles). Drives that bounce (restitution above
 /// 0) are followed one by one, some milliseconds each: ask for few samples of these. Throws
 /// InvalidInput with every violation of the drive, the sampling and the questions.
-ToleranceStudy study_tolerances(const TolerancedDrive& drive, const Sampling& sampling = {},
+ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& sampling = {},
                                 const StudyQuestions& questions = {},
                                 const GridEvaluation& how = {});
 
@@ -77,7 +77,7 @@ struct NumberSensitivity {
 };
 
 struct SensitivityStudy {
-  Sampling sampling;
+  SamplePlan sampling;
   std::vector<NumberSensitivity> numbers;  ///< in the order of drive.varied
   Estimate size_variance;                  ///< rad²
   Estimate hunting_variance;               ///< p(1 − p)
@@ -92,7 +92,7 @@ struct SensitivityStudy {
 ///                (Saltelli et al., Comput. Phys. Commun. 181, 2010, Table 2 (b)),
 ///   total        T_i = Σ (f(A) − f(AB_i))²/(2 N V) (Jansen, Comput. Phys. Commun. 117, 1999),
 /// V being the variance of f(A) and f(B) together. Throws InvalidInput, as above.
-SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const Sampling& sampling = {},
+SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SamplePlan& sampling = {},
                                      const GridEvaluation& how = {});
 
 }  // namespace gearlash

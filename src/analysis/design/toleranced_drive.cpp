@@ -43,7 +43,7 @@ constexpr std::array<Naming, drive_number_count> namings = {
 
 const Naming& naming_of(DriveNumber number) { return namings[static_cast<std::size_t>(number)]; }
 
-double* place_in(Motor& motor, DriveNumber number) {
+double* place_in(SheetMotor& motor, DriveNumber number) {
   const auto in_any = [&](auto& any) -> double* {
     if (number == DriveNumber::motor_inertia) return &any.inertia;
     if (number == DriveNumber::motor_friction) return &any.friction;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -58,6 +59,14 @@ struct VariedNumber {
   Distribution distribution;  ///< independent of those of the others
 
   bool operator==(const VariedNumber&) const = default;
+};
+
+/// A parameter of a drive, by its path, that differs from piece to piece.
+struct ParameterTolerance {
+  std::string path;
+  Distribution distribution;  ///< independent of those of the others
+
+  bool operator==(const ParameterTolerance&) const = default;
 };
 
 /// A servo and how fast it is: ω_n, rad/s.

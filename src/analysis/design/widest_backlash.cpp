@@ -62,7 +62,7 @@ double largest_max(const Target& target, const detail::DrawnCycles& cycles, std:
 /// The largest max of each piece, in order within each replicate.
 class LargestMaxima {
  public:
-  LargestMaxima(std::vector<double> column, const Sampling& sampling, std::size_t threads)
+  LargestMaxima(std::vector<double> column, const SamplePlan& sampling, std::size_t threads)
       : column_(std::move(column)) {
     const auto replicate = [&](std::size_t i) {
       return std::span<double>(column_).subspan(i * sampling.points, sampling.points);
@@ -121,7 +121,8 @@ std::vector<Violation> validate(const BacklashDemand& demand) {
 
 std::optional<WidestBacklash> widest_backlash(const TolerancedDrive& drive,
                                               const BacklashDemand& demand,
-                                              const Sampling& sampling, const GridEvaluation& how) {
+                                              const SamplePlan& sampling,
+                                              const GridEvaluation& how) {
   RangeCheck check;
   check.include(validate(drive)).include(validate(sampling)).include(validate(demand));
   require_none(check.violations());

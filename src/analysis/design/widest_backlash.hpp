@@ -39,7 +39,7 @@ struct WidestBacklash {
 /// Nothing where not even max = min gives the yield. Throws InvalidInput.
 std::optional<WidestBacklash> widest_backlash(const TolerancedDrive& drive,
                                               const BacklashDemand& demand,
-                                              const Sampling& sampling = {},
+                                              const SamplePlan& sampling = {},
                                               const GridEvaluation& how = {});
 
 }  // namespace gearlash

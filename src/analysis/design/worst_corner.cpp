@@ -107,7 +107,7 @@ class Climb {
   }
 
   std::vector<Values> samples() const {
-    const Sampling sampling{.points = search_.samples, .replicates = 1};
+    const SamplePlan sampling{.points = search_.samples, .replicates = 1};
     const std::size_t width = coordinates_.size();
     Values points(search_.samples * width);
     detail::ShiftedSobol(width, sampling).fill(0, 0, points);

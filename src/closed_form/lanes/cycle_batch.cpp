@@ -125,7 +125,7 @@ void solve_alone(const NormalizedServo& servo, const CycleColumns& cycles, std::
 }
 
 bool for_kernel(const NormalizedServo& servo) {
-  return servo.restitution == 0.0 && servo.sensor == Sensor::load;
+  return servo.restitution == 0.0 && servo.sensor == ShaftName::load;
 }
 
 }  // namespace

@@ -18,10 +18,10 @@
 namespace gearlash {
 namespace {
 
-constexpr Parameter parameters[] = {Parameter::backlash,       Parameter::gear_ratio,
-                                    Parameter::error_gain,     Parameter::load_friction,
-                                    Parameter::motor_friction, Parameter::tachometer,
-                                    Parameter::load_inertia,   Parameter::motor_inertia};
+constexpr DesignParameter parameters[] = {
+    DesignParameter::backlash,      DesignParameter::gear_ratio,     DesignParameter::error_gain,
+    DesignParameter::load_friction, DesignParameter::motor_friction, DesignParameter::tachometer,
+    DesignParameter::load_inertia,  DesignParameter::motor_inertia};
 
 NormalizedServo drawn_servo(SeededDraws& draws) {
   const double share = draws.log_uniform(1e-6, 0.5);
@@ -60,9 +60,9 @@ TEST_P(OracleDriveBox, HoldsEveryDriveWithin) {
   std::vector<double> widths;  // of points, in epsilons
   for (std::size_t i = 0; i < 3000 && !HasFailure(); ++i) {
     const ChangeableDrive drive(drawn_servo(draws), draws.log_uniform(0.1, 100.0));
-    const Parameter parameter = parameters[i % std::size(parameters)];
+    const DesignParameter parameter = parameters[i % std::size(parameters)];
     const Bounds range = drive.range(parameter);
-    const double low = parameter == Parameter::tachometer
+    const double low = parameter == DesignParameter::tachometer
                            ? range.high * draws.log_uniform(1e-6, 0.3)
                            : drive.present_value(parameter);
     const Bounds values{low, std::min(range.high, low * (1.0 + drawn_width(draws, i)))};

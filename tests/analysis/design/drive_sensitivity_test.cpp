@@ -90,11 +90,11 @@ void expect_slopes(const ChangeableDrive& drive, double tolerance) {
   const DriveSensitivity found = drive_sensitivity(drive);
   ASSERT_EQ(found.outcome, SensitivityOutcome::available);
   ASSERT_EQ(found.parameters.size(), parameter_count);
-  for (const Parameter parameter : all_parameters) {
-    if (parameter == Parameter::restitution) continue;
+  for (const DesignParameter parameter : all_parameters) {
+    if (parameter == DesignParameter::restitution) continue;
     // Feedback that is 0 at present has the scale of one that would damp like the motor itself.
     const double friction = drive.slopes(parameter).motor_friction;
-    const double scale = parameter == Parameter::tachometer
+    const double scale = parameter == DesignParameter::tachometer
                              ? drive.drivetrain().motor_friction / friction
                              : drive.present_value(parameter);
     expect_slopes(
@@ -275,7 +275,9 @@ TEST(DriveSensitivity, WithBouncesAgreesWithDifferencesToo) {
   const Sensitivity by_restitution =
       drive_sensitivity(drive).find("restitution")->of[CycleMeasure::size];
   const double exact = difference(
-      [&](double value) { return performance_of(drive.with(Parameter::restitution, value)).size; },
+      [&](double value) {
+        return performance_of(drive.with(DesignParameter::restitution, value)).size;
+      },
       0.4, 0.4);
   EXPECT_NEAR(by_restitution.slope, exact, 1e-8);
   EXPECT_NE(by_restitution.slope, 0.0);

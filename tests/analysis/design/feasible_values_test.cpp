@@ -35,7 +35,8 @@ Target at_least_as_fast_as(double frequency) {
 }
 
 TEST(FeasibleValues, OfBacklashAreInProportionToTheSize) {
-  const FeasibleValues found = feasible_values(sample_drive(), Parameter::backlash, at_most(0.1));
+  const FeasibleValues found =
+      feasible_values(sample_drive(), DesignParameter::backlash, at_most(0.1));
   ASSERT_EQ(found.intervals.size(), 1U);
   const double size = performance_of(sample_drive().drivetrain()).size;
   EXPECT_NEAR(found.intervals[0].high, 0.3 * 0.1 / size, 1e-15);
@@ -44,22 +45,25 @@ TEST(FeasibleValues, OfBacklashAreInProportionToTheSize) {
 }
 
 TEST(FeasibleValues, NoBacklashEndsHunting) {
-  const FeasibleValues found = feasible_values(sample_drive(), Parameter::backlash, no_hunting());
+  const FeasibleValues found =
+      feasible_values(sample_drive(), DesignParameter::backlash, no_hunting());
   EXPECT_TRUE(found.intervals.empty());
   EXPECT_TRUE(std::isnan(found.nearest()));
   EXPECT_EQ(found.kind, SearchKind::certified);
 }
 
 TEST(FeasibleValues, MayBeSeveralIntervals) {
-  const FeasibleValues ratio = feasible_values(sample_drive(), Parameter::gear_ratio, no_hunting());
+  const FeasibleValues ratio =
+      feasible_values(sample_drive(), DesignParameter::gear_ratio, no_hunting());
   EXPECT_EQ(ratio.intervals.size(), 2U);  // a very small one, and a very large one
   const FeasibleValues inertia =
-      feasible_values(sample_drive(), Parameter::load_inertia, at_least_as_fast_as(0.16));
+      feasible_values(sample_drive(), DesignParameter::load_inertia, at_least_as_fast_as(0.16));
   EXPECT_EQ(inertia.intervals.size(), 2U);  // no hunting at all, and hunting fast
 }
 
 TEST(FeasibleValues, AMetTargetHasThePresentValue) {
-  const FeasibleValues found = feasible_values(sample_drive(), Parameter::error_gain, at_most(1.0));
+  const FeasibleValues found =
+      feasible_values(sample_drive(), DesignParameter::error_gain, at_most(1.0));
   EXPECT_TRUE(found.contains(1.0));
   EXPECT_EQ(found.nearest(), 1.0);
 }
@@ -75,7 +79,7 @@ ChangeableDrive bouncing_drive() {
 TEST(FeasibleValues, OfBacklashWithBouncesAreInProportionToTheSizeToo) {
   const double size = performance_of(bouncing_drive().drivetrain()).size;
   const FeasibleValues found =
-      feasible_values(bouncing_drive(), Parameter::backlash, at_most(0.5 * size));
+      feasible_values(bouncing_drive(), DesignParameter::backlash, at_most(0.5 * size));
   EXPECT_EQ(found.kind, SearchKind::scanned);
   ASSERT_EQ(found.intervals.size(), 1U);
   EXPECT_NEAR(found.intervals[0].high, 0.15, 1e-14);
@@ -83,11 +87,12 @@ TEST(FeasibleValues, OfBacklashWithBouncesAreInProportionToTheSizeToo) {
 
 TEST(FeasibleValues, WithBouncesEndWhereGrowthAtRestPassesOne) {
   const FeasibleValues found =
-      feasible_values(bouncing_drive(), Parameter::load_friction, no_hunting());
+      feasible_values(bouncing_drive(), DesignParameter::load_friction, no_hunting());
   ASSERT_FALSE(found.intervals.empty());
   const double end = found.intervals[0].low;
   const auto growth_at = [](double value) {
-    return performance_of(bouncing_drive().with(Parameter::load_friction, value)).growth_at_rest;
+    return performance_of(bouncing_drive().with(DesignParameter::load_friction, value))
+        .growth_at_rest;
   };
   EXPECT_LT(growth_at(end), 1.0);
   EXPECT_GT(growth_at(end), 1.0 - 2e-6);
@@ -97,11 +102,12 @@ TEST(FeasibleValues, WithBouncesEndWhereGrowthAtRestPassesOne) {
 TEST(FeasibleValues, ThatDoNotExistHaveAClosestOne) {
   Target enormous;
   enormous.size.low = 100.0;
-  const FeasibleValues found = feasible_values(sample_drive(), Parameter::load_inertia, enormous);
+  const FeasibleValues found =
+      feasible_values(sample_drive(), DesignParameter::load_inertia, enormous);
   EXPECT_TRUE(found.intervals.empty());
   ASSERT_TRUE(found.closest.has_value());
   const auto size_at = [](double value) {
-    return performance_of(sample_drive().with(Parameter::load_inertia, value)).size;
+    return performance_of(sample_drive().with(DesignParameter::load_inertia, value)).size;
   };
   EXPECT_EQ(found.closest->performance.size, size_at(found.closest->value));
   for (const double value : {found.searched.low, 0.01, 0.1, 1.0, 10.0, found.searched.high}) {
@@ -112,7 +118,7 @@ TEST(FeasibleValues, ThatDoNotExistHaveAClosestOne) {
 /// A drive, a parameter and a target, all at random.
 struct Task {
   NormalizedServo servo;
-  Parameter parameter;
+  DesignParameter parameter;
   Target target;
 };
 
@@ -264,10 +270,10 @@ TEST(PropertyFeasibleValues, AScanFindsNoOthersWithBounces) {
 TEST(EdgeFeasibleValues, BesideAShaftWithoutFrictionAreFound) {
   const ChangeableDrive drive(NormalizedServo{
       .damping = 0.2, .inertia_ratio = 2.0, .friction_ratio = 0.0, .backlash = 0.3});
-  for (const Parameter parameter : all_parameters) {
-    if (parameter == Parameter::restitution) continue;
+  for (const DesignParameter parameter : all_parameters) {
+    if (parameter == DesignParameter::restitution) continue;
     const FeasibleValues found = feasible_values(drive, parameter, no_hunting());
-    EXPECT_EQ(found.intervals.empty(), parameter != Parameter::load_friction)
+    EXPECT_EQ(found.intervals.empty(), parameter != DesignParameter::load_friction)
         << name_of(parameter);  // without friction at the load nothing else ends it
   }
 }

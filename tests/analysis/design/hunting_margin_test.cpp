@@ -39,7 +39,7 @@ std::string describe(const NormalizedServo& s) {
 
 /// The first value from the present one towards `end` at which hunting starts or stops, in 4,000
 /// steps that grow by ratio, or evenly from 0; NaN if there is none.
-double first_change(const ChangeableDrive& drive, Parameter parameter, double end) {
+double first_change(const ChangeableDrive& drive, DesignParameter parameter, double end) {
   const double present = drive.present_value(parameter);
   const bool now = hunts(drive.drivetrain());
   constexpr int steps = 4000;
@@ -75,17 +75,17 @@ TEST(PropertyHuntingMargin, OfEachParameterIsWhereBisectionEnds) {
     const NormalizedServo servo = drawn_servo(draws);
     SCOPED_TRACE(describe(servo));
     const ChangeableDrive drive(servo);
-    for (const Parameter parameter :
-         {Parameter::gear_ratio, Parameter::error_gain, Parameter::load_friction,
-          Parameter::motor_friction, Parameter::tachometer, Parameter::load_inertia,
-          Parameter::motor_inertia}) {
+    for (const DesignParameter parameter :
+         {DesignParameter::gear_ratio, DesignParameter::error_gain, DesignParameter::load_friction,
+          DesignParameter::motor_friction, DesignParameter::tachometer,
+          DesignParameter::load_inertia, DesignParameter::motor_inertia}) {
       SCOPED_TRACE(name_of(parameter));
       const ParameterMargin margin = parameter_margin(drive, parameter);
       EXPECT_EQ(margin.kind, SearchKind::certified);
       EXPECT_EQ(margin.hunts, hunts(drive.drivetrain()));
       expect_same(margin.above, first_change(drive, parameter, margin.searched.high));
       found += !std::isnan(margin.above) + !std::isnan(margin.below);
-      if (parameter == Parameter::tachometer) {
+      if (parameter == DesignParameter::tachometer) {
         EXPECT_TRUE(std::isnan(margin.below));
         continue;
       }
@@ -99,14 +99,14 @@ TEST(PropertyHuntingMargin, OfEachParameterIsWhereBisectionEnds) {
 TEST(HuntingMargin, InPerCentOfThePresentValue) {
   const ChangeableDrive drive(NormalizedServo{
       .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3});
-  const ParameterMargin gain = parameter_margin(drive, Parameter::error_gain);
+  const ParameterMargin gain = parameter_margin(drive, DesignParameter::error_gain);
   EXPECT_TRUE(gain.hunts);
   EXPECT_TRUE(std::isnan(gain.above));  // stiffer loops hunt
   EXPECT_LT(gain.per_cent_below(), 0.0);
-  EXPECT_FALSE(hunts(drive.with(Parameter::error_gain, gain.below)));
-  EXPECT_TRUE(hunts(drive.with(Parameter::error_gain, gain.below * (1.0 + 1e-12))));
+  EXPECT_FALSE(hunts(drive.with(DesignParameter::error_gain, gain.below)));
+  EXPECT_TRUE(hunts(drive.with(DesignParameter::error_gain, gain.below * (1.0 + 1e-12))));
   EXPECT_DOUBLE_EQ(gain.per_cent_below(), 100.0 * (gain.below - 1.0));
-  const ParameterMargin backlash = parameter_margin(drive, Parameter::backlash);
+  const ParameterMargin backlash = parameter_margin(drive, DesignParameter::backlash);
   EXPECT_TRUE(std::isnan(backlash.below) && std::isnan(backlash.above));
 }
 
@@ -212,10 +212,11 @@ TEST(PropertyHuntingMargin, OfAllTogetherIsShorterThanOfOne) {
     const HuntingMargin margin = hunting_margin(ChangeableDrive(servo));
     ASSERT_EQ(margin.parameters.size(), parameter_count - 1);  // all but restitution
     for (const ParameterMargin& one : margin.parameters) {
-      const bool is_number =
-          one.parameter == Parameter::load_friction || one.parameter == Parameter::motor_friction ||
-          one.parameter == Parameter::load_inertia || one.parameter == Parameter::motor_inertia ||
-          one.parameter == Parameter::error_gain;
+      const bool is_number = one.parameter == DesignParameter::load_friction ||
+                             one.parameter == DesignParameter::motor_friction ||
+                             one.parameter == DesignParameter::load_inertia ||
+                             one.parameter == DesignParameter::motor_inertia ||
+                             one.parameter == DesignParameter::error_gain;
       if (!is_number) continue;
       for (const double end : {one.below, one.above}) {
         if (std::isnan(end)) continue;
@@ -252,12 +253,12 @@ TEST(HuntingMargin, WithBouncesOfAllTogetherIsWhereRestTurnsStable) {
 }
 
 TEST(HuntingMargin, WithBouncesOfOneIsWhereTheVerdictChanges) {
-  const ParameterMargin margin = parameter_margin(bouncing_drive(), Parameter::load_friction);
+  const ParameterMargin margin = parameter_margin(bouncing_drive(), DesignParameter::load_friction);
   EXPECT_EQ(margin.kind, SearchKind::scanned);
   EXPECT_TRUE(margin.hunts);
   EXPECT_TRUE(std::isnan(margin.below));
   const auto verdict_at = [](double value) {
-    return performance_of(bouncing_drive().with(Parameter::load_friction, value)).verdict;
+    return performance_of(bouncing_drive().with(DesignParameter::load_friction, value)).verdict;
   };
   EXPECT_EQ(verdict_at(margin.above), Verdict::cannot_hunt);
   EXPECT_EQ(verdict_at(margin.above * (1.0 - 1e-4)), Verdict::hunts);

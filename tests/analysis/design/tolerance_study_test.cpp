@@ -33,7 +33,7 @@ double size_per_backlash(double load_friction) {
   return performance_of(to_drivetrain(datasheet)).size;
 }
 
-constexpr Sampling fixed_sampling{.points = 4096, .replicates = 16, .seed = 41};
+constexpr SamplePlan fixed_sampling{.points = 4096, .replicates = 16, .seed = 41};
 
 class OracleToleranceOfBacklash : public testing::TestWithParam<Distribution> {};
 
@@ -78,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, OracleToleranceOfBacklash,
 
 TEST(OracleToleranceStudy, OneThresholdDecidesHowManyHunt) {
   const ChangeableDrive drive(sample_datasheet());
-  const FeasibleValues quiet = feasible_values(drive, Parameter::load_friction, no_hunting());
+  const FeasibleValues quiet = feasible_values(drive, DesignParameter::load_friction, no_hunting());
   ASSERT_FALSE(quiet.intervals.empty());
   const double threshold = quiet.intervals.front().low;
   ASSERT_GT(threshold, 0.038);
@@ -134,7 +134,7 @@ TEST(OracleToleranceStudy, IndicesOfAProductAreThoseOfItsFactors) {
   const double of_s = variance_s * mean_b * mean_b;
   const double of_both = variance_b * variance_s;
   const double all = of_b + of_s + of_both;
-  const Sampling sampling{.points = 8192, .replicates = 16, .seed = 42};
+  const SamplePlan sampling{.points = 8192, .replicates = 16, .seed = 42};
   SCOPED_TRACE(sampling.seed);
   const SensitivityStudy found = study_sensitivities(product.drive(), sampling);
   const auto expect = [](const Estimate& estimate, double value) {
@@ -176,7 +176,7 @@ TEST(OracleToleranceStudy, TheErrorFallsFasterThanAtRandom) {
     double squares = 0.0;
     double stated_squares = 0.0;
     for (std::uint64_t seed = 100; seed < 100 + seeds; ++seed) {
-      const Sampling sampling{.points = points, .replicates = 16, .seed = seed};
+      const SamplePlan sampling{.points = points, .replicates = 16, .seed = seed};
       const Estimate mean = study_tolerances(product.drive(), sampling).mean_size;
       EXPECT_NEAR(mean.value, exact, 6.0 * mean.standard_error) << points << " " << seed;
       squares += std::pow(mean.value - exact, 2);
@@ -205,7 +205,7 @@ void expect_same(const std::vector<QuantileEstimate>& a, const std::vector<Quant
 }
 
 TEST(PropertyToleranceStudy, AnyNumberOfThreadsGivesTheSameBits) {
-  const Sampling sampling{.points = 3000, .replicates = 5, .seed = 44};
+  const SamplePlan sampling{.points = 3000, .replicates = 5, .seed = 44};
   SCOPED_TRACE(sampling.seed);
   const TolerancedDrive drive = widely_toleranced();
   const StudyQuestions questions{.target = at_most(0.1)};
@@ -230,7 +230,7 @@ TEST(PropertyToleranceStudy, AnyNumberOfThreadsGivesTheSameBits) {
 }
 
 TEST(PropertyToleranceStudy, APlainCountOfDrivesAgrees) {
-  const Sampling sampling{.points = 2048, .replicates = 8, .seed = 45};
+  const SamplePlan sampling{.points = 2048, .replicates = 8, .seed = 45};
   SCOPED_TRACE(sampling.seed);
   const TolerancedDrive drive = widely_toleranced();
   const Target target = at_most(0.1);
@@ -275,7 +275,7 @@ TEST(PropertyToleranceStudy, APlainCountOfDrivesAgrees) {
 }
 
 TEST(PropertyToleranceStudy, IndicesAreSharesOfOneWhole) {
-  const Sampling sampling{.points = 4096, .replicates = 8, .seed = 47};
+  const SamplePlan sampling{.points = 4096, .replicates = 8, .seed = 47};
   SCOPED_TRACE(sampling.seed);
   const SensitivityStudy study = study_sensitivities(widely_toleranced(), sampling);
   double first_orders = 0.0;
@@ -347,7 +347,7 @@ TEST(EdgeToleranceStudy, BouncesAreFollowed) {
 }
 
 TEST(EdgeToleranceStudy, CanBeStopped) {
-  const Sampling sampling{.points = 4096, .replicates = 4};
+  const SamplePlan sampling{.points = 4096, .replicates = 4};
   const GridEvaluation how{.threads = 1, .going_on = [](std::size_t) { return false; }};
   EXPECT_TRUE(study_tolerances(widely_toleranced(), sampling, {}, how).stopped);
   EXPECT_TRUE(study_sensitivities(widely_toleranced(), sampling, how).stopped);
@@ -385,7 +385,7 @@ TEST(EdgeToleranceStudy, EveryFaultIsNamed) {
                           "replicates together"));
 }
 
-TEST(Sampling, HasAPowerOfTwoOfPoints) {
+TEST(SamplePlan, HasAPowerOfTwoOfPoints) {
   EXPECT_EQ(sampling_of(65536).points, 4096U);
   EXPECT_EQ(sampling_of(65537).points, 8192U);
   EXPECT_EQ(sampling_of(0).points, 1U);

@@ -62,9 +62,9 @@ TEST(TolerancedDrive, IsTheDriveWithItsValues) {
 }
 
 TEST(TolerancedDrive, EveryNumberOfADataSheetCanBeVaried) {
-  for (const Motor& motor : {Motor(ArmatureControlledMotor{1e-5, 5e-6, 0.2, 0.2, 282.0}),
-                             Motor(FieldControlledMotor{1e-5, 5e-6, 0.2, 282.0}),
-                             Motor(TwoPhaseMotor{1e-5, 5e-6, 0.2, 1e-5})}) {
+  for (const SheetMotor& motor : {SheetMotor(ArmatureControlledMotor{1e-5, 5e-6, 0.2, 0.2, 282.0}),
+                                  SheetMotor(FieldControlledMotor{1e-5, 5e-6, 0.2, 282.0}),
+                                  SheetMotor(TwoPhaseMotor{1e-5, 5e-6, 0.2, 1e-5})}) {
     int numbers = 0;
     for (const DriveNumber number : all_drive_numbers) {
       EXPECT_EQ(drive_number_named(name_of(number)), number);

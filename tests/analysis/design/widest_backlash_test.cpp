@@ -18,7 +18,7 @@ Target at_most(double size) {
   return target;
 }
 
-constexpr Sampling sampling{.points = 2048, .replicates = 16, .seed = 51};
+constexpr SamplePlan sampling{.points = 2048, .replicates = 16, .seed = 51};
 
 /// Size of the sample for one rad of backlash.
 double size_per_backlash() { return performance_of(to_drivetrain(sample_datasheet())).size / 0.3; }

@@ -12,7 +12,7 @@ int main() {
   Target target;
   target.size.high = 0.1;  // rad
   const FeasibleValues backlash =
-      feasible_values(ChangeableDrive(servo), Parameter::backlash, target);
+      feasible_values(ChangeableDrive(servo), DesignParameter::backlash, target);
   const CycleSensitivity sensitivity = cycle_sensitivity(servo);
   std::printf("backlash at most %.6f rad; size %.6f rad, %.4f more for 1 more damping\n",
               backlash.nearest(), sensitivity.size.value, sensitivity.size.slope.damping);

@@ -1,0 +1,189 @@
+// What a drive does: whether it hunts, how big and how fast, and how sure that is. SI units.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gearlash/drive.hpp"
+
+namespace gearlash {
+
+enum class Verdict : std::uint8_t {
+  cannot_hunt,             ///< every motion tends to the reference
+  comes_to_rest,           ///< from every start that was searched
+  hunts,                   ///< rest is unstable, or no start led to it; a stable cycle was found
+  hunts_if_disturbed,      ///< rest is stable, and so is a limit cycle beside it
+  hunts_irregularly,       ///< bounded motion that did not repeat
+  grows_without_bound,     ///< no friction at all: the oscillation has no bound
+  runs_away,               ///< no start stays bounded
+  runs_away_if_disturbed,  ///< some starts do not stay bounded
+  forced,                  ///< it swings as a sine reference or load torque drives it
+  undamped,                ///< neither friction nor backlash: any amplitude persists
+  undecided
+};
+
+/// How sure a statement is, from the least to the most.
+enum class Certainty : std::uint8_t {
+  searched,  ///< found by a search, which may have missed something
+  computed,  ///< decided by a formula in floating point, whose rounding is not bounded
+  enclosed,  ///< proved: a theorem whose condition interval arithmetic decides
+  theorem    ///< proved, by exact comparisons alone
+};
+
+enum class CycleKind : std::uint8_t {
+  symmetric,   ///< mirrors itself every half period
+  asymmetric,  ///< it and its mirror image are two cycles
+  subharmonic  ///< closes after several turns of the basic kind
+};
+
+/// By the multipliers: of all disturbances that can be.
+enum class Stability : std::uint8_t {
+  stable,
+  neutral,  ///< one is on the unit circle to within 1e-6: one of a family, or at a fold
+  unstable
+};
+
+/// Which engine answered.
+enum class Engine : std::uint8_t { closed_form, general };
+
+/// Lowest and highest.
+struct Range {
+  double lowest = 0.0;
+  double highest = 0.0;
+};
+
+/// Energy lost in a period, J: as much as the loop feeds in.
+struct EnergyLost {
+  double motor_friction = 0.0;
+  double load_friction = 0.0;
+  double impacts = 0.0;
+
+  [[nodiscard]] double total() const { return motor_friction + load_friction + impacts; }
+};
+
+struct Cycle {
+  CycleKind kind = CycleKind::symmetric;
+  Stability stability = Stability::stable;
+  Certainty certainty = Certainty::computed;  ///< that it is there, and how stable it is
+  double amplitude = 0.0;                     ///< rad, half the peak-to-peak of the load
+  double motor_amplitude = 0.0;               ///< rad, of the motor, at the load's shaft
+  double center = 0.0;                ///< rad, mean of the load's extremes, from the reference
+  double period = 0.0;                ///< s
+  double multiplier = 0.0;            ///< Floquet's, the largest modulus over a period
+  double residual = 0.0;              ///< mismatch of the state after one period, as a share
+  double impact_speed = 0.0;          ///< rad/s, |ω_M − ω_L| before the hardest impact; 0: none
+  double engaged_time = 0.0;          ///< s of a period, faces together
+  double separated_time = 0.0;        ///< s of a period, faces apart
+  std::size_t events_per_period = 0;  ///< of the closed form: impacts
+  bool has_mirror_image = false;      ///< which counts as this one
+  bool settles = false;               ///< bounces settle before each separation, or are plastic
+  std::size_t starts = 0;             ///< of a search, that led here
+  std::optional<EnergyLost> energy{};
+
+  [[nodiscard]] double frequency() const { return 1.0 / period; }  ///< Hz
+};
+
+/// Equilibria found: with dry friction, or in the gap, they are a set.
+struct Rest {
+  Range load{};   ///< rad, from the reference
+  Range motor{};  ///< rad, from the reference, at the load's shaft
+  Range error{};  ///< rad, reference − load
+  std::size_t starts = 0;
+  /// Of rest that is approached by ever smaller and slower swings: the largest ratio of two.
+  std::optional<double> swing_ratio{};
+};
+
+/// Bounded motion that was not seen to repeat. What was not measured is not there.
+struct IrregularMotion {
+  double amplitude = 0.0;                   ///< rad, half the peak-to-peak of the load
+  std::optional<double> motor_amplitude{};  ///< rad
+  double center = 0.0;                      ///< rad, of the load, from the reference
+  bool is_motor_alone = false;              ///< within the gap, while the load hardly moves
+  std::optional<double> mean_amplitude{};   ///< rad, half of extreme to extreme
+  std::optional<double> amplitude_deviation{};
+  std::optional<double> mean_period{};  ///< s
+  std::optional<double> period_deviation{};
+  std::optional<double> mismatch{};  ///< least mean difference of swings some swings apart, a share
+  std::optional<double> exponent{};  ///< 1/s, the largest Lyapunov exponent
+  std::optional<double> watched{};   ///< s, over which this was measured
+  std::size_t starts = 0;
+};
+
+/// Where a start of a search led.
+struct StartOutcome {
+  double load_position = 0.0, load_speed = 0.0, motor_position = 0.0, motor_speed = 0.0;
+  std::string end{};                   ///< "rest", "cycle", "irregular", "diverges", "undecided"
+  std::optional<std::size_t> which{};  ///< of the cycles, or of the irregular motions
+  double watched = 0.0;                ///< s
+  std::string reason{};                ///< of an undecided one
+};
+
+/// What a search looked at.
+struct SearchRecord {
+  double watch_time = 0.0;  ///< s, the longest that a start is watched
+  bool is_complete = true;  ///< not stopped
+  std::size_t borders = 0;  ///< searched between starts that led elsewhere
+  std::vector<StartOutcome> starts{};
+
+  [[nodiscard]] std::size_t count(const std::string& end) const;
+};
+
+/// Proved bounds.
+struct ProvedBounds {
+  Range growth_at_rest{};
+  bool has_cycle = false;  ///< and the following are its own
+  Range amplitude{};       ///< rad
+  Range period{};          ///< s
+  Range multiplier{};
+};
+
+/// The servo of 1960 that a drive is.
+struct NormalFormNumbers {
+  double damping = 0.0, inertia_ratio = 0.0, friction_ratio = 0.0, backlash = 0.0;
+  double restitution = 0.0;
+  double natural_frequency = 1.0;  ///< rad/s
+  double stiffness = 1.0;          ///< N m/rad
+};
+
+/// Something a reader should know; `code` is for programs.
+struct Note {
+  std::string code{};
+  std::string text{};
+};
+
+struct Answer {
+  Verdict verdict = Verdict::undecided;
+  Certainty certainty = Certainty::searched;     ///< of the verdict
+  Certainty completeness = Certainty::searched;  ///< of the list of cycles
+  Engine engine = Engine::general;
+  std::optional<NormalFormNumbers> normal_form{};
+  std::optional<double> growth_at_rest{};  ///< of small motion in the gap, in half a cycle
+  std::optional<ProvedBounds> bounds{};
+  bool is_dissipative = false;  ///< no restitution can make it hunt
+  bool rests_engaged = false;   ///< large motions may end at rest, with the faces together
+  bool neutral_swings = false;  ///< some cycles could not be told from their neighbours
+  std::vector<Cycle> cycles{};  ///< by falling amplitude; of a search, stable ones first
+  std::optional<Rest> rest{};
+  std::vector<IrregularMotion> irregular{};
+  std::optional<SearchRecord> search{};
+  std::vector<Note> notes{};
+
+  /// The cycle that is seen in practice: the largest that is not unstable; nullptr: none.
+  [[nodiscard]] const Cycle* largest_stable() const noexcept;
+};
+
+/// "cannot hunt", "hunts if disturbed", …
+[[nodiscard]] const char* name_of(Verdict verdict);
+/// "searched", "computed", "enclosed", "theorem".
+[[nodiscard]] const char* name_of(Certainty certainty);
+/// "symmetric", "asymmetric", "subharmonic".
+[[nodiscard]] const char* name_of(CycleKind kind);
+/// "stable", "neutral", "unstable".
+[[nodiscard]] const char* name_of(Stability stability);
+/// "closed form", "general".
+[[nodiscard]] const char* name_of(Engine engine);
+
+}  // namespace gearlash

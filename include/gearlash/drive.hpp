@@ -1,0 +1,169 @@
+// A geared drive as its user has it: each number at its own shaft, in SI units.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "gearlash/controller.hpp"
+#include "gearlash/fault.hpp"
+#include "gearlash/signal.hpp"
+
+namespace gearlash {
+
+/// Direct current, fed through the armature.
+struct ArmatureControl {
+  double torque_constant = 0.0;    ///< K₁, N m/A, > 0
+  double back_emf_constant = 0.0;  ///< K₂, V s/rad, ≥ 0
+  double resistance = 0.0;         ///< Ω, > 0
+
+  bool operator==(const ArmatureControl&) const = default;
+};
+
+/// Direct current, fed through the field, whose time constant is negligible.
+struct FieldControl {
+  double torque_constant = 0.0;  ///< K₁, N m per ampere of field current, > 0
+  double resistance = 0.0;       ///< Ω, > 0
+
+  bool operator==(const FieldControl&) const = default;
+};
+
+/// Two-phase induction servo motor, by the slopes of its characteristic curves.
+struct TwoPhase {
+  double torque_per_volt = 0.0;   ///< K_e = ∂T/∂e, N m/V, > 0
+  double torque_per_speed = 0.0;  ///< K_N = −∂T/∂n, N m s/rad, ≥ 0
+
+  bool operator==(const TwoPhase&) const = default;
+};
+
+/// An amplifier that controls the current: the controller's output is the torque.
+struct TorqueControl {
+  bool operator==(const TorqueControl&) const = default;
+};
+
+using MotorKind = std::variant<TorqueControl, ArmatureControl, FieldControl, TwoPhase>;
+
+/// Torque against the motion: viscous ω + coulomb sign ω. At rest, up to `breakaway`.
+struct Friction {
+  double viscous = 0.0;               ///< N m s/rad, ≥ 0
+  double coulomb = 0.0;               ///< N m, ≥ 0
+  std::optional<double> breakaway{};  ///< N m, ≥ coulomb; coulomb where not given
+
+  bool operator==(const Friction&) const = default;
+};
+
+struct Motor {
+  MotorKind kind{};
+  double inertia = 0.0;  ///< kg m², ≥ 0
+  Friction friction{};
+  /// Of the controller's output: N m of a torque-controlled motor, else V; > 0. None: no limit.
+  std::optional<double> limit{};
+
+  bool operator==(const Motor&) const = default;
+};
+
+struct Gearbox {
+  double ratio = 1.0;     ///< motor turns per load turn, > 0
+  double backlash = 0.0;  ///< rad at the load's shaft, face to face, ≥ 0
+
+  bool operator==(const Gearbox&) const = default;
+};
+
+struct Load {
+  double inertia = 0.0;  ///< kg m², ≥ 0
+  Friction friction{};
+
+  bool operator==(const Load&) const = default;
+};
+
+/// Rigid faces: impacts.
+struct RigidContact {
+  double restitution = 0.0;  ///< 0 (plastic) … 1 (elastic)
+
+  bool operator==(const RigidContact&) const = default;
+};
+
+/// How the damping of compliant faces acts. Neither law ever pulls.
+enum class ContactDamping : std::uint8_t {
+  /// Modelica's ElastoBacklash: while the faces close, at most the spring's own torque, so that the
+  /// torque does not jump as they meet.
+  limited,
+  /// Modelica's ElastoBacklash2: from the first touch on.
+  full
+};
+
+/// Compliant faces: torque stiffness · δ + damping · δ̇, δ how far they are pressed in.
+struct CompliantContact {
+  double stiffness = 0.0;  ///< N m/rad at the load's shaft, > 0
+  double damping = 0.0;    ///< N m s/rad at the load's shaft, ≥ 0
+  ContactDamping law = ContactDamping::limited;
+
+  bool operator==(const CompliantContact&) const = default;
+};
+
+using Contact = std::variant<RigidContact, CompliantContact>;
+
+/// An encoder: counts a turn of its own shaft, or the angle of one count; exact where neither is
+/// given. Positions are read to the nearest count, halves away from 0.
+struct Encoder {
+  std::optional<double> counts_per_turn{};  ///< > 0
+  std::optional<double> resolution{};       ///< rad at its own shaft, ≥ 0
+
+  bool operator==(const Encoder&) const = default;
+};
+
+/// Which shafts are measured.
+enum class SensorPlace : std::uint8_t {
+  load,
+  motor,
+  both  ///< the load's position and the motor's speed
+};
+
+struct Sensor {
+  SensorPlace position = SensorPlace::load;
+  std::optional<ShaftName> speed{};  ///< that of the position where not given; motor with `both`
+  Encoder encoder{};
+  Encoder speed_encoder{};  ///< whose differences are the speed; `encoder` where on the same shaft
+
+  bool operator==(const Sensor&) const = default;
+};
+
+/// The servo reduced to the numbers on which its hunting depends: proportional control of the
+/// load's position. It stands for motor, gearbox, load and controller, with J_M + J_L = 1 kg m².
+struct NormalForm {
+  double damping = 0.0;         ///< ζ, 0 or 1e-15 … 1000
+  double inertia_ratio = 1.0;   ///< J_L/J_M; 0, 1e-9 … 1e9, or infinity (a massless motor)
+  double friction_ratio = 0.5;  ///< F_L/(F_M + F_L), 0 … 1
+  double backlash = 0.0;        ///< rad at the load's shaft, face to face, 0 or 1e-15 … 1e6
+  std::optional<double> natural_frequency{};  ///< ω_n, rad/s, > 0; 1 rad/s where not given
+
+  bool operator==(const NormalForm&) const = default;
+};
+
+/// One drive. The same type is read from files, set by path, varied, analysed and written.
+struct Drive {
+  std::optional<NormalForm> servo{};  ///< where given: in place of motor, gearbox, load, controller
+  Motor motor{};
+  Gearbox gearbox{};
+  Load load{};
+  Contact contact{};
+  Sensor sensor{};
+  Controller controller{};
+  std::optional<Sampling> sampling{};   ///< else the controller is continuous
+  std::optional<Signal> reference{};    ///< rad; 0 where not given
+  std::optional<Signal> load_torque{};  ///< N m, on the load, forward; 0 where not given
+
+  bool operator==(const Drive&) const = default;
+};
+
+/// Every value outside its permitted range, every rule between values that does not hold. Empty for
+/// a sound drive.
+[[nodiscard]] std::vector<Violation> faults(const Drive& drive);
+
+/// The servo with ω_n = 1 rad/s, K = 1 N m/rad and J_M + J_L = 1 kg m²; see NormalForm.
+[[nodiscard]] Drive normal_form(double damping, double inertia_ratio, double friction_ratio,
+                                double backlash = 1.0, double restitution = 0.0);
+
+}  // namespace gearlash

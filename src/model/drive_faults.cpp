@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/range_check.hpp"
+#include "model/datasheet.hpp"
+#include "model/parameters.hpp"
+#include "model/proportional_servo.hpp"
+#include "model/reduced_drive.hpp"
+
+namespace gearlash {
+namespace {
+
+/// Paths for the names of drive::validate().
+std::string path_of(const std::string& name) {
+  static const std::vector<std::pair<std::string, std::string>> names = {
+      {"motor.viscous", "motor.friction"},
+      {"load.viscous", "load.friction"},
+      {"backlash", "gearbox.backlash"},
+      {"torque_limit", "motor.torque_limit"},
+      {"sensing.resolution", "sensor.resolution"},
+      {"sensing.resolution_of_speed", "sensor.speed_resolution"},
+      {"controller.numerator", "controller.num"},
+      {"controller.denominator", "controller.den"},
+      {"controller.state_matrix", "controller.A"},
+      {"controller.input_matrix", "controller.B"},
+      {"controller.output", "controller.C"},
+      {"controller.direct", "controller.D"}};
+  for (const auto& [from, to] : names) {
+    if (name == from) return to;
+    // Elements of lists: "controller.numerator[1]".
+    if (name.starts_with(from + "[")) return to + name.substr(from.size());
+  }
+  return name;
+}
+
+}  // namespace
+
+void check_number(RangeCheck& check, const Parameter& parameter, double value,
+                  std::string_view unit) {
+  switch (parameter.permitted) {
+    case Permitted::anything:
+      check.finite(parameter.path, value);
+      break;
+    case Permitted::positive:
+      check.positive(parameter.path, value, unit);
+      break;
+    case Permitted::not_negative:
+      check.not_negative(parameter.path, value, unit);
+      break;
+    case Permitted::share:
+      check.within(parameter.path, value, 0.0, 1.0);
+      break;
+    case Permitted::of_normal_form:  // validate(NormalizedServo) knows it
+      break;
+  }
+}
+
+namespace {
+
+void check_breakaway(RangeCheck& check, const Friction& friction, const std::string& shaft) {
+  if (!friction.breakaway || *friction.breakaway >= friction.coulomb) return;
+  check.refuse(shaft + ".breakaway", exact_text(*friction.breakaway) + " N m",
+               "must be at least " + shaft +
+                   ".coulomb: what is at rest is not easier to move than what moves");
+}
+
+void check_normal_form(RangeCheck& check, const Drive& drive) {
+  const auto* rigid = std::get_if<RigidContact>(&drive.contact);
+  const NormalForm& form = *drive.servo;
+  const NormalizedServo servo{.damping = form.damping,
+                              .inertia_ratio = form.inertia_ratio,
+                              .friction_ratio = form.friction_ratio,
+                              .backlash = form.backlash,
+                              .restitution = rigid == nullptr ? 0.0 : rigid->restitution};
+  for (Violation fault : validate(servo)) {
+    if (fault.field == "restitution") continue;  // checked as a share
+    fault.field = "servo." + fault.field;
+    check.include({fault});
+  }
+}
+
+/// Of a servo of 1960 that is given by a data sheet, or that no general drive can be: a side
+/// without inertia, no gap.
+bool must_be_a_servo(const Drive& drive, const drive::Drive& reduced) {
+  const bool has_voltage = !std::holds_alternative<TorqueControl>(drive.motor.kind);
+  return has_voltage || reduced.motor.inertia == 0.0 || reduced.load.inertia == 0.0 ||
+         reduced.backlash == 0.0;
+}
+
+std::vector<Violation> servo_faults(const Drivetrain& drivetrain) {
+  std::vector<Violation> found = named_for_datasheet(validate(drivetrain));
+  for (Violation& fault : found) {
+    if (fault.field == "load_inertia") fault.field = "load.inertia";
+  }
+  const double frequency = natural_frequency(drivetrain);
+  if (found.empty() && !std::isnormal(frequency)) {
+    found.push_back({"natural_frequency", frequency > 1.0 ? "inf rad/s" : "0 rad/s",
+                     "must be from 1e-308 to 1e308 rad/s: stiffness and inertias are too far apart",
+                     ""});
+  }
+  return found;
+}
+
+/// A value within every range in the place of one that is not.
+void mend(Drive& drive, const Parameter& parameter) {
+  const Slot slot = parameter.slot(drive);
+  if (auto* const* place = std::get_if<double*>(&slot)) **place = 0.5;
+  if (auto* const* place = std::get_if<std::optional<double>*>(&slot)) **place = 0.5;
+}
+
+/// Inputs are the error, or reference, position and speed.
+void check_columns(RangeCheck& check, const Drive& drive) {
+  const auto* system = std::get_if<StateSpaceController>(&drive.controller.law);
+  if (system == nullptr || drive.servo) return;
+  const auto is_wrong = [](const std::vector<double>& row) {
+    return row.size() != 1 && row.size() != 3;
+  };
+  constexpr char permitted[] = "must have 1 number a row, of the error, or 3, of r, y and v";
+  if (std::any_of(system->B.begin(), system->B.end(), is_wrong)) {
+    check.refuse("controller.B", "", permitted);
+  }
+  if (is_wrong(system->D)) check.refuse("controller.D", "", permitted);
+}
+
+/// Rules that join several numbers.
+std::vector<Violation> joint_faults(const Drive& drive) {
+  const drive::Drive reduced = reduce(drive);
+  std::vector<Violation> found = drive::validate(reduced);
+  if (must_be_a_servo(drive, reduced) && validate(reduced.controller).empty()) {
+    if (const auto drivetrain = drive::proportional_drivetrain(reduced)) {
+      return servo_faults(*drivetrain);
+    }
+  }
+  for (Violation& fault : found) fault.field = path_of(fault.field);
+  return found;
+}
+
+}  // namespace
+
+std::vector<Violation> faults(const Drive& drive) {
+  RangeCheck check;
+  Drive mended = drive;  // without the faults of single numbers, which would cause others
+  for (const Parameter& parameter : all_parameters_of_drives()) {
+    if (!exists(parameter, drive)) continue;
+    const std::optional<double> value = number_in(parameter, drive);
+    if (!value) continue;
+    const Dimension* dimension = parameter.dimension(drive);
+    const std::size_t before = check.violations().size();
+    check_number(check, parameter, *value, dimension == nullptr ? "" : dimension->unit);
+    if (check.violations().size() > before) mend(mended, parameter);
+  }
+  check_breakaway(check, drive.motor.friction, "motor");
+  check_breakaway(check, drive.load.friction, "load");
+  check_columns(check, drive);
+  if (drive.servo) check_normal_form(check, drive);
+  std::vector<Violation> found = check.violations();
+  if (!found.empty() && drive.servo) return found;
+  for (Violation& fault : joint_faults(mended)) {
+    const auto is_known = [&](const Violation& other) { return other.field == fault.field; };
+    if (std::none_of(found.begin(), found.end(), is_known)) found.push_back(std::move(fault));
+  }
+  return found;
+}
+
+Drive normal_form(double damping, double inertia_ratio, double friction_ratio, double backlash,
+                  double restitution) {
+  Drive drive;
+  drive.servo = NormalForm{.damping = damping,
+                           .inertia_ratio = inertia_ratio,
+                           .friction_ratio = friction_ratio,
+                           .backlash = backlash};
+  drive.contact = RigidContact{restitution};
+  return drive;
+}
+
+}  // namespace gearlash

@@ -1,0 +1,294 @@
+#include <limits>
+
+#include "model/parameter_list.hpp"
+
+namespace gearlash {
+namespace {
+
+using namespace dimensions;
+
+bool has_voltage(const Drive& drive) {
+  return !drive.servo && !std::holds_alternative<TorqueControl>(drive.motor.kind);
+}
+
+const Dimension* limit_dimension(const Drive& drive) {
+  return has_voltage(drive) ? &voltage : &torque;
+}
+
+/// A slot that a drive in the normal form does not have.
+template <class Member>
+Slot of_plant(Drive& drive, Member& member) {
+  return drive.servo ? Slot{} : Slot{&member};
+}
+
+std::vector<Parameter> servo_parameters() {
+  return {{.path = "servo.damping",
+           .slot = [](Drive& d) { return slot_of(d.servo, &NormalForm::damping); },
+           .meaning = "damping coefficient (F_M + F_L)/(2 ω_n (J_M + J_L))",
+           .permitted = Permitted::of_normal_form,
+           .is_required = true,
+           .usual = {0.01, 2.0}},
+          {.path = "servo.inertia_ratio",
+           .slot = [](Drive& d) { return slot_of(d.servo, &NormalForm::inertia_ratio); },
+           .meaning = "inertia of the load over that of the motor, both at the load's shaft",
+           .permitted = Permitted::of_normal_form,
+           .is_required = true,
+           .usual = {0.05, 20.0}},
+          {.path = "servo.friction_ratio",
+           .slot = [](Drive& d) { return slot_of(d.servo, &NormalForm::friction_ratio); },
+           .meaning = "friction of the load over that of both shafts",
+           .permitted = Permitted::of_normal_form,
+           .is_required = true,
+           .usual = {0.0, 1.0, false}},
+          {.path = "servo.backlash",
+           .slot = [](Drive& d) { return slot_of(d.servo, &NormalForm::backlash); },
+           .dimension = &always<angle>,
+           .meaning = "free play at the load's shaft, from face to face",
+           .permitted = Permitted::of_normal_form,
+           .is_required = true,
+           .usual = {1e-4, 1.0}},
+          {.path = "servo.natural_frequency",
+           .slot = [](Drive& d) { return slot_of(d.servo, &NormalForm::natural_frequency); },
+           .dimension = &always<angular_frequency>,
+           .meaning = "undamped natural frequency √(K/(J_M + J_L)); 1 rad/s where it is left out",
+           .permitted = Permitted::positive,
+           .usual = {0.1, 1000.0}}};
+}
+
+/// All kinds of motors have a friction and an inertia; each has constants of its own.
+std::vector<Parameter> motor_constants() {
+  return {{.path = "motor.torque_constant",
+           .slot =
+               [](Drive& d) {
+                 if (d.servo) return Slot{};
+                 const Slot armature = slot_of(d.motor.kind, &ArmatureControl::torque_constant);
+                 return std::holds_alternative<std::monostate>(armature)
+                            ? slot_of(d.motor.kind, &FieldControl::torque_constant)
+                            : armature;
+               },
+           .dimension = &always<torque_per_current>,
+           .meaning = "torque per current, of the armature or of the field",
+           .permitted = Permitted::positive,
+           .is_required = true,
+           .usual = {1e-3, 10.0}},
+          {.path = "motor.back_emf_constant",
+           .slot =
+               [](Drive& d) {
+                 return d.servo ? Slot{}
+                                : slot_of(d.motor.kind, &ArmatureControl::back_emf_constant);
+               },
+           .dimension = &always<voltage_per_speed>,
+           .meaning = "voltage per speed",
+           .permitted = Permitted::not_negative,
+           .is_required = true,
+           .other_forms = {{"motor.speed_constant", &speed_per_voltage}},
+           .usual = {1e-3, 10.0}},
+          {.path = "motor.resistance",
+           .slot =
+               [](Drive& d) {
+                 if (d.servo) return Slot{};
+                 const Slot armature = slot_of(d.motor.kind, &ArmatureControl::resistance);
+                 return std::holds_alternative<std::monostate>(armature)
+                            ? slot_of(d.motor.kind, &FieldControl::resistance)
+                            : armature;
+               },
+           .dimension = &always<resistance>,
+           .meaning = "resistance of the winding through which the motor is controlled",
+           .permitted = Permitted::positive,
+           .is_required = true,
+           .usual = {0.01, 1000.0}},
+          {.path = "motor.torque_per_volt",
+           .slot =
+               [](Drive& d) {
+                 return d.servo ? Slot{} : slot_of(d.motor.kind, &TwoPhase::torque_per_volt);
+               },
+           .dimension = &always<torque_per_voltage>,
+           .meaning = "slope of the torque by the voltage",
+           .permitted = Permitted::positive,
+           .is_required = true,
+           .usual = {1e-4, 1.0}},
+          {.path = "motor.torque_per_speed",
+           .slot =
+               [](Drive& d) {
+                 return d.servo ? Slot{} : slot_of(d.motor.kind, &TwoPhase::torque_per_speed);
+               },
+           .dimension = &always<torque_per_speed>,
+           .meaning = "slope of the torque by the speed, taken positive",
+           .permitted = Permitted::not_negative,
+           .is_required = true,
+           .usual = {1e-7, 1e-1}}};
+}
+
+Parameter motor_kind() {
+  return {.path = "motor.kind",
+          .slot =
+              [](Drive& d) {
+                if (d.servo) return Slot{};
+                return Slot{Choice{[](const Drive& drive) {
+                                     constexpr std::size_t order[] = {3, 0, 1, 2};
+                                     return order[drive.motor.kind.index()];
+                                   },
+                                   [](Drive& drive, std::size_t choice) {
+                                     MotorKind& kind = drive.motor.kind;
+                                     if (choice == 0) kind = ArmatureControl{};
+                                     if (choice == 1) kind = FieldControl{};
+                                     if (choice == 2) kind = TwoPhase{};
+                                     if (choice == 3) kind = TorqueControl{};
+                                   }}};
+              },
+          .meaning = "what the controller's output does: volts to a winding, or torque",
+          .is_required = true,
+          .choices = {"armature-controlled", "field-controlled", "two-phase", "torque-controlled"}};
+}
+
+std::vector<Parameter> motor_parameters() {
+  std::vector<Parameter> list = {
+      motor_kind(),
+      {.path = "motor.inertia",
+       .slot = [](Drive& d) { return of_plant(d, d.motor.inertia); },
+       .dimension = &always<inertia>,
+       .meaning = "moment of inertia of the rotor, at its own shaft",
+       .permitted = Permitted::not_negative,
+       .is_required = true,
+       .usual = {1e-8, 1e-1}},
+      {.path = "motor.friction",
+       .slot = [](Drive& d) { return of_plant(d, d.motor.friction.viscous); },
+       .dimension = &always<torque_per_speed>,
+       .meaning = "viscous friction of the motor, without its back-EMF",
+       .permitted = Permitted::not_negative,
+       .is_required = true,
+       .usual = {1e-8, 1e-1}}};
+  for (Parameter& constant : motor_constants()) list.push_back(std::move(constant));
+  const std::vector<Parameter> dry = {
+      {.path = "motor.coulomb",
+       .slot = [](Drive& d) { return of_plant(d, d.motor.friction.coulomb); },
+       .dimension = &always<torque>,
+       .meaning = "dry friction of the motor while it moves",
+       .permitted = Permitted::not_negative,
+       .usual = {1e-5, 1.0}},
+      {.path = "motor.breakaway",
+       .slot = [](Drive& d) { return of_plant(d, d.motor.friction.breakaway); },
+       .dimension = &always<torque>,
+       .meaning = "torque that moves the motor from rest, at least its dry friction",
+       .permitted = Permitted::not_negative,
+       .otherwise = "motor.coulomb",
+       .usual = {1e-5, 1.0}},
+      {.path = "motor.voltage_limit",
+       .slot = [](Drive& d) { return has_voltage(d) ? Slot{&d.motor.limit} : Slot{}; },
+       .dimension = &limit_dimension,
+       .meaning = "the largest voltage that the controller can give",
+       .permitted = Permitted::positive,
+       .usual = {1.0, 1000.0}},
+      {.path = "motor.torque_limit",
+       .slot = [](Drive& d) { return d.servo || has_voltage(d) ? Slot{} : Slot{&d.motor.limit}; },
+       .dimension = &limit_dimension,
+       .meaning = "the largest torque that the motor can give, at its own shaft",
+       .permitted = Permitted::positive,
+       .usual = {1e-3, 1000.0}}};
+  list.insert(list.end(), dry.begin(), dry.end());
+  return list;
+}
+
+std::vector<Parameter> transmission_parameters() {
+  return {{.path = "gearbox.ratio",
+           .slot = [](Drive& d) { return of_plant(d, d.gearbox.ratio); },
+           .meaning = "motor turns per load turn",
+           .permitted = Permitted::positive,
+           .is_required = true,
+           .wanted = "positive, motor turns per load turn",
+           .usual = {1.0, 1000.0}},
+          {.path = "gearbox.backlash",
+           .slot = [](Drive& d) { return of_plant(d, d.gearbox.backlash); },
+           .dimension = &always<angle>,
+           .meaning = "free play at the load's shaft, from face to face",
+           .permitted = Permitted::not_negative,
+           .is_required = true,
+           .usual = {1e-5, 0.1}},
+          {.path = "load.inertia",
+           .slot = [](Drive& d) { return of_plant(d, d.load.inertia); },
+           .dimension = &always<inertia>,
+           .meaning = "moment of inertia of the load",
+           .permitted = Permitted::not_negative,
+           .is_required = true,
+           .usual = {1e-6, 1e4}},
+          {.path = "load.friction",
+           .slot = [](Drive& d) { return of_plant(d, d.load.friction.viscous); },
+           .dimension = &always<torque_per_speed>,
+           .meaning = "viscous friction of the load",
+           .permitted = Permitted::not_negative,
+           .is_required = true,
+           .usual = {1e-6, 1e3}},
+          {.path = "load.coulomb",
+           .slot = [](Drive& d) { return of_plant(d, d.load.friction.coulomb); },
+           .dimension = &always<torque>,
+           .meaning = "dry friction of the load while it moves",
+           .permitted = Permitted::not_negative,
+           .usual = {1e-4, 100.0}},
+          {.path = "load.breakaway",
+           .slot = [](Drive& d) { return of_plant(d, d.load.friction.breakaway); },
+           .dimension = &always<torque>,
+           .meaning = "torque that moves the load from rest, at least its dry friction",
+           .permitted = Permitted::not_negative,
+           .otherwise = "load.coulomb",
+           .usual = {1e-4, 100.0}}};
+}
+
+std::vector<Parameter> contact_parameters() {
+  return {{.path = "contact.kind",
+           .slot =
+               [](Drive&) {
+                 return Slot{Choice{[](const Drive& drive) { return drive.contact.index(); },
+                                    [](Drive& drive, std::size_t choice) {
+                                      if (choice == 0) drive.contact = RigidContact{};
+                                      if (choice == 1) drive.contact = CompliantContact{};
+                                    }}};
+               },
+           .meaning = "whether the faces are rigid or compliant",
+           .choices = {"rigid", "compliant"}},
+          {.path = "contact.restitution",
+           .slot = [](Drive& d) { return slot_of(d.contact, &RigidContact::restitution); },
+           .meaning = "coefficient of restitution: 0 plastic, 1 elastic",
+           .permitted = Permitted::share,
+           .usual = {0.0, 0.95, false}},
+          {.path = "contact.stiffness",
+           .slot = [](Drive& d) { return slot_of(d.contact, &CompliantContact::stiffness); },
+           .dimension = &always<torque_per_angle>,
+           .meaning = "stiffness of the faces, at the load's shaft",
+           .permitted = Permitted::positive,
+           .is_required = true,
+           .usual = {1.0, 1e6}},
+          {.path = "contact.damping",
+           .slot = [](Drive& d) { return slot_of(d.contact, &CompliantContact::damping); },
+           .dimension = &always<torque_per_speed>,
+           .meaning = "damping of the faces, at the load's shaft",
+           .permitted = Permitted::not_negative,
+           .usual = {1e-3, 1e4}},
+          {.path = "contact.law",
+           .slot =
+               [](Drive& d) {
+                 if (!std::holds_alternative<CompliantContact>(d.contact)) return Slot{};
+                 return Slot{Choice{[](const Drive& drive) {
+                                      const auto& faces = std::get<CompliantContact>(drive.contact);
+                                      return static_cast<std::size_t>(faces.law);
+                                    },
+                                    [](Drive& drive, std::size_t choice) {
+                                      std::get<CompliantContact>(drive.contact).law =
+                                          choice == 0 ? ContactDamping::limited
+                                                      : ContactDamping::full;
+                                    }}};
+               },
+           .meaning = "how the damping of the faces acts, as in Modelica",
+           .choices = {"ElastoBacklash", "ElastoBacklash2"}}};
+}
+
+}  // namespace
+
+std::vector<Parameter> mechanical_parameters() {
+  std::vector<Parameter> list = servo_parameters();
+  for (auto* part : {&motor_parameters, &transmission_parameters, &contact_parameters}) {
+    for (Parameter& parameter : (*part)()) list.push_back(std::move(parameter));
+  }
+  return list;
+}
+
+}  // namespace gearlash

@@ -1,0 +1,33 @@
+// The three parts of the list of parameters (model/parameters.hpp).
+#pragma once
+
+#include <vector>
+
+#include "model/parameters.hpp"
+
+namespace gearlash {
+
+std::vector<Parameter> mechanical_parameters();  ///< servo, motor, gearbox, load, contact
+std::vector<Parameter> control_parameters();     ///< sensor, controller, sampling
+std::vector<Parameter> signal_parameters();      ///< reference, load_torque
+
+/// The rule for a unit that is the same for every drive.
+template <const Dimension& dimension>
+const Dimension* always(const Drive&) {
+  return &dimension;
+}
+
+/// A member of one alternative of a variant: its slot where the variant holds that.
+template <class Alternative, class Variant, class Member>
+Slot slot_of(Variant& variant, Member Alternative::*member) {
+  auto* held = std::get_if<Alternative>(&variant);
+  return held == nullptr ? Slot{} : Slot{&(held->*member)};
+}
+
+/// A member of an optional part: its slot where there is that part.
+template <class Part, class Member>
+Slot slot_of(std::optional<Part>& part, Member Part::*member) {
+  return part ? Slot{&((*part).*member)} : Slot{};
+}
+
+}  // namespace gearlash

@@ -1,0 +1,14 @@
+// Parameters of one drive by their paths: what gearlash/parameter.hpp does with them.
+#pragma once
+
+#include <string_view>
+
+#include "model/parameters.hpp"
+
+namespace gearlash {
+
+/// The parameter of that path, aliases and indices permitted. Throws InvalidInput where there is
+/// none, or where the drive does not have it.
+const Parameter& parameter_of(const Drive& drive, std::string_view path);
+
+}  // namespace gearlash

@@ -1,0 +1,81 @@
+#include "model/parameters.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "model/parameter_list.hpp"
+
+namespace gearlash {
+
+const std::vector<Parameter>& all_parameters_of_drives() {
+  static const std::vector<Parameter> all = [] {
+    std::vector<Parameter> list = mechanical_parameters();
+    for (auto* more : {&control_parameters, &signal_parameters}) {
+      std::vector<Parameter> part = (*more)();
+      std::move(part.begin(), part.end(), std::back_inserter(list));
+    }
+    return list;
+  }();
+  return all;
+}
+
+const Parameter* find_parameter(std::string_view path) {
+  const std::vector<Parameter>& all = all_parameters_of_drives();
+  const auto named = [&](const Parameter& parameter) {
+    const auto is_it = [&](const OtherForm& form) { return form.path == path; };
+    return parameter.path == path ||
+           std::any_of(parameter.other_forms.begin(), parameter.other_forms.end(), is_it);
+  };
+  const auto found = std::find_if(all.begin(), all.end(), named);
+  return found == all.end() ? nullptr : &*found;
+}
+
+const Parameter* find_parameter(std::string_view path, const Drive& drive) {
+  const Parameter* first = find_parameter(path);
+  if (first == nullptr || exists(*first, drive)) return first;
+  for (const Parameter& parameter : all_parameters_of_drives()) {
+    if (parameter.path == first->path && exists(parameter, drive)) return &parameter;
+  }
+  return nullptr;
+}
+
+const std::vector<Section>& all_sections() {
+  static const auto has_plant = [](const Drive& drive) { return !drive.servo; };
+  static const auto always = [](const Drive&) { return true; };
+  static const auto nothing = [](Drive&) {};
+  static const std::vector<Section> all = {
+      {"servo", "with damping, inertia_ratio, friction_ratio and backlash",
+       [](const Drive& drive) { return drive.servo.has_value(); },
+       [](Drive& drive) { drive.servo.emplace(); }},
+      {"motor", "with a kind and its constants", has_plant, nothing},
+      {"gearbox", "with ratio and backlash", has_plant, nothing},
+      {"load", "with inertia and friction", has_plant, nothing},
+      {"contact", "with restitution, or stiffness and damping", always, nothing},
+      {"sensor", "with the shafts that are measured", always, nothing},
+      {"controller", "with a kind and its gains", has_plant, nothing},
+      {"sampling", "with its period", [](const Drive& drive) { return drive.sampling.has_value(); },
+       [](Drive& drive) { drive.sampling.emplace(); }},
+      {"reference", "with a kind", [](const Drive& drive) { return drive.reference.has_value(); },
+       [](Drive& drive) { drive.reference.emplace(0.0); }},
+      {"load_torque", "with a kind",
+       [](const Drive& drive) { return drive.load_torque.has_value(); },
+       [](Drive& drive) { drive.load_torque.emplace(0.0); }}};
+  return all;
+}
+
+bool exists(const Parameter& parameter, const Drive& drive) {
+  // A slot only points: nothing is changed here.
+  return !std::holds_alternative<std::monostate>(parameter.slot(const_cast<Drive&>(drive)));
+}
+
+std::optional<double> number_in(const Parameter& parameter, const Drive& drive) {
+  const Slot slot = parameter.slot(const_cast<Drive&>(drive));
+  if (const auto* number = std::get_if<double*>(&slot)) return **number;
+  const auto* given = std::get_if<std::optional<double>*>(&slot);
+  if (given == nullptr) return std::nullopt;
+  if (**given || parameter.otherwise.empty()) return **given;
+  const Parameter* other = find_parameter(parameter.otherwise);
+  return other == nullptr ? std::nullopt : number_in(*other, drive);
+}
+
+}  // namespace gearlash

@@ -1,0 +1,217 @@
+#include "model/reduced_drive.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "base/overloaded.hpp"
+#include "model/proportional_servo.hpp"
+
+namespace gearlash {
+namespace {
+
+/// J_M + J_L = 1 kg m².
+Drivetrain drivetrain_of(const NormalForm& form, double restitution) {
+  const double frequency = form.natural_frequency.value_or(1.0);
+  const double friction = 2.0 * form.damping * frequency;
+  const double ratio = form.inertia_ratio;
+  Drivetrain drivetrain;
+  drivetrain.stiffness = frequency * frequency;
+  drivetrain.motor_inertia = 1.0 / (1.0 + ratio);
+  drivetrain.load_inertia = std::isinf(ratio) ? 1.0 : ratio / (1.0 + ratio);
+  drivetrain.motor_friction = friction * (1.0 - form.friction_ratio);
+  drivetrain.load_friction = friction * form.friction_ratio;
+  drivetrain.backlash = form.backlash;
+  drivetrain.restitution = restitution;
+  return drivetrain;
+}
+
+drive::ShaftFriction referred(const Friction& friction, double ratio) {
+  return {.viscous = friction.viscous * ratio * ratio,
+          .coulomb = friction.coulomb * ratio,
+          .breakaway = friction.breakaway.value_or(friction.coulomb) * ratio};
+}
+
+// ---- controllers --------------------------------------------------------------------------------
+
+/// Columns by r, y and v, of one by the error alone.
+std::vector<double> of_three_inputs(const std::vector<double>& row) {
+  if (row.size() == 1) return {row[0], -row[0], 0.0};
+  return row;
+}
+
+std::vector<double> scaled(std::vector<double> numbers, double factor) {
+  for (double& number : numbers) number *= factor;
+  return numbers;
+}
+
+/// `scale`: torque at the load for one of the gains.
+drive::Controller reduce(const PID& pid, double scale) {
+  if (pid.terms == PIDTerms::P) {
+    return drive::ProportionalDerivative{.proportional = scale * pid.proportional};
+  }
+  const bool has_integral = pid.terms != PIDTerms::PD;
+  const bool has_derivative = pid.terms != PIDTerms::PI;
+  drive::ProportionalIntegralDerivative reduced;
+  reduced.proportional = scale * pid.proportional;
+  if (has_integral) {
+    reduced.integral = scale * pid.integral;
+    reduced.tracking_time = pid.tracking_time;
+  }
+  if (has_derivative) {
+    reduced.derivative = scale * pid.derivative;
+    reduced.filter = pid.filter;
+    reduced.derivative_of_speed = pid.derivative_of_speed;
+  }
+  return reduced;
+}
+
+drive::Controller reduce(const CascadeController& cascade, double scale) {
+  return drive::Cascade{.position = cascade.position,
+                        .speed = scale * cascade.speed,
+                        .speed_integral = scale * cascade.speed_integral,
+                        .tracking_time = cascade.tracking_time};
+}
+
+drive::Controller reduce(const LeadLagController& lead_lag, double scale) {
+  return drive::LeadLag{
+      .gain = scale * lead_lag.gain, .zero = lead_lag.zero, .pole = lead_lag.pole};
+}
+
+drive::Controller reduce(const TransferFunctionController& function, double scale) {
+  std::vector<double> numerator = scaled(function.numerator, scale * function.gain);
+  if (function.is_sampled) return drive::SampledTransfer{numerator, function.denominator};
+  return drive::ErrorTransfer{{numerator, function.denominator, 0.0}};
+}
+
+drive::Controller reduce(const StateSpaceController& system, double scale) {
+  const double gain = scale * system.gain;
+  drive::LinearController reduced;
+  reduced.state_matrix = system.A;
+  for (const std::vector<double>& row : system.B) {
+    reduced.input_matrix.push_back(of_three_inputs(row));
+  }
+  reduced.output = scaled(system.C, gain);
+  reduced.direct = scaled(of_three_inputs(system.D), gain);
+  return reduced;
+}
+
+// ---- sensors ------------------------------------------------------------------------------------
+
+/// At the load's shaft, of an encoder on a shaft that turns `ratio` times as far.
+std::optional<double> step_of(const Encoder& encoder, double ratio) {
+  if (encoder.resolution) return *encoder.resolution / ratio;
+  if (encoder.counts_per_turn) return 2.0 * std::numbers::pi / *encoder.counts_per_turn / ratio;
+  return std::nullopt;
+}
+
+drive::Sensing reduce(const Sensor& sensor, double gear_ratio) {
+  const bool is_on_load = sensor.position != SensorPlace::motor;
+  const ShaftName of_position =
+      sensor.position == SensorPlace::load ? ShaftName::load : ShaftName::motor;
+  const bool speed_on_load = sensor.speed.value_or(of_position) == ShaftName::load;
+  drive::Sensing sensing;
+  sensing.load_share_of_position = is_on_load ? 1.0 : 0.0;
+  sensing.load_share_of_speed = speed_on_load ? 1.0 : 0.0;
+  sensing.resolution = step_of(sensor.encoder, is_on_load ? 1.0 : gear_ratio).value_or(0.0);
+  sensing.resolution_of_speed =
+      step_of(sensor.speed_encoder, speed_on_load ? 1.0 : gear_ratio)
+          .value_or(is_on_load == speed_on_load ? sensing.resolution : 0.0);
+  return sensing;
+}
+
+drive::Contact reduce(const Contact& contact) {
+  return std::visit(Overloaded{[](const RigidContact& rigid) -> drive::Contact {
+                                 return drive::RigidContact{rigid.restitution};
+                               },
+                               [](const CompliantContact& faces) -> drive::Contact {
+                                 return drive::CompliantContact{
+                                     faces.stiffness, faces.damping,
+                                     faces.law == ContactDamping::full
+                                         ? drive::ContactDamping::full
+                                         : drive::ContactDamping::limited};
+                               }},
+                    contact);
+}
+
+double restitution_of(const Drive& drive) {
+  const auto* rigid = std::get_if<RigidContact>(&drive.contact);
+  return rigid == nullptr ? 0.0 : rigid->restitution;
+}
+
+drive::Drive reduced_plant(const Drive& drive) {
+  if (drive.servo) return drive::drive_of(drivetrain_of(*drive.servo, restitution_of(drive)));
+  const double ratio = drive.gearbox.ratio;
+  const ReferredOutput output = refer_output(drive);
+  drive::Drive reduced;
+  reduced.motor = {drive.motor.inertia * ratio * ratio, referred(drive.motor.friction, ratio)};
+  reduced.motor.friction.viscous += output.friction;
+  reduced.load = {drive.load.inertia, referred(drive.load.friction, 1.0)};
+  reduced.backlash = drive.gearbox.backlash;
+  if (drive.motor.limit) reduced.torque_limit = output.torque * *drive.motor.limit;
+  const double scale = output.torque * (drive.controller.shaft == ShaftName::motor ? ratio : 1.0);
+  reduced.controller =
+      std::visit([&](const auto& law) { return reduce(law, scale); }, drive.controller.law);
+  return reduced;
+}
+
+drive::Sampling reduce(const Sampling& sampling) {
+  return {.period = sampling.period,
+          .delay = sampling.delay,
+          .method = static_cast<drive::Discretization>(sampling.method),
+          .speed_by_differences = sampling.speed_by_differences};
+}
+
+}  // namespace
+
+ReferredOutput refer_output(const Drive& drive) {
+  const double ratio = drive.gearbox.ratio;
+  const double square = ratio * ratio;
+  return std::visit(
+      Overloaded{
+          [&](const TorqueControl&) {
+            return ReferredOutput{ratio, 0.0};
+          },
+          [&](const ArmatureControl& motor) {
+            const double per_volt = motor.torque_constant / motor.resistance;
+            return ReferredOutput{per_volt * ratio, per_volt * motor.back_emf_constant * square};
+          },
+          [&](const FieldControl& motor) {
+            return ReferredOutput{motor.torque_constant / motor.resistance * ratio, 0.0};
+          },
+          [&](const TwoPhase& motor) {
+            return ReferredOutput{motor.torque_per_volt * ratio, motor.torque_per_speed * square};
+          }},
+      drive.motor.kind);
+}
+
+drive::Drive reduce(const Drive& drive) {
+  drive::Drive reduced = reduced_plant(drive);
+  reduced.contact = reduce(drive.contact);
+  reduced.sensing = reduce(drive.sensor, drive.servo ? 1.0 : drive.gearbox.ratio);
+  if (drive.sampling) reduced.sampling = reduce(*drive.sampling);
+  reduced.reference = drive.reference.value_or(0.0);
+  reduced.load_torque = drive.load_torque.value_or(0.0);
+  return reduced;
+}
+
+std::optional<Drivetrain> proportional_drivetrain(const Drive& drive) {
+  return drive::proportional_servo(reduce(drive));
+}
+
+std::optional<ClosedFormServo> closed_form_servo(const Drive& drive) {
+  const std::optional<Drivetrain> drivetrain = proportional_drivetrain(drive);
+  if (!drivetrain) return std::nullopt;
+  if (!drive.servo) {
+    return ClosedFormServo{normalize_sound(*drivetrain), natural_frequency(*drivetrain), false};
+  }
+  const NormalForm& form = *drive.servo;
+  return ClosedFormServo{{.damping = form.damping,
+                          .inertia_ratio = form.inertia_ratio,
+                          .friction_ratio = form.friction_ratio,
+                          .backlash = form.backlash,
+                          .restitution = restitution_of(drive)},
+                         form.natural_frequency.value_or(1.0),
+                         true};
+}
+
+}  // namespace gearlash

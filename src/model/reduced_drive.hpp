@@ -1,0 +1,43 @@
+// A drive with all its numbers referred to the load's shaft, and what it is to the closed form.
+#pragma once
+
+#include <optional>
+
+#include "gearlash/drive.hpp"
+#include "model/drive.hpp"
+#include "model/drivetrain.hpp"
+
+namespace gearlash {
+
+/// How much of the controller's output arrives at the load: torque there per unit of output, and
+/// the friction that the motor's winding adds (back-EMF, or the slope of its speed-torque curve).
+struct ReferredOutput {
+  double torque = 1.0;    ///< N m per V, or per N m at the motor's shaft
+  double friction = 0.0;  ///< N m s/rad
+};
+
+/// Armature: K₁n/R and K₁K₂n²/R; field: K₁n/R and 0; two-phase: K_e n and K_N n²; torque: n and 0
+/// (thesis Appendix A, steps 1 to 5; n motor turns per load turn).
+ReferredOutput refer_output(const Drive& drive);
+
+/// All at the load's shaft. Where a number is at fault the result is too: see faults().
+drive::Drive reduce(const Drive& drive);
+
+/// What the closed form answers for.
+struct ClosedFormServo {
+  NormalizedServo servo;
+  double natural_frequency = 1.0;  ///< ω_n, rad/s
+  /// The normal form's own numbers; else they were worked out from data with units.
+  bool is_as_given = false;
+};
+
+/// The servo of 1960 that a drive is by its physics: proportional control of the load's position,
+/// continuous, exact, unlimited, rigid faces, no dry friction, a constant reference, no load
+/// torque; speed fed back from the motor is friction on it. Sides without inertia and gaps of 0 are
+/// among them. Nothing for any other drive. Precondition: every parameter is in its range.
+std::optional<ClosedFormServo> closed_form_servo(const Drive& drive);
+
+/// Its drivetrain, with the same conditions.
+std::optional<Drivetrain> proportional_drivetrain(const Drive& drive);
+
+}  // namespace gearlash

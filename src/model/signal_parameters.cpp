@@ -1,0 +1,201 @@
+#include "model/parameter_list.hpp"
+
+namespace gearlash {
+namespace {
+
+using namespace dimensions;
+
+/// A reference or a load torque, whose lists differ in names and dimensions only.
+struct ReferenceSignal {
+  static std::optional<Signal>& of(Drive& drive) { return drive.reference; }
+  static const std::optional<Signal>& of(const Drive& drive) { return drive.reference; }
+  static constexpr const Dimension* value = &angle;
+  static constexpr std::size_t kinds = 6;
+};
+struct LoadTorqueSignal {
+  static std::optional<Signal>& of(Drive& drive) { return drive.load_torque; }
+  static const std::optional<Signal>& of(const Drive& drive) { return drive.load_torque; }
+  static constexpr const Dimension* value = &torque;
+  static constexpr std::size_t kinds = 4;
+};
+
+// The alternatives of Signal in the order of the words; load torques have some of them.
+constexpr std::size_t reference_order[] = {0, 1, 2, 3, 4, 5};
+constexpr std::size_t load_torque_order[] = {0, 1, 3, 5};
+
+Signal signal_of_kind(std::size_t kind) {
+  switch (kind) {
+    case 1:
+      return StepSignal{};
+    case 2:
+      return RampSignal{};
+    case 3:
+      return SineSignal{};
+    case 4:
+      return TrapezoidSignal{};
+    case 5:
+      return TableSignal{};
+    default:
+      return 0.0;
+  }
+}
+
+template <class Which>
+const std::size_t* order_of() {
+  return Which::kinds == 6 ? reference_order : load_torque_order;
+}
+
+template <class Which>
+Slot kind_slot(Drive& drive) {
+  if (!Which::of(drive)) return {};
+  return Choice{[](const Drive& d) {
+                  std::size_t word = 0;
+                  while (word < Which::kinds && order_of<Which>()[word] != Which::of(d)->index()) {
+                    ++word;
+                  }
+                  return word;
+                },
+                [](Drive& d, std::size_t choice) {
+                  Which::of(d) = signal_of_kind(order_of<Which>()[choice]);
+                }};
+}
+
+template <class Which, class Kind, class Member>
+Slot member_slot(Drive& drive, Member Kind::*member) {
+  return Which::of(drive) ? slot_of(*Which::of(drive), member) : Slot{};
+}
+
+/// The first of two members that the signal has.
+template <class Which, class Kind, class Member, class... Others>
+Slot member_slot(Drive& drive, Member Kind::*member, Others... others) {
+  const Slot first = member_slot<Which>(drive, member);
+  return std::holds_alternative<std::monostate>(first) ? member_slot<Which>(drive, others...)
+                                                       : first;
+}
+
+template <class Which>
+Slot constant_slot(Drive& drive) {
+  if (!Which::of(drive)) return {};
+  auto* constant = std::get_if<double>(&*Which::of(drive));
+  return constant == nullptr ? Slot{} : Slot{constant};
+}
+
+template <class Which>
+const Dimension* value_dimension(const Drive&) {
+  return Which::value;
+}
+
+struct Paths {
+  std::string_view kind, value, before, after, mean, amplitude, frequency, phase, time, file;
+};
+
+/// Of both.
+template <class Which>
+std::vector<Parameter> shared_parameters(const Paths& paths, std::vector<std::string_view> kinds) {
+  return {{.path = paths.kind,
+           .slot = &kind_slot<Which>,
+           .meaning = "how it goes over time",
+           .is_required = true,
+           .choices = std::move(kinds)},
+          {.path = paths.value,
+           .slot = &constant_slot<Which>,
+           .dimension = &value_dimension<Which>,
+           .meaning = "its constant value",
+           .is_required = true},
+          {.path = paths.before,
+           .slot = [](Drive& d) { return member_slot<Which>(d, &StepSignal::before); },
+           .dimension = &value_dimension<Which>,
+           .meaning = "value before the step"},
+          {.path = paths.after,
+           .slot = [](Drive& d) { return member_slot<Which>(d, &StepSignal::after); },
+           .dimension = &value_dimension<Which>,
+           .meaning = "value after the step",
+           .is_required = true},
+          {.path = paths.mean,
+           .slot = [](Drive& d) { return member_slot<Which>(d, &SineSignal::mean); },
+           .dimension = &value_dimension<Which>,
+           .meaning = "mean of the sine"},
+          {.path = paths.amplitude,
+           .slot = [](Drive& d) { return member_slot<Which>(d, &SineSignal::amplitude); },
+           .dimension = &value_dimension<Which>,
+           .meaning = "amplitude of the sine",
+           .is_required = true},
+          {.path = paths.frequency,
+           .slot = [](Drive& d) { return member_slot<Which>(d, &SineSignal::frequency); },
+           .dimension = &always<angular_frequency>,
+           .meaning = "frequency of the sine",
+           .permitted = Permitted::positive,
+           .is_required = true},
+          {.path = paths.phase,
+           .slot = [](Drive& d) { return member_slot<Which>(d, &SineSignal::phase); },
+           .dimension = &always<angle>,
+           .meaning = "phase of the sine at time 0"},
+          {.path = paths.time,
+           .slot =
+               [](Drive& d) {
+                 return member_slot<Which>(d, &StepSignal::time, &RampSignal::time,
+                                           &TrapezoidSignal::time);
+               },
+           .dimension = &always<time>,
+           .meaning = "when it begins"},
+          {.path = paths.file,
+           .slot = [](Drive& d) { return member_slot<Which>(d, &TableSignal::file); },
+           .meaning = "a CSV file of times and values, beside the drive's",
+           .is_required = true,
+           .wanted = "the name of a CSV file"}};
+}
+
+std::vector<Parameter> motion_parameters() {
+  using Which = ReferenceSignal;
+  return {{.path = "reference.value",
+           .slot = [](Drive& d) { return member_slot<Which>(d, &RampSignal::value); },
+           .dimension = &always<angle>,
+           .meaning = "value before the ramp"},
+          {.path = "reference.rate",
+           .slot = [](Drive& d) { return member_slot<Which>(d, &RampSignal::rate); },
+           .dimension = &always<angular_speed>,
+           .meaning = "speed of the ramp",
+           .is_required = true},
+          {.path = "reference.from",
+           .slot = [](Drive& d) { return member_slot<Which>(d, &TrapezoidSignal::from); },
+           .dimension = &always<angle>,
+           .meaning = "where the move begins"},
+          {.path = "reference.to",
+           .slot = [](Drive& d) { return member_slot<Which>(d, &TrapezoidSignal::to); },
+           .dimension = &always<angle>,
+           .meaning = "where the move ends",
+           .is_required = true},
+          {.path = "reference.speed",
+           .slot = [](Drive& d) { return member_slot<Which>(d, &TrapezoidSignal::speed); },
+           .dimension = &always<angular_speed>,
+           .meaning = "highest speed of the move",
+           .permitted = Permitted::positive,
+           .is_required = true},
+          {.path = "reference.acceleration",
+           .slot = [](Drive& d) { return member_slot<Which>(d, &TrapezoidSignal::acceleration); },
+           .dimension = &always<angular_acceleration>,
+           .meaning = "highest acceleration of the move",
+           .permitted = Permitted::positive,
+           .is_required = true}};
+}
+
+}  // namespace
+
+std::vector<Parameter> signal_parameters() {
+  std::vector<Parameter> list = shared_parameters<ReferenceSignal>(
+      {"reference.kind", "reference.value", "reference.before", "reference.after", "reference.mean",
+       "reference.amplitude", "reference.frequency", "reference.phase", "reference.time",
+       "reference.file"},
+      {"constant", "step", "ramp", "sine", "trapezoid", "table"});
+  for (Parameter& parameter : motion_parameters()) list.push_back(std::move(parameter));
+  for (Parameter& parameter : shared_parameters<LoadTorqueSignal>(
+           {"load_torque.kind", "load_torque.value", "load_torque.before", "load_torque.after",
+            "load_torque.mean", "load_torque.amplitude", "load_torque.frequency",
+            "load_torque.phase", "load_torque.time", "load_torque.file"},
+           {"constant", "step", "sine", "table"})) {
+    list.push_back(std::move(parameter));
+  }
+  return list;
+}
+
+}  // namespace gearlash

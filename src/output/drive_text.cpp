@@ -1,0 +1,121 @@
+#include "output/drive_text.hpp"
+
+#include <fmt/format.h>
+
+#include "base/range_check.hpp"
+#include "model/parameters.hpp"
+#include "output/json_values.hpp"
+
+namespace gearlash {
+namespace {
+
+std::string toml_text(std::string_view text) {
+  // TOML's basic strings escape as JSON's do.
+  return Json(std::string(text)).dump();
+}
+
+std::string list_text(const std::vector<double>& numbers) {
+  std::string text = "[";
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    text += (i == 0 ? "" : ", ") + exact_text(numbers[i]);
+  }
+  return text + "]";
+}
+
+std::string number_text(double value, const Dimension* dimension) {
+  if (dimension == nullptr) {
+    const std::string text = exact_text(value);
+    return text == "inf" ? toml_text(text) : text;
+  }
+  return toml_text(exact_text(value) + " " + std::string(dimension->unit));
+}
+
+/// The value as TOML; empty for one that is not given and has no default.
+std::string value_text(const Parameter& parameter, const Drive& drive) {
+  const Slot slot = parameter.slot(const_cast<Drive&>(drive));
+  if (const auto* choice = std::get_if<Choice>(&slot)) {
+    return toml_text(parameter.choices[choice->chosen(drive)]);
+  }
+  if (auto* const* list = std::get_if<std::vector<double>*>(&slot)) return list_text(**list);
+  if (auto* const* text = std::get_if<std::string*>(&slot)) return toml_text(**text);
+  if (auto* const* rows = std::get_if<Rows*>(&slot)) {
+    std::string text = "[";
+    for (std::size_t i = 0; i < (*rows)->size(); ++i) {
+      text += (i == 0 ? "" : ", ") + list_text((**rows)[i]);
+    }
+    return text + "]";
+  }
+  const std::optional<double> number = number_in(parameter, drive);
+  return number ? number_text(*number, parameter.dimension(drive)) : "";
+}
+
+Json value_json(const Parameter& parameter, const Drive& drive) {
+  const Slot slot = parameter.slot(const_cast<Drive&>(drive));
+  if (const auto* choice = std::get_if<Choice>(&slot)) {
+    return parameter.choices[choice->chosen(drive)];
+  }
+  if (auto* const* list = std::get_if<std::vector<double>*>(&slot)) return **list;
+  if (auto* const* rows = std::get_if<Rows*>(&slot)) return **rows;
+  if (auto* const* text = std::get_if<std::string*>(&slot)) return **text;
+  const std::optional<double> number = number_in(parameter, drive);
+  return number ? json_number(*number) : Json(nullptr);
+}
+
+/// A drive with the same parts and kinds, and nothing else given.
+Drive with_defaults(const Drive& drive) {
+  Drive fresh;
+  if (drive.servo) fresh.servo.emplace();
+  if (drive.sampling) fresh.sampling.emplace();
+  if (drive.reference) fresh.reference.emplace(0.0);
+  if (drive.load_torque) fresh.load_torque.emplace(0.0);
+  for (const Parameter& parameter : all_parameters_of_drives()) {
+    if (!parameter.is_required && parameter.path != "contact.kind") continue;
+    Slot slot = parameter.slot(fresh);
+    if (auto* choice = std::get_if<Choice>(&slot)) choice->choose(fresh, choice->chosen(drive));
+  }
+  return fresh;
+}
+
+}  // namespace
+
+std::string to_toml(const Drive& drive) {
+  std::string text;
+  std::string_view section;
+  for (const Parameter& parameter : all_parameters_of_drives()) {
+    if (!exists(parameter, drive)) continue;
+    const std::string value = value_text(parameter, drive);
+    if (value.empty()) continue;
+    if (parameter.section() != section) {
+      section = parameter.section();
+      text += fmt::format("{}[{}]\n", text.empty() ? "" : "\n", section);
+    }
+    text += fmt::format("{} = {}\n", parameter.key(), value);
+  }
+  return text;
+}
+
+nlohmann::ordered_json drive_json(const Drive& drive) {
+  Json json = Json::object();
+  for (const Parameter& parameter : all_parameters_of_drives()) {
+    if (exists(parameter, drive)) json[std::string(parameter.path)] = value_json(parameter, drive);
+  }
+  return json;
+}
+
+std::vector<std::string> defaults_taken(const Drive& drive) {
+  const Drive fresh = with_defaults(drive);
+  std::vector<std::string> paths;
+  for (const Parameter& parameter : all_parameters_of_drives()) {
+    if (parameter.is_required || !exists(parameter, drive) || !exists(parameter, fresh)) continue;
+    // "The other parameter's value" is a default too.
+    const bool follows =
+        !parameter.otherwise.empty() &&
+        value_text(parameter, drive) == value_text(*find_parameter(parameter.otherwise), drive);
+    if (follows || value_text(parameter, drive) == value_text(parameter, fresh)) {
+      paths.emplace_back(parameter.path);
+    }
+  }
+  return paths;
+}
+
+}  // namespace gearlash

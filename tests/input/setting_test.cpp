@@ -1,0 +1,97 @@
+// --set PATH=VALUE: any parameter of a file by its path.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "gearlash/parameter.hpp"
+#include "input/drive_file.hpp"
+
+namespace gearlash {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* sheet = R"([motor]
+kind = "armature-controlled"
+inertia = "1e-5 kg m2"
+friction = "1e-6 N m s/rad"
+torque_constant = "0.2 N m/A"
+back_emf_constant = "0.2 V s/rad"
+resistance = "282 ohm"
+[gearbox]
+ratio = 20
+backlash = "0.1 rad"
+[load]
+inertia = "0.01 kg m2"
+friction = "0.001 N m s/rad"
+[loop]
+error_gain = "28 V/rad"
+)";
+
+Drive with(const std::vector<Setting>& settings) {
+  return parse_drive(sheet, "servo.toml", {}, settings).drive;
+}
+
+std::string fault_of(const std::vector<Setting>& settings) {
+  try {
+    with(settings);
+  } catch (const InvalidInput& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Settings, TakeThePlaceOfTheFile) {
+  EXPECT_EQ(get(with({{"gearbox.ratio", "50"}}), "gearbox.ratio"), 50.0);
+  EXPECT_EQ(get(with({{"gearbox.ratio", "43:1"}}), "gearbox.ratio"), 43.0);
+  EXPECT_DOUBLE_EQ(get(with({{"load.inertia", "20 kg cm2"}}), "load.inertia"), 2e-3);
+  EXPECT_EQ(get(with({{"motor.coulomb", "3 mN m"}}), "motor.breakaway"), 3e-3);
+}
+
+TEST(Settings, GiveWhatTheFileHasByAnotherName) {
+  EXPECT_EQ(get(with({{"controller.proportional", "30 V/rad"}}), "loop.error_gain"), 30.0);
+  EXPECT_EQ(get(with({{"controller.kp", "30 V/rad"}}), "loop.error_gain"), 30.0);
+  const Drive drive = with({{"motor.speed_constant", "100 rpm/V"}});
+  EXPECT_NEAR(get(drive, "motor.back_emf_constant"), 0.0954929658551372, 1e-15);
+}
+
+TEST(Settings, InverseFormsAreKeysToo) {
+  EXPECT_NEAR(get(with({{"motor.back_emf_constant", "100 rpm/V"}}), "motor.back_emf_constant"),
+              0.0954929658551372, 1e-15);
+  EXPECT_DOUBLE_EQ(get(with({{"sampling.period", "1 kHz"}}), "sampling.period"), 1e-3);
+  EXPECT_DOUBLE_EQ(get(with({{"sampling.frequency", "2 kHz"}}), "sampling.period"), 5e-4);
+}
+
+TEST(Settings, ChangeTheKindOfAPart) {
+  const Drive drive = with({{"contact.kind", "compliant"}, {"contact.stiffness", "500 N m/rad"}});
+  EXPECT_EQ(get(drive, "contact.stiffness"), 500.0);
+  EXPECT_THAT(fault_of({{"contact.kind", "compliant"}}), HasSubstr("contact.stiffness"));
+}
+
+TEST(Settings, AreLocatedWhereTheyWereGiven) {
+  EXPECT_EQ(fault_of({{"gearbox.ratio", "-2"}}),
+            "--set: gearbox.ratio = -2: must be positive and finite");
+  EXPECT_THAT(fault_of({{"load.inertia", "20 apples"}}), HasSubstr("--set: load.inertia"));
+}
+
+TEST(Settings, OfNoParameterAreRefusedWithTheNearest) {
+  try {
+    read_setting("motor.inertai=3 kg m2");
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_THAT(error.what(), HasSubstr("did you mean motor.inertia?"));
+  }
+  EXPECT_THROW(read_setting("motor.inertia"), InvalidInput);
+}
+
+TEST(Tolerances, AreReadOfEveryParameter) {
+  const WrittenDrive written =
+      parse_drive(sheet, "servo.toml", {}, {{"motor.coulomb", "3 mN m ± 10 %"}});
+  ASSERT_EQ(written.tolerances.size(), 1U);
+  EXPECT_EQ(written.tolerances[0].path, "motor.coulomb");
+  EXPECT_EQ(get(written.drive, "motor.coulomb"), 3e-3);
+}
+
+}  // namespace
+}  // namespace gearlash

@@ -1,0 +1,199 @@
+// The registry of parameters: every entry names one place of a drive, and get() and set() agree.
+#include "model/parameters.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+#include <set>
+#include <string>
+
+#include "gearlash/parameter.hpp"
+#include "model/reduced_drive.hpp"
+
+namespace gearlash {
+namespace {
+
+Drive joint() {
+  Drive drive;
+  drive.motor = {.kind = TorqueControl{},
+                 .inertia = 2e-4,
+                 .friction = {.viscous = 1e-4, .coulomb = 3e-3},
+                 .limit = 0.2};
+  drive.gearbox = {.ratio = 50.0, .backlash = 0.0035};
+  drive.load = {.inertia = 0.02, .friction = {.viscous = 0.01}};
+  drive.controller.law = PID{.terms = PIDTerms::PID,
+                             .proportional = 0.5,
+                             .integral = 1.0,
+                             .derivative = 0.02,
+                             .filter = 5e-3};
+  return drive;
+}
+
+/// All kinds of drives between them have every parameter.
+std::vector<Drive> drives_of_all_kinds() {
+  std::vector<Drive> drives = {normal_form(0.2, 1.0, 0.2), joint()};
+  for (const MotorKind& kind : {MotorKind(ArmatureControl{0.1, 0.1, 1.0}),
+                                MotorKind(FieldControl{0.1, 1.0}), MotorKind(TwoPhase{0.1, 0.1})}) {
+    drives.push_back(joint());
+    drives.back().motor.kind = kind;
+  }
+  for (std::size_t law = 1; law < 5; ++law) {
+    drives.push_back(joint());
+    const Slot slot = find_parameter("controller.kind")->slot(drives.back());
+    std::get<Choice>(slot).choose(drives.back(), 3 + law);
+  }
+  drives.push_back(joint());
+  drives.back().contact = CompliantContact{500.0, 1.0};
+  for (const Signal& signal :
+       {Signal(1.0), Signal(StepSignal{}), Signal(RampSignal{}), Signal(SineSignal{}),
+        Signal(TrapezoidSignal{}), Signal(TableSignal{})}) {
+    drives.push_back(joint());
+    drives.back().sampling = Sampling{.period = 1e-3};
+    drives.back().reference = signal;
+    drives.back().load_torque = signal;
+  }
+  return drives;
+}
+
+TEST(Parameters, EachIsInSomeDriveAndHasASentence) {
+  const std::vector<Drive> drives = drives_of_all_kinds();
+  for (const Parameter& parameter : all_parameters_of_drives()) {
+    const bool is_somewhere = std::any_of(
+        drives.begin(), drives.end(), [&](const Drive& drive) { return exists(parameter, drive); });
+    EXPECT_TRUE(is_somewhere) << parameter.path;
+    EXPECT_FALSE(parameter.meaning.empty()) << parameter.path;
+    EXPECT_NE(parameter.section(), parameter.path) << parameter.path;
+  }
+}
+
+TEST(Parameters, NoDriveHasTwoOfOneName) {
+  for (const Drive& drive : drives_of_all_kinds()) {
+    std::set<std::string_view> paths;
+    for (const Parameter& parameter : all_parameters_of_drives()) {
+      if (exists(parameter, drive)) {
+        EXPECT_TRUE(paths.insert(parameter.path).second) << parameter.path;
+      }
+    }
+  }
+}
+
+TEST(Parameters, ANumberThatIsSetIsTheOneThatIsRead) {
+  for (const Drive& original : drives_of_all_kinds()) {
+    for (const ParameterInfo& info : parameters_of(original)) {
+      const Slot slot = find_parameter(info.path, original)->slot(const_cast<Drive&>(original));
+      const bool is_number = std::holds_alternative<double*>(slot) ||
+                             std::holds_alternative<std::optional<double>*>(slot);
+      if (!is_number) continue;
+      Drive drive = original;
+      set(drive, info.path, 0.125);
+      EXPECT_EQ(get(drive, info.path), 0.125) << info.path;
+      EXPECT_FALSE(drive == original && info.path != "sensor.resolution") << info.path;
+    }
+  }
+}
+
+TEST(Parameters, EveryOtherChoiceMakesAnotherDrive) {
+  for (const Drive& original : drives_of_all_kinds()) {
+    for (const Parameter& parameter : all_parameters_of_drives()) {
+      Drive drive = original;
+      const Slot slot = parameter.slot(drive);
+      const auto* choice = std::get_if<Choice>(&slot);
+      if (choice == nullptr) continue;
+      for (std::size_t word = 0; word < parameter.choices.size(); ++word) {
+        choice->choose(drive, word);
+        EXPECT_EQ(choice->chosen(drive), word) << parameter.path;
+        drive = original;
+      }
+    }
+  }
+}
+
+TEST(Parameters, AliasesAndInverseFormsAreTheSameNumber) {
+  Drive drive = joint();
+  set(drive, "controller.kp", 0.75);
+  EXPECT_EQ(get(drive, "controller.proportional"), 0.75);
+  EXPECT_EQ(get(drive, "loop.error_gain"), 0.75);
+  set(drive, "sampling.frequency", 2.0 * std::numbers::pi * 1000.0);  // 1 kHz
+  EXPECT_DOUBLE_EQ(get(drive, "sampling.period"), 1e-3);
+  drive.motor.kind = ArmatureControl{};
+  set(drive, "motor.speed_constant", 20.0);
+  EXPECT_DOUBLE_EQ(get(drive, "motor.back_emf_constant"), 0.05);
+}
+
+TEST(Parameters, ElementsOfMatricesHaveIndices) {
+  Drive drive = joint();
+  drive.controller.law =
+      StateSpaceController{1.0, {{0.0, 1.0}, {2.0, 3.0}}, {{1.0}, {0.0}}, {1, 0}, {0.5}};
+  EXPECT_EQ(get(drive, "controller.A[1][0]"), 2.0);
+  set(drive, "controller.A[1][0]", -4.0);
+  EXPECT_EQ(std::get<StateSpaceController>(drive.controller.law).A[1][0], -4.0);
+  EXPECT_THROW(set(drive, "controller.A[2][0]", 1.0), InvalidInput);
+  EXPECT_THROW(set(drive, "controller.A[1]", 1.0), InvalidInput);
+  EXPECT_THROW(set(drive, "controller.A[1", 1.0), InvalidInput);
+  EXPECT_THROW(static_cast<void>(get(drive, "controller.A[x][0]")), InvalidInput);
+}
+
+TEST(Parameters, WhatADriveDoesNotHaveIsRefused) {
+  Drive drive = joint();
+  for (const char* path : {"motor.resistance", "servo.damping", "motor", "", "motor.colour"}) {
+    EXPECT_THROW(set(drive, path, 1.0), InvalidInput) << path;
+    EXPECT_THROW(static_cast<void>(get(drive, path)), InvalidInput) << path;
+  }
+  EXPECT_THROW(set(drive, "motor.kind", 1.0), InvalidInput);
+}
+
+TEST(Parameters, BreakawayIsCoulombFrictionWhereItIsNotGiven) {
+  Drive drive = joint();
+  EXPECT_EQ(get(drive, "motor.breakaway"), 3e-3);
+  set(drive, "motor.breakaway", 5e-3);
+  EXPECT_EQ(get(drive, "motor.breakaway"), 5e-3);
+}
+
+TEST(FaultsOfDrives, ASoundDriveHasNone) { EXPECT_TRUE(faults(joint()).empty()); }
+
+TEST(FaultsOfDrives, EveryNumberOutOfItsRangeIsNamed) {
+  Drive drive = joint();
+  drive.motor.inertia = -1.0;
+  drive.gearbox.ratio = 0.0;
+  drive.motor.friction.breakaway = 1e-3;
+  std::set<std::string> named;
+  for (const Violation& fault : faults(drive)) named.insert(fault.field);
+  EXPECT_EQ(named.count("motor.inertia"), 1U);
+  EXPECT_EQ(named.count("gearbox.ratio"), 1U);
+  EXPECT_EQ(named.count("motor.breakaway"), 1U);
+}
+
+TEST(ReducedDrives, NumbersAreReferredToTheLoadByTheGearRatio) {
+  const drive::Drive reduced = reduce(joint());
+  EXPECT_DOUBLE_EQ(reduced.motor.inertia, 2e-4 * 2500.0);
+  EXPECT_DOUBLE_EQ(reduced.motor.friction.coulomb, 3e-3 * 50.0);
+  EXPECT_DOUBLE_EQ(reduced.torque_limit, 0.2 * 50.0);
+  Drive at_motor = joint();
+  at_motor.controller.shaft = ShaftName::motor;
+  const auto& pid = std::get<drive::ProportionalIntegralDerivative>(reduced.controller);
+  const drive::Drive per_motor = reduce(at_motor);
+  const auto& of_motor = std::get<drive::ProportionalIntegralDerivative>(per_motor.controller);
+  EXPECT_DOUBLE_EQ(pid.proportional, 25.0);
+  EXPECT_DOUBLE_EQ(of_motor.proportional, 1250.0);
+}
+
+TEST(ReducedDrives, TheClosedFormIsFoundByPhysics) {
+  Drive drive = joint();
+  drive.motor.friction.coulomb = 0.0;
+  drive.motor.limit.reset();
+  EXPECT_FALSE(closed_form_servo(drive));
+  // An integrator without gain, and no derivative: proportional control.
+  drive.controller.law = PID{.terms = PIDTerms::PI, .proportional = 0.5};
+  const auto closed = closed_form_servo(drive);
+  ASSERT_TRUE(closed);
+  drive.controller.law = PID{.proportional = 0.5};
+  EXPECT_EQ(closed->servo, closed_form_servo(drive)->servo);
+  // A lead-lag element whose zero is its pole.
+  drive.controller.law = LeadLagController{0.5, 10.0, 10.0};
+  EXPECT_EQ(closed->servo, closed_form_servo(drive)->servo);
+  EXPECT_TRUE(closed_form_servo(normal_form(0.2, 1.0, 0.2))->is_as_given);
+}
+
+}  // namespace
+}  // namespace gearlash

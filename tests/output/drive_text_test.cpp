@@ -1,0 +1,83 @@
+// A drive that is written down reads back as the same drive.
+#include "output/drive_text.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "input/drive_file.hpp"
+#include "input/text_file.hpp"
+#include "model/reduced_drive.hpp"
+
+namespace gearlash {
+namespace {
+
+using ::testing::Contains;
+using ::testing::Not;
+
+const std::filesystem::path examples =
+    std::filesystem::path(GEARLASH_SOURCE_DIRECTORY) / "examples";
+
+Drive read(const std::string& text, const std::vector<Setting>& settings = {}) {
+  return parse_drive(text, "drive.toml", examples, settings).drive;
+}
+
+TEST(DriveText, EveryExampleReadsBackAsTheSameDrive) {
+  for (const auto& entry : std::filesystem::directory_iterator(examples)) {
+    if (entry.path().extension() != ".toml" || entry.path().stem() == "sweep") continue;
+    const Drive drive = read(read_text_file(entry.path(), largest_servo_file));
+    const std::string text = to_toml(drive);
+    const Drive again = read(text);
+    EXPECT_EQ(to_toml(again), text) << entry.path();
+    EXPECT_EQ(drive_json(again), drive_json(drive)) << entry.path();
+  }
+}
+
+TEST(DriveText, EveryKindOfControllerAndSignalReadsBack) {
+  const std::string plant =
+      "[motor]\nkind = \"torque-controlled\"\ninertia = \"1e-4 kg m2\"\n"
+      "friction = \"1e-4 N m s/rad\"\ntorque_limit = \"0.1 N m\"\n"
+      "[gearbox]\nratio = 3\nbacklash = \"0.1 deg\"\n"
+      "[load]\ninertia = \"0.02 kg m2\"\nfriction = \"0.01 N m s/rad\"\n";
+  for (const char* controller :
+       {"kind = \"P\"\nproportional = \"0.1 N m/deg\"",
+        "kind = \"PI\"\nkp = \"1 N m/rad\"\nintegral = \"2 N m/(rad s)\"\ntracking_time = \"3 ms\"",
+        "kind = \"cascade\"\nposition = \"3 1/s\"\nspeed = \"2 N m s/rad\"\n"
+        "speed_integral = \"4 N m/rad\"",
+        "kind = \"lead-lag\"\ngain = \"3 N m/rad\"\nzero = \"2 rad/s\"\npole = \"20 rad/s\"",
+        "kind = \"transfer-function\"\ngain = \"3 N m/rad\"\nnum = [1, 0.1]\nden = [0.3, 1]",
+        "kind = \"state-space\"\ngain = \"3 N m/rad\"\nA = [[-1]]\nB = [[0.1]]\nC = [1]\nD = "
+        "[2]"}) {
+    for (const char* reference :
+         {"", "[reference]\nkind = \"constant\"\nvalue = \"1 deg\"",
+          "[reference]\nkind = \"step\"\nafter = \"1 deg\"\ntime = \"1 ms\"",
+          "[reference]\nkind = \"ramp\"\nvalue = \"1 deg\"\nrate = \"3 rpm\"",
+          "[reference]\nkind = \"sine\"\namplitude = \"1 deg\"\nfrequency = \"3 Hz\"",
+          "[reference]\nkind = \"trapezoid\"\nto = \"1 deg\"\nspeed = \"1 rad/s\"\n"
+          "acceleration = \"7 rad/s2\""}) {
+      const Drive drive = read(plant + "[controller]\n" + controller + "\n" + reference + "\n");
+      EXPECT_EQ(to_toml(read(to_toml(drive))), to_toml(drive)) << controller << reference;
+      EXPECT_EQ(drive_json(read(to_toml(drive))), drive_json(drive)) << controller << reference;
+    }
+  }
+}
+
+TEST(DriveText, DefaultsAreNamed) {
+  const Drive drive = read(read_text_file(examples / "elinco-fd162.toml", largest_servo_file));
+  const std::vector<std::string> defaults = defaults_taken(drive);
+  EXPECT_THAT(defaults, Contains("motor.coulomb"));
+  EXPECT_THAT(defaults, Contains("sensor.position"));
+  EXPECT_THAT(defaults, Not(Contains("motor.inertia")));
+}
+
+TEST(DriveText, InfinityIsText) {
+  Drive drive = normal_form(0.2, std::numeric_limits<double>::infinity(), 0.5);
+  EXPECT_EQ(to_toml(read(to_toml(drive))), to_toml(drive));
+  EXPECT_EQ(drive_json(drive)["servo.inertia_ratio"], "inf");
+}
+
+}  // namespace
+}  // namespace gearlash
