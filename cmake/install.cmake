@@ -21,6 +21,10 @@ if(GEARLASH_BUILD_IO)
           DESTINATION "${gearlash_package_dir}")
 endif()
 
+if(TARGET gearlash_tool)
+  install(TARGETS gearlash_tool)
+endif()
+
 # The headers of the rooms, until the public interface stands in include/gearlash.
 install(DIRECTORY src/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/gearlash/rooms"
         FILES_MATCHING PATTERN "*.hpp")
