@@ -1,7 +1,7 @@
 # cmake -D SOURCE=... -D WORK=... -D CXX=... -D GENERATOR=... -P subproject_test.cmake
 #
-# A project that has Gearlash in its own tree keeps its targets as they were, and installs nothing of
-# Gearlash. Nothing is built: installing would miss what is not there.
+# A project that has Gearlash in its own tree keeps its targets as they were, and installs nothing
+# of Gearlash. Nothing is built: installing would miss what is not there.
 
 file(REMOVE_RECURSE "${WORK}")
 execute_process(
