@@ -1,6 +1,6 @@
-# Two Debian packages by CPack: gearlash, the tool with its man pages, completions and documents, and
-# libgearlash-dev, the library. `make package` builds them, dates all by SOURCE_DATE_EPOCH, and so
-# makes the same bytes of the same sources.
+# Two Debian packages by CPack: gearlash, the tool with its man pages, completions and documents,
+# and libgearlash-dev, the library. `make package` dates all that is in them by SOURCE_DATE_EPOCH:
+# the same sources make the same bytes.
 
 set(pages "${PROJECT_BINARY_DIR}/pages")
 set(scripts "${PROJECT_SOURCE_DIR}/scripts")
@@ -24,7 +24,12 @@ install(DIRECTORY docs DESTINATION "${share}/doc/gearlash" COMPONENT tool
         FILES_MATCHING PATTERN "*.md" PATTERN pictures EXCLUDE)
 file(GLOB drives CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/examples/*.toml")
 install(FILES ${drives} DESTINATION "${share}/doc/gearlash/examples" COMPONENT tool)
-foreach(component package IN ZIP_LISTS "tool;development" "gearlash;libgearlash-dev")
+foreach(pair tool/gearlash development/libgearlash-dev)
+  cmake_path(GET pair PARENT_PATH component)
+  cmake_path(GET pair FILENAME package)
+  set(documents DESTINATION "${share}/doc/${package}" COMPONENT ${component})
+  install(FILES LICENSE RENAME copyright ${documents})
+  install(FILES "${pages}/changelog.gz" ${documents})
 endforeach()
 
 set(CPACK_GENERATOR DEB)
@@ -32,6 +37,7 @@ set(CPACK_VERBATIM_VARIABLES ON)
 set(CPACK_PACKAGE_NAME gearlash)
 set(CPACK_PACKAGE_VENDOR "The Gearlash authors")
 set(CPACK_PACKAGE_CONTACT "The Gearlash authors")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # the first line of each description below
 set(CPACK_COMPONENTS_ALL tool development)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_STRIP_FILES ON)
@@ -49,14 +55,16 @@ set(CPACK_DEBIAN_TOOL_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_TOOL_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_TOOL_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
 set(CPACK_DEBIAN_TOOL_DESCRIPTION "limit cycles of geared servos with backlash
-Tells from a data sheet whether a geared servo with backlash hunts, how big and how fast, and what
-must change so that it does not: exactly, without a step size to choose.")
+Gearlash reads a data sheet and answers whether the servo hunts, how big and
+how fast, and what must change so that it does not: exactly, without a step
+size to choose.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libgearlash-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "libeigen3-dev, libfmt-dev, libnetcdf-dev, libtbb-dev, libtomlplusplus-dev, libudunits2-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "limit cycles of geared servos with backlash (C++ library)
-Headers and static libraries of Gearlash, with its CMake package and its pkg-config files.")
+Headers and static libraries of Gearlash, with its CMake package and its
+pkg-config files.")
 
 include(CPack)
