@@ -1,17 +1,15 @@
 #!/usr/bin/env bash
-# bash_completion_test.bash COMPLETIONS GEARLASH: what bash offers, of a completion made now.
-set -euo pipefail
+# bash_completion_test.bash COMPLETIONS GEARLASH: what bash offers, of completions made now, for
+# GEARLASH and for a tool with every kind of option.
+set -uo pipefail  # not -e, as in the shell of a user: compgen fails where it has nothing to offer
 
+here="$(dirname "$(realpath "$0")")"
 folder="$(mktemp -d)"
 trap 'rm -rf "$folder"' EXIT
-"$1" bash "$2" >"$folder/gearlash"
-# shellcheck source=/dev/null
-source "$folder/gearlash"
-cd "$folder"
+cd "$folder" || exit 1
 mkdir drives
 touch servo.toml notes.txt drives/axis.toml "spare servo.toml"
 
-set +e  # as in the shell of a user: compgen fails where it has nothing to offer
 failures=0
 # expect OFFERED WORD...: what is offered, in order, when <TAB> follows the last WORD
 expect() {
@@ -26,21 +24,33 @@ expect() {
   fi
 }
 
+# shellcheck source=/dev/null
+source <("$1" bash "$2")
 expect 'limit-cycle' li
-expect 'limit-cycle' limit-cycle
 expect '--format' limit-cycle --fo
-expect 'json text' limit-cycle --format ''
-expect 'json' limit-cycle --format = j
 expect 'drives servo.toml spare servo.toml' limit-cycle ''
-expect 'drives/axis.toml' limit-cycle drives/
-expect 'servo.toml' limit-cycle --damping 0.1 se
-expect '' limit-cycle --damping ''
-expect 'notes.txt' chart --output n
-expect 'notes.txt' chart --output = n
-expect 'phase= time=' simulate --plot ''
-expect 'time=' simulate --plot = t
-expect 'notes.txt' simulate --plot time = n
-expect 'notes.txt' simulate --plot = time = n
-expect '--output' thesis figure --o
-expect 'figure' thesis f
+
+# shellcheck source=/dev/null
+source <("$1" bash "$here/tool_with_all_kinds")
+expect '--help -h draw look old' ''
+expect 'look' look
+expect '--a-flag-of-the-column-full --damping --format --help --shaft -h' look -
+expect 'drives servo.toml spare servo.toml' look ''
+expect 'drives/axis.toml' look drives/
+expect 'servo.toml' look --a-flag-of-the-column-full se
+expect 'servo.toml' look --damping 0.1 se
+expect '' look --damping ''
+expect 'json text' look --format ''
+expect 'json' look --format = j
+expect 'both load motor' look --shaft ''
+expect 'phase= time=' draw --plot ''
+expect 'time=' draw --plot = t
+expect 'notes.txt' draw --plot time = n
+expect 'notes.txt' draw --plot = time = n
+expect 'notes.txt' draw --output n
+expect 'notes.txt' draw --output = n
+expect 'drives' draw --folder ''
+expect '--output' draw --plot time = a.svg --o
+expect 'run' old r
+expect '' old run ''
 exit $((failures > 0))
