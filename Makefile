@@ -14,10 +14,10 @@ export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
 .PHONY: help demo tool test bench clang sanitize fuzz oracle million coverage readme format tidy \
-        clean
+        clean package package-check
 
 help:  ## this list
-	@awk -F':.*## ' '/^[a-z]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 demo: tool  ## build the tool; does the servo of the thesis hunt? with its picture
 	$(TOOL) limit-cycle $(EXAMPLE).toml --plot $(EXAMPLE).svg
@@ -95,6 +95,21 @@ format:  ## lay out all C++ as .clang-format says
 tidy: programs  ## clang-tidy over the libraries and the tool
 	@$(INSTALL) lint
 	find src apps -name '*.cpp' -print0 | xargs -0 -P $(JOBS) -n 1 clang-tidy-16 -p $(RELEASE) --quiet
+
+# All that is packed is dated by the last commit, or else by the changelog: the same sources make the
+# same bytes.
+package: export SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct 2>/dev/null || \
+                                             stat --format=%Y CHANGELOG.md)
+package:  ## the tool and the library as Debian packages: build/*.deb
+	@$(INSTALL) package
+	cmake --preset package
+	rm -f build/*.deb
+	$(BUILD) package
+	cpack --config build/package/CPackConfig.cmake -B build/package/packages
+	mv build/package/packages/*.deb build
+
+package-check: package  ## install them into a bare Debian 12, build/package-root, and use them
+	scripts/package-check build/*.deb
 
 clean:  ## remove all that was built
 	rm -rf build examples/*.svg

@@ -2,19 +2,36 @@
 #   find_package(gearlash 0.1 CONFIG REQUIRED)                  # the numerics
 #   find_package(gearlash 0.1 CONFIG REQUIRED COMPONENTS files) # also readers, reports, pictures
 #   target_link_libraries(... gearlash::gearlash)               # or gearlash::picture with them
+# or compile with `pkg-config --cflags --libs gearlash`, or gearlash-files.
 
 include(CMakePackageConfigHelpers)
 set(gearlash_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/gearlash")
+set(gearlash_pkgconfig_dir "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)  # of all but the tool
 
-install(TARGETS gearlash gearlash_base gearlash_numeric gearlash_model gearlash_hybrid
-                gearlash_closed_form gearlash_general gearlash_analysis
-        EXPORT gearlash_numerics)
+# The file by which pkg-config knows static libraries, given from the ground up.
+function(gearlash_install_pkgconfig name)
+  set(libraries ${ARGN})
+  list(REVERSE libraries)  # a linker looks for what is missing to the right
+  list(TRANSFORM libraries PREPEND -l)
+  list(JOIN libraries " " libraries)
+  string(REGEX REPLACE "[^/]+" ".." prefix "${gearlash_pkgconfig_dir}")
+  configure_file(cmake/${name}.pc.in "${PROJECT_BINARY_DIR}/${name}.pc" @ONLY)
+  install(FILES "${PROJECT_BINARY_DIR}/${name}.pc" DESTINATION "${gearlash_pkgconfig_dir}")
+endfunction()
+
+set(numerics gearlash_base gearlash_numeric gearlash_model gearlash_hybrid gearlash_closed_form
+             gearlash_general gearlash_analysis)
+install(TARGETS gearlash ${numerics} EXPORT gearlash_numerics)
+gearlash_install_pkgconfig(gearlash ${numerics})
 install(EXPORT gearlash_numerics NAMESPACE gearlash:: FILE gearlashTargets.cmake
         DESTINATION "${gearlash_package_dir}")
 
 # A set of their own: users of the numerics alone need not have the packages that these link.
 if(GEARLASH_BUILD_IO)
-  install(TARGETS gearlash_input gearlash_output gearlash_picture EXPORT gearlash_files)
+  set(files gearlash_input gearlash_output gearlash_picture)
+  install(TARGETS ${files} EXPORT gearlash_files)
+  gearlash_install_pkgconfig(gearlash-files ${files})
   install(EXPORT gearlash_files NAMESPACE gearlash:: FILE gearlashFilesTargets.cmake
           DESTINATION "${gearlash_package_dir}")
   install(FILES cmake/FindNetCDF.cmake cmake/FindUDUNITS2.cmake
@@ -23,12 +40,16 @@ endif()
 
 install(DIRECTORY include/gearlash DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
         FILES_MATCHING PATTERN "*.hpp")
+if(TARGET gearlash_tool)
+  install(TARGETS gearlash_tool COMPONENT tool)
+endif()
+
 # The headers of the rooms, until the public interface stands in include/gearlash.
 install(DIRECTORY src/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/gearlash/rooms"
-        FILES_MATCHING PATTERN "*.hpp")
+        FILES_MATCHING PATTERN "*.hpp" PATTERN thesis EXCLUDE)  # only the tool uses it
 install(FILES "${PROJECT_BINARY_DIR}/include/gearlash/version.hpp"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/gearlash")
-install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT license)
 
 configure_package_config_file(
   cmake/gearlashConfig.cmake.in "${PROJECT_BINARY_DIR}/gearlashConfig.cmake"

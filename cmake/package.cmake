@@ -1,0 +1,70 @@
+# Two Debian packages by CPack: gearlash, the tool with its man pages, completions and documents,
+# and libgearlash-dev, the library. `make package` dates all that is in them by SOURCE_DATE_EPOCH:
+# the same sources make the same bytes.
+
+set(pages "${PROJECT_BINARY_DIR}/pages")
+set(scripts "${PROJECT_SOURCE_DIR}/scripts")
+file(MAKE_DIRECTORY "${pages}")
+# Always made anew: which man pages there are is known to the tool alone.
+add_custom_target(
+  pages ALL
+  COMMAND "${scripts}/man-pages" "$<TARGET_FILE:gearlash_tool>" "${pages}/man1"
+  COMMAND "${scripts}/completions" bash "$<TARGET_FILE:gearlash_tool>" > "${pages}/gearlash"
+  COMMAND "${scripts}/completions" zsh "$<TARGET_FILE:gearlash_tool>" > "${pages}/_gearlash"
+  COMMAND gzip -9n < "${PROJECT_SOURCE_DIR}/CHANGELOG.md" > "${pages}/changelog.gz"
+  DEPENDS gearlash_tool
+  COMMENT "Writing man pages and completions")
+
+set(share "${CMAKE_INSTALL_DATADIR}")
+install(DIRECTORY "${pages}/man1" DESTINATION "${CMAKE_INSTALL_MANDIR}" COMPONENT tool)
+install(FILES "${pages}/gearlash" DESTINATION "${share}/bash-completion/completions" COMPONENT tool)
+install(FILES "${pages}/_gearlash" DESTINATION "${share}/zsh/vendor-completions" COMPONENT tool)
+install(FILES README.md DESTINATION "${share}/doc/gearlash" COMPONENT tool)
+install(DIRECTORY docs DESTINATION "${share}/doc/gearlash" COMPONENT tool
+        FILES_MATCHING PATTERN "*.md" PATTERN pictures EXCLUDE)
+file(GLOB drives CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/examples/*.toml")
+install(FILES ${drives} DESTINATION "${share}/doc/gearlash/examples" COMPONENT tool)
+foreach(pair tool/gearlash development/libgearlash-dev)
+  cmake_path(GET pair PARENT_PATH component)
+  cmake_path(GET pair FILENAME package)
+  set(documents DESTINATION "${share}/doc/${package}" COMPONENT ${component})
+  install(FILES LICENSE RENAME copyright ${documents})
+  install(FILES "${pages}/changelog.gz" ${documents})
+endforeach()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_VERBATIM_VARIABLES ON)
+set(CPACK_PACKAGE_NAME gearlash)
+set(CPACK_PACKAGE_VENDOR "The Gearlash authors")
+set(CPACK_PACKAGE_CONTACT "The Gearlash authors")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # the first line of each description below
+set(CPACK_COMPONENTS_ALL tool development)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ
+                                                GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_PRE_BUILD_SCRIPTS "${CMAKE_CURRENT_LIST_DIR}/date_of_packages.cmake")
+
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+
+set(CPACK_DEBIAN_TOOL_PACKAGE_NAME gearlash)
+set(CPACK_DEBIAN_TOOL_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_TOOL_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_TOOL_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
+set(CPACK_DEBIAN_TOOL_DESCRIPTION "limit cycles of geared servos with backlash
+Gearlash reads a data sheet and answers whether the servo hunts, how big and
+how fast, and what must change so that it does not: exactly, without a step
+size to choose.")
+
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libgearlash-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+    "libeigen3-dev, libfmt-dev, libnetcdf-dev, libtbb-dev, libtomlplusplus-dev, libudunits2-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "limit cycles of geared servos with backlash (C++ library)
+Headers and static libraries of Gearlash, with its CMake package and its
+pkg-config files.")
+
+include(CPack)

@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# Run by scripts/package-check in a bare Debian, in a folder with the packages and with the
+# consumers of tests/install.
+set -euo pipefail
+
+install() {
+  apt-get install --quiet=2 --yes --option Dpkg::Use-Pty=0 "$@" >install.log 2>&1 ||
+    { tail -n 20 install.log; exit 1; }
+}
+
+failures=0
+# check WHAT COMMAND...: says whether the command succeeds
+check() {
+  local what="$1"
+  shift
+  if "$@" >output.log 2>&1; then
+    echo "ok      $what"
+  else
+    echo "FAILED  $what: $*"
+    cat output.log
+    failures=$((failures + 1))
+  fi
+}
+
+apt-get update --quiet=2
+install ./gearlash_*.deb
+version="$(dpkg-query --show --showformat='${Version}' gearlash)"
+examples=/usr/share/doc/gearlash/examples
+check "gearlash --version is $version" test "$(gearlash --version)" = "gearlash $version"
+gearlash limit-cycle --damping 0.19 --inertia-ratio 2 --friction-ratio 0.1 --backlash 0.3 >cycle.txt
+check 'the size of a limit cycle is 0.2416 rad' grep -E 'size, load +±0\.2416[0-9]* rad' cycle.txt
+check 'a data sheet' gearlash limit-cycle "$examples/elinco-fd162.toml" --plot cycle.svg
+check 'its picture' grep '</svg>' cycle.svg
+check 'a sweep into NetCDF' gearlash sweep "$examples/sweep.toml" --output sweep.nc
+
+# shellcheck source=/dev/null
+source /usr/share/bash-completion/completions/gearlash
+COMP_WORDS=(gearlash '') COMP_CWORD=1
+_gearlash
+check 'completion for bash' grep --word-regexp limit-cycle <<<"${COMPREPLY[*]}"
+check 'completion for zsh' grep '^#compdef gearlash' /usr/share/zsh/vendor-completions/_gearlash
+check 'man page gearlash(1)' gzip --test /usr/share/man/man1/gearlash.1.gz
+for verb in "${COMPREPLY[@]}"; do
+  [[ $verb == -* ]] ||
+    check "man page gearlash-$verb(1)" gzip --test "/usr/share/man/man1/gearlash-$verb.1.gz"
+done
+
+install --no-install-recommends ./libgearlash-dev_*.deb cmake g++ make pkgconf
+compile() {
+  # shellcheck disable=SC2046,SC2317  # several words; called by check
+  g++ -std=c++20 "consumer/$1.cpp" -o "$1.out" $(pkg-config --cflags --libs "$2")
+}
+check 'a program by pkg-config gearlash' compile consumer gearlash
+check 'it runs' ./consumer.out
+check 'a program by pkg-config gearlash-files' compile data_sheet_consumer gearlash-files
+check 'it runs' ./data_sheet_consumer.out "$examples/elinco-fd162.toml"
+check 'CMake finds the library' cmake -S consumer -B build -D GEARLASH_COMPONENTS_ASKED=files
+check 'programs by CMake' cmake --build build --target consumer data_sheet_consumer
+check 'one of them runs' build/consumer
+
+apt-get purge --quiet=2 --yes gearlash libgearlash-dev >purge.log 2>&1
+check 'nothing is left of removed packages' \
+  test -z "$(find /etc /usr /var -name '*gearlash*' -not -path '/var/cache/apt/*')"
+exit $((failures > 0))
