@@ -260,8 +260,25 @@ TEST_F(DriveFileTable, EdgeFaultsNameTheLine) {
               ElementsAre(HasSubstr("move.csv:2: row = more than two columns: must have two")));
   EXPECT_THAT(refusals_of("time (s),position (deg)\n"), ElementsAre(HasSubstr("without rows")));
   EXPECT_THAT(refusals_of(""), ElementsAre(HasSubstr("an empty table")));
+  EXPECT_THAT(refusals_of("time (s),position (deg)\n0,0\n1,inf\n2,1\n"),
+              ElementsAre(HasSubstr("move.csv:3: value = inf: must be finite")));
   std::filesystem::remove(folder_ / "move.csv");
   EXPECT_THAT(refusals(text_, folder_), ElementsAre(HasSubstr("move.csv")));
+}
+
+TEST_F(DriveFileTable, EdgeATooLongOneIsRefusedNotCut) {
+  constexpr std::size_t largest = 64 * 1024 * 1024;
+  std::string table = "time (s),position (deg)\n0,0\n#";
+  table.resize(largest - 4, '-');
+  // Cut at the limit it would end in "1,2".
+  EXPECT_THAT(refusals_of(table + "\n1,20\n"),
+              ElementsAre(HasSubstr("reference.file = move.csv: must be at most 67108864 bytes")));
+}
+
+TEST_F(DriveFileTable, EdgeANameIsNeeded) {
+  EXPECT_THAT(
+      refusals(replaced(text_, "\"move.csv\"", "\"\""), folder_),
+      ElementsAre(HasSubstr("18:8: reference.file = \"\": must be the name of a CSV file")));
 }
 
 // ---- faults -------------------------------------------------------------------------------------
