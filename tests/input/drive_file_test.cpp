@@ -309,6 +309,11 @@ TEST(EdgeDriveFile, ControllersThatNothingCanBeGetALine) {
                     controller + more);
   };
   const std::string sampling = "[sampling]\nperiod = \"10 ms\"\n";
+  std::string many = "1";
+  for (int i = 0; i < 65; ++i) many += ", 1";
+  EXPECT_THAT(refusal("num = [1]\nden = [" + many + "]\n"),
+              ElementsAre(::testing::AllOf(HasSubstr("controller.den = [1, 1, "),
+                                           HasSubstr(": must be of order 64 at most (order 65)"))));
   EXPECT_THAT(refusal("num = [1, 0, 0]\nden = [1, 1]\n"),
               ElementsAre(HasSubstr("controller.num = [1, 0, 0]: must be of no higher degree")));
   EXPECT_THAT(refusal("num = [1]\nden = [1, -2]\nvariable = \"z\"\n", sampling),
