@@ -9,6 +9,7 @@
 #include "base/range_check.hpp"
 #include "command.hpp"
 #include "input/units.hpp"
+#include "machine_faults.hpp"
 #include "picture/picture.hpp"
 #include "servo_options.hpp"
 #include "simulate_options.hpp"
@@ -181,13 +182,16 @@ ExitStatus simulate_servo(const ServoFile& file, const SimulateOptions& options,
                           Faults& faults, bool is_drive = false) {
   MotionReport report = simulated(file, options, provenance, faults);
   report.is_drive = is_drive;
-  for (const Plot& plot : plots) draw(report, plot);
+  Extras extras;
+  for (const Plot& plot : plots) extras.make([&] { draw(report, plot); });
   write_tables(report, options);
-  if (report.trajectory.stop_reason() == StopReason::reached_end) return ExitStatus::done;
+  if (report.trajectory.stop_reason() == StopReason::reached_end) {
+    return extras.status(ExitStatus::done);
+  }
   fmt::print(stderr, "gearlash: stopped at {} {} of {} after {} events\n",
              exact_text(report.units.time(report.trajectory.end_time())), report.units.time_unit(),
              exact_text(report.until), report.trajectory.events().size());
-  return ExitStatus::undecided;
+  return extras.status(ExitStatus::undecided);
 }
 
 /// What the reference is at all times: of an option any number stands for what it will be.

@@ -7,6 +7,7 @@
 
 #include "command.hpp"
 #include "input/target_text.hpp"
+#include "machine_faults.hpp"
 #include "output/output_file.hpp"
 #include "output/tolerance_data.hpp"
 #include "output/tolerance_report.hpp"
@@ -202,12 +203,13 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
   report.worst = worst_corner(task.drive, task.worst_search,
                               begin("Worst piece", 2 * task.worst_search.starts, "climbs"));
   progress.reset();
-  if (!options.output.empty()) write_data(report, options.output);
+  Extras extras;
+  if (!options.output.empty()) extras.make([&] { write_data(report, options.output); });
   for (const Plot& plot : task.plots) {
-    write_file(plot.file, draw_tolerances(report, plot.picture, plot.format));
+    extras.make([&] { write_file(plot.file, draw_tolerances(report, plot.picture, plot.format)); });
   }
   write_file("-", options.format == "json" ? tolerance_json(report) : tolerance_text(report));
-  return ExitStatus::done;
+  return extras.status(ExitStatus::done);
 }
 
 }  // namespace

@@ -33,20 +33,20 @@ TEST(OutputFiles, HoldWhatStandardOutputWould) {
 TEST(OutputFiles, DirectoryThatIsNotThere) {
   const Scratch scratch;
   const Outcome run = run_tool(simulate_into(scratch / "missing" / "table.csv"));
-  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.status, 3);
   EXPECT_THAT(run.err, HasSubstr("missing/table.csv: cannot be written: No such file"));
   EXPECT_EQ(run.out, "");
 }
 
 TEST(OutputFiles, FullDisk) {
   const Outcome table = run_tool(simulate_into("/dev/full"));
-  EXPECT_EQ(table.status, 2);
+  EXPECT_EQ(table.status, 3);
   EXPECT_EQ(table.err, "gearlash: /dev/full: cannot be written: No space left on device\n");
   for (const char* arguments :
        {"limit-cycle examples/elinco-fd162.toml", "motor examples/elinco-fd162.toml",
         "simulate examples/elinco-fd162.toml", "--help", "--version"}) {
     const Outcome run = run_shell(std::string("\"$GEARLASH\" ") + arguments + " > /dev/full");
-    EXPECT_EQ(run.status, 2) << arguments;
+    EXPECT_EQ(run.status, 3) << arguments;
     EXPECT_EQ(run.err, "gearlash: standard output: cannot be written: No space left on device\n");
   }
 }
@@ -59,7 +59,7 @@ TEST(OutputFiles, AFailureLeavesTheOldFileAndNothingElse) {
       "ulimit -f 1; \"$GEARLASH\" simulate examples/elinco-fd162.toml "
       "--output " +
       quoted((scratch / "table.csv").string()));
-  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.status, 3);
   EXPECT_THAT(run.err, HasSubstr("table.csv: cannot be written: File too large"));
   EXPECT_EQ(file_text(scratch / "table.csv"), "old");
   EXPECT_EQ(scratch.file_count(), 1U);
@@ -152,9 +152,10 @@ TEST(OutputFiles, MissingGnuplotIsNamedWithItsPackage) {
   const Outcome run = run_shell("PATH=" + quoted((scratch / "").string()) +
                                 " \"$GEARLASH\" limit-cycle examples/elinco-fd162.toml --plot " +
                                 quoted((scratch / "a.svg").string()));
-  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.status, 3);
   EXPECT_EQ(run.err,
             "gearlash: gnuplot: not found; pictures need it: apt-get install gnuplot-nox\n");
+  EXPECT_THAT(run.out, StartsWith("hunts: ±0.0819 rad"));
   EXPECT_EQ(scratch.file_count(), 0U);
 }
 

@@ -128,7 +128,7 @@ TEST(SweepCommand, TheRecordOfAnEarlierSweepIsNotTakenForThatOfANewOne) {
   // The new sweep can make its data, and cannot make a record of its own.
   const Outcome run = run_shell(
       in_folder(scratch, "ulimit -f 1; \"$GEARLASH\" sweep sweep.toml --output a.nc --resume"));
-  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.status, 3);
   EXPECT_FALSE(std::filesystem::exists(scratch / "a.nc.part.json"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "a.nc.part"));
 }
@@ -203,7 +203,7 @@ TEST(SweepCommand, TellsBeforehandThatTheDiskIsTooSmall) {
         "[sweep]\naxes = [\"damping=0.1:0.6:1000000\", \"friction-ratio=0:1:10000\"]\n"
         "[servo]\ninertia_ratio = 1\n");
   const Outcome run = run_shell(in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.nc"));
-  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.status, 3);
   EXPECT_THAT(run.err, HasSubstr("a.nc: cannot be written: 970 GB are wanting, "));
   EXPECT_EQ(scratch.file_count(), 1U);
 }
@@ -215,7 +215,7 @@ TEST(SweepCommand, AFullDiskKeepsWhatIsDone) {
         "[servo]\ninertia_ratio = 1\n");
   const Outcome run =
       run_shell(in_folder(scratch, "ulimit -f 1000; \"$GEARLASH\" sweep sweep.toml --output a.nc"));
-  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.status, 3);
   EXPECT_EQ(run.err, "gearlash: a.nc: cannot be written: File too large\n");
   EXPECT_FALSE(std::filesystem::exists(scratch / "a.nc"));
   const Outcome again =
