@@ -84,6 +84,40 @@ TEST(ExitStatus, ThreeForMemory) {
   EXPECT_EQ(scratch.file_count(), 0U);
 }
 
+/// The limit on threads is one on a user's; root has none.
+TEST(ExitStatus, WithoutThreadsTheWorkIsDoneInOne) {
+  const Scratch scratch;
+  std::filesystem::permissions(scratch / "", std::filesystem::perms(0755));
+  std::filesystem::copy_file(GEARLASH_TOOL, scratch / "gearlash");
+  std::filesystem::copy_file(GEARLASH_SOURCE_DIRECTORY "/examples/toleranced.toml",
+                             scratch / "sheet.toml");
+  std::filesystem::create_directory(scratch / "out");
+  std::filesystem::permissions(scratch / "out", std::filesystem::perms(0777));
+  const std::string as_another =
+      getuid() == 0 ? "setpriv --reuid 65534 --regid 65534 --clear-groups " : "";
+  const std::string limited =
+      as_another + "bash -c 'ulimit -u 1; cd " + (scratch / "").string() + "; exec \"$@\"' - ";
+  const std::string can_start =
+      "/usr/bin/python3 -c 'import threading; threading.Thread(target=int).start()'";
+  if (run_shell(as_another + can_start).status != 0 || run_shell(limited + can_start).status == 0) {
+    GTEST_SKIP() << "threads cannot be limited here";
+  }
+  for (const auto& [command, answer] :
+       {std::pair("limit-cycle sheet.toml", "hunts: "),
+        std::pair("tolerance sheet.toml --samples 32", "of "),
+        std::pair("map --x friction-ratio=0.1:0.9:50 --y damping=0.1:0.6:50 --inertia-ratio 1 "
+                  "--output out/a.nc",
+                  "out/a.nc: 2500 servos"),
+        std::pair("map --x friction-ratio=0.1:0.9:50 --y damping=0.1:0.6:50 --inertia-ratio 1 "
+                  "--output out/a.csv",
+                  "out/a.csv: 2500 servos")}) {
+    const Outcome run = run_shell(limited + "./gearlash " + command);
+    EXPECT_EQ(run.status, 0) << command << "\n" << run.err;
+    EXPECT_EQ(run.err, "") << command;
+    EXPECT_THAT(run.out, HasSubstr(answer)) << command;
+  }
+}
+
 TEST(ExitStatus, HelpListsThem) {
   for (const char* status : {"\n  0  done", "\n  1  undecided", "\n  2  bad input",
                              "\n  3  the machine could not", "\n  130, 143  "}) {
