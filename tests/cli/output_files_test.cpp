@@ -195,6 +195,49 @@ TEST(OutputFiles, NoneMayTakeThePlaceOfAnother) {
   EXPECT_EQ(scratch.file_count(), 1U);
 }
 
+TEST(OutputFiles, APartOfAPictureDoesNotReplaceAWholeOne) {
+  const Scratch scratch;
+  std::ofstream(scratch / "gnuplot") << "#!/bin/sh\nprintf '<?xml version=\"1.0\"?>\\n<svg>'\n";
+  std::filesystem::permissions(scratch / "gnuplot", std::filesystem::perms(0755));
+  std::ofstream(scratch / "a.svg") << "old";
+  const Outcome run =
+      run_shell("PATH=" + quoted((scratch / "").string()) +
+                ":$PATH \"$GEARLASH\" limit-cycle examples/elinco-fd162.toml --plot " +
+                quoted((scratch / "a.svg").string()));
+  EXPECT_EQ(run.status, 3);
+  EXPECT_EQ(run.err, "gearlash: gnuplot: drew part of the picture alone\n");
+  EXPECT_THAT(run.out, StartsWith("hunts: "));
+  EXPECT_EQ(file_text(scratch / "a.svg"), "old");
+  EXPECT_EQ(scratch.file_count(), 2U);
+}
+
+/// A line for bash in which the folder `full` of `scratch` is a disk without room.
+std::string on_a_full_disk(const Scratch& scratch, const std::string& line) {
+  std::ofstream(scratch / "line") << "mount -t tmpfs -o size=8k none \"$FULL\" || exit 99\n"
+                                     "dd if=/dev/zero of=\"$FULL/filling\" bs=1k count=8 2>&-\n"
+                                  << line << "\n";
+  std::filesystem::create_directory(scratch / "full");
+  return "export GEARLASH; export FULL=" + quoted((scratch / "full").string()) +
+         "; unshare --user --map-root-user --mount bash " + quoted((scratch / "line").string()) +
+         " || exit";
+}
+
+TEST(OutputFiles, AFullFolderForTemporaryFilesKeepsTheOldPicture) {
+  const Scratch scratch;
+  if (run_shell(on_a_full_disk(scratch, "true")).status != 0) {
+    GTEST_SKIP() << "no disk of one's own can be mounted here";
+  }
+  const Scratch own;
+  std::ofstream(own / "a.svg") << "old";
+  const Outcome run = run_shell(on_a_full_disk(
+      own, "TMPDIR=$FULL \"$GEARLASH\" limit-cycle examples/elinco-fd162.toml --plot " +
+               quoted((own / "a.svg").string())));
+  EXPECT_EQ(run.status, 3);
+  EXPECT_EQ(run.err, "gearlash: gnuplot: its script cannot be written: No space left on device\n");
+  EXPECT_THAT(run.out, StartsWith("hunts: "));
+  EXPECT_EQ(file_text(own / "a.svg"), "old");
+}
+
 TEST(OutputFiles, ADeviceIsWrittenTo) {
   EXPECT_EQ(run_tool(simulate_into("/dev/null")).status, 0);
   EXPECT_THAT(run_tool(simulate_into("/dev/stdout")).out, StartsWith("# gearlash "));
