@@ -16,9 +16,11 @@ namespace {
 
 constexpr int closed = -1;
 
-/// "No space left on device", where the system said so, is clearer than "NetCDF: HDF error".
+/// "No space left on device", where the system said so, is clearer than "NetCDF: HDF error", and
+/// truer than "Permission denied", which stands for every file that HDF5 cannot make.
 [[noreturn]] void refuse(const std::string& shown_name, int status, int system_error) {
-  const std::string reason = status == NC_EHDFERR && system_error != 0
+  const bool is_of_the_system = status == NC_EHDFERR || status == EACCES;
+  const std::string reason = is_of_the_system && system_error != 0
                                  ? std::generic_category().message(system_error)
                                  : nc_strerror(status);
   throw OutputError(shown_name + ": cannot be written: " + reason);

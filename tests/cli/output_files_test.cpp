@@ -211,6 +211,21 @@ TEST(OutputFiles, APartOfAPictureDoesNotReplaceAWholeOne) {
   EXPECT_EQ(scratch.file_count(), 2U);
 }
 
+TEST(OutputFiles, WhatSigkillLeavesIsRemovedByTheNextRun) {
+  const Scratch scratch;
+  const std::string table = quoted((scratch / "table.csv").string());
+  const Outcome run = run_shell(
+      "set -m; \"$GEARLASH\" simulate examples/elinco-fd162.toml --until 1 --every 1.1e-7 "
+      "--output " +
+      table + " & tool=$!\nuntil ls -A " + quoted((scratch / "").string()) +
+      " | grep -q . || ! kill -0 $tool; do :; done\nkill -KILL $tool; wait $tool");
+  EXPECT_EQ(run.status, 137) << run.err;
+  EXPECT_EQ(scratch.file_count(), 1U);
+  EXPECT_EQ(run_tool(simulate_into(scratch / "table.csv")).status, 0);
+  EXPECT_EQ(scratch.file_count(), 1U);
+  EXPECT_THAT(file_text(scratch / "table.csv"), StartsWith("# gearlash "));
+}
+
 /// A line for bash in which the folder `full` of `scratch` is a disk without room.
 std::string on_a_full_disk(const Scratch& scratch, const std::string& line) {
   std::ofstream(scratch / "line") << "mount -t tmpfs -o size=8k none \"$FULL\" || exit 99\n"
@@ -220,6 +235,22 @@ std::string on_a_full_disk(const Scratch& scratch, const std::string& line) {
   return "export GEARLASH; export FULL=" + quoted((scratch / "full").string()) +
          "; unshare --user --map-root-user --mount bash " + quoted((scratch / "line").string()) +
          " || exit";
+}
+
+TEST(OutputFiles, AFullDiskIsCalledSo) {
+  const Scratch scratch;
+  if (run_shell(on_a_full_disk(scratch, "true")).status != 0) {
+    GTEST_SKIP() << "no disk of one's own can be mounted here";
+  }
+  const Scratch own;
+  const Outcome tolerances = run_shell(on_a_full_disk(
+      own,
+      "\"$GEARLASH\" tolerance examples/toleranced.toml --samples 32 --output $FULL/a.nc\n"
+      "status=$?; ls -A $FULL; exit $status"));
+  EXPECT_EQ(tolerances.status, 3);
+  EXPECT_THAT(tolerances.err,
+              testing::EndsWith("a.nc: cannot be written: No space left on device\n"));
+  EXPECT_THAT(tolerances.out, testing::EndsWith("\nfilling\n"));
 }
 
 TEST(OutputFiles, AFullFolderForTemporaryFilesKeepsTheOldPicture) {
