@@ -136,6 +136,24 @@ void NetcdfFile::write(NetcdfVariable variable, const std::vector<std::size_t>& 
   require(nc_put_vara_schar, variable, start.data(), extent.data(), flags.data());
 }
 
+void NetcdfFile::read(NetcdfVariable variable, const std::vector<std::size_t>& start,
+                      const std::vector<std::size_t>& extent, std::span<double> values) const {
+  require(nc_get_vara_double, variable, start.data(), extent.data(), values.data());
+}
+
+void NetcdfFile::read(NetcdfVariable variable, const std::vector<std::size_t>& start,
+                      const std::vector<std::size_t>& extent, std::span<signed char> flags) const {
+  require(nc_get_vara_schar, variable, start.data(), extent.data(), flags.data());
+}
+
+std::string NetcdfFile::attribute_of_file(const std::string& name) const {
+  std::size_t length = 0;
+  require(nc_inq_attlen, NC_GLOBAL, name.c_str(), &length);
+  std::string text(length, '\0');
+  require(nc_get_att_text, NC_GLOBAL, name.c_str(), text.data());
+  return text;
+}
+
 void NetcdfFile::begin_flush() const {
 #ifdef SYNC_FILE_RANGE_WRITE  // Linux
   const int descriptor = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
