@@ -116,7 +116,7 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
   const PictureFormat picture_kind = faults.collect(
       [&] { return plot_file.empty() ? PictureFormat::svg : picture_format("--plot", plot_file); },
       PictureFormat::svg);
-  faults.require_distinct({{"DRIVE.toml", options.servo.file}, {"--plot", plot_file}});
+  faults.require_distinct({"DRIVE.toml", options.servo.file}, {{"--plot", plot_file}});
   const std::vector<SensorPlace> places = read_sensors(options.sensors, faults);
   const DriveFile file = resolve_drive(options, faults);
   const Step step = read_step(options, file, faults);

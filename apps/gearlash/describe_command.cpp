@@ -173,7 +173,7 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
   const PictureFormat picture_kind =
       faults.collect([&] { return plot_format(options); }, PictureFormat::svg);
   check_part(options, faults);
-  faults.require_distinct({{"DRIVE.toml", options.servo.file}, {"--plot", plot_file(options)}});
+  faults.require_distinct({"DRIVE.toml", options.servo.file}, {{"--plot", plot_file(options)}});
   const DescribedDrive input = described_drive(options.servo, faults);
 
   const DescribeReport report{.analyses = drive::describing_analyses(input.file.drive),

@@ -142,7 +142,7 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
       faults.collect([&] { return read_target("--target", options.target, time_scale); }, Target{});
   std::vector<Parameter> parameters = read_parameters("--parameters", options.parameters, faults);
   const Picture picture = read_picture(options, faults);
-  faults.require_distinct({{"SERVO.toml", options.servo.file}, {"--plot", options.plot}});
+  faults.require_distinct({"SERVO.toml", options.servo.file}, {{"--plot", options.plot}});
   faults.require_none();
   if (parameters.empty()) parameters = picture.axes;
   if (parameters.empty()) parameters = {all_parameters.begin(), all_parameters.end()};

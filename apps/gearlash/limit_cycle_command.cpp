@@ -245,7 +245,7 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
                                     : picture_format("--plot", plot_file(options));
       },
       PictureFormat::svg);
-  faults.require_distinct({{"SERVO.toml", options.servo.file}, {"--plot", plot_file(options)}});
+  faults.require_distinct({"SERVO.toml", options.servo.file}, {{"--plot", plot_file(options)}});
   const ServoOrDriveFile described = resolve_servo_or_drive(options.servo, faults);
   const auto* drive = std::get_if<DriveFile>(&described);
   const std::optional<ServoFile> closed =

@@ -211,10 +211,9 @@ ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
   Faults faults;
   faults.require_choice("--format", options.format, {"csv", "json"});
   const std::vector<Plot> plots = read_plots(options, faults);
-  std::vector<std::pair<std::string, std::string>> files = {{"SERVO.toml", options.servo.file},
-                                                            {"--output", options.output}};
-  for (const Plot& plot : plots) files.emplace_back("--plot", plot.file);
-  faults.require_distinct(files);
+  std::vector<FileUse> outputs = {{"--output", options.output}};
+  for (const Plot& plot : plots) outputs.push_back({"--plot", plot.file});
+  faults.require_distinct({"SERVO.toml", options.servo.file}, outputs);
   const ServoOrDriveFile described = resolve_servo_or_drive(options.servo, faults);
   if (const auto* drive = std::get_if<DriveFile>(&described)) {
     const std::optional<double> reference = constant_reference(*drive, options);

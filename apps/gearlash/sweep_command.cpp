@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "command.hpp"
 #include "grid_options.hpp"
@@ -13,6 +14,7 @@
 #include "output/output_file.hpp"
 #include "servo_options.hpp"
 #include "stop_request.hpp"
+#include "sweep_part.hpp"
 #include "sweep_run.hpp"
 #include "terminal.hpp"
 
@@ -65,7 +67,11 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
   const SweepFile sweep =
       faults.collect([&] { return read_sweep_file(options.file); }, SweepFile{});
   require_netcdf(options.output, faults);
-  faults.require_distinct({{"SWEEP.toml", options.file}, {"--output", options.output}});
+  std::vector<FileUse> outputs = {{"--output", options.output}};
+  for (const std::filesystem::path& file : unfinished_files(options.output)) {
+    outputs.push_back({"--output, while unfinished", file.string()});
+  }
+  faults.require_distinct({"SWEEP.toml", options.file}, outputs);
   faults.require_none();
 
   const StopRequest stop;

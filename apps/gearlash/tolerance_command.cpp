@@ -153,17 +153,17 @@ Task read_task(const ToleranceOptions& options, Faults& faults) {
       faults.add({"--target", "", "must say what --yield is to be a share of", ""});
     }
   }
-  std::vector<std::pair<std::string, std::string>> files = {{"SERVO.toml", options.file}};
+  std::vector<FileUse> outputs;
   for (const std::string& text : options.plots) {
     task.plots.push_back(faults.collect([&] { return read_plot(text); }, Plot{}));
-    files.emplace_back("--plot", task.plots.back().file);
+    outputs.push_back({"--plot", task.plots.back().file});
   }
   const auto ends_in = [&](const char* ending) { return options.output.ends_with(ending); };
   if (!options.output.empty() && !ends_in(".csv") && !ends_in(".json") && !ends_in(".nc")) {
     faults.add({"--output", shown(options.output), "must end in .csv, .json or .nc", ""});
   }
-  files.emplace_back("--output", options.output);
-  faults.require_distinct(files);
+  outputs.push_back({"--output", options.output});
+  faults.require_distinct({"SERVO.toml", options.file}, outputs);
   faults.require_none();
   if (file.varied.empty()) {
     throw InvalidInput(

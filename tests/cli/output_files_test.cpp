@@ -195,6 +195,49 @@ TEST(OutputFiles, NoneMayTakeThePlaceOfAnother) {
   EXPECT_EQ(scratch.file_count(), 1U);
 }
 
+/// A drive that follows the table move.csv beside it.
+void write_drive_with_table(const Scratch& scratch) {
+  std::ofstream(scratch / "drive.toml")
+      << file_text(GEARLASH_SOURCE_DIRECTORY "/examples/elinco-fd162.toml")
+      << "\n[reference]\nkind = \"table\"\nfile = \"move.csv\"\n";
+  std::ofstream(scratch / "move.csv") << "time (s),position (deg)\n0,0\n1,20\n";
+}
+
+TEST(OutputFiles, NoneMayTakeThePlaceOfATableThatTheDriveNames) {
+  const Scratch scratch;
+  write_drive_with_table(scratch);
+  const std::string table = file_text(scratch / "move.csv");
+  for (const char* spelling : {"move.csv", "./move.csv", "link.csv", "hard.csv"}) {
+    std::filesystem::remove(scratch / "link.csv");
+    std::filesystem::remove(scratch / "hard.csv");
+    std::filesystem::create_symlink("move.csv", scratch / "link.csv");
+    std::filesystem::create_hard_link(scratch / "move.csv", scratch / "hard.csv");
+    const Outcome run = run_shell("cd " + quoted((scratch / "").string()) +
+                                  "; \"$GEARLASH\" simulate drive.toml --output " + spelling);
+    EXPECT_EQ(run.status, 2) << spelling;
+    EXPECT_EQ(run.err, std::string("gearlash: --output = ") + spelling +
+                           ": must not be the file of reference.file, move.csv\n");
+    EXPECT_EQ(file_text(scratch / "move.csv"), table);
+  }
+}
+
+TEST(OutputFiles, AnInputThatIsAPipeIsReadOnce) {
+  const Outcome run =
+      run_shell("cat examples/elinco-fd162.toml | \"$GEARLASH\" limit-cycle /dev/stdin");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, StartsWith("hunts: "));
+}
+
+TEST(OutputFiles, TwoSpellingsOfANewFileAreOneFile) {
+  const Scratch scratch;
+  const Outcome run =
+      run_shell("sheet=$PWD/examples/elinco-fd162.toml; cd " + quoted((scratch / "").string()) +
+                "; \"$GEARLASH\" simulate \"$sheet\" --plot time=new.svg --plot phase=./new.svg");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.err, "gearlash: --plot = ./new.svg: must not be the file of --plot, new.svg\n");
+  EXPECT_EQ(scratch.file_count(), 0U);
+}
+
 TEST(OutputFiles, APartOfAPictureDoesNotReplaceAWholeOne) {
   const Scratch scratch;
   std::ofstream(scratch / "gnuplot") << "#!/bin/sh\nprintf '<?xml version=\"1.0\"?>\\n<svg>'\n";

@@ -132,6 +132,20 @@ TEST(SweepCommand, ASymbolicLinkIsNotFollowed) {
   }
 }
 
+TEST(SweepCommand, ItsInputIsNoUnfinishedFile) {
+  const Scratch scratch;
+  for (const std::string name : {"a.nc.part", "a.nc.part.json"}) {
+    write(scratch / name, long_sweep);
+    const Outcome run =
+        run_shell(in_folder(scratch, "\"$GEARLASH\" sweep " + name + " --output ./a.nc"));
+    EXPECT_EQ(run.status, 2);
+    EXPECT_THAT(run.err, HasSubstr("--output, while unfinished = "));
+    EXPECT_THAT(run.err, HasSubstr(": must not be the file of SWEEP.toml, " + name + "\n"));
+    EXPECT_EQ(file_text(scratch / name), long_sweep);
+    std::filesystem::remove(scratch / name);
+  }
+}
+
 /// Restitution from 0.3 on in place of 0.1: values of the same kind, all others.
 TEST(SweepCommand, DataOfAnotherSweepAreNotGoneOnWith) {
   const Scratch scratch;
