@@ -11,6 +11,7 @@
 #include "grid_options.hpp"
 #include "input/sweep_file.hpp"
 #include "input/units.hpp"
+#include "machine_faults.hpp"
 #include "output/output_file.hpp"
 #include "servo_options.hpp"
 #include "stop_request.hpp"
@@ -57,6 +58,11 @@ Provenance provenance_of(const SweepOptions& options, const Provenance& typed) {
 }
 
 void report_stop(const SweepRun& run, const SweepFile& sweep, const std::string& output) {
+  if (run.points_done == 0) {
+    report_lines("stopped before any of " + std::to_string(sweep.grid.size()) +
+                 " servos was done: there is nothing to resume");
+    return;
+  }
   fmt::print(stderr,
              "gearlash: stopped after {} of {} servos, which {}.part holds: --resume goes on\n",
              run.points_done, sweep.grid.size(), shown(output, std::string::npos));

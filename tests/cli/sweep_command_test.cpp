@@ -81,6 +81,23 @@ TEST(SweepCommand, CtrlCKeepsWhatIsDone) {
   EXPECT_LT(record["points_done"], 400);
 }
 
+/// Stopped at once, as a rule before its first piece is done.
+TEST(SweepCommand, WhatItSaysOfItsFilesIsTrueWheneverItIsStopped) {
+  const Scratch scratch;
+  write(scratch / "sweep.toml", long_sweep);
+  const Outcome run =
+      run_shell(in_folder(scratch,
+                          "\"$GEARLASH\" sweep sweep.toml --output a.nc & tool=$!\n"
+                          "until [ -e a.nc.part.json ] || ! kill -0 $tool; do :; done\n"
+                          "kill -TERM $tool; wait $tool; echo status $?; ls\n"));
+  EXPECT_THAT(run.out, HasSubstr("status 143\n")) << run.err;
+  const bool has_files = std::filesystem::exists(scratch / "a.nc.part");
+  EXPECT_EQ(std::filesystem::exists(scratch / "a.nc.part.json"), has_files);
+  EXPECT_THAT(run.err, HasSubstr(has_files ? " of 400 servos, which a.nc.part holds: --resume"
+                                           : "stopped before any of 400 servos was done: there is "
+                                             "nothing to resume\n"));
+}
+
 TEST(SweepCommand, ResumesOnlyTheSameSweep) {
   const Scratch scratch;
   write(scratch / "sweep.toml", long_sweep);
