@@ -31,8 +31,11 @@ std::string help_footer(const std::string& examples) {
   return "Examples:\n" + examples +
          "\nExit status:\n"
          "  0  done, whether the servo hunts or not\n"
-         "  1  the numerics could not decide; what they know has been printed\n"
-         "  2  bad input, one line a fault; or output that cannot be written";
+         "  1  undecided, or stopped by a limit; what is known has been printed\n"
+         "  2  bad input, one line a fault\n"
+         "  3  the machine could not: output, memory, threads or gnuplot; the answer\n"
+         "     is printed all the same where there is one\n"
+         "  130, 143  ended by Ctrl-C, by SIGTERM";
 }
 
 std::string typed_command(int argument_count, const char* const* arguments) {

@@ -9,11 +9,12 @@
 
 namespace gearlash::cli {
 
-/// Exit statuses, as --help tells them.
+/// Exit statuses, as --help lists them.
 enum class ExitStatus {
   done = 0,
-  undecided = 1,  ///< the numerics could not decide; what is known has been printed
-  bad_input = 2   ///< also output that cannot be written
+  undecided = 1,    ///< or stopped by a limit; what is known has been printed
+  bad_input = 2,    ///< one line a fault
+  beyond_means = 3  ///< of the machine: output, memory, threads, the plotter
 };
 
 /// Set by the subcommand that was parsed; runs it. Throws InvalidInput, OutputError or ReaderGone.

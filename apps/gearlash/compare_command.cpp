@@ -7,6 +7,7 @@
 #include "command.hpp"
 #include "general/assemble/time_scale.hpp"
 #include "input/units.hpp"
+#include "machine_faults.hpp"
 #include "output/comparison_report.hpp"
 #include "output/output_file.hpp"
 #include "servo_options.hpp"
@@ -115,7 +116,7 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
   const PictureFormat picture_kind = faults.collect(
       [&] { return plot_file.empty() ? PictureFormat::svg : picture_format("--plot", plot_file); },
       PictureFormat::svg);
-  faults.require_distinct({{"DRIVE.toml", options.servo.file}, {"--plot", plot_file}});
+  faults.require_distinct({"DRIVE.toml", options.servo.file}, {{"--plot", plot_file}});
   const std::vector<SensorPlace> places = read_sensors(options.sensors, faults);
   const DriveFile file = resolve_drive(options, faults);
   const Step step = read_step(options, file, faults);
@@ -131,14 +132,17 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
       }));
     }
   }
-  if (is_drawn) write_file(plot_file, draw_comparison(report, picture_kind));
+  Extras extras;
+  if (is_drawn) {
+    extras.make([&] { write_file(plot_file, draw_comparison(report, picture_kind)); });
+  }
   write_file("-", options.format == "json" ? comparison_json(report) : comparison_text(report));
   const bool decided =
       std::none_of(report.cases.begin(), report.cases.end(), [](const SensorCase& one) {
         return drive::verdict_of(one.attractors.search) == drive::DriveVerdict::undecided ||
                one.response.stop_reason != hybrid::StopReason::reached_end;
       });
-  return decided ? ExitStatus::done : ExitStatus::undecided;
+  return extras.status(decided ? ExitStatus::done : ExitStatus::undecided);
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 // gearlash describe: what describing functions predict, beside the exact cycle.
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 
 #include "analysis/drive_verdict.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "command.hpp"
 #include "input/units.hpp"
+#include "machine_faults.hpp"
 #include "output/describe_report.hpp"
 #include "output/output_file.hpp"
 #include "picture/nyquist_picture.hpp"
@@ -173,7 +173,7 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
   const PictureFormat picture_kind =
       faults.collect([&] { return plot_format(options); }, PictureFormat::svg);
   check_part(options, faults);
-  faults.require_distinct({{"DRIVE.toml", options.servo.file}, {"--plot", plot_file(options)}});
+  faults.require_distinct({"DRIVE.toml", options.servo.file}, {{"--plot", plot_file(options)}});
   const DescribedDrive input = described_drive(options.servo, faults);
 
   const DescribeReport report{.analyses = drive::describing_analyses(input.file.drive),
@@ -183,11 +183,14 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
                               .angle = input.file.backlash_unit,
                               .time_unit = input.file.is_normalized ? "1/ω_n" : "s",
                               .provenance = provenance};
-  if (!options.plot.empty()) write_file(plot_file(options), draw(report, options, picture_kind));
+  Extras extras;
+  if (!options.plot.empty()) {
+    extras.make([&] { write_file(plot_file(options), draw(report, options, picture_kind)); });
+  }
   write_file("-", options.format == "json" ? describe_json(report) : text_for_terminal(report));
-  if (input.is_decided) return ExitStatus::done;
-  std::fputs("gearlash: what is exact could not be decided\n", stderr);
-  return ExitStatus::undecided;
+  if (input.is_decided) return extras.status(ExitStatus::done);
+  report_lines("what is exact could not be decided");
+  return extras.status(ExitStatus::undecided);
 }
 
 }  // namespace

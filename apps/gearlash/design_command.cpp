@@ -5,6 +5,7 @@
 
 #include "command.hpp"
 #include "input/target_text.hpp"
+#include "machine_faults.hpp"
 #include "output/design_report.hpp"
 #include "output/output_file.hpp"
 #include "picture/region_map.hpp"
@@ -143,7 +144,7 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
   std::vector<DesignParameter> parameters =
       read_parameters("--parameters", options.parameters, faults);
   const Picture picture = read_picture(options, faults);
-  faults.require_distinct({{"SERVO.toml", options.servo.file}, {"--plot", options.plot}});
+  faults.require_distinct({"SERVO.toml", options.servo.file}, {{"--plot", options.plot}});
   faults.require_none();
   if (parameters.empty()) parameters = picture.axes;
   if (parameters.empty()) parameters = {all_parameters.begin(), all_parameters.end()};
@@ -156,16 +157,17 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
                             .answers = work_out(drive, target, parameters),
                             .units = report_units(file),
                             .provenance = provenance};
+  Extras extras;
   if (!options.plot.empty()) {
-    draw({.drive = drive,
-          .target = target,
-          .target_text = options.target,
-          .cost = picture.cost,
-          .angle = report.units.angle},
-         picture, options.plot);
+    const RegionMapTask map{.drive = drive,
+                            .target = target,
+                            .target_text = options.target,
+                            .cost = picture.cost,
+                            .angle = report.units.angle};
+    extras.make([&] { draw(map, picture, options.plot); });
   }
   write_file("-", options.format == "json" ? design_json(report) : design_text(report));
-  return ExitStatus::done;
+  return extras.status(ExitStatus::done);
 }
 
 }  // namespace

@@ -174,7 +174,7 @@ GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption
   task.quantity = read_quantity(options.quantity, faults);
   task.kind = faults.collect([&] { return read_grid_file(options.output); }, GridFile::csv);
   if (task.kind == GridFile::picture) require_drawable(axes, faults);
-  faults.require_distinct({{"SERVO.toml", options.servo.file}, {"--output", options.output}});
+  faults.require_distinct({"SERVO.toml", options.servo.file}, {{"--output", options.output}});
   task.grid.servo = read_fixed_inputs(options.servo, axes, faults);
   faults.require_none();
   task.grid.axes = std::move(axes.axes);

@@ -6,6 +6,7 @@
 
 #include "command.hpp"
 #include "input/units.hpp"
+#include "machine_faults.hpp"
 #include "output/attractor_report.hpp"
 #include "output/change_report.hpp"
 #include "output/limit_cycle_report.hpp"
@@ -182,11 +183,14 @@ ExitStatus analyse_servo(const ServoFile& file, bool is_drive, const LimitCycleO
   if (options.sensitivities || options.plot.starts_with(tornado)) {
     report.sensitivity = is_sound ? sensitivity_of(file, drive) : DriveSensitivity{};
   }
-  if (!options.plot.empty()) write_file(plot_file(options), draw(report, options, picture_kind));
+  Extras extras;
+  if (!options.plot.empty()) {
+    extras.make([&] { write_file(plot_file(options), draw(report, options, picture_kind)); });
+  }
   write_file("-", options.format == "json" ? limit_cycle_json(report) : text_for_terminal(report));
-  if (is_decided(report.analysis)) return ExitStatus::done;
-  std::fputs(("gearlash: " + verdict_line(report) + "\n").c_str(), stderr);
-  return ExitStatus::undecided;
+  if (is_decided(report.analysis)) return extras.status(ExitStatus::done);
+  report_lines(verdict_line(report));
+  return extras.status(ExitStatus::undecided);
 }
 
 // ---- drives -------------------------------------------------------------------------------------
@@ -210,11 +214,16 @@ ExitStatus search_drive(const DriveFile& file, const LimitCycleOptions& options,
     };
     report.search = drive::find_attractors(file.drive, search);
   }
-  if (!options.plot.empty()) write_file(options.plot, draw_attractor(report, picture_kind));
+  Extras extras;
+  if (!options.plot.empty()) {
+    extras.make([&] { write_file(options.plot, draw_attractor(report, picture_kind)); });
+  }
   write_file("-", options.format == "json" ? attractor_json(report) : text_for_terminal(report));
-  if (drive::verdict_of(report.search) != drive::DriveVerdict::undecided) return ExitStatus::done;
-  std::fputs(("gearlash: " + verdict_line(report) + "\n").c_str(), stderr);
-  return ExitStatus::undecided;
+  if (drive::verdict_of(report.search) != drive::DriveVerdict::undecided) {
+    return extras.status(ExitStatus::done);
+  }
+  report_lines(verdict_line(report));
+  return extras.status(ExitStatus::undecided);
 }
 
 /// What only the closed form tells.
@@ -236,7 +245,7 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
                                     : picture_format("--plot", plot_file(options));
       },
       PictureFormat::svg);
-  faults.require_distinct({{"SERVO.toml", options.servo.file}, {"--plot", plot_file(options)}});
+  faults.require_distinct({"SERVO.toml", options.servo.file}, {{"--plot", plot_file(options)}});
   const ServoOrDriveFile described = resolve_servo_or_drive(options.servo, faults);
   const auto* drive = std::get_if<DriveFile>(&described);
   const std::optional<ServoFile> closed =

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <new>
 #include <string>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "gearlash/version.hpp"
 #include "input/section_reader.hpp"
 #include "input/units.hpp"
+#include "machine_faults.hpp"
 #include "output/output_file.hpp"
 
 namespace gearlash::cli {
@@ -45,15 +45,6 @@ void install_signal_handlers() {
   // A closed pipe and a file grown too large are then seen where they are written to.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-}
-
-void report_lines(const std::string& lines) {
-  std::size_t start = 0;
-  while (start < lines.size()) {
-    const std::size_t end = std::min(lines.find('\n', start), lines.size());
-    std::fputs(("gearlash: " + lines.substr(start, end - start) + "\n").c_str(), stderr);
-    start = end + 1;
-  }
 }
 
 std::string names_of_subcommands(const CLI::App& app) {
@@ -139,22 +130,18 @@ ExitStatus parse_and_run(int argument_count, char** arguments) {
 }
 
 ExitStatus guarded(int argument_count, char** arguments) {
+  ExitStatus status = ExitStatus::beyond_means;
   try {
-    return parse_and_run(argument_count, arguments);
+    is_within_means([&] { status = parse_and_run(argument_count, arguments); });
   } catch (const ReaderGone&) {
-    return ExitStatus::done;
+    status = ExitStatus::done;
   } catch (const InvalidInput& error) {
     report_lines(error.what());
-  } catch (const OutputError& error) {
-    report_lines(error.what());
-  } catch (const std::bad_alloc&) {
-    report_lines("not enough memory");
-    return ExitStatus::undecided;
+    status = ExitStatus::bad_input;
   } catch (const std::exception& error) {
     report_lines(std::string("a fault in gearlash itself, please report it: ") + error.what());
-    return ExitStatus::undecided;
   }
-  return ExitStatus::bad_input;
+  return status;
 }
 
 }  // namespace

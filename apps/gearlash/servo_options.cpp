@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 
+#include "input/named_files.hpp"
 #include "input/text_file.hpp"
 #include "input/units.hpp"
 #include "model/proportional_servo.hpp"
@@ -186,6 +186,26 @@ void require_finite(std::string_view field, std::string_view text, double number
   throw InvalidInput({{std::string(field), shown(text), "must be finite", ""}});
 }
 
+namespace fs = std::filesystem;
+
+bool may_be_lost(const fs::path& file) {
+  std::error_code error;
+  const bool is_device = fs::exists(file, error) && !fs::is_regular_file(file, error);
+  return !file.empty() && file != "-" && !is_device;
+}
+
+/// However it is spelled: a file that is not there yet has no absolute name of its own.
+fs::path resolved(const fs::path& file) {
+  std::error_code error;
+  const fs::path whole = fs::weakly_canonical(fs::absolute(file, error), error);
+  return error ? file.lexically_normal() : whole;
+}
+
+bool is_same_file(const fs::path& one, const fs::path& other) {
+  std::error_code error;
+  return resolved(one) == resolved(other) || fs::equivalent(one, other, error);
+}
+
 }  // namespace
 
 std::string option_name(std::string field) {
@@ -216,16 +236,24 @@ void Faults::require_choice(const std::string& field, const std::string& value,
   add({field, shown(value), permitted, ""});
 }
 
-void Faults::require_distinct(const std::vector<std::pair<std::string, std::string>>& files) {
-  namespace fs = std::filesystem;
-  std::map<fs::path, std::string> users;
-  for (const auto& [use, file] : files) {
-    std::error_code error;
-    const fs::path path = fs::weakly_canonical(file, error);
-    const bool is_device = fs::exists(path, error) && !fs::is_regular_file(path, error);
-    if (file.empty() || file == "-" || error || is_device) continue;
-    const auto [user, first] = users.emplace(path, use);
-    if (!first) add({use, shown(file), "must not be the file of " + user->second, ""});
+void Faults::require_distinct(const FileUse& input, const std::vector<FileUse>& outputs) {
+  std::vector<FileUse> others;
+  if (!input.file.empty()) {
+    others.push_back(input);
+    for (const NamedFile& named : files_named_in(input.file)) {
+      others.push_back({named.field, named.path.string()});
+    }
+  }
+  for (const FileUse& output : outputs) {
+    if (!may_be_lost(output.file)) continue;
+    const auto same = std::find_if(others.begin(), others.end(), [&](const FileUse& other) {
+      return is_same_file(output.file, other.file);
+    });
+    if (same != others.end()) {
+      add({output.use, shown(output.file),
+           "must not be the file of " + same->use + ", " + shown(same->file), ""});
+    }
+    others.push_back(output);
   }
 }
 

@@ -34,7 +34,13 @@ void add_servo_options(CLI::App& command, ServoOptions& options);
 /// Of a command that takes drives too.
 void add_servo_or_drive_options(CLI::App& command, ServoOptions& options);
 
-/// Collects the faults of a command line, so that all of them are told at once.
+/// A file of a command: what it is for, "--output", and its name.
+struct FileUse {
+  std::string use;
+  std::string file;
+};
+
+/// Collects the faults of a command line, so that all of them are reported at once.
 class Faults {
  public:
   void add(Violation violation) { violations_.push_back(std::move(violation)); }
@@ -54,9 +60,10 @@ class Faults {
   /// `value` if it is one of `choices`, else a fault of `field`.
   void require_choice(const std::string& field, const std::string& value,
                       const std::vector<std::string>& choices);
-  /// Files that are to be read or written, each with what it is for: no two may be the same file,
-  /// of which one would be lost. Empty names, "-" and devices are no matter.
-  void require_distinct(const std::vector<std::pair<std::string, std::string>>& files);
+  /// No two of the files that are read or written may be the same, of which one would be lost:
+  /// `input`, the files that it names (tables of signals), and `outputs`, each with what it is for.
+  /// Empty names, "-" and devices are no matter.
+  void require_distinct(const FileUse& input, const std::vector<FileUse>& outputs);
   bool none() const { return violations_.empty(); }
   void require_none() const { gearlash::require_none(violations_); }
 

@@ -9,6 +9,7 @@
 #include "base/range_check.hpp"
 #include "command.hpp"
 #include "input/units.hpp"
+#include "machine_faults.hpp"
 #include "picture/picture.hpp"
 #include "servo_options.hpp"
 #include "simulate_options.hpp"
@@ -181,13 +182,16 @@ ExitStatus simulate_servo(const ServoFile& file, const SimulateOptions& options,
                           Faults& faults, bool is_drive = false) {
   MotionReport report = simulated(file, options, provenance, faults);
   report.is_drive = is_drive;
-  for (const Plot& plot : plots) draw(report, plot);
+  Extras extras;
+  for (const Plot& plot : plots) extras.make([&] { draw(report, plot); });
   write_tables(report, options);
-  if (report.trajectory.stop_reason() == StopReason::reached_end) return ExitStatus::done;
+  if (report.trajectory.stop_reason() == StopReason::reached_end) {
+    return extras.status(ExitStatus::done);
+  }
   fmt::print(stderr, "gearlash: stopped at {} {} of {} after {} events\n",
              exact_text(report.units.time(report.trajectory.end_time())), report.units.time_unit(),
              exact_text(report.until), report.trajectory.events().size());
-  return ExitStatus::undecided;
+  return extras.status(ExitStatus::undecided);
 }
 
 /// What the reference is at all times: of an option any number stands for what it will be.
@@ -207,10 +211,9 @@ ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
   Faults faults;
   faults.require_choice("--format", options.format, {"csv", "json"});
   const std::vector<Plot> plots = read_plots(options, faults);
-  std::vector<std::pair<std::string, std::string>> files = {{"SERVO.toml", options.servo.file},
-                                                            {"--output", options.output}};
-  for (const Plot& plot : plots) files.emplace_back("--plot", plot.file);
-  faults.require_distinct(files);
+  std::vector<FileUse> outputs = {{"--output", options.output}};
+  for (const Plot& plot : plots) outputs.push_back({"--plot", plot.file});
+  faults.require_distinct({"SERVO.toml", options.servo.file}, outputs);
   const ServoOrDriveFile described = resolve_servo_or_drive(options.servo, faults);
   if (const auto* drive = std::get_if<DriveFile>(&described)) {
     const std::optional<double> reference = constant_reference(*drive, options);

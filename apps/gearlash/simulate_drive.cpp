@@ -8,6 +8,7 @@
 #include "base/range_check.hpp"
 #include "general/assemble/time_scale.hpp"
 #include "input/units.hpp"
+#include "machine_faults.hpp"
 #include "output/drive_motion_report.hpp"
 #include "simulate_options.hpp"
 
@@ -125,15 +126,18 @@ ExitStatus simulate_drive(DriveFile file, const SimulateOptions& options,
                           const std::vector<Plot>& plots, const Provenance& provenance,
                           Faults& faults) {
   const DriveMotionReport report = simulated(std::move(file), options, provenance, faults);
+  Extras extras;
   for (const Plot& plot : plots) {
-    write_file(plot.file, plot.is_phase_plane ? draw_phase_plane(report, plot.format)
-                                              : draw_time_response(report, plot.format));
+    extras.make([&] {
+      write_file(plot.file, plot.is_phase_plane ? draw_phase_plane(report, plot.format)
+                                                : draw_time_response(report, plot.format));
+    });
   }
   write_tables(report, options);
   const std::string stopped = stop_text(report.trajectory);
-  if (stopped.empty()) return ExitStatus::done;
-  fmt::print(stderr, "gearlash: stopped: {}\n", stopped);
-  return ExitStatus::undecided;
+  if (stopped.empty()) return extras.status(ExitStatus::done);
+  report_lines("stopped: " + stopped);
+  return extras.status(ExitStatus::undecided);
 }
 
 }  // namespace gearlash::cli

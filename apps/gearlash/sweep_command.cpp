@@ -5,14 +5,17 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "command.hpp"
 #include "grid_options.hpp"
 #include "input/sweep_file.hpp"
 #include "input/units.hpp"
+#include "machine_faults.hpp"
 #include "output/output_file.hpp"
 #include "servo_options.hpp"
 #include "stop_request.hpp"
+#include "sweep_part.hpp"
 #include "sweep_run.hpp"
 #include "terminal.hpp"
 
@@ -55,6 +58,11 @@ Provenance provenance_of(const SweepOptions& options, const Provenance& typed) {
 }
 
 void report_stop(const SweepRun& run, const SweepFile& sweep, const std::string& output) {
+  if (run.points_done == 0) {
+    report_lines("stopped before any of " + std::to_string(sweep.grid.size()) +
+                 " servos was done: there is nothing to resume");
+    return;
+  }
   fmt::print(stderr,
              "gearlash: stopped after {} of {} servos, which {}.part holds: --resume goes on\n",
              run.points_done, sweep.grid.size(), shown(output, std::string::npos));
@@ -65,7 +73,11 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
   const SweepFile sweep =
       faults.collect([&] { return read_sweep_file(options.file); }, SweepFile{});
   require_netcdf(options.output, faults);
-  faults.require_distinct({{"SWEEP.toml", options.file}, {"--output", options.output}});
+  std::vector<FileUse> outputs = {{"--output", options.output}};
+  for (const std::filesystem::path& file : unfinished_files(options.output)) {
+    outputs.push_back({"--output, while unfinished", file.string()});
+  }
+  faults.require_distinct({"SWEEP.toml", options.file}, outputs);
   faults.require_none();
 
   const StopRequest stop;

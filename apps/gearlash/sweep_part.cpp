@@ -1,14 +1,19 @@
 #include "sweep_part.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <fstream>
+#include <charconv>
+#include <stdexcept>
 #include <system_error>
 
+#include "base/checksum.hpp"
+#include "input/text_file.hpp"
 #include "input/units.hpp"
+#include "output/file_safety.hpp"
 #include "output/json_values.hpp"
 #include "output/output_file.hpp"
 
@@ -32,17 +37,33 @@ bool is_there(const fs::path& path) {
   return fs::exists(path, ignored);
 }
 
-/// The lock belongs to the descriptor: that HDF5 opens, locks and closes the file does not touch
-/// it.
-bool lock(int descriptor) {
-#ifdef F_OFD_SETLK
-  struct flock whole {};
-  whole.l_type = F_WRLCK;
-  whole.l_whence = SEEK_SET;
-  return fcntl(descriptor, F_OFD_SETLK, &whole) == 0;
-#else
-  return true;
-#endif
+/// In a record: it is of a sweep, and no other program's.
+constexpr char kind[] = "unfinished gearlash sweep";
+constexpr std::size_t largest_record = 16 * largest_sweep_file;
+
+std::string text_of(const Json& record) {
+  return record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string hexadecimal(std::uint64_t number) { return fmt::format("{:016x}", number); }
+
+/// Of all but the checksum itself.
+std::string checksum_of_record(Json record) {
+  record.erase("checksum");
+  return hexadecimal(checksum_of(text_of(record)));
+}
+
+Json read_json(const fs::path& file) {
+  try {
+    return Json::parse(read_text_file(file, largest_record), nullptr, false);
+  } catch (const InvalidInput&) {  // not to be read: no record
+    return {};
+  }
+}
+
+bool is_link(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_symlink(fs::symlink_status(path, ignored));
 }
 
 std::size_t count_in(const Json& record, const char* key) {
@@ -51,98 +72,143 @@ std::size_t count_in(const Json& record, const char* key) {
   return value.get<std::size_t>();
 }
 
+std::uint64_t checksum_in(const Json& record, const char* key) {
+  constexpr int base = 16;
+  const std::string text = record.at(key).get<std::string>();
+  std::uint64_t sum = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), sum, base);
+  if (error != std::errc() || end != text.data() + text.size()) throw std::out_of_range(key);
+  return sum;
+}
+
 std::size_t points_counted(const GridCount& count) {
   return count.solved.side_by_side + count.solved.one_by_one + count.refused;
 }
 
 }  // namespace
 
+std::array<fs::path, 2> unfinished_files(const fs::path& output) {
+  const fs::path target = target_of(output);
+  return {with_ending(target, ".part"), with_ending(target, ".part.json")};
+}
+
 SweepPart::SweepPart(const fs::path& output)
     : output_(target_of(output)),
-      data_(with_ending(output_, ".part")),
-      record_(with_ending(output_, ".part.json")),
+      data_(unfinished_files(output)[0]),
+      record_(unfinished_files(output)[1]),
       shown_output_(whole_name(output)) {
   std::error_code error;
   const fs::file_status status = fs::status(output_, error);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
     throw InvalidInput({{"--output", shown_output_, "must be a regular file, or a new one", ""}});
   }
-  hold();
-  std::error_code ignored;
-  is_begun_ = is_there(record_) && fs::file_size(data_, ignored) > 0;
+  try {
+    hold();
+    require_own_files();
+  } catch (...) {  // no destructor will run
+    let_go();
+    throw;
+  }
 }
 
 void SweepPart::hold() {
   constexpr mode_t permissions = 0666;
-  descriptor_ = open(data_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, permissions);
-  if (descriptor_ < 0) {
+  descriptor_ = open(data_.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor_ < 0 && errno == ELOOP) refuse_foreign(data_);
+  if (descriptor_ < 0 && errno == ENOENT) {
+    descriptor_ = open(data_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, permissions);
+    may_remove_data_ = descriptor_ >= 0;
+  }
+  if (descriptor_ < 0 && errno != EEXIST) {
     throw OutputError(whole_name(data_) +
                       ": cannot be written: " + std::generic_category().message(errno));
   }
   struct stat held {};
   struct stat named {};
   // Another sweep may have finished between the two calls, and the file have its name by now.
-  const bool is_ours = lock(descriptor_) && fstat(descriptor_, &held) == 0 &&
-                       stat(data_.c_str(), &named) == 0 && held.st_ino == named.st_ino;
+  const bool is_ours = descriptor_ >= 0 && lock_file(descriptor_) != FileLock::elsewhere &&
+                       fstat(descriptor_, &held) == 0 && lstat(data_.c_str(), &named) == 0 &&
+                       held.st_ino == named.st_ino;
   if (is_ours) return;
-  close(descriptor_);
+  may_remove_data_ = false;
   throw InvalidInput(
       {{"--output", shown_output_, "must not be written by another sweep at the same time", ""}});
 }
 
-SweepPart::~SweepPart() {
-  std::error_code ignored;
-  if (!is_finished_ && !is_there(record_)) fs::remove(data_, ignored);
-  close(descriptor_);
+/// A file without contents may be taken: there is nothing in it to lose.
+void SweepPart::require_own_files() {
+  struct stat held {};
+  if (fstat(descriptor_, &held) != 0 || !S_ISREG(held.st_mode)) refuse_foreign(data_);
+  const bool has_record = is_link(record_) || is_there(record_);
+  if (has_record) {
+    const Json record = is_link(record_) ? Json() : read_json(record_);
+    if (!record.is_object() || record.value("kind", Json()) != kind) refuse_foreign(record_);
+  }
+  if (held.st_size > 0 && !has_record) refuse_foreign(data_);
+  is_begun_ = held.st_size > 0;
 }
 
-SweepRun SweepPart::read_record(const SweepFile& sweep, const Provenance& provenance) const {
-  std::ifstream stream(record_, std::ios::binary);
-  const Json record = Json::parse(stream, nullptr, false);
+void SweepPart::let_go() noexcept {
+  std::error_code ignored;
+  if (may_remove_data_) fs::remove(data_, ignored);
+  if (may_remove_record_) fs::remove(record_, ignored);
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+SweepPart::~SweepPart() { let_go(); }
+
+SweepRecord SweepPart::read_record(const SweepFile& sweep, const Provenance& provenance) const {
+  const Json json = read_json(record_);
   try {
-    if (record.at("provenance").at("version") != provenance.version) {
+    if (json.at("checksum") != checksum_of_record(json)) refuse("must be as the sweep left them");
+    if (json.at("provenance").at("version") != provenance.version) {
       refuse("must be of the same version of gearlash");
     }
-    if (record.at("sweep") != sweep.text || count_in(record, "points") != sweep.grid.size()) {
+    if (json.at("sweep") != sweep.text || count_in(json, "points") != sweep.grid.size()) {
       refuse("must be of the same sweep file");
     }
-    const SweepRun run{.count = {.solved = {.side_by_side = count_in(record, "side_by_side"),
-                                            .one_by_one = count_in(record, "one_by_one")},
-                                 .refused = count_in(record, "refused")},
-                       .points_done = count_in(record, "points_done")};
+    const SweepRecord record{
+        .run = {.count = {.solved = {.side_by_side = count_in(json, "side_by_side"),
+                                     .one_by_one = count_in(json, "one_by_one")},
+                          .refused = count_in(json, "refused"),
+                          .unproved = count_in(json, "unproved")},
+                .points_done = count_in(json, "points_done")},
+        .checksum_of_data = checksum_in(json, "checksum_of_data")};
+    const SweepRun& run = record.run;
     if (run.points_done <= sweep.grid.size() && points_counted(run.count) == run.points_done) {
-      return run;
+      return record;
     }
-  } catch (const Json::exception&) {  // told below
+  } catch (const Json::exception&) {  // reported below
   } catch (const std::out_of_range&) {
   }
-  refuse("must say how far the sweep has come");
-}
-
-void SweepPart::remove_record() {
-  std::error_code error;
-  fs::remove(record_, error);
-  if (error) throw OutputError(whole_name(record_) + ": cannot be removed: " + error.message());
+  refuse("must be as the sweep left them");
 }
 
 void SweepPart::write_record(const SweepFile& sweep, const Provenance& provenance,
-                             const SweepRun& run) {
-  const Json record = {{"provenance", json_provenance(provenance)},
-                       {"points", sweep.grid.size()},
-                       {"points_done", run.points_done},
-                       {"side_by_side", run.count.solved.side_by_side},
-                       {"one_by_one", run.count.solved.one_by_one},
-                       {"refused", run.count.refused},
-                       {"sweep", sweep.text}};
-  write_file(record_, record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+                             const SweepRecord& record) {
+  const SweepRun& run = record.run;
+  Json json = {{"kind", kind},
+               {"provenance", json_provenance(provenance)},
+               {"points", sweep.grid.size()},
+               {"points_done", run.points_done},
+               {"side_by_side", run.count.solved.side_by_side},
+               {"one_by_one", run.count.solved.one_by_one},
+               {"refused", run.count.refused},
+               {"unproved", run.count.unproved},
+               {"sweep", sweep.text},
+               {"checksum_of_data", hexadecimal(record.checksum_of_data)}};
+  json["checksum"] = checksum_of_record(json);
+  may_remove_data_ = may_remove_record_ = run.points_done == 0;
+  write_file(record_, text_of(json));
 }
 
 void SweepPart::finish() {
   std::error_code error;
   fs::rename(data_, output_, error);
   if (error) throw OutputError(shown_output_ + ": cannot be written: " + error.message());
-  is_finished_ = true;
+  may_remove_data_ = false;
   fs::remove(record_, error);
+  bring_name_to_disk(output_);
 }
 
 std::size_t SweepPart::bytes() const {
@@ -153,6 +219,13 @@ std::size_t SweepPart::bytes() const {
 
 std::string SweepPart::shown_files() const {
   return shown_output_ + ".part and " + shown_output_ + ".part.json";
+}
+
+void SweepPart::refuse_foreign(const fs::path& file) const {
+  throw InvalidInput({{"--output", shown_output_,
+                       "must have no file beside it that no sweep has left: " + whole_name(file) +
+                           " is left alone; rename it, or remove it to start again",
+                       ""}});
 }
 
 void SweepPart::refuse(const std::string& permitted) const {

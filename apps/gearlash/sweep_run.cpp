@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <bit>
+#include <cstdint>
 #include <system_error>
+#include <vector>
 
+#include "base/checksum.hpp"
 #include "output/grid_netcdf.hpp"
 #include "output/grid_pieces.hpp"
 #include "output/output_file.hpp"
@@ -26,14 +31,47 @@ void require_room(const SweepPart& part, std::size_t bytes) {
                                 static_cast<double>(space.available) / gigabyte));
 }
 
+/// Of the values of a file by variable, so that it does not depend on the pieces they come in.
+class ChecksumOfData {
+ public:
+  explicit ChecksumOfData(const SweepFile& sweep)
+      : quantities_(sweep.quantities), numbers_(sweep.quantities.size()) {}
+
+  void add(const CycleTable& cycles) {
+    for (const Verdict verdict : cycles.verdict) {
+      verdicts_.add(static_cast<std::uint64_t>(verdict));
+    }
+    for (std::size_t i = 0; i < quantities_.size(); ++i) {
+      for (const double number : cycles[quantities_[i]]) {
+        numbers_[i].add(std::bit_cast<std::uint64_t>(number));
+      }
+    }
+  }
+  std::uint64_t value() const {
+    Checksum all = verdicts_;
+    for (const Checksum& numbers : numbers_) all.add(numbers.value());
+    return all.value();
+  }
+
+ private:
+  std::vector<CycleQuantity> quantities_;
+  Checksum verdicts_;
+  std::vector<Checksum> numbers_;
+};
+
 /// One sweep under way. It is the calling thread that writes, because HDF5 prints its errors in all
 /// but the thread in which NetCDF was started.
 class Sweeping {
  public:
   Sweeping(const SweepFile& sweep, const Provenance& provenance, SweepPart& part,
-           const SweepRun& begun)
-      : sweep_(sweep), provenance_(provenance), part_(part), file_(open()), recorded_(begun) {
-    if (!part.is_begun()) record(begun);
+           const SweepRecord& begun)
+      : sweep_(sweep),
+        provenance_(provenance),
+        part_(part),
+        recorded_(begun.run),
+        checksum_(sweep),
+        file_(begun.run.points_done > 0 ? reopen() : create()) {
+    if (begun.run.points_done > 0) require_data_of(begun);
   }
 
   /// What was written and recorded in the end.
@@ -42,9 +80,11 @@ class Sweeping {
         sweep_.grid, recorded_.points_done, longest_piece,
         [&](const GridPiece& piece) {
           file_.write(piece);
+          checksum_.add(piece.cycles);
           SweepRun run = recorded_;
           run.count.add(piece.count);
           run.points_done += piece.cycles.rows();
+          file_.flush();  // first, so that a record never speaks of what is not on the disk
           record(run);
         },
         going_on);
@@ -53,31 +93,51 @@ class Sweeping {
   }
 
  private:
-  GridNetcdf open() {
-    const GridContents contents{sweep_.grid, sweep_.quantities, provenance_, sweep_.text};
-    if (part_.is_begun()) {
-      try {
-        return GridNetcdf::reopen(part_.data(), part_.shown_output(), contents);
-      } catch (const OutputError&) {
-        part_.refuse("must be the whole files that an unfinished sweep leaves");
-      }
-    }
-    part_.remove_record();  // it would be taken for that of the new data
-    return GridNetcdf::create(part_.data(), part_.shown_output(), contents);
+  static constexpr char not_whole[] = "must be the whole files that an unfinished sweep leaves";
+
+  GridContents contents() const {
+    return {sweep_.grid, sweep_.quantities, provenance_, sweep_.text};
   }
 
-  /// In this order, so that a record never tells of what is not on the disk.
+  GridNetcdf create() {
+    record(recorded_);
+    return GridNetcdf::create(part_.data(), part_.shown_output(), contents());
+  }
+
+  GridNetcdf reopen() {
+    try {
+      return GridNetcdf::reopen(part_.data(), part_.shown_output(), contents());
+    } catch (const OutputError&) {
+      part_.refuse(not_whole);
+    }
+  }
+
+  void require_data_of(const SweepRecord& begun) {
+    try {
+      CycleTable cycles;
+      for (std::size_t first = 0; first < begun.run.points_done; first += cycles.rows()) {
+        const std::size_t left = begun.run.points_done - first;
+        cycles = CycleTable(box_length(sweep_.grid, first, std::min(left, longest_piece)));
+        file_.read(first, cycles);
+        checksum_.add(cycles);
+      }
+    } catch (const OutputError&) {
+      part_.refuse(not_whole);
+    }
+    if (checksum_.value() != begun.checksum_of_data) part_.refuse("must be as the sweep left them");
+  }
+
   void record(const SweepRun& run) {
-    file_.flush();
-    part_.write_record(sweep_, provenance_, run);
+    part_.write_record(sweep_, provenance_, {run, checksum_.value()});
     recorded_ = run;
   }
 
   const SweepFile& sweep_;
   const Provenance& provenance_;
   SweepPart& part_;
-  GridNetcdf file_;
   SweepRun recorded_;
+  ChecksumOfData checksum_;
+  GridNetcdf file_;
 };
 
 }  // namespace
@@ -91,7 +151,7 @@ SweepRun run_sweep(const SweepFile& sweep, const Provenance& provenance,
                              part.shown_files() + ", or remove both to start again",
                          ""}});
   }
-  const SweepRun begun = part.is_begun() ? part.read_record(sweep, provenance) : SweepRun{};
+  const SweepRecord begun = part.is_begun() ? part.read_record(sweep, provenance) : SweepRecord{};
   require_room(part, netcdf_bytes({sweep.grid, sweep.quantities, provenance, ""}));
   Sweeping sweeping(sweep, provenance, part, begun);
   const SweepRun run = sweeping.run(going_on);

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "closed_form/limit_cycle.hpp"
+#include "machine_faults.hpp"
 #include "output/columns.hpp"
 #include "output/output_file.hpp"
 #include "servo_options.hpp"
@@ -232,10 +233,11 @@ void add_thesis_extension(CLI::App& thesis, Action& action) {
       Progress progress("Extension " + options->number);
       const thesis::Extension extension = thesis::extension(
           std::stoi(options->number), [&](double share) { progress.show(share); });
-      write_file(file, draw_line_chart(extension.chart, format));
+      Extras extras;
+      extras.make([&] { write_file(file, draw_line_chart(extension.chart, format)); });
       write_file("-", wrapped(fmt::format("{}. {}", extension.number, extension.wish)) + "\n" +
                           wrapped(extension.lesson));
-      return ExitStatus::done;
+      return extras.status(ExitStatus::done);
     };
   });
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "machine_faults.hpp"
 #include "output/output_file.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
@@ -171,11 +172,12 @@ ExitStatus run_program(const RunOptions& options) {
     const PictureFormat format =
         options.plot.empty() ? PictureFormat::svg : picture_format("--plot", options.plot);
     const AllRuns runs = run_all(options.machine);
+    Extras extras;
     if (!options.plot.empty()) {
-      write_file(options.plot, draw_cell_map(error_map(runs.errors), format));
+      extras.make([&] { write_file(options.plot, draw_cell_map(error_map(runs.errors), format)); });
     }
     write_file("-", errors_text(runs.errors) + runs.effort);
-    return ExitStatus::done;
+    return extras.status(ExitStatus::done);
   }
   if (options.causes) {
     write_file("-", causes_text());

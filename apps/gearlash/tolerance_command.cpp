@@ -7,6 +7,7 @@
 
 #include "command.hpp"
 #include "input/target_text.hpp"
+#include "machine_faults.hpp"
 #include "output/output_file.hpp"
 #include "output/tolerance_data.hpp"
 #include "output/tolerance_report.hpp"
@@ -152,17 +153,17 @@ Task read_task(const ToleranceOptions& options, Faults& faults) {
       faults.add({"--target", "", "must say what --yield is to be a share of", ""});
     }
   }
-  std::vector<std::pair<std::string, std::string>> files = {{"SERVO.toml", options.file}};
+  std::vector<FileUse> outputs;
   for (const std::string& text : options.plots) {
     task.plots.push_back(faults.collect([&] { return read_plot(text); }, Plot{}));
-    files.emplace_back("--plot", task.plots.back().file);
+    outputs.push_back({"--plot", task.plots.back().file});
   }
   const auto ends_in = [&](const char* ending) { return options.output.ends_with(ending); };
   if (!options.output.empty() && !ends_in(".csv") && !ends_in(".json") && !ends_in(".nc")) {
     faults.add({"--output", shown(options.output), "must end in .csv, .json or .nc", ""});
   }
-  files.emplace_back("--output", options.output);
-  faults.require_distinct(files);
+  outputs.push_back({"--output", options.output});
+  faults.require_distinct({"SERVO.toml", options.file}, outputs);
   faults.require_none();
   if (file.varied.empty()) {
     throw InvalidInput(
@@ -202,12 +203,13 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
   report.worst = worst_corner(task.drive, task.worst_search,
                               begin("Worst piece", 2 * task.worst_search.starts, "climbs"));
   progress.reset();
-  if (!options.output.empty()) write_data(report, options.output);
+  Extras extras;
+  if (!options.output.empty()) extras.make([&] { write_data(report, options.output); });
   for (const Plot& plot : task.plots) {
-    write_file(plot.file, draw_tolerances(report, plot.picture, plot.format));
+    extras.make([&] { write_file(plot.file, draw_tolerances(report, plot.picture, plot.format)); });
   }
   write_file("-", options.format == "json" ? tolerance_json(report) : tolerance_text(report));
-  return ExitStatus::done;
+  return extras.status(ExitStatus::done);
 }
 
 }  // namespace

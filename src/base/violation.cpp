@@ -1,17 +1,24 @@
 #include "base/violation.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace gearlash {
 namespace {
 
+/// A file of a megabyte may have a hundred thousand faults.
+constexpr std::size_t most_lines = 100;
+
+/// One line a violation; beyond `most_lines` a last one that counts the others.
 std::string joined(const std::vector<Violation>& violations) {
   std::string text;
-  for (const Violation& violation : violations) {
-    if (!text.empty()) text += '\n';
-    text += to_string(violation);
+  const std::size_t count = std::min(violations.size(), most_lines);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i > 0) text += '\n';
+    text += to_string(violations[i]);
   }
-  return text;
+  if (count == violations.size()) return text;
+  return text + "\nand " + std::to_string(violations.size() - count) + " more";
 }
 
 }  // namespace

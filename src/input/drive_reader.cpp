@@ -314,7 +314,10 @@ class DriveReader {
   }
 
   void read_table(SectionReader& section, const Parameter& parameter, const std::string& file) {
-    if (file.empty()) return;
+    if (file.empty()) {
+      section.refuse(std::string(parameter.key()), "must be the name of a CSV file");
+      return;
+    }
     const bool is_reference = parameter.section() == "reference";
     std::optional<Signal>& signal = is_reference ? drive().reference : drive().load_torque;
     const Dimension& dimension = is_reference ? dimensions::angle : dimensions::torque;

@@ -4,6 +4,7 @@
 #include <libfccp/csv.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "input/text_file.hpp"
@@ -36,7 +37,9 @@ Column read_head(const std::string& place, const std::string& head, const Dimens
 }
 
 double read_cell(const std::string& place, const std::string& text, const Column& column) {
-  return read_number(place, text) * column.unit_in_si;
+  const double value = read_number(place, text) * column.unit_in_si;
+  if (!std::isfinite(value)) throw InvalidInput({{place, shown(text), "must be finite", ""}});
+  return value;
 }
 
 InvalidInput wrong_row(const std::string& name, int line, const std::string& found) {

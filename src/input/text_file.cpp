@@ -28,6 +28,10 @@ std::string read_text_file(const std::filesystem::path& path, std::size_t larges
   stream.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (stream.bad()) refuse_file(path, std::generic_category().message(errno));
   text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > largest) {
+    throw InvalidInput({{"file", shown(path.string(), std::string_view::npos),
+                         "must be at most " + std::to_string(largest) + " bytes long", ""}});
+  }
   return text;
 }
 

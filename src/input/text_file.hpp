@@ -7,9 +7,8 @@
 
 namespace gearlash {
 
-/// What the file holds, of which no more is read than one byte beyond `largest`: enough to tell
-/// that it is exceeded, of however endless a device. Throws InvalidInput for a file that is
-/// missing, unreadable or a directory.
+/// What the file holds. Throws InvalidInput for a file that is missing, unreadable, a directory, or
+/// longer than `largest` bytes, of which no more is read than that: it may be an endless device.
 std::string read_text_file(const std::filesystem::path& path, std::size_t largest);
 
 /// The same of standard input.

@@ -115,6 +115,16 @@ LinearController linear(const LinearController& controller) { return controller;
 
 // ---- checks -------------------------------------------------------------------------------------
 
+/// Work and memory grow with its cube, and coefficients of a higher order have lost their digits.
+constexpr std::size_t highest_order = 64;
+
+void expect_permitted_order(RangeCheck& check, const char* field, std::size_t order) {
+  if (order <= highest_order) return;
+  check.refuse(field, "of order " + std::to_string(order),
+               "must be of order " + std::to_string(highest_order) + " at most (order " +
+                   std::to_string(order) + ")");
+}
+
 void inspect(RangeCheck& check, const ProportionalDerivative& controller) {
   check.finite("proportional", controller.proportional);
   check.finite("derivative", controller.derivative);
@@ -147,6 +157,7 @@ void expect_proper(RangeCheck& check, const TransferFunction& function) {
   if (!faults.empty()) return;
   const std::size_t numerator = without_leading_zeros(function.numerator).size();
   const std::size_t denominator = without_leading_zeros(function.denominator).size();
+  expect_permitted_order(check, "denominator", denominator - 1);
   if (numerator > denominator) {
     check.refuse("numerator", "of degree " + std::to_string(numerator - 1),
                  "must be of no higher degree than the denominator (" +
@@ -185,6 +196,7 @@ void inspect(RangeCheck& check, const LinearController& controller) {
       expect_numbers(field, row);
     }
   };
+  expect_permitted_order(check, "state_matrix", order);
   expect_numbers("output", controller.output);
   expect_numbers("direct", controller.direct);
   expect_numbers("anti_windup", controller.anti_windup);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "analysis/grid/hunting_boundary.hpp"
 #include "output/grid_words.hpp"
@@ -104,6 +106,39 @@ class GridNetcdf::Layout {
     }
   }
 
+  /// Whether the file says of the grid what describe() wrote.
+  bool describes(const GridContents& contents) const {
+    for (const auto& [name, text] : attributes_of_file(contents)) {
+      const bool is_free = name == "history";  // the command may spell its files in another way
+      if (!is_free && file_.attribute_of_file(name) != text) return false;
+    }
+    return std::all_of(grid_.axes.begin(), grid_.axes.end(),
+                       [&](const Axis& axis) {
+                         std::vector<double> values(axis.values.size());
+                         file_.read(file_.variable(name_of(axis.input)), {0}, {values.size()},
+                                    values);
+                         return values == axis.values;
+                       }) &&
+           std::all_of(all_inputs.begin(), all_inputs.end(), [&](Input input) {
+             if (is_varied(grid_, input)) return true;
+             double value = 0.0;
+             file_.read(file_.variable(name_of(input)), {}, {}, std::span(&value, 1));
+             return value == grid_.servo.*field_of(input);
+           });
+  }
+
+  void read(std::size_t first, CycleTable& cycles) const {
+    const GridBox box = box_of(grid_, first, cycles.rows());
+    std::vector<signed char> flags(cycles.rows());
+    file_.read(verdict_, box.start, box.extent, flags);
+    std::transform(flags.begin(), flags.end(), cycles.verdict.begin(),
+                   [](signed char flag) { return static_cast<Verdict>(flag); });
+    for (std::size_t i = 0; i < quantities_.size(); ++i) {
+      file_.read(variables_[i], box.start, box.extent,
+                 cycles.values[static_cast<std::size_t>(quantities_[i])]);
+    }
+  }
+
   void write(const GridPiece& piece) {
     const CycleTable& cycles = piece.cycles;
     const GridBox box = box_of(grid_, piece.first, cycles.rows());
@@ -130,19 +165,26 @@ class GridNetcdf::Layout {
   NetcdfFile& file() { return file_; }
 
  private:
+  using Attributes = std::vector<std::pair<std::string, std::string>>;
+
+  Attributes attributes_of_file(const GridContents& contents) const {
+    Attributes attributes = {
+        {"Conventions", "CF-1.8"},
+        {"title", "Limit cycles of geared servos with backlash"},
+        {"source", "gearlash " + contents.provenance.version},
+        {"history", contents.provenance.command},
+        {"certainty", certainty_of(grid_)},
+        {"sensor", grid_.servo.sensor == ShaftName::load ? "load" : "motor"},
+        {"comment",
+         "Angles at the load shaft. Times, speeds and energies are normalised: undamped natural "
+         "frequency omega_n = 1, loop stiffness K = 1."}};
+    if (!contents.source_text.empty()) attributes.emplace_back("sweep", contents.source_text);
+    return attributes;
+  }
+
   void describe_file(const GridContents& contents) {
-    file_.set_attribute_of_file("Conventions", "CF-1.8");
-    file_.set_attribute_of_file("title", "Limit cycles of geared servos with backlash");
-    file_.set_attribute_of_file("source", "gearlash " + contents.provenance.version);
-    file_.set_attribute_of_file("history", contents.provenance.command);
-    file_.set_attribute_of_file("certainty", certainty_of(grid_));
-    file_.set_attribute_of_file("sensor", grid_.servo.sensor == ShaftName::load ? "load" : "motor");
-    file_.set_attribute_of_file(
-        "comment",
-        "Angles at the load shaft. Times, speeds and energies are normalised: undamped natural "
-        "frequency omega_n = 1, loop stiffness K = 1.");
-    if (!contents.source_text.empty()) {
-      file_.set_attribute_of_file("sweep", contents.source_text);
+    for (const auto& [name, text] : attributes_of_file(contents)) {
+      file_.set_attribute_of_file(name, text);
     }
   }
 
@@ -255,8 +297,13 @@ GridNetcdf GridNetcdf::reopen(const std::filesystem::path& path, const std::stri
                               const GridContents& contents) {
   auto layout = std::make_unique<Layout>(NetcdfFile::reopen(path, shown_name), contents);
   layout->find_variables();
+  if (!layout->describes(contents)) {
+    throw OutputError(shown_name + ": describes another grid than the one to go on with");
+  }
   return GridNetcdf(std::move(layout));
 }
+
+void GridNetcdf::read(std::size_t first, CycleTable& cycles) const { layout_->read(first, cycles); }
 
 void GridNetcdf::write(const GridPiece& piece) { layout_->write(piece); }
 void GridNetcdf::write_boundary(const std::vector<MapCurve>& boundary) {

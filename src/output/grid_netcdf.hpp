@@ -36,7 +36,8 @@ class GridNetcdf {
   /// A new file in which every value has its place and none is written yet.
   static GridNetcdf create(const std::filesystem::path& path, const std::string& shown_name,
                            const GridContents& contents);
-  /// A file that create() made of the same contents, to go on with.
+  /// A file that create() made of the same contents, to go on with. OutputError too where its
+  /// attributes, axes or inputs are not those of `contents`.
   static GridNetcdf reopen(const std::filesystem::path& path, const std::string& shown_name,
                            const GridContents& contents);
   ~GridNetcdf();
@@ -44,6 +45,9 @@ class GridNetcdf {
   GridNetcdf& operator=(GridNetcdf&& other) = delete;
 
   void write(const GridPiece& piece);
+  /// Of points that were written, from `first` on as many as the table has rows (a box of the
+  /// grid), what the file holds; the columns of other quantities stay.
+  void read(std::size_t first, CycleTable& cycles) const;
   /// Of a map, whose axes are y and x, once; no curve: nothing is written.
   void write_boundary(const std::vector<MapCurve>& boundary);
   /// Brings what was written to the disk (fsync).

@@ -58,7 +58,8 @@ GridCount evaluate_in_pieces(const ServoGrid& grid, std::size_t first, std::size
   const auto work_out = [&](std::size_t begin, CycleTable& table) {
     const std::size_t count = box_length(grid, begin, length.points());
     if (table.rows() != count) table = CycleTable(count);
-    return std::async(std::launch::async, [&, begin, count] {
+    // Where no thread can be had, the piece is worked out when it is asked for.
+    return std::async(std::launch::async | std::launch::deferred, [&, begin, count] {
       const Clock::time_point start = Clock::now();
       const GridCount solved = evaluate(
           grid, begin, count, table.columns(),

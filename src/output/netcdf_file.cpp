@@ -16,9 +16,11 @@ namespace {
 
 constexpr int closed = -1;
 
-/// "No space left on device", where the system said so, is clearer than "NetCDF: HDF error".
+/// "No space left on device", where the system said so, is clearer than "NetCDF: HDF error", and
+/// truer than "Permission denied", which stands for every file that HDF5 cannot make.
 [[noreturn]] void refuse(const std::string& shown_name, int status, int system_error) {
-  const std::string reason = status == NC_EHDFERR && system_error != 0
+  const bool is_of_the_system = status == NC_EHDFERR || status == EACCES;
+  const std::string reason = is_of_the_system && system_error != 0
                                  ? std::generic_category().message(system_error)
                                  : nc_strerror(status);
   throw OutputError(shown_name + ": cannot be written: " + reason);
@@ -132,6 +134,24 @@ void NetcdfFile::write(NetcdfVariable variable, const std::vector<std::size_t>& 
 void NetcdfFile::write(NetcdfVariable variable, const std::vector<std::size_t>& start,
                        const std::vector<std::size_t>& extent, std::span<const signed char> flags) {
   require(nc_put_vara_schar, variable, start.data(), extent.data(), flags.data());
+}
+
+void NetcdfFile::read(NetcdfVariable variable, const std::vector<std::size_t>& start,
+                      const std::vector<std::size_t>& extent, std::span<double> values) const {
+  require(nc_get_vara_double, variable, start.data(), extent.data(), values.data());
+}
+
+void NetcdfFile::read(NetcdfVariable variable, const std::vector<std::size_t>& start,
+                      const std::vector<std::size_t>& extent, std::span<signed char> flags) const {
+  require(nc_get_vara_schar, variable, start.data(), extent.data(), flags.data());
+}
+
+std::string NetcdfFile::attribute_of_file(const std::string& name) const {
+  std::size_t length = 0;
+  require(nc_inq_attlen, NC_GLOBAL, name.c_str(), &length);
+  std::string text(length, '\0');
+  require(nc_get_att_text, NC_GLOBAL, name.c_str(), text.data());
+  return text;
 }
 
 void NetcdfFile::begin_flush() const {

@@ -50,6 +50,13 @@ class NetcdfFile {
   void write(NetcdfVariable variable, const std::vector<std::size_t>& start,
              const std::vector<std::size_t>& extent, std::span<const signed char> flags);
 
+  // What was written, read back.
+  void read(NetcdfVariable variable, const std::vector<std::size_t>& start,
+            const std::vector<std::size_t>& extent, std::span<double> values) const;
+  void read(NetcdfVariable variable, const std::vector<std::size_t>& start,
+            const std::vector<std::size_t>& extent, std::span<signed char> flags) const;
+  std::string attribute_of_file(const std::string& name) const;
+
   /// Lets the system begin to bring to the disk what was written, and does not wait for it: what
   /// is left to flush(), or to another fsync, is then short. No more than an advice.
   void begin_flush() const;

@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "input/units.hpp"
+#include "output/file_safety.hpp"
 
 namespace gearlash {
 namespace {
@@ -78,6 +79,46 @@ mode_t permissions_of(const std::filesystem::path& target) {
   return 0666U & ~mask;
 }
 
+/// No other name is taken for that of a hidden file.
+std::string beginning_of_hidden(const std::filesystem::path& target) {
+  return "." + target.filename().string() + ".gearlash-";
+}
+constexpr std::string_view random_end = "XXXXXX";
+
+/// A hidden file that no program holds was left by one that was killed.
+void remove_if_left_behind(const std::filesystem::path& hidden) {
+  const int descriptor = open(hidden.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) return;
+  struct stat file {};
+  if (fstat(descriptor, &file) == 0 && S_ISREG(file.st_mode) &&
+      lock_file(descriptor) == FileLock::held) {
+    unlink(hidden.c_str());
+  }
+  close(descriptor);
+}
+
+void remove_left_behind(const std::filesystem::path& target) {
+  const std::string beginning = beginning_of_hidden(target);
+  const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  std::error_code error;
+  std::filesystem::directory_iterator entry(folder, error);
+  for (const std::filesystem::directory_iterator end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.starts_with(beginning) && name.size() == beginning.size() + random_end.size()) {
+      remove_if_left_behind(entry->path());
+    }
+  }
+}
+
+/// Whether a hidden file just made is this program's: another may have taken it for one left behind
+/// before it was locked.
+bool is_held(int descriptor) {
+  struct stat file {};
+  return lock_file(descriptor) != FileLock::elsewhere &&
+         (fstat(descriptor, &file) != 0 || file.st_nlink > 0);
+}
+
 }  // namespace
 
 void remove_unfinished_outputs() noexcept {
@@ -89,6 +130,17 @@ void remove_unfinished_outputs() noexcept {
 OutputFile::OutputFile(const std::filesystem::path& path)
     : shown_name_(path == "-" ? "standard output" : shown(path.string(), std::string::npos)) {
   buffer_.reserve(buffer_size);
+  try {
+    open_path(path);
+  } catch (...) {  // no destructor will run
+    abandon();
+    throw;
+  }
+}
+
+OutputFile::~OutputFile() { abandon(); }
+
+void OutputFile::open_path(const std::filesystem::path& path) {
   if (path.empty()) {
     errno = ENOENT;
     refuse("cannot be written");
@@ -104,8 +156,6 @@ OutputFile::OutputFile(const std::filesystem::path& path)
   }
 }
 
-OutputFile::~OutputFile() { abandon(); }
-
 void OutputFile::open_directly(const std::filesystem::path& path) {
   descriptor_ = open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (descriptor_ < 0) refuse("cannot be opened for writing");
@@ -114,7 +164,7 @@ void OutputFile::open_directly(const std::filesystem::path& path) {
 
 void OutputFile::open_beside(const std::filesystem::path& target) {
   const std::string hidden =
-      (target.parent_path() / ("." + target.filename().string() + ".XXXXXX")).string();
+      (target.parent_path() / (beginning_of_hidden(target) + std::string(random_end))).string();
   slot_ = claim_slot();
   if (slot_ < 0) throw OutputError(shown_name_ + ": too many files are being written at once");
   UnfinishedOutput& output = output_in(slot_);
@@ -122,16 +172,19 @@ void OutputFile::open_beside(const std::filesystem::path& target) {
     errno = ENAMETOOLONG;
     refuse("cannot be written");
   }
-  std::memcpy(output.name.data(), hidden.c_str(), hidden.size() + 1);
-  {
+  remove_left_behind(target);
+  do {
+    if (descriptor_ >= 0) close(descriptor_);
+    output.exists = false;
+    std::memcpy(output.name.data(), hidden.c_str(), hidden.size() + 1);
     const SignalsHeld held;
     descriptor_ = mkostemp(output.name.data(), O_CLOEXEC);
     output.exists = descriptor_ >= 0;
-  }
+  } while (descriptor_ >= 0 && !is_held(descriptor_));
   if (descriptor_ < 0) refuse("cannot be written");
   owns_descriptor_ = true;
   target_ = target;
-  if (fchmod(descriptor_, permissions_of(target)) != 0) refuse("cannot be written");
+  if (fchmod(descriptor_, permissions_of(target)) != 0) refuse("cannot be given its permissions");
 }
 
 void OutputFile::write(std::string_view text) {
@@ -174,6 +227,7 @@ void OutputFile::commit() {
   UnfinishedOutput& output = output_in(slot_);
   if (std::rename(output.name.data(), target_.c_str()) != 0) refuse("cannot be written");
   output.exists = false;
+  bring_name_to_disk(target_);
 }
 
 void OutputFile::refuse(const std::string& action) const {

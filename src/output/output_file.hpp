@@ -22,8 +22,9 @@ class ReaderGone : public std::runtime_error {
 };
 
 /// A file being written. Until commit() nothing is seen under its name: the text goes to a hidden
-/// file beside it (".NAME.XXXXXX"), which commit() brings to the disk (fsync) and then renames.
-/// Without commit() the hidden file is removed. An existing file keeps its permissions, and a
+/// file beside it (".NAME.gearlash-XXXXXX"), which commit() brings to the disk (fsync) and then
+/// renames. Without commit() the hidden file is removed; those that a killed program has left are
+/// removed by the next that writes the same file. An existing file keeps its permissions, and a
 /// symbolic link its place.
 ///
 /// "-" and everything that is no regular file (/dev/stdout, a pipe, a terminal, a device) is
@@ -48,6 +49,7 @@ class OutputFile {
   void commit();
 
  private:
+  void open_path(const std::filesystem::path& path);
   void open_directly(const std::filesystem::path& path);
   void open_beside(const std::filesystem::path& target);
   void flush();

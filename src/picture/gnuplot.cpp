@@ -1,12 +1,17 @@
 #include "picture/gnuplot.hpp"
 
+#include <fcntl.h>
 #include <spawn.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <string_view>
 #include <system_error>
@@ -25,30 +30,61 @@ namespace {
 struct FileCloser {
   void operator()(std::FILE* file) const { std::fclose(file); }  // NOLINT: owned by unique_ptr
 };
-using NamelessFile = std::unique_ptr<std::FILE, FileCloser>;
+using File = std::unique_ptr<std::FILE, FileCloser>;
 
-NamelessFile nameless_file() {
-  NamelessFile file(std::tmpfile());
-  if (!file) refuse("no temporary file: " + std::generic_category().message(errno));
+std::string system_message() { return std::generic_category().message(errno); }
+
+/// A file in `folder` that has no name, so that nothing is left of it.
+int open_nameless(const std::filesystem::path& folder) {
+#ifdef O_TMPFILE
+  const int descriptor = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR);
+  if (descriptor >= 0) return descriptor;
+#endif
+  std::string name = (folder / "gearlash-XXXXXX").string();
+  const int named = mkostemp(name.data(), O_CLOEXEC);
+  if (named >= 0) unlink(name.c_str());
+  return named;
+}
+
+File nameless_file() {
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  if (error) refuse("no folder for temporary files, see TMPDIR: " + error.message());
+  const int descriptor = open_nameless(folder);
+  File file(descriptor < 0 ? nullptr : fdopen(descriptor, "w+"));
+  if (!file) refuse("no temporary file in " + shown(folder.string()) + ": " + system_message());
   return file;
 }
 
 void fill(std::FILE* file, const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), file) != text.size() || std::fflush(file) != 0) {
-    refuse("its script cannot be written: " + std::generic_category().message(errno));
+    refuse("its script cannot be written: " + system_message());
   }
   std::rewind(file);
 }
 
 std::string contents(std::FILE* file) {
-  std::rewind(file);
   std::string text;
   std::vector<char> block(std::size_t{1} << 16U);
   while (const std::size_t count = std::fread(block.data(), 1, block.size(), file)) {
     text.append(block.data(), count);
   }
+  if (std::ferror(file) != 0) refuse("its picture cannot be read: " + system_message());
   return text;
 }
+
+struct Pipe {
+  File read_end;
+  File write_end;
+};
+
+Pipe open_pipe() {
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) refuse("no pipe: " + system_message());
+  return {File(fdopen(ends[0], "r")), File(fdopen(ends[1], "w"))};
+}
+
+// ---- the program --------------------------------------------------------------------------------
 
 /// This program's environment without what changes gnuplot's pictures or words.
 std::vector<std::string> plain_environment() {
@@ -91,12 +127,12 @@ class SpawnSetup {
 int exit_status_of(pid_t process) {
   int status = 0;
   while (waitpid(process, &status, 0) < 0) {
-    if (errno != EINTR) refuse("lost: " + std::generic_category().message(errno));
+    if (errno != EINTR) refuse("lost: " + system_message());
   }
   return status;
 }
 
-int spawn_and_wait(std::FILE* in, std::FILE* out, std::FILE* messages) {
+pid_t spawn(std::FILE* in, std::FILE* out, std::FILE* messages) {
   const SpawnSetup setup(in, out, messages);
   std::vector<std::string> variables = plain_environment();
   std::vector<char*> environment;
@@ -114,21 +150,46 @@ int spawn_and_wait(std::FILE* in, std::FILE* out, std::FILE* messages) {
     refuse("not found; pictures need it: apt-get install gnuplot-nox");
   }
   if (error != 0) refuse("cannot be started: " + std::generic_category().message(error));
-  return exit_status_of(process);
+  return process;
+}
+
+// ---- the picture --------------------------------------------------------------------------------
+
+/// gnuplot's exit status is 0 even where nothing that it wrote has arrived.
+bool is_whole(std::string_view picture) {
+  while (picture.ends_with('\n')) picture.remove_suffix(1);
+  if (picture.starts_with("<?xml")) return picture.ends_with("</svg>");
+  if (picture.starts_with("%PDF-")) return picture.ends_with("%%EOF");
+  return picture.starts_with("\x89PNG") && picture.ends_with("IEND\xAE\x42\x60\x82");
+}
+
+/// The same picture has the same bytes. Blanks keep all else of a PDF at its offset.
+void blank_time_of_day(std::string& picture) {
+  if (!picture.starts_with("%PDF-")) return;
+  const std::size_t begin = picture.rfind("/CreationDate (D:");
+  const std::size_t end = begin == std::string::npos ? begin : picture.find(')', begin);
+  if (end != std::string::npos) picture.replace(begin, end + 1 - begin, end + 1 - begin, ' ');
 }
 
 }  // namespace
 
 std::string run_gnuplot(const std::string& script) {
-  const NamelessFile in = nameless_file();
-  const NamelessFile out = nameless_file();
-  const NamelessFile messages = nameless_file();
+  const File in = nameless_file();
+  const File messages = nameless_file();
   fill(in.get(), script);
-  const int status = spawn_and_wait(in.get(), out.get(), messages.get());
-  std::string picture = contents(out.get());
-  if (status != 0 || picture.empty()) {
-    refuse("drew nothing: " + shown(contents(messages.get()), 200));
-  }
+  Pipe out = open_pipe();
+  const pid_t process = spawn(in.get(), out.write_end.get(), messages.get());
+  out.write_end.reset();  // so that the pipe ends with gnuplot
+  std::string picture = contents(out.read_end.get());
+  const int status = exit_status_of(process);
+  std::rewind(messages.get());
+  const auto with_reason = [&](const std::string& fault) {
+    const std::string said = contents(messages.get());
+    return said.empty() ? fault : fault + ": " + shown(said, 200);
+  };
+  if (status != 0 || picture.empty()) refuse(with_reason("drew nothing"));
+  if (!is_whole(picture)) refuse(with_reason("drew part of the picture alone"));
+  blank_time_of_day(picture);
   return picture;
 }
 

@@ -33,20 +33,20 @@ TEST(OutputFiles, HoldWhatStandardOutputWould) {
 TEST(OutputFiles, DirectoryThatIsNotThere) {
   const Scratch scratch;
   const Outcome run = run_tool(simulate_into(scratch / "missing" / "table.csv"));
-  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.status, 3);
   EXPECT_THAT(run.err, HasSubstr("missing/table.csv: cannot be written: No such file"));
   EXPECT_EQ(run.out, "");
 }
 
 TEST(OutputFiles, FullDisk) {
   const Outcome table = run_tool(simulate_into("/dev/full"));
-  EXPECT_EQ(table.status, 2);
+  EXPECT_EQ(table.status, 3);
   EXPECT_EQ(table.err, "gearlash: /dev/full: cannot be written: No space left on device\n");
   for (const char* arguments :
        {"limit-cycle examples/elinco-fd162.toml", "motor examples/elinco-fd162.toml",
         "simulate examples/elinco-fd162.toml", "--help", "--version"}) {
     const Outcome run = run_shell(std::string("\"$GEARLASH\" ") + arguments + " > /dev/full");
-    EXPECT_EQ(run.status, 2) << arguments;
+    EXPECT_EQ(run.status, 3) << arguments;
     EXPECT_EQ(run.err, "gearlash: standard output: cannot be written: No space left on device\n");
   }
 }
@@ -59,7 +59,7 @@ TEST(OutputFiles, AFailureLeavesTheOldFileAndNothingElse) {
       "ulimit -f 1; \"$GEARLASH\" simulate examples/elinco-fd162.toml "
       "--output " +
       quoted((scratch / "table.csv").string()));
-  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.status, 3);
   EXPECT_THAT(run.err, HasSubstr("table.csv: cannot be written: File too large"));
   EXPECT_EQ(file_text(scratch / "table.csv"), "old");
   EXPECT_EQ(scratch.file_count(), 1U);
@@ -152,9 +152,10 @@ TEST(OutputFiles, MissingGnuplotIsNamedWithItsPackage) {
   const Outcome run = run_shell("PATH=" + quoted((scratch / "").string()) +
                                 " \"$GEARLASH\" limit-cycle examples/elinco-fd162.toml --plot " +
                                 quoted((scratch / "a.svg").string()));
-  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.status, 3);
   EXPECT_EQ(run.err,
             "gearlash: gnuplot: not found; pictures need it: apt-get install gnuplot-nox\n");
+  EXPECT_THAT(run.out, StartsWith("hunts: ±0.0819 rad"));
   EXPECT_EQ(scratch.file_count(), 0U);
 }
 
@@ -192,6 +193,123 @@ TEST(OutputFiles, NoneMayTakeThePlaceOfAnother) {
   EXPECT_THAT(run.err, HasSubstr("--plot = " + picture + ": must not be the file of --plot"));
   EXPECT_EQ(file_text(sheet), file_text(GEARLASH_SOURCE_DIRECTORY "/examples/elinco-fd162.toml"));
   EXPECT_EQ(scratch.file_count(), 1U);
+}
+
+/// A drive that follows the table move.csv beside it.
+void write_drive_with_table(const Scratch& scratch) {
+  std::ofstream(scratch / "drive.toml")
+      << file_text(GEARLASH_SOURCE_DIRECTORY "/examples/elinco-fd162.toml")
+      << "\n[reference]\nkind = \"table\"\nfile = \"move.csv\"\n";
+  std::ofstream(scratch / "move.csv") << "time (s),position (deg)\n0,0\n1,20\n";
+}
+
+TEST(OutputFiles, NoneMayTakeThePlaceOfATableThatTheDriveNames) {
+  const Scratch scratch;
+  write_drive_with_table(scratch);
+  const std::string table = file_text(scratch / "move.csv");
+  for (const char* spelling : {"move.csv", "./move.csv", "link.csv", "hard.csv"}) {
+    std::filesystem::remove(scratch / "link.csv");
+    std::filesystem::remove(scratch / "hard.csv");
+    std::filesystem::create_symlink("move.csv", scratch / "link.csv");
+    std::filesystem::create_hard_link(scratch / "move.csv", scratch / "hard.csv");
+    const Outcome run = run_shell("cd " + quoted((scratch / "").string()) +
+                                  "; \"$GEARLASH\" simulate drive.toml --output " + spelling);
+    EXPECT_EQ(run.status, 2) << spelling;
+    EXPECT_EQ(run.err, std::string("gearlash: --output = ") + spelling +
+                           ": must not be the file of reference.file, move.csv\n");
+    EXPECT_EQ(file_text(scratch / "move.csv"), table);
+  }
+}
+
+TEST(OutputFiles, AnInputThatIsAPipeIsReadOnce) {
+  const Outcome run =
+      run_shell("cat examples/elinco-fd162.toml | \"$GEARLASH\" limit-cycle /dev/stdin");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, StartsWith("hunts: "));
+}
+
+TEST(OutputFiles, TwoSpellingsOfANewFileAreOneFile) {
+  const Scratch scratch;
+  const Outcome run =
+      run_shell("sheet=$PWD/examples/elinco-fd162.toml; cd " + quoted((scratch / "").string()) +
+                "; \"$GEARLASH\" simulate \"$sheet\" --plot time=new.svg --plot phase=./new.svg");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.err, "gearlash: --plot = ./new.svg: must not be the file of --plot, new.svg\n");
+  EXPECT_EQ(scratch.file_count(), 0U);
+}
+
+TEST(OutputFiles, APartOfAPictureDoesNotReplaceAWholeOne) {
+  const Scratch scratch;
+  std::ofstream(scratch / "gnuplot") << "#!/bin/sh\nprintf '<?xml version=\"1.0\"?>\\n<svg>'\n";
+  std::filesystem::permissions(scratch / "gnuplot", std::filesystem::perms(0755));
+  std::ofstream(scratch / "a.svg") << "old";
+  const Outcome run =
+      run_shell("PATH=" + quoted((scratch / "").string()) +
+                ":$PATH \"$GEARLASH\" limit-cycle examples/elinco-fd162.toml --plot " +
+                quoted((scratch / "a.svg").string()));
+  EXPECT_EQ(run.status, 3);
+  EXPECT_EQ(run.err, "gearlash: gnuplot: drew part of the picture alone\n");
+  EXPECT_THAT(run.out, StartsWith("hunts: "));
+  EXPECT_EQ(file_text(scratch / "a.svg"), "old");
+  EXPECT_EQ(scratch.file_count(), 2U);
+}
+
+TEST(OutputFiles, WhatSigkillLeavesIsRemovedByTheNextRun) {
+  const Scratch scratch;
+  const std::string table = quoted((scratch / "table.csv").string());
+  const Outcome run = run_shell(
+      "set -m; \"$GEARLASH\" simulate examples/elinco-fd162.toml --until 1 --every 1.1e-7 "
+      "--output " +
+      table + " & tool=$!\nuntil ls -A " + quoted((scratch / "").string()) +
+      " | grep -q . || ! kill -0 $tool; do :; done\nkill -KILL $tool; wait $tool");
+  EXPECT_EQ(run.status, 137) << run.err;
+  EXPECT_EQ(scratch.file_count(), 1U);
+  EXPECT_EQ(run_tool(simulate_into(scratch / "table.csv")).status, 0);
+  EXPECT_EQ(scratch.file_count(), 1U);
+  EXPECT_THAT(file_text(scratch / "table.csv"), StartsWith("# gearlash "));
+}
+
+/// A line for bash in which the folder `full` of `scratch` is a disk without room.
+std::string on_a_full_disk(const Scratch& scratch, const std::string& line) {
+  std::ofstream(scratch / "line") << "mount -t tmpfs -o size=8k none \"$FULL\" || exit 99\n"
+                                     "dd if=/dev/zero of=\"$FULL/filling\" bs=1k count=8 2>&-\n"
+                                  << line << "\n";
+  std::filesystem::create_directory(scratch / "full");
+  return "export GEARLASH; export FULL=" + quoted((scratch / "full").string()) +
+         "; unshare --user --map-root-user --mount bash " + quoted((scratch / "line").string()) +
+         " || exit";
+}
+
+TEST(OutputFiles, AFullDiskIsCalledSo) {
+  const Scratch scratch;
+  if (run_shell(on_a_full_disk(scratch, "true")).status != 0) {
+    GTEST_SKIP() << "no disk of one's own can be mounted here";
+  }
+  const Scratch own;
+  const Outcome tolerances = run_shell(on_a_full_disk(
+      own,
+      "\"$GEARLASH\" tolerance examples/toleranced.toml --samples 32 --output $FULL/a.nc\n"
+      "status=$?; ls -A $FULL; exit $status"));
+  EXPECT_EQ(tolerances.status, 3);
+  EXPECT_THAT(tolerances.err,
+              testing::EndsWith("a.nc: cannot be written: No space left on device\n"));
+  EXPECT_THAT(tolerances.out, testing::EndsWith("\nfilling\n"));
+}
+
+TEST(OutputFiles, AFullFolderForTemporaryFilesKeepsTheOldPicture) {
+  const Scratch scratch;
+  if (run_shell(on_a_full_disk(scratch, "true")).status != 0) {
+    GTEST_SKIP() << "no disk of one's own can be mounted here";
+  }
+  const Scratch own;
+  std::ofstream(own / "a.svg") << "old";
+  const Outcome run = run_shell(on_a_full_disk(
+      own, "TMPDIR=$FULL \"$GEARLASH\" limit-cycle examples/elinco-fd162.toml --plot " +
+               quoted((own / "a.svg").string())));
+  EXPECT_EQ(run.status, 3);
+  EXPECT_EQ(run.err, "gearlash: gnuplot: its script cannot be written: No space left on device\n");
+  EXPECT_THAT(run.out, StartsWith("hunts: "));
+  EXPECT_EQ(file_text(own / "a.svg"), "old");
 }
 
 TEST(OutputFiles, ADeviceIsWrittenTo) {

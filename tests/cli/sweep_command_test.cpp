@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "tool.hpp"
@@ -79,6 +81,23 @@ TEST(SweepCommand, CtrlCKeepsWhatIsDone) {
   EXPECT_LT(record["points_done"], 400);
 }
 
+/// Stopped at once, as a rule before its first piece is done.
+TEST(SweepCommand, WhatItSaysOfItsFilesIsTrueWheneverItIsStopped) {
+  const Scratch scratch;
+  write(scratch / "sweep.toml", long_sweep);
+  const Outcome run =
+      run_shell(in_folder(scratch,
+                          "\"$GEARLASH\" sweep sweep.toml --output a.nc & tool=$!\n"
+                          "until [ -e a.nc.part.json ] || ! kill -0 $tool; do :; done\n"
+                          "kill -TERM $tool; wait $tool; echo status $?; ls\n"));
+  EXPECT_THAT(run.out, HasSubstr("status 143\n")) << run.err;
+  const bool has_files = std::filesystem::exists(scratch / "a.nc.part");
+  EXPECT_EQ(std::filesystem::exists(scratch / "a.nc.part.json"), has_files);
+  EXPECT_THAT(run.err, HasSubstr(has_files ? " of 400 servos, which a.nc.part holds: --resume"
+                                           : "stopped before any of 400 servos was done: there is "
+                                             "nothing to resume\n"));
+}
+
 TEST(SweepCommand, ResumesOnlyTheSameSweep) {
   const Scratch scratch;
   write(scratch / "sweep.toml", long_sweep);
@@ -89,16 +108,118 @@ TEST(SweepCommand, ResumesOnlyTheSameSweep) {
   EXPECT_EQ(run_shell(resume).err,
             "gearlash: --resume = a.nc.part and a.nc.part.json: must be of the same sweep file; "
             "remove both to start again\n");
-  write(scratch / "a.nc.part.json", "{}");
-  EXPECT_THAT(run_shell(resume).err, HasSubstr("must say how far the sweep has come; remove both"));
 }
 
-TEST(SweepCommand, ARecordThatMakesNoSenseIsRefused) {
+/// What `gearlash sweep sweep.toml --output a.nc` and the options says, and with which status.
+Outcome sweep_in(const Scratch& scratch, const std::string& options = "") {
+  return run_shell(in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.nc " + options));
+}
+
+TEST(SweepCommand, FilesOfOthersAreRefusedAndLeftAlone) {
+  for (const std::string name : {"a.nc.part", "a.nc.part.json"}) {
+    for (const std::string contents : {"not ours", "{}", "{\"kind\": 1}"}) {
+      const Scratch scratch;
+      write(scratch / "sweep.toml", long_sweep);
+      write(scratch / name, contents);
+      for (const char* options : {"", "--resume"}) {
+        const Outcome run = sweep_in(scratch, options);
+        EXPECT_EQ(run.status, 2);
+        EXPECT_EQ(run.err,
+                  "gearlash: --output = a.nc: must have no file beside it that no sweep has "
+                  "left: " +
+                      name + " is left alone; rename it, or remove it to start again\n");
+        EXPECT_EQ(file_text(scratch / name), contents);
+        EXPECT_EQ(scratch.file_count(), 2U);
+      }
+    }
+  }
+}
+
+TEST(SweepCommand, ASymbolicLinkIsNotFollowed) {
+  for (const char* name : {"a.nc.part", "a.nc.part.json"}) {
+    const Scratch scratch;
+    write(scratch / "sweep.toml", long_sweep);
+    write(scratch / "precious", "precious");
+    std::filesystem::create_symlink("precious", scratch / name);
+    EXPECT_EQ(sweep_in(scratch).status, 2);
+    EXPECT_EQ(sweep_in(scratch, "--resume").status, 2);
+    EXPECT_EQ(file_text(scratch / "precious"), "precious");
+    EXPECT_TRUE(std::filesystem::is_symlink(scratch / name));
+    EXPECT_EQ(scratch.file_count(), 3U);
+  }
+}
+
+TEST(SweepCommand, ItsInputIsNoUnfinishedFile) {
+  const Scratch scratch;
+  for (const std::string name : {"a.nc.part", "a.nc.part.json"}) {
+    write(scratch / name, long_sweep);
+    const Outcome run =
+        run_shell(in_folder(scratch, "\"$GEARLASH\" sweep " + name + " --output ./a.nc"));
+    EXPECT_EQ(run.status, 2);
+    EXPECT_THAT(run.err, HasSubstr("--output, while unfinished = "));
+    EXPECT_THAT(run.err, HasSubstr(": must not be the file of SWEEP.toml, " + name + "\n"));
+    EXPECT_EQ(file_text(scratch / name), long_sweep);
+    std::filesystem::remove(scratch / name);
+  }
+}
+
+/// Restitution from 0.3 on in place of 0.1: values of the same kind, all others.
+TEST(SweepCommand, DataOfAnotherSweepAreNotGoneOnWith) {
+  const Scratch scratch;
+  const Scratch other;
+  write(scratch / "sweep.toml", long_sweep);
+  run_shell(in_folder(scratch, interrupted("KILL", "")));
+  std::string text = long_sweep;
+  text.replace(text.find("0.1:0.3:5"), 9, "0.3:0.5:5");
+  write(other / "sweep.toml", text);
+  run_shell(in_folder(other, interrupted("KILL", "")));
+  std::filesystem::copy_file(other / "a.nc.part", scratch / "a.nc.part",
+                             std::filesystem::copy_options::overwrite_existing);
+  const Outcome run = sweep_in(scratch, "--resume");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.err,
+            "gearlash: --resume = a.nc.part and a.nc.part.json: must be the whole files that an "
+            "unfinished sweep leaves; remove both to start again\n");
+}
+
+TEST(SweepCommand, AFlippedBitIsSeen) {
   const Scratch scratch;
   write(scratch / "sweep.toml", long_sweep);
   run_shell(in_folder(scratch, interrupted("KILL", "")));
-  const auto record = nlohmann::json::parse(file_text(scratch / "a.nc.part.json"));
-  for (const int points : {-5, 401}) {
+  std::string data = file_text(scratch / "a.nc.part");
+  const std::string record = file_text(scratch / "a.nc.part.json");
+  // Growth at rest of the first servo, in the last bit: what a resumed run finds for it.
+  const Outcome dump = run_shell(
+      in_folder(scratch,
+                "cp a.nc.part b.nc; /usr/bin/python3 -c \"import xarray; "
+                "print(xarray.open_dataset('b.nc')['growth_at_rest'].values.flat[0].hex())\""));
+  ASSERT_EQ(dump.status, 0) << dump.err;
+  const double growth = std::strtod(dump.out.c_str(), nullptr);
+  std::string bytes(sizeof(growth), '\0');
+  std::memcpy(bytes.data(), &growth, sizeof(growth));
+  const std::size_t place = data.find(bytes);
+  ASSERT_NE(place, std::string::npos);
+  data[place] = static_cast<char>(data[place] ^ 1);
+  write(scratch / "a.nc.part", data);
+  const Outcome run = sweep_in(scratch, "--resume");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.err,
+            "gearlash: --resume = a.nc.part and a.nc.part.json: must be as the sweep left them; "
+            "remove both to start again\n");
+  data[place] = static_cast<char>(data[place] ^ 1);
+  write(scratch / "a.nc.part", data);
+  EXPECT_EQ(file_text(scratch / "a.nc.part.json"), record);
+  EXPECT_EQ(sweep_in(scratch, "--resume").status, 0);
+}
+
+TEST(SweepCommand, AnEditedRecordIsRefused) {
+  const Scratch scratch;
+  write(scratch / "sweep.toml", long_sweep);
+  run_shell(in_folder(scratch, interrupted("KILL", "")));
+  const std::string written = file_text(scratch / "a.nc.part.json");
+  const auto record = nlohmann::ordered_json::parse(written);
+  const int done = record["points_done"];
+  for (const int points : {-5, 401, done - 2}) {
     auto other = record;
     other["points_done"] = points;
     other["one_by_one"] = points;
@@ -106,9 +227,9 @@ TEST(SweepCommand, ARecordThatMakesNoSenseIsRefused) {
     const Outcome run =
         run_shell(in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.nc --resume"));
     EXPECT_EQ(run.status, 2) << points;
-    EXPECT_THAT(run.err, HasSubstr("must say how far the sweep has come; remove both"));
+    EXPECT_THAT(run.err, HasSubstr("must be as the sweep left them; remove both"));
   }
-  write(scratch / "a.nc.part.json", record.dump());
+  write(scratch / "a.nc.part.json", written);
   write(scratch / "a.nc.part", "garbage");
   const Outcome run =
       run_shell(in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.nc --resume"));
@@ -128,7 +249,7 @@ TEST(SweepCommand, TheRecordOfAnEarlierSweepIsNotTakenForThatOfANewOne) {
   // The new sweep can make its data, and cannot make a record of its own.
   const Outcome run = run_shell(
       in_folder(scratch, "ulimit -f 1; \"$GEARLASH\" sweep sweep.toml --output a.nc --resume"));
-  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.status, 3);
   EXPECT_FALSE(std::filesystem::exists(scratch / "a.nc.part.json"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "a.nc.part"));
 }
@@ -203,7 +324,7 @@ TEST(SweepCommand, TellsBeforehandThatTheDiskIsTooSmall) {
         "[sweep]\naxes = [\"damping=0.1:0.6:1000000\", \"friction-ratio=0:1:10000\"]\n"
         "[servo]\ninertia_ratio = 1\n");
   const Outcome run = run_shell(in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.nc"));
-  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.status, 3);
   EXPECT_THAT(run.err, HasSubstr("a.nc: cannot be written: 970 GB are wanting, "));
   EXPECT_EQ(scratch.file_count(), 1U);
 }
@@ -215,7 +336,7 @@ TEST(SweepCommand, AFullDiskKeepsWhatIsDone) {
         "[servo]\ninertia_ratio = 1\n");
   const Outcome run =
       run_shell(in_folder(scratch, "ulimit -f 1000; \"$GEARLASH\" sweep sweep.toml --output a.nc"));
-  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.status, 3);
   EXPECT_EQ(run.err, "gearlash: a.nc: cannot be written: File too large\n");
   EXPECT_FALSE(std::filesystem::exists(scratch / "a.nc"));
   const Outcome again =

@@ -81,6 +81,16 @@ inline Outcome run_tool(const std::vector<std::string>& arguments) {
   return run_shell(line);
 }
 
+/// Sanitizers reserve terabytes of addresses, so that `ulimit -v` ends the program at its start.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool may_limit_memory = false;
+#elif defined(__has_feature)
+inline constexpr bool may_limit_memory =
+    !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer);
+#else
+inline constexpr bool may_limit_memory = true;
+#endif
+
 /// The options of the thesis's sample problem as its charts are entered.
 inline std::vector<std::string> with_sample_servo(std::vector<std::string> arguments) {
   for (const char* option : {"--damping", "0.19", "--inertia-ratio", "2", "--friction-ratio",

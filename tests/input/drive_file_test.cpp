@@ -262,8 +262,25 @@ TEST_F(DriveFileTable, EdgeFaultsNameTheLine) {
               ElementsAre(HasSubstr("move.csv:2: row = more than two columns: must have two")));
   EXPECT_THAT(refusals_of("time (s),position (deg)\n"), ElementsAre(HasSubstr("without rows")));
   EXPECT_THAT(refusals_of(""), ElementsAre(HasSubstr("an empty table")));
+  EXPECT_THAT(refusals_of("time (s),position (deg)\n0,0\n1,inf\n2,1\n"),
+              ElementsAre(HasSubstr("move.csv:3: value = inf: must be finite")));
   std::filesystem::remove(folder_ / "move.csv");
   EXPECT_THAT(refusals(text_, folder_), ElementsAre(HasSubstr("move.csv")));
+}
+
+TEST_F(DriveFileTable, EdgeATooLongOneIsRefusedNotCut) {
+  constexpr std::size_t largest = 64 * 1024 * 1024;
+  std::string table = "time (s),position (deg)\n0,0\n#";
+  table.resize(largest - 4, '-');
+  // Cut at the limit it would end in "1,2".
+  EXPECT_THAT(refusals_of(table + "\n1,20\n"),
+              ElementsAre(HasSubstr("reference.file = move.csv: must be at most 67108864 bytes")));
+}
+
+TEST_F(DriveFileTable, EdgeANameIsNeeded) {
+  EXPECT_THAT(
+      refusals(replaced(text_, "\"move.csv\"", "\"\""), folder_),
+      ElementsAre(HasSubstr("18:8: reference.file = \"\": must be the name of a CSV file")));
 }
 
 // ---- faults -------------------------------------------------------------------------------------
@@ -294,6 +311,11 @@ TEST(EdgeDriveFile, ControllersThatNothingCanBeGetALine) {
                     controller + more);
   };
   const std::string sampling = "[sampling]\nperiod = \"10 ms\"\n";
+  std::string many = "1";
+  for (int i = 0; i < 65; ++i) many += ", 1";
+  EXPECT_THAT(refusal("num = [1]\nden = [" + many + "]\n"),
+              ElementsAre(::testing::AllOf(HasSubstr("controller.den = [1, 1, "),
+                                           HasSubstr(": must be of order 64 at most (order 65)"))));
   EXPECT_THAT(refusal("num = [1, 0, 0]\nden = [1, 1]\n"),
               ElementsAre(HasSubstr("controller.num = [1, 0, 0]: must be of no higher degree")));
   EXPECT_THAT(refusal("num = [1]\nden = [1, -2]\nvariable = \"z\"\n", sampling),

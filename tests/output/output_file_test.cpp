@@ -1,21 +1,53 @@
 // Files that appear whole or not at all.
 #include "output/output_file.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 namespace gearlash {
 namespace {
 
 using testing::HasSubstr;
+
+bool refuses_permissions = false;
+std::vector<std::string> synced;  ///< what fsync was asked for
+
+}  // namespace
+}  // namespace gearlash
+
+// In place of the system's own.
+extern "C" int fchmod(int descriptor, mode_t mode) noexcept {
+  if (!gearlash::refuses_permissions) {
+    return static_cast<int>(syscall(SYS_fchmod, descriptor, mode));
+  }
+  errno = EPERM;
+  return -1;
+}
+
+extern "C" int fsync(int descriptor) {
+  struct stat file {};
+  fstat(descriptor, &file);
+  const bool has_a = faccessat(descriptor, "a", F_OK, 0) == 0;
+  gearlash::synced.emplace_back(!S_ISDIR(file.st_mode) ? "file"
+                                : has_a                ? "folder with a"
+                                                       : "folder");
+  return static_cast<int>(syscall(SYS_fsync, descriptor));
+}
+
+namespace gearlash {
+namespace {
 
 class OutputFiles : public testing::Test {
  protected:
@@ -69,6 +101,45 @@ TEST_F(OutputFiles, UnfinishedOnesAreRemovedOnDemand) {
   EXPECT_EQ(count(), 2);
   remove_unfinished_outputs();
   EXPECT_EQ(count(), 0);
+}
+
+/// As SIGKILL leaves them: no process has them open.
+TEST_F(OutputFiles, WhatAKilledProgramLeftIsRemovedByTheNext) {
+  const auto make = [&](const char* name) { std::ofstream(folder_ / name) << "x"; };
+  make(".a.gearlash-Abc123");
+  make(".b.gearlash-Abc123");  // of another file
+  make(".a.gearlash-notes");   // the user's own
+  make(".a.backup");
+  OutputFile under_way(folder_ / "a");
+  EXPECT_EQ(count(), 4);
+  write_file(folder_ / "a", "new");
+  EXPECT_EQ(count(), 5) << "the file under way must stay";
+  EXPECT_FALSE(std::filesystem::exists(folder_ / ".a.gearlash-Abc123"));
+  under_way.write("newer");
+  under_way.commit();
+  EXPECT_EQ(text("a"), "newer");
+  EXPECT_EQ(count(), 4);
+}
+
+TEST_F(OutputFiles, RefusedPermissionsLeaveNothing) {
+  refuses_permissions = true;
+  std::string refusal;
+  for (int i = 0; i < 20; ++i) {  // nor is a place in the list of unfinished files lost
+    try {
+      write_file(folder_ / "a", "x");
+    } catch (const OutputError& error) {
+      refusal = error.what();
+    }
+  }
+  refuses_permissions = false;
+  EXPECT_THAT(refusal, HasSubstr("cannot be given its permissions: Operation not permitted"));
+  EXPECT_EQ(count(), 0);
+}
+
+TEST_F(OutputFiles, TheFolderIsBroughtToTheDiskAfterTheFile) {
+  synced.clear();
+  write_file(folder_ / "a", "x");
+  EXPECT_THAT(synced, testing::ElementsAre("file", "folder with a"));
 }
 
 TEST_F(OutputFiles, ManyInTurn) {

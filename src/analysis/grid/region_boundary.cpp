@@ -1,7 +1,5 @@
 #include "analysis/grid/region_boundary.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <unordered_map>
 
 #include "analysis/grid/side_bisection.hpp"
+#include "base/on_threads.hpp"
 
 namespace gearlash {
 namespace {
@@ -141,8 +140,7 @@ void BoundaryFinder::locate_edges() {
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   std::vector<std::optional<MapPoint>> places(edges.size());
-  tbb::parallel_for(std::size_t{0}, edges.size(),
-                    [&](std::size_t i) { places[i] = on_edge(edges[i]); });
+  on_threads(0, edges.size(), [&](std::size_t i) { places[i] = on_edge(edges[i]); });
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (places[i]) points_.emplace(edges[i], *places[i]);
   }
@@ -198,7 +196,7 @@ std::vector<MapCurve> BoundaryFinder::joined() const {
 
 MapCurve BoundaryFinder::refined(const MapCurve& curve) const {
   std::vector<MapCurve> inserted(curve.size() - 1);
-  tbb::parallel_for(std::size_t{0}, inserted.size(), [&](std::size_t i) {
+  on_threads(0, inserted.size(), [&](std::size_t i) {
     divide(place_of(curve[i]), place_of(curve[i + 1]), inserted[i]);
   });
   MapCurve fine;

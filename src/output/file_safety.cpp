@@ -1,0 +1,31 @@
+#include "output/file_safety.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+namespace gearlash {
+
+FileLock lock_file(int descriptor) {
+#ifdef F_OFD_SETLK
+  struct flock whole {};
+  whole.l_type = F_WRLCK;
+  whole.l_whence = SEEK_SET;
+  if (fcntl(descriptor, F_OFD_SETLK, &whole) == 0) return FileLock::held;
+  if (errno == EAGAIN || errno == EACCES) return FileLock::elsewhere;
+#else
+  static_cast<void>(descriptor);
+#endif
+  return FileLock::unknown;
+}
+
+void bring_name_to_disk(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  static_cast<void>(fsync(descriptor));
+  close(descriptor);
+}
+
+}  // namespace gearlash

@@ -1,0 +1,129 @@
+// Exit status 3: what the machine could not do withholds nothing that it could.
+#include <gmock/gmock.h>
+
+#include "tool.hpp"
+
+namespace gearlash {
+namespace {
+
+using test::file_text;
+using test::Outcome;
+using test::quoted;
+using test::run_shell;
+using test::run_tool;
+using test::Scratch;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// A line for bash in which there is no gnuplot.
+std::string without_gnuplot(const Scratch& scratch, const std::string& line) {
+  return "PATH=" + quoted((scratch / "").string()) + "\n" + line;
+}
+
+constexpr char no_gnuplot[] =
+    "gearlash: gnuplot: not found; pictures need it: apt-get install gnuplot-nox\n";
+
+TEST(ExitStatus, ThreeForAPictureThatFailsWhoseAnswerIsPrinted) {
+  const Scratch scratch;
+  const std::string sheet = " examples/elinco-fd162.toml";
+  const std::string plot = quoted((scratch / "a.svg").string());
+  for (const auto& [command, answer] :
+       {std::pair("limit-cycle" + sheet + " --plot " + plot, "hunts: "),
+        std::pair("limit-cycle examples/robot-joint.toml --plot " + plot, "hunts irregularly"),
+        std::pair("describe" + sheet + " --plot nyquist=" + plot, "exact: hunts"),
+        std::pair("compare" + sheet + " --sensor load --plot time=" + plot, "  sensor on"),
+        std::pair("simulate" + sheet + " --plot phase=" + plot, "# gearlash "),
+        std::pair("simulate examples/robot-joint.toml --plot time=" + plot, "# gearlash "),
+        std::pair("design" + sheet +
+                      " --target no-hunting --vary error_gain,load_friction --plot " + plot,
+                  "target: ")}) {
+    const Outcome run = run_shell(without_gnuplot(scratch, "\"$GEARLASH\" " + command));
+    EXPECT_EQ(run.status, 3) << command;
+    EXPECT_THAT(run.out, StartsWith(answer)) << command;
+    EXPECT_EQ(run.err, no_gnuplot) << command;
+  }
+  EXPECT_EQ(scratch.file_count(), 0U);
+}
+
+TEST(ExitStatus, ThreeForDataThatCannotBeWrittenBesideTheAnswer) {
+  const Scratch scratch;
+  const Outcome run = run_tool({"tolerance", "examples/toleranced.toml", "--samples", "32",
+                                "--output", (scratch / "missing" / "a.json").string(), "--plot",
+                                "yield=" + (scratch / "yield.svg").string()});
+  EXPECT_EQ(run.status, 3);
+  EXPECT_THAT(run.out, HasSubstr("hunt"));
+  EXPECT_THAT(run.err, HasSubstr("missing/a.json: cannot be written: No such file"));
+  EXPECT_THAT(file_text(scratch / "yield.svg"), StartsWith("<?xml"));
+}
+
+TEST(ExitStatus, ThreeStandsOverOne) {
+  const Scratch scratch;
+  const std::string undecided =
+      "\"$GEARLASH\" describe --damping 1e-12 --inertia-ratio 1 --friction-ratio 1/2 --backlash "
+      "0.3 "
+      "--restitution 1 --plot nyquist=" +
+      quoted((scratch / "a.svg").string());
+  const Outcome one = run_shell(undecided);
+  EXPECT_EQ(one.status, 1) << one.err;
+  const Outcome three = run_shell(without_gnuplot(scratch, undecided));
+  EXPECT_EQ(three.status, 3);
+  EXPECT_EQ(three.out, one.out);
+  EXPECT_THAT(three.err, HasSubstr(no_gnuplot));
+  EXPECT_THAT(three.err, HasSubstr("gearlash: what is exact could not be decided\n"));
+}
+
+TEST(ExitStatus, ThreeForMemory) {
+  if (!test::may_limit_memory) GTEST_SKIP() << "sanitizers reserve more addresses than permitted";
+  const Scratch scratch;
+  const Outcome run = run_shell(
+      "ulimit -v 700000; \"$GEARLASH\" map --x friction-ratio=0:1:3000 --y damping=0.1:0.2:3000 "
+      "--inertia-ratio 1 --output " +
+      quoted((scratch / "a.csv").string()));
+  EXPECT_EQ(run.status, 3);
+  EXPECT_EQ(run.err, "gearlash: not enough memory\n");
+  EXPECT_EQ(scratch.file_count(), 0U);
+}
+
+/// The limit on threads is one on a user's; root has none.
+TEST(ExitStatus, WithoutThreadsTheWorkIsDoneInOne) {
+  const Scratch scratch;
+  std::filesystem::permissions(scratch / "", std::filesystem::perms(0755));
+  std::filesystem::copy_file(GEARLASH_TOOL, scratch / "gearlash");
+  std::filesystem::copy_file(GEARLASH_SOURCE_DIRECTORY "/examples/toleranced.toml",
+                             scratch / "sheet.toml");
+  std::filesystem::create_directory(scratch / "out");
+  std::filesystem::permissions(scratch / "out", std::filesystem::perms(0777));
+  const std::string as_another =
+      getuid() == 0 ? "setpriv --reuid 65534 --regid 65534 --clear-groups " : "";
+  const std::string limited =
+      as_another + "bash -c 'ulimit -u 1; cd " + (scratch / "").string() + "; exec \"$@\"' - ";
+  const std::string can_start =
+      "/usr/bin/python3 -c 'import threading; threading.Thread(target=int).start()'";
+  if (run_shell(as_another + can_start).status != 0 || run_shell(limited + can_start).status == 0) {
+    GTEST_SKIP() << "threads cannot be limited here";
+  }
+  for (const auto& [command, answer] :
+       {std::pair("limit-cycle sheet.toml", "hunts: "),
+        std::pair("tolerance sheet.toml --samples 32", "of "),
+        std::pair("map --x friction-ratio=0.1:0.9:50 --y damping=0.1:0.6:50 --inertia-ratio 1 "
+                  "--output out/a.nc",
+                  "out/a.nc: 2500 servos"),
+        std::pair("map --x friction-ratio=0.1:0.9:50 --y damping=0.1:0.6:50 --inertia-ratio 1 "
+                  "--output out/a.csv",
+                  "out/a.csv: 2500 servos")}) {
+    const Outcome run = run_shell(limited + "./gearlash " + command);
+    EXPECT_EQ(run.status, 0) << command << "\n" << run.err;
+    EXPECT_EQ(run.err, "") << command;
+    EXPECT_THAT(run.out, HasSubstr(answer)) << command;
+  }
+}
+
+TEST(ExitStatus, HelpListsThem) {
+  for (const char* status : {"\n  0  done", "\n  1  undecided", "\n  2  bad input",
+                             "\n  3  the machine could not", "\n  130, 143  "}) {
+    EXPECT_THAT(run_tool({"limit-cycle", "--help"}).out, HasSubstr(status));
+  }
+}
+
+}  // namespace
+}  // namespace gearlash
