@@ -1,11 +1,11 @@
 #include "hybrid/continuation.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "hybrid/shooting.hpp"
+#include "numeric/linear_algebra.hpp"
 
 namespace gearlash::hybrid {
 namespace {
@@ -217,7 +217,7 @@ class Continuation {
       slope << here->slope, direction.transpose();
       Vector residual(size_ + 1);
       residual << here->residual, direction.dot(point - guess);
-      point -= slope.fullPivLu().solve(residual);
+      point -= solved_with_full_pivoting(slope, residual);
     }
     return std::nullopt;
   }
@@ -226,7 +226,7 @@ class Continuation {
   Vector tangent_of(const Solved& solved) const {
     Matrix slope(size_ + 1, size_ + 1);
     slope << solved.slope, tangent_.transpose();
-    const Vector tangent = slope.fullPivLu().solve(Vector::Unit(size_ + 1, size_));
+    const Vector tangent = solved_with_full_pivoting(slope, Vector::Unit(size_ + 1, size_));
     return tangent.normalized();
   }
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unsupported/Eigen/MatrixFunctions>
+
+#include "numeric/linear_algebra.hpp"
 
 namespace gearlash::hybrid {
 namespace {
@@ -35,7 +36,7 @@ class Disturbances {
         delay_(Eigen::RowVectorXd::Zero(system.size())) {}
 
   void flow_to(double time) {
-    if (time > time_) slope_ = (flow().matrix * (time - time_)).exp() * slope_;
+    if (time > time_) slope_ = exponential(flow().matrix * (time - time_)) * slope_;
     time_ = time;
   }
 
@@ -87,7 +88,7 @@ std::optional<double> crossing_time(const Mode& mode, const State& start, double
   extended << start.numbers, 1.0;
   double time = std::max(guess - from, 0.0);
   for (int i = 0; i < 40; ++i) {
-    const Vector here = ((augmented * time).exp() * extended).head(size);
+    const Vector here = (exponential(augmented * time) * extended).head(size);
     const double step = -plane.at(here) / plane.normal.dot(velocity(mode, here));
     if (!std::isfinite(step)) return std::nullopt;
     time += step;

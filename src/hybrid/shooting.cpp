@@ -1,11 +1,10 @@
 #include "hybrid/shooting.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unsupported/Eigen/MatrixFunctions>
+
+#include "numeric/linear_algebra.hpp"
 
 namespace gearlash::hybrid {
 namespace {
@@ -68,7 +67,7 @@ Vector flown(const AffineFlow& flow, const Vector& numbers, double time) {
   Matrix augmented = Matrix::Zero(size + 1, size + 1);
   augmented.topLeftCorner(size, size) = flow.matrix;
   augmented.topRightCorner(size, 1) = velocity(flow, numbers);
-  return numbers + Vector((augmented * time).exp().topRightCorner(size, 1));
+  return numbers + Vector(exponential(augmented * time).topRightCorner(size, 1));
 }
 
 /// Whether a flow moves numbers, for all that rounding can tell.
@@ -308,7 +307,7 @@ PeriodicOrbit Shooting::orbit(const Equations& solved) const {
     if (!is_exogenous_[static_cast<std::size_t>(n)]) own.push_back(n);
   }
   const Matrix of_own = product(own, own);
-  const Eigen::VectorXcd values = of_own.eigenvalues();
+  const Eigen::VectorXcd values = eigenvalues(of_own);
   orbit.multipliers.assign(values.begin(), values.end());
   std::sort(orbit.multipliers.begin(), orbit.multipliers.end(),
             [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
@@ -335,7 +334,7 @@ std::optional<PeriodicOrbit> solved_by_newton(Shooting& shooting, int most_steps
     if (!std::isfinite(size) || since_least >= patience) return std::nullopt;
     least = std::min(least, size);
     last = size;
-    const Vector change = equations->slope.fullPivLu().solve(-equations->residual);
+    const Vector change = solved_with_full_pivoting(equations->slope, -equations->residual);
     if (!change.allFinite()) return std::nullopt;
     shooting.assign(shooting.unknowns() + change);
   }

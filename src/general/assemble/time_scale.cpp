@@ -1,15 +1,14 @@
 #include "general/assemble/time_scale.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
 #include <numbers>
-#include <unsupported/Eigen/MatrixFunctions>
 #include <vector>
 
 #include "general/assemble/drive_system.hpp"
+#include "numeric/linear_algebra.hpp"
 
 namespace gearlash::drive {
 namespace {
@@ -55,7 +54,7 @@ std::vector<std::complex<double>> loop_eigenvalues(const Drive& drive) {
   const Matrix flow = reduced(mode.flow.matrix);
   std::vector<std::complex<double>> values;
   if (!linear.sampling) {
-    const Eigen::VectorXcd all = flow.eigenvalues();
+    const Eigen::VectorXcd all = eigenvalues(flow);
     values.assign(all.begin(), all.end());
     return values;
   }
@@ -63,12 +62,12 @@ std::vector<std::complex<double>> loop_eigenvalues(const Drive& drive) {
   const double delay = linear.sampling->delay;
   Matrix map = reduced(mode.timed.front().reset.matrix);
   if (mode.timed.size() > 1) {
-    map = (flow * (period - delay)).exp() * reduced(mode.timed.back().reset.matrix) *
-          (flow * delay).exp() * map;
+    map = exponential(flow * (period - delay)) * reduced(mode.timed.back().reset.matrix) *
+          exponential(flow * delay) * map;
   } else {
-    map = (flow * period).exp() * map;
+    map = exponential(flow * period) * map;
   }
-  const Eigen::VectorXcd all = map.eigenvalues();
+  const Eigen::VectorXcd all = eigenvalues(map);
   for (const std::complex<double>& value : all) {
     constexpr double dead_beat = 1e-12;
     if (std::abs(value) > dead_beat) values.push_back(std::log(value) / period);

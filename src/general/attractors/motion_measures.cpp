@@ -1,9 +1,10 @@
 #include "general/attractors/motion_measures.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/roots.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <unsupported/Eigen/MatrixFunctions>
+
+#include "numeric/linear_algebra.hpp"
 
 namespace gearlash::drive {
 namespace {
@@ -210,7 +211,7 @@ double largest_exponent(const HybridSystem& system, const Trajectory& motion, Ei
   for_each_stretch(motion, [&](const State& start, double from, double to, const Vector&) {
     if (to > from) {
       disturbance.numbers =
-          (system.modes[start.mode].flow.matrix * (to - from)).exp() * disturbance.numbers;
+          exponential(system.modes[start.mode].flow.matrix * (to - from)) * disturbance.numbers;
     }
     if (next == events.size()) return;
     const bool is_chained = next > 0 && events[next].time == events[next - 1].time;
