@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <stdexcept>
 
+#include "base/range_check.hpp"
 #include "hybrid/first_exit.hpp"
 #include "hybrid/hybrid_trajectory.hpp"
 #include "hybrid/preparation.hpp"
@@ -15,28 +15,25 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-void require(const std::vector<std::string>& all) {
-  if (all.empty()) return;
-  std::string message;
-  for (const std::string& one : all) message += (message.empty() ? "" : "\n") + one;
-  throw std::invalid_argument(message);
-}
-
-std::vector<std::string> faults_of(const HybridSystem& system, const State& start,
-                                   const SimulationOptions& options) {
-  std::vector<std::string> all;
-  if (start.mode >= system.modes.size()) {
-    all.push_back("start.mode: is " + std::to_string(start.mode) + ", must be one of " +
-                  std::to_string(system.modes.size()) + " modes, from 0 on");
+std::vector<Violation> faults_of(const HybridSystem& system, const State& start,
+                                 const SimulationOptions& options) {
+  RangeCheck check;
+  if (start.mode >= system.mode_count()) {
+    check.refuse("start.mode", std::to_string(start.mode),
+                 "must be one of " + std::to_string(system.mode_count()) + " modes, from 0 on");
   }
   if (start.numbers.size() != system.size() || !start.numbers.allFinite()) {
-    all.push_back("start.numbers: must be " + std::to_string(system.size()) + " finite numbers");
+    check.refuse("start.numbers",
+                 start.numbers.allFinite() ? std::to_string(start.numbers.size()) + " numbers"
+                                           : std::string("not finite"),
+                 "must be " + std::to_string(system.size()) + " finite numbers");
   }
-  if (!std::isfinite(options.from) || !std::isfinite(options.until) ||
-      options.until < options.from) {
-    all.emplace_back("options.until: must be finite and at least options.from, which is too");
+  check.finite("options.from", options.from);
+  if (!std::isfinite(options.until) || options.until < options.from) {
+    check.refuse("options.until", exact_text(options.until),
+                 "must be finite and at least options.from");
   }
-  return all;
+  return check.violations();
 }
 
 }  // namespace
@@ -117,7 +114,7 @@ class Simulation {
       const std::size_t count = ticks_[i].count;
       const Vector* addition = count < clock.additions.size() ? &clock.additions[count] : nullptr;
       advance(clock, ticks_[i]);
-      const std::vector<TimedTransition>& timed = system_.modes[state_.mode].timed;
+      const std::vector<TimedTransition>& timed = mode_->mode().timed;
       for (std::size_t k = 0; k < timed.size(); ++k) {
         if (timed[k].clock != i) continue;
         change(EventKind::timed, k, timed[k].reset, mode_->timed[k], timed[k].target, addition);
@@ -372,7 +369,7 @@ class Simulation {
   }
 
   void fire(std::size_t which) {
-    const Transition& transition = system_.modes[state_.mode].transitions[which];
+    const Transition& transition = mode_->mode().transitions[which];
     change(EventKind::transition, which, transition.reset, mode_->transitions[which],
            transition.target);
     if (!stopped_) follow_sequence();
@@ -412,7 +409,7 @@ class Simulation {
     slow_ = nullptr;
     steps_in_mode_ = 0;
     steps_in_largest_ = 0;
-    const std::vector<Transition>& transitions = system_.modes[state_.mode].transitions;
+    const std::vector<Transition>& transitions = mode_->mode().transitions;
     signs_.resize(transitions.size());
     zero_at_start_.clear();
     zero_at_end_.clear();
@@ -428,9 +425,14 @@ class Simulation {
     const std::vector<Event>& events = trajectory_.events_;
     const bool same = events.size() > 1 && events[events.size() - 2].time == time_;
     at_instant_ = same ? at_instant_ + 1 : 1;
-    if (at_instant_ > 8 + 4 * (system_.modes.size() + system_.clocks.size())) {
+    if (at_instant_ > 8 + 4 * (system_.mode_count() + system_.clocks.size())) {
       stop(has_come_ever_faster() ? StopReason::zeno : StopReason::chattering);
     }
+  }
+
+  /// Of an event that is none of a clock.
+  const Transition& transition_of(const Event& event) const {
+    return preparation_.mode(event.mode).mode().transitions[event.transition];
   }
 
   // ---- events that come ever faster -------------------------------------------------------------
@@ -479,7 +481,7 @@ class Simulation {
     if (!(ratio < 1.0)) return;
     const double left = interval * ratio / (1.0 - ratio);
     const Event& last = trajectory_.events_.back();
-    const Transition& transition = system_.modes[last.mode].transitions[last.transition];
+    const Transition& transition = transition_of(last);
     if (!transition.settling) {
       if (left <= 8.0 * epsilon * time_) stop(StopReason::zeno);
       return;
@@ -498,7 +500,7 @@ class Simulation {
     const std::size_t turn = recurring_turn(3);
     if (turn == 0 || duration(turn, 0) > 8.0 * epsilon * time_) return false;
     const Event& last = trajectory_.events_.back();
-    return system_.modes[last.mode].transitions[last.transition].settling.has_value();
+    return transition_of(last).settling.has_value();
   }
 
   /// What is short beside it is short: the mode's own time, or how long the first turn took.
@@ -525,7 +527,7 @@ class Simulation {
 
   void settle() {
     const Event last = trajectory_.events_.back();
-    const Settling& settling = *system_.modes[last.mode].transitions[last.transition].settling;
+    const Settling& settling = *transition_of(last).settling;
     change(EventKind::settling, last.transition, settling.reset,
            *preparation_.mode(last.mode).settlings[last.transition], settling.target);
   }
@@ -536,7 +538,7 @@ class Simulation {
     const std::vector<Event>& events = trajectory_.events_;
     if (events.empty() || reason == StopReason::diverged) return;
     const Event& last = events.back();
-    const Mode& mode = system_.modes[last.mode];
+    const Mode& mode = preparation_.mode(last.mode).mode();
     trajectory_.culprit_ = mode.name + ": " +
                            (last.kind == EventKind::timed ? mode.timed[last.transition].name
                                                           : mode.transitions[last.transition].name);
@@ -579,20 +581,20 @@ class Simulation {
 
 Trajectory simulate(const HybridSystem& system, const State& start,
                     const SimulationOptions& options) {
-  std::vector<std::string> all = faults(system);
-  for (std::string& fault : faults_of(system, start, options)) all.push_back(std::move(fault));
-  require(all);
+  RangeCheck check;
+  check.include(faults(system)).include(faults_of(system, start, options));
+  require_none(check.violations());
   return Simulation(std::make_shared<const Preparation>(system), start, options).run();
 }
 
 PreparedSystem::PreparedSystem(HybridSystem system) {
-  require(faults(system));
+  require_none(faults(system));
   preparation_ = std::make_shared<const Preparation>(std::move(system));
 }
 
 Trajectory simulate(const PreparedSystem& system, const State& start,
                     const SimulationOptions& options) {
-  require(faults_of(system.system(), start, options));
+  require_none(faults_of(system.system(), start, options));
   return Simulation(system.preparation_, start, options).run();
 }
 
