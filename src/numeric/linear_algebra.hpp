@@ -29,7 +29,7 @@ Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix);
 Eigen::VectorXd solved_with_full_pivoting(const Eigen::MatrixXd& matrix,
                                           const Eigen::VectorXd& right);
 
-// ---- matrices of a fixed size, without allocation -----------------------------------------------
+// ---- matrices of a fixed size -------------------------------------------------------------------
 
 Eigen::Vector3cd eigenvalues(const Eigen::Matrix3d& matrix);
 
