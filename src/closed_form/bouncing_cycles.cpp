@@ -1,7 +1,5 @@
 #include "closed_form/bouncing_cycles.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include "closed_form/growth_at_rest.hpp"
 #include "closed_form/return_map.hpp"
 #include "closed_form/unit_half_cycle.hpp"
+#include "numeric/linear_algebra.hpp"
 
 namespace gearlash {
 namespace {
@@ -97,8 +96,8 @@ bool is_isolated(const FixedPoint& point) {
   constexpr double map_rounding = 1e-14;
   constexpr double displacement_allowed = 1e-5;
   const Eigen::Matrix3d mismatch_slope = point.map.slope - Eigen::Matrix3d::Identity();
-  const double least_pivot = mismatch_slope.fullPivLu().matrixLU().diagonal().cwiseAbs().minCoeff();
-  return std::max(point.residual, map_rounding) < displacement_allowed * least_pivot;
+  return std::max(point.residual, map_rounding) <
+         displacement_allowed * least_pivot(mismatch_slope);
 }
 
 /// A cycle that was found before.
@@ -141,8 +140,8 @@ std::optional<FixedPoint> newton(Course& course, const std::vector<KnownCycle>& 
   std::optional<Iterate> map = iterate(course, arrival, order);
   if (!map) return std::nullopt;
   for (int step = 0; step < step_limit && mismatch(*map, arrival) > converged; ++step) {
-    const Arrival full =
-        (map->slope - Eigen::Matrix3d::Identity()).fullPivLu().solve(arrival - map->end);
+    const Arrival full = solved_with_full_pivoting(
+        Eigen::Matrix3d(map->slope - Eigen::Matrix3d::Identity()), Arrival(arrival - map->end));
     if (leads_to_known(known, arrival, full, order)) return std::nullopt;
     std::optional<Iterate> better;
     double share = 1.0;
@@ -182,13 +181,12 @@ CycleKind kind_of(int order) {
 LimitCycle describe(const NormalizedServo& servo, const ServoDynamics& dynamics,
                     const FixedPoint& point) {
   const int repeats = traversals_per_period(point.order) / point.order;
-  const Eigen::Vector3cd eigenvalues =
-      Eigen::EigenSolver<Eigen::Matrix3d>(point.map.slope, false).eigenvalues();
+  const Eigen::Vector3cd values = eigenvalues(point.map.slope);
   Eigen::Index largest = 0;
-  eigenvalues.cwiseAbs().maxCoeff(&largest);
+  values.cwiseAbs().maxCoeff(&largest);
   // Complex pairs have no sign: their modulus is given.
-  const double multiplier = eigenvalues(largest).imag() == 0.0 ? eigenvalues(largest).real()
-                                                               : std::abs(eigenvalues(largest));
+  const double multiplier =
+      values(largest).imag() == 0.0 ? values(largest).real() : std::abs(values(largest));
   const GapState start = after_arrival(dynamics, point.arrival);
 
   LimitCycle cycle;
@@ -222,7 +220,7 @@ LimitCycle describe(const NormalizedServo& servo, const ServoDynamics& dynamics,
 }
 
 double spectral_radius(const Eigen::Matrix3d& slope) {
-  return Eigen::EigenSolver<Eigen::Matrix3d>(slope, false).eigenvalues().cwiseAbs().maxCoeff();
+  return eigenvalues(slope).cwiseAbs().maxCoeff();
 }
 
 class Search {

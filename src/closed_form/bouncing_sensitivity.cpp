@@ -1,7 +1,5 @@
 #include "closed_form/bouncing_sensitivity.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -12,6 +10,7 @@
 #include "closed_form/half_cycle_algebra.hpp"
 #include "closed_form/phase.hpp"
 #include "closed_form/return_map.hpp"
+#include "numeric/linear_algebra.hpp"
 
 namespace gearlash {
 namespace {
@@ -212,7 +211,8 @@ std::optional<Arrival> fixed_point(const ServoDynamics& dynamics, Arrival arriva
   for (int i = 0; i < steps; ++i) {
     const auto map = iterated(dynamics, arrival, order);
     if (!map) return std::nullopt;
-    arrival += (map->slope - Eigen::Matrix3d::Identity()).fullPivLu().solve(arrival - map->end);
+    arrival += solved_with_full_pivoting(Eigen::Matrix3d(map->slope - Eigen::Matrix3d::Identity()),
+                                         Arrival(arrival - map->end));
   }
   const auto map = iterated(dynamics, arrival, order);
   constexpr double acceptable = 1e-10;
@@ -253,11 +253,10 @@ std::optional<Orbit> orbit_of(const ServoDynamics& dynamics, const LimitCycle& c
 Dual largest_eigenvalue(const DualSlope& dual) {
   Eigen::Matrix3d slope;
   for (Eigen::Index i = 0; i < slope.size(); ++i) slope(i) = dual(i).value();
-  const Eigen::Vector3cd eigenvalues =
-      Eigen::EigenSolver<Eigen::Matrix3d>(slope, false).eigenvalues();
+  const Eigen::Vector3cd values = eigenvalues(slope);
   Eigen::Index largest = 0;
-  eigenvalues.cwiseAbs().maxCoeff(&largest);
-  const std::complex<double> value = eigenvalues(largest);
+  values.cwiseAbs().maxCoeff(&largest);
+  const std::complex<double> value = values(largest);
 
   const double trace = slope.trace();
   const Eigen::Matrix3d square = slope * slope;
@@ -307,8 +306,9 @@ std::optional<BouncingSlopes> bouncing_slopes(const NormalizedServo& servo,
   Eigen::Matrix<double, 3, numbers> map;
   for (int i = 0; i < 3; ++i) map.row(i) = arrival[static_cast<std::size_t>(i)].derivatives();
   // Over a whole period, which for an odd order is two runs of the cycle.
-  const Eigen::Matrix<double, 3, 4> arrival_slopes =
-      (Eigen::Matrix3d::Identity() - map.rightCols<3>()).fullPivLu().solve(map.leftCols<4>());
+  const FourColumns arrival_slopes =
+      solved_with_full_pivoting(Eigen::Matrix3d(Eigen::Matrix3d::Identity() - map.rightCols<3>()),
+                                FourColumns(map.leftCols<4>()));
   const auto total = [&](const Gradient& of) -> BouncingGradient {
     return of.head<4>() + arrival_slopes.transpose() * of.tail<3>();
   };

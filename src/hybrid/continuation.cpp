@@ -1,11 +1,11 @@
 #include "hybrid/continuation.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
+#include "base/range_check.hpp"
 #include "hybrid/shooting.hpp"
+#include "numeric/linear_algebra.hpp"
 
 namespace gearlash::hybrid {
 namespace {
@@ -35,7 +35,7 @@ void consider_guards_passed_by(const HybridSystem& system, const Trajectory& mot
   std::size_t mode = motion.at(begin).mode;
   for (const Event& event : events) {
     constexpr int samples = 400;
-    const Mode& here = system.modes[mode];
+    const Mode& here = system.mode(mode);
     for (std::size_t k = 0; k < here.transitions.size(); ++k) {
       if (event.kind == EventKind::transition && event.mode == mode && event.transition == k) {
         continue;
@@ -59,7 +59,7 @@ void consider_guards_passed_by(const HybridSystem& system, const Trajectory& mot
 void consider_guards_met(const HybridSystem& system, const std::vector<Event>& events,
                          Clearance& clearance) {
   const auto speed_of = [&](const Event& event) {
-    const Mode& mode = system.modes[event.mode];
+    const Mode& mode = system.mode(event.mode);
     return std::abs(mode.transitions[event.transition].guard.normal.dot(
         mode.flow.matrix * event.before + mode.flow.offset));
   };
@@ -69,7 +69,7 @@ void consider_guards_met(const HybridSystem& system, const std::vector<Event>& e
   }
   for (const Event& event : events) {
     if (event.kind != EventKind::transition) continue;
-    const Mode& mode = system.modes[event.mode];
+    const Mode& mode = system.mode(event.mode);
     clearance.consider(speed_of(event) / highest, mode.name,
                        mode.transitions[event.transition].name);
   }
@@ -162,7 +162,7 @@ class Continuation {
   };
 
   std::optional<Vector> residual_at(const Vector& unknowns, double parameter) const {
-    const HybridSystem system = family_(parameter);
+    const PreparedSystem system(family_(parameter));
     Shooting shooting = shooting_->of(system);
     shooting.assign(unknowns);
     auto equations = shooting.evaluate();
@@ -184,7 +184,7 @@ class Continuation {
   std::optional<Evaluated> evaluate(const Vector& point) const {
     const double parameter = parameter_of(point);
     const Vector unknowns = point.head(size_) * scale_;
-    const HybridSystem system = family_(parameter);
+    const PreparedSystem system(family_(parameter));
     Shooting shooting = shooting_->of(system);
     shooting.assign(unknowns);
     const auto equations = shooting.evaluate();
@@ -217,7 +217,7 @@ class Continuation {
       slope << here->slope, direction.transpose();
       Vector residual(size_ + 1);
       residual << here->residual, direction.dot(point - guess);
-      point -= slope.fullPivLu().solve(residual);
+      point -= solved_with_full_pivoting(slope, residual);
     }
     return std::nullopt;
   }
@@ -226,13 +226,13 @@ class Continuation {
   Vector tangent_of(const Solved& solved) const {
     Matrix slope(size_ + 1, size_ + 1);
     slope << solved.slope, tangent_.transpose();
-    const Vector tangent = slope.fullPivLu().solve(Vector::Unit(size_ + 1, size_));
+    const Vector tangent = solved_with_full_pivoting(slope, Vector::Unit(size_ + 1, size_));
     return tangent.normalized();
   }
 
   /// The planes of an orbit, and its point.
   bool lay_planes(const BranchPoint& at) {
-    const HybridSystem system = family_(at.parameter);
+    const PreparedSystem system(family_(at.parameter));
     auto shooting = Shooting::about(system, at.orbit.start, at.orbit.start_time, at.orbit.period,
                                     at.orbit.events.size(), phases);
     if (!shooting) return false;
@@ -321,8 +321,11 @@ class Continuation {
 Branch continue_orbit(const Family& family, double parameter, const PeriodicOrbit& orbit,
                       const ContinuationOptions& options) {
   if (!(options.low < options.high && parameter >= options.low && parameter <= options.high)) {
-    throw std::invalid_argument("parameter: is " + std::to_string(parameter) +
-                                ", must be within options.low and options.high, which rise");
+    RangeCheck check;
+    check.refuse("parameter", exact_text(parameter),
+                 "must be within options.low and options.high, which rise: " +
+                     exact_text(options.low) + " … " + exact_text(options.high));
+    require_none(check.violations());
   }
   return Continuation(family, parameter, orbit, options).run();
 }

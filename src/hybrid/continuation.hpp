@@ -61,7 +61,7 @@ struct ContinuationOptions {
 /// least speed at which one is met, as a share of the highest. What is below 1e-2 of those is
 /// named.
 ///
-/// Throws std::invalid_argument where the range is empty or `parameter` is not in it.
+/// Throws InvalidInput where the range is empty or `parameter` is not in it.
 Branch continue_orbit(const Family& family, double parameter, const PeriodicOrbit& orbit,
                       const ContinuationOptions& options = {});
 

@@ -1,13 +1,13 @@
 #include "hybrid/fast_decays.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
 #include <numeric>
 #include <vector>
+
+#include "numeric/linear_algebra.hpp"
 
 namespace gearlash::hybrid {
 namespace {
@@ -47,11 +47,11 @@ std::size_t count_of_fast(const Spectrum& values, const std::vector<Eigen::Index
 
 /// The eigenvectors that belong to the `count` largest eigenvalues.
 ComplexMatrix fast_vectors(const Matrix& matrix, std::size_t count) {
-  const Eigen::EigenSolver<Matrix> solver(matrix);
-  const std::vector<Eigen::Index> order = by_size(solver.eigenvalues());
+  const Eigensystem system = eigensystem(matrix);
+  const std::vector<Eigen::Index> order = by_size(system.values);
   ComplexMatrix vectors(matrix.rows(), static_cast<Eigen::Index>(count));
   for (std::size_t i = 0; i < count; ++i) {
-    vectors.col(static_cast<Eigen::Index>(i)) = solver.eigenvectors().col(order[i]);
+    vectors.col(static_cast<Eigen::Index>(i)) = system.vectors.col(order[i]);
   }
   return vectors;
 }
@@ -70,13 +70,13 @@ void FastDecays::put_at_rest(Vector& state) const { state -= projector * state -
 /// P = V (WᵀV)⁻¹ Wᵀ of the right and left eigenvectors V, W of the fast decays.
 std::optional<FastDecays> fast_decays(const AffineFlow& flow) {
   const Matrix& matrix = flow.matrix;
-  const Spectrum values = matrix.eigenvalues();
+  const Spectrum values = eigenvalues(matrix);
   const std::size_t count = count_of_fast(values, by_size(values));
   if (count == 0) return std::nullopt;
   const ComplexMatrix right = fast_vectors(matrix, count);
   const ComplexMatrix left = fast_vectors(matrix.transpose(), count);
   const ComplexMatrix overlap = left.transpose() * right;
-  const Matrix projector = (right * overlap.partialPivLu().solve(left.transpose())).real();
+  const Matrix projector = (right * solved(overlap, ComplexMatrix(left.transpose()))).real();
   // Where eigenvectors are nearly alike it is known too badly to be of use.
   constexpr double acceptable = 1e-11;
   const double size = 1.0 + projector.norm();
@@ -87,7 +87,7 @@ std::optional<FastDecays> fast_decays(const AffineFlow& flow) {
   // A P z = −P b, z = P z: A with the slow part replaced by the identity can be inverted.
   const Matrix identity = Matrix::Identity(matrix.rows(), matrix.cols());
   const Matrix invertible = matrix * projector + (identity - projector);
-  const Vector rest = -(projector * invertible.partialPivLu().solve(projector * flow.offset));
+  const Vector rest = -(projector * solved(invertible, Vector(projector * flow.offset)));
   Matrix slow = matrix - matrix * projector;
   // What only rounding has left would couple numbers that have nothing to do with each other, and
   // weigh them by it. Eigenvectors, and so the projector, are less well known than their sums are:

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/range_check.hpp"
+
 namespace gearlash::hybrid {
 namespace {
 
@@ -10,48 +12,69 @@ class Inspection {
  public:
   explicit Inspection(const HybridSystem& system) : system_(system), size_(system.size()) {}
 
-  std::vector<std::string> faults() {
-    if (size_ == 0) note("state_names", "must name at least one number");
-    if (system_.modes.empty()) note("modes", "must have at least one");
+  std::vector<Violation> of_system() {
+    if (size_ == 0) note("state_names", "", "must name at least one number");
+    if (system_.mode_count() == 0) note("modes", "", "must be at least one");
+    if (system_.source && !system_.modes.empty()) {
+      note("modes", counted(system_.modes.size(), "mode"), "must be none, as there is a source");
+    }
+    const std::size_t told = system_.exogenous.size();
+    if (told != 0 && told != system_.state_names.size()) {
+      note("exogenous", counted(told, "number"), must_be_numbers());
+    }
     for (const Clock& clock : system_.clocks) inspect(clock);
     for (const Mode& mode : system_.modes) inspect(mode);
     return std::move(faults_);
   }
 
+  std::vector<Violation> of_mode(std::size_t index) {
+    inspect(system_.mode(index));
+    return std::move(faults_);
+  }
+
  private:
-  void note(const std::string& where, const std::string& what) {
-    faults_.push_back(where + ": " + what);
+  void note(const std::string& field, const std::string& value, const std::string& permitted) {
+    faults_.push_back({field, value, permitted, ""});
+  }
+
+  static std::string counted(std::size_t count, const char* what) {
+    return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+  }
+
+  std::string must_be_numbers() const {
+    return "must be " + counted(static_cast<std::size_t>(size_), "number");
   }
 
   void expect_vector(const std::string& where, const Vector& vector, bool may_be_empty) {
     if (may_be_empty && vector.size() == 0) return;
     if (vector.size() != size_) {
-      note(where,
-           "has " + std::to_string(vector.size()) + " numbers, must have " + std::to_string(size_));
+      note(where, counted(static_cast<std::size_t>(vector.size()), "number"), must_be_numbers());
     } else if (!vector.allFinite()) {
-      note(where, "must be finite");
+      note(where, "not finite", "must be finite");
     }
   }
 
   void expect_matrix(const std::string& where, const Matrix& matrix, bool may_be_empty) {
     if (may_be_empty && matrix.size() == 0) return;
+    const auto shape = [](Eigen::Index rows, Eigen::Index columns) {
+      return std::to_string(rows) + " by " + std::to_string(columns);
+    };
     if (matrix.rows() != size_ || matrix.cols() != size_) {
-      note(where, "is " + std::to_string(matrix.rows()) + " by " + std::to_string(matrix.cols()) +
-                      ", must be " + std::to_string(size_) + " by " + std::to_string(size_));
+      note(where, shape(matrix.rows(), matrix.cols()), "must be " + shape(size_, size_));
     } else if (!matrix.allFinite()) {
-      note(where, "must be finite");
+      note(where, "not finite", "must be finite");
     }
   }
 
   void expect_mode(const std::string& where, std::size_t target) {
-    if (target < system_.modes.size()) return;
-    note(where, "is mode " + std::to_string(target) + ", must be one of " +
-                    std::to_string(system_.modes.size()) + " modes, from 0 on");
+    if (target < system_.mode_count()) return;
+    note(where, std::to_string(target),
+         "must be one of " + counted(system_.mode_count(), "mode") + ", from 0 on");
   }
 
   void inspect(const std::string& where, const AffineForm& form) {
     expect_vector(where + ".normal", form.normal, false);
-    if (!std::isfinite(form.offset)) note(where + ".offset", "must be finite");
+    if (!std::isfinite(form.offset)) note(where + ".offset", "not finite", "must be finite");
   }
 
   void inspect(const std::string& where, const std::vector<Alternative>& alternatives) {
@@ -68,31 +91,57 @@ class Inspection {
       inspect(where + ".quantizer.measured", quantizer.measured);
       expect_vector(where + ".quantizer.gain", quantizer.gain, false);
       if (!(quantizer.step > 0.0 && std::isfinite(quantizer.step))) {
-        note(where + ".quantizer.step", "must be positive and finite");
+        note(where + ".quantizer.step", exact_text(quantizer.step), "must be positive and finite");
       }
     }
   }
 
   void inspect(const Clock& clock) {
     const std::string where = "clock \"" + clock.name + "\"";
-    if (!std::isfinite(clock.first) || !std::isfinite(clock.period) || clock.period < 0.0) {
-      note(where, "must have a finite first tick and a period of at least 0");
+    if (!std::isfinite(clock.first)) note(where + ".first", "not finite", "must be finite");
+    if (!std::isfinite(clock.period) || clock.period < 0.0) {
+      note(where + ".period", exact_text(clock.period), "must be finite and at least 0");
     }
-    if (clock.period == 0.0 && clock.times.empty()) note(where, "must have a period or times");
+    if (clock.period == 0.0 && clock.times.empty()) {
+      note(where + ".period", "0", "must be positive where there are no times");
+    }
     if (clock.period > 0.0 && !clock.times.empty()) {
-      note(where, "must have a period or times, not both");
+      note(where + ".times", counted(clock.times.size(), "time"),
+           "must be none where there is a period");
     }
     for (std::size_t i = 0; i < clock.times.size(); ++i) {
       const bool rises = i == 0 || clock.times[i] > clock.times[i - 1];
       if (std::isfinite(clock.times[i]) && rises) continue;
-      note(where, "times must be finite and rise; entry " + std::to_string(i) + " does not");
+      note(where + ".times[" + std::to_string(i) + "]", exact_text(clock.times[i]),
+           "must be finite and above the one before");
     }
     if (!clock.additions.empty() && clock.additions.size() != clock.times.size()) {
-      note(where, "must have as many additions as times, or none");
+      note(where + ".additions", std::to_string(clock.additions.size()),
+           "must be as many as there are times, or none");
     }
     for (const Vector& addition : clock.additions) {
       expect_vector(where + ".additions", addition, false);
     }
+  }
+
+  void inspect(const std::string& where, const Transition& transition) {
+    inspect(where + ".guard", transition.guard);
+    inspect(where + ".reset", transition.reset);
+    expect_mode(where + ".target", transition.target);
+    inspect(where + ".alternatives", transition.alternatives);
+    if (!transition.settling) return;
+    inspect(where + ".settling.reset", transition.settling->reset);
+    expect_mode(where + ".settling.target", transition.settling->target);
+    inspect(where + ".settling.alternatives", transition.settling->alternatives);
+  }
+
+  void inspect(const std::string& where, const TimedTransition& transition) {
+    inspect(where + ".reset", transition.reset);
+    expect_mode(where + ".target", transition.target);
+    inspect(where + ".alternatives", transition.alternatives);
+    if (transition.clock < system_.clocks.size()) return;
+    note(where + ".clock", std::to_string(transition.clock),
+         "must be one of " + counted(system_.clocks.size(), "clock") + ", from 0 on");
   }
 
   void inspect(const Mode& mode) {
@@ -100,31 +149,16 @@ class Inspection {
     expect_matrix(where + ".flow.matrix", mode.flow.matrix, false);
     expect_vector(where + ".flow.offset", mode.flow.offset, false);
     for (const Transition& transition : mode.transitions) {
-      const std::string here = where + ", transition \"" + transition.name + "\"";
-      inspect(here + ".guard", transition.guard);
-      inspect(here + ".reset", transition.reset);
-      expect_mode(here + ".target", transition.target);
-      inspect(here + ".alternatives", transition.alternatives);
-      if (!transition.settling) continue;
-      inspect(here + ".settling.reset", transition.settling->reset);
-      expect_mode(here + ".settling.target", transition.settling->target);
-      inspect(here + ".settling.alternatives", transition.settling->alternatives);
+      inspect(where + ", transition \"" + transition.name + "\"", transition);
     }
     for (const TimedTransition& transition : mode.timed) {
-      const std::string here = where + ", timed transition \"" + transition.name + "\"";
-      inspect(here + ".reset", transition.reset);
-      expect_mode(here + ".target", transition.target);
-      inspect(here + ".alternatives", transition.alternatives);
-      if (transition.clock >= system_.clocks.size()) {
-        note(here + ".clock", "is clock " + std::to_string(transition.clock) + ", must be one of " +
-                                  std::to_string(system_.clocks.size()));
-      }
+      inspect(where + ", timed transition \"" + transition.name + "\"", transition);
     }
   }
 
   const HybridSystem& system_;
   Eigen::Index size_;
-  std::vector<std::string> faults_;
+  std::vector<Violation> faults_;
 };
 
 }  // namespace
@@ -144,6 +178,10 @@ Matrix Reset::slope(Eigen::Index size) const {
   return matrix.size() == 0 ? Matrix(Matrix::Identity(size, size)) : matrix;
 }
 
-std::vector<std::string> faults(const HybridSystem& system) { return Inspection(system).faults(); }
+std::vector<Violation> faults(const HybridSystem& system) { return Inspection(system).of_system(); }
+
+std::vector<Violation> faults_of_mode(const HybridSystem& system, std::size_t index) {
+  return Inspection(system).of_mode(index);
+}
 
 }  // namespace gearlash::hybrid

@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "base/violation.hpp"
+#include "hybrid/mode_source.hpp"
+
 namespace gearlash::hybrid {
 
 using Vector = Eigen::VectorXd;
@@ -115,16 +118,28 @@ struct Clock {
 /// fires at once. Of several transitions at one instant the timed ones come first, in the order of
 /// the clocks, each clock once; then the others in their order in the mode; each is followed by the
 /// new mode's own rules. So an event is never lost and never fires twice for one reason.
+///
+/// Modes are a list, or are made by a source when a motion first enters them.
 struct HybridSystem {
   std::vector<std::string> state_names{};
-  std::vector<Mode> modes{};
+  std::vector<Mode> modes{};  ///< none where there is a source
   std::vector<Clock> clocks{};
+  ModeSource source{};
+  /// With a source: which numbers follow their own flow alone, the same in every mode, and are
+  /// changed by no event (references). None where it is empty. In a list they are found.
+  std::vector<bool> exogenous{};
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(state_names.size()); }
+  std::size_t mode_count() const { return source ? source.count() : modes.size(); }
+  /// Precondition: index < mode_count().
+  const Mode& mode(std::size_t index) const { return source ? source.mode(index) : modes[index]; }
 };
 
 /// Every fault: shapes that do not agree, indices out of range, numbers that are not finite, clocks
-/// that go backwards. Empty where there is none. Each names what it is of.
-std::vector<std::string> faults(const HybridSystem& system);
+/// that go backwards. Empty where there is none. Each names what it is of. Modes of a source are
+/// not made for it: a motion looks for their faults when it first enters them.
+std::vector<Violation> faults(const HybridSystem& system);
+/// Of one mode. Precondition: index < system.mode_count().
+std::vector<Violation> faults_of_mode(const HybridSystem& system, std::size_t index);
 
 }  // namespace gearlash::hybrid

@@ -8,6 +8,8 @@ namespace gearlash::hybrid {
 
 const HybridSystem& PreparedSystem::system() const { return preparation_->system(); }
 
+const std::vector<bool>& PreparedSystem::exogenous() const { return preparation_->exogenous(); }
+
 State Trajectory::at(double time) const {
   if (steps_.empty() || time >= end_time_) return end_;
   const auto after =

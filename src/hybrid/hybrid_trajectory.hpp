@@ -64,9 +64,13 @@ class Trajectory;
 /// at a time.
 class PreparedSystem {
  public:
-  /// Throws std::invalid_argument with all faults of the system.
+  PreparedSystem() = default;  ///< of nothing: to be assigned to
+  /// Throws InvalidInput with all faults of the system.
   explicit PreparedSystem(HybridSystem system);
   const HybridSystem& system() const;
+  /// Which numbers follow their own flow alone, the same in every mode, and are changed by no event
+  /// (references): HybridSystem::exogenous, or what was found in a list of modes.
+  const std::vector<bool>& exogenous() const;
 
  private:
   friend Trajectory simulate(const PreparedSystem& system, const State& start,
@@ -130,8 +134,9 @@ class Trajectory {
 /// end there, by the Settling of the last transition; without one the motion has no end beyond that
 /// time, and stops when the intervals are too short to be told apart (StopReason::zeno).
 ///
-/// Throws std::invalid_argument with all faults of the system, of the start (a mode, finite numbers
-/// of the right count) and of the options (from ≤ until, finite).
+/// Throws InvalidInput with all faults of the system, of the start (a mode, finite numbers of the
+/// right count) and of the options (from ≤ until, finite). Modes of a source are looked at as the
+/// motion first enters them.
 Trajectory simulate(const HybridSystem& system, const State& start,
                     const SimulationOptions& options);
 /// The same; only faults of the start and of the options are looked for.

@@ -87,31 +87,38 @@ std::vector<std::vector<bool>> LinearFlow::reaches() const {
   return reached;
 }
 
-void LinearFlow::weigh() {
-  const std::vector<std::vector<bool>> reached = reaches();
+namespace {
+
+bool in_one_loop(const std::vector<std::vector<bool>>& reached, std::size_t i, std::size_t j) {
+  return reached[i][j] && reached[j][i];
+}
+
+}  // namespace
+
+/// Of a row's entries that count, with the weights there are.
+template <class Counts>
+double LinearFlow::sum_of_row(std::size_t row, const Counts& counts) const {
+  double sum = 0.0;
+  for (std::size_t e = rows_[row]; e < rows_[row + 1]; ++e) {
+    const auto j = static_cast<std::size_t>(entries_[e].column);
+    if (counts(j)) sum += std::abs(entries_[e].factor) * weights_[j] / weights_[row];
+  }
+  return sum;
+}
+
+/// Rows and columns alike.
+void LinearFlow::weigh_within_loops(const std::vector<std::vector<bool>>& reached) {
   const std::size_t size = reached.size();
-  weights_.assign(size, 1.0);
-  const auto in_one_loop = [&](std::size_t i, std::size_t j) {
-    return reached[i][j] && reached[j][i];
-  };
-  const auto sum_of_row = [&](std::size_t i, auto&& counts) {
-    double sum = 0.0;
-    for (std::size_t e = rows_[i]; e < rows_[i + 1]; ++e) {
-      const auto j = static_cast<std::size_t>(entries_[e].column);
-      if (counts(j)) sum += std::abs(entries_[e].factor) * weights_[j] / weights_[i];
-    }
-    return sum;
-  };
-  // Within loops: rows and columns alike.
   constexpr int sweeps = 20;
   bool changed = true;
   for (int sweep = 0; sweep < sweeps && changed; ++sweep) {
     changed = false;
     for (std::size_t i = 0; i < size; ++i) {
-      const double row = sum_of_row(i, [&](std::size_t j) { return j != i && in_one_loop(i, j); });
+      const double row =
+          sum_of_row(i, [&](std::size_t j) { return j != i && in_one_loop(reached, i, j); });
       double column = 0.0;
       for (std::size_t k = 0; k < size; ++k) {
-        if (k == i || !in_one_loop(i, k)) continue;
+        if (k == i || !in_one_loop(reached, i, k)) continue;
         column += sum_of_row(k, [&](std::size_t j) { return j == i; });
       }
       if (row == 0.0 || column == 0.0) continue;
@@ -121,20 +128,12 @@ void LinearFlow::weigh() {
       changed = true;
     }
   }
-  double fastest = 0.0;
-  for (std::size_t i = 0; i < size; ++i) {
-    fastest = std::max(fastest, sum_of_row(i, [&](std::size_t j) { return in_one_loop(i, j); }));
-  }
-  if (fastest == 0.0) {
-    // A number that k others act on one after another is a polynomial of order k + 1.
-    for (std::size_t i = 0; i < size; ++i) {
-      const auto others = std::count(reached[i].begin(), reached[i].end(), true);
-      polynomial_order_ = std::max(polynomial_order_, static_cast<int>(others) + 1);
-    }
-    polynomial_order_ = std::max(polynomial_order_, 1);
-    return;
-  }
-  // From loop to loop, those first that act on the others: what comes from without is a quarter.
+}
+
+/// From loop to loop, those first that act on the others: what comes from without is a quarter.
+void LinearFlow::weigh_between_loops(const std::vector<std::vector<bool>>& reached,
+                                     double fastest) {
+  const std::size_t size = reached.size();
   std::vector<std::size_t> order(size);
   for (std::size_t i = 0; i < size; ++i) order[i] = i;
   const auto reach = [&](std::size_t i) {  // of others
@@ -147,18 +146,41 @@ void LinearFlow::weigh() {
     if (done[first]) continue;
     std::vector<std::size_t> loop = {first};
     for (std::size_t i = 0; i < size; ++i) {
-      if (i != first && in_one_loop(first, i)) loop.push_back(i);
+      if (i != first && in_one_loop(reached, first, i)) loop.push_back(i);
     }
     double from_without = 0.0;
     for (const std::size_t i : loop) {
       done[i] = true;
-      from_without = std::max(
-          from_without, sum_of_row(i, [&](std::size_t j) { return j != i && !in_one_loop(i, j); }));
+      const double sum =
+          sum_of_row(i, [&](std::size_t j) { return j != i && !in_one_loop(reached, i, j); });
+      from_without = std::max(from_without, sum);
     }
     if (from_without == 0.0) continue;
     const double factor = std::exp2(std::ceil(std::log2(4.0 * from_without / fastest)));
     for (const std::size_t i : loop) weights_[i] *= factor;
   }
+}
+
+void LinearFlow::weigh() {
+  const std::vector<std::vector<bool>> reached = reaches();
+  const std::size_t size = reached.size();
+  weights_.assign(size, 1.0);
+  weigh_within_loops(reached);
+  double fastest = 0.0;
+  for (std::size_t i = 0; i < size; ++i) {
+    fastest =
+        std::max(fastest, sum_of_row(i, [&](std::size_t j) { return in_one_loop(reached, i, j); }));
+  }
+  if (fastest == 0.0) {
+    // A number that k others act on one after another is a polynomial of order k + 1.
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto others = std::count(reached[i].begin(), reached[i].end(), true);
+      polynomial_order_ = std::max(polynomial_order_, static_cast<int>(others) + 1);
+    }
+    polynomial_order_ = std::max(polynomial_order_, 1);
+    return;
+  }
+  weigh_between_loops(reached, fastest);
   for (std::size_t i = 0; i < size; ++i) {
     rate_ = std::max(rate_, sum_of_row(i, [](std::size_t) { return true; }));
   }

@@ -85,6 +85,10 @@ class LinearFlow {
   void find_moving(const AffineFlow& flow);
   std::vector<std::vector<bool>> reaches() const;
   void weigh();
+  template <class Counts>
+  double sum_of_row(std::size_t row, const Counts& counts) const;
+  void weigh_within_loops(const std::vector<std::vector<bool>>& reached);
+  void weigh_between_loops(const std::vector<std::vector<bool>>& reached, double fastest);
 
   std::vector<int> numbers_;
   std::vector<Entry> velocity_entries_;     ///< of A, columns among all numbers

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unsupported/Eigen/MatrixFunctions>
+
+#include "numeric/linear_algebra.hpp"
 
 namespace gearlash::hybrid {
 namespace {
@@ -35,7 +36,7 @@ class Disturbances {
         delay_(Eigen::RowVectorXd::Zero(system.size())) {}
 
   void flow_to(double time) {
-    if (time > time_) slope_ = (flow().matrix * (time - time_)).exp() * slope_;
+    if (time > time_) slope_ = exponential(flow().matrix * (time - time_)) * slope_;
     time_ = time;
   }
 
@@ -44,8 +45,8 @@ class Disturbances {
     const bool is_chained = event.time == last_event_;
     last_event_ = event.time;
     flow_to(event.time);
-    const Mode& before = system_.modes[mode_];
-    const Matrix reset = reset_of(system_.modes[event.mode], event).slope(system_.size());
+    const Mode& before = system_.mode(mode_);
+    const Matrix reset = reset_of(system_.mode(event.mode), event).slope(system_.size());
     const Vector flow_before = velocity(before, event.before);
     mode_ = event.mode_after;
     if (event.kind == EventKind::timed) {
@@ -58,7 +59,7 @@ class Disturbances {
       if (speed == 0.0) return false;
       delay_ = -(normal.transpose() * slope_) / speed;
     }
-    const Vector jump = velocity(system_.modes[mode_], event.after) - reset * flow_before;
+    const Vector jump = velocity(system_.mode(mode_), event.after) - reset * flow_before;
     slope_ = reset * slope_ - jump * delay_;
     return true;
   }
@@ -66,7 +67,7 @@ class Disturbances {
   const Matrix& slope() const { return slope_; }
 
  private:
-  const AffineFlow& flow() const { return system_.modes[mode_].flow; }
+  const AffineFlow& flow() const { return system_.mode(mode_).flow; }
 
   const HybridSystem& system_;
   std::size_t mode_;
@@ -87,7 +88,7 @@ std::optional<double> crossing_time(const Mode& mode, const State& start, double
   extended << start.numbers, 1.0;
   double time = std::max(guess - from, 0.0);
   for (int i = 0; i < 40; ++i) {
-    const Vector here = ((augmented * time).exp() * extended).head(size);
+    const Vector here = (exponential(augmented * time) * extended).head(size);
     const double step = -plane.at(here) / plane.normal.dot(velocity(mode, here));
     if (!std::isfinite(step)) return std::nullopt;
     time += step;
@@ -100,22 +101,23 @@ std::optional<double> crossing_time(const Mode& mode, const State& start, double
 
 }  // namespace
 
-std::optional<Passage> pass(const HybridSystem& system, const State& start, double from,
+std::optional<Passage> pass(const PreparedSystem& prepared, const State& start, double from,
                             std::size_t events, const Finish& finish) {
+  const HybridSystem& system = prepared.system();
   double end_time = finish.time;
   if (finish.plane) {
     constexpr double patience = 4.0;
     const Trajectory to_last = simulate(
-        system, start,
+        prepared, start,
         {.from = from, .until = from + patience * (finish.time - from), .event_limit = events});
     if (to_last.events().size() < events) return std::nullopt;
     const State& last = to_last.end();
-    const auto crossing = crossing_time(system.modes[last.mode], last, to_last.end_time(),
-                                        *finish.plane, finish.time);
+    const auto crossing =
+        crossing_time(system.mode(last.mode), last, to_last.end_time(), *finish.plane, finish.time);
     if (!crossing) return std::nullopt;
     end_time = *crossing;
   }
-  const Trajectory motion = simulate(system, start, {.from = from, .until = end_time});
+  const Trajectory motion = simulate(prepared, start, {.from = from, .until = end_time});
   if (motion.events().size() != events) return std::nullopt;
   Disturbances disturbances(system, start, from);
   for (const Event& event : motion.events()) {
@@ -130,7 +132,7 @@ std::optional<Passage> pass(const HybridSystem& system, const State& start, doub
   passage.slope = passage.slope_at_time;
   passage.duration_slope = Vector::Zero(system.size());
   if (!finish.plane) return passage;
-  const Vector flow = velocity(system.modes[passage.end.mode], passage.end.numbers);
+  const Vector flow = velocity(system.mode(passage.end.mode), passage.end.numbers);
   passage.duration_slope = -(finish.plane->normal.transpose() * passage.slope).transpose() /
                            finish.plane->normal.dot(flow);
   passage.slope += flow * passage.duration_slope.transpose();

@@ -31,7 +31,7 @@ struct Passage {
 /// comes before the finish, or a guard is met at no speed (c·f = 0).
 /// Source: Aizerman & Gantmakher 1958; Leine & Nijmeijer, Dynamics and Bifurcations of Non-Smooth
 /// Mechanical Systems (2004), ch. 7.
-std::optional<Passage> pass(const HybridSystem& system, const State& start, double from,
+std::optional<Passage> pass(const PreparedSystem& system, const State& start, double from,
                             std::size_t events, const Finish& finish);
 
 }  // namespace gearlash::hybrid

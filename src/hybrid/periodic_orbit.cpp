@@ -28,10 +28,6 @@ double middle_of_longest(const std::vector<Event>& events, std::size_t first, st
   return middle;
 }
 
-}  // namespace
-
-namespace {
-
 /// Whether an orbit repeats itself after so many events: a divisor of their number.
 bool repeats_after(const PeriodicOrbit& orbit, std::size_t count) {
   constexpr double alike = 1e-9;
@@ -52,7 +48,7 @@ bool repeats_after(const PeriodicOrbit& orbit, std::size_t count) {
 }
 
 /// Once around, where the orbit found goes around several times.
-PeriodicOrbit once_around(const HybridSystem& system, PeriodicOrbit orbit,
+PeriodicOrbit once_around(const PreparedSystem& system, PeriodicOrbit orbit,
                           const ShootingOptions& options) {
   const std::size_t all = orbit.events.size();
   for (std::size_t count = 1; 2 * count <= all; ++count) {
@@ -74,10 +70,10 @@ bool PeriodicOrbit::is_stable() const {
                      [](const auto& multiplier) { return std::abs(multiplier) < 1.0; });
 }
 
-std::optional<PeriodicOrbit> closing_orbit(const HybridSystem& system, const Trajectory& motion,
+std::optional<PeriodicOrbit> closing_orbit(const PreparedSystem& system, const Trajectory& motion,
                                            const ShootingOptions& options) {
   const std::vector<Event>& events = motion.events();
-  const bool has_clocks = has_periodic_clocks(system);
+  const bool has_clocks = has_periodic_clocks(system.system());
   std::size_t last = events.size();
   while (last > 0 && has_clocks && events[last - 1].kind != EventKind::timed) --last;
   if (last == 0) return std::nullopt;
@@ -109,12 +105,23 @@ std::optional<PeriodicOrbit> closing_orbit(const HybridSystem& system, const Tra
   return std::nullopt;
 }
 
-std::optional<PeriodicOrbit> neighbouring_orbit(const HybridSystem& system,
+std::optional<PeriodicOrbit> closing_orbit(const HybridSystem& system, const Trajectory& motion,
+                                           const ShootingOptions& options) {
+  return closing_orbit(PreparedSystem(system), motion, options);
+}
+
+std::optional<PeriodicOrbit> neighbouring_orbit(const PreparedSystem& system,
                                                 const PeriodicOrbit& near,
                                                 const ShootingOptions& options) {
   auto shooting = Shooting::about(system, near.start, near.start_time, near.period,
                                   near.events.size(), options.phases);
   return shooting ? solved_by_newton(*shooting, options.most_steps) : std::nullopt;
+}
+
+std::optional<PeriodicOrbit> neighbouring_orbit(const HybridSystem& system,
+                                                const PeriodicOrbit& near,
+                                                const ShootingOptions& options) {
+  return neighbouring_orbit(PreparedSystem(system), near, options);
 }
 
 }  // namespace gearlash::hybrid

@@ -41,11 +41,18 @@ struct ShootingOptions {
 /// every mode (references) stay as the trajectory has them, and the period is then theirs; with
 /// periodic clocks it is a multiple of theirs. What repeats within the period found is told of
 /// once. Nothing where no passing recurs or Newton's method does not converge.
+std::optional<PeriodicOrbit> closing_orbit(const PreparedSystem& system, const Trajectory& motion,
+                                           const ShootingOptions& options = {});
+/// The same. Throws InvalidInput with all faults of the system.
 std::optional<PeriodicOrbit> closing_orbit(const HybridSystem& system, const Trajectory& motion,
                                            const ShootingOptions& options = {});
 
 /// The orbit near another one's start, with the same number of events: of a system that has changed
 /// a little.
+std::optional<PeriodicOrbit> neighbouring_orbit(const PreparedSystem& system,
+                                                const PeriodicOrbit& near,
+                                                const ShootingOptions& options = {});
+/// The same. Throws InvalidInput with all faults of the system.
 std::optional<PeriodicOrbit> neighbouring_orbit(const HybridSystem& system,
                                                 const PeriodicOrbit& near,
                                                 const ShootingOptions& options = {});

@@ -1,5 +1,6 @@
 #include "hybrid/preparation.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gearlash::hybrid {
@@ -10,6 +11,56 @@ std::vector<SparseForm> guards_of(const Mode& mode) {
   guards.reserve(mode.transitions.size());
   for (const Transition& transition : mode.transitions) guards.emplace_back(transition.guard);
   return guards;
+}
+
+bool is_untouched(const Reset& reset, Eigen::Index number, Eigen::Index size) {
+  const bool by_matrix = reset.matrix.size() != 0 &&
+                         reset.matrix.row(number) != Vector::Unit(size, number).transpose();
+  const bool by_offset = reset.offset.size() != 0 && reset.offset[number] != 0.0;
+  return !by_matrix && !by_offset &&
+         std::all_of(reset.quantizers.begin(), reset.quantizers.end(),
+                     [&](const Quantizer& quantizer) { return quantizer.gain[number] == 0.0; });
+}
+
+bool is_untouched(const Mode& mode, Eigen::Index number, Eigen::Index size) {
+  return std::all_of(mode.transitions.begin(), mode.transitions.end(),
+                     [&](const Transition& transition) {
+                       return is_untouched(transition.reset, number, size) &&
+                              (!transition.settling ||
+                               is_untouched(transition.settling->reset, number, size));
+                     }) &&
+         std::all_of(mode.timed.begin(), mode.timed.end(), [&](const TimedTransition& timed) {
+           return is_untouched(timed.reset, number, size);
+         });
+}
+
+/// Numbers that follow their own flow alone, the same in every mode, and that no event changes.
+std::vector<bool> exogenous_numbers(const HybridSystem& system) {
+  const auto size = static_cast<std::size_t>(system.size());
+  if (system.source) {
+    return system.exogenous.empty() ? std::vector<bool>(size, false) : system.exogenous;
+  }
+  const AffineFlow& first = system.modes.front().flow;
+  std::vector<bool> is(size, true);
+  for (std::size_t n = 0; n < size; ++n) {
+    const auto i = static_cast<Eigen::Index>(n);
+    is[n] = std::all_of(system.modes.begin(), system.modes.end(), [&](const Mode& mode) {
+      return mode.flow.matrix.row(i) == first.matrix.row(i) &&
+             mode.flow.offset[i] == first.offset[i] && is_untouched(mode, i, system.size());
+    });
+  }
+  for (bool changed = true; changed;) {  // what others act on that are none is none
+    changed = false;
+    for (std::size_t n = 0; n < size; ++n) {
+      for (std::size_t k = 0; is[n] && k < size; ++k) {
+        const auto row = static_cast<Eigen::Index>(n);
+        if (is[k] || first.matrix(row, static_cast<Eigen::Index>(k)) == 0.0) continue;
+        is[n] = false;
+        changed = true;
+      }
+    }
+  }
+  return is;
 }
 
 }  // namespace
@@ -57,7 +108,7 @@ PreparedJump::PreparedJump(const Reset& all, const std::vector<Alternative>& oth
 }
 
 PreparedMode::PreparedMode(const Mode& mode, Eigen::Index size)
-    : guards(guards_of(mode)), whole(mode.flow, guards), affine_(mode.flow) {
+    : guards(guards_of(mode)), whole(mode.flow, guards), mode_(&mode), affine_(mode.flow) {
   transitions.reserve(mode.transitions.size());
   settlings.reserve(mode.transitions.size());
   for (const Transition& transition : mode.transitions) {
@@ -85,9 +136,15 @@ const PreparedMode::Slow* PreparedMode::slow() const {
 const PreparedMode& Preparation::mode(std::size_t index) const {
   Slot& slot = slots_[index];
   std::call_once(slot.once, [&] {
-    slot.mode = std::make_unique<const PreparedMode>(system_->modes[index], system_->size());
+    if (system_->source) require_none(faults_of_mode(*system_, index));
+    slot.mode = std::make_unique<const PreparedMode>(system_->mode(index), system_->size());
   });
   return *slot.mode;
+}
+
+const std::vector<bool>& Preparation::exogenous() const {
+  std::call_once(exogenous_once_, [this] { exogenous_ = exogenous_numbers(*system_); });
+  return exogenous_;
 }
 
 }  // namespace gearlash::hybrid

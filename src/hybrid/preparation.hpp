@@ -49,7 +49,10 @@ struct PreparedJump {
 
 class PreparedMode {
  public:
+  /// The mode must live for as long as motions enter it.
   PreparedMode(const Mode& mode, Eigen::Index size);
+
+  const Mode& mode() const { return *mode_; }
 
   struct Slow {
     FastDecays decays;
@@ -65,6 +68,7 @@ class PreparedMode {
   std::vector<PreparedJump> timed;
 
  private:
+  const Mode* mode_;
   AffineFlow affine_;
   mutable std::once_flag once_;
   mutable std::optional<Slow> slow_;
@@ -75,15 +79,18 @@ class Preparation {
  public:
   /// The system must live for as long as modes are entered.
   explicit Preparation(const HybridSystem& system)
-      : system_(&system), slots_(system.modes.size()) {}
+      : system_(&system), slots_(system.mode_count()) {}
   /// With its own copy.
   explicit Preparation(HybridSystem&& system)
       : own_(std::make_unique<const HybridSystem>(std::move(system))),
         system_(own_.get()),
-        slots_(own_->modes.size()) {}
+        slots_(own_->mode_count()) {}
 
   const HybridSystem& system() const { return *system_; }
+  /// Throws InvalidInput with all faults of a mode that a source has made.
   const PreparedMode& mode(std::size_t index) const;
+  /// Which numbers follow their own flow alone in every mode, and are changed by no event.
+  const std::vector<bool>& exogenous() const;
 
  private:
   struct Slot {
@@ -93,6 +100,8 @@ class Preparation {
   std::unique_ptr<const HybridSystem> own_;
   const HybridSystem* system_;
   mutable std::vector<Slot> slots_;
+  mutable std::once_flag exogenous_once_;
+  mutable std::vector<bool> exogenous_;
 };
 
 }  // namespace gearlash::hybrid

@@ -1,11 +1,10 @@
 #include "hybrid/shooting.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unsupported/Eigen/MatrixFunctions>
+
+#include "numeric/linear_algebra.hpp"
 
 namespace gearlash::hybrid {
 namespace {
@@ -13,46 +12,6 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using Index = Eigen::Index;
-
-/// Numbers that follow their own flow alone, the same in every mode, and that no event changes.
-std::vector<bool> exogenous_numbers(const HybridSystem& system) {
-  const auto size = static_cast<std::size_t>(system.size());
-  std::vector<bool> is(size, true);
-  const auto is_untouched = [&](const Reset& reset, Index i) {
-    const bool by_matrix = reset.matrix.size() != 0 &&
-                           reset.matrix.row(i) != Vector::Unit(system.size(), i).transpose();
-    const bool by_offset = reset.offset.size() != 0 && reset.offset[i] != 0.0;
-    return !by_matrix && !by_offset &&
-           std::all_of(reset.quantizers.begin(), reset.quantizers.end(),
-                       [&](const Quantizer& q) { return q.gain[i] == 0.0; });
-  };
-  const AffineFlow& first = system.modes.front().flow;
-  for (std::size_t n = 0; n < size; ++n) {
-    const auto i = static_cast<Index>(n);
-    for (const Mode& mode : system.modes) {
-      bool same =
-          mode.flow.matrix.row(i) == first.matrix.row(i) && mode.flow.offset[i] == first.offset[i];
-      for (const Transition& transition : mode.transitions) {
-        same = same && is_untouched(transition.reset, i) &&
-               (!transition.settling || is_untouched(transition.settling->reset, i));
-      }
-      for (const TimedTransition& timed : mode.timed) same = same && is_untouched(timed.reset, i);
-      if (!same) is[n] = false;
-    }
-  }
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (std::size_t n = 0; n < size; ++n) {
-      if (!is[n]) continue;
-      for (std::size_t k = 0; k < size; ++k) {
-        if (is[k] || first.matrix(static_cast<Index>(n), static_cast<Index>(k)) == 0.0) continue;
-        is[n] = false;
-        changed = true;
-      }
-    }
-  }
-  return is;
-}
 
 double size_of(const Vector& vector) {
   return vector.size() == 0 ? 0.0 : vector.cwiseAbs().maxCoeff();
@@ -68,7 +27,7 @@ Vector flown(const AffineFlow& flow, const Vector& numbers, double time) {
   Matrix augmented = Matrix::Zero(size + 1, size + 1);
   augmented.topLeftCorner(size, size) = flow.matrix;
   augmented.topRightCorner(size, 1) = velocity(flow, numbers);
-  return numbers + Vector((augmented * time).exp().topRightCorner(size, 1));
+  return numbers + Vector(exponential(augmented * time).topRightCorner(size, 1));
 }
 
 /// Whether a flow moves numbers, for all that rounding can tell.
@@ -103,9 +62,11 @@ bool has_periodic_clocks(const HybridSystem& system) {
                      [](const Clock& clock) { return clock.period > 0.0; });
 }
 
-Shooting::Shooting(const HybridSystem& system, const State& start, double start_time, double period)
-    : system_(&system),
-      has_clocks_(has_periodic_clocks(system)),
+Shooting::Shooting(const PreparedSystem& system, const State& start, double start_time,
+                   double period)
+    : system_(system),
+      first_mode_(start.mode),
+      has_clocks_(has_periodic_clocks(system.system())),
       start_time_(start_time),
       period_(period),
       anchor_(start.numbers) {
@@ -113,10 +74,10 @@ Shooting::Shooting(const HybridSystem& system, const State& start, double start_
 }
 
 void Shooting::find_exogenous() {
-  const AffineFlow& flow = system_->modes.front().flow;
-  is_exogenous_ = exogenous_numbers(*system_);
-  exogenous_flow_ = {Matrix::Zero(system_->size(), system_->size()), Vector::Zero(system_->size())};
-  for (Index n = 0; n < system_->size(); ++n) {
+  const AffineFlow& flow = system_.system().mode(first_mode_).flow;
+  is_exogenous_ = system_.exogenous();
+  exogenous_flow_ = {Matrix::Zero(size(), size()), Vector::Zero(size())};
+  for (Index n = 0; n < size(); ++n) {
     if (is_exogenous_[static_cast<std::size_t>(n)]) {
       exogenous_flow_.matrix.row(n) = flow.matrix.row(n);
       exogenous_flow_.offset[n] = flow.offset[n];
@@ -128,14 +89,14 @@ void Shooting::find_exogenous() {
   if (moves_by_itself_) period_ = refined_period(exogenous_flow_, anchor_, period_);
 }
 
-Shooting Shooting::of(const HybridSystem& system) const {
+Shooting Shooting::of(const PreparedSystem& system) const {
   Shooting other = *this;
-  other.system_ = &system;
+  other.system_ = system;
   other.find_exogenous();
   return other;
 }
 
-std::optional<Shooting> Shooting::about(const HybridSystem& system, const State& start,
+std::optional<Shooting> Shooting::about(const PreparedSystem& system, const State& start,
                                         double start_time, double period, std::size_t events,
                                         std::size_t phases) {
   Shooting shooting(system, start, start_time, period);
@@ -190,17 +151,17 @@ void Shooting::divide(const Trajectory& motion, std::size_t phases) {
   }
   passed.push_back(events.size());
   constexpr double least = 1e-100;  // whose square is not 0 either: of numbers that stay 0
-  Vector sizes = Vector::Constant(system_->size(), least);
+  Vector sizes = Vector::Constant(size(), least);
   constexpr int samples = 32;  // how large each number becomes, about
   for (int i = 0; i < samples; ++i) {
     const double time = motion.start_time() + period_ * i / samples;
     sizes = sizes.cwiseMax(motion.at(time).numbers.cwiseAbs());
   }
-  const Index size = system_->size();
+  const Index size = this->size();
   unknowns_ = Vector::Zero(static_cast<Index>(times.size()) * size + (has_shift() ? 1 : 0));
   for (std::size_t i = 0; i < times.size(); ++i) {
     const State here = motion.at(times[i]);
-    const AffineFlow& flow = system_->modes[here.mode].flow;
+    const AffineFlow& flow = system_.system().mode(here.mode).flow;
     const Vector normal =
         ((flow.matrix * here.numbers + flow.offset).array() / sizes.array().square()).matrix();
     phases_.push_back({times[i] - motion.start_time(),
@@ -212,12 +173,12 @@ void Shooting::divide(const Trajectory& motion, std::size_t phases) {
 }
 
 State Shooting::start_of(std::size_t phase) const {
-  const Index size = system_->size();
+  const Index size = this->size();
   return {phases_[phase].mode, unknowns_.segment(static_cast<Index>(phase) * size, size)};
 }
 
 double Shooting::scale() const {
-  return size_of(unknowns_.head(static_cast<Index>(phases_.size()) * system_->size()));
+  return size_of(unknowns_.head(static_cast<Index>(phases_.size()) * size()));
 }
 
 std::optional<Passage> Shooting::pass_from(std::size_t phase) const {
@@ -228,7 +189,7 @@ std::optional<Passage> Shooting::pass_from(std::size_t phase) const {
   const double length = (is_last ? period_ : next.time) - here.time;
   Finish finish{std::nullopt, from + length};
   if (!has_clocks_) finish.plane = next.plane;
-  auto passage = pass(*system_, start_of(phase), from, here.events, finish);
+  auto passage = pass(system_, start_of(phase), from, here.events, finish);
   if (passage && passage->end.mode != next.mode) return std::nullopt;
   return passage;
 }
@@ -246,7 +207,7 @@ std::optional<Shooting::Equations> Shooting::evaluate() const {
 }
 
 Vector Shooting::residual_of(const std::vector<Passage>& all) const {
-  const Index size = system_->size();
+  const Index size = this->size();
   const auto phases = static_cast<Index>(all.size());
   Vector residual = Vector::Zero(unknowns_.size());
   for (Index i = 0; i < phases; ++i) {
@@ -263,7 +224,7 @@ Vector Shooting::residual_of(const std::vector<Passage>& all) const {
 }
 
 Matrix Shooting::slope_of(const std::vector<Passage>& all) const {
-  const Index size = system_->size();
+  const Index size = this->size();
   const auto phases = static_cast<Index>(all.size());
   const Index count = unknowns_.size();
   Matrix slope = Matrix::Zero(count, count);
@@ -294,7 +255,7 @@ PeriodicOrbit Shooting::orbit(const Equations& solved) const {
   orbit.start_time = start_time_;
   orbit.residual = size_of(solved.residual) / scale();
   const bool is_forced = moves_by_itself_ || has_clocks_;
-  Matrix product = Matrix::Identity(system_->size(), system_->size());
+  Matrix product = Matrix::Identity(size(), size());
   for (const Passage& passage : solved.passages) {
     for (Event event : passage.events) {
       event.time += has_clocks_ ? -start_time_ : orbit.period;
@@ -304,11 +265,11 @@ PeriodicOrbit Shooting::orbit(const Equations& solved) const {
     product = (is_forced ? passage.slope_at_time : passage.slope) * product;
   }
   std::vector<Index> own;
-  for (Index n = 0; n < system_->size(); ++n) {
+  for (Index n = 0; n < size(); ++n) {
     if (!is_exogenous_[static_cast<std::size_t>(n)]) own.push_back(n);
   }
   const Matrix of_own = product(own, own);
-  const Eigen::VectorXcd values = of_own.eigenvalues();
+  const Eigen::VectorXcd values = eigenvalues(of_own);
   orbit.multipliers.assign(values.begin(), values.end());
   std::sort(orbit.multipliers.begin(), orbit.multipliers.end(),
             [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
@@ -335,7 +296,7 @@ std::optional<PeriodicOrbit> solved_by_newton(Shooting& shooting, int most_steps
     if (!std::isfinite(size) || since_least >= patience) return std::nullopt;
     least = std::min(least, size);
     last = size;
-    const Vector change = equations->slope.fullPivLu().solve(-equations->residual);
+    const Vector change = solved_with_full_pivoting(equations->slope, -equations->residual);
     if (!change.allFinite()) return std::nullopt;
     shooting.assign(shooting.unknowns() + change);
   }

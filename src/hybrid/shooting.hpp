@@ -20,12 +20,12 @@ class Shooting {
  public:
   /// Of `events` events within the period from `start` on, which is midway between two of them; so
   /// many phases at most. Nothing where the motion has other events.
-  static std::optional<Shooting> about(const HybridSystem& system, const State& start,
+  static std::optional<Shooting> about(const PreparedSystem& system, const State& start,
                                        double start_time, double period, std::size_t events,
                                        std::size_t phases);
 
   /// The same phases and planes, of a system that is a little different.
-  Shooting of(const HybridSystem& system) const;
+  Shooting of(const PreparedSystem& system) const;
 
   const Vector& unknowns() const { return unknowns_; }
   void assign(const Vector& unknowns) { unknowns_ = unknowns; }
@@ -43,7 +43,7 @@ class Shooting {
   PeriodicOrbit orbit(const Equations& solved) const;
 
  private:
-  Shooting(const HybridSystem& system, const State& start, double start_time, double period);
+  Shooting(const PreparedSystem& system, const State& start, double start_time, double period);
 
   /// A phase's start: when, in which mode, the plane, and how many events follow in the phase.
   struct Phase {
@@ -55,6 +55,7 @@ class Shooting {
   void divide(const Trajectory& motion, std::size_t phases);
 
   void find_exogenous();
+  Eigen::Index size() const { return system_.system().size(); }
   bool has_shift() const { return moves_by_itself_ && !has_clocks_; }
   State start_of(std::size_t phase) const;
   double shift() const { return has_shift() ? unknowns_[unknowns_.size() - 1] : 0.0; }
@@ -62,7 +63,8 @@ class Shooting {
   Vector residual_of(const std::vector<Passage>& all) const;
   Matrix slope_of(const std::vector<Passage>& all) const;
 
-  const HybridSystem* system_;
+  PreparedSystem system_;
+  std::size_t first_mode_;  ///< of the first phase
   std::vector<Phase> phases_;
   std::vector<bool> is_exogenous_;
   AffineFlow exogenous_flow_;

@@ -1,7 +1,5 @@
 #include "model/controller.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 
 #include "base/overloaded.hpp"
 #include "base/range_check.hpp"
+#include "numeric/linear_algebra.hpp"
 
 namespace gearlash::drive {
 namespace {
@@ -270,7 +269,7 @@ LinearController sampled_controller(const Controller& controller, const Sampling
   const Matrix dynamics = matrix_of(given.state_matrix, order);
   const Matrix input = matrix_of(given.input_matrix, 3);
   const Matrix identity = Matrix::Identity(size, size);
-  const Matrix solved = (identity - share * period * dynamics).partialPivLu().inverse();
+  const Matrix solved = inverse(identity - share * period * dynamics);
   const Vector output = solved.transpose() * vector_of(given.output);
   LinearController result;
   result.state_matrix = rows_of(solved * (identity + (1.0 - share) * period * dynamics));
@@ -287,7 +286,7 @@ double spectral_radius(const LinearController& controller) {
   const std::size_t order = controller.order();
   if (order == 0) return 0.0;
   const double radius =
-      matrix_of(controller.state_matrix, order).eigenvalues().cwiseAbs().maxCoeff();
+      eigenvalues(matrix_of(controller.state_matrix, order)).cwiseAbs().maxCoeff();
   return std::isfinite(radius) ? radius : std::numeric_limits<double>::infinity();
 }
 

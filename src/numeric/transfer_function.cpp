@@ -1,12 +1,12 @@
 #include "numeric/transfer_function.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string_view>
 
 #include "base/range_check.hpp"
+#include "numeric/linear_algebra.hpp"
 
 namespace gearlash {
 namespace {
@@ -98,8 +98,8 @@ std::vector<Complex> roots_of(const std::vector<double>& polynomial) {
   const double scale = std::pow(product, 1.0 / static_cast<double>(degree));
   Eigen::MatrixXd companion = companion_matrix(rest.coefficients, scale);
   balance(companion);
-  const Eigen::VectorXcd eigenvalues = companion.eigenvalues();
-  for (const Complex& eigenvalue : eigenvalues) roots.push_back(without_noise(scale * eigenvalue));
+  const Eigen::VectorXcd values = eigenvalues(companion);
+  for (const Complex& eigenvalue : values) roots.push_back(without_noise(scale * eigenvalue));
   return roots;
 }
 

@@ -82,7 +82,7 @@ ContactTimes contact_times(const AttractorReport& report, const FoundCycle& cycl
   double from = cycle.orbit.start_time;
   std::size_t mode = cycle.orbit.start.mode;
   const auto add = [&](double to) {
-    const bool is_apart = system.modes[mode].contact == drive::ContactState::apart;
+    const bool is_apart = system.modes.mode(mode).contact == drive::ContactState::apart;
     (is_apart ? times.apart : times.together) += to - from;
     from = to;
   };

@@ -34,7 +34,7 @@ Sample sample_at(const DriveMotionReport& report, double time) {
   const drive::DriveSystem& system = report.system;
   return {time,
           drive::shafts_of(state),
-          system.motor_torque[state.mode].at(state.numbers),
+          system.motor_torque(state.mode).at(state.numbers),
           system.reference.at(state.numbers),
           system.load_torque.at(state.numbers),
           state.mode};
@@ -50,7 +50,7 @@ void for_each_sample(const DriveMotionReport& report, const ProgressSink& progre
 // ---- events -------------------------------------------------------------------------------------
 
 const std::string& name_of_event(const DriveMotionReport& report, const hybrid::Event& event) {
-  const hybrid::Mode& mode = report.system.system.modes[event.mode];
+  const hybrid::Mode& mode = report.system.system.mode(event.mode);
   return event.kind == hybrid::EventKind::timed ? mode.timed[event.transition].name
                                                 : mode.transitions[event.transition].name;
 }
@@ -61,7 +61,7 @@ std::string text_of_event(const DriveMotionReport& report, const hybrid::Event& 
 }
 
 const std::string& name_of_touch(const DriveMotionReport& report, const hybrid::Touch& touch) {
-  return report.system.system.modes[touch.mode].transitions[touch.transition].name;
+  return report.system.system.mode(touch.mode).transitions[touch.transition].name;
 }
 
 std::vector<const hybrid::Event*> events_of(const DriveMotionReport& report) {
@@ -75,7 +75,7 @@ std::vector<const hybrid::Event*> events_of(const DriveMotionReport& report) {
 }
 
 const std::string& mode_name(const DriveMotionReport& report, std::size_t mode) {
-  return report.system.system.modes[mode].name;
+  return report.system.system.mode(mode).name;
 }
 
 // ---- CSV ----------------------------------------------------------------------------------------

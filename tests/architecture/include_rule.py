@@ -34,17 +34,19 @@ PERMITTED_ROOMS = {
     "thesis": set(NUMERICS) | {"input", "output", "picture"},
 }
 
-# Room of the numerics -> the libraries that it may include.
+# Room of the numerics -> the libraries that it may include. Eigen's decompositions are compiled once,
+# in numeric; other rooms take them from numeric/linear_algebra.hpp.
 EIGEN = ("Eigen/", "unsupported/Eigen/MatrixFunctions")
+MATRICES = "Eigen/Core"
 PERMITTED_LIBRARIES = {
     "base": ("boost/math/", "tbb/"),
     "numeric": ("boost/math/", *EIGEN),
-    "model": ("boost/math/", "boost/multiprecision/", "Eigen/"),
-    "hybrid": ("boost/math/", *EIGEN),
-    "closed_form": ("boost/math/", "boost/multiprecision/", "Eigen/",
+    "model": ("boost/math/", "boost/multiprecision/"),
+    "hybrid": ("boost/math/", MATRICES),
+    "closed_form": ("boost/math/", "boost/multiprecision/", MATRICES,
                     "unsupported/Eigen/AutoDiff", "xsimd/"),
-    "general": ("boost/math/", "boost/multiprecision/", *EIGEN),
-    "analysis": ("boost/math/", "boost/multiprecision/", "boost/random/", *EIGEN, "tbb/"),
+    "general": ("boost/math/", "boost/multiprecision/", MATRICES),
+    "analysis": ("boost/math/", "boost/multiprecision/", "boost/random/", MATRICES, "tbb/"),
 }
 
 PRINTS_OR_READS = {

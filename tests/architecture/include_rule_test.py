@@ -70,6 +70,12 @@ class IncludeRule(unittest.TestCase):
         for header in ("fmt/format.h", "toml++/toml.h", "nlohmann/json.hpp", "udunits2.h"):
             self.assert_refused("src/model/shaft.cpp", f"#include <{header}>\n")
 
+    def test_decompositions_are_compiled_in_numeric_alone(self):
+        for header in ("Eigen/LU", "Eigen/Dense", "unsupported/Eigen/MatrixFunctions"):
+            self.assert_refused("src/hybrid/orbit.cpp", f"#include <{header}>\n")
+            self.assert_sound({"src/numeric/solve.cpp": f"#include <{header}>\n"})
+        self.assert_sound({"src/hybrid/orbit.cpp": "#include <Eigen/Core>\n"})
+
     def test_public_headers_burden_no_user_with_a_library_or_a_room(self):
         for header in ("<Eigen/Core>", "<boost/math/tools/roots.hpp>", '"base/bounds.hpp"'):
             self.assert_refused("include/gearlash/answer.hpp", f"#include {header}\n")

@@ -89,7 +89,7 @@ TEST(Controller, IntegralActionHuntsWithStiction) {
   const auto& events = motion.events();
   ASSERT_GT(events.size(), 10U);
   const auto name_of = [&](const hybrid::Event& event) {
-    return built.system.modes[event.mode].transitions[event.transition].name;
+    return built.system.mode(event.mode).transitions[event.transition].name;
   };
   EXPECT_EQ(name_of(events[events.size() - 1]).rfind("motor", 0), 0U);
   EXPECT_NE(name_of(events[events.size() - 2]), name_of(events[events.size() - 4]));

@@ -36,7 +36,7 @@ std::vector<hybrid::Event> partings_and_meetings(const Drive& drive,
   const DriveSystem built = drive_system(drive);
   std::vector<hybrid::Event> found;
   for (const hybrid::Event& event : motion.events()) {
-    const std::string& name = built.system.modes[event.mode].transitions[event.transition].name;
+    const std::string& name = built.system.mode(event.mode).transitions[event.transition].name;
     if (name == "faces let go" || name.rfind("faces meet", 0) == 0) found.push_back(event);
   }
   return found;

@@ -92,7 +92,8 @@ TEST(PropertySaltation, DerivativesOfSwitchedFlowsAreFiniteDifferences) {
     };
     const Trajectory motion = simulate(system, {0, start}, {.until = until});
     ASSERT_EQ(motion.events().size(), switches);
-    const auto passage = pass(system, {0, start}, 0.0, switches, {.plane = {}, .time = until});
+    const auto passage =
+        pass(PreparedSystem(system), {0, start}, 0.0, switches, {.plane = {}, .time = until});
     ASSERT_TRUE(passage);
     const Matrix& exact = passage->slope_at_time;
     const Matrix found = differences(end, start, 2, 2e-2);
@@ -108,11 +109,11 @@ TEST(PropertySaltation, DerivativesOnAPlaneAreFiniteDifferences) {
   const State there = simulate(system, {0, start}, {.until = time}).end();
   const Vector normal = system.modes[there.mode].flow.matrix * there.numbers;
   const Finish finish{.plane = AffineForm{normal, -normal.dot(there.numbers)}, .time = time};
-  const auto passage = pass(system, {0, start}, 0.0, 2, finish);
+  const auto passage = pass(PreparedSystem(system), {0, start}, 0.0, 2, finish);
   ASSERT_TRUE(passage);
   EXPECT_NEAR(passage->duration, time, 16.0 * epsilon * time);
   const auto end_and_duration = [&](const Vector& from) {
-    const Passage near = pass(system, {0, from}, 0.0, 2, finish).value();
+    const Passage near = pass(PreparedSystem(system), {0, from}, 0.0, 2, finish).value();
     return Vector{{near.end.numbers[0], near.end.numbers[1], near.duration}};
   };
   const Matrix found = differences(end_and_duration, start, 2, 2e-2);
@@ -167,7 +168,8 @@ TEST(PropertySaltation, EventsThatOthersBringAboutAreDelayedWithThem) {
     const auto end = [&](const Vector& from) {
       return simulate(system, {0, from}, {.until = until}).end().numbers;
     };
-    const auto passage = pass(system, {0, start}, 0.0, 2, {.plane = {}, .time = until});
+    const auto passage =
+        pass(PreparedSystem(system), {0, start}, 0.0, 2, {.plane = {}, .time = until});
     ASSERT_TRUE(passage);
     EXPECT_EQ(passage->events[0].time, passage->events[1].time);
     const Matrix found = differences(end, start, 3, 1e-2);

@@ -1,6 +1,5 @@
 #include "analysis/design/hunting_margin.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +8,7 @@
 #include "analysis/design/drive_sensitivity.hpp"
 #include "analysis/design/target.hpp"
 #include "closed_form/growth_at_rest.hpp"
+#include "numeric/linear_algebra.hpp"
 
 namespace gearlash {
 namespace {
@@ -184,14 +184,14 @@ std::optional<Change> stationary_change(const LogGrowth& growth, Change at) {
     const auto here = growth.with_gradient(at);
     if (!std::isfinite(here.value) || !(here.gradient.squaredNorm() > 0.0)) return std::nullopt;
     if (i == 0) multiplier = at.dot(here.gradient) / here.gradient.squaredNorm();
-    Eigen::Matrix<double, 6, 6> slope = Eigen::Matrix<double, 6, 6>::Zero();
+    Matrix6d slope = Matrix6d::Zero();
     slope.topLeftCorner<5, 5>().setIdentity();
     slope.topLeftCorner<5, 5>() -= multiplier * curvature(growth, at);
     slope.topRightCorner<5, 1>() = -here.gradient;
     slope.bottomLeftCorner<1, 5>() = here.gradient.transpose();
-    Eigen::Matrix<double, 6, 1> residual;
+    Vector6d residual;
     residual << at - multiplier * here.gradient, here.value;
-    const Eigen::Matrix<double, 6, 1> step = slope.partialPivLu().solve(-residual);
+    const Vector6d step = solved(slope, Vector6d(-residual));
     if (!step.allFinite()) return std::nullopt;
     at += step.head<5>();
     multiplier += step(5);

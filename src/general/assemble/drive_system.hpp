@@ -1,53 +1,28 @@
 // A drive as a hybrid system.
 #pragma once
 
+#include <array>
+
+#include "general/assemble/drive_mode.hpp"
+#include "general/assemble/state_indices.hpp"
 #include "hybrid/hybrid_trajectory.hpp"
 #include "model/drive.hpp"
 
 namespace gearlash::drive {
 
-/// Places of a drive's own numbers in the state; the controller's follow, and then what it holds
-/// and reads, and the generators of reference and load torque.
-enum DriveNumber : Eigen::Index {
-  motor_position,
-  motor_speed,
-  load_position,
-  load_speed,
-  controller_states
-};
-
-/// How faces and friction are, in one mode.
-enum class ContactState {
-  apart,
-  forward,
-  backward,
-  forward_limited,
-  backward_limited,
-  forward_letting_go,
-  backward_letting_go
-};
-enum class FrictionState { viscous, forward, backward, sticking };
-enum class TorqueState { linear, highest, lowest };
-
-struct DriveMode {
-  ContactState contact = ContactState::apart;
-  FrictionState motor = FrictionState::viscous;
-  FrictionState load = FrictionState::viscous;
-  TorqueState torque = TorqueState::linear;
-
-  bool operator==(const DriveMode&) const = default;
-};
-
 struct DriveSystem {
-  hybrid::HybridSystem system;
-  std::vector<DriveMode> modes;  ///< of the system, in order
+  hybrid::HybridSystem system;  ///< its modes are made when they are first entered
+  DriveModes modes;             ///< what they are
+  StateIndices at;
   hybrid::Vector start;          ///< of all numbers at time 0, but for the shafts' 0
   hybrid::Reset first_readings;  ///< of encoders, once the shafts are where they start
   hybrid::AffineForm reference;
   hybrid::AffineForm load_torque;
-  std::vector<hybrid::AffineForm> motor_torque;  ///< in each of the modes
+  std::array<hybrid::AffineForm, 3> motor_torques;  ///< by TorqueState
 
-  std::size_t index_of(const DriveMode& mode) const;
+  const hybrid::AffineForm& motor_torque(std::size_t mode) const {
+    return motor_torques[static_cast<std::size_t>(modes.mode(mode).torque)];
+  }
 };
 
 /// Positions rad, speeds rad/s.

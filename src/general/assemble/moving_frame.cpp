@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace gearlash::drive {
 namespace {
@@ -12,20 +13,10 @@ using hybrid::Vector;
 
 class Rewriter {
  public:
-  explicit Rewriter(const MovingFrame& frame) : frame_(frame) {}
+  explicit Rewriter(MovingFrame frame) : frame_(std::move(frame)) {}
 
-  void rewrite(hybrid::HybridSystem& system) const {
-    for (hybrid::Mode& mode : system.modes) rewrite(mode);
-    for (hybrid::Clock& clock : system.clocks) {
-      for (Vector& addition : clock.additions) addition = divided(addition);
-    }
-  }
-
- private:
-  Vector divided(const Vector& numbers) const { return numbers.cwiseQuotient(frame_.scale); }
-
-  hybrid::Matrix similar(const hybrid::Matrix& matrix) const {
-    return frame_.scale.cwiseInverse().asDiagonal() * matrix * frame_.scale.asDiagonal();
+  void rewrite(hybrid::Clock& clock) const {
+    for (Vector& addition : clock.additions) addition = divided(addition);
   }
 
   void rewrite(hybrid::Mode& mode) const {
@@ -44,6 +35,13 @@ class Rewriter {
       rewrite(timed.reset);
       rewrite(timed.alternatives);
     }
+  }
+
+ private:
+  Vector divided(const Vector& numbers) const { return numbers.cwiseQuotient(frame_.scale); }
+
+  hybrid::Matrix similar(const hybrid::Matrix& matrix) const {
+    return frame_.scale.cwiseInverse().asDiagonal() * matrix * frame_.scale.asDiagonal();
   }
 
   void rewrite(AffineForm& form) const {
@@ -71,7 +69,7 @@ class Rewriter {
     }
   }
 
-  const MovingFrame& frame_;
+  MovingFrame frame_;
 };
 
 constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
@@ -126,13 +124,24 @@ Vector MovingFrame::outside(const Vector& numbers, double time) const {
 }
 
 bool is_carried_along(const hybrid::HybridSystem& system, const Vector& way) {
-  return std::all_of(system.modes.begin(), system.modes.end(),
-                     [&](const hybrid::Mode& mode) { return is_carried_along(mode, way); });
+  for (std::size_t i = 0; i < system.mode_count(); ++i) {
+    if (!is_carried_along(system.mode(i), way)) return false;
+  }
+  return true;
 }
 
 hybrid::HybridSystem seen_in(const hybrid::HybridSystem& system, const MovingFrame& frame) {
+  const Rewriter rewriter(frame);
   hybrid::HybridSystem result = system;
-  Rewriter(frame).rewrite(result);
+  for (hybrid::Clock& clock : result.clocks) rewriter.rewrite(clock);
+  for (hybrid::Mode& mode : result.modes) rewriter.rewrite(mode);
+  if (!system.source) return result;
+  result.source =
+      hybrid::ModeSource(system.mode_count(), [from = system.source, rewriter](std::size_t index) {
+        hybrid::Mode mode = from.mode(index);
+        rewriter.rewrite(mode);
+        return mode;
+      });
   return result;
 }
 

@@ -1,15 +1,14 @@
 #include "general/assemble/time_scale.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
 #include <numbers>
-#include <unsupported/Eigen/MatrixFunctions>
 #include <vector>
 
 #include "general/assemble/drive_system.hpp"
+#include "numeric/linear_algebra.hpp"
 
 namespace gearlash::drive {
 namespace {
@@ -47,7 +46,7 @@ Matrix of_shafts_as_one(const Matrix& matrix) {
 std::vector<std::complex<double>> loop_eigenvalues(const Drive& drive) {
   const Drive linear = linear_drive(drive);
   const DriveSystem built = drive_system(linear);
-  const hybrid::Mode& mode = built.system.modes[built.index_of({ContactState::forward})];
+  const hybrid::Mode& mode = built.system.mode(built.modes.index_of({ContactState::forward}));
   const bool is_rigid = std::holds_alternative<RigidContact>(linear.contact);
   const auto reduced = [&](const Matrix& matrix) {
     return is_rigid ? of_shafts_as_one(matrix) : matrix;
@@ -55,7 +54,7 @@ std::vector<std::complex<double>> loop_eigenvalues(const Drive& drive) {
   const Matrix flow = reduced(mode.flow.matrix);
   std::vector<std::complex<double>> values;
   if (!linear.sampling) {
-    const Eigen::VectorXcd all = flow.eigenvalues();
+    const Eigen::VectorXcd all = eigenvalues(flow);
     values.assign(all.begin(), all.end());
     return values;
   }
@@ -63,14 +62,14 @@ std::vector<std::complex<double>> loop_eigenvalues(const Drive& drive) {
   const double delay = linear.sampling->delay;
   Matrix map = reduced(mode.timed.front().reset.matrix);
   if (mode.timed.size() > 1) {
-    map = (flow * (period - delay)).exp() * reduced(mode.timed.back().reset.matrix) *
-          (flow * delay).exp() * map;
+    map = exponential(flow * (period - delay)) * reduced(mode.timed.back().reset.matrix) *
+          exponential(flow * delay) * map;
   } else {
-    map = (flow * period).exp() * map;
+    map = exponential(flow * period) * map;
   }
-  const Eigen::VectorXcd all = map.eigenvalues();
+  const Eigen::VectorXcd all = eigenvalues(map);
   for (const std::complex<double>& value : all) {
-    constexpr double dead_beat = 1e-12;
+    constexpr double dead_beat = 1e-12;  // gone within a sample, for all that rounding can tell
     if (std::abs(value) > dead_beat) values.push_back(std::log(value) / period);
   }
   return values;
@@ -80,7 +79,7 @@ std::vector<std::complex<double>> loop_eigenvalues(const Drive& drive) {
 std::vector<std::complex<double>> without_free_numbers(std::vector<std::complex<double>> values) {
   double fastest = 0.0;
   for (const auto& value : values) fastest = std::max(fastest, std::abs(value));
-  constexpr double nothing = 1e-9;
+  constexpr double nothing = 1e-9;  // of the fastest
   std::erase_if(values, [&](const auto& value) { return std::abs(value) <= nothing * fastest; });
   return values;
 }
@@ -94,10 +93,10 @@ TimeScales time_scales(const Drive& drive) {
   double slowest_decay = infinity;
   for (const auto& value : without_free_numbers(loop_eigenvalues(drive))) {
     const double rate = std::abs(value);
-    constexpr double share = 0.1;
-    if (std::abs(value.imag()) > share * rate) slowest_swing = std::min(slowest_swing, rate);
+    constexpr double swinging = 0.1;  // of the modulus: what has less imaginary part decays
+    if (std::abs(value.imag()) > swinging * rate) slowest_swing = std::min(slowest_swing, rate);
     slowest = std::min(slowest, rate);
-    constexpr double least_damping = 1e-3;
+    constexpr double least_damping = 1e-3;  // what is damped less would be awaited for ever
     slowest_decay = std::min(slowest_decay, std::max(-value.real(), least_damping * rate));
   }
   const double rate = std::isfinite(slowest_swing) ? slowest_swing : slowest;
@@ -107,7 +106,7 @@ TimeScales time_scales(const Drive& drive) {
       swing = std::max(swing, turn / sine->frequency);
     }
   }
-  constexpr double samples = 10.0;
+  constexpr double samples = 10.0;  // nothing of interest swings faster
   if (drive.sampling) swing = std::max(swing, samples * drive.sampling->period);
   return {swing, std::isfinite(slowest_decay) ? 1.0 / slowest_decay : 0.0};
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "general/assemble/drive_system.hpp"
+#include "general/attractors/search_tolerances.hpp"
 #include "hybrid/periodic_orbit.hpp"
 
 namespace gearlash::drive {
@@ -139,11 +140,14 @@ struct AttractorOptions {
   /// encoder steps, and what friction, load torque, torque limit and a sine reference amount to as
   /// positions), on either face, and passing the reference at some speed. Absolute positions.
   std::vector<ShaftStates> starts{};
-  double swing_times = 200.0;         ///< that a start is watched; and 30 settling times,
-                                      ///< but twice as long at most
+  double swing_times = 200.0;         ///< that a start is watched; and the budget's settling
+                                      ///< times, but twice as long at most
   std::size_t most_events = 100'000;  ///< of a start; and ten times as many ticks of a clock
   std::size_t most_edges = 3;         ///< sought between starts that led elsewhere; 0: none
   hybrid::ShootingOptions shooting{.most_events = 2000};
+  SearchTolerances tolerances{};
+  SearchBudget budget{};
+  StartTolerances chosen_starts{};  ///< where `starts` is empty
   /// Told the share that is done; false stops the search.
   std::function<bool(double share)> go_on{};
 };

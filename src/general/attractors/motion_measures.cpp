@@ -1,9 +1,11 @@
 #include "general/attractors/motion_measures.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/roots.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <unsupported/Eigen/MatrixFunctions>
+#include <utility>
+
+#include "numeric/linear_algebra.hpp"
 
 namespace gearlash::drive {
 namespace {
@@ -15,17 +17,19 @@ using hybrid::State;
 using hybrid::Trajectory;
 using hybrid::Vector;
 
-/// One mode alone, with events where a form changes its sign.
-HybridSystem turning_system(const HybridSystem& system, std::size_t mode,
-                            const hybrid::AffineForm& speed) {
-  hybrid::Mode alone;
-  alone.flow = system.modes[mode].flow;
-  alone.transitions.push_back({});
-  alone.transitions.back().guard = speed;
-  alone.transitions.back().direction = hybrid::Direction::either;
+/// Each mode's flow alone, with events where a form changes its sign.
+HybridSystem turning_system(const HybridSystem& system, const hybrid::AffineForm& speed) {
   HybridSystem result;
   result.state_names = system.state_names;
-  result.modes.push_back(std::move(alone));
+  result.source = hybrid::ModeSource(system.mode_count(), [system, speed](std::size_t index) {
+    hybrid::Mode alone;
+    alone.flow = system.mode(index).flow;
+    alone.transitions.push_back({});
+    alone.transitions.back().guard = speed;
+    alone.transitions.back().direction = hybrid::Direction::either;
+    alone.transitions.back().target = index;
+    return alone;
+  });
   return result;
 }
 
@@ -53,7 +57,7 @@ void for_each_stretch(const Trajectory& motion, Visit&& visit) {
 
 /// The mode's own derivative by time.
 Vector velocity(const HybridSystem& system, std::size_t mode, const Vector& numbers) {
-  return system.modes[mode].flow.matrix * numbers + system.modes[mode].flow.offset;
+  return system.mode(mode).flow.matrix * numbers + system.mode(mode).flow.offset;
 }
 
 const hybrid::Reset& reset_of(const hybrid::Mode& mode, const Event& event) {
@@ -72,7 +76,7 @@ struct Disturbance {
 /// guard is met at no speed there is no derivative; the delay is then left as it was.
 void carry_over(const HybridSystem& system, const Event& event, bool is_chained,
                 Disturbance& disturbance) {
-  const hybrid::Mode& mode = system.modes[event.mode];
+  const hybrid::Mode& mode = system.mode(event.mode);
   const Matrix reset = reset_of(mode, event).slope(system.size());
   const Vector before = velocity(system, event.mode, event.before);
   const Vector after = velocity(system, event.mode_after, event.after);
@@ -93,15 +97,18 @@ void Range::include(double value) {
   highest = std::max(highest, value);
 }
 
-std::vector<Sample> samples(const HybridSystem& system, const Trajectory& motion,
-                            const Watched& watched, double short_time) {
+Watched watched(const HybridSystem& system, hybrid::AffineForm value, hybrid::AffineForm speed) {
+  hybrid::PreparedSystem turns(turning_system(system, speed));
+  return {std::move(value), std::move(speed), std::move(turns)};
+}
+
+std::vector<Sample> samples(const Trajectory& motion, const Watched& watched, double short_time) {
   std::vector<Sample> result;
   for_each_stretch(motion, [&](const State& start, double from, double to, const Vector& end) {
     result.push_back({from, watched.value.at(start.numbers)});
     const bool is_worth = to - from > short_time || may_turn(start.numbers, end, watched.speed);
     if (is_worth && to > from) {
-      const HybridSystem alone = turning_system(system, start.mode, watched.speed);
-      const Trajectory stretch = simulate(alone, {0, start.numbers}, {.until = to - from});
+      const Trajectory stretch = simulate(watched.turns, start, {.until = to - from});
       for (const Event& event : stretch.events()) {
         result.push_back({from + event.time, watched.value.at(event.before)});
       }
@@ -210,7 +217,7 @@ double largest_exponent(const HybridSystem& system, const Trajectory& motion, Ei
   for_each_stretch(motion, [&](const State& start, double from, double to, const Vector&) {
     if (to > from) {
       disturbance.numbers =
-          (system.modes[start.mode].flow.matrix * (to - from)).exp() * disturbance.numbers;
+          exponential(system.mode(start.mode).flow.matrix * (to - from)) * disturbance.numbers;
     }
     if (next == events.size()) return;
     const bool is_chained = next > 0 && events[next].time == events[next - 1].time;

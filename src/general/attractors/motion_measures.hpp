@@ -12,7 +12,12 @@ namespace gearlash::drive {
 struct Watched {
   hybrid::AffineForm value;
   hybrid::AffineForm speed;
+  /// The flow of each mode alone, with events where the speed changes its sign.
+  hybrid::PreparedSystem turns;
 };
+
+Watched watched(const hybrid::HybridSystem& system, hybrid::AffineForm value,
+                hybrid::AffineForm speed);
 
 struct Sample {
   double time = 0.0;
@@ -22,8 +27,8 @@ struct Sample {
 /// The value at start, end, events and wherever it turns between them. Between events that are
 /// within `short_time` of each other a turning is found only where the speed has changed its sign;
 /// at 0 none is missed.
-std::vector<Sample> samples(const hybrid::HybridSystem& system, const hybrid::Trajectory& motion,
-                            const Watched& watched, double short_time);
+std::vector<Sample> samples(const hybrid::Trajectory& motion, const Watched& watched,
+                            double short_time);
 
 /// Highs and lows in turn.
 std::vector<Sample> extremes(const std::vector<Sample>& samples);

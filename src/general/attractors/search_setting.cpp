@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "base/range_check.hpp"
 #include "general/assemble/time_scale.hpp"
@@ -31,27 +32,14 @@ Drive with_settled_signals(Drive drive) {
   return drive;
 }
 
-bool begins_with(const std::string& name, const char* beginning) {
-  return name.rfind(beginning, 0) == 0;
-}
-
-Eigen::Index own_numbers(const std::vector<std::string>& names) {
-  const auto first = std::find_if(names.begin(), names.end(), [](const std::string& name) {
-    return begins_with(name, "reference") || begins_with(name, "load torque");
-  });
-  return first - names.begin();
-}
-
 /// All positions by 1, and the reference where it is a number of the state.
-Vector along_positions(const std::vector<std::string>& names, bool reference_moves) {
-  Vector way = Vector::Zero(static_cast<Eigen::Index>(names.size()));
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string& name = names[i];
-    if (name == "motor position" || name == "load position" || name == "encoder" ||
-        name == "last reading" || (reference_moves && name == "reference")) {
-      way[static_cast<Eigen::Index>(i)] = 1.0;
-    }
+Vector along_positions(const StateIndices& at, bool reference_moves) {
+  Vector way = Vector::Zero(at.size);
+  way[motor_position] = way[load_position] = 1.0;
+  for (const Eigen::Index position : {at.encoder, at.last_reading}) {
+    if (position != StateIndices::none) way[position] = 1.0;
   }
+  if (reference_moves && at.reference_size > 0) way[at.reference] = 1.0;
   return way;
 }
 
@@ -63,7 +51,7 @@ double middle_of(const Signal& settled_signal) {
 void choose_coordinates(SearchSetting& setting) {
   const hybrid::HybridSystem& system = setting.built.system;
   const auto* ramp = std::get_if<Ramp>(&setting.drive.reference);
-  const Vector way = along_positions(system.state_names, ramp != nullptr);
+  const Vector way = along_positions(setting.built.at, ramp != nullptr);
   const Vector nothing = Vector::Zero(system.size());
   setting.frame = {Vector::Ones(system.size()), middle_of(setting.drive.reference) * way, nothing};
   if (ramp == nullptr) return;
@@ -76,25 +64,44 @@ void choose_coordinates(SearchSetting& setting) {
   }
 }
 
+/// With events where the load turns.
+hybrid::HybridSystem turning(const hybrid::HybridSystem& system, const AffineForm& speed) {
+  hybrid::HybridSystem result = system;
+  result.source =
+      hybrid::ModeSource(system.mode_count(), [from = system.source, speed](std::size_t index) {
+        hybrid::Mode mode = from.mode(index);
+        hybrid::Transition turns;
+        turns.name = "load turns";
+        turns.guard = speed;
+        turns.direction = hybrid::Direction::either;
+        turns.target = index;
+        mode.transitions.push_back(std::move(turns));
+        return mode;
+      });
+  return result;
+}
+
 void look(SearchSetting& setting) {
-  setting.system = seen_in(setting.built.system, setting.frame);
+  const hybrid::HybridSystem system = seen_in(setting.built.system, setting.frame);
+  setting.system = hybrid::PreparedSystem(system);
   const Vector& scale = setting.frame.scale;
   const Eigen::Index size = scale.size();
-  const auto watched = [&](Eigen::Index position, Eigen::Index speed) {
-    Watched result{{scale[position] * Vector::Unit(size, position), 0.0},
-                   {scale[speed] * Vector::Unit(size, speed), 0.0}};
+  const auto watched_at = [&](Eigen::Index position_at, Eigen::Index speed_at) {
+    AffineForm position{scale[position_at] * Vector::Unit(size, position_at), 0.0};
+    AffineForm speed{scale[speed_at] * Vector::Unit(size, speed_at), 0.0};
     if (const auto* ramp = std::get_if<Ramp>(&setting.drive.reference)) {
-      result.speed.offset = -ramp->rate;  // speeds are what they are in all coordinates
+      speed.offset = -ramp->rate;  // speeds are what they are in all coordinates
     }
     if (setting.coordinates == Coordinates::in_place) {
       const AffineForm& reference = setting.built.reference;
-      result.value.normal -= reference.normal.cwiseProduct(scale);
-      result.value.offset -= reference.offset;
+      position.normal -= reference.normal.cwiseProduct(scale);
+      position.offset -= reference.offset;
     }
-    return result;
+    return watched(system, std::move(position), std::move(speed));
   };
-  setting.load = watched(load_position, load_speed);
-  setting.motor = watched(motor_position, motor_speed);
+  setting.load = watched_at(load_position, load_speed);
+  setting.motor = watched_at(motor_position, motor_speed);
+  setting.with_turns = hybrid::PreparedSystem(turning(system, setting.load.speed));
 }
 
 // ---- lengths ------------------------------------------------------------------------------------
@@ -107,7 +114,7 @@ double direct_stiffness(const Drive& drive) {
   return std::abs(controller.direct[1]);
 }
 
-void measure_lengths(SearchSetting& setting) {
+void measure_lengths(SearchSetting& setting, const StartTolerances& starts) {
   const Drive& drive = setting.drive;
   setting.small_length = setting.large_length = drive.backlash;
   for (const double step : {drive.sensing.resolution, drive.sensing.resolution_of_speed}) {
@@ -129,10 +136,9 @@ void measure_lengths(SearchSetting& setting) {
       lengths.push_back(torque / stiffness);
     }
   }
-  // What is ten thousand times the backlash is of no interest to it.
-  constexpr double most = 1e4;
   for (const double length : lengths) {
-    setting.large_length = std::max(setting.large_length, std::min(length, most * drive.backlash));
+    setting.large_length =
+        std::max(setting.large_length, std::min(length, starts.longest_length * drive.backlash));
   }
 }
 
@@ -158,18 +164,18 @@ double SearchSetting::between_ticks(double time) const {
   return std::ceil((time - aside) / period) * period + aside;
 }
 
-SearchSetting search_setting(const Drive& drive) {
+SearchSetting search_setting(const Drive& drive, const StartTolerances& starts) {
   require_none(validate(drive));
   SearchSetting setting;
   setting.drive = with_settled_signals(drive);
   setting.built = drive_system(setting.drive);
-  setting.own = own_numbers(setting.built.system.state_names);
+  setting.own = setting.built.at.own();
   choose_coordinates(setting);
   look(setting);
   const TimeScales times = time_scales(setting.drive);
   setting.swing_time = times.swing;
   setting.settling_time = times.settling;
-  measure_lengths(setting);
+  measure_lengths(setting, starts);
   return setting;
 }
 
@@ -192,13 +198,12 @@ SearchSetting scaled(const SearchSetting& setting, const hybrid::Trajectory& mot
   return result;
 }
 
-std::vector<ShaftStates> usual_starts(const SearchSetting& setting) {
-  const double low = 1e-2 * setting.small_length;
-  const double high = 1e2 * setting.large_length;
-  constexpr double steps_per_decade = 2.0;
-  constexpr int most = 16;
-  const int count =
-      std::min(most, static_cast<int>(std::round(steps_per_decade * std::log10(high / low))));
+std::vector<ShaftStates> usual_starts(const SearchSetting& setting,
+                                      const StartTolerances& tolerances) {
+  const double low = tolerances.least_step * setting.small_length;
+  const double high = tolerances.largest_step * setting.large_length;
+  const double steps = tolerances.steps_per_decade * std::log10(high / low);
+  const int count = std::min(tolerances.most_steps, static_cast<int>(std::round(steps)));
   const double half_gap = 0.5 * setting.drive.backlash;
   const double reference = middle_of(setting.drive.reference);
   const auto* ramp = std::get_if<Ramp>(&setting.drive.reference);

@@ -12,8 +12,9 @@ struct SearchSetting {
   DriveSystem built;
   Coordinates coordinates = Coordinates::fixed;
   MovingFrame frame;
-  hybrid::HybridSystem system;  ///< in the frame
-  Watched load;                 ///< position from the reference, rad, of the frame's numbers
+  hybrid::PreparedSystem system;      ///< in the frame
+  hybrid::PreparedSystem with_turns;  ///< with events where the load turns, for motion without any
+  Watched load;                       ///< position from the reference, rad, of the frame's numbers
   Watched motor;
   Eigen::Index own = 0;        ///< numbers before those of the signals
   double swing_time = 0.0;     ///< s
@@ -27,12 +28,13 @@ struct SearchSetting {
 };
 
 /// Throws InvalidInput.
-SearchSetting search_setting(const Drive& drive);
+SearchSetting search_setting(const Drive& drive, const StartTolerances& starts = {});
 
 /// With scales such that all numbers of a motion are about 1.
 SearchSetting scaled(const SearchSetting& setting, const hybrid::Trajectory& motion);
 
 /// Neighbours in the list are neighbours as starts.
-std::vector<ShaftStates> usual_starts(const SearchSetting& setting);
+std::vector<ShaftStates> usual_starts(const SearchSetting& setting,
+                                      const StartTolerances& tolerances = {});
 
 }  // namespace gearlash::drive

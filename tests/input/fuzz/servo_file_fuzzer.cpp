@@ -39,7 +39,11 @@ void require_sound(const gearlash::ServoOrDriveFile& file) {
   if (const auto* servo = std::get_if<gearlash::ServoFile>(&file)) return require_sound(*servo);
   const auto& drive = std::get<gearlash::DriveFile>(file);
   require(gearlash::drive::validate(drive.drive).empty());
-  require(gearlash::hybrid::faults(gearlash::drive::drive_system(drive.drive).system).empty());
+  const gearlash::hybrid::HybridSystem system = gearlash::drive::drive_system(drive.drive).system;
+  require(gearlash::hybrid::faults(system).empty());
+  for (std::size_t mode = 0; mode < system.mode_count(); ++mode) {
+    require(gearlash::hybrid::faults_of_mode(system, mode).empty());
+  }
 }
 
 void require_one_line_each(const gearlash::InvalidInput& refusal) {

@@ -1,0 +1,93 @@
+// What a drive's automata are made of: its torques, positions and accelerations as affine forms of
+// the state, in each mode.
+#pragma once
+
+#include <vector>
+
+#include "general/assemble/affine_sum.hpp"
+#include "general/assemble/drive_mode.hpp"
+#include "general/assemble/signal_generator.hpp"
+#include "general/assemble/state_indices.hpp"
+#include "model/controller.hpp"
+#include "model/drive.hpp"
+
+namespace gearlash::drive {
+
+enum class Side { motor, load };
+
+class DriveForms {
+ public:
+  /// Precondition: sound.
+  explicit DriveForms(const Drive& drive);
+
+  const Drive& drive() const { return drive_; }
+  const LinearController& controller() const { return controller_; }
+  const Generator& reference_generator() const { return reference_generator_; }
+  const Generator& load_generator() const { return load_generator_; }
+  const StateIndices& at() const { return at_; }
+  const DriveModes& modes() const { return modes_; }
+
+  bool is_rigid() const { return is_rigid_; }
+  /// Rigid faces together.
+  bool is_engaged(const DriveMode& mode) const;
+  bool sticks_as_one(const DriveMode& mode) const;
+  const CompliantContact& compliant() const { return std::get<CompliantContact>(drive_.contact); }
+  const Shaft& shaft(Side side) const { return side == Side::motor ? drive_.motor : drive_.load; }
+  double both_breakaway() const;
+
+  hybrid::Vector unit(Eigen::Index index) const { return hybrid::Vector::Unit(at_.size, index); }
+  hybrid::Matrix identity() const { return hybrid::Matrix::Identity(at_.size, at_.size); }
+  hybrid::AffineForm number(Eigen::Index index) const { return {unit(index), 0.0}; }
+  hybrid::AffineForm constant(double value) const {
+    return {hybrid::Vector::Zero(at_.size), value};
+  }
+  hybrid::AffineForm gap() const { return number(motor_position) - number(load_position); }
+  hybrid::AffineForm gap_speed() const { return number(motor_speed) - number(load_speed); }
+  hybrid::AffineForm reference() const { return of(reference_generator_, at_.reference); }
+  hybrid::AffineForm load_torque() const { return of(load_generator_, at_.load_torque); }
+
+  hybrid::AffineForm sensed_position() const;
+  /// Whose differences are the speed.
+  hybrid::AffineForm counted_position() const;
+  hybrid::AffineForm sensed_speed() const;
+
+  /// Σ factors (r, y, v), of a continuous controller.
+  hybrid::AffineForm of_inputs(const std::vector<double>& factors) const;
+  /// Σ factors of the controller's states.
+  hybrid::AffineForm of_controller(const std::vector<double>& factors) const;
+  hybrid::AffineForm asked_torque() const;
+  hybrid::AffineForm motor_torque(TorqueState state) const;
+  /// Anti-windup, of one of the controller's states.
+  hybrid::AffineForm withdrawal(const DriveMode& mode, std::size_t state) const;
+
+  /// Of compliant faces.
+  hybrid::AffineForm spring_torque(double face) const;
+  hybrid::AffineForm damping_torque() const;
+  /// On the load; of compliant faces, or apart.
+  hybrid::AffineForm mesh_torque(const DriveMode& mode) const;
+
+  /// Without friction.
+  hybrid::AffineForm applied_torque(const DriveMode& mode, Side side) const;
+  hybrid::AffineForm friction_torque(Side side, FrictionState state) const;
+  /// Of both shafts as one.
+  hybrid::AffineForm engaged_acceleration(const DriveMode& mode) const;
+  hybrid::AffineForm acceleration(const DriveMode& mode, Side side) const;
+
+  hybrid::AffineFlow flow(const DriveMode& mode) const;
+
+ private:
+  hybrid::AffineForm of(const Generator& generator, Eigen::Index at) const;
+  hybrid::AffineForm sensed(double load_share, Eigen::Index motor, Eigen::Index load) const;
+
+  Drive drive_;
+  LinearController controller_;
+  bool is_rigid_;
+  Generator reference_generator_;
+  Generator load_generator_;
+  StateIndices at_;
+  DriveModes modes_;
+};
+
+inline Eigen::Index speed_of(Side side) { return side == Side::motor ? motor_speed : load_speed; }
+
+}  // namespace gearlash::drive

@@ -1,0 +1,163 @@
+// Rigid faces: impacts, common motion, and parting.
+#include <algorithm>
+#include <utility>
+
+#include "general/assemble/automata.hpp"
+
+namespace gearlash::drive {
+namespace {
+
+using hybrid::AffineForm;
+using hybrid::Reset;
+
+FrictionState moving(FrictionState state, double way) {
+  if (state == FrictionState::viscous) return state;
+  if (way == 0.0) return FrictionState::sticking;
+  return way > 0.0 ? FrictionState::forward : FrictionState::backward;
+}
+
+DriveMode moving_as_one(const DriveMode& mode, double way) {
+  DriveMode result = mode;
+  result.motor = moving(mode.motor, way);
+  result.load = moving(mode.load, way);
+  return result;
+}
+
+/// Momentum is kept, relative speed turned into −e of itself.
+Reset impact(const DriveForms& forms, double restitution) {
+  const double sum = forms.drive().motor.inertia + forms.drive().load.inertia;
+  const double motor = forms.drive().motor.inertia / sum;
+  const double load = forms.drive().load.inertia / sum;
+  Reset reset;
+  reset.matrix = forms.identity();
+  reset.matrix(motor_speed, motor_speed) = motor - restitution * load;
+  reset.matrix(motor_speed, load_speed) = load * (1.0 + restitution);
+  reset.matrix(load_speed, motor_speed) = motor * (1.0 + restitution);
+  reset.matrix(load_speed, load_speed) = load - restitution * motor;
+  return reset;
+}
+
+/// The ways in which dry shafts may move after an impact, with what decides between them.
+std::vector<hybrid::Alternative> ways_after(const DriveForms& forms, const DriveMode& target) {
+  std::vector<hybrid::Alternative> alternatives;
+  const auto ways = [](FrictionState state) {
+    return state == FrictionState::viscous ? std::vector<double>{0.0}
+                                           : std::vector<double>{1.0, -1.0, 0.0};
+  };
+  for (const double motor : ways(target.motor)) {
+    for (const double load : ways(target.load)) {
+      DriveMode mode = target;
+      mode.motor = moving(target.motor, motor);
+      mode.load = moving(target.load, load);
+      if (!forms.modes().has(mode)) continue;
+      hybrid::Alternative alternative;
+      if (motor != 0.0) alternative.positive.push_back(motor * forms.number(motor_speed));
+      if (load != 0.0) alternative.positive.push_back(load * forms.number(load_speed));
+      alternative.target = forms.modes().index_of(mode);
+      alternatives.push_back(std::move(alternative));
+    }
+  }
+  std::stable_sort(alternatives.begin(), alternatives.end(), [](const auto& a, const auto& b) {
+    return a.positive.size() > b.positive.size();
+  });
+  return alternatives;
+}
+
+void add_impact(const DriveForms& forms, const DriveMode& mode, double face, hybrid::Mode& built) {
+  const double restitution = std::get<RigidContact>(forms.drive().contact).restitution;
+  DriveMode engaged = mode;
+  engaged.contact = face > 0.0 ? ContactState::forward : ContactState::backward;
+  const bool plastic = restitution == 0.0;
+  hybrid::Transition meets =
+      transition(face > 0.0 ? "impact forward" : "impact backward",
+                 forms.gap() - 0.5 * face * forms.drive().backlash, rising_on(face), 0);
+  meets.reset = impact(forms, restitution);
+  // Where all that is dry has come to rest no alternative asks anything.
+  meets.alternatives = ways_after(forms, plastic ? engaged : mode);
+  meets.target = meets.alternatives.back().target;
+  meets.alternatives.pop_back();
+  if (!plastic) {
+    hybrid::Settling settling;
+    settling.reset = impact(forms, 0.0);
+    settling.alternatives = ways_after(forms, engaged);
+    settling.target = settling.alternatives.back().target;
+    settling.alternatives.pop_back();
+    meets.settling = std::move(settling);
+  }
+  built.transitions.push_back(std::move(meets));
+}
+
+/// Where engaged faces part: one speed, and the gap as wide as it is.
+Reset parting(const DriveForms& forms, double face) {
+  Reset reset;
+  reset.matrix = forms.identity();
+  reset.matrix.row(motor_position) = forms.unit(load_position).transpose();
+  reset.matrix.row(motor_speed) = forms.unit(load_speed).transpose();
+  reset.offset = hybrid::Vector::Zero(forms.at().size);
+  reset.offset[motor_position] = 0.5 * face * forms.drive().backlash;
+  return reset;
+}
+
+/// Both at rest, faces together: both move where all friction is overcome; one alone, away from
+/// the other, where its own is.
+void add_engaged_breakaway(const DriveForms& forms, const DriveMode& mode, hybrid::Mode& built) {
+  const AffineForm motor_torque = forms.motor_torque(mode.torque);
+  const AffineForm applied = motor_torque + forms.load_torque();
+  for (const double way : {1.0, -1.0}) {
+    built.transitions.push_back(
+        transition(way > 0.0 ? "both break away forward" : "both break away backward",
+                   applied - way * forms.both_breakaway(), rising_on(way),
+                   forms.modes().index_of(moving_as_one(mode, way))));
+  }
+  const double face = face_of(mode.contact);
+  const auto add_alone = [&](Side side, double away) {
+    const bool is_motor = side == Side::motor;
+    DriveMode alone = mode;
+    alone.contact = ContactState::apart;
+    FrictionState& state = is_motor ? alone.motor : alone.load;
+    state = moving(state, away);
+    const AffineForm torque = is_motor ? motor_torque : forms.load_torque();
+    hybrid::Transition breaks =
+        transition(is_motor ? "motor breaks away alone" : "load breaks away alone",
+                   torque - away * forms.shaft(side).friction.breakaway, rising_on(away),
+                   forms.modes().index_of(alone));
+    breaks.reset = parting(forms, face);
+    built.transitions.push_back(std::move(breaks));
+  };
+  add_alone(Side::motor, -face);
+  add_alone(Side::load, face);
+}
+
+}  // namespace
+
+void add_impacts(const DriveForms& forms, const DriveMode& mode, hybrid::Mode& built) {
+  add_impact(forms, mode, 1.0, built);
+  add_impact(forms, mode, -1.0, built);
+}
+
+void add_engaged(const DriveForms& forms, const DriveMode& mode, hybrid::Mode& built) {
+  if (forms.sticks_as_one(mode)) {
+    add_engaged_breakaway(forms, mode, built);
+    return;
+  }
+  const double face = face_of(mode.contact);
+  DriveMode apart = mode;
+  apart.contact = ContactState::apart;
+  const AffineForm mesh = forms.drive().load.inertia * forms.engaged_acceleration(mode) +
+                          forms.friction_torque(Side::load, mode.load) - forms.load_torque();
+  hybrid::Transition parts =
+      transition("faces part", mesh, falling_on(face), forms.modes().index_of(apart));
+  parts.reset = parting(forms, face);
+  built.transitions.push_back(std::move(parts));
+  const double way = way_of(mode.motor) != 0.0 ? way_of(mode.motor) : way_of(mode.load);
+  if (way == 0.0) return;
+  hybrid::Transition stops = transition("both stop", forms.number(load_speed), falling_on(way),
+                                        forms.modes().index_of(moving_as_one(mode, 0.0)));
+  stops.reset = stopped(forms, {motor_speed, load_speed});
+  const AffineForm applied = forms.motor_torque(mode.torque) + forms.load_torque();
+  stops.alternatives = {{{-way * applied - forms.both_breakaway()},
+                         forms.modes().index_of(moving_as_one(mode, -way))}};
+  built.transitions.push_back(std::move(stops));
+}
+
+}  // namespace gearlash::drive

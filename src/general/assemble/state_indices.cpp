@@ -1,0 +1,51 @@
+#include "general/assemble/state_indices.hpp"
+
+namespace gearlash::drive {
+
+StateIndices state_indices(const Drive& drive, Eigen::Index controller_order,
+                           const Generator& reference, const Generator& load_torque) {
+  StateIndices indices;
+  indices.controller_order = controller_order;
+  Eigen::Index next = controller_states + controller_order;
+  if (drive.sampling) {
+    indices.held = next++;
+    if (drive.sampling->delay > 0.0) indices.worked_out = next++;
+    if (drive.sampling->speed_by_differences) indices.last_reading = next++;
+  } else if (drive.sensing.resolution > 0.0) {
+    indices.encoder = next++;
+  }
+  indices.reference = next;
+  indices.reference_size = reference.size();
+  indices.load_torque = next + reference.size();
+  indices.load_torque_size = load_torque.size();
+  indices.size = indices.load_torque + load_torque.size();
+  return indices;
+}
+
+std::vector<std::string> state_names(const StateIndices& indices) {
+  std::vector<std::string> names(static_cast<std::size_t>(indices.size));
+  const auto name = [&](Eigen::Index index, const std::string& text) {
+    if (index != StateIndices::none) names[static_cast<std::size_t>(index)] = text;
+  };
+  const auto name_all = [&](Eigen::Index first, Eigen::Index count, const std::string& text) {
+    for (Eigen::Index i = 0; i < count; ++i) {
+      name(first + i, i == 0 ? text : text + " " + std::to_string(i + 1));
+    }
+  };
+  name(motor_position, "motor position");
+  name(motor_speed, "motor speed");
+  name(load_position, "load position");
+  name(load_speed, "load speed");
+  for (Eigen::Index i = 0; i < indices.controller_order; ++i) {
+    name(controller_states + i, "controller " + std::to_string(i + 1));
+  }
+  name(indices.held, "torque held");
+  name(indices.worked_out, "torque worked out");
+  name(indices.last_reading, "last reading");
+  name(indices.encoder, "encoder");
+  name_all(indices.reference, indices.reference_size, "reference");
+  name_all(indices.load_torque, indices.load_torque_size, "load torque");
+  return names;
+}
+
+}  // namespace gearlash::drive

@@ -1,0 +1,124 @@
+#include "general/attractors/cycle_closing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "general/attractors/found_cycle.hpp"
+
+namespace gearlash::drive {
+namespace {
+
+using hybrid::Event;
+using hybrid::PeriodicOrbit;
+using hybrid::Trajectory;
+
+bool is_prime(int number) {
+  for (int factor = 2; factor * factor <= number; ++factor) {
+    if (number % factor == 0) return false;
+  }
+  return true;
+}
+
+/// An orbit that goes round a cycle some times, as going round it once. Multipliers are then known
+/// by their moduli.
+PeriodicOrbit divided(PeriodicOrbit orbit, int times, double mismatch) {
+  orbit.period /= times;
+  std::erase_if(orbit.events, [&](const Event& event) { return event.time > orbit.period; });
+  for (auto& multiplier : orbit.multipliers) {
+    multiplier = std::pow(std::abs(multiplier), 1.0 / times);
+  }
+  orbit.residual = std::max(orbit.residual, mismatch);
+  return orbit;
+}
+
+bool is_same_event(const Event& a, const Event& b) {
+  return a.kind == b.kind && a.mode == b.mode && a.transition == b.transition &&
+         a.mode_after == b.mode_after;
+}
+
+}  // namespace
+
+std::optional<PeriodicOrbit> CycleClosing::closed(const Trajectory& motion, double nearness) const {
+  hybrid::ShootingOptions shooting = options_.shooting;
+  shooting.nearness = nearness;
+  if (!motion.events().empty()) return closing_orbit(setting_.system, motion, shooting);
+  const Trajectory again = simulate(setting_.with_turns, motion.at(motion.start_time()),
+                                    {.from = motion.start_time(),
+                                     .until = motion.end_time(),
+                                     .event_limit = options_.most_events});
+  return closing_orbit(setting_.with_turns, again, shooting);
+}
+
+/// Whether an orbit could go round a cycle so many times: with events in each round, and whole
+/// periods of the clock. What stands still is repeated after any time, however short.
+bool CycleClosing::may_go_round(const PeriodicOrbit& orbit, int times) const {
+  if (orbit.events.size() < static_cast<std::size_t>(times)) return false;
+  if (!setting_.drive.sampling) return true;
+  const double ticks = orbit.period / (times * setting_.drive.sampling->period);
+  return agree(ticks, std::round(ticks), 1.0, tolerances_.whole_ticks);
+}
+
+/// The cycle itself, where an orbit goes round it several times.
+PeriodicOrbit CycleClosing::shortest(const PeriodicOrbit& orbit) const {
+  for (int times = 2; times < tolerances_.most_rounds; ++times) {
+    if (!is_prime(times) || !may_go_round(orbit, times)) continue;
+    const double mismatch = mismatch_after(setting_, orbit, 1.0 / times, 1.0);
+    if (!(mismatch < tolerances_.recurrence)) continue;
+    const auto shorter = closed(motion_on(setting_.system, orbit, tolerances_.closing_periods),
+                                tolerances_.nearness);
+    if (shorter && shorter->period < tolerances_.shorter_period * orbit.period) {
+      return shortest(*shorter);
+    }
+    // Rounding may make and unmake events, of faces that come to rest; then Newton's method, which
+    // counts them, closes one round and not another.
+    return shortest(divided(orbit, times, mismatch));
+  }
+  return orbit;
+}
+
+std::optional<FoundCycle> CycleClosing::closed_cycle(const Trajectory& motion,
+                                                     double nearness) const {
+  const auto orbit = closed(motion, nearness);
+  if (!orbit || !(orbit->residual < tolerances_.residual)) return std::nullopt;
+  const FoundCycle cycle = measured(setting_, shortest(*orbit), tolerances_);
+  if (!(extent_of(cycle) > tolerances_.least_size * setting_.small_length)) return std::nullopt;
+  const Range load = lately(motion, setting_.load, cycle.period());
+  const Range motor = lately(motion, setting_.motor, cycle.period());
+  const auto is_as = [&](double seen, double wanted) {
+    return agree(seen, wanted, extent_of(cycle), tolerances_.agreement);
+  };
+  const bool is_on_it = is_as(0.5 * load.width(), cycle.size) &&
+                        is_as(0.5 * motor.width(), cycle.motor_size) &&
+                        is_as(load.middle(), cycle.center);
+  return is_on_it ? std::optional(cycle) : std::nullopt;
+}
+
+std::optional<std::size_t> CycleClosing::known_cycle_of(
+    const Trajectory& motion, const std::vector<FoundCycle>& known) const {
+  if (motion.events().empty() || setting_.drive.sampling) return std::nullopt;
+  const Event& last = motion.events().back();
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    if (known[i].stability != Stability::stable) continue;
+    for (const Event& event : known[i].orbit.events) {
+      if (is_same_event(event, last) &&
+          (event.after - last.after).cwiseAbs().maxCoeff() <=
+              tolerances_.known_event * event.after.cwiseAbs().maxCoeff()) {
+        return i;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+Range CycleClosing::lately(const Trajectory& motion, const Watched& watched, double period) const {
+  const double short_time = options_.budget.short_stretch * setting_.swing_time;
+  Range range;
+  for (const Sample& sample : samples(motion, watched, short_time)) {
+    if (sample.time >= motion.end_time() - tolerances_.compared_periods * period) {
+      range.include(sample.value);
+    }
+  }
+  return range;
+}
+
+}  // namespace gearlash::drive

@@ -1,0 +1,39 @@
+// From a motion that comes back to the cycle that it is on.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "general/attractors/search_setting.hpp"
+
+namespace gearlash::drive {
+
+class CycleClosing {
+ public:
+  /// Both must live as long.
+  CycleClosing(const SearchSetting& setting, const AttractorOptions& options)
+      : setting_(setting), options_(options), tolerances_(options.tolerances.cycle) {}
+
+  /// The cycle that the end of a motion is on: it is not left again, and as large as what was seen.
+  std::optional<FoundCycle> closed_cycle(const hybrid::Trajectory& motion, double nearness) const;
+
+  /// Of those that are known a stable one that has the motion's last event, in nearly the same
+  /// state.
+  std::optional<std::size_t> known_cycle_of(const hybrid::Trajectory& motion,
+                                            const std::vector<FoundCycle>& known) const;
+
+  /// Over a little more than the last period of a motion.
+  Range lately(const hybrid::Trajectory& motion, const Watched& watched, double period) const;
+
+ private:
+  std::optional<hybrid::PeriodicOrbit> closed(const hybrid::Trajectory& motion,
+                                              double nearness) const;
+  bool may_go_round(const hybrid::PeriodicOrbit& orbit, int times) const;
+  hybrid::PeriodicOrbit shortest(const hybrid::PeriodicOrbit& orbit) const;
+
+  const SearchSetting& setting_;
+  const AttractorOptions& options_;
+  const CycleTolerances& tolerances_;
+};
+
+}  // namespace gearlash::drive

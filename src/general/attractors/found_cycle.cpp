@@ -1,0 +1,142 @@
+#include "general/attractors/found_cycle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace gearlash::drive {
+namespace {
+
+using hybrid::Event;
+using hybrid::PeriodicOrbit;
+using hybrid::Trajectory;
+using hybrid::Vector;
+
+double largest_multiplier(const PeriodicOrbit& orbit) {
+  return orbit.multipliers.empty() ? 0.0 : std::abs(orbit.multipliers.front());
+}
+
+Stability stability_of(double multiplier, const CycleTolerances& tolerances) {
+  if (std::abs(multiplier - 1.0) <= tolerances.neutral_band) return Stability::neutral;
+  return multiplier < 1.0 ? Stability::stable : Stability::unstable;
+}
+
+void drop_nearest(std::vector<std::complex<double>>& values, double target) {
+  if (values.empty()) return;
+  values.erase(std::min_element(values.begin(), values.end(), [&](const auto& a, const auto& b) {
+    return std::abs(a - target) < std::abs(b - target);
+  }));
+}
+
+/// Without the multipliers of disturbances that cannot be: of rigid faces that stay together shafts
+/// that are not one, and of an encoder that is beside its own grid.
+PeriodicOrbit without_spare_multipliers(const SearchSetting& setting, PeriodicOrbit orbit) {
+  const bool is_rigid = std::holds_alternative<RigidContact>(setting.drive.contact);
+  bool parts = false;
+  bool sticks = false;
+  const auto look = [&](std::size_t index) {
+    const DriveMode mode = setting.built.modes.mode(index);
+    parts = parts || mode.contact == ContactState::apart;
+    sticks =
+        sticks || mode.motor == FrictionState::sticking || mode.load == FrictionState::sticking;
+  };
+  look(orbit.start.mode);
+  for (const Event& event : orbit.events) look(event.mode_after);
+  if (is_rigid && !parts) {
+    drop_nearest(orbit.multipliers, 1.0);                 // the difference of positions is kept
+    drop_nearest(orbit.multipliers, sticks ? 0.0 : 1.0);  // that of speeds too, but for a stop
+  }
+  if (setting.built.at.encoder != StateIndices::none) drop_nearest(orbit.multipliers, 1.0);
+  return orbit;
+}
+
+double hardest_impact(const SearchSetting& setting, const PeriodicOrbit& orbit) {
+  const auto is_apart = [&](std::size_t mode) {
+    return setting.built.modes.mode(mode).contact == ContactState::apart;
+  };
+  double hardest = 0.0;
+  for (const Event& event : orbit.events) {
+    if (event.kind != hybrid::EventKind::transition || !is_apart(event.mode)) continue;
+    const bool meets = !is_apart(event.mode_after);
+    const bool bounces =
+        setting.load.speed.at(event.before) != setting.load.speed.at(event.after) &&
+        setting.motor.speed.at(event.before) != setting.motor.speed.at(event.after);
+    if (!meets && !bounces) continue;
+    hardest = std::max(hardest, std::abs(setting.motor.speed.at(event.before) -
+                                         setting.load.speed.at(event.before)));
+  }
+  return hardest;
+}
+
+}  // namespace
+
+Trajectory motion_on(const hybrid::PreparedSystem& system, const PeriodicOrbit& orbit,
+                     double periods) {
+  const double from = orbit.start_time;
+  return simulate(system, orbit.start, {.from = from, .until = from + periods * orbit.period});
+}
+
+bool agree(double a, double b, double scale, double share) {
+  return std::abs(a - b) <= share * scale;
+}
+
+double mismatch_after(const SearchSetting& setting, const PeriodicOrbit& orbit, double share,
+                      double sign) {
+  const Vector& start = orbit.start.numbers;
+  const Vector here = motion_on(setting.system, orbit, share).end().numbers;
+  return (here - sign * start).cwiseAbs().maxCoeff() / start.cwiseAbs().maxCoeff();
+}
+
+FoundCycle measured(const SearchSetting& setting, const PeriodicOrbit& orbit,
+                    const CycleTolerances& tolerances) {
+  const Trajectory motion = motion_on(setting.system, orbit, 1.0);
+  const Range load = range_of(samples(motion, setting.load, 0.0));
+  const Range motor = range_of(samples(motion, setting.motor, 0.0));
+  FoundCycle cycle;
+  cycle.orbit = without_spare_multipliers(setting, orbit);
+  cycle.multiplier = largest_multiplier(cycle.orbit);
+  cycle.stability = stability_of(cycle.multiplier, tolerances);
+  cycle.size = 0.5 * load.width();
+  cycle.motor_size = 0.5 * motor.width();
+  cycle.center = load.middle();
+  cycle.centers.include(cycle.center);
+  cycle.sizes.include(cycle.size);
+  cycle.frequency = 2.0 * std::numbers::pi / orbit.period;
+  cycle.impact_speed = hardest_impact(setting, orbit);
+  cycle.is_symmetric = mismatch_after(setting, orbit, 0.5, -1.0) < tolerances.recurrence;
+  return cycle;
+}
+
+double extent_of(const FoundCycle& cycle) { return std::max(cycle.size, cycle.motor_size); }
+
+bool is_one_with(FoundCycle& known, const FoundCycle& cycle, const CycleTolerances& tolerances) {
+  if (known.stability != cycle.stability) return false;
+  const double period = cycle.period();
+  if (cycle.stability == Stability::neutral) {
+    return agree(known.period(), period, period, tolerances.same_family);
+  }
+  const double same = tolerances.same_cycle;
+  if (!agree(known.period(), period, period, same) ||
+      !agree(known.size, cycle.size, extent_of(cycle), same) ||
+      !agree(known.motor_size, cycle.motor_size, extent_of(cycle), same)) {
+    return false;
+  }
+  if (agree(known.center, cycle.center, extent_of(cycle), same)) return true;
+  const bool is_image = agree(known.center, -cycle.center, extent_of(cycle), same);
+  known.has_mirror_image = known.has_mirror_image || is_image;
+  return is_image;
+}
+
+std::size_t place_of(const FoundCycle& cycle, const CycleTolerances& tolerances,
+                     std::vector<FoundCycle>& all) {
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!is_one_with(all[i], cycle, tolerances)) continue;
+    all[i].centers.include(cycle.center);
+    all[i].sizes.include(cycle.size);
+    return i;
+  }
+  all.push_back(cycle);
+  return all.size() - 1;
+}
+
+}  // namespace gearlash::drive

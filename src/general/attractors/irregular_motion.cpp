@@ -1,0 +1,103 @@
+#include "general/attractors/irregular_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "general/attractors/found_cycle.hpp"
+
+namespace gearlash::drive {
+namespace {
+
+std::vector<Sample> after(const std::vector<Sample>& all, double from) {
+  std::vector<Sample> last;
+  for (const Sample& sample : all) {
+    if (sample.time >= from) last.push_back(sample);
+  }
+  return last;
+}
+
+/// Whether both halves go about equally far.
+bool is_steady(const std::vector<Sample>& samples, const IrregularTolerances& tolerances) {
+  const double middle = 0.5 * (samples.front().time + samples.back().time);
+  Range first;
+  Range second;
+  for (const Sample& sample : samples) {
+    (sample.time < middle ? first : second).include(sample.value);
+  }
+  return agree(first.width(), second.width(), std::max(first.width(), second.width()),
+               tolerances.steadiness);
+}
+
+Spread spread_of_periods(const std::vector<double>& passings) {
+  std::vector<double> periods;
+  for (std::size_t i = 0; i + 1 < passings.size(); ++i) {
+    periods.push_back(passings[i + 1] - passings[i]);
+  }
+  return spread_of(periods);
+}
+
+Spread spread_of_half_swings(const std::vector<Sample>& turns) {
+  std::vector<double> half_swings;
+  for (std::size_t i = 0; i + 1 < turns.size(); ++i) half_swings.push_back(0.5 * swing(turns, i));
+  return spread_of(half_swings);
+}
+
+}  // namespace
+
+Irregularity irregularity_of(const Watch& watch, const hybrid::Trajectory& stretch,
+                             const SearchSetting& setting, const SearchTolerances& tolerances,
+                             bool is_out_of_events) {
+  const double from = stretch.start_time();
+  const std::size_t enough = tolerances.irregular.least_turns;
+  const std::vector<Sample> of_load = after(watch.load, from);
+  const std::vector<Sample> of_motor = after(watch.motor, from);
+  Irregularity result;
+  IrregularFound& found = result.found;
+  // Within the gap the motor may hunt by itself, and the load stand.
+  found.is_motor_alone =
+      extremes(of_load).size() < enough &&
+      count_of_swings(extremes(of_motor), from, setting, tolerances.rest) >= enough;
+  const Watched& watched = found.is_motor_alone ? setting.motor : setting.load;
+  const std::vector<Sample>& last = found.is_motor_alone ? of_motor : of_load;
+  const std::vector<Sample> turns = extremes(last);
+  const bool is_in_place = setting.coordinates == Coordinates::in_place;
+  if (!is_in_place && turns.size() < enough) {
+    result.reason =
+        is_out_of_events ? "as many events as were permitted" : "still on its way at the end";
+  } else if (is_small(turns, setting, tolerances.rest)) {
+    result.reason = "swings shrink at the end, towards what is not certain";
+  } else if (!is_in_place && !is_steady(last, tolerances.irregular)) {
+    result.reason = "swings still grow or shrink at the end";
+  }
+  if (!result.reason.empty()) return result;
+  const Range range = range_of(of_load);
+  found.size = 0.5 * range.width();
+  found.motor_size = 0.5 * range_of(of_motor).width();
+  found.center = range.middle();
+  found.watched = stretch.end_time() - from;
+  const Spread period =
+      spread_of_periods(upward_passings(stretch, watched, last, range_of(last).middle(), from));
+  found.period = period.mean;
+  found.period_deviation = period.deviation;
+  const Spread half_swing = spread_of_half_swings(turns);
+  found.half_swing = half_swing.mean;
+  found.half_swing_deviation = half_swing.deviation;
+  found.mismatch = least_mismatch(turns);
+  return result;
+}
+
+std::size_t place_among(const std::vector<IrregularFound>& known, const IrregularFound& found,
+                        const IrregularTolerances& tolerances) {
+  const double share = tolerances.same_motion;
+  const double extent = std::max(found.size, found.motor_size);
+  const auto same = std::find_if(known.begin(), known.end(), [&](const IrregularFound& one) {
+    // Where the motor hunts alone the load may stand anywhere.
+    const bool is_centered = found.is_motor_alone || agree(one.center, found.center, extent, share);
+    return one.is_motor_alone == found.is_motor_alone && is_centered &&
+           agree(one.size, found.size, extent, share) &&
+           agree(one.half_swing, found.half_swing, extent, share);
+  });
+  return static_cast<std::size_t>(same - known.begin());
+}
+
+}  // namespace gearlash::drive

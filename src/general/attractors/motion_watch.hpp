@@ -1,0 +1,55 @@
+// What is known of a motion while it is watched: its swings, whether it rests, where its swings go.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "general/attractors/search_setting.hpp"
+
+namespace gearlash::drive {
+
+/// What is known of a motion while it is watched.
+struct Watch {
+  hybrid::State here;
+  double time = 0.0;
+  std::size_t events = 0;
+  std::vector<Range> all{};  ///< of each number
+  std::vector<Sample> load{};
+  std::vector<Sample> motor{};
+  bool starts_at_rest = false;
+};
+
+/// Adds the next stretch to the ranges of all numbers.
+void include_ranges(Watch& watch, const hybrid::Trajectory& stretch);
+
+/// Adds where load and motor turn on the next stretch.
+void include_turns(Watch& watch, const hybrid::Trajectory& stretch, const SearchSetting& setting,
+                   double short_time);
+
+/// Whether no number has moved in the last half of a stretch by more than a share of all that it
+/// has.
+bool is_at_rest(const Watch& watch, const hybrid::Trajectory& stretch, const SearchSetting& setting,
+                const RestTolerances& tolerances);
+
+/// After a time, but for those that are next to nothing.
+std::size_t count_of_swings(const std::vector<Sample>& turns, double from,
+                            const SearchSetting& setting, const RestTolerances& tolerances);
+
+/// From one turn to the next, that many before the last.
+double swing(const std::vector<Sample>& turns, std::size_t from_last);
+
+/// Whether swings are much smaller than the gap, and shrink.
+bool is_small(const std::vector<Sample>& turns, const SearchSetting& setting,
+              const RestTolerances& tolerances);
+
+/// Where the load turned, with the start from rest, and the end where it stands.
+std::vector<Sample> turns_of(const Watch& watch, const SearchSetting& setting,
+                             const RestTolerances& tolerances);
+
+/// Of small swings whose limit is 0, by Aitken's extrapolation of any three: many, or some that
+/// shrink fast.
+std::optional<double> ratio_of_vanishing(const std::vector<Sample>& turns,
+                                         const SearchSetting& setting,
+                                         const RestTolerances& tolerances);
+
+}  // namespace gearlash::drive

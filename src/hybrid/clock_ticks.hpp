@@ -1,0 +1,70 @@
+// When the clocks of a system tick next.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "hybrid/hybrid_system.hpp"
+
+namespace gearlash::hybrid {
+
+/// Inline, as every step asks.
+class ClockTicks {
+ public:
+  /// From the first ticks on that are not before a time. The clocks must live as long.
+  ClockTicks(const std::vector<Clock>& clocks, double from) : clocks_(clocks) {
+    for (const Clock& clock : clocks) ticks_.push_back(first_tick(clock, from));
+  }
+
+  /// When the next one comes; infinity where there is none.
+  double next() const {
+    double next = infinity;
+    for (const Tick& tick : ticks_) next = std::min(next, tick.time);
+    return next;
+  }
+
+  std::size_t count() const { return ticks_.size(); }
+  bool is_due(std::size_t clock, double time) const { return ticks_[clock].time <= time; }
+
+  /// Past the tick that is next; what it adds to the state, or null.
+  const Vector* pass(std::size_t index) {
+    const Clock& clock = clocks_[index];
+    const std::size_t count = ticks_[index].count;
+    advance(clock, ticks_[index]);
+    return count < clock.additions.size() ? &clock.additions[count] : nullptr;
+  }
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  struct Tick {
+    double time;
+    std::size_t count = 0;
+  };
+
+  static Tick first_tick(const Clock& clock, double from) {
+    Tick tick{clock.period > 0.0 ? clock.first : clock.times.front()};
+    if (clock.period > 0.0 && tick.time < from) {
+      tick.count = static_cast<std::size_t>((from - clock.first) / clock.period);
+      tick.time = clock.first + static_cast<double>(tick.count) * clock.period;
+    }
+    while (tick.time < from) advance(clock, tick);
+    return tick;
+  }
+
+  static void advance(const Clock& clock, Tick& tick) {
+    ++tick.count;
+    const auto count = static_cast<double>(tick.count);
+    if (clock.period > 0.0) {
+      tick.time = clock.first + count * clock.period;
+    } else {
+      tick.time = tick.count < clock.times.size() ? clock.times[tick.count] : infinity;
+    }
+  }
+
+  const std::vector<Clock>& clocks_;
+  std::vector<Tick> ticks_;
+};
+
+}  // namespace gearlash::hybrid

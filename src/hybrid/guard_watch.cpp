@@ -1,0 +1,131 @@
+#include "hybrid/guard_watch.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace gearlash::hybrid {
+
+void GuardWatch::enter(const Mode& mode) {
+  signs_.resize(mode.transitions.size());
+  zero_at_start_.clear();
+  zero_at_end_.clear();
+  for (std::size_t i = 0; i < mode.transitions.size(); ++i) {
+    const Direction direction = mode.transitions[i].direction;
+    signs_[i] = direction == Direction::either ? 0.0 : direction == Direction::rising ? -1.0 : 1.0;
+  }
+}
+
+StepEnd GuardWatch::next_exit(const StepSeries& step) {
+  zero_at_start_.swap(zero_at_end_);
+  for (const bool roughly : {true, false}) {
+    touches_.clear();
+    zero_at_end_.clear();
+    StepEnd next;
+    std::size_t exits = 0;
+    bool is_rough = false;
+    for (std::size_t i = 0; i < step.mode.guards.size(); ++i) {
+      const StepExit exit = exit_of(step, i, roughly);
+      if (exit.touch || !zero_at_start_.empty()) note_touch(step, i, exit);
+      if (!exit.at) continue;
+      ++exits;
+      is_rough = is_rough || exit.within > 0.0;
+      if (*exit.at < next.share) next = {*exit.at, i, exit.within};
+    }
+    if (exits <= 1 || !is_rough) return next;
+  }
+  return {};
+}
+
+/// When a guard leaves its side within the step, by its leading terms alone where `roughly` and
+/// they tell.
+inline GuardWatch::StepExit GuardWatch::exit_of(const StepSeries& step, std::size_t guard,
+                                                bool roughly) {
+  const SparseForm& form = step.mode.guards[guard];
+  const GuardTable& table = step.flow.guards[guard];
+  double& sign = signs_[guard];
+  const double value = form.at(step.state.numbers.data());
+  const double unknown = form.noise_at(step.state.numbers.data(), step.noise.data());
+  const double farthest =
+      table.reach(step.velocity, step.table_share) + unknown + table.weight() * step.remainder;
+  if (sign * value > farthest) return {};
+  if (sign == 0.0 && std::abs(value) > farthest) {  // the side that it is on first is its own
+    sign = std::copysign(1.0, value);
+    return {};
+  }
+  if (roughly && table.few_orders() < step.order) {
+    const auto exit = exit_by(step, table, value, unknown, sign, table.few_orders());
+    if (exit) return *exit;
+  }
+  return exit_by(step, table, value, unknown, sign, step.order).value_or(StepExit{});
+}
+
+/// By the terms up to an order. Nothing where it takes more of them to tell; and where there are
+/// none that count, as the motion goes on on the guard.
+std::optional<GuardWatch::StepExit> GuardWatch::exit_by(const StepSeries& step,
+                                                        const GuardTable& table, double value,
+                                                        double unknown, double& sign, int last) {
+  const double share = step.table_share;
+  coefficients_.resize(static_cast<std::size_t>(step.order) + 4);
+  table.coefficients(step.velocity, share, last, coefficients_.data());
+  coefficients_[0] = value;
+  const int first = first_that_counts(step, table, unknown, last);
+  if (first > last) return std::nullopt;
+  const bool is_positive = coefficients_[static_cast<std::size_t>(first)] > 0.0;
+  if (sign == 0.0) sign = is_positive ? 1.0 : -1.0;
+  if (is_positive != (sign > 0.0)) return StepExit{{0.0, std::nullopt}};
+  const auto series =
+      std::span(coefficients_)
+          .subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first + 1));
+  if (sign < 0.0) {
+    for (double& coefficient : series) coefficient = -coefficient;
+  }
+  const bool is_whole = last == step.order;
+  const int from = std::max(first, 1);
+  const double uncertainty = (is_whole ? table.uncertainty(step.velocity, share, from, step.order)
+                                       : table.bound_of_uncertainty(step.velocity, share, from)) +
+                             table.weight() * step.remainder + (first == 0 ? unknown : 0.0);
+  if (is_whole) {
+    touch_within_ = (1.0 + negligible_share) * uncertainty;
+    return StepExit{first_exit(series, uncertainty)};
+  }
+  const double rest = uncertainty + table.beyond_few(step.velocity, share);
+  const auto rough = rough_exit(series, rest, step.order);
+  if (!rough) return std::nullopt;
+  // How soon a motion that begins on the guard comes back is told by all terms better than by the
+  // state there.
+  if (rough->at && first > 0) return std::nullopt;
+  return StepExit{{rough->at, std::nullopt}, rough->within};
+}
+
+/// The order of the first derivative that is not 0, as far as can be told; beyond the last where
+/// there is none. A start on the guard's zero is divided out by it.
+int GuardWatch::first_that_counts(const StepSeries& step, const GuardTable& table, double unknown,
+                                  int last) const {
+  if (std::abs(coefficients_[0]) > unknown) return 0;
+  for (int order = 1; order <= last; ++order) {
+    const double size = std::abs(coefficients_[static_cast<std::size_t>(order)]);
+    if (size > table.uncertainty_of(step.velocity, step.table_share, order)) return order;
+  }
+  return last + 1;
+}
+
+/// Of a guard that comes down to 0 as the step ends the next one says whether it leaves it on its
+/// own side. Seldom called, and so kept out of the loop over guards.
+[[gnu::noinline]] void GuardWatch::note_touch(const StepSeries& step, std::size_t guard,
+                                              const StepExit& exit) {
+  if (exit.touch == 1.0) {
+    zero_at_end_.push_back(guard);
+  } else if (exit.touch) {
+    touches_.push_back(
+        {step.time + *exit.touch * step.length, step.state.mode, guard, touch_within_});
+  }
+  const double* numbers = step.state.numbers.data();
+  const double value = std::abs(step.mode.guards[guard].at(numbers));
+  const double unknown = step.mode.guards[guard].noise_at(numbers, step.noise.data());
+  const auto came_down = std::count(zero_at_start_.begin(), zero_at_start_.end(), guard);
+  if (came_down == 0 || exit.at == 0.0 || value > unknown) return;
+  touches_.push_back({step.time, step.state.mode, guard, unknown});
+}
+
+}  // namespace gearlash::hybrid

@@ -1,0 +1,71 @@
+// Turns of events that recur: which, how often, and how long each took.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "hybrid/hybrid_trajectory.hpp"
+
+namespace gearlash::hybrid {
+
+/// A turn is up to four events; it recurs where each of them is that of so many events before.
+class RecurringEvents {
+ public:
+  /// The events must live as long.
+  explicit RecurringEvents(const std::vector<Event>& events) : events_(events) {}
+
+  /// Takes note of the last event.
+  void note() {
+    for (std::size_t turn = 1; turn <= longest_turn; ++turn) {
+      std::size_t& count = recurrences_[turn - 1];
+      const bool recurs = events_.size() > turn && events_.back().kind == EventKind::transition &&
+                          is_same(events_.back(), events_[events_.size() - 1 - turn]);
+      count = recurs ? count + 1 : 0;
+    }
+  }
+
+  /// How long the turn took that ended so many turns ago.
+  double duration(std::size_t turn, std::size_t ago) const {
+    const std::size_t last = events_.size() - 1 - ago * turn;
+    return events_[last].time - events_[last - turn].time;
+  }
+
+  /// How many whole turns of the sequence the last one follows. Precondition: it has recurred.
+  std::size_t turns_before(std::size_t turn) const { return (recurrences_[turn - 1] - 1) / turn; }
+
+  /// The shortest turn of events that has recurred often enough, or 0.
+  std::size_t recurring_turn(std::size_t enough) const {
+    for (std::size_t turn = 1; turn <= longest_turn; ++turn) {
+      if (recurrences_[turn - 1] >= (enough - 1) * turn) return turn;
+    }
+    return 0;
+  }
+
+  /// Whether the turns before this instant, where there is no end of events, were each shorter than
+  /// the one before.
+  bool have_come_ever_faster() const {
+    const std::size_t turn = recurring_turn(4);
+    if (turn == 0) return false;
+    const std::size_t turns = turns_before(turn);
+    std::size_t shorter = 0;
+    for (std::size_t ago = 0; ago < turns; ++ago) {
+      if (duration(turn, ago) == 0.0) continue;
+      if (!(duration(turn, ago) < duration(turn, ago + 1))) break;
+      ++shorter;
+    }
+    return shorter >= 3;
+  }
+
+ private:
+  static constexpr std::size_t longest_turn = 4;
+
+  static bool is_same(const Event& a, const Event& b) {
+    return a.mode == b.mode && a.transition == b.transition && a.kind == b.kind &&
+           a.mode_after == b.mode_after;
+  }
+
+  const std::vector<Event>& events_;
+  std::array<std::size_t, longest_turn> recurrences_{};  ///< by the length of a turn, from 1 on
+};
+
+}  // namespace gearlash::hybrid

@@ -1,0 +1,49 @@
+// Dense linear algebra behind plain functions: Eigen's heavy templates are compiled once, here.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace gearlash {
+
+// ---- matrices of any size -----------------------------------------------------------------------
+
+/// e^matrix, by scaling and squaring of Padé approximants (Higham 2005).
+Eigen::MatrixXd exponential(const Eigen::MatrixXd& matrix);
+
+/// All eigenvalues, by the QR algorithm.
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
+
+struct Eigensystem {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd vectors;  ///< column i belongs to value i
+};
+Eigensystem eigensystem(const Eigen::MatrixXd& matrix);
+
+/// x of matrix x = right, by elimination with partial pivoting. Precondition: not singular.
+Eigen::VectorXd solved(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+Eigen::MatrixXcd solved(const Eigen::MatrixXcd& matrix, const Eigen::MatrixXcd& right);
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix);
+
+/// The same by full pivoting, which a nearly singular matrix needs: where it is singular to
+/// rounding the component that it leaves open is 0.
+Eigen::VectorXd solved_with_full_pivoting(const Eigen::MatrixXd& matrix,
+                                          const Eigen::VectorXd& right);
+
+// ---- matrices of a fixed size -------------------------------------------------------------------
+
+Eigen::Vector3cd eigenvalues(const Eigen::Matrix3d& matrix);
+
+/// By full pivoting.
+Eigen::Vector3d solved_with_full_pivoting(const Eigen::Matrix3d& matrix,
+                                          const Eigen::Vector3d& right);
+using FourColumns = Eigen::Matrix<double, 3, 4>;
+FourColumns solved_with_full_pivoting(const Eigen::Matrix3d& matrix, const FourColumns& right);
+/// Of the elimination with full pivoting, by modulus.
+double least_pivot(const Eigen::Matrix3d& matrix);
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+/// By partial pivoting. Precondition: not singular.
+Vector6d solved(const Matrix6d& matrix, const Vector6d& right);
+
+}  // namespace gearlash

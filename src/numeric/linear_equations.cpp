@@ -1,0 +1,41 @@
+#include <Eigen/LU>
+
+#include "numeric/linear_algebra.hpp"
+
+namespace gearlash {
+
+Eigen::VectorXd solved(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
+  return matrix.partialPivLu().solve(right);
+}
+
+Eigen::MatrixXcd solved(const Eigen::MatrixXcd& matrix, const Eigen::MatrixXcd& right) {
+  return matrix.partialPivLu().solve(right);
+}
+
+Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix) { return matrix.partialPivLu().inverse(); }
+
+Eigen::VectorXd solved_with_full_pivoting(const Eigen::MatrixXd& matrix,
+                                          const Eigen::VectorXd& right) {
+  return matrix.fullPivLu().solve(right);
+}
+
+// Of three rows by the functions for any size: the same bits, and less to compile.
+
+Eigen::Vector3d solved_with_full_pivoting(const Eigen::Matrix3d& matrix,
+                                          const Eigen::Vector3d& right) {
+  return solved_with_full_pivoting(Eigen::MatrixXd(matrix), Eigen::VectorXd(right));
+}
+
+FourColumns solved_with_full_pivoting(const Eigen::Matrix3d& matrix, const FourColumns& right) {
+  return Eigen::MatrixXd(matrix).fullPivLu().solve(Eigen::MatrixXd(right));
+}
+
+double least_pivot(const Eigen::Matrix3d& matrix) {
+  return Eigen::MatrixXd(matrix).fullPivLu().matrixLU().diagonal().cwiseAbs().minCoeff();
+}
+
+Vector6d solved(const Matrix6d& matrix, const Vector6d& right) {
+  return matrix.partialPivLu().solve(right);
+}
+
+}  // namespace gearlash

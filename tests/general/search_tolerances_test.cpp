@@ -1,0 +1,106 @@
+// Every tolerance of a search does what its line says.
+#include <gtest/gtest.h>
+
+#include "general/attractors/attractors.hpp"
+
+namespace gearlash::drive {
+namespace {
+
+Drive servo(double damping, double inertia_ratio, double friction_ratio) {
+  Drive drive;
+  drive.motor = {1.0 / (1.0 + inertia_ratio), {.viscous = 2.0 * damping * (1.0 - friction_ratio)}};
+  drive.load = {inertia_ratio / (1.0 + inertia_ratio), {.viscous = 2.0 * damping * friction_ratio}};
+  drive.backlash = 0.3;
+  drive.controller = ProportionalDerivative{1.0, 0.0};
+  return drive;
+}
+
+const Drive hunting = servo(0.19, 2.0, 0.1);
+const Drive fading = servo(0.4284, 3.023, 0.7225);
+
+/// Two starts, and no edges between them.
+AttractorOptions few_starts() {
+  AttractorOptions options;
+  options.starts = {{1.0, 0.0, 1.0, 0.0}, {0.1, 0.0, 0.1, 0.0}};
+  options.most_edges = 0;
+  options.swing_times = 40.0;
+  options.budget.patience = 1.0;
+  return options;
+}
+
+TEST(SearchTolerances, DefaultsFindTheCycleAndTheRest) {
+  EXPECT_EQ(find_attractors(hunting, few_starts()).count(MotionEnd::cycle), 2U);
+  AttractorOptions patient = few_starts();
+  patient.budget.patience = 20.0;
+  EXPECT_EQ(find_attractors(fading, patient).count(MotionEnd::rest), 2U);
+}
+
+TEST(SearchTolerances, RunningAway) {
+  AttractorOptions options = few_starts();
+  options.tolerances.far_away = 1e-6;
+  EXPECT_EQ(find_attractors(hunting, options).count(MotionEnd::diverges), 2U);
+}
+
+TEST(SearchTolerances, Rest) {
+  AttractorOptions options = few_starts();
+  options.tolerances.rest.still = 1e3;
+  EXPECT_EQ(find_attractors(hunting, options).count(MotionEnd::rest), 2U);
+  for (double RestTolerances::*limit :
+       {&RestTolerances::vanishing_limit, &RestTolerances::small_swing,
+        &RestTolerances::small_motion}) {
+    AttractorOptions strict = few_starts();
+    strict.budget.patience = 20.0;
+    strict.tolerances.rest.*limit = 0.0;
+    EXPECT_EQ(find_attractors(fading, strict).count(MotionEnd::rest), 0U);
+  }
+}
+
+TEST(SearchTolerances, WhatIsClosedMustFitItselfAndTheMotion) {
+  for (double CycleTolerances::*limit : {&CycleTolerances::residual, &CycleTolerances::agreement}) {
+    AttractorOptions options = few_starts();
+    options.tolerances.cycle.*limit = 0.0;
+    EXPECT_EQ(find_attractors(hunting, options).count(MotionEnd::cycle), 0U);
+  }
+  AttractorOptions options = few_starts();
+  options.tolerances.cycle.least_size = 1e3;
+  EXPECT_EQ(find_attractors(hunting, options).count(MotionEnd::cycle), 0U);
+}
+
+TEST(SearchTolerances, StabilityAndSymmetry) {
+  AttractorOptions options = few_starts();
+  options.tolerances.cycle.neutral_band = 10.0;
+  options.tolerances.cycle.recurrence = 0.0;
+  const AttractorSearch found = find_attractors(hunting, options);
+  ASSERT_EQ(found.cycles.size(), 1U);
+  EXPECT_EQ(found.cycles[0].stability, Stability::neutral);
+  EXPECT_FALSE(found.cycles[0].is_symmetric);
+}
+
+TEST(SearchTolerances, IrregularMotion) {
+  AttractorOptions open = few_starts();
+  open.tolerances.cycle.residual = 0.0;  // nothing closes
+  const AttractorSearch found = find_attractors(hunting, open);
+  EXPECT_EQ(found.count(MotionEnd::irregular), 2U);
+  EXPECT_EQ(found.irregular.size(), 1U);
+  AttractorOptions strict = open;
+  strict.tolerances.irregular.steadiness = 0.0;
+  EXPECT_LT(find_attractors(hunting, strict).count(MotionEnd::irregular), 2U);
+  strict = open;
+  strict.tolerances.irregular.least_turns = 1000;
+  EXPECT_EQ(find_attractors(hunting, strict).count(MotionEnd::undecided), 2U);
+}
+
+TEST(SearchTolerances, ChosenStarts) {
+  AttractorOptions options = few_starts();
+  options.starts.clear();
+  options.chosen_starts.most_steps = 2;
+  const AttractorSearch found = find_attractors(hunting, options);
+  ASSERT_EQ(found.outcomes.size(), 8U);  // three steps beside each face, two passings
+  EXPECT_DOUBLE_EQ(found.outcomes[0].start.load_position, 1e-2 * 0.3);
+  EXPECT_DOUBLE_EQ(found.outcomes[2].start.load_position, 1e2 * 0.3);
+  options.chosen_starts.largest_step = 10.0;
+  EXPECT_DOUBLE_EQ(find_attractors(hunting, options).outcomes[2].start.load_position, 10.0 * 0.3);
+}
+
+}  // namespace
+}  // namespace gearlash::drive
