@@ -20,7 +20,7 @@ help:  ## this list
 	@awk -F':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 demo: tool  ## build the tool; does the servo of the thesis hunt? with its picture
-	$(TOOL) limit-cycle $(EXAMPLE).toml --plot $(EXAMPLE).svg
+	$(TOOL) limit-cycle $(EXAMPLE).toml --plot phase=$(EXAMPLE).svg
 	@echo "Picture: $(EXAMPLE).svg"
 
 # Tests are left out of a first build, whose user need not have their packages, and left alone in

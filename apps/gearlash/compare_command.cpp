@@ -4,6 +4,7 @@
 #include <memory>
 #include <sstream>
 
+#include "analysis/analyse.hpp"
 #include "command.hpp"
 #include "general/assemble/time_scale.hpp"
 #include "input/units.hpp"
@@ -49,23 +50,17 @@ std::vector<SensorPlace> read_sensors(const std::string& text, Faults& faults) {
   return places;
 }
 
-DriveFile resolve_drive(const CompareOptions& options, Faults& faults) {
-  const ServoOrDriveFile described = resolve_servo_or_drive(options.servo, faults);
-  if (const auto* drive = std::get_if<DriveFile>(&described)) return *drive;
-  if (!faults.none()) return {};
-  return faults.collect([&] { return drive_file_of(std::get<ServoFile>(described)); }, DriveFile{});
-}
-
 struct Step {
   double size = 0.0;
   double until = 0.0;
 };
 
 /// Ten times the backlash, and twenty periods of the loop.
-Step read_step(const CompareOptions& options, const DriveFile& file, Faults& faults) {
+Step read_step(const CompareOptions& options, const WrittenDrive& written, Faults& faults) {
   constexpr double backlashes = 10.0;
   constexpr double periods = 20.0;
-  Step step{backlashes * file.drive.backlash, 1.0};
+  const drive::Drive reduced = reduce(written.drive);
+  Step step{backlashes * reduced.backlash, 1.0};
   if (options.step) {
     step.size = faults.collect([&] { return read_angle("--step", *options.step).si; }, step.size);
     if (step.size == 0.0) {
@@ -74,7 +69,7 @@ Step read_step(const CompareOptions& options, const DriveFile& file, Faults& fau
   }
   if (options.until) {
     const ReportUnits units{.natural_frequency =
-                                file.is_normalized ? std::nullopt : std::optional(1.0)};
+                                is_normalized(written.drive) ? std::nullopt : std::optional(1.0)};
     step.until = faults.collect(
         [&] {
           return read_scaled("--until", *options.until, dimensions::time, units, units.time_unit());
@@ -84,23 +79,33 @@ Step read_step(const CompareOptions& options, const DriveFile& file, Faults& fau
       faults.add({"--until", shown(*options.until), "must be positive", ""});
     }
   } else if (faults.none()) {
-    step.until = periods * drive::time_scales(file.drive).swing;
+    step.until = periods * drive::time_scales(reduced).swing;
   }
   return step;
 }
 
-SensorCase compared(const DriveFile& file, SensorPlace place, const Step& step,
+/// An encoder keeps its counts a turn wherever it stands.
+Drive with_sensor(Drive drive, SensorPlace place) {
+  drive.sensor.position = place;
+  drive.sensor.speed.reset();
+  return drive;
+}
+
+SensorCase compared(const WrittenDrive& written, SensorPlace place, const Step& step,
                     const std::function<void(double)>& show) {
   SensorCase one;
   one.place = place;
-  one.attractors.file = with_sensor(file, place);
+  one.report.drive = with_sensor(written.drive, place);
+  one.report.angle = written.angle;
+  one.report.is_normalized = is_normalized(written.drive);
+  const drive::Drive reduced = reduce(one.report.drive);
   drive::AttractorOptions options;
   options.go_on = [&](double share) {
     show(share);
     return true;
   };
-  one.attractors.search = drive::find_attractors(one.attractors.file.drive, options);
-  one.response = drive::step_response(one.attractors.file.drive, step.size, step.until);
+  one.report.answer = answer_of(drive::find_attractors(reduced, options), reduced);
+  one.response = drive::step_response(reduced, step.size, step.until);
   return one;
 }
 
@@ -118,8 +123,8 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
       PictureFormat::svg);
   faults.require_distinct({"DRIVE.toml", options.servo.file}, {{"--plot", plot_file}});
   const std::vector<SensorPlace> places = read_sensors(options.sensors, faults);
-  const DriveFile file = resolve_drive(options, faults);
-  const Step step = read_step(options, file, faults);
+  const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
+  const Step step = written ? read_step(options, *written, faults) : Step{};
   faults.require_none();
 
   ComparisonReport report{.cases = {}, .provenance = provenance};
@@ -127,7 +132,7 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
     Progress progress("Comparing");
     for (const SensorPlace place : places) {
       const auto done = static_cast<double>(report.cases.size());
-      report.cases.push_back(compared(file, place, step, [&](double share) {
+      report.cases.push_back(compared(*written, place, step, [&](double share) {
         progress.show((done + share) / static_cast<double>(places.size()));
       }));
     }
@@ -139,7 +144,7 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
   write_file("-", options.format == "json" ? comparison_json(report) : comparison_text(report));
   const bool decided =
       std::none_of(report.cases.begin(), report.cases.end(), [](const SensorCase& one) {
-        return drive::verdict_of(one.attractors.search) == drive::DriveVerdict::undecided ||
+        return one.report.answer.verdict == Verdict::undecided ||
                one.response.stop_reason != hybrid::StopReason::reached_end;
       });
   return extras.status(decided ? ExitStatus::done : ExitStatus::undecided);
@@ -156,6 +161,7 @@ void add_compare_command(CLI::App& app, Action& action) {
                    "drive (docs/drives.md), data sheet or normalised servo")
       ->type_name("")
       ->required();
+  add_set_option(*command, options->servo);
   command
       ->add_option("--sensor", options->sensors,
                    "shafts that are measured, by turns: load, motor, both (position of the\n"

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "analysis/analyse.hpp"
 #include "analysis/drive_verdict.hpp"
-#include "closed_form/limit_cycle.hpp"
 #include "command.hpp"
 #include "input/units.hpp"
 #include "machine_faults.hpp"
@@ -42,61 +42,31 @@ drive::DescribedPart part_of(const std::string& name) {
   return DescribedPart::gap_load_held;
 }
 
-/// A drive and what is exact of it, both in the drive's own units.
+/// A drive and its exact answer.
 struct DescribedDrive {
-  DriveFile file{};
-  std::vector<drive::ExactCycle> exact{};
-  std::string verdict{};
-  bool is_driven = false;
-  bool is_decided = true;
+  WrittenDrive written{};
+  Analysis analysis{};
 };
 
-void add_exact(const ServoFile& file, DescribedDrive& described) {
-  const ReportUnits units = report_units(file);
-  const LimitCycleAnalysis analysis = analyse_limit_cycles(file.servo);
-  described.verdict = name_of(analysis.verdict);
-  described.is_decided = analysis.verdict != Verdict::undecided;
-  for (const LimitCycle& cycle : analysis.cycles) {
-    described.exact.push_back(
-        {cycle.size, cycle.motor_size, units.time(cycle.period), cycle.stable});
+std::vector<drive::ExactCycle> exact_cycles(const Answer& answer) {
+  std::vector<drive::ExactCycle> exact;
+  for (const Cycle& cycle : answer.cycles) {
+    exact.push_back({cycle.amplitude, cycle.motor_amplitude, cycle.period,
+                     cycle.stability == Stability::stable});
   }
-}
-
-/// Of a drive without a closed form: what a search finds.
-void add_found(DescribedDrive& described) {
-  Progress progress("Searching");
-  drive::AttractorOptions options;
-  options.go_on = [&](double share) {
-    progress.show(share);
-    return true;
-  };
-  const drive::AttractorSearch search = drive::find_attractors(described.file.drive, options);
-  const drive::DriveVerdict verdict = drive::verdict_of(search);
-  described.is_decided = verdict != drive::DriveVerdict::undecided;
-  described.is_driven = is_driven(described.file.drive);
-  described.verdict = drive::name_of(verdict, described.file.drive);
-  for (const drive::FoundCycle& cycle : search.cycles) {
-    described.exact.push_back({cycle.size, cycle.motor_size, cycle.period(),
-                               cycle.stability == drive::Stability::stable});
-  }
+  return exact;
 }
 
 DescribedDrive described_drive(const ServoOptions& options, Faults& faults) {
-  const ServoOrDriveFile read = resolve_servo_or_drive(options, faults);
+  std::optional<WrittenDrive> written = resolve_drive(options, faults);
   faults.require_none();
-  DescribedDrive described;
-  if (const auto* servo = std::get_if<ServoFile>(&read)) {
-    described.file = drive_file_of(*servo);
-    add_exact(*servo, described);
-    return described;
-  }
-  described.file = std::get<DriveFile>(read);
-  if (const std::optional<ServoFile> closed = closed_form_of(described.file)) {
-    add_exact(*closed, described);
-  } else {
-    add_found(described);
-  }
-  return described;
+  Progress progress("Searching");
+  const auto show = [&](double share) {
+    progress.show(share);
+    return true;
+  };
+  Analysis analysis = analyse_in_full(written->drive, {.proofs = false, .go_on = show});
+  return {*std::move(written), std::move(analysis)};
 }
 
 std::string plot_file(const DescribeOptions& options) {
@@ -176,19 +146,22 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
   faults.require_distinct({"DRIVE.toml", options.servo.file}, {{"--plot", plot_file(options)}});
   const DescribedDrive input = described_drive(options.servo, faults);
 
-  const DescribeReport report{.analyses = drive::describing_analyses(input.file.drive),
-                              .exact = input.exact,
-                              .exact_verdict = input.verdict,
-                              .is_driven = input.is_driven,
-                              .angle = input.file.backlash_unit,
-                              .time_unit = input.file.is_normalized ? "1/ω_n" : "s",
+  const Answer& answer = input.analysis.answer;
+  const DescribeReport report{.analyses = drive::describing_analyses(reduce(input.written.drive)),
+                              .exact = exact_cycles(answer),
+                              .exact_verdict = answer.verdict == Verdict::forced
+                                                   ? "swings as it is driven"
+                                                   : name_of(answer.verdict),
+                              .is_driven = drive::is_driven(input.analysis.reduced),
+                              .angle = input.written.angle,
+                              .time_unit = is_normalized(input.written.drive) ? "1/ω_n" : "s",
                               .provenance = provenance};
   Extras extras;
   if (!options.plot.empty()) {
     extras.make([&] { write_file(plot_file(options), draw(report, options, picture_kind)); });
   }
   write_file("-", options.format == "json" ? describe_json(report) : text_for_terminal(report));
-  if (input.is_decided) return extras.status(ExitStatus::done);
+  if (answer.verdict != Verdict::undecided) return extras.status(ExitStatus::done);
   report_lines("what is exact could not be decided");
   return extras.status(ExitStatus::undecided);
 }

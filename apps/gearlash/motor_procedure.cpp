@@ -6,9 +6,10 @@
 #include <cmath>
 #include <vector>
 
+#include "analysis/analyse.hpp"
 #include "base/overloaded.hpp"
 #include "closed_form/limit_cycle.hpp"
-#include "output/limit_cycle_report.hpp"
+#include "output/answer_report.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -293,14 +294,14 @@ std::string motor_procedure(const ServoFile& file,
                             const std::map<std::string, std::string>& written) {
   Procedure procedure = procedure_for(known_of(file));
   add_limit_cycle(procedure.steps, file);
-  const LimitCycleReport report{.servo = file.servo,
-                                .analysis = analyse_limit_cycles(file.servo),
-                                .units = report_units(file),
-                                .provenance = {}};
+  const ClosedFormServo servo{file.servo, *file.natural_frequency, false};
+  const AnswerReport report{
+      .answer = answer_of(analyse_limit_cycles(file.servo), servo, file.drivetrain->stiffness),
+      .angle = file.backlash_unit};
   return fmt::format(
       "Procedure for the {} (Appendix A of the thesis)\n\nData sheet\n{}\nSteps\n{}\n{}\n",
       procedure.title, given_table(*file.datasheet, written), procedure.steps.text(),
-      verdict_line(report));
+      headline(report));
 }
 
 }  // namespace gearlash::cli

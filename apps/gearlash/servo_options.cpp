@@ -8,6 +8,7 @@
 #include "input/text_file.hpp"
 #include "input/units.hpp"
 #include "model/proportional_servo.hpp"
+#include "model/reduced_drive.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -111,23 +112,6 @@ Source source_of(const ServoOptions& options) {
   return {text, "the command line", {}};
 }
 
-/// Options beside a file that are settings of it.
-std::vector<Setting> settings_of_options(const ServoOptions& options, const Source& source) {
-  const bool is_normal_form = document_with(source.text, source.name, {}).root().contains("servo");
-  std::vector<Setting> settings;
-  for (const NumberOption& option : number_options) {
-    const std::optional<std::string>& typed = options.*option.typed;
-    if (!typed) continue;
-    std::string section = "servo.";
-    if (option.typed == &ServoOptions::restitution) section = "contact.";
-    if (option.typed == &ServoOptions::backlash && !is_normal_form) section = "gearbox.";
-    const bool is_bare = option.typed == &ServoOptions::backlash && read_bare_number("", *typed);
-    settings.push_back({section + option.name, *typed + (is_bare ? " rad" : "")});
-  }
-  if (options.sensor) settings.push_back({"sensor.position", *options.sensor});
-  return settings;
-}
-
 std::vector<Setting> settings_of(const ServoOptions& options, Faults& faults) {
   std::vector<Setting> settings;
   for (const std::string& text : options.settings) {
@@ -147,6 +131,20 @@ ServoFile read_file(const ServoOptions& options, Faults& faults) {
       },
       stand_in);
 }
+
+}  // namespace
+
+void add_set_option(CLI::App& command, ServoOptions& options) {
+  command
+      .add_option("--set", options.settings,
+                  "any parameter of the drive, with its unit, such as\n"
+                  "gearbox.backlash=\"12 arcmin\"; repeatable; gearlash show lists them")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false)
+      ->group(servo_group);
+}
+
+namespace {
 
 void add_options(CLI::App& command, ServoOptions& options, const char* file_help,
                  const char* sensor_help) {
@@ -172,13 +170,7 @@ void add_options(CLI::App& command, ServoOptions& options, const char* file_help
   command.add_option("--sensor", options.sensor, sensor_help)
       ->type_name("SHAFT")
       ->group(servo_group);
-  command
-      .add_option("--set", options.settings,
-                  "any parameter of the drive, with its unit, such as\n"
-                  "gearbox.backlash=\"12 arcmin\"; repeatable; gearlash show lists them")
-      ->type_name("PATH=VALUE")
-      ->allow_extra_args(false)
-      ->group(servo_group);
+  add_set_option(command, options);
 }
 
 void require_finite(std::string_view field, std::string_view text, double number) {
@@ -368,21 +360,111 @@ std::optional<ServoFile> closed_form_of(DriveFile file) {
   return servo;
 }
 
-std::optional<WrittenDrive> resolve_drive(const ServoOptions& options, Faults& faults) {
-  ServoOptions typed = options;
+namespace {
+
+std::string path_of(const NumberOption& option, bool is_normal_form) {
+  if (option.typed == &ServoOptions::restitution) return "contact.restitution";
+  const bool is_of_plant = option.typed == &ServoOptions::backlash && !is_normal_form;
+  return (is_of_plant ? "gearbox." : "servo.") + std::string(option.name);
+}
+
+/// Faults of what options say, named as they were typed.
+std::vector<Violation> named_as_typed(std::vector<Violation> faults, const ServoOptions& options) {
   const bool has_file = !options.file.empty();
+  for (Violation& fault : faults) {
+    if (!has_file) fault.where.clear();
+    if (options.sensor && (fault.field == "sensor.position" || fault.field == "loop.sensor")) {
+      fault.field = "--sensor";
+      fault.where.clear();
+    }
+    for (const NumberOption& option : number_options) {
+      const std::optional<std::string>& typed = options.*option.typed;
+      const bool is_it = fault.field == path_of(option, true) ||
+                         fault.field == path_of(option, false) || fault.field == option.name;
+      if (!is_it || (has_file && !typed)) continue;
+      fault.field = option_name(option.name);
+      fault.where.clear();
+      if (typed) {
+        fault.value = shown(*typed);
+      } else {
+        fault.permitted = permitted_without_file(option.name) + "; or give DRIVE.toml";
+      }
+      break;
+    }
+  }
+  return faults;
+}
+
+/// The normal form of a drive, with the numbers of it that options change: the natural frequency
+/// stays.
+WrittenDrive changed_normal_form(const WrittenDrive& written, const ServoOptions& options) {
+  const std::optional<ClosedFormServo> closed = closed_form_servo(written.drive);
+  WrittenDrive changed{.drive = {}, .angle = written.angle, .tolerances = {}};
+  NormalForm form;
+  if (closed) {
+    form = {.damping = closed->servo.damping,
+            .inertia_ratio = closed->servo.inertia_ratio,
+            .friction_ratio = closed->servo.friction_ratio,
+            .backlash = closed->servo.backlash,
+            .natural_frequency = closed->natural_frequency};
+    changed.drive.contact = RigidContact{closed->servo.restitution};
+  }
+  Faults faults;
+  const auto change = [&](const char* name, const std::optional<std::string>& typed,
+                          double& number) {
+    if (!typed) return;
+    if (!closed) {
+      faults.add({option_name(name), shown(*typed),
+                  "must be left out: the drive has no normal form with such a number", ""});
+      return;
+    }
+    number = faults.collect([&] { return read_number(option_name(name), *typed); }, number);
+  };
+  change("damping", options.damping, form.damping);
+  change("inertia_ratio", options.inertia_ratio, form.inertia_ratio);
+  change("friction_ratio", options.friction_ratio, form.friction_ratio);
+  faults.require_none();
+  changed.drive.servo = form;
+  require_none(gearlash::faults(changed.drive));
+  return changed;
+}
+
+WrittenDrive read_drive_as_typed(const ServoOptions& options, std::vector<Setting> settings) {
+  const Source source = source_of(options);
+  if (options.file.empty()) {
+    return parse_drive(source.text, source.name, source.folder, settings);
+  }
+  const bool is_normal_form = document_with(source.text, source.name, {}).root().contains("servo");
+  const auto add = [&](const NumberOption& option) {
+    const std::optional<std::string>& typed = options.*option.typed;
+    if (!typed) return;
+    const bool is_bare = option.typed == &ServoOptions::backlash && read_bare_number("", *typed);
+    settings.push_back({path_of(option, is_normal_form), *typed + (is_bare ? " rad" : "")});
+  };
+  for (const NumberOption& option : number_options) {
+    const bool is_of_both =
+        option.typed == &ServoOptions::backlash || option.typed == &ServoOptions::restitution;
+    if (is_normal_form || is_of_both) add(option);
+  }
+  if (options.sensor) settings.push_back({"sensor.position", *options.sensor});
+  const WrittenDrive written = parse_drive(source.text, source.name, source.folder, settings);
+  const bool has_more = options.damping || options.inertia_ratio || options.friction_ratio;
+  return is_normal_form || !has_more ? written : changed_normal_form(written, options);
+}
+
+}  // namespace
+
+std::optional<WrittenDrive> resolve_drive(const ServoOptions& options, Faults& faults) {
   std::vector<Setting> settings = settings_of(options, faults);
-  return faults.collect(
-      [&] {
-        const Source source = source_of(typed);
-        if (has_file) {
-          for (Setting& setting : settings_of_options(options, source)) {
-            settings.push_back(std::move(setting));
-          }
-        }
-        return std::optional(parse_drive(source.text, source.name, source.folder, settings));
-      },
-      std::optional<WrittenDrive>());
+  if (options.file.empty() && options.sensor) {
+    settings.push_back({"sensor.position", *options.sensor});
+  }
+  try {
+    return read_drive_as_typed(options, std::move(settings));
+  } catch (const InvalidInput& error) {
+    faults.add(named_as_typed(error.violations(), options));
+    return std::nullopt;
+  }
 }
 
 ServoFile resolve_servo(const ServoOptions& options, Faults& faults) {

@@ -40,6 +40,9 @@ struct FileUse {
   std::string file;
 };
 
+/// --set PATH=VALUE, repeatable.
+void add_set_option(CLI::App& command, ServoOptions& options);
+
 /// Collects the faults of a command line, so that all of them are reported at once.
 class Faults {
  public:

@@ -8,15 +8,10 @@
 
 #include "closed_form/cycle_bounds.hpp"
 #include "closed_form/trajectory.hpp"
+#include "gearlash/answer.hpp"
 #include "model/normalized_servo.hpp"
 
 namespace gearlash {
-
-enum class CycleKind {
-  symmetric,   ///< the second half mirrors the first
-  asymmetric,  ///< repeats after one traversal of the gap each way, without mirror symmetry
-  subharmonic  ///< repeats only after several traversals each way
-};
 
 /// Energy fed in by the loop equals the sum of the losses. Units of K rad², over a whole period.
 struct CycleEnergy {
@@ -47,25 +42,6 @@ struct LimitCycle {
   CycleEnergy energy;
   ServoState start;  ///< a state on the cycle, about reference 0: as the faces part forward
                      ///< (plastic contact), or just after an impact on the forward face
-};
-
-enum class Verdict {
-  cannot_hunt,          ///< every motion tends to the reference; for e > 0 as far as was searched,
-                        ///< where it is not proved
-  hunts,                ///< rest is unstable; a stable limit cycle was found
-  hunts_if_disturbed,   ///< rest is stable, but so is a limit cycle beside it
-  hunts_irregularly,    ///< rest is unstable; the motion stayed bounded and did not repeat
-  grows_without_bound,  ///< no friction at all: the oscillation has no bound
-  undamped,             ///< neither friction nor backlash: any amplitude persists
-  undecided  ///< on the boundary to within rounding, or more bounces than can be followed
-};
-
-/// How sure a statement is, from the least to the most.
-enum class Certainty {
-  searched,  ///< found by a search, which may have missed something
-  computed,  ///< decided by a formula in floating point, whose rounding is not bounded
-  enclosed,  ///< proved of this servo: a theorem, whose condition interval arithmetic decides
-  theorem    ///< proved, by exact comparisons alone
 };
 
 struct LimitCycleAnalysis {
@@ -115,12 +91,5 @@ LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, Reading re
 
 /// The cycle that is seen in practice: the largest stable one, or nullptr.
 const LimitCycle* largest_stable(const LimitCycleAnalysis& analysis);
-
-/// "cannot hunt", "hunts", … as printed and as the JSON key `verdict` has it.
-const char* name_of(Verdict verdict);
-/// "searched", "computed", "enclosed", "theorem".
-const char* name_of(Certainty certainty);
-/// "symmetric", "asymmetric", "subharmonic".
-const char* name_of(CycleKind kind);
 
 }  // namespace gearlash

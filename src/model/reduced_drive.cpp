@@ -194,6 +194,8 @@ drive::Drive reduce(const Drive& drive) {
   return reduced;
 }
 
+bool is_normalized(const Drive& drive) { return drive.servo && !drive.servo->natural_frequency; }
+
 std::optional<Drivetrain> proportional_drivetrain(const Drive& drive) {
   return drive::proportional_servo(reduce(drive));
 }

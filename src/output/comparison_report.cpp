@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "input/drive_file.hpp"
 #include "output/columns.hpp"
 #include "output/json_values.hpp"
 #include "picture/line_chart.hpp"
@@ -15,55 +16,57 @@ namespace {
 
 constexpr int digits = 4;
 
-const DriveFile& file_of(const ComparisonReport& report) {
-  return report.cases.front().attractors.file;
-}
+const AnswerReport& first_of(const ComparisonReport& report) { return report.cases.front().report; }
 
 std::string angle(const ComparisonReport& report, double radians) {
-  const AngleUnit& unit = file_of(report).backlash_unit;
+  const AngleUnit& unit = first_of(report).angle;
   return significant(unit.from_radians(radians), digits) + " " + unit.name;
 }
 
 std::string time(const ComparisonReport& report, double seconds) {
   if (std::isnan(seconds)) return "–";
-  return significant(seconds, digits) + (file_of(report).is_normalized ? " / ω_n" : " s");
+  return significant(seconds, digits) + (first_of(report).is_normalized ? " / ω_n" : " s");
 }
 
 // ---- one cell each ------------------------------------------------------------------------------
 
-std::string size_text(const ComparisonReport& report, const SensorCase& one) {
-  const drive::AttractorSearch& search = one.attractors.search;
-  if (const drive::FoundCycle* cycle = drive::largest_stable(search)) {
-    return "±" + angle(report, cycle->size);
-  }
-  if (!search.irregular.empty()) return "up to ±" + angle(report, search.irregular.front().size);
-  return "–";
+std::string amplitude_text(const ComparisonReport& report, const SensorCase& one) {
+  const Answer& answer = one.report.answer;
+  if (const Cycle* cycle = answer.largest_stable()) return "±" + angle(report, cycle->amplitude);
+  if (answer.irregular.empty()) return "–";
+  return "up to ±" + angle(report, answer.irregular.front().amplitude);
 }
 
 std::string pace_text(const ComparisonReport& report, const SensorCase& one) {
-  const drive::AttractorSearch& search = one.attractors.search;
-  const drive::FoundCycle* cycle = drive::largest_stable(search);
-  if (cycle == nullptr && search.irregular.empty()) return "–";
-  const double period = cycle != nullptr ? cycle->period() : search.irregular.front().period;
-  if (file_of(report).is_normalized) return "period " + time(report, period);
-  return significant(1.0 / period, digits) + " Hz";
+  const Answer& answer = one.report.answer;
+  std::optional<double> period;
+  if (const Cycle* cycle = answer.largest_stable()) {
+    period = cycle->period;
+  } else if (!answer.irregular.empty()) {
+    period = answer.irregular.front().mean_period;
+  }
+  if (!period) return "–";
+  if (first_of(report).is_normalized) return "period " + time(report, *period);
+  return significant(1.0 / *period, digits) + " Hz";
 }
 
 std::string static_error(const ComparisonReport& report, const SensorCase& one) {
-  const std::optional<drive::RestFound>& rest = one.attractors.search.rest;
-  const bool is_known = one.attractors.search.count(drive::MotionEnd::undecided) == 0;
-  if (!rest) return is_known ? "never at rest" : "not known";
-  const double low = rest->error.lowest;
-  const double high = rest->error.highest;
+  const Answer& answer = one.report.answer;
+  const bool is_known = answer.search && answer.search->count("undecided") == 0;
+  if (!answer.rest) return is_known ? "never at rest" : "not known";
+  const double low = answer.rest->error.lowest;
+  const double high = answer.rest->error.highest;
   const double size = std::max(std::abs(low), std::abs(high));
-  // Rest that is one place is told by one number.
+  // Rest at one place is one number.
   if (high - low <= 1e-6 * size) return angle(report, low);
-  const AngleUnit& unit = file_of(report).backlash_unit;
+  const AngleUnit& unit = first_of(report).angle;
   return significant(unit.from_radians(low), digits) + " … " + angle(report, high);
 }
 
+double encoder_step(const SensorCase& one) { return reduce(one.report.drive).sensing.resolution; }
+
 std::string resolution(const ComparisonReport& report, const SensorCase& one) {
-  const double step = one.attractors.file.drive.sensing.resolution;
+  const double step = encoder_step(one);
   return step > 0.0 ? angle(report, step) : "–";
 }
 
@@ -93,8 +96,8 @@ std::string meaning(const ComparisonReport& report) {
           "in it the load is. ";
     } else if (one.place == SensorPlace::both) {
       text += "Both: position of the load, speed of the motor";
-      text += uses_speed(one.attractors.file.drive) ? ". "
-                                                    : ", which this controller makes no use of. ";
+      text +=
+          uses_speed(reduce(one.report.drive)) ? ". " : ", which this controller makes no use of. ";
     }
   }
   for (const SensorCase& one : report.cases) {
@@ -120,10 +123,9 @@ std::string comparison_text(const ComparisonReport& report) {
       row(report, "encoder step at the load",
           [&](const SensorCase& one) { return resolution(report, one); }),
       row(report, "hunting",
-          [](const SensorCase& one) {
-            return std::string(drive::name_of(drive::verdict_of(one.attractors.search)));
-          }),
-      row(report, "  size, load", [&](const SensorCase& one) { return size_text(report, one); }),
+          [](const SensorCase& one) { return std::string(name_of(one.report.answer.verdict)); }),
+      row(report, "  amplitude, load",
+          [&](const SensorCase& one) { return amplitude_text(report, one); }),
       row(report, "  frequency", [&](const SensorCase& one) { return pace_text(report, one); }),
       row(report, "error at rest, load",
           [&](const SensorCase& one) { return static_error(report, one); }),
@@ -149,7 +151,7 @@ std::string comparison_json(const ComparisonReport& report) {
   for (const SensorCase& one : report.cases) {
     const drive::StepResponse& response = one.response;
     Json json = {{"sensor", name_of(one.place)},
-                 {"encoder_step", json_number(one.attractors.file.drive.sensing.resolution)},
+                 {"encoder_step", json_number(encoder_step(one))},
                  {"step_response",
                   {{"step", json_number(response.step)},
                    {"watched", json_number(response.until)},
@@ -159,29 +161,33 @@ std::string comparison_json(const ComparisonReport& report) {
                    {"band", json_number(response.band)},
                    {"final_error", json_number(response.final_error)},
                    {"ripple", json_number(response.ripple)}}}};
-    json["limit_cycle"] = Json::parse(attractor_json(one.attractors));
-    json["limit_cycle"].erase("provenance");
+    json["limit_cycle"] = Json::parse(answer_json(one.report));
+    json["limit_cycle"].erase("version");
+    json["limit_cycle"].erase("command");
     cases.push_back(std::move(json));
   }
-  const Json json = {{"cases", std::move(cases)},
-                     {"provenance", json_provenance(report.provenance)}};
+  const Json json = {{"schema", "gearlash/compare/2"},
+                     {"version", report.provenance.version},
+                     {"command", report.provenance.command},
+                     {"units", "SI"},
+                     {"cases", std::move(cases)}};
   return json.dump(2) + "\n";
 }
 
 std::string draw_comparison(const ComparisonReport& report, PictureFormat format) {
-  const DriveFile& file = file_of(report);
-  const AngleUnit& unit = file.backlash_unit;
+  const AnswerReport& first = first_of(report);
+  const AngleUnit& unit = first.angle;
   const double step = report.cases.front().response.step;
   LineChart chart;
   chart.title = "Step of " + angle(report, step) + " by the place of the sensor";
-  chart.subtitle = "backlash " + angle(report, file.drive.backlash);
-  chart.x.label = file.is_normalized ? "time, 1/ω_n" : "time, s";
+  chart.subtitle = "backlash " + angle(report, reduce(first.drive).backlash);
+  chart.x.label = first.is_normalized ? "time, 1/ω_n" : "time, s";
   chart.y.label = "position of the load, " + unit.name;
   for (const SensorCase& one : report.cases) {
     ChartCurve curve;
     curve.name = std::string("sensor on ") + name_of(one.place);
     const hybrid::Trajectory motion =
-        drive::step_motion(one.attractors.file.drive, step, one.response.until);
+        drive::step_motion(reduce(one.report.drive), step, one.response.until);
     constexpr int samples = 2000;
     for (int i = 0; i <= samples; ++i) {
       const double at = motion.end_time() * i / samples;

@@ -5,13 +5,15 @@
 #include <vector>
 
 #include "analysis/step_response.hpp"
-#include "output/attractor_report.hpp"
+#include "model/reduced_drive.hpp"
+#include "output/answer_report.hpp"
+#include "picture/picture.hpp"
 
 namespace gearlash {
 
 struct SensorCase {
   SensorPlace place = SensorPlace::load;
-  AttractorReport attractors;
+  AnswerReport report{};
   drive::StepResponse response;
 };
 

@@ -55,7 +55,7 @@ std::string preamble(const MotionPicture& picture, PictureFormat format) {
          "set tics nomirror out\nset border linewidth 0.8\n";
 }
 
-struct Range {
+struct Span {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
 
@@ -118,8 +118,8 @@ void require_legible(const MotionPicture& picture) {
 struct TimeResponse {
   DataBlock curve{"curve"};  ///< time, load, motor, lower and upper edge of the gap
   std::string apart;         ///< commands: rectangles behind the grid
-  Range times;
-  Range positions;
+  Span times;
+  Span positions;
 };
 
 void add_piece(const CurvePiece& piece, double reference, double half_gap, TimeResponse& response) {
@@ -196,8 +196,8 @@ struct PhasePlane {
   DataBlock gaps;   ///< closed outlines, but for bounces
   bool leaves_out_bounces = false;
   std::string impacts_name;
-  Range positions;
-  Range speeds;
+  Span positions;
+  Span speeds;
 };
 
 void add_piece(const CurvePiece& piece, PhasePlane& plane) {
@@ -292,7 +292,7 @@ std::vector<CurvePiece> cycle_curve(const MotionPicture& picture) {
   return pieces;
 }
 
-std::string phase_axes(const MotionPicture& picture, const Range& positions, const Range& speeds) {
+std::string phase_axes(const MotionPicture& picture, const Span& positions, const Span& speeds) {
   const std::string& unit = picture.units.angle.name;
   const std::string per_time = picture.units.natural_frequency ? unit + "/s" : unit + " ω_n";
   return "set xlabel " + quoted("position from the reference (" + unit + ")") + "\nset ylabel " +
@@ -350,8 +350,8 @@ std::string draw_phase_plane(const MotionPicture& picture, PictureFormat format)
     names.emplace_back("cycle");
     styles.push_back({true, 3.2, 2.6, 0.8, ", limit cycle"});
   }
-  Range positions;
-  Range speeds;
+  Span positions;
+  Span speeds;
   for (std::size_t i = 0; i < motions.size(); ++i) {
     for (const CurvePiece& piece : motions[i]) add_piece(piece, planes[i]);
     positions.include(planes[i].positions.low);

@@ -54,11 +54,11 @@ TEST(DescribeCommand, ADataSheetIsDescribedInSeconds) {
   const auto exact = nlohmann::json::parse(
       run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--format", "json"}).out);
   EXPECT_EQ(json["time_unit"], "s");
-  EXPECT_EQ(json["exact"]["cycles"][0]["period"], exact["physical"]["period"]);
-  EXPECT_EQ(json["exact"]["cycles"][0]["size"], exact["physical"]["size"]);
-  const double frequency = exact["physical"]["natural_frequency"];
-  const double stiffness = exact["physical"]["stiffness"];
-  const double damping = exact["servo"]["damping"];
+  EXPECT_EQ(json["exact"]["cycles"][0]["period"], exact["cycles"][0]["period"]);
+  EXPECT_EQ(json["exact"]["cycles"][0]["size"], exact["cycles"][0]["amplitude"]);
+  const double frequency = exact["normal_form"]["natural_frequency"];
+  const double stiffness = exact["normal_form"]["stiffness"];
+  const double damping = exact["normal_form"]["damping"];
   // K/(J s² + F s), the denominator's lead 1.
   const auto& loop = json["analyses"][0]["loop"];
   EXPECT_NEAR(loop["numerator"][0].get<double>() / (frequency * frequency), 1.0, 1e-14);

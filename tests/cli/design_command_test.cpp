@@ -83,7 +83,7 @@ TEST(DesignCommand, AnswersPutIntoTheDataSheetMeetTheTarget) {
     const auto then =
         limit_cycle_of(changed_sheet(scratch, change.was, std::string(change.key) + " = " + value));
     ASSERT_FALSE(then["cycles"].empty()) << change.parameter;
-    EXPECT_NEAR(then["physical"]["size"], limit, 1e-10 * limit) << change.parameter;
+    EXPECT_NEAR(then["cycles"][0]["amplitude"], limit, 1e-10 * limit) << change.parameter;
   }
   const auto ratio = answer_of("gear_ratio");
   for (const auto& interval : ratio["intervals"]) {
@@ -92,7 +92,7 @@ TEST(DesignCommand, AnswersPutIntoTheDataSheetMeetTheTarget) {
                            : interval["from"].get<double>();
     const auto then = limit_cycle_of(
         changed_sheet(scratch, "ratio = 1 ", "ratio = " + nlohmann::json(end).dump() + " "));
-    EXPECT_NEAR(then["physical"]["size"], limit, 1e-10 * limit);
+    EXPECT_NEAR(then["cycles"][0]["amplitude"], limit, 1e-10 * limit);
   }
 }
 

@@ -29,19 +29,19 @@ json parsed(const Outcome& run) {
 
 void expect_same_cycle(const json& printed, const LimitCycle& cycle) {
   EXPECT_EQ(printed["kind"], name_of(cycle.kind));
-  EXPECT_EQ(printed["stable"], cycle.stable);
-  EXPECT_EQ(printed["size"].get<double>(), cycle.size);
-  EXPECT_EQ(printed["motor_size"].get<double>(), cycle.motor_size);
+  EXPECT_EQ(printed["stability"], cycle.stable ? "stable" : "unstable");
+  EXPECT_EQ(printed["amplitude"].get<double>(), cycle.size);
+  EXPECT_EQ(printed["motor_amplitude"].get<double>(), cycle.motor_size);
   EXPECT_EQ(printed["period"].get<double>(), cycle.period);
   EXPECT_EQ(printed["multiplier"].get<double>(), cycle.multiplier);
   EXPECT_EQ(printed["impact_speed"].get<double>(), cycle.impact_speed);
   EXPECT_EQ(printed["engaged_time"].get<double>(), cycle.engaged_time);
   EXPECT_EQ(printed["separated_time"].get<double>(), cycle.separated_time);
   EXPECT_EQ(printed["residual"].get<double>(), cycle.residual);
-  EXPECT_EQ(printed["impacts_per_period"].get<std::size_t>(), cycle.impacts_per_period);
+  EXPECT_EQ(printed["events_per_period"].get<std::size_t>(), cycle.impacts_per_period);
   EXPECT_EQ(printed["settles"], cycle.settles);
   EXPECT_EQ(printed["energy"]["impacts"].get<double>(), cycle.energy.impacts);
-  EXPECT_EQ(printed["energy"]["lost"].get<double>(), cycle.energy.lost());
+  EXPECT_EQ(printed["energy"]["total"].get<double>(), cycle.energy.lost());
 }
 
 TEST(LimitCycleCommand, JsonReadsBackAsExactlyWhatTheLibraryFinds) {
@@ -50,25 +50,25 @@ TEST(LimitCycleCommand, JsonReadsBackAsExactlyWhatTheLibraryFinds) {
       .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3};
   const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
 
-  EXPECT_EQ(printed["servo"]["damping"].get<double>(), 0.19);
-  EXPECT_EQ(printed["servo"]["inertia_ratio"].get<double>(), 2.0);
-  EXPECT_EQ(printed["servo"]["friction_ratio"].get<double>(), 0.1);
-  EXPECT_EQ(printed["servo"]["backlash"].get<double>(), 0.3);
-  EXPECT_EQ(printed["servo"]["restitution"].get<double>(), 0.0);
-  EXPECT_EQ(printed["servo"]["sensor"], "load");
+  EXPECT_EQ(printed["normal_form"]["damping"].get<double>(), 0.19);
+  EXPECT_EQ(printed["normal_form"]["inertia_ratio"].get<double>(), 2.0);
+  EXPECT_EQ(printed["normal_form"]["friction_ratio"].get<double>(), 0.1);
+  EXPECT_EQ(printed["normal_form"]["backlash"].get<double>(), 0.3);
+  EXPECT_EQ(printed["normal_form"]["restitution"].get<double>(), 0.0);
+  EXPECT_EQ(printed["drive"]["sensor.position"], "load");
   EXPECT_EQ(printed["growth_at_rest"].get<double>(), analysis.growth_at_rest);
   EXPECT_EQ(printed["verdict"], "hunts");
-  EXPECT_EQ(printed["proved"], true);
+  EXPECT_EQ(printed["schema"], "gearlash/limit-cycle/2");
+  EXPECT_EQ(printed["engine"], "closed form");
   ASSERT_EQ(printed["cycles"].size(), analysis.cycles.size());
   for (std::size_t i = 0; i < analysis.cycles.size(); ++i) {
     expect_same_cycle(printed["cycles"][i], analysis.cycles[i]);
   }
-  EXPECT_FALSE(printed.contains("physical"));
-  EXPECT_EQ(printed["provenance"]["version"], version);
-  EXPECT_THAT(printed["provenance"]["command"].get<std::string>(),
+  EXPECT_EQ(printed["version"], version);
+  EXPECT_THAT(printed["command"].get<std::string>(),
               StartsWith("gearlash limit-cycle --format json --damping 0.19"));
   // Published numbers, so that a fault shared with the library would be seen.
-  EXPECT_NEAR(printed["cycles"][0]["size"].get<double>(), 0.241611108, 1e-9);
+  EXPECT_NEAR(printed["cycles"][0]["amplitude"].get<double>(), 0.241611108, 1e-9);
   EXPECT_NEAR(printed["cycles"][0]["period"].get<double>(), 6.456205, 1e-6);
 }
 
@@ -84,7 +84,7 @@ TEST(LimitCycleCommand, BoundsAreProvedAndHoldWhatIsComputed) {
   };
   const json& cycle = printed["cycles"][0];
   expect_within(printed["bounds"]["growth_at_rest"], printed["growth_at_rest"]);
-  expect_within(printed["bounds"]["size_over_backlash"], cycle["size"].get<double>() / 0.3);
+  expect_within(printed["bounds"]["amplitude"], cycle["amplitude"]);
   expect_within(printed["bounds"]["period"], cycle["period"]);
   expect_within(printed["bounds"]["multiplier"], cycle["multiplier"]);
   const json searched = parsed(
@@ -130,9 +130,9 @@ TEST(LimitCycleCommand, EnergyProvesWhatNoSearchCan) {
 TEST(LimitCycleCommand, BouncingContactHasItsCyclesInJsonToo) {
   const json printed = parsed(
       run_tool(with_sample_servo({"limit-cycle", "--format", "json", "--restitution", "0.3"})));
-  EXPECT_EQ(printed["proved"], false);
+  EXPECT_EQ(printed["certainty"]["verdict"], "searched");
   ASSERT_FALSE(printed["cycles"].empty());
-  EXPECT_NEAR(printed["cycles"][0]["size"].get<double>(), 0.2401, 5e-5);
+  EXPECT_NEAR(printed["cycles"][0]["amplitude"].get<double>(), 0.2401, 5e-5);
 }
 
 TEST(LimitCycleCommand, PhysicalNumbersAreThoseOfTheDataSheet) {
@@ -141,29 +141,32 @@ TEST(LimitCycleCommand, PhysicalNumbersAreThoseOfTheDataSheet) {
   const ServoFile file =
       read_servo_file(std::string(GEARLASH_SOURCE_DIRECTORY) + "/examples/elinco-fd162.toml");
   const LimitCycle cycle = analyse_limit_cycles(file.servo).cycles.at(0);
-  const json& physical = printed["physical"];
-  EXPECT_EQ(physical["size"].get<double>(), cycle.size);
-  EXPECT_EQ(physical["period"].get<double>(), cycle.period / *file.natural_frequency);
+  const json& physical = printed["cycles"][0];
+  const json& form = printed["normal_form"];
+  EXPECT_NEAR(physical["amplitude"].get<double>() / cycle.size, 1.0, 1e-14);
+  EXPECT_NEAR(physical["period"].get<double>() / (cycle.period / *file.natural_frequency), 1.0,
+              1e-14);
   EXPECT_EQ(physical["frequency"].get<double>(), 1.0 / physical["period"].get<double>());
-  EXPECT_EQ(physical["natural_frequency"].get<double>(), *file.natural_frequency);
-  EXPECT_EQ(physical["stiffness"].get<double>(), file.drivetrain->stiffness);
-  EXPECT_EQ(physical["energy"]["impacts"].get<double>(),
-            cycle.energy.impacts * file.drivetrain->stiffness);
+  EXPECT_NEAR(form["natural_frequency"].get<double>() / *file.natural_frequency, 1.0, 1e-15);
+  EXPECT_NEAR(form["stiffness"].get<double>() / file.drivetrain->stiffness, 1.0, 1e-15);
+  EXPECT_NEAR(physical["energy"]["impacts"].get<double>() /
+                  (cycle.energy.impacts * file.drivetrain->stiffness),
+              1.0, 1e-13);
 }
 
 TEST(LimitCycleCommand, NaturalFrequencyWithoutDataSheetGivesSecondsButNoJoules) {
   const json printed =
       parsed(run_tool({"limit-cycle", "examples/normalized.toml", "--format", "json"}));
-  EXPECT_EQ(printed["physical"]["natural_frequency"].get<double>(), 14.5);
-  EXPECT_FALSE(printed["physical"].contains("energy"));
-  EXPECT_FALSE(printed["physical"].contains("stiffness"));
+  EXPECT_EQ(printed["normal_form"]["natural_frequency"].get<double>(), 14.5);
+  EXPECT_TRUE(printed["cycles"][0]["energy"].is_null());
+  EXPECT_TRUE(printed["normal_form"]["stiffness"].is_null());
 }
 
 TEST(LimitCycleCommand, InfinityIsTextBecauseJsonHasNone) {
   const json massless_motor =
       parsed(run_tool({"limit-cycle", "--damping", "0.3", "--inertia-ratio", "inf",
                        "--friction-ratio", "0.5", "--backlash", "0.1", "--format", "json"}));
-  EXPECT_EQ(massless_motor["servo"]["inertia_ratio"], "inf");
+  EXPECT_EQ(massless_motor["normal_form"]["inertia_ratio"], "inf");
   const json frictionless_load =
       parsed(run_tool({"limit-cycle", "--damping", "0.3", "--inertia-ratio", "1",
                        "--friction-ratio", "0", "--backlash", "0.1", "--format", "json"}));

@@ -149,9 +149,10 @@ TEST(OutputFiles, AClosedPipeEndsItQuietly) {
 
 TEST(OutputFiles, MissingGnuplotIsNamedWithItsPackage) {
   const Scratch scratch;
-  const Outcome run = run_shell("PATH=" + quoted((scratch / "").string()) +
-                                " \"$GEARLASH\" limit-cycle examples/elinco-fd162.toml --plot " +
-                                quoted((scratch / "a.svg").string()));
+  const Outcome run =
+      run_shell("PATH=" + quoted((scratch / "").string()) +
+                " \"$GEARLASH\" limit-cycle examples/elinco-fd162.toml --plot phase=" +
+                quoted((scratch / "a.svg").string()));
   EXPECT_EQ(run.status, 3);
   EXPECT_EQ(run.err,
             "gearlash: gnuplot: not found; pictures need it: apt-get install gnuplot-nox\n");
@@ -162,8 +163,8 @@ TEST(OutputFiles, MissingGnuplotIsNamedWithItsPackage) {
 TEST(OutputFiles, AnyFileNameWillDo) {
   const Scratch scratch;
   const std::string name = "a b'c\"d`e$(touch f)\n{g};h.svg";
-  const Outcome run =
-      run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--plot", (scratch / name).string()});
+  const Outcome run = run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--plot",
+                                "phase=" + (scratch / name).string()});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(file_text(scratch / name), StartsWith("<?xml"));
   EXPECT_EQ(scratch.file_count(), 1U);
@@ -245,7 +246,7 @@ TEST(OutputFiles, APartOfAPictureDoesNotReplaceAWholeOne) {
   std::ofstream(scratch / "a.svg") << "old";
   const Outcome run =
       run_shell("PATH=" + quoted((scratch / "").string()) +
-                ":$PATH \"$GEARLASH\" limit-cycle examples/elinco-fd162.toml --plot " +
+                ":$PATH \"$GEARLASH\" limit-cycle examples/elinco-fd162.toml --plot phase=" +
                 quoted((scratch / "a.svg").string()));
   EXPECT_EQ(run.status, 3);
   EXPECT_EQ(run.err, "gearlash: gnuplot: drew part of the picture alone\n");
@@ -304,7 +305,7 @@ TEST(OutputFiles, AFullFolderForTemporaryFilesKeepsTheOldPicture) {
   const Scratch own;
   std::ofstream(own / "a.svg") << "old";
   const Outcome run = run_shell(on_a_full_disk(
-      own, "TMPDIR=$FULL \"$GEARLASH\" limit-cycle examples/elinco-fd162.toml --plot " +
+      own, "TMPDIR=$FULL \"$GEARLASH\" limit-cycle examples/elinco-fd162.toml --plot phase=" +
                quoted((own / "a.svg").string())));
   EXPECT_EQ(run.status, 3);
   EXPECT_EQ(run.err, "gearlash: gnuplot: its script cannot be written: No space left on device\n");

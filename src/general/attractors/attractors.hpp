@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "gearlash/answer.hpp"
 #include "general/assemble/drive_system.hpp"
 #include "general/attractors/search_tolerances.hpp"
 #include "hybrid/periodic_orbit.hpp"
@@ -24,13 +25,7 @@ enum class Coordinates {
               ///< measured, cycles are not closed and rest is motion of no size
 };
 
-/// By all multipliers but those of disturbances that cannot be: rigid shafts together that move
-/// apart, an encoder beside its own grid.
-enum class Stability {
-  stable,
-  neutral,  ///< a multiplier is on the unit circle to within 1e-6: one of a family, or at a fold
-  unstable
-};
+using gearlash::Stability;
 
 /// Lowest and highest.
 struct Extent {

@@ -1,0 +1,56 @@
+#include "plot_option.hpp"
+
+#include <algorithm>
+
+#include "input/section_reader.hpp"
+
+namespace gearlash::cli {
+namespace {
+
+std::string forms_of(const std::vector<std::string>& kinds) {
+  std::string text;
+  for (const std::string& kind : kinds) {
+    if (!text.empty()) text += kind == kinds.back() ? " or " : ", ";
+    text += kind + "=FILE";
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<Plot> read_plots(const std::vector<std::string>& typed,
+                             const std::vector<std::string>& kinds, Faults& faults) {
+  std::vector<Plot> plots;
+  for (const std::string& text : typed) {
+    const std::size_t sign = text.find('=');
+    const std::string kind = text.substr(0, sign);
+    if (sign == std::string::npos || std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
+      faults.add({"--plot", shown(text), "must be " + forms_of(kinds) + guess_of(kinds, kind), ""});
+      continue;
+    }
+    const std::string file = text.substr(sign + 1);
+    plots.push_back(
+        {kind, file,
+         faults.collect([&] { return picture_format("--plot", file); }, PictureFormat::svg)});
+  }
+  return plots;
+}
+
+std::vector<FileUse> files_of(const std::vector<Plot>& plots) {
+  std::vector<FileUse> files;
+  for (const Plot& plot : plots) files.push_back({"--plot", plot.file});
+  return files;
+}
+
+bool has_kind(const std::vector<Plot>& plots, const std::string& kind) {
+  return std::any_of(plots.begin(), plots.end(),
+                     [&](const Plot& plot) { return plot.kind == kind; });
+}
+
+void add_plot_option(CLI::App& command, std::vector<std::string>& typed, const std::string& kinds) {
+  command.add_option("--plot", typed, kinds + "FILE ends in .svg, .png or .pdf; repeatable")
+      ->type_name("KIND=FILE")
+      ->allow_extra_args(false);
+}
+
+}  // namespace gearlash::cli

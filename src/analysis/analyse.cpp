@@ -1,0 +1,327 @@
+#include "analysis/analyse.hpp"
+
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "analysis/drive_verdict.hpp"
+#include "base/interval.hpp"
+#include "base/range_check.hpp"
+#include "model/proportional_servo.hpp"
+
+namespace gearlash {
+namespace {
+
+/// A number that may not have been computed.
+std::optional<double> known(double value) {
+  return std::isnan(value) ? std::nullopt : std::optional(value);
+}
+
+Range range_of(const drive::Extent& extent) { return {extent.lowest, extent.highest}; }
+
+// ---- closed form --------------------------------------------------------------------------------
+
+Cycle cycle_of(const LimitCycle& found, Certainty certainty, double time_unit,
+               const std::optional<double>& stiffness) {
+  Cycle cycle;
+  cycle.kind = found.kind;
+  cycle.stability = found.stable ? Stability::stable : Stability::unstable;
+  cycle.certainty = certainty;
+  cycle.amplitude = found.size;
+  cycle.motor_amplitude = found.motor_size;
+  cycle.period = found.period * time_unit;
+  cycle.multiplier = found.multiplier;
+  cycle.residual = found.residual;
+  cycle.impact_speed = found.impact_speed / time_unit;
+  cycle.engaged_time = found.engaged_time * time_unit;
+  cycle.separated_time = found.separated_time * time_unit;
+  cycle.events_per_period = found.impacts_per_period;
+  cycle.settles = found.settles;
+  if (stiffness && !std::isnan(found.energy.lost())) {
+    const double unit = *stiffness;
+    cycle.energy = EnergyLost{found.energy.motor_friction * unit, found.energy.load_friction * unit,
+                              found.energy.impacts * unit};
+  }
+  return cycle;
+}
+
+/// What an enclosure in the normal form is to be multiplied by, with the error of the data.
+struct Scales {
+  Interval backlash;
+  Interval time_unit;
+};
+
+Scales scales_of(const ClosedFormServo& servo, const DriveBox& box) {
+  if (!servo.is_as_given) return {Interval(box.backlash), Interval(box.time_unit)};
+  // A decimal is within its neighbours; 1 is exact.
+  const auto decimal = [](double number) {
+    return number == 1.0 ? Interval(1.0) : Interval(outward::below(number), outward::above(number));
+  };
+  return {decimal(servo.servo.backlash), Interval(1.0) / decimal(servo.natural_frequency)};
+}
+
+Range scaled(const Bounds& bounds, const Interval& unit) {
+  const Interval product = Interval(bounds) * unit;
+  return {product.low, product.high};
+}
+
+ProvedBounds bounds_of(const CycleBounds& bounds, const Scales& scales) {
+  const auto same = [](const Bounds& range) { return Range{range.low, range.high}; };
+  ProvedBounds proved{.growth_at_rest = same(bounds.growth_at_rest)};
+  if (!bounds.has_cycle) return proved;
+  proved.has_cycle = true;
+  proved.amplitude = scaled(bounds.size, scales.backlash);
+  proved.period = scaled(bounds.period, scales.time_unit);
+  proved.multiplier = same(bounds.multiplier);
+  return proved;
+}
+
+/// The data that the servo's numbers stand for decide what is proved of it.
+LimitCycleAnalysis closed_analysis(const ClosedFormServo& servo, const Drivetrain& drivetrain,
+                                   const Wanted& wanted) {
+  if (!wanted.proofs) return analyse_limit_cycles(servo.servo);
+  if (servo.is_as_given) return enclose_limit_cycles(servo.servo, Reading::decimal);
+  return enclose_limit_cycles(servo.servo, box_between(drivetrain, drivetrain).servo);
+}
+
+// ---- search -------------------------------------------------------------------------------------
+
+struct ContactTimes {
+  double together = 0.0;
+  double apart = 0.0;
+};
+
+/// Times with faces together and apart within a period.
+ContactTimes contact_times(const drive::DriveSystem& system, const drive::FoundCycle& cycle) {
+  ContactTimes times;
+  double from = cycle.orbit.start_time;
+  std::size_t mode = cycle.orbit.start.mode;
+  const auto add = [&](double to) {
+    const bool is_apart = system.modes.mode(mode).contact == drive::ContactState::apart;
+    (is_apart ? times.apart : times.together) += to - from;
+    from = to;
+  };
+  for (const hybrid::Event& event : cycle.orbit.events) {
+    add(event.time);
+    mode = event.mode_after;
+  }
+  add(cycle.orbit.start_time + cycle.orbit.period);
+  return times;
+}
+
+Cycle cycle_of(const drive::FoundCycle& found, const drive::DriveSystem& system) {
+  const ContactTimes times = contact_times(system, found);
+  Cycle cycle;
+  cycle.kind = found.is_symmetric ? CycleKind::symmetric : CycleKind::asymmetric;
+  cycle.stability = found.stability;
+  cycle.amplitude = found.size;
+  cycle.motor_amplitude = found.motor_size;
+  cycle.center = found.is_symmetric ? 0.0 : found.center;
+  cycle.period = found.period();
+  cycle.multiplier = found.multiplier;
+  cycle.residual = found.orbit.residual;
+  cycle.impact_speed = found.impact_speed;
+  cycle.engaged_time = times.together;
+  cycle.separated_time = times.apart;
+  cycle.events_per_period = found.orbit.events.size();
+  cycle.has_mirror_image = found.has_mirror_image;
+  cycle.starts = found.starts;
+  return cycle;
+}
+
+IrregularMotion irregular_of(const drive::IrregularFound& found) {
+  return {.amplitude = found.size,
+          .motor_amplitude = found.motor_size,
+          .center = found.center,
+          .is_motor_alone = found.is_motor_alone,
+          .mean_amplitude = found.half_swing,
+          .amplitude_deviation = found.half_swing_deviation,
+          .mean_period = found.period,
+          .period_deviation = found.period_deviation,
+          .mismatch = found.mismatch,
+          .exponent = found.exponent,
+          .watched = found.watched,
+          .starts = found.starts};
+}
+
+const char* name_of(drive::MotionEnd end) {
+  switch (end) {
+    case drive::MotionEnd::rest:
+      return "rest";
+    case drive::MotionEnd::cycle:
+      return "cycle";
+    case drive::MotionEnd::irregular:
+      return "irregular";
+    case drive::MotionEnd::diverges:
+      return "diverges";
+    case drive::MotionEnd::undecided:
+      return "undecided";
+  }
+  return "";
+}
+
+StartOutcome outcome_of(const drive::Outcome& found) {
+  StartOutcome outcome{.load_position = found.start.load_position,
+                       .load_speed = found.start.load_speed,
+                       .motor_position = found.start.motor_position,
+                       .motor_speed = found.start.motor_speed,
+                       .end = name_of(found.end),
+                       .watched = found.watched,
+                       .reason = found.reason};
+  if (found.end == drive::MotionEnd::cycle || found.end == drive::MotionEnd::irregular) {
+    outcome.which = found.which;
+  }
+  return outcome;
+}
+
+Verdict verdict_of(const drive::AttractorSearch& search, const drive::Drive& reduced) {
+  const bool is_forced = drive::is_driven(reduced);
+  switch (drive::verdict_of(search)) {
+    case drive::DriveVerdict::comes_to_rest:
+      return Verdict::comes_to_rest;
+    case drive::DriveVerdict::hunts:
+      return is_forced ? Verdict::forced : Verdict::hunts;
+    case drive::DriveVerdict::hunts_irregularly:
+      return is_forced ? Verdict::forced : Verdict::hunts_irregularly;
+    case drive::DriveVerdict::hunts_if_disturbed:
+      return is_forced ? Verdict::forced : Verdict::hunts_if_disturbed;
+    case drive::DriveVerdict::runs_away:
+      return Verdict::runs_away;
+    case drive::DriveVerdict::runs_away_if_disturbed:
+      return Verdict::runs_away_if_disturbed;
+    case drive::DriveVerdict::undecided:
+      return Verdict::undecided;
+  }
+  return Verdict::undecided;
+}
+
+std::vector<Note> notes_of(const drive::AttractorSearch& search) {
+  std::vector<Note> notes;
+  if (search.coordinates == drive::Coordinates::co_moving) {
+    notes.push_back({"co-moving", "The reference is a ramp: positions are relative to it."});
+  }
+  if (search.coordinates == drive::Coordinates::in_place) {
+    notes.push_back({"in-place",
+                     "The reference is a ramp that encoder or controller do not move along with: "
+                     "motion was measured, cycles were not closed."});
+  }
+  std::set<std::string> reasons;
+  for (const drive::Outcome& outcome : search.outcomes) {
+    if (outcome.end == drive::MotionEnd::undecided && !outcome.reason.empty()) {
+      reasons.insert(outcome.reason);
+    }
+  }
+  for (const std::string& reason : reasons) {
+    notes.push_back({"undecided-start", "Undecided: " + reason + "."});
+  }
+  return notes;
+}
+
+/// Hunting does not depend on what the signals were before.
+drive::Drive settled(drive::Drive reduced) {
+  reduced.reference = drive::settled(reduced.reference);
+  reduced.load_torque = drive::settled(reduced.load_torque);
+  return reduced;
+}
+
+/// The closed form of a drive whose reference stays somewhere in the end.
+std::optional<ClosedFormServo> servo_in_the_end(Drive drive) {
+  if (drive.reference) {
+    const Signal end = drive::settled(*drive.reference);
+    if (!std::holds_alternative<double>(end)) return std::nullopt;
+    drive.reference = 0.0;
+  }
+  if (drive.load_torque) drive.load_torque = drive::settled(*drive.load_torque);
+  return closed_form_servo(drive);
+}
+
+}  // namespace
+
+Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& servo,
+                 std::optional<double> stiffness) {
+  const double time_unit = 1.0 / servo.natural_frequency;
+  const NormalizedServo& normal = servo.servo;
+  Answer answer;
+  answer.verdict = analysis.verdict;
+  answer.certainty = analysis.certainty;
+  answer.completeness = analysis.certainty;
+  answer.engine = Engine::closed_form;
+  answer.normal_form = NormalFormNumbers{.damping = normal.damping,
+                                         .inertia_ratio = normal.inertia_ratio,
+                                         .friction_ratio = normal.friction_ratio,
+                                         .backlash = normal.backlash,
+                                         .restitution = normal.restitution,
+                                         .natural_frequency = servo.natural_frequency,
+                                         .stiffness = stiffness};
+  answer.growth_at_rest = known(analysis.growth_at_rest);
+  answer.is_dissipative = analysis.is_dissipative;
+  answer.rests_engaged = analysis.rests_engaged;
+  answer.neutral_swings = analysis.neutral_swings;
+  const Certainty of_cycles = analysis.is_proved() ? analysis.certainty : Certainty::computed;
+  for (const LimitCycle& cycle : analysis.cycles) {
+    answer.cycles.push_back(cycle_of(cycle, of_cycles, time_unit, stiffness));
+  }
+  if (const auto amplitude = known(analysis.irregular_size)) {
+    answer.irregular.push_back({.amplitude = *amplitude});
+  }
+  return answer;
+}
+
+Answer answer_of(const drive::AttractorSearch& search, const drive::Drive& reduced) {
+  Answer answer;
+  answer.verdict = verdict_of(search, reduced);
+  const drive::DriveSystem system = drive::drive_system(reduced);
+  for (const drive::FoundCycle& cycle : search.cycles) {
+    answer.cycles.push_back(cycle_of(cycle, system));
+  }
+  for (const drive::IrregularFound& motion : search.irregular) {
+    answer.irregular.push_back(irregular_of(motion));
+  }
+  if (search.rest) {
+    answer.rest = Rest{.load = range_of(search.rest->load),
+                       .motor = range_of(search.rest->motor),
+                       .error = range_of(search.rest->error),
+                       .starts = search.rest->starts,
+                       .swing_ratio = known(search.rest->swing_ratio)};
+  }
+  answer.search = SearchRecord{.watch_time = search.watch_time,
+                               .is_complete = search.is_complete,
+                               .borders = search.edges.size(),
+                               .starts = {}};
+  for (const drive::Outcome& outcome : search.outcomes) {
+    answer.search->starts.push_back(outcome_of(outcome));
+  }
+  answer.notes = notes_of(search);
+  return answer;
+}
+
+bool has_closed_form(const Drive& drive) { return servo_in_the_end(drive).has_value(); }
+
+Analysis analyse_in_full(const Drive& drive, const Wanted& wanted) {
+  require_none(faults(drive));
+  Analysis analysis;
+  analysis.reduced = settled(reduce(drive));
+  analysis.servo = servo_in_the_end(drive);
+  if (analysis.servo) {
+    drive::Drive at_rest = analysis.reduced;
+    at_rest.reference = 0.0;
+    const Drivetrain drivetrain = *drive::proportional_drivetrain(at_rest);
+    analysis.closed = closed_analysis(*analysis.servo, drivetrain, wanted);
+    // A normal form with a natural frequency has no inertia, hence no stiffness.
+    const bool is_known = !drive.servo || !drive.servo->natural_frequency;
+    analysis.answer = answer_of(*analysis.closed, *analysis.servo,
+                                is_known ? std::optional(drivetrain.stiffness) : std::nullopt);
+    if (analysis.closed->bounds) {
+      const Scales scales = scales_of(*analysis.servo, box_between(drivetrain, drivetrain));
+      analysis.answer.bounds = bounds_of(*analysis.closed->bounds, scales);
+    }
+    return analysis;
+  }
+  drive::AttractorOptions options;
+  options.go_on = wanted.go_on;
+  analysis.search = drive::find_attractors(analysis.reduced, options);
+  analysis.answer = answer_of(*analysis.search, analysis.reduced);
+  return analysis;
+}
+
+}  // namespace gearlash

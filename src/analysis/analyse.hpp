@@ -1,0 +1,46 @@
+// The question and its answer: the closed form where the drive is its servo, else a search.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "closed_form/limit_cycle.hpp"
+#include "gearlash/answer.hpp"
+#include "gearlash/drive.hpp"
+#include "general/attractors/attractors.hpp"
+#include "model/reduced_drive.hpp"
+
+namespace gearlash {
+
+struct Wanted {
+  /// Enclosures of the closed form: else its verdict is computed only.
+  bool proofs = true;
+  /// Told the share that is done; false stops a search, which then says so.
+  std::function<bool(double share)> go_on{};
+};
+
+/// An answer with what its engine worked it out from, for pictures.
+struct Analysis {
+  Answer answer{};
+  drive::Drive reduced{};                  ///< with its signals settled
+  std::optional<ClosedFormServo> servo{};  ///< of the closed form
+  std::optional<LimitCycleAnalysis> closed{};
+  std::optional<drive::AttractorSearch> search{};
+};
+
+/// What the drive ends in. Of references and load torques only the final value, ramp or sine
+/// matters. Throws InvalidInput for a drive that is not sound.
+Analysis analyse_in_full(const Drive& drive, const Wanted& wanted = {});
+
+/// Whether the closed form answers for a sound drive.
+bool has_closed_form(const Drive& drive);
+
+/// The answer to a servo in the normal form, in SI. `stiffness`: K, N m/rad; where it is not known
+/// there are no energies. Proved bounds, which need the error of the data, are left out.
+Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& servo,
+                 std::optional<double> stiffness);
+
+/// The answer that a search amounts to. `reduced`: the drive that was searched.
+Answer answer_of(const drive::AttractorSearch& search, const drive::Drive& reduced);
+
+}  // namespace gearlash

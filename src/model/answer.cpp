@@ -1,0 +1,91 @@
+#include "gearlash/answer.hpp"
+
+#include <algorithm>
+
+namespace gearlash {
+
+std::size_t SearchRecord::count(const std::string& end) const {
+  return static_cast<std::size_t>(std::count_if(
+      starts.begin(), starts.end(), [&](const StartOutcome& start) { return start.end == end; }));
+}
+
+const Cycle* Answer::largest_stable() const noexcept {
+  const Cycle* largest = nullptr;
+  for (const Cycle& cycle : cycles) {
+    if (cycle.stability == Stability::unstable) continue;
+    if (largest == nullptr || cycle.amplitude > largest->amplitude) largest = &cycle;
+  }
+  return largest;
+}
+
+const char* name_of(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::cannot_hunt:
+      return "cannot hunt";
+    case Verdict::comes_to_rest:
+      return "comes to rest";
+    case Verdict::hunts:
+      return "hunts";
+    case Verdict::hunts_if_disturbed:
+      return "hunts if disturbed";
+    case Verdict::hunts_irregularly:
+      return "hunts irregularly";
+    case Verdict::grows_without_bound:
+      return "grows without bound";
+    case Verdict::runs_away:
+      return "runs away";
+    case Verdict::runs_away_if_disturbed:
+      return "runs away if disturbed";
+    case Verdict::forced:
+      return "forced";
+    case Verdict::undamped:
+      return "undamped";
+    case Verdict::undecided:
+      return "undecided";
+  }
+  return "";
+}
+
+const char* name_of(Certainty certainty) {
+  switch (certainty) {
+    case Certainty::searched:
+      return "searched";
+    case Certainty::computed:
+      return "computed";
+    case Certainty::enclosed:
+      return "enclosed";
+    case Certainty::theorem:
+      return "theorem";
+  }
+  return "";
+}
+
+const char* name_of(CycleKind kind) {
+  switch (kind) {
+    case CycleKind::symmetric:
+      return "symmetric";
+    case CycleKind::asymmetric:
+      return "asymmetric";
+    case CycleKind::subharmonic:
+      return "subharmonic";
+  }
+  return "";
+}
+
+const char* name_of(Stability stability) {
+  switch (stability) {
+    case Stability::stable:
+      return "stable";
+    case Stability::neutral:
+      return "neutral";
+    case Stability::unstable:
+      return "unstable";
+  }
+  return "";
+}
+
+const char* name_of(Engine engine) {
+  return engine == Engine::closed_form ? "closed form" : "general";
+}
+
+}  // namespace gearlash

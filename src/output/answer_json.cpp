@@ -1,0 +1,165 @@
+#include <cmath>
+
+#include "output/answer_report.hpp"
+#include "output/change_report.hpp"
+#include "output/drive_text.hpp"
+#include "output/json_values.hpp"
+
+namespace gearlash {
+namespace {
+
+Json json_optional(const std::optional<double>& number) {
+  return number ? json_number(*number) : Json(nullptr);
+}
+
+Json json_range(const Range& range) {
+  return {json_number(range.lowest), json_number(range.highest)};
+}
+
+Json json_energy(const std::optional<EnergyLost>& energy) {
+  if (!energy) return nullptr;
+  return {{"total", json_number(energy->total())},
+          {"motor_friction", json_number(energy->motor_friction)},
+          {"load_friction", json_number(energy->load_friction)},
+          {"impacts", json_number(energy->impacts)}};
+}
+
+Json json_cycle(const Cycle& cycle) {
+  return {{"kind", name_of(cycle.kind)},
+          {"stability", name_of(cycle.stability)},
+          {"certainty", name_of(cycle.certainty)},
+          {"amplitude", json_number(cycle.amplitude)},
+          {"motor_amplitude", json_number(cycle.motor_amplitude)},
+          {"center", json_number(cycle.center)},
+          {"period", json_number(cycle.period)},
+          {"frequency", json_number(cycle.frequency())},
+          {"multiplier", json_number(cycle.multiplier)},
+          {"impact_speed", json_number(cycle.impact_speed)},
+          {"engaged_time", json_number(cycle.engaged_time)},
+          {"separated_time", json_number(cycle.separated_time)},
+          {"residual", json_number(cycle.residual)},
+          {"events_per_period", cycle.events_per_period},
+          {"settles", cycle.settles},
+          {"mirror_image", cycle.has_mirror_image},
+          {"energy", json_energy(cycle.energy)},
+          {"starts", cycle.starts}};
+}
+
+Json json_irregular(const IrregularMotion& motion) {
+  return {{"amplitude", json_number(motion.amplitude)},
+          {"motor_amplitude", json_optional(motion.motor_amplitude)},
+          {"motor_alone", motion.is_motor_alone},
+          {"center", json_number(motion.center)},
+          {"mean_amplitude", json_optional(motion.mean_amplitude)},
+          {"amplitude_deviation", json_optional(motion.amplitude_deviation)},
+          {"mean_period", json_optional(motion.mean_period)},
+          {"period_deviation", json_optional(motion.period_deviation)},
+          {"mismatch", json_optional(motion.mismatch)},
+          {"exponent", json_optional(motion.exponent)},
+          {"watched", json_optional(motion.watched)},
+          {"starts", motion.starts}};
+}
+
+Json json_rest(const std::optional<Rest>& rest) {
+  if (!rest) return nullptr;
+  return {{"load", json_range(rest->load)},
+          {"motor", json_range(rest->motor)},
+          {"error", json_range(rest->error)},
+          {"swing_ratio", json_optional(rest->swing_ratio)},
+          {"starts", rest->starts}};
+}
+
+/// How many starts ran away; null where nothing was searched.
+Json json_runaway(const Answer& answer) {
+  if (!answer.search) return nullptr;
+  return {{"starts", answer.search->count("diverges")}};
+}
+
+Json json_start(const StartOutcome& start) {
+  return {{"load_position", json_number(start.load_position)},
+          {"load_speed", json_number(start.load_speed)},
+          {"motor_position", json_number(start.motor_position)},
+          {"motor_speed", json_number(start.motor_speed)},
+          {"end", start.end},
+          {"which", start.which ? Json(*start.which) : Json(nullptr)},
+          {"watched", json_number(start.watched)},
+          {"reason", start.reason.empty() ? Json(nullptr) : Json(start.reason)}};
+}
+
+Json json_search(const std::optional<SearchRecord>& search) {
+  if (!search) return nullptr;
+  Json starts = Json::array();
+  for (const StartOutcome& start : search->starts) starts.push_back(json_start(start));
+  return {{"watch_time", json_number(search->watch_time)},
+          {"complete", search->is_complete},
+          {"borders", search->borders},
+          {"starts", std::move(starts)}};
+}
+
+Json json_bounds(const std::optional<ProvedBounds>& bounds) {
+  if (!bounds) return nullptr;
+  const auto of_cycle = [&](const Range& range) {
+    return bounds->has_cycle ? json_range(range) : Json(nullptr);
+  };
+  return {{"growth_at_rest", json_range(bounds->growth_at_rest)},
+          {"amplitude", of_cycle(bounds->amplitude)},
+          {"period", of_cycle(bounds->period)},
+          {"multiplier", of_cycle(bounds->multiplier)}};
+}
+
+Json json_normal_form(const std::optional<NormalFormNumbers>& form) {
+  if (!form) return nullptr;
+  return {{"damping", json_number(form->damping)},
+          {"inertia_ratio", json_number(form->inertia_ratio)},
+          {"friction_ratio", json_number(form->friction_ratio)},
+          {"backlash", json_number(form->backlash)},
+          {"restitution", json_number(form->restitution)},
+          {"natural_frequency", json_number(form->natural_frequency)},
+          {"stiffness", json_optional(form->stiffness)}};
+}
+
+template <class List, class Convert>
+Json json_list(const List& list, const Convert& convert) {
+  Json json = Json::array();
+  for (const auto& element : list) json.push_back(convert(element));
+  return json;
+}
+
+}  // namespace
+
+std::string answer_json(const AnswerReport& report) {
+  const Answer& answer = report.answer;
+  const bool has_cycles = !answer.cycles.empty();
+  Json json = {
+      {"schema", "gearlash/limit-cycle/2"},
+      {"version", report.provenance.version},
+      {"command", report.provenance.command},
+      {"units", "SI"},
+      {"engine", name_of(answer.engine)},
+      {"verdict", name_of(answer.verdict)},
+      {"certainty",
+       {{"verdict", name_of(answer.certainty)},
+        {"stability", has_cycles ? Json(name_of(answer.cycles.front().certainty)) : Json(nullptr)},
+        {"completeness", name_of(answer.completeness)}}},
+      {"drive", drive_json(report.drive)},
+      {"defaults", defaults_taken(report.drive)},
+      {"normal_form", json_normal_form(answer.normal_form)},
+      {"growth_at_rest", json_optional(answer.growth_at_rest)},
+      {"bounds", json_bounds(answer.bounds)},
+      {"dissipative", answer.is_dissipative},
+      {"rests_engaged", answer.rests_engaged},
+      {"neutral_swings", answer.neutral_swings},
+      {"cycles", json_list(answer.cycles, &json_cycle)},
+      {"rest", json_rest(answer.rest)},
+      {"irregular", json_list(answer.irregular, &json_irregular)},
+      {"runaway", json_runaway(answer)},
+      {"search", json_search(answer.search)},
+      {"margin", report.margin ? margin_json(*report.changeable, *report.margin) : Json(nullptr)},
+      {"sensitivities", report.sensitivity ? sensitivity_json(*report.sensitivity) : Json(nullptr)},
+      {"notes", json_list(answer.notes, [](const Note& note) {
+         return Json{{"code", note.code}, {"text", note.text}};
+       })}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace gearlash

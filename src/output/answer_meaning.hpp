@@ -1,0 +1,16 @@
+// What an answer means, in sentences.
+#pragma once
+
+#include <string>
+
+#include "output/answer_report.hpp"
+
+namespace gearlash {
+
+/// What follows from the verdict and how sure it is; of a search, what was searched.
+std::string meaning_text(const AnswerReport& report);
+
+/// "1 start", "36 starts".
+std::string starts_text(std::size_t count);
+
+}  // namespace gearlash

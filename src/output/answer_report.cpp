@@ -1,0 +1,349 @@
+#include "output/answer_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "model/reduced_drive.hpp"
+#include "output/answer_meaning.hpp"
+#include "output/change_report.hpp"
+#include "output/columns.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr int headline_digits = 3;
+constexpr int table_digits = 6;
+
+using Rows = std::vector<std::vector<std::string>>;
+
+std::string number(double value) { return significant(value, table_digits); }
+
+std::string percent(double part, double whole) {
+  return fmt::format("{:.1f} %", 100.0 * part / whole);
+}
+
+double backlash_of(const AnswerReport& report) {
+  if (report.answer.normal_form) return report.answer.normal_form->backlash;
+  return report.drive.servo ? report.drive.servo->backlash : report.drive.gearbox.backlash;
+}
+
+/// Times and speeds as the report gives them: in units of 1/ω_n without a natural frequency.
+struct Units {
+  explicit Units(const AnswerReport& report) : is_normalized(report.is_normalized) {}
+
+  std::string time(double seconds) const {
+    return number(seconds) + (is_normalized ? " / ω_n" : " s");
+  }
+  std::string speed(double value) const {
+    return number(value) + (is_normalized ? " rad ω_n" : " rad/s");
+  }
+  std::string rate(double value) const { return number(value) + (is_normalized ? " ω_n" : " /s"); }
+  std::string energy(double value) const {
+    return number(value) + (is_normalized ? " K rad²" : " J");
+  }
+
+  bool is_normalized;
+};
+
+std::string angle_text(const AnswerReport& report, double radians) {
+  return number(report.angle.from_radians(radians)) + " " + report.angle.name;
+}
+
+std::string range_text(const AnswerReport& report, const Range& range) {
+  const double low = report.angle.from_radians(range.lowest);
+  const double high = report.angle.from_radians(range.highest);
+  constexpr double unseen = 1e-9;  // of the larger: one number, not two
+  if (high - low <= unseen * std::max(std::abs(low), std::abs(high))) {
+    return angle_text(report, range.lowest);
+  }
+  return fmt::format("{} … {} {}", number(low), number(high), report.angle.name);
+}
+
+std::vector<std::string> amplitude_row(const AnswerReport& report, std::string name,
+                                       double amplitude) {
+  return {std::move(name), swing_text(amplitude, report.angle, table_digits),
+          number(amplitude / backlash_of(report)) + " of the backlash"};
+}
+
+// ---- headline -----------------------------------------------------------------------------------
+
+std::string pace(const AnswerReport& report, double period) {
+  if (report.is_normalized) {
+    return fmt::format(", period {} / ω_n", significant(period, headline_digits + 1));
+  }
+  return fmt::format(" at {} Hz", significant(1.0 / period, headline_digits));
+}
+
+std::string motion_text(const AnswerReport& report) {
+  const auto amplitude = [&](double value) {
+    return swing_text(value, report.angle, headline_digits);
+  };
+  if (const Cycle* cycle = report.answer.largest_stable()) {
+    return amplitude(cycle->amplitude) + pace(report, cycle->period);
+  }
+  if (report.answer.irregular.empty()) return "amplitude not known";
+  const IrregularMotion& motion = report.answer.irregular.front();
+  const std::string at = motion.mean_period ? pace(report, *motion.mean_period) : "";
+  if (motion.is_motor_alone && motion.motor_amplitude) {
+    return "the motor within the gap, " + amplitude(*motion.motor_amplitude) + at +
+           ", while the load hardly moves";
+  }
+  return "up to " + amplitude(motion.amplitude) + at;
+}
+
+/// μ₀ with as many digits as it takes to see on which side of 1 it lies.
+std::string growth_text(double growth) {
+  int digits = headline_digits;
+  while (digits < 17 && growth != 1.0 && significant(growth, digits) == "1") ++digits;
+  return significant(growth, digits);
+}
+
+std::string growth_beside_one(const Answer& answer) {
+  if (!answer.growth_at_rest) return "growth at rest not known";
+  const double growth = *answer.growth_at_rest;
+  const char* relation = growth < 1.0 ? "<" : growth > 1.0 ? ">" : "=";
+  return fmt::format("growth at rest {} {} 1", growth_text(growth), relation);
+}
+
+// ---- cycles, rest, irregular motion -------------------------------------------------------------
+
+/// Where the enclosure is too wide for the digits of the table, what is proved.
+void add_range(Rows& rows, const Range& range, double scale, const std::string& unit) {
+  constexpr double unseen = 1e-6;
+  if (range.highest - range.lowest <= unseen * range.highest) return;
+  rows.push_back(
+      {"  proved",
+       fmt::format("{} … {} {}", number(range.lowest / scale), number(range.highest / scale), unit),
+       ""});
+}
+
+/// Only its order matters: a bound that no change of rounding moves.
+std::string residual_text(double residual) {
+  if (std::isnan(residual)) return "not known";
+  double bound = 1e-15;
+  while (residual >= bound && bound < 1.0) bound *= 10.0;
+  return "< " + significant(bound, 2);
+}
+
+void add_energy(Rows& rows, const EnergyLost& energy, const Units& units) {
+  const double total = energy.total();
+  rows.push_back({"energy lost in a period", units.energy(total), ""});
+  const auto share = [&](const char* name, double part) {
+    rows.push_back({name, units.energy(part), percent(part, total)});
+  };
+  share("  in the motor's friction", energy.motor_friction);
+  share("  in the load's friction", energy.load_friction);
+  share("  in impacts", energy.impacts);
+}
+
+const char* multiplier_remark(Stability stability) {
+  switch (stability) {
+    case Stability::stable:
+      return "disturbances die away";
+    case Stability::neutral:
+      return "disturbances neither grow nor die away";
+    case Stability::unstable:
+      return "disturbances grow";
+  }
+  return "";
+}
+
+void add_contact(Rows& rows, const Cycle& cycle, const Answer& answer, const Units& units) {
+  if (answer.engine == Engine::closed_form) {
+    rows.push_back({"impacts", fmt::format("{} a period", cycle.events_per_period),
+                    cycle.settles ? "faces stay together" : "faces bounce apart"});
+  }
+  if (cycle.impact_speed > 0.0) {
+    rows.push_back({"hardest impact", units.speed(cycle.impact_speed), ""});
+  }
+  rows.push_back({"faces together", units.time(cycle.engaged_time),
+                  percent(cycle.engaged_time, cycle.period) + " of a period"});
+  rows.push_back({"faces apart", units.time(cycle.separated_time),
+                  percent(cycle.separated_time, cycle.period) + " of a period"});
+}
+
+std::string cycle_text(const AnswerReport& report, const Cycle& cycle) {
+  const Units units(report);
+  const Answer& answer = report.answer;
+  Rows rows = {amplitude_row(report, "amplitude, load", cycle.amplitude)};
+  const bool has_bounds = answer.bounds && answer.bounds->has_cycle;
+  if (has_bounds) {
+    add_range(rows, answer.bounds->amplitude, report.angle.radians, report.angle.name);
+  }
+  rows.push_back(amplitude_row(report, "amplitude, motor", cycle.motor_amplitude));
+  if (cycle.center != 0.0) {
+    rows.push_back({"center, from the reference", angle_text(report, cycle.center), ""});
+  }
+  rows.push_back({"period", units.time(cycle.period), ""});
+  if (has_bounds) {
+    add_range(rows, answer.bounds->period, 1.0, report.is_normalized ? "/ ω_n" : "s");
+  }
+  rows.push_back(
+      report.is_normalized
+          ? std::vector<std::string>{"frequency",
+                                     number(2.0 * std::numbers::pi / cycle.period) + " ω_n", ""}
+          : std::vector<std::string>{"frequency", number(cycle.frequency()) + " Hz", ""});
+  rows.push_back({"multiplier", number(cycle.multiplier), multiplier_remark(cycle.stability)});
+  add_contact(rows, cycle, answer, units);
+  if (cycle.energy) add_energy(rows, *cycle.energy, units);
+  if (answer.engine == Engine::general) {
+    rows.push_back({"events in a period", std::to_string(cycle.events_per_period), ""});
+    rows.push_back({"reached from", starts_text(cycle.starts), ""});
+  }
+  rows.push_back({"residual", residual_text(cycle.residual), "mismatch where the cycle closes"});
+  return fmt::format("\nLimit cycle: {}, {}{}\n", name_of(cycle.kind), name_of(cycle.stability),
+                     cycle.has_mirror_image ? ", and its mirror image" : "") +
+         table_text(rows);
+}
+
+/// Cycles that are seen with all their properties, then the unstable ones in a line each.
+std::string cycle_tables(const AnswerReport& report) {
+  std::string text;
+  Rows unstable;
+  const Units units(report);
+  for (const Cycle& cycle : report.answer.cycles) {
+    if (cycle.stability != Stability::unstable) {
+      text += cycle_text(report, cycle);
+      continue;
+    }
+    unstable.push_back({name_of(cycle.kind),
+                        swing_text(cycle.amplitude, report.angle, table_digits),
+                        fmt::format("period {}, multiplier {}", units.time(cycle.period),
+                                    number(cycle.multiplier))});
+  }
+  if (unstable.empty()) return text;
+  return text + "\nUnstable limit cycles, on which no motion stays\n" + table_text(unstable);
+}
+
+std::string irregular_text(const AnswerReport& report, const IrregularMotion& motion) {
+  if (!motion.mean_period) return "";  // its extent is in the headline or in the meaning
+  const Units units(report);
+  const auto spread = [](double mean, double deviation) {
+    return fmt::format("spread {:.2g} %", 100.0 * deviation / mean);
+  };
+  constexpr double chaotic = 10.0;  // factors of e by which neighbours part while watched
+  const bool is_chaotic = *motion.exponent * *motion.watched > chaotic;
+  const std::string title = motion.is_motor_alone
+                                ? "The motor hunts within the gap, while the load hardly moves"
+                                : "Motion that was not seen to repeat";
+  return "\n" + title + "\n" +
+         table_text(
+             {amplitude_row(report, "amplitude, load", motion.amplitude),
+              amplitude_row(report, "amplitude, motor", *motion.motor_amplitude),
+              {"center, from the reference", angle_text(report, motion.center), ""},
+              {"mean amplitude", swing_text(*motion.mean_amplitude, report.angle, table_digits),
+               spread(*motion.mean_amplitude, *motion.amplitude_deviation)},
+              {"mean period", units.time(*motion.mean_period),
+               spread(*motion.mean_period, *motion.period_deviation)},
+              {"swings repeat but for", fmt::format("{:.2g} %", 100.0 * *motion.mismatch), ""},
+              {"neighbors part at", units.rate(*motion.exponent), is_chaotic ? "chaotic" : ""},
+              {"watched for", units.time(*motion.watched), ""},
+              {"reached from", starts_text(motion.starts), ""}});
+}
+
+std::string rest_text(const AnswerReport& report) {
+  const Rest& rest = *report.answer.rest;
+  Rows rows = {{"load, from the reference", range_text(report, rest.load), ""},
+               {"motor, from the reference", range_text(report, rest.motor), ""},
+               {"reached from", starts_text(rest.starts), ""}};
+  if (rest.swing_ratio) {
+    rows.push_back(
+        {"approached by swings, ratio", number(*rest.swing_ratio), "never quite reached"});
+  }
+  return "\nRest\n" + table_text(rows);
+}
+
+// ---- the drive ----------------------------------------------------------------------------------
+
+/// The servo of 1960 that the drive is.
+std::string normal_form_table(const AnswerReport& report) {
+  const NormalFormNumbers& form = *report.answer.normal_form;
+  Rows rows;
+  if (!report.is_normalized) {
+    rows.push_back({"natural frequency, ω_n", number(form.natural_frequency) + " rad/s",
+                    number(form.natural_frequency / (2.0 * std::numbers::pi)) + " Hz"});
+    if (form.stiffness) {
+      rows.push_back({"loop stiffness, K", number(*form.stiffness) + " N m/rad", ""});
+    }
+  }
+  rows.push_back({"damping, ζ", number(form.damping), ""});
+  rows.push_back({"inertia ratio, J_L/J_M", number(form.inertia_ratio), ""});
+  rows.push_back({"friction ratio, F_L/(F_M+F_L)", number(form.friction_ratio), ""});
+  rows.push_back({"backlash, b", angle_text(report, form.backlash),
+                  report.angle.radians == 1.0 ? "" : number(form.backlash) + " rad"});
+  rows.push_back({"restitution, e", number(form.restitution), ""});
+  const auto& growth = report.answer.growth_at_rest;
+  rows.push_back({"growth at rest, μ₀", growth ? number(*growth) : "not known",
+                  "of small motion in half a cycle"});
+  return "\nServo\n" + table_text(rows);
+}
+
+}  // namespace
+
+std::string starts_text(std::size_t count) {
+  return fmt::format("{} start{}", count, count == 1 ? "" : "s");
+}
+
+std::string headline(const AnswerReport& report) {
+  const Answer& answer = report.answer;
+  const std::string verdict = name_of(answer.verdict);
+  switch (answer.verdict) {
+    case Verdict::hunts:
+    case Verdict::hunts_irregularly:
+      return verdict + (answer.rests_engaged ? ", or rests with its faces together: " : ": ") +
+             motion_text(report);
+    case Verdict::forced:
+      return "swings as it is driven: " + motion_text(report);
+    case Verdict::hunts_if_disturbed:
+      return verdict + ": " + motion_text(report) +
+             (answer.growth_at_rest ? "; " + growth_beside_one(answer) : "");
+    case Verdict::grows_without_bound:
+      return verdict + ": no friction at all (damping 0)";
+    case Verdict::undamped:
+      return verdict + ": any swing persists (damping 0, backlash 0)";
+    case Verdict::comes_to_rest:
+      return fmt::format("{} from all {}", verdict, starts_text(answer.search->starts.size()));
+    case Verdict::cannot_hunt:
+      if (backlash_of(report) == 0.0) return verdict + ": no backlash";
+      return verdict + ": " + growth_beside_one(answer);
+    case Verdict::undecided:
+      return answer.engine == Engine::closed_form ? verdict + ": " + growth_beside_one(answer)
+                                                  : verdict;
+    default:
+      return verdict;
+  }
+}
+
+std::string answer_text(const AnswerReport& report) {
+  const Answer& answer = report.answer;
+  std::string text = headline(report) + "\n" + cycle_tables(report);
+  for (const IrregularMotion& motion : answer.irregular) text += irregular_text(report, motion);
+  if (answer.rest) text += rest_text(report);
+  if (answer.normal_form) text += normal_form_table(report);
+  text += "\n";
+  if (report.margin) {
+    const ReportUnits units{
+        .natural_frequency = report.is_normalized
+                                 ? std::nullopt
+                                 : std::optional(answer.normal_form->natural_frequency),
+        .stiffness = std::nullopt,
+        .angle = report.angle};
+    text += margin_text(*report.changeable, *report.margin, units) + "\n";
+  }
+  if (report.sensitivity) text += sensitivity_text(*report.sensitivity) + "\n";
+  for (const Note& note : answer.notes) {
+    if (note.code != "undecided-start") text += wrapped(note.text);
+  }
+  text += wrapped(meaning_text(report));
+  for (const Note& note : answer.notes) {
+    if (note.code == "undecided-start") text += wrapped(note.text);
+  }
+  return text;
+}
+
+}  // namespace gearlash
