@@ -27,7 +27,7 @@ constexpr char examples[] =
     "  gearlash motor examples/elinco-fd162.toml\n"
     "  gearlash map --x friction-ratio=0:1:100 --y damping=0.02:0.8:100 --inertia-ratio 2 \\\n"
     "      --output map.svg\n"
-    "  gearlash limit-cycle --help\n";
+    "  gearlash help limit-cycle\n";
 
 extern "C" void remove_outputs_and_die(int signal_number) {
   remove_unfinished_outputs();
@@ -113,10 +113,16 @@ ExitStatus parse_and_run(int argument_count, char** arguments) {
   add_sweep_command(app, action);
   add_show_command(app, action);
   add_thesis_command(app, action);
-  require_subcommand(app, "gearlash",
-                     {arguments + std::min(argument_count, 1), arguments + argument_count});
+  std::vector<std::string> words(arguments + std::min(argument_count, 1),
+                                 arguments + argument_count);
+  if (!words.empty() && words.front() == "help") {  // help VERB is VERB --help
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
+  require_subcommand(app, "gearlash", words);
   try {
-    app.parse(argument_count, arguments);
+    std::reverse(words.begin(), words.end());  // as CLI11 takes them
+    app.parse(std::move(words));
   } catch (const CLI::CallForHelp&) {
     write_file("-", app.help());
     return ExitStatus::done;

@@ -144,7 +144,7 @@ struct ProvedBounds {
 struct NormalFormNumbers {
   double damping = 0.0, inertia_ratio = 0.0, friction_ratio = 0.0, backlash = 0.0;
   double restitution = 0.0;
-  double natural_frequency = 1.0;  ///< rad/s
+  double natural_frequency = 1.0;     ///< rad/s
   std::optional<double> stiffness{};  ///< N m/rad; not known of a normal form with a frequency
 };
 

@@ -324,4 +324,8 @@ Analysis analyse_in_full(const Drive& drive, const Wanted& wanted) {
   return analysis;
 }
 
+Answer analyse(const Drive& drive, const Wanted& wanted) {
+  return analyse_in_full(drive, wanted).answer;
+}
+
 }  // namespace gearlash

@@ -1,23 +1,14 @@
 // The question and its answer: the closed form where the drive is its servo, else a search.
 #pragma once
 
-#include <functional>
 #include <optional>
 
 #include "closed_form/limit_cycle.hpp"
-#include "gearlash/answer.hpp"
-#include "gearlash/drive.hpp"
+#include "gearlash/analyse.hpp"
 #include "general/attractors/attractors.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash {
-
-struct Wanted {
-  /// Enclosures of the closed form: else its verdict is computed only.
-  bool proofs = true;
-  /// Told the share that is done; false stops a search, which then says so.
-  std::function<bool(double share)> go_on{};
-};
 
 /// An answer with what its engine worked it out from, for pictures.
 struct Analysis {

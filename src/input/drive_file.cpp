@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gearlash/input.hpp"
 #include "input/drive_reader.hpp"
 #include "input/text_file.hpp"
 #include "input/toml_document.hpp"
@@ -88,8 +89,25 @@ toml::table value_of(const std::string& text) {
   return table;
 }
 
+constexpr std::string_view nothing = "none";
+
+bool is_section(std::string_view name) {
+  const std::vector<Section>& sections = all_sections();
+  return std::any_of(sections.begin(), sections.end(),
+                     [&](const Section& section) { return section.name == name; });
+}
+
+/// A section, or a key by whatever name it has.
+void take_out(TomlDocument& document, const std::string& path) {
+  if (is_section(path)) return document.remove_section(path);
+  const Parameter& parameter = *find_parameter(path);
+  document.remove(parameter.path);
+  for (const OtherForm& form : parameter.other_forms) document.remove(form.path);
+}
+
 /// In the place of what the document says of that parameter, by whatever name.
 void apply(TomlDocument& document, const Setting& setting) {
+  if (setting.text == nothing) return take_out(document, setting.path);
   const Parameter& parameter = *find_parameter(setting.path);
   std::string place = setting.path;
   const auto is_inverse = [&](const OtherForm& form) {
@@ -133,7 +151,8 @@ Setting read_setting(const std::string& text) {
         {{"--set", shown(text), "must be PATH=VALUE, such as gearbox.ratio=50", ""}});
   }
   Setting setting{text.substr(0, sign), text.substr(sign + 1)};
-  if (find_parameter(setting.path) == nullptr) {
+  const bool is_without = setting.text == nothing && is_section(setting.path);
+  if (!is_without && find_parameter(setting.path) == nullptr) {
     std::vector<std::string> paths;
     for (const Parameter& parameter : all_parameters_of_drives()) {
       paths.emplace_back(parameter.path);
@@ -226,6 +245,16 @@ std::optional<SensorPlace> sensor_named(std::string_view name) {
     if (name == name_of(place)) return place;
   }
   return std::nullopt;
+}
+
+Drive read_drive(const std::filesystem::path& toml) {
+  return parse_drive(read_text_file(toml, largest_servo_file), toml.string(), toml.parent_path(),
+                     {})
+      .drive;
+}
+
+Drive parse_drive(std::string_view toml, const std::filesystem::path& folder) {
+  return parse_drive(toml, "drive", folder, {}).drive;
 }
 
 }  // namespace gearlash

@@ -34,8 +34,8 @@ WrittenDrive parse_drive(std::string_view toml, std::string_view source_name,
 TomlDocument document_with(std::string_view toml, std::string_view source_name,
                            const std::vector<Setting>& settings);
 
-/// "PATH=VALUE". Throws InvalidInput for text without "=" and for a path of no parameter, with the
-/// nearest one.
+/// "PATH=VALUE"; "PATH=none" takes a key, or "SECTION=none" a section, out of the file. Throws
+/// InvalidInput for text without "=" and for a path of no parameter, with the nearest one.
 Setting read_setting(const std::string& text);
 
 struct DriveFile {

@@ -181,8 +181,21 @@ class DriveReader {
       }
     }
     if (name == "motor") motor_is_known_ = kind_is_known;
+    if (is_kind_set(name)) know_keys_of_all_kinds(section, name);
     refuse_rivals(section, name);
     if (kind_is_known) section.refuse_other_keys();
+  }
+
+  /// Whether --set has given the kind: the file's keys may be those of another one.
+  bool is_kind_set(const std::string& name) const {
+    const toml::node* kind = document_.root()[name]["kind"].node();
+    return kind != nullptr && kind->source().begin.line == 0;
+  }
+
+  static void know_keys_of_all_kinds(SectionReader& section, const std::string& name) {
+    for (const Parameter& parameter : all_parameters_of_drives()) {
+      for (const Key& key : keys_of(parameter, name)) section.know(key.name);
+    }
   }
 
   /// The first of the keys that the section has; of several the others are refused.

@@ -28,6 +28,7 @@ class TomlDocument {
   void set(std::string_view path, const toml::node& value);
   /// Takes the key out of its section, and a section that is then empty; whether it was there.
   bool remove(std::string_view path);
+  void remove_section(std::string_view name) { root_.erase(name); }
 
   /// "servo.toml:3:11"; "--set" for what set() has given.
   std::string where(Place place) const;

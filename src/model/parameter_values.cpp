@@ -56,13 +56,6 @@ double* number_place(const Slot& slot, const IndexedPath& indexed, std::string_v
   return nullptr;
 }
 
-/// An optional part of a drive that the parameter belongs to is added.
-void add_section(Drive& drive, std::string_view name) {
-  for (const Section& section : all_sections()) {
-    if (section.name == name && !section.is_present(drive) && name != "servo") section.add(drive);
-  }
-}
-
 const OtherForm* form_named(const Parameter& parameter, std::string_view path) {
   for (const OtherForm& form : parameter.other_forms) {
     if (form.path == path) return &form;
@@ -71,6 +64,13 @@ const OtherForm* form_named(const Parameter& parameter, std::string_view path) {
 }
 
 }  // namespace
+
+void add_section_of(Drive& drive, std::string_view path) {
+  const std::string_view name = path.substr(0, path.find('.'));
+  for (const Section& section : all_sections()) {
+    if (section.name == name && !section.is_present(drive) && name != "servo") section.add(drive);
+  }
+}
 
 const Parameter& parameter_of(const Drive& drive, std::string_view path) {
   const std::string_view plain = path.substr(0, path.find('['));
@@ -113,7 +113,7 @@ double get(const Drive& drive, std::string_view path) {
 }
 
 void set(Drive& drive, std::string_view path, double value) {
-  add_section(drive, path.substr(0, path.find('.')));
+  add_section_of(drive, path);
   const Parameter& parameter = parameter_of(drive, path);
   const IndexedPath indexed = without_indices(path);
   const OtherForm* form = form_named(parameter, indexed.path);

@@ -11,4 +11,7 @@ namespace gearlash {
 /// none, or where the drive does not have it.
 const Parameter& parameter_of(const Drive& drive, std::string_view path);
 
+/// Adds the optional part of a drive that the parameter belongs to: sampling, say.
+void add_section_of(Drive& drive, std::string_view path);
+
 }  // namespace gearlash

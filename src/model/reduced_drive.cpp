@@ -201,9 +201,10 @@ std::optional<Drivetrain> proportional_drivetrain(const Drive& drive) {
 }
 
 std::optional<ClosedFormServo> closed_form_servo(const Drive& drive) {
-  const std::optional<Drivetrain> drivetrain = proportional_drivetrain(drive);
+  const std::optional<Drivetrain> drivetrain = drive::proportional_drivetrain(reduce(drive));
   if (!drivetrain) return std::nullopt;
   if (!drive.servo) {
+    if (!validate(*drivetrain).empty()) return std::nullopt;
     return ClosedFormServo{normalize_sound(*drivetrain), natural_frequency(*drivetrain), false};
   }
   const NormalForm& form = *drive.servo;

@@ -1,5 +1,7 @@
 #include <cmath>
 
+#include "gearlash/output.hpp"
+#include "gearlash/version.hpp"
 #include "output/answer_report.hpp"
 #include "output/change_report.hpp"
 #include "output/drive_text.hpp"
@@ -160,6 +162,14 @@ std::string answer_json(const AnswerReport& report) {
          return Json{{"code", note.code}, {"text", note.text}};
        })}};
   return json.dump(2) + "\n";
+}
+
+std::string to_json(const Drive& drive, const Answer& answer) {
+  AnswerReport report;
+  report.drive = drive;
+  report.answer = answer;
+  report.provenance.version = version;
+  return answer_json(report);
 }
 
 }  // namespace gearlash

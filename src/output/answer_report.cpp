@@ -8,6 +8,7 @@
 #include <numbers>
 #include <vector>
 
+#include "gearlash/output.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/answer_meaning.hpp"
 #include "output/change_report.hpp"
@@ -344,6 +345,14 @@ std::string answer_text(const AnswerReport& report) {
     if (note.code == "undecided-start") text += wrapped(note.text);
   }
   return text;
+}
+
+std::string headline(const Drive& drive, const Answer& answer) {
+  AnswerReport report;
+  report.drive = drive;
+  report.answer = answer;
+  report.is_normalized = is_normalized(drive);
+  return headline(report);
 }
 
 }  // namespace gearlash

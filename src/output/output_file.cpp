@@ -248,4 +248,6 @@ void write_file(const std::filesystem::path& path, std::string_view text) {
   file.commit();
 }
 
+void save(const std::filesystem::path& path, std::string_view text) { write_file(path, text); }
+
 }  // namespace gearlash

@@ -33,6 +33,7 @@ INSTANTIATE_TEST_SUITE_P(Everywhere, Help,
                                          std::vector<std::string>{"map", "--help"},
                                          std::vector<std::string>{"design", "--help"},
                                          std::vector<std::string>{"tolerance", "--help"},
+                                         std::vector<std::string>{"show", "--help"},
                                          std::vector<std::string>{"thesis", "--help"},
                                          std::vector<std::string>{"thesis", "table-2", "--help"},
                                          std::vector<std::string>{"thesis", "machine", "--help"},
@@ -54,6 +55,12 @@ TEST(Help, EveryOptionOfTheContractIsNamed) {
                              "--every", "--events", "--output"}) {
     EXPECT_THAT(simulate, HasSubstr(option));
   }
+}
+
+TEST(Help, IsAVerbToo) {
+  EXPECT_EQ(run_tool({"help", "design"}).out, run_tool({"design", "--help"}).out);
+  EXPECT_EQ(run_tool({"help"}).out, run_tool({"--help"}).out);
+  EXPECT_THAT(run_tool({"help", "limit"}).err, HasSubstr("did you mean limit-cycle?"));
 }
 
 TEST(Help, Version) {

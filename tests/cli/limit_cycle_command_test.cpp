@@ -118,7 +118,7 @@ TEST(LimitCycleCommand, EnergyProvesWhatNoSearchCan) {
       "0.5",         "--backlash", "0.3", "--restitution",   "1"};
   const Outcome text = run_tool(servo);
   EXPECT_EQ(text.status, 0);
-  EXPECT_THAT(text.out, HasSubstr("No restitution can make this\nservo hunt"));
+  EXPECT_THAT(text.out, HasSubstr("No restitution can make this servo\nhunt"));
   EXPECT_THAT(text.out, HasSubstr("This is proved."));
   std::vector<std::string> as_json = servo;
   as_json.insert(as_json.end(), {"--format", "json"});

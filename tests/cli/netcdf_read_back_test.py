@@ -76,9 +76,10 @@ class ReadBack(unittest.TestCase):
                 self.assertTrue(math.isnan(float(point["size"])), message)
                 continue
             cycle = single["cycles"][0]
-            for quantity in ["size", "period", "multiplier", "impact_speed"]:
-                self.assertAlmostEqual(float(point[quantity]), cycle[quantity],
-                                       delta=1e-11 * abs(cycle[quantity]), msg=message)
+            for quantity, key in [("size", "amplitude"), ("period", "period"),
+                                  ("multiplier", "multiplier"), ("impact_speed", "impact_speed")]:
+                self.assertAlmostEqual(float(point[quantity]), cycle[key],
+                                       delta=1e-11 * abs(cycle[key]), msg=message)
 
     def test_a_sweep_has_its_axes_as_dimensions(self):
         data = self.swept()

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "gearlash/parameter.hpp"
@@ -69,6 +70,25 @@ TEST(Settings, ChangeTheKindOfAPart) {
   EXPECT_THAT(fault_of({{"contact.kind", "compliant"}}), HasSubstr("contact.stiffness"));
 }
 
+TEST(Settings, TakeKeysAndSectionsOut) {
+  const std::string sampled =
+      std::string(sheet) + "[sensor]\ncounts_per_turn = 1024\n[sampling]\nperiod = \"1 ms\"\n";
+  const Drive drive = parse_drive(sampled, "servo.toml", {},
+                                  {{"sensor.counts_per_turn", "none"}, {"sampling", "none"}})
+                          .drive;
+  EXPECT_FALSE(drive.sampling);
+  EXPECT_FALSE(drive.sensor.encoder.counts_per_turn);
+  EXPECT_EQ(read_setting("sampling=none").path, "sampling");
+  EXPECT_THROW(read_setting("sampling=1 ms"), InvalidInput);
+}
+
+TEST(Settings, OfAKindLeaveTheKeysOfTheOtherKind) {
+  const std::string field = "field-controlled";
+  EXPECT_EQ(get(with({{"motor.kind", field}}), "motor.resistance"), 282.0);
+  EXPECT_THROW(static_cast<void>(get(with({{"motor.kind", field}}), "motor.back_emf_constant")),
+               InvalidInput);
+}
+
 TEST(Settings, AreLocatedWhereTheyWereGiven) {
   EXPECT_EQ(fault_of({{"gearbox.ratio", "-2"}}),
             "--set: gearbox.ratio = -2: must be positive and finite");
@@ -83,6 +103,30 @@ TEST(Settings, OfNoParameterAreRefusedWithTheNearest) {
     EXPECT_THAT(error.what(), HasSubstr("did you mean motor.inertia?"));
   }
   EXPECT_THROW(read_setting("motor.inertia"), InvalidInput);
+}
+
+TEST(SetByText, TakesUnitsWordsAndLists) {
+  Drive drive = with({});
+  set(drive, "gearbox.backlash", "30 arcmin");
+  EXPECT_NEAR(get(drive, "gearbox.backlash"), 0.5 * std::acos(-1.0) / 180.0, 1e-17);
+  set(drive, "sampling.period", "1 kHz");
+  EXPECT_DOUBLE_EQ(get(drive, "sampling.period"), 1e-3);
+  set(drive, "motor.speed_constant", "100 rpm/V");
+  EXPECT_NEAR(get(drive, "motor.back_emf_constant"), 0.0954929658551372, 1e-15);
+  set(drive, "sensor.position", "both");
+  EXPECT_EQ(drive.sensor.position, SensorPlace::both);
+  set(drive, "controller.kind", "state-space");
+  set(drive, "controller.A", "[[0, 1], [-2, -3]]");
+  set(drive, "controller.C", "[1, 0.5]");
+  set(drive, "controller.A[1][0]", "-4");
+  EXPECT_EQ(get(drive, "controller.A[1][0]"), -4.0);
+  EXPECT_EQ(get(drive, "controller.C[1]"), 0.5);
+  for (const auto& [path, text] :
+       {std::pair("sensor.position", "gear"), std::pair("load.inertia", "3"),
+        std::pair("controller.C", "1"), std::pair("controller.A", "[1, 2]"),
+        std::pair("controller.C[7]", "1"), std::pair("motor.colour", "red")}) {
+    EXPECT_THROW(set(drive, path, text), InvalidInput) << path;
+  }
 }
 
 TEST(Tolerances, AreReadOfEveryParameter) {

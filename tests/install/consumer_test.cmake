@@ -1,7 +1,7 @@
 cmake_minimum_required(VERSION 3.25)  # policies of a script run by itself
 
 # cmake -D BUILD=... -D WORK=... -D CXX=... -D CXX_FLAGS=... -D BUILD_TYPE=... -D GENERATOR=...
-#       -D COMPONENTS=... -P consumer_test.cmake
+#       -D COMPONENTS=... -D PROGRAMS=... -P consumer_test.cmake
 #
 # Installs the build to a prefix of its own, then builds and runs consumers of it, with CMake and
 # with pkg-config. They are compiled as Gearlash was: sanitizers must be linked in both or in
@@ -18,7 +18,7 @@ execute_process(
           -G "${GENERATOR}"
           "-DCMAKE_CXX_COMPILER=${CXX}" "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}"
           "-DCMAKE_BUILD_TYPE=${BUILD_TYPE}" "-DCMAKE_PREFIX_PATH=${WORK}/prefix"
-          "-DGEARLASH_COMPONENTS_ASKED=${COMPONENTS}"
+          "-DGEARLASH_COMPONENTS_ASKED=${COMPONENTS}" "-DPROGRAMS=${PROGRAMS}"
   COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND "${CMAKE_COMMAND}" --build "${WORK}/build" COMMAND_ERROR_IS_FATAL ANY)
 
@@ -52,6 +52,12 @@ endforeach()
 
 if("files" IN_LIST COMPONENTS)
   execute_process(COMMAND "${WORK}/build/data_sheet_consumer" "${DATA_SHEET}"
+                  COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND "${WORK}/build/sensor_place" COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND "${WORK}/build/change_file" "${DATA_SHEET}"
+                  WORKING_DIRECTORY "${WORK}" COMMAND_ERROR_IS_FATAL ANY)
+  # What the program has written reads back.
+  execute_process(COMMAND "${WORK}/prefix/bin/gearlash" limit-cycle "${WORK}/changed.toml" --brief
                   COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND "${WORK}/prefix/bin/gearlash" --version COMMAND_ERROR_IS_FATAL ANY)
 endif()

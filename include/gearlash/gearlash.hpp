@@ -1,0 +1,13 @@
+// All of Gearlash.
+#pragma once
+
+#include "gearlash/analyse.hpp"
+#include "gearlash/answer.hpp"
+#include "gearlash/controller.hpp"
+#include "gearlash/drive.hpp"
+#include "gearlash/fault.hpp"
+#include "gearlash/input.hpp"
+#include "gearlash/output.hpp"
+#include "gearlash/parameter.hpp"
+#include "gearlash/signal.hpp"
+#include "gearlash/version.hpp"

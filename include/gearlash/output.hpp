@@ -1,0 +1,25 @@
+// Drives and answers as text.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "gearlash/answer.hpp"
+#include "gearlash/drive.hpp"
+
+namespace gearlash {
+
+/// A file of the drive with all defaults taken, in SI units. Numbers read back exactly.
+[[nodiscard]] std::string to_toml(const Drive& drive);
+
+/// As `gearlash limit-cycle --format json` prints it.
+[[nodiscard]] std::string to_json(const Drive& drive, const Answer& answer);
+
+/// The answer in one line: "hunts: ±0.0819 rad (4.69°) at 2.26 Hz".
+[[nodiscard]] std::string headline(const Drive& drive, const Answer& answer);
+
+/// Writes a file that appears whole or not at all. Throws std::runtime_error where it cannot.
+void save(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace gearlash

@@ -1,0 +1,103 @@
+#include <toml++/toml.h>
+
+#include <algorithm>
+
+#include "gearlash/parameter.hpp"
+#include "input/section_reader.hpp"
+#include "input/units.hpp"
+#include "model/parameter_values.hpp"
+
+namespace gearlash {
+namespace {
+
+[[noreturn]] void refuse(std::string_view path, std::string_view text,
+                         const std::string& permitted) {
+  throw InvalidInput({{std::string(path), shown(text), permitted, ""}});
+}
+
+const OtherForm* inverse_form(const Parameter& parameter, std::string_view path) {
+  for (const OtherForm& form : parameter.other_forms) {
+    if (form.dimension != nullptr && (form.path == path || parameter.path == path)) return &form;
+  }
+  return nullptr;
+}
+
+/// In SI, as set() takes it under that path.
+double number_of(const Parameter& parameter, const Drive& drive, std::string_view path,
+                 std::string_view text) {
+  const Dimension* dimension = parameter.dimension(drive);
+  if (dimension == nullptr || path.find('[') != std::string_view::npos) {
+    return read_number(path, text);
+  }
+  const OtherForm* inverse = inverse_form(parameter, path);
+  if (inverse != nullptr && inverse->path == path) return to_si(path, text, *inverse->dimension);
+  try {
+    return to_si(path, text, *dimension);
+  } catch (const InvalidInput&) {  // "1 kHz" for a period
+    if (inverse == nullptr) throw;
+  }
+  return inverse->inverse / to_si(path, text, *inverse->dimension);
+}
+
+/// A TOML list: "[1, 2.5]", "[[1, 0], [0, 1]]".
+toml::table list_of(std::string_view path, std::string_view text) {
+  try {
+    toml::table table = toml::parse("value = " + std::string(text));
+    if (table["value"].is_array()) return table;
+  } catch (const toml::parse_error&) {  // reported below
+  }
+  refuse(path, text, "must be a list, such as [1, 2.5]");
+}
+
+std::vector<double> numbers_of(std::string_view path, const toml::array& array) {
+  std::vector<double> numbers;
+  for (const toml::node& node : array) {
+    const auto number = node.value<double>();
+    if (!number) refuse(path, "a list", "must be a list of numbers");
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+Rows rows_of(std::string_view path, const toml::array& array) {
+  Rows rows;
+  for (const toml::node& node : array) {
+    if (!node.is_array()) refuse(path, "a list", "must be a list of rows of numbers");
+    rows.push_back(numbers_of(path, *node.as_array()));
+  }
+  return rows;
+}
+
+void choose(const Parameter& parameter, const Choice& choice, Drive& drive, std::string_view path,
+            std::string_view text) {
+  const auto word = std::find(parameter.choices.begin(), parameter.choices.end(), text);
+  if (word == parameter.choices.end()) {
+    const std::vector<std::string> words(parameter.choices.begin(), parameter.choices.end());
+    refuse(path, text, one_of(words, text));
+  }
+  choice.choose(drive, static_cast<std::size_t>(word - parameter.choices.begin()));
+}
+
+}  // namespace
+
+void set(Drive& drive, std::string_view path, std::string_view text) {
+  add_section_of(drive, path);
+  const Parameter& parameter = parameter_of(drive, path);
+  const bool has_index = path.find('[') != std::string_view::npos;
+  const Slot slot = parameter.slot(drive);
+  if (const auto* choice = std::get_if<Choice>(&slot)) {
+    choose(parameter, *choice, drive, path, text);
+  } else if (auto* const* word = std::get_if<std::string*>(&slot)) {
+    **word = std::string(text);
+  } else if (auto* const* list = std::get_if<std::vector<double>*>(&slot); list && !has_index) {
+    const toml::table table = list_of(path, text);
+    **list = numbers_of(path, *table["value"].as_array());
+  } else if (auto* const* rows = std::get_if<Rows*>(&slot); rows && !has_index) {
+    const toml::table table = list_of(path, text);
+    **rows = rows_of(path, *table["value"].as_array());
+  } else {
+    set(drive, path, number_of(parameter, drive, path, text));
+  }
+}
+
+}  // namespace gearlash
