@@ -15,28 +15,32 @@ std::size_t speed_shaft(const Drive& drive) {
 }
 
 std::vector<Parameter> sensor_parameters() {
+  return {{.path = "sensor.position",
+           .slot =
+               [](Drive&) {
+                 return Slot{Choice{[](const Drive& drive) {
+                                      return static_cast<std::size_t>(drive.sensor.position);
+                                    },
+                                    [](Drive& drive, std::size_t choice) {
+                                      drive.sensor.position = static_cast<SensorPlace>(choice);
+                                    }}};
+               },
+           .meaning = "the shaft whose position is measured; both: and the motor's speed",
+           .choices = {"load", "motor", "both"},
+           .other_forms = {{"loop.sensor"}}},
+          {.path = "sensor.speed",
+           .slot =
+               [](Drive&) {
+                 return Slot{Choice{&speed_shaft, [](Drive& drive, std::size_t choice) {
+                                      drive.sensor.speed = static_cast<ShaftName>(choice);
+                                    }}};
+               },
+           .meaning = "the shaft whose speed is fed back",
+           .choices = {"load", "motor"}}};
+}
+
+std::vector<Parameter> encoder_parameters() {
   return {
-      {.path = "sensor.position",
-       .slot =
-           [](Drive&) {
-             return Slot{Choice{
-                 [](const Drive& drive) { return static_cast<std::size_t>(drive.sensor.position); },
-                 [](Drive& drive, std::size_t choice) {
-                   drive.sensor.position = static_cast<SensorPlace>(choice);
-                 }}};
-           },
-       .meaning = "the shaft whose position is measured; both: and the motor's speed",
-       .choices = {"load", "motor", "both"},
-       .other_forms = {{"loop.sensor"}}},
-      {.path = "sensor.speed",
-       .slot =
-           [](Drive&) {
-             return Slot{Choice{&speed_shaft, [](Drive& drive, std::size_t choice) {
-                                  drive.sensor.speed = static_cast<ShaftName>(choice);
-                                }}};
-           },
-       .meaning = "the shaft whose speed is fed back",
-       .choices = {"load", "motor"}},
       {.path = "sensor.counts_per_turn",
        .slot =
            [](Drive& d) {
@@ -362,6 +366,7 @@ std::vector<Parameter> sampling_parameters() {
 
 std::vector<Parameter> control_parameters() {
   std::vector<Parameter> list = sensor_parameters();
+  for (Parameter& parameter : encoder_parameters()) list.push_back(std::move(parameter));
   list.push_back(controller_kind());
   list.push_back(controller_shaft());
   for (auto* part : {&pid_parameters, &other_laws, &matrix_parameters, &sampling_parameters}) {

@@ -96,8 +96,11 @@ std::vector<Parameter> motor_constants() {
            .meaning = "resistance of the winding through which the motor is controlled",
            .permitted = Permitted::positive,
            .is_required = true,
-           .usual = {0.01, 1000.0}},
-          {.path = "motor.torque_per_volt",
+           .usual = {0.01, 1000.0}}};
+}
+
+std::vector<Parameter> two_phase_constants() {
+  return {{.path = "motor.torque_per_volt",
            .slot =
                [](Drive& d) {
                  return d.servo ? Slot{} : slot_of(d.motor.kind, &TwoPhase::torque_per_volt);
@@ -158,7 +161,9 @@ std::vector<Parameter> motor_parameters() {
        .permitted = Permitted::not_negative,
        .is_required = true,
        .usual = {1e-8, 1e-1}}};
-  for (Parameter& constant : motor_constants()) list.push_back(std::move(constant));
+  for (auto* constants : {&motor_constants, &two_phase_constants}) {
+    for (Parameter& constant : (*constants)()) list.push_back(std::move(constant));
+  }
   const std::vector<Parameter> dry = {
       {.path = "motor.coulomb",
        .slot = [](Drive& d) { return of_plant(d, d.motor.friction.coulomb); },

@@ -84,15 +84,21 @@ std::string motion_text(const AnswerReport& report) {
   const auto amplitude = [&](double value) {
     return swing_text(value, report.angle, headline_digits);
   };
+  const auto of_motor = [&](double value) {
+    return "the motor within the gap, " + amplitude(value);
+  };
   if (const Cycle* cycle = report.answer.largest_stable()) {
+    if (is_of_motor_alone(*cycle)) {
+      return of_motor(cycle->motor_amplitude) + pace(report, cycle->period) +
+             ", while the load stands";
+    }
     return amplitude(cycle->amplitude) + pace(report, cycle->period);
   }
   if (report.answer.irregular.empty()) return "amplitude not known";
   const IrregularMotion& motion = report.answer.irregular.front();
   const std::string at = motion.mean_period ? pace(report, *motion.mean_period) : "";
   if (motion.is_motor_alone && motion.motor_amplitude) {
-    return "the motor within the gap, " + amplitude(*motion.motor_amplitude) + at +
-           ", while the load hardly moves";
+    return of_motor(*motion.motor_amplitude) + at + ", while the load hardly moves";
   }
   return "up to " + amplitude(motion.amplitude) + at;
 }
@@ -288,6 +294,11 @@ std::string normal_form_table(const AnswerReport& report) {
 
 std::string starts_text(std::size_t count) {
   return fmt::format("{} start{}", count, count == 1 ? "" : "s");
+}
+
+bool is_of_motor_alone(const Cycle& cycle) {
+  constexpr double unseen = 1e-9;  // of the motor's: rounding moves the load no more
+  return cycle.amplitude <= unseen * cycle.motor_amplitude;
 }
 
 std::string headline(const AnswerReport& report) {

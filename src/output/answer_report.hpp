@@ -26,6 +26,9 @@ struct AnswerReport {
   std::optional<DriveSensitivity> sensitivity{};
 };
 
+/// Whether the motor swings within the gap while the load stands.
+bool is_of_motor_alone(const Cycle& cycle);
+
 /// The answer in one line, numbers and all: "hunts: ±0.0819 rad (4.69°) at 2.26 Hz", "cannot hunt:
 /// growth at rest 0.43 < 1".
 std::string headline(const AnswerReport& report);

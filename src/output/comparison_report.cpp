@@ -32,7 +32,10 @@ std::string time(const ComparisonReport& report, double seconds) {
 
 std::string amplitude_text(const ComparisonReport& report, const SensorCase& one) {
   const Answer& answer = one.report.answer;
-  if (const Cycle* cycle = answer.largest_stable()) return "±" + angle(report, cycle->amplitude);
+  if (const Cycle* cycle = answer.largest_stable()) {
+    if (is_of_motor_alone(*cycle)) return "motor ±" + angle(report, cycle->motor_amplitude);
+    return "±" + angle(report, cycle->amplitude);
+  }
   if (answer.irregular.empty()) return "–";
   return "up to ±" + angle(report, answer.irregular.front().amplitude);
 }

@@ -14,11 +14,12 @@
 #include "output/describe_report.hpp"
 #include "picture/gnuplot.hpp"
 #include "picture/gnuplot_script.hpp"
+#include "picture/nyquist_curves.hpp"
+#include "picture/text_placer.hpp"
 
 namespace gearlash {
 namespace {
 
-using Complex = std::complex<double>;
 using drive::DescribedMotion;
 using drive::DescribedPart;
 using drive::DescribingAnalysis;
@@ -33,135 +34,6 @@ constexpr double frame_width = 0.97 - frame_left;
 constexpr double frame_top = 0.88;
 constexpr double paper_width = 9.0;
 constexpr double paper_height = 7.0;
-
-// ---- the window ---------------------------------------------------------------------------------
-
-/// Both scales are the same; lengths on paper are in heights of the frame.
-struct Window {
-  Complex corner;  ///< left and below
-  double height = 1.0;
-  double aspect = 1.0;  ///< width by height
-
-  Complex on_paper(const Complex& point) const { return (point - corner) / height; }
-  bool holds(const Complex& point, double margin = 0.0) const {
-    const Complex place = on_paper(point);
-    return place.real() >= -margin && place.real() <= aspect + margin && place.imag() >= -margin &&
-           place.imag() <= 1.0 + margin;
-  }
-};
-
-/// Around the points, with a margin about them, and more of the left, where L comes from.
-Window window_around(const std::vector<Complex>& points, double aspect) {
-  Complex low = points.front();
-  Complex high = points.front();
-  for (const Complex& point : points) {
-    low = {std::min(low.real(), point.real()), std::min(low.imag(), point.imag())};
-    high = {std::max(high.real(), point.real()), std::max(high.imag(), point.imag())};
-  }
-  const Complex size = high - low;
-  constexpr double filled = 0.68;  // share of the frame
-  const double height = std::max({size.imag(), size.real() / aspect, 1e-300}) / filled;
-  const Complex spare = Complex{aspect * height, height} - size;
-  return {low - Complex{0.65 * spare.real(), 0.5 * spare.imag()}, height, aspect};
-}
-
-// ---- the curves ---------------------------------------------------------------------------------
-
-struct TracePoint {
-  double parameter;
-  Complex value;
-};
-using Trace = std::vector<TracePoint>;
-using Curve = std::function<Complex(double parameter)>;
-
-/// Appends what lies between two points, so dense that within the window (and a little beyond) no
-/// chord is longer than a hundredth of its height. Parameters are halved by their ratio.
-void refine(const Curve& curve, const Window& window, const TracePoint& from, const TracePoint& to,
-            int depth, Trace& trace) {
-  constexpr double near = 0.3;
-  const bool is_seen = window.holds(from.value, near) || window.holds(to.value, near);
-  const double length = std::abs(to.value - from.value) / window.height;
-  if (depth > 0 && is_seen && length > 0.01) {
-    const double middle = std::sqrt(from.parameter) * std::sqrt(to.parameter);
-    const TracePoint between{middle, curve(middle)};
-    refine(curve, window, from, between, depth - 1, trace);
-    refine(curve, window, between, to, depth - 1, trace);
-    return;
-  }
-  trace.push_back(to);
-}
-
-Trace traced(const Curve& curve, const Window& window, double low, double high) {
-  constexpr int steps = 1500;
-  Trace trace = {{low, curve(low)}};
-  for (int i = 1; i <= steps; ++i) {
-    const double parameter = low * std::pow(high / low, static_cast<double>(i) / steps);
-    refine(curve, window, TracePoint(trace.back()), {parameter, curve(parameter)}, 12, trace);
-  }
-  return trace;
-}
-
-Complex loop_at(const TransferFunction& loop, double frequency) {
-  return frequency_response(loop, frequency).value;
-}
-
-Trace traced_loop(const TransferFunction& loop, const Window& window) {
-  const Bounds range = natural_frequency_range(loop);
-  return traced([&](double frequency) { return loop_at(loop, frequency); }, window, range.low,
-                range.high);
-}
-
-/// What marks of amplitudes count in, and where the curve −1/N begins.
-struct AmplitudeScale {
-  double unit;
-  const char* name;
-  double least;      ///< below it there is no N, or N is 0, or always the same
-  bool is_relative;  ///< marks are multiples that matter, else round numbers
-};
-
-AmplitudeScale scale_of(const Nonlinearity& nonlinearity) {
-  return std::visit(Overloaded{[](const FrictionControlledBacklash& play) -> AmplitudeScale {
-                                 return {0.5 * play.gap, "h", 0.5 * play.gap, true};
-                               },
-                               [](const InertiaControlledBacklash& play) -> AmplitudeScale {
-                                 return {0.5 * play.gap, "h", play.gap / std::numbers::pi, true};
-                               },
-                               [](const Relay&) -> AmplitudeScale {
-                                 return {1.0, "", 0.0, false};
-                               },
-                               [](const RelayWithHysteresis& relay) -> AmplitudeScale {
-                                 return {relay.half_width, "δ", relay.half_width, true};
-                               },
-                               [](const Saturation& saturation) -> AmplitudeScale {
-                                 const double linear = saturation.limit / saturation.slope;
-                                 return {linear, "T_max", linear, true};
-                               },
-                               [](const CoulombFriction&) -> AmplitudeScale {
-                                 return {1.0, "", 0.0, false};
-                               },
-                               [](const DeadZone& zone) -> AmplitudeScale {
-                                 return {zone.half_width, "h", zone.half_width, true};
-                               }},
-                    nonlinearity);
-}
-
-/// Not finite where N is 0 or there is none.
-Complex inverse_gain(const Nonlinearity& nonlinearity, double amplitude) {
-  return -1.0 / describing_gain(nonlinearity, amplitude);
-}
-
-/// The parameter is what the amplitude exceeds the least one by.
-Trace traced_inverse_gain(const Nonlinearity& nonlinearity, const Window& window) {
-  const AmplitudeScale scale = scale_of(nonlinearity);
-  // Without a least amplitude −1/N is proportional to it.
-  const double size =
-      scale.least > 0.0 ? scale.least : window.height / std::abs(inverse_gain(nonlinearity, 1.0));
-  Trace trace =
-      traced([&](double excess) { return inverse_gain(nonlinearity, scale.least + excess); },
-             window, 1e-8 * size, 1e6 * size);
-  for (TracePoint& point : trace) point.parameter += scale.least;
-  return trace;
-}
 
 // ---- the points that matter ---------------------------------------------------------------------
 
@@ -349,83 +221,6 @@ std::vector<CurveMark> amplitude_marks(const DescribingAnalysis& analysis, MarkC
   }
   return marks;
 }
-
-// ---- places for texts ---------------------------------------------------------------------------
-
-struct Box {
-  Complex centre;
-  double half_width;
-  double half_height;
-};
-
-bool overlap(const Box& a, const Box& b) {
-  return std::abs(a.centre.real() - b.centre.real()) < a.half_width + b.half_width &&
-         std::abs(a.centre.imag() - b.centre.imag()) < a.half_height + b.half_height;
-}
-
-/// Puts texts beside their points where they hide least of curves, marks and other texts; on paper.
-class TextPlacer {
- public:
-  TextPlacer(std::vector<Complex> obstacles, double letter, double aspect)
-      : obstacles_(std::move(obstacles)), letter_(letter), aspect_(aspect) {}
-
-  /// Nothing where it would cover another text, unless it must be there.
-  std::optional<Complex> place(const Complex& point, const std::string& text, bool must) {
-    const double bold = must ? 1.17 : 1.0;
-    const double width = bold * letter_ * static_cast<double>(width_of(text));
-    std::optional<Box> best;
-    double least = std::numeric_limits<double>::infinity();
-    for (const double distance : {0.016, 0.034, 0.06}) {
-      for (int direction = 0; direction < 16; ++direction) {
-        const Box box = beside(point, turn * direction / 16.0, distance, width);
-        const double cost = cost_of(box) + 20.0 * distance;
-        if (cost >= least) continue;
-        least = cost;
-        best = box;
-      }
-    }
-    constexpr double of_a_text = 50.0;
-    if (!best || (least >= of_a_text && !must)) return std::nullopt;
-    taken_.push_back(*best);
-    return best->centre;
-  }
-
- private:
-  static std::size_t width_of(const std::string& text) {
-    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-      return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U && c != '_';
-    }));
-  }
-
-  Box beside(const Complex& point, double direction, double distance, double width) const {
-    const double half_width = 0.5 * width;
-    const double half_height = 1.1 * letter_;
-    const Complex way = std::polar(1.0, direction);
-    return {point + Complex{way.real() * (half_width + distance),
-                            way.imag() * (half_height + distance)},
-            half_width, half_height};
-  }
-
-  double cost_of(const Box& box) const {
-    double cost = 0.0;
-    for (const Complex& obstacle : obstacles_) {
-      if (overlap(box, {obstacle, 0.3 * letter_, 0.3 * letter_})) cost += 1.0;
-    }
-    for (const Box& other : taken_) {
-      if (overlap(box, other)) cost += 60.0;
-    }
-    const Complex centre = box.centre;
-    const bool is_inside = centre.real() > box.half_width &&
-                           centre.real() < aspect_ - box.half_width &&
-                           centre.imag() > box.half_height && centre.imag() < 1.0 - box.half_height;
-    return is_inside ? cost : cost + 60.0;
-  }
-
-  std::vector<Complex> obstacles_;
-  std::vector<Box> taken_;
-  double letter_;
-  double aspect_;
-};
 
 /// Mean width of a letter of the labels, in heights of the frame.
 double letter_width(PictureFormat format) {

@@ -1,0 +1,59 @@
+// Curves of a Nyquist picture: the loop's gain and −1/N, traced within a window.
+#pragma once
+
+#include <complex>
+#include <functional>
+#include <vector>
+
+#include "analysis/describing/describing_function.hpp"
+#include "numeric/transfer_function.hpp"
+
+namespace gearlash {
+
+using Complex = std::complex<double>;
+
+/// Both scales are the same; lengths on paper are in heights of the frame.
+struct Window {
+  Complex corner;  ///< left and below
+  double height = 1.0;
+  double aspect = 1.0;  ///< width by height
+
+  Complex on_paper(const Complex& point) const { return (point - corner) / height; }
+  bool holds(const Complex& point, double margin = 0.0) const {
+    const Complex place = on_paper(point);
+    return place.real() >= -margin && place.real() <= aspect + margin && place.imag() >= -margin &&
+           place.imag() <= 1.0 + margin;
+  }
+};
+
+/// Around the points, with a margin about them, and more of the left, where L comes from.
+Window window_around(const std::vector<Complex>& points, double aspect);
+
+struct TracePoint {
+  double parameter;
+  Complex value;
+};
+using Trace = std::vector<TracePoint>;
+
+Complex loop_at(const TransferFunction& loop, double frequency);
+
+/// The parameter is the frequency, rad/s.
+Trace traced_loop(const TransferFunction& loop, const Window& window);
+
+/// What marks of amplitudes count in, and where the curve −1/N begins.
+struct AmplitudeScale {
+  double unit;
+  const char* name;
+  double least;      ///< below it there is no N, or N is 0, or always the same
+  bool is_relative;  ///< marks are multiples that matter, else round numbers
+};
+
+AmplitudeScale scale_of(const Nonlinearity& nonlinearity);
+
+/// −1/N. Not finite where N is 0 or there is none.
+Complex inverse_gain(const Nonlinearity& nonlinearity, double amplitude);
+
+/// The parameter is the amplitude.
+Trace traced_inverse_gain(const Nonlinearity& nonlinearity, const Window& window);
+
+}  // namespace gearlash

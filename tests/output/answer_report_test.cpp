@@ -1,0 +1,75 @@
+// The one report of an answer: its headline in every case.
+#include "output/answer_report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "output/comparison_report.hpp"
+
+namespace gearlash {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+AnswerReport report_of(Verdict verdict) {
+  AnswerReport report;
+  report.drive.gearbox.backlash = 0.01;
+  report.answer.verdict = verdict;
+  report.answer.search = SearchRecord{.watch_time = 10.0, .starts = {{.end = "rest"}}};
+  return report;
+}
+
+AnswerReport report_of(Verdict verdict, const Cycle& cycle) {
+  AnswerReport report = report_of(verdict);
+  report.answer.cycles = {cycle};
+  return report;
+}
+
+constexpr Cycle swing{.amplitude = 0.02, .motor_amplitude = 0.03, .period = 0.5};
+constexpr Cycle ticking{.amplitude = 0.0, .motor_amplitude = 0.004, .period = 0.5};
+
+TEST(Headline, GivesAmplitudeAndFrequency) {
+  EXPECT_EQ(headline(report_of(Verdict::hunts, swing)), "hunts: ±0.02 rad (1.15°) at 2 Hz");
+  AnswerReport normalized = report_of(Verdict::hunts, swing);
+  normalized.is_normalized = true;
+  EXPECT_EQ(headline(normalized), "hunts: ±0.02 rad (1.15°), period 0.5 / ω_n");
+}
+
+TEST(Headline, SaysWhereTheMotorAloneSwings) {
+  EXPECT_EQ(headline(report_of(Verdict::hunts, ticking)),
+            "hunts: the motor within the gap, ±0.004 rad (0.229°) at 2 Hz, while the load stands");
+}
+
+TEST(Headline, OfForcedMotionIsNoHunting) {
+  EXPECT_THAT(headline(report_of(Verdict::forced, swing)), Not(HasSubstr("hunts")));
+}
+
+TEST(Headline, NeedsNoCycle) {
+  EXPECT_EQ(headline(report_of(Verdict::comes_to_rest)), "comes to rest from all 1 start");
+  EXPECT_EQ(headline(report_of(Verdict::runs_away)), "runs away");
+  EXPECT_EQ(headline(report_of(Verdict::undecided)), "undecided");
+  AnswerReport irregular = report_of(Verdict::hunts_irregularly);
+  irregular.answer.irregular = {{.amplitude = 0.02}};
+  EXPECT_EQ(headline(irregular), "hunts irregularly: up to ±0.02 rad (1.15°)");
+}
+
+TEST(AnswerText, ListsUnstableCyclesInALineEach) {
+  Cycle unstable = swing;
+  unstable.stability = Stability::unstable;
+  unstable.multiplier = 1.5;
+  AnswerReport report = report_of(Verdict::comes_to_rest, unstable);
+  EXPECT_THAT(answer_text(report),
+              HasSubstr("\nUnstable limit cycles, on which no motion stays\n  symmetric"));
+}
+
+TEST(Comparison, OfAMotorThatTicksGivesItsAmplitude) {
+  ComparisonReport comparison;
+  comparison.cases.push_back({.place = SensorPlace::motor,
+                              .report = report_of(Verdict::hunts, ticking),
+                              .response = {.step = 0.1, .until = 1.0}});
+  EXPECT_THAT(comparison_text(comparison), HasSubstr("motor ±0.004 rad"));
+}
+
+}  // namespace
+}  // namespace gearlash
