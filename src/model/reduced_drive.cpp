@@ -26,7 +26,7 @@ Drivetrain drivetrain_of(const NormalForm& form, double restitution) {
 }
 
 drive::ShaftFriction referred(const Friction& friction, double ratio) {
-  return {.viscous = friction.viscous * ratio * ratio,
+  return {.viscous = friction.viscous * (ratio * ratio),
           .coulomb = friction.coulomb * ratio,
           .breakaway = friction.breakaway.value_or(friction.coulomb) * ratio};
 }
@@ -99,8 +99,9 @@ drive::Controller reduce(const StateSpaceController& system, double scale) {
 
 /// At the load's shaft, of an encoder on a shaft that turns `ratio` times as far.
 std::optional<double> step_of(const Encoder& encoder, double ratio) {
-  if (encoder.resolution) return *encoder.resolution / ratio;
-  if (encoder.counts_per_turn) return 2.0 * std::numbers::pi / *encoder.counts_per_turn / ratio;
+  const double referred = 1.0 / ratio;
+  if (encoder.resolution) return referred * *encoder.resolution;
+  if (encoder.counts_per_turn) return referred * 2.0 * std::numbers::pi / *encoder.counts_per_turn;
   return std::nullopt;
 }
 
@@ -143,7 +144,7 @@ drive::Drive reduced_plant(const Drive& drive) {
   const double ratio = drive.gearbox.ratio;
   const ReferredOutput output = refer_output(drive);
   drive::Drive reduced;
-  reduced.motor = {drive.motor.inertia * ratio * ratio, referred(drive.motor.friction, ratio)};
+  reduced.motor = {drive.motor.inertia * (ratio * ratio), referred(drive.motor.friction, ratio)};
   reduced.motor.friction.viscous += output.friction;
   reduced.load = {drive.load.inertia, referred(drive.load.friction, 1.0)};
   reduced.backlash = drive.gearbox.backlash;
