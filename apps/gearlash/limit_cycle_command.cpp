@@ -70,7 +70,7 @@ Step step_to_draw(const Work& work) {
   constexpr double turn = 2.0 * std::numbers::pi;
   if (const LimitCycle* cycle = largest_stable(*work.analysis.closed)) {
     // Until a disturbance has died to a hundredth, which the lines of the cycle hide; but of a
-    // cycle that is approached slowly no more than can be told apart.
+    // cycle that is approached slowly no more than can be seen apart.
     const double periods = std::log(0.01) / std::log(std::abs(cycle->multiplier));
     return {rounded(1.8 * std::max(cycle->size, cycle->motor_size)),
             cycle->period * std::clamp(std::ceil(periods), 4.0, 8.0)};

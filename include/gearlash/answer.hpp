@@ -164,7 +164,7 @@ struct Answer {
   std::optional<ProvedBounds> bounds{};
   bool is_dissipative = false;  ///< no restitution can make it hunt
   bool rests_engaged = false;   ///< large motions may end at rest, with the faces together
-  bool neutral_swings = false;  ///< some cycles could not be told from their neighbours
+  bool neutral_swings = false;  ///< some cycles could not be separated from their neighbors
   std::vector<Cycle> cycles{};  ///< by falling amplitude; of a search, stable ones first
   std::optional<Rest> rest{};
   std::vector<IrregularMotion> irregular{};

@@ -188,7 +188,9 @@ ServoOrDriveFile parse_servo_or_drive(std::string_view toml, std::string_view so
                                       const std::vector<Setting>& settings) {
   const WrittenDrive written = parse_drive(toml, source_name, folder, settings);
   const Drive& drive = written.drive;
-  if (!drive.reference && !drive.load_torque) {
+  // A side without inertia, or no gap, is the closed form's alone.
+  const bool has_signals = drive.reference || drive.load_torque;
+  if (!has_signals || !drive::validate(reduce(drive)).empty()) {
     if (std::optional<ServoFile> servo = servo_file_of(written)) return *std::move(servo);
   }
   return DriveFile{.drive = reduce(drive),

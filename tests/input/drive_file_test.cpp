@@ -344,6 +344,13 @@ TEST(EdgeDriveFile, AFaultIsToldOnce) {
               ElementsAre(HasSubstr("sensor.resolution = -1 deg: must be zero or positive")));
 }
 
+TEST(EdgeDriveFile, ASideWithoutInertiaIsTheClosedFormsAlone) {
+  const std::string massless = replaced(plain, "1e-3 kg m2", "0 kg m2") +
+                               "[loop]\nerror_gain = \"3 V/rad\"\n"
+                               "[reference]\nkind = \"constant\"\nvalue = \"1 rad\"\n";
+  EXPECT_TRUE(std::holds_alternative<ServoFile>(parse_servo_or_drive(massless, "drive.toml", ".")));
+}
+
 TEST(EdgeDriveFile, WhatExcludesEachOtherIsTold) {
   EXPECT_THAT(refusals(joint + std::string("[loop]\nerror_gain = \"1 N m/rad\"\n")),
               ElementsAre(HasSubstr("loop")));

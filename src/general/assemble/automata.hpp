@@ -83,7 +83,7 @@ void add_settings(const DriveForms& forms, const DriveClocks& clocks, const Driv
 void add_sampling(const DriveForms& forms, const DriveClocks& clocks, const DriveMode& mode,
                   hybrid::Mode& built);
 
-/// Whether what a sampled controller works out is given out at ticks of its own.
+/// Whether the output of a sampled controller takes force at ticks of its own.
 bool gives_out_between_samples(const Sampling& sampling);
 
 }  // namespace gearlash::drive

@@ -25,7 +25,7 @@ struct StateIndices {
 
   Eigen::Index controller_order = 0;  ///< numbers from `controller_states` on
   Eigen::Index held = none;           ///< torque, of a sampled controller
-  Eigen::Index worked_out = none;     ///< torque, to be given out after the delay
+  Eigen::Index worked_out = none;     ///< torque, in force after the delay
   Eigen::Index last_reading = none;   ///< of the position whose differences are the speed
   Eigen::Index encoder = none;        ///< its reading, under a continuous controller
   Eigen::Index reference = 0;         ///< the first of the reference's generator
