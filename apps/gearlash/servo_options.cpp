@@ -101,19 +101,24 @@ Source source_of(const ServoOptions& options) {
     const std::filesystem::path path = options.file;
     return {read_text_file(path, largest_servo_file), path.string(), path.parent_path()};
   }
-  std::string text = "[servo]\n";
-  for (const NumberOption& option : number_options) {
-    const std::optional<std::string>& typed = options.*option.typed;
-    if (!typed) continue;
-    const bool is_bare = option.typed == &ServoOptions::backlash && read_bare_number("", *typed);
-    if (option.typed == &ServoOptions::restitution) text += "[contact]\n";
-    text += std::string(option.name) + " = '" + *typed + (is_bare ? " rad'\n" : "'\n");
-  }
-  return {text, "the command line", {}};
+  return {"[servo]\n", "the command line", {}};
 }
 
+std::string path_of(const NumberOption& option, bool is_normal_form) {
+  if (option.typed == &ServoOptions::restitution) return "contact.restitution";
+  const bool is_of_plant = option.typed == &ServoOptions::backlash && !is_normal_form;
+  return (is_of_plant ? "gearbox." : "servo.") + std::string(option.name);
+}
+
+/// Of --set; without a file also of the options that describe the normal form.
 std::vector<Setting> settings_of(const ServoOptions& options, Faults& faults) {
   std::vector<Setting> settings;
+  for (const NumberOption& option : number_options) {
+    const std::optional<std::string>& typed = options.*option.typed;
+    if (!typed || !options.file.empty()) continue;
+    const bool is_bare = option.typed == &ServoOptions::backlash && read_bare_number("", *typed);
+    settings.push_back({path_of(option, true), *typed + (is_bare ? " rad" : "")});
+  }
   for (const std::string& text : options.settings) {
     faults.collect([&] { return settings.push_back(read_setting(text)), 0; }, 0);
   }
@@ -123,7 +128,7 @@ std::vector<Setting> settings_of(const ServoOptions& options, Faults& faults) {
 ServoFile read_file(const ServoOptions& options, Faults& faults) {
   const ServoFile stand_in = stand_in_for(options.file);
   const std::vector<Setting> settings = settings_of(options, faults);
-  if (options.file.empty() && settings.empty()) return stand_in;
+  if (options.file.empty() && options.settings.empty()) return stand_in;
   return faults.collect(
       [&] {
         const Source source = source_of(options);
@@ -290,7 +295,7 @@ ServoFile with_options(ServoFile file, const ServoOptions& options, Faults& faul
 ServoOrDriveFile read_either(const ServoOptions& options, Faults& faults) {
   const ServoFile stand_in = stand_in_for(options.file);
   const std::vector<Setting> settings = settings_of(options, faults);
-  if (options.file.empty() && settings.empty()) return stand_in;
+  if (options.file.empty() && options.settings.empty()) return stand_in;
   return faults.collect(
       [&] {
         const Source source = source_of(options);
@@ -361,12 +366,6 @@ std::optional<ServoFile> closed_form_of(DriveFile file) {
 }
 
 namespace {
-
-std::string path_of(const NumberOption& option, bool is_normal_form) {
-  if (option.typed == &ServoOptions::restitution) return "contact.restitution";
-  const bool is_of_plant = option.typed == &ServoOptions::backlash && !is_normal_form;
-  return (is_of_plant ? "gearbox." : "servo.") + std::string(option.name);
-}
 
 /// Faults of what options say, named as they were typed.
 std::vector<Violation> named_as_typed(std::vector<Violation> faults, const ServoOptions& options) {

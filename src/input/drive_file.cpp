@@ -77,11 +77,11 @@ std::vector<VariedNumber> varied_numbers(const WrittenDrive& written) {
   return varied;
 }
 
-/// A value as TOML where it is one of its own, "[1, 2]" or "0.25"; else text: "30 arcmin".
+/// A TOML list, "[1, 2]"; all else is text, which the reader of the key takes: "30 arcmin", "0.25".
 toml::table value_of(const std::string& text) {
   try {
     toml::table table = toml::parse("value = " + text);
-    if (table.size() == 1 && !table["value"].is_table()) return table;
+    if (table.size() == 1 && table["value"].is_array()) return table;
   } catch (const toml::parse_error&) {  // then it is text
   }
   toml::table table;

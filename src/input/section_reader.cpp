@@ -58,6 +58,15 @@ double exact_number(const std::string& field, const toml::node& value) {
   throw InvalidInput({{field, "", "must be a number without unit, such as 0.25 or \"1/9\"", ""}});
 }
 
+bool is_bare_number(const std::string& text) {
+  try {
+    read_number("", text);
+    return true;
+  } catch (const InvalidInput&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 std::string one_of(const std::vector<std::string>& known, std::string_view written) {
@@ -287,6 +296,9 @@ Measured SectionReader::read(const std::string& key, const toml::node& value,
       return {.si = exact_number(name, node), .unit = std::string(expected.unit)};
     }
     const std::optional<std::string> text = node.value_exact<std::string>();
+    if (bare_numbers_ && text && is_bare_number(*text)) {
+      return {.si = read_number(name, *text), .unit = std::string(expected.unit)};
+    }
     if (text) return read_quantity(name, *text, expected);
     throw InvalidInput({{name, "",
                          "must be text of a number and a unit of " + std::string(expected.name) +

@@ -45,6 +45,16 @@ TEST(BadInput, EveryFaultOfTheOptionsIsListed) {
                   "gearlash: --until = 0: must be positive, in 1/ω_n"));
 }
 
+TEST(BadInput, WhatIsTypedIsNeverReadAsAFile) {
+  const auto damping = [](const std::string& typed) {
+    return faults({"limit-cycle", "--damping", typed, "--inertia-ratio", "1", "--friction-ratio",
+                   "0.5", "--backlash", "0.1"});
+  };
+  for (const std::string typed : {"0'1", "0.1'\nbacklash = '1", "0x1", "true", "[0.1]"}) {
+    EXPECT_THAT(damping(typed), ElementsAre(StartsWith("gearlash: --damping = "))) << typed;
+  }
+}
+
 TEST(BadInput, SensorOnTheMotorIsRefusedInClearWords) {
   EXPECT_THAT(faults({"map", "--x", "damping=0.1:0.2:3", "--y", "friction-ratio=0.1:0.2:3",
                       "--sensor", "motor", "--output", "map.csv", "examples/elinco-fd162.toml"}),
