@@ -119,9 +119,9 @@ std::string draw(const DescribeReport& report, const DescribeOptions& options,
   if (drawn.empty()) {
     throw InvalidInput(
         {options.part.empty()
-             ? Violation{"--plot", shown(options.plot), "must be left out: nothing is fed back", ""}
-             : Violation{"--part", shown(options.part),
-                         "must be a part that the drive has within its loop", ""}});
+             ? Fault{"--plot", shown(options.plot), "must be left out: nothing is fed back", ""}
+             : Fault{"--part", shown(options.part),
+                     "must be a part that the drive has within its loop", ""}});
   }
   return draw_nyquist({.title = title_of(drawn.front().part),
                        .analyses = drawn,

@@ -82,10 +82,9 @@ Picture read_picture(const DesignOptions& options, Faults& faults) {
     if (options.cost == name_of(cost)) picture.cost = cost;
   }
   if (options.plot.empty() != options.vary.empty()) {
-    faults.add(
-        options.plot.empty()
-            ? Violation{"--plot", "", "must name a picture of what --vary varies", ""}
-            : Violation{"--vary", "", "must name two parameters, over which --plot draws", ""});
+    faults.add(options.plot.empty()
+                   ? Fault{"--plot", "", "must name a picture of what --vary varies", ""}
+                   : Fault{"--vary", "", "must name two parameters, over which --plot draws", ""});
   }
   const bool are_two = options.vary.size() == 2 && options.vary[0] != options.vary[1];
   if (!options.vary.empty() && !are_two) {

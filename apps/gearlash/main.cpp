@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/violation.hpp"
+#include "base/fault.hpp"
 #include "command.hpp"
 #include "gearlash/version.hpp"
 #include "input/section_reader.hpp"

@@ -55,19 +55,19 @@ void apply(const ServoOptions& options, const NumberOption& option, ServoFile& f
 }
 
 /// A fault of a number that was typed is named as it was typed.
-std::vector<Violation> faults_of_servo(const NormalizedServo& servo, const ServoOptions& options) {
-  std::vector<Violation> violations = validate(servo);
-  for (Violation& violation : violations) {
+std::vector<Fault> faults_of_servo(const NormalizedServo& servo, const ServoOptions& options) {
+  std::vector<Fault> faults = validate(servo);
+  for (Fault& fault : faults) {
     for (const NumberOption& option : number_options) {
-      if (violation.field == option.name && options.*option.typed) {
-        violation.field = option_name(option.name);
-        violation.value = shown(*(options.*option.typed));
+      if (fault.path == option.name && options.*option.typed) {
+        fault.path = option_name(option.name);
+        fault.value = shown(*(options.*option.typed));
         break;
       }
     }
-    if (violation.field == "sensor" && options.sensor) violation.field = "--sensor";
+    if (fault.path == "sensor" && options.sensor) fault.path = "--sensor";
   }
-  return violations;
+  return faults;
 }
 
 /// A sound servo in the place of the file, so that the options can be checked. Of a file that
@@ -368,20 +368,20 @@ std::optional<ServoFile> closed_form_of(DriveFile file) {
 namespace {
 
 /// Faults of what options say, named as they were typed.
-std::vector<Violation> named_as_typed(std::vector<Violation> faults, const ServoOptions& options) {
+std::vector<Fault> named_as_typed(std::vector<Fault> faults, const ServoOptions& options) {
   const bool has_file = !options.file.empty();
-  for (Violation& fault : faults) {
+  for (Fault& fault : faults) {
     if (!has_file) fault.where.clear();
-    if (options.sensor && (fault.field == "sensor.position" || fault.field == "loop.sensor")) {
-      fault.field = "--sensor";
+    if (options.sensor && (fault.path == "sensor.position" || fault.path == "loop.sensor")) {
+      fault.path = "--sensor";
       fault.where.clear();
     }
     for (const NumberOption& option : number_options) {
       const std::optional<std::string>& typed = options.*option.typed;
-      const bool is_it = fault.field == path_of(option, true) ||
-                         fault.field == path_of(option, false) || fault.field == option.name;
+      const bool is_it = fault.path == path_of(option, true) ||
+                         fault.path == path_of(option, false) || fault.path == option.name;
       if (!is_it || (has_file && !typed)) continue;
-      fault.field = option_name(option.name);
+      fault.path = option_name(option.name);
       fault.where.clear();
       if (typed) {
         fault.value = shown(*typed);
@@ -461,7 +461,7 @@ std::optional<WrittenDrive> resolve_drive(const ServoOptions& options, Faults& f
   try {
     return read_drive_as_typed(options, std::move(settings));
   } catch (const InvalidInput& error) {
-    faults.add(named_as_typed(error.violations(), options));
+    faults.add(named_as_typed(error.faults(), options));
     return std::nullopt;
   }
 }

@@ -46,9 +46,9 @@ void add_set_option(CLI::App& command, ServoOptions& options);
 /// Collects the faults of a command line, so that all of them are reported at once.
 class Faults {
  public:
-  void add(Violation violation) { violations_.push_back(std::move(violation)); }
-  void add(const std::vector<Violation>& violations) {
-    violations_.insert(violations_.end(), violations.begin(), violations.end());
+  void add(Fault fault) { faults_.push_back(std::move(fault)); }
+  void add(const std::vector<Fault>& faults) {
+    faults_.insert(faults_.end(), faults.begin(), faults.end());
   }
   /// What `read` returns, or `otherwise` when it throws InvalidInput, whose faults are kept.
   template <class Read, class Value>
@@ -56,7 +56,7 @@ class Faults {
     try {
       return read();
     } catch (const InvalidInput& error) {
-      add(error.violations());
+      add(error.faults());
       return otherwise;
     }
   }
@@ -67,11 +67,11 @@ class Faults {
   /// `input`, the files that it names (tables of signals), and `outputs`, each with what it is for.
   /// Empty names, "-" and devices are no matter.
   void require_distinct(const FileUse& input, const std::vector<FileUse>& outputs);
-  bool none() const { return violations_.empty(); }
-  void require_none() const { gearlash::require_none(violations_); }
+  bool none() const { return faults_.empty(); }
+  void require_none() const { gearlash::require_none(faults_); }
 
  private:
-  std::vector<Violation> violations_;
+  std::vector<Fault> faults_;
 };
 
 /// A finite number in the unit of a report, SI with a natural frequency and normalised without; or

@@ -160,7 +160,7 @@ struct Drive {
 
 /// Every value outside its permitted range, every rule between values that does not hold. Empty for
 /// a sound drive.
-[[nodiscard]] std::vector<Violation> faults(const Drive& drive);
+[[nodiscard]] std::vector<Fault> faults(const Drive& drive);
 
 /// The servo with ω_n = 1 rad/s, K = 1 N m/rad and J_M + J_L = 1 kg m²; see NormalForm.
 [[nodiscard]] Drive normal_form(double damping, double inertia_ratio, double friction_ratio,

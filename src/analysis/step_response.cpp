@@ -127,7 +127,7 @@ hybrid::Trajectory step_motion(Drive drive, double step, double until) {
     check.refuse("step", exact_text(step), "must be finite and not 0, rad");
   }
   check.positive("until", until, "s");
-  require_none(check.violations());
+  require_none(check.faults());
   drive.reference = step;
   const DriveSystem system = drive_system(drive);
   const double way = step < 0.0 ? -1.0 : 1.0;

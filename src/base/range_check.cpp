@@ -25,8 +25,7 @@ std::string exact_text(double value) {
 
 RangeCheck& RangeCheck::refuse(std::string_view field, std::string_view value,
                                std::string_view permitted) {
-  violations_.push_back(
-      {prefix_ + std::string(field), std::string(value), std::string(permitted), ""});
+  faults_.push_back({prefix_ + std::string(field), std::string(value), std::string(permitted), ""});
   return *this;
 }
 
@@ -49,8 +48,8 @@ RangeCheck& RangeCheck::outside(std::string_view field, double value, double low
                 "must be from " + exact_text(low) + " to " + exact_text(high));
 }
 
-RangeCheck& RangeCheck::include(std::vector<Violation> others) {
-  violations_.insert(violations_.end(), others.begin(), others.end());
+RangeCheck& RangeCheck::include(std::vector<Fault> others) {
+  faults_.insert(faults_.end(), others.begin(), others.end());
   return *this;
 }
 

@@ -1,18 +1,18 @@
-// Checks of numbers against permitted ranges, collected into one list of violations.
+// Checks of numbers against permitted ranges, collected into one list of faults.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "base/violation.hpp"
+#include "base/fault.hpp"
 
 namespace gearlash {
 
 /// Shortest decimal text that reads back as exactly the same double; "inf", "-inf", "nan".
 std::string exact_text(double value);
 
-/// Gathers violations of one struct's fields; `prefix` is put before each field's name.
+/// Gathers faults of one struct's fields; `prefix` is put before each field's name.
 class RangeCheck {
  public:
   explicit RangeCheck(std::string_view prefix = {}) : prefix_(prefix) {}
@@ -25,16 +25,16 @@ class RangeCheck {
   }
   RangeCheck& refuse(std::string_view field, std::string_view value, std::string_view permitted);
 
-  /// Adds the violations of another check.
-  RangeCheck& include(std::vector<Violation> others);
+  /// Adds the faults of another check.
+  RangeCheck& include(std::vector<Fault> others);
 
-  std::vector<Violation> violations() const { return violations_; }
+  std::vector<Fault> faults() const { return faults_; }
 
  private:
   RangeCheck& outside(std::string_view field, double value, double low, double high);
 
   std::string prefix_;
-  std::vector<Violation> violations_;
+  std::vector<Fault> faults_;
 };
 
 }  // namespace gearlash

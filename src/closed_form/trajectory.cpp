@@ -39,8 +39,8 @@ double gap_allowance(const ServoState& state) {
          std::max(std::abs(state.motor_position), std::abs(state.load_position));
 }
 
-std::vector<Violation> validate_start(const NormalizedServo& servo, const ServoState& initial,
-                                      const SimulationOptions& options) {
+std::vector<Fault> validate_start(const NormalizedServo& servo, const ServoState& initial,
+                                  const SimulationOptions& options) {
   constexpr double largest = 1e100;  // squares and cubes stay finite
   RangeCheck check;
   check.include(validate(servo));
@@ -57,7 +57,7 @@ std::vector<Violation> validate_start(const NormalizedServo& servo, const ServoS
     check.refuse("initial.motor_position - initial.load_position", exact_text(gap),
                  "must be from -" + half + " to " + half + " (half the backlash each way)");
   }
-  return check.violations();
+  return check.faults();
 }
 
 /// A gap within rounding of a face is on it.

@@ -125,7 +125,7 @@ ServoState engaged_start(const NormalizedServo& servo, double load_position, dou
 /// (first_contact.hpp, engaged_flow.hpp); where rounding decides touches() says so.
 /// Permitted: positions, speeds and reference from −1e100 to 1e100, the gap from −b/2 to b/2 (to
 /// rounding), options.until from 0 to longest_simulation. Throws InvalidInput that lists every
-/// violation, those of the servo included.
+/// fault, those of the servo included.
 Trajectory simulate(const NormalizedServo& servo, const ServoState& initial,
                     const SimulationOptions& options);
 

@@ -325,7 +325,7 @@ Branch continue_orbit(const Family& family, double parameter, const PeriodicOrbi
     check.refuse("parameter", exact_text(parameter),
                  "must be within options.low and options.high, which rise: " +
                      exact_text(options.low) + " … " + exact_text(options.high));
-    require_none(check.violations());
+    require_none(check.faults());
   }
   return Continuation(family, parameter, orbit, options).run();
 }

@@ -12,7 +12,7 @@ class Inspection {
  public:
   explicit Inspection(const HybridSystem& system) : system_(system), size_(system.size()) {}
 
-  std::vector<Violation> of_system() {
+  std::vector<Fault> of_system() {
     if (size_ == 0) note("state_names", "", "must name at least one number");
     if (system_.mode_count() == 0) note("modes", "", "must be at least one");
     if (system_.source && !system_.modes.empty()) {
@@ -27,7 +27,7 @@ class Inspection {
     return std::move(faults_);
   }
 
-  std::vector<Violation> of_mode(std::size_t index) {
+  std::vector<Fault> of_mode(std::size_t index) {
     inspect(system_.mode(index));
     return std::move(faults_);
   }
@@ -158,7 +158,7 @@ class Inspection {
 
   const HybridSystem& system_;
   Eigen::Index size_;
-  std::vector<Violation> faults_;
+  std::vector<Fault> faults_;
 };
 
 }  // namespace
@@ -178,9 +178,9 @@ Matrix Reset::slope(Eigen::Index size) const {
   return matrix.size() == 0 ? Matrix(Matrix::Identity(size, size)) : matrix;
 }
 
-std::vector<Violation> faults(const HybridSystem& system) { return Inspection(system).of_system(); }
+std::vector<Fault> faults(const HybridSystem& system) { return Inspection(system).of_system(); }
 
-std::vector<Violation> faults_of_mode(const HybridSystem& system, std::size_t index) {
+std::vector<Fault> faults_of_mode(const HybridSystem& system, std::size_t index) {
   return Inspection(system).of_mode(index);
 }
 

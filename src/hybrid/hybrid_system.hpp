@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/violation.hpp"
+#include "base/fault.hpp"
 #include "hybrid/mode_source.hpp"
 
 namespace gearlash::hybrid {
@@ -138,8 +138,8 @@ struct HybridSystem {
 /// Every fault: shapes that do not agree, indices out of range, numbers that are not finite, clocks
 /// that go backwards. Empty where there is none. Each names what it is of. Modes of a source are
 /// not made for it: a motion looks for their faults when it first enters them.
-std::vector<Violation> faults(const HybridSystem& system);
+std::vector<Fault> faults(const HybridSystem& system);
 /// Of one mode. Precondition: index < system.mode_count().
-std::vector<Violation> faults_of_mode(const HybridSystem& system, std::size_t index);
+std::vector<Fault> faults_of_mode(const HybridSystem& system, std::size_t index);
 
 }  // namespace gearlash::hybrid

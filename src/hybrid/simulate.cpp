@@ -14,8 +14,8 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-std::vector<Violation> faults_of(const HybridSystem& system, const State& start,
-                                 const SimulationOptions& options) {
+std::vector<Fault> faults_of(const HybridSystem& system, const State& start,
+                             const SimulationOptions& options) {
   RangeCheck check;
   if (start.mode >= system.mode_count()) {
     check.refuse("start.mode", std::to_string(start.mode),
@@ -32,7 +32,7 @@ std::vector<Violation> faults_of(const HybridSystem& system, const State& start,
     check.refuse("options.until", exact_text(options.until),
                  "must be finite and at least options.from");
   }
-  return check.violations();
+  return check.faults();
 }
 
 }  // namespace
@@ -366,7 +366,7 @@ Trajectory simulate(const HybridSystem& system, const State& start,
                     const SimulationOptions& options) {
   RangeCheck check;
   check.include(faults(system)).include(faults_of(system, start, options));
-  require_none(check.violations());
+  require_none(check.faults());
   return Simulation(std::make_shared<const Preparation>(system), start, options).run();
 }
 

@@ -321,8 +321,8 @@ class DriveReader {
     if (!value) return;
     RangeCheck check;
     check_number(check, parameter, value->si, dimension->unit);
-    if (!check.violations().empty()) {
-      section.refuse(key.name, check.violations().front().permitted);
+    if (!check.faults().empty()) {
+      section.refuse(key.name, check.faults().front().permitted);
     }
   }
 
@@ -339,8 +339,8 @@ class DriveReader {
       table.file = file;
       signal = std::move(table);
     } catch (const InvalidInput& problem) {
-      const Violation& fault = problem.violations().front();
-      const bool is_read = fault.field != "file";
+      const Fault& fault = problem.faults().front();
+      const bool is_read = fault.path != "file";
       section.refuse(std::string(parameter.key()),
                      is_read ? "holds " + to_string(fault) : fault.permitted);
     }

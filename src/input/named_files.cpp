@@ -3,7 +3,7 @@
 #include <optional>
 #include <system_error>
 
-#include "base/violation.hpp"
+#include "base/fault.hpp"
 #include "input/servo_file.hpp"
 #include "input/text_file.hpp"
 #include "input/toml_document.hpp"

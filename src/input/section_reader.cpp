@@ -95,17 +95,17 @@ void Findings::refuse(Place place, const std::string& field, const std::string& 
   found_.push_back({place, {field, value, permitted, document_.where(place)}});
 }
 
-void Findings::take(const std::vector<Violation>& violations,
+void Findings::take(const std::vector<Fault>& faults,
                     const std::function<std::string(const std::string&)>& field_of,
                     Place otherwise) {
   const bool complete = none();
-  for (const Violation& violation : violations) {
-    const std::string field = field_of(violation.field);
+  for (const Fault& fault : faults) {
+    const std::string field = field_of(fault.path);
     const auto value = values_.find(field);
     if (value != values_.end()) {
-      refuse(field, *value->second, violation.permitted);
+      refuse(field, *value->second, fault.permitted);
     } else if (complete) {
-      refuse(otherwise, field, violation.value, violation.permitted);
+      refuse(otherwise, field, fault.value, fault.permitted);
     }
   }
 }
@@ -115,9 +115,9 @@ void Findings::require_none() {
     return std::pair(one.place.line, one.place.column) <
            std::pair(other.place.line, other.place.column);
   });
-  std::vector<Violation> violations;
-  for (Found& found : found_) violations.push_back(std::move(found.violation));
-  gearlash::require_none(std::move(violations));
+  std::vector<Fault> faults;
+  for (Found& found : found_) faults.push_back(std::move(found.fault));
+  gearlash::require_none(std::move(faults));
 }
 
 SectionReader::SectionReader(const TomlDocument& document, Findings& findings, std::string name,
@@ -220,7 +220,7 @@ std::vector<double> SectionReader::read_list(const std::string& name, const toml
     try {
       list.push_back(exact_number(element, node));
     } catch (const InvalidInput& problem) {
-      findings_.refuse(element, node, problem.violations().front().permitted);
+      findings_.refuse(element, node, problem.faults().front().permitted);
       list.push_back(placeholder_number);
     }
   }
@@ -329,7 +329,7 @@ Measured SectionReader::read(const std::string& key, const toml::node& value,
     findings_.remember(name, value);
     return read.nominal;
   } catch (const InvalidInput& problem) {
-    findings_.refuse(field(key), value, problem.violations().front().permitted);
+    findings_.refuse(field(key), value, problem.faults().front().permitted);
     return {.si = placeholder};
   }
 }

@@ -10,14 +10,14 @@
 #include <vector>
 
 #include "analysis/design/toleranced_drive.hpp"
-#include "base/violation.hpp"
+#include "base/fault.hpp"
 #include "input/toleranced_value.hpp"
 #include "input/toml_document.hpp"
 #include "input/units.hpp"
 
 namespace gearlash {
 
-/// The violations of one file. A field is reported once, whoever finds it at fault first.
+/// The faults of one file. A field is reported once, whoever finds it at fault first.
 class Findings {
  public:
   explicit Findings(const TomlDocument& document) : document_(document) {}
@@ -34,7 +34,7 @@ class Findings {
   /// Takes what validate() found, each at the value remembered under the name that `field_of` gives
   /// it. Findings about no value of the file follow from several: they are told at `otherwise`, and
   /// only where every value could be read, since placeholders could have caused them.
-  void take(const std::vector<Violation>& violations,
+  void take(const std::vector<Fault>& faults,
             const std::function<std::string(const std::string&)>& field_of, Place otherwise);
 
   bool none() const { return found_.empty(); }
@@ -44,7 +44,7 @@ class Findings {
  private:
   struct Found {
     Place place;
-    Violation violation;
+    Fault fault;
   };
 
   const TomlDocument& document_;

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "analysis/design/toleranced_drive.hpp"
-#include "base/violation.hpp"
+#include "base/fault.hpp"
 #include "model/datasheet.hpp"
 #include "model/drivetrain.hpp"
 #include "model/normalized_servo.hpp"
@@ -52,11 +52,11 @@ inline constexpr std::size_t largest_servo_file = 1024 * 1024;  ///< bytes
 /// docs/drives.md. `source_name` is what error lines call the text; `settings` take the place of
 /// what it says, and their faults are located at "--set".
 ///
-/// Throws InvalidInput, and nothing else but std::bad_alloc. It lists every violation, in the order
+/// Throws InvalidInput, and nothing else but std::bad_alloc. It lists every fault, in the order
 /// of the file, each located at the value at fault, or at the header of the section where a key is
 /// missing: unknown sections and keys (with the nearest known one), missing ones, values of another
 /// type, units or dimension, values out of range. Text that is not TOML, not UTF-8 or too long is
-/// one violation.
+/// one fault.
 ServoFile parse_servo(std::string_view toml, std::string_view source_name,
                       const std::filesystem::path& folder = {},
                       const std::vector<Setting>& settings = {});

@@ -9,7 +9,7 @@
 namespace gearlash {
 
 /// A CSV file of two columns, times and `values`, whose first row names them with their units;
-/// lines that begin with # are remarks. Throws InvalidInput with one violation, of "file" where the
+/// lines that begin with # are remarks. Throws InvalidInput with one fault, of "file" where the
 /// file cannot be read.
 TableSignal read_signal_table(const std::filesystem::path& path, const Dimension& values);
 

@@ -65,7 +65,7 @@ class SweepReader {
         axes.push_back(read_axis(field, texts[i]));
         axis_fields_.push_back(field);
       } catch (const InvalidInput& fault) {
-        findings_.take(fault.violations(), &same_field, section.place());
+        findings_.take(fault.faults(), &same_field, section.place());
       }
     }
     return axes;

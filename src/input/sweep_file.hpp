@@ -26,7 +26,7 @@ inline constexpr std::size_t largest_sweep_file = 1024 * 1024;  ///< bytes
 /// last varying fastest, `quantities`, a list of names, and `verdicts`,
 /// "computed" or "proved"; and the sections of a servo file, in
 /// which [servo] leaves out what is varied, and the backlash where sizes are to be in backlashes
-/// (docs/command-line.md). Throws InvalidInput with every violation, as parse_servo() does.
+/// (docs/command-line.md). Throws InvalidInput with every fault, as parse_servo() does.
 SweepFile parse_sweep(std::string_view toml, std::string_view source_name);
 
 /// parse_sweep of what the file holds.

@@ -70,16 +70,16 @@ class TargetReader {
       if (!parts || parts->limit.empty()) refuse(condition, forms);
       add(condition, *parts);
     } catch (const InvalidInput& error) {
-      violations_.insert(violations_.end(), error.violations().begin(), error.violations().end());
+      faults_.insert(faults_.end(), error.faults().begin(), error.faults().end());
     }
   }
 
   Target target() {
-    for (Violation& violation : validate(target_)) {
-      violation.field = field_;
-      violations_.push_back(std::move(violation));
+    for (Fault& fault : validate(target_)) {
+      fault.path = field_;
+      faults_.push_back(std::move(fault));
     }
-    require_none(std::move(violations_));
+    require_none(std::move(faults_));
     return target_;
   }
 
@@ -133,7 +133,7 @@ class TargetReader {
   std::string field_;
   TimeScale time_scale_;
   Target target_;
-  std::vector<Violation> violations_;
+  std::vector<Fault> faults_;
 };
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <iostream>
 #include <system_error>
 
-#include "base/violation.hpp"
+#include "base/fault.hpp"
 #include "input/units.hpp"
 
 namespace gearlash {

@@ -26,7 +26,7 @@ using ExactReader = std::function<Measured(const std::string& field, const toml:
 ///   { value = A, normal = B }           Gauss's with standard deviation B, with min and max too
 ///   { min = A, max = B }                uniform between; value = nominal, or their middle
 ///   { lots = [A, { value = B, weight = 3 }] }   nominal: the first of the heaviest
-/// Throws InvalidInput with one violation.
+/// Throws InvalidInput with one fault.
 TolerancedValue read_toleranced(const std::string& field, const toml::node& value,
                                 const ExactReader& read_exact);
 

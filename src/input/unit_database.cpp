@@ -10,7 +10,7 @@
 #include <optional>
 #include <string_view>
 
-#include "base/violation.hpp"
+#include "base/fault.hpp"
 
 namespace gearlash {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "base/violation.hpp"
+#include "base/fault.hpp"
 #include "model/dimension.hpp"
 
 namespace gearlash {
@@ -23,7 +23,7 @@ struct Measured {
 /// nothing is converted by its reciprocal, an offset or a logarithm. Where a radian may be left
 /// out, time must then be in seconds, since "V min" could be per rad/min or per rpm.
 ///
-/// Throws InvalidInput with one violation, of `field`, for a text that is no number and unit,
+/// Throws InvalidInput with one fault, of `field`, for a text that is no number and unit,
 /// for an unknown unit, another dimension, or a value that is not representable. UDUNITS-2 is not
 /// thread-safe: calls are serialised here, but do not call it yourself at the same time.
 Measured read_quantity(std::string_view field, std::string_view text, const Dimension& expected);
@@ -32,7 +32,7 @@ Measured read_quantity(std::string_view field, std::string_view text, const Dime
 double to_si(std::string_view field, std::string_view text, const Dimension& expected);
 
 /// A dimensionless number: decimal ("0.19", "1e-3"), a fraction of two ("1/9", "43:1"), or "inf".
-/// Throws InvalidInput with one violation, of `field`, for anything else (NaN, hexadecimal, 1e999,
+/// Throws InvalidInput with one fault, of `field`, for anything else (NaN, hexadecimal, 1e999,
 /// 1/0).
 double read_number(std::string_view field, std::string_view text);
 

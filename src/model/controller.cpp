@@ -150,8 +150,8 @@ void inspect(RangeCheck& check, const LeadLag& controller) {
 }
 
 void expect_proper(RangeCheck& check, const TransferFunction& function) {
-  std::vector<Violation> faults = validate(function);
-  for (Violation& fault : faults) fault.field = "controller." + fault.field;
+  std::vector<Fault> faults = validate(function);
+  for (Fault& fault : faults) fault.path = "controller." + fault.path;
   check.include(faults);
   if (!faults.empty()) return;
   const std::size_t numerator = without_leading_zeros(function.numerator).size();
@@ -211,10 +211,10 @@ void inspect(RangeCheck& check, const LinearController& controller) {
 
 }  // namespace
 
-std::vector<Violation> validate(const Controller& controller) {
+std::vector<Fault> validate(const Controller& controller) {
   RangeCheck check("controller.");
   std::visit([&](const auto& one) { inspect(check, one); }, controller);
-  return check.violations();
+  return check.faults();
 }
 
 LinearController linear_controller(const Controller& controller) {

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/violation.hpp"
+#include "base/fault.hpp"
 #include "numeric/transfer_function.hpp"
 
 namespace gearlash::drive {
@@ -76,9 +76,9 @@ struct SampledTransfer {
 using Controller = std::variant<ProportionalDerivative, ProportionalIntegralDerivative, Cascade,
                                 LeadLag, ErrorTransfer, LinearController, SampledTransfer>;
 
-/// Every violation of the ranges above, of shapes that do not agree, of a transfer function that is
+/// Every fault of the ranges above, of shapes that do not agree, of a transfer function that is
 /// not proper. Gains may have any sign: what they do is the user's.
-std::vector<Violation> validate(const Controller& controller);
+std::vector<Fault> validate(const Controller& controller);
 
 /// Precondition: validate(controller) is empty. A SampledTransfer is one from sample to sample,
 /// sampled_controller().

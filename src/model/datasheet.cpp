@@ -10,7 +10,7 @@
 namespace gearlash {
 namespace {
 
-std::vector<Violation> validate(const SheetMotor& motor) {
+std::vector<Fault> validate(const SheetMotor& motor) {
   RangeCheck check("motor.");
   std::visit(
       [&](const auto& any) {
@@ -33,7 +33,7 @@ std::vector<Violation> validate(const SheetMotor& motor) {
                    check.not_negative("torque_per_speed", two_phase.torque_per_speed, "N m s/rad");
                  }},
       motor);
-  return check.violations();
+  return check.faults();
 }
 
 /// What the numbers at the load shaft are made of, for an author who has given none of them.
@@ -50,20 +50,20 @@ constexpr std::array origins = {
 
 }  // namespace
 
-std::vector<Violation> named_for_datasheet(std::vector<Violation> violations) {
-  for (Violation& violation : violations) {
+std::vector<Fault> named_for_datasheet(std::vector<Fault> faults) {
+  for (Fault& fault : faults) {
     for (const Origin& origin : origins) {
-      if (violation.field != origin.field) continue;
-      violation.permitted += "; it is " + std::string(origin.made_of);
+      if (fault.path != origin.field) continue;
+      fault.permitted += "; it is " + std::string(origin.made_of);
     }
-    if (violation.field == "backlash") violation.field = "gearbox.backlash";
-    if (violation.field == "restitution") violation.field = "contact.restitution";
-    if (violation.field == "sensor") violation.field = "loop.sensor";
+    if (fault.path == "backlash") fault.path = "gearbox.backlash";
+    if (fault.path == "restitution") fault.path = "contact.restitution";
+    if (fault.path == "sensor") fault.path = "loop.sensor";
   }
-  return violations;
+  return faults;
 }
 
-std::vector<Violation> validate(const Datasheet& datasheet) {
+std::vector<Fault> validate(const Datasheet& datasheet) {
   RangeCheck check;
   check.include(validate(datasheet.motor));
   check.positive("gearbox.ratio", datasheet.gearbox.ratio, "");
@@ -75,7 +75,7 @@ std::vector<Violation> validate(const Datasheet& datasheet) {
   if (datasheet.loop.sensor != ShaftName::load) {
     check.refuse("loop.sensor", "motor", "must be " + permitted_values("sensor"));
   }
-  if (!check.violations().empty()) return check.violations();
+  if (!check.faults().empty()) return check.faults();
   return named_for_datasheet(validate(to_drivetrain_sound(datasheet)));
 }
 

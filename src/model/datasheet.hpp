@@ -79,10 +79,10 @@ struct Datasheet {
 };
 
 /// Names of the fields of a data sheet for those that a drivetrain or its normal form reports.
-std::vector<Violation> named_for_datasheet(std::vector<Violation> violations);
+std::vector<Fault> named_for_datasheet(std::vector<Fault> faults);
 
-/// Every violation, field by field ("motor.resistance", …).
-std::vector<Violation> validate(const Datasheet& datasheet);
+/// Every fault, field by field ("motor.resistance", …).
+std::vector<Fault> validate(const Datasheet& datasheet);
 
 /// The parts of the motor's contribution at the load shaft, in SI (Appendix A, steps 1 to 5).
 struct ReferredMotor {
@@ -97,7 +97,7 @@ struct ReferredMotor {
 ///   two-phase K = K_e K₃ n, F₁ = K_N n² (the thesis writes K_e and K_N for n = 1, K₃ = 1 V/rad).
 ReferredMotor refer_to_load(const Datasheet& datasheet);
 
-/// The drivetrain of a sound data sheet. Throws InvalidInput with every violation.
+/// The drivetrain of a sound data sheet. Throws InvalidInput with every fault.
 Drivetrain to_drivetrain(const Datasheet& datasheet);
 
 /// to_drivetrain() without its checks, for a data sheet that is known to be sound.

@@ -50,13 +50,13 @@ void check_sampling(RangeCheck& all, const Drive& drive) {
   const Sampling& sampling = *drive.sampling;
   RangeCheck check("sampling.");
   check.positive("period", sampling.period, "s");
-  if (!check.violations().empty()) return void(all.include(check.violations()));
+  if (!check.faults().empty()) return void(all.include(check.faults()));
   if (!(sampling.delay >= 0.0 && sampling.delay <= sampling.period)) {
     check.refuse("delay", exact_text(sampling.delay),
                  "must be from 0 to the period, " + exact_text(sampling.period) + " s");
   }
-  all.include(check.violations());
-  const bool is_told = of_samples != nullptr || !check.violations().empty();
+  all.include(check.faults());
+  const bool is_told = of_samples != nullptr || !check.faults().empty();
   if (is_told || !validate(drive.controller).empty()) return;
   const double radius = spectral_radius(sampled_controller(drive.controller, sampling));
   if (radius <= largest_radius) return;
@@ -68,7 +68,7 @@ void check_sampling(RangeCheck& all, const Drive& drive) {
 
 }  // namespace
 
-std::vector<Violation> validate(const Drive& drive) {
+std::vector<Fault> validate(const Drive& drive) {
   RangeCheck all;
   check(all, "motor", drive.motor);
   check(all, "load", drive.load);
@@ -94,7 +94,7 @@ std::vector<Violation> validate(const Drive& drive) {
   all.include(validate(drive.reference, "reference"));
   all.include(validate(drive.load_torque, "load_torque"));
   check_sampling(all, drive);
-  return all.violations();
+  return all.faults();
 }
 
 }  // namespace gearlash::drive

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/violation.hpp"
+#include "base/fault.hpp"
 #include "model/controller.hpp"
 #include "model/signal.hpp"
 
@@ -74,7 +74,7 @@ struct Drive {
   Signal load_torque{};                ///< N m, on the load, forward
 };
 
-/// Every violation of the ranges above.
-std::vector<Violation> validate(const Drive& drive);
+/// Every fault of the ranges above.
+std::vector<Fault> validate(const Drive& drive);
 
 }  // namespace gearlash::drive

@@ -73,9 +73,9 @@ void check_normal_form(RangeCheck& check, const Drive& drive) {
                               .friction_ratio = form.friction_ratio,
                               .backlash = form.backlash,
                               .restitution = rigid == nullptr ? 0.0 : rigid->restitution};
-  for (Violation fault : validate(servo)) {
-    if (fault.field == "restitution") continue;  // checked as a share
-    fault.field = "servo." + fault.field;
+  for (Fault fault : validate(servo)) {
+    if (fault.path == "restitution") continue;  // checked as a share
+    fault.path = "servo." + fault.path;
     check.include({fault});
   }
 }
@@ -88,10 +88,10 @@ bool must_be_a_servo(const Drive& drive, const drive::Drive& reduced) {
          reduced.backlash == 0.0;
 }
 
-std::vector<Violation> servo_faults(const Drivetrain& drivetrain) {
-  std::vector<Violation> found = named_for_datasheet(validate(drivetrain));
-  for (Violation& fault : found) {
-    if (fault.field == "load_inertia") fault.field = "load.inertia";
+std::vector<Fault> servo_faults(const Drivetrain& drivetrain) {
+  std::vector<Fault> found = named_for_datasheet(validate(drivetrain));
+  for (Fault& fault : found) {
+    if (fault.path == "load_inertia") fault.path = "load.inertia";
   }
   const double frequency = natural_frequency(drivetrain);
   if (found.empty() && !std::isnormal(frequency)) {
@@ -124,21 +124,21 @@ void check_columns(RangeCheck& check, const Drive& drive) {
 }
 
 /// Rules that join several numbers.
-std::vector<Violation> joint_faults(const Drive& drive) {
+std::vector<Fault> joint_faults(const Drive& drive) {
   const drive::Drive reduced = reduce(drive);
-  std::vector<Violation> found = drive::validate(reduced);
+  std::vector<Fault> found = drive::validate(reduced);
   if (must_be_a_servo(drive, reduced) && validate(reduced.controller).empty()) {
     if (const auto drivetrain = drive::proportional_drivetrain(reduced)) {
       return servo_faults(*drivetrain);
     }
   }
-  for (Violation& fault : found) fault.field = path_of(fault.field);
+  for (Fault& fault : found) fault.path = path_of(fault.path);
   return found;
 }
 
 }  // namespace
 
-std::vector<Violation> faults(const Drive& drive) {
+std::vector<Fault> faults(const Drive& drive) {
   RangeCheck check;
   Drive mended = drive;  // without the faults of single numbers, which would cause others
   for (const Parameter& parameter : all_parameters_of_drives()) {
@@ -146,18 +146,18 @@ std::vector<Violation> faults(const Drive& drive) {
     const std::optional<double> value = number_in(parameter, drive);
     if (!value) continue;
     const Dimension* dimension = parameter.dimension(drive);
-    const std::size_t before = check.violations().size();
+    const std::size_t before = check.faults().size();
     check_number(check, parameter, *value, dimension == nullptr ? "" : dimension->unit);
-    if (check.violations().size() > before) mend(mended, parameter);
+    if (check.faults().size() > before) mend(mended, parameter);
   }
   check_breakaway(check, drive.motor.friction, "motor");
   check_breakaway(check, drive.load.friction, "load");
   check_columns(check, drive);
   if (drive.servo) check_normal_form(check, drive);
-  std::vector<Violation> found = check.violations();
+  std::vector<Fault> found = check.faults();
   if (!found.empty() && drive.servo) return found;
-  for (Violation& fault : joint_faults(mended)) {
-    const auto is_known = [&](const Violation& other) { return other.field == fault.field; };
+  for (Fault& fault : joint_faults(mended)) {
+    const auto is_known = [&](const Fault& other) { return other.path == fault.path; };
     if (std::none_of(found.begin(), found.end(), is_known)) found.push_back(std::move(fault));
   }
   return found;

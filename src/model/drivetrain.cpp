@@ -7,7 +7,7 @@
 namespace gearlash {
 namespace {
 
-std::vector<Violation> validate_masses_and_stiffness(const Drivetrain& drivetrain) {
+std::vector<Fault> validate_masses_and_stiffness(const Drivetrain& drivetrain) {
   RangeCheck check;
   check.not_negative("motor_inertia", drivetrain.motor_inertia, "kg m2");
   check.not_negative("load_inertia", drivetrain.load_inertia, "kg m2");
@@ -18,27 +18,26 @@ std::vector<Violation> validate_masses_and_stiffness(const Drivetrain& drivetrai
     check.refuse("load_inertia", "0 kg m2",
                  "must be positive where motor_inertia is 0: something has to have inertia");
   }
-  if (check.violations().empty() &&
-      std::isinf(drivetrain.motor_inertia + drivetrain.load_inertia)) {
+  if (check.faults().empty() && std::isinf(drivetrain.motor_inertia + drivetrain.load_inertia)) {
     check.refuse("load_inertia", exact_text(drivetrain.load_inertia) + " kg m2",
                  "must leave motor_inertia + load_inertia finite");
   }
-  return check.violations();
+  return check.faults();
 }
 
 }  // namespace
 
-std::vector<Violation> validate(const Drivetrain& drivetrain) {
+std::vector<Fault> validate(const Drivetrain& drivetrain) {
   RangeCheck check;
   check.include(validate_masses_and_stiffness(drivetrain));
   // Ratios of unsound masses mean nothing; the fields that are passed on are checked all the same.
-  const bool sound = check.violations().empty();
+  const bool sound = check.faults().empty();
   NormalizedServo servo = sound ? normalize_sound(drivetrain) : NormalizedServo{};
   servo.backlash = drivetrain.backlash;
   servo.restitution = drivetrain.restitution;
   servo.sensor = drivetrain.sensor;
   check.include(validate(servo));
-  return check.violations();
+  return check.faults();
 }
 
 NormalizedServo normalize_sound(const Drivetrain& drivetrain) {

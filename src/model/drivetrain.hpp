@@ -19,8 +19,8 @@ struct Drivetrain {
   bool operator==(const Drivetrain&) const = default;
 };
 
-/// Every violation of the ranges above and of those of the servo it normalises to.
-std::vector<Violation> validate(const Drivetrain& drivetrain);
+/// Every fault of the ranges above and of those of the servo it normalises to.
+std::vector<Fault> validate(const Drivetrain& drivetrain);
 
 /// ω_n = √(K/(J_M+J_L)), rad/s.
 double natural_frequency(const Drivetrain& drivetrain);

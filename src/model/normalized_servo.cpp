@@ -45,7 +45,7 @@ std::string permitted_values(std::string_view field) {
   return "";
 }
 
-std::vector<Violation> validate(const NormalizedServo& servo) {
+std::vector<Fault> validate(const NormalizedServo& servo) {
   RangeCheck check;
   const auto require = [&](bool permitted, const char* field, double value) {
     if (!permitted) check.refuse(field, exact_text(value), "must be " + permitted_values(field));
@@ -70,7 +70,7 @@ std::vector<Violation> validate(const NormalizedServo& servo) {
                  "must be finite where the motor has no friction (damping * (1 - friction_ratio) "
                  "= 0): a shaft with neither has no law of motion");
   }
-  return check.violations();
+  return check.faults();
 }
 
 }  // namespace gearlash

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/violation.hpp"
+#include "base/fault.hpp"
 #include "gearlash/controller.hpp"
 
 namespace gearlash {
@@ -30,10 +30,10 @@ struct NormalizedServo {
 /// "from 0 to 1". Empty for another name.
 std::string permitted_values(std::string_view field);
 
-/// Every violation of the ranges above, and of two rules that join fields: a massless load
+/// Every fault of the ranges above, and of two rules that join fields: a massless load
 /// (inertia_ratio 0) needs load friction and a massless motor (infinity) needs motor friction,
 /// because a shaft with neither inertia nor friction has no law of motion in the gap.
 /// ShaftName::motor is refused until drives are built. Empty when the servo is sound.
-std::vector<Violation> validate(const NormalizedServo& servo);
+std::vector<Fault> validate(const NormalizedServo& servo);
 
 }  // namespace gearlash

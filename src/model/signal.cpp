@@ -126,10 +126,10 @@ void inspect(RangeCheck& check, const Table& table) {
 
 }  // namespace
 
-std::vector<Violation> validate(const Signal& signal, const std::string& field) {
+std::vector<Fault> validate(const Signal& signal, const std::string& field) {
   RangeCheck check(field + ".");
   std::visit([&](const auto& one) { inspect(check, one); }, signal);
-  return check.violations();
+  return check.faults();
 }
 
 double value_at(const Signal& signal, double time) {

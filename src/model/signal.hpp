@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/violation.hpp"
+#include "base/fault.hpp"
 #include "gearlash/signal.hpp"
 
 namespace gearlash::drive {
@@ -18,8 +18,8 @@ using Trapezoid = TrapezoidSignal;
 using Table = TableSignal;
 using gearlash::Signal;
 
-/// Every violation of the ranges of gearlash/signal.hpp; `field` is what the signal is called.
-std::vector<Violation> validate(const Signal& signal, const std::string& field);
+/// Every fault of the ranges of gearlash/signal.hpp; `field` is what the signal is called.
+std::vector<Fault> validate(const Signal& signal, const std::string& field);
 
 /// Precondition of the rest: validate(signal) is empty.
 double value_at(const Signal& signal, double time);

@@ -178,12 +178,12 @@ void subtract(Bounds& sum, const Bounds& term) {
 
 }  // namespace
 
-std::vector<Violation> validate(const TransferFunction& transfer) {
+std::vector<Fault> validate(const TransferFunction& transfer) {
   RangeCheck check;
   check_polynomial(check, "numerator", transfer.numerator);
   check_polynomial(check, "denominator", transfer.denominator);
   check.not_negative("delay", transfer.delay, "");
-  return check.violations();
+  return check.faults();
 }
 
 FrequencyResponse frequency_response(const TransferFunction& transfer, double frequency) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/bounds.hpp"
-#include "base/violation.hpp"
+#include "base/fault.hpp"
 
 namespace gearlash {
 
@@ -21,7 +21,7 @@ struct TransferFunction {
 
 /// Coefficients that are not finite, polynomials without a coefficient other than 0, a delay that
 /// is negative or not finite.
-std::vector<Violation> validate(const TransferFunction& transfer);
+std::vector<Fault> validate(const TransferFunction& transfer);
 
 /// G(jω) and d ln G(jω)/dω, whose parts are the slopes of ln|G| and of the phase.
 struct FrequencyResponse {

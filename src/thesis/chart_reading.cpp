@@ -75,7 +75,7 @@ ChartReading read_chart(const NormalizedServo& servo) {
     check.refuse("inertia_ratio", exact_text(servo.inertia_ratio),
                  "must be from 1/9 to 9, where the charts of 1960 end");
   }
-  require_none(check.violations());
+  require_none(check.faults());
 
   ChartReading reading;
   reading.chart = &*std::min_element(charts.begin(), charts.end(),

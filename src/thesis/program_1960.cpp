@@ -17,7 +17,7 @@ ProgramParameters program_parameters(const NormalizedServo& servo) {
     check.refuse("restitution", exact_text(servo.restitution),
                  "must be 0: the program of 1960 knows plastic contact only");
   }
-  require_none(check.violations());
+  require_none(check.faults());
   const double motor_inertia = 1.0 / (1.0 + servo.inertia_ratio);
   const double load_inertia = servo.inertia_ratio / (1.0 + servo.inertia_ratio);
   const double friction = 2.0 * servo.damping;

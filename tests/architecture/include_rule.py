@@ -8,7 +8,7 @@ know each other. No room includes thesis. Nothing before input prints, reads fil
 clocks, so that the numerics compile for any machine (WebAssembly too) and give the same answer
 wherever they are called from. Public headers, in include/gearlash, include no room at all.
 
-Usage: include_rule.py ROOT       prints every violation as file:line: reason; exit status 1 if any
+Usage: include_rule.py ROOT       prints every fault as file:line: reason; exit status 1 if any
 """
 
 import pathlib
@@ -133,8 +133,8 @@ def cpp_files(folder):
     return [file for file in sorted(folder.rglob("*")) if file.suffix in CPP_SUFFIXES]
 
 
-def violations(root):
-    """Every violation below `root`, as "file:line: reason"."""
+def faults(root):
+    """Every fault below `root`, as "file:line: reason"."""
     found = list(forbidden_names(root))
     folders = [(None, root / "include" / "gearlash")]
     for folder in sorted(path for path in (root / "src").glob("*") if path.is_dir()):
@@ -157,9 +157,9 @@ def main(arguments):
     if not (root / "src").is_dir():
         print(f"ROOT = {root}: must hold src", file=sys.stderr)
         return 2
-    found = violations(root)
-    for violation in found:
-        print(violation)
+    found = faults(root)
+    for fault in found:
+        print(fault)
     return 1 if found else 0
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The check of the include rule must notice each kind of violation, planted in a tree of its own."""
+"""The check of the include rule must notice each kind of fault, planted in a tree of its own."""
 
 import pathlib
 import subprocess

@@ -271,7 +271,7 @@ TEST(EdgeStart, BadStartsAreRefusedByName) {
     try {
       simulate(sample, initial, options);
     } catch (const InvalidInput& error) {
-      for (const Violation& v : error.violations()) fields.push_back(v.field);
+      for (const Fault& v : error.faults()) fields.push_back(v.path);
     }
     return fields;
   };

@@ -67,7 +67,7 @@ TEST(EdgeController, AnImproperTransferFunctionIsRefused) {
   const ErrorTransfer improper{{{1.0, 0.0, 0.0}, {1.0, 1.0}}};
   const auto faults = validate(Controller(improper));
   ASSERT_EQ(faults.size(), 1U);
-  EXPECT_EQ(faults[0].field, "controller.numerator");
+  EXPECT_EQ(faults[0].path, "controller.numerator");
   EXPECT_EQ(validate(Controller(LeadLag{1.0, 0.0, -1.0})).size(), 2U);
 }
 

@@ -126,7 +126,7 @@ TEST(EdgeDriveSystem, FaultsAreToldAllAtOnce) {
     drive_system(drive);
     FAIL();
   } catch (const InvalidInput& fault) {
-    EXPECT_EQ(fault.violations().size(), 3U) << fault.what();
+    EXPECT_EQ(fault.faults().size(), 3U) << fault.what();
   }
 }
 

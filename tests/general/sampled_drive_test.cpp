@@ -145,7 +145,7 @@ TEST(OracleSampledController, IsTheContinuousOneWithAnotherDerivative) {
 TEST(EdgeSampledDrive, FaultsAreToldAllAtOnce) {
   const auto fields_of = [](const Drive& drive) {
     std::vector<std::string> fields;
-    for (const Violation& fault : validate(drive)) fields.push_back(fault.field);
+    for (const Fault& fault : validate(drive)) fields.push_back(fault.path);
     return fields;
   };
   Drive drive = lone_motor();

@@ -315,9 +315,9 @@ TEST(EdgeSimulate, TwoFacesThatCloseInAreZenos) {
 TEST(EdgeSimulate, AClockWithoutPeriodAndTimesIsAFault) {
   HybridSystem system = bouncing_ball(0.5, true);
   system.clocks.push_back({.name = "once", .first = 1.0});
-  const std::vector<Violation> all = faults(system);
+  const std::vector<Fault> all = faults(system);
   ASSERT_EQ(all.size(), 1U);
-  EXPECT_EQ(all[0].field, "clock \"once\".period");
+  EXPECT_EQ(all[0].path, "clock \"once\".period");
   EXPECT_EQ(all[0].permitted, "must be positive where there are no times");
 }
 
@@ -361,7 +361,7 @@ TEST(EdgeSimulate, FaultsAreToldAllAtOnce) {
     simulate(system, {0, vector_of({0.0})}, {.until = -1.0});
     FAIL();
   } catch (const InvalidInput& fault) {
-    EXPECT_EQ(fault.violations().size(), 5U);
+    EXPECT_EQ(fault.faults().size(), 5U);
     const std::string text = fault.what();
     for (const char* part : {"target = 7: must be one of 2 modes", "offset = 1 number", "times[1]",
                              "start.numbers", "options.until"}) {

@@ -91,7 +91,7 @@ std::vector<std::string> refusals(const std::string& text,
     return {};
   } catch (const InvalidInput& refusal) {
     std::vector<std::string> lines;
-    for (const Violation& violation : refusal.violations()) lines.push_back(to_string(violation));
+    for (const Fault& fault : refusal.faults()) lines.push_back(to_string(fault));
     return lines;
   }
 }

@@ -64,7 +64,7 @@ std::vector<std::string> refusals(std::string_view text) {
   try {
     parse_servo(text, "s.toml");
   } catch (const InvalidInput& problem) {
-    for (const Violation& violation : problem.violations()) lines.push_back(to_string(violation));
+    for (const Fault& fault : problem.faults()) lines.push_back(to_string(fault));
   }
   return lines;
 }
@@ -74,7 +74,7 @@ std::vector<std::string> file_refusals(const std::filesystem::path& path) {
   try {
     read_servo_file(path);
   } catch (const InvalidInput& problem) {
-    for (const Violation& violation : problem.violations()) lines.push_back(to_string(violation));
+    for (const Fault& fault : problem.faults()) lines.push_back(to_string(fault));
   }
   return lines;
 }
@@ -237,7 +237,7 @@ TEST(ServoFileProperty, TheServoDoesNotDependOnTheUnits) {
 
 // --- refusals ---
 
-TEST(ServoFileRefusal, ListsEveryViolationInTheOrderOfTheFile) {
+TEST(ServoFileRefusal, ListsEveryFaultInTheOrderOfTheFile) {
   EXPECT_THAT(
       refusals(R"toml([moter]
 [motor]
@@ -551,10 +551,10 @@ TEST(ServoFileCorpus, EveryInputIsReadOrRefusedInWholeLines) {
       EXPECT_TRUE(validate(file.servo).empty()) << entry.path();
       ++read;
     } catch (const InvalidInput& problem) {
-      ASSERT_FALSE(problem.violations().empty()) << entry.path();
-      for (const Violation& violation : problem.violations()) {
-        EXPECT_THAT(to_string(violation), StartsWith("s.toml:")) << entry.path();
-        EXPECT_EQ(to_string(violation).find('\n'), std::string::npos) << entry.path();
+      ASSERT_FALSE(problem.faults().empty()) << entry.path();
+      for (const Fault& fault : problem.faults()) {
+        EXPECT_THAT(to_string(fault), StartsWith("s.toml:")) << entry.path();
+        EXPECT_EQ(to_string(fault).find('\n'), std::string::npos) << entry.path();
       }
       ++refused;
     }

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/violation.hpp"
+#include "base/fault.hpp"
 
 namespace gearlash {
 namespace {
@@ -16,7 +16,7 @@ std::vector<std::string> faults(const std::string& toml) {
   try {
     parse_sweep(toml, "s.toml");
   } catch (const InvalidInput& refusal) {
-    for (const Violation& violation : refusal.violations()) lines.push_back(to_string(violation));
+    for (const Fault& fault : refusal.faults()) lines.push_back(to_string(fault));
   }
   return lines;
 }

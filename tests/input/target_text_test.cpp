@@ -39,7 +39,7 @@ std::vector<std::string> faults_of(std::string_view text, TimeScale scale = Time
     read_target("--target", text, scale);
   } catch (const InvalidInput& error) {
     std::vector<std::string> lines;
-    for (const Violation& violation : error.violations()) lines.push_back(to_string(violation));
+    for (const Fault& fault : error.faults()) lines.push_back(to_string(fault));
     return lines;
   }
   return {};

@@ -41,7 +41,7 @@ std::string refusal(const std::string& text, const Dimension& dimension) {
     const double value = to_si("key", text, dimension);
     return "accepted as " + std::to_string(value);
   } catch (const InvalidInput& problem) {
-    EXPECT_EQ(problem.violations().size(), 1U);
+    EXPECT_EQ(problem.faults().size(), 1U);
     return problem.what();
   }
 }

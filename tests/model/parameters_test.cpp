@@ -158,7 +158,7 @@ TEST(FaultsOfDrives, EveryNumberOutOfItsRangeIsNamed) {
   drive.gearbox.ratio = 0.0;
   drive.motor.friction.breakaway = 1e-3;
   std::set<std::string> named;
-  for (const Violation& fault : faults(drive)) named.insert(fault.field);
+  for (const Fault& fault : faults(drive)) named.insert(fault.path);
   EXPECT_EQ(named.count("motor.inertia"), 1U);
   EXPECT_EQ(named.count("gearbox.ratio"), 1U);
   EXPECT_EQ(named.count("motor.breakaway"), 1U);

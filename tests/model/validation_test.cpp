@@ -22,9 +22,9 @@ using ::testing::UnorderedElementsAre;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<std::string> fields(const std::vector<Violation>& violations) {
+std::vector<std::string> fields(const std::vector<Fault>& faults) {
   std::vector<std::string> names;
-  for (const Violation& violation : violations) names.push_back(violation.field);
+  for (const Fault& fault : faults) names.push_back(fault.path);
   return names;
 }
 
@@ -122,7 +122,7 @@ TEST(EdgeNormalizedServoRanges, MasslessShaftsNeedFriction) {
   EXPECT_THAT(fields(validate(servo)), ElementsAre("inertia_ratio"));
 }
 
-TEST(EdgeNormalizedServoRanges, AllViolationsAreListed) {
+TEST(EdgeNormalizedServoRanges, AllFaultsAreListed) {
   const NormalizedServo servo{.damping = -1.0,
                               .inertia_ratio = -2.0,
                               .friction_ratio = 3.0,
@@ -133,7 +133,7 @@ TEST(EdgeNormalizedServoRanges, AllViolationsAreListed) {
                                                    "backlash", "restitution", "sensor"));
 }
 
-TEST(EdgeDatasheetRanges, AllViolationsAreListedForEachMotor) {
+TEST(EdgeDatasheetRanges, AllFaultsAreListedForEachMotor) {
   Datasheet datasheet{.motor = ArmatureControlledMotor{-1.0, nan, 0.0, -1.0, 0.0},
                       .gearbox = {.ratio = 0.0, .backlash = -1.0},
                       .load = {.inertia = -1.0, .friction = infinity},
@@ -185,7 +185,7 @@ TEST(EdgeDatasheetRanges, OverflowInReferringIsRefusedNotReturned) {
   EXPECT_THROW(to_drivetrain(datasheet), InvalidInput);
 }
 
-TEST(EdgeDrivetrainRanges, AllViolationsAreListed) {
+TEST(EdgeDrivetrainRanges, AllFaultsAreListed) {
   const Drivetrain drivetrain{.motor_inertia = -1.0,
                               .load_inertia = nan,
                               .motor_friction = -1.0,
@@ -219,24 +219,24 @@ TEST(EdgeDrivetrainRanges, NormalizeThrowsAllOfThem) {
     normalize(drivetrain);
     FAIL() << "accepted";
   } catch (const InvalidInput& error) {
-    EXPECT_THAT(fields(error.violations()), ElementsAre("motor_friction", "stiffness"));
+    EXPECT_THAT(fields(error.faults()), ElementsAre("motor_friction", "stiffness"));
     EXPECT_THAT(error.what(), HasSubstr("motor_friction = nan"));
     EXPECT_THAT(error.what(), HasSubstr("\n"));  // a line each
     EXPECT_THAT(error.what(), HasSubstr("stiffness = -1"));
   }
 }
 
-TEST(EdgeViolationText, NamesFieldValueAndWhatIsPermitted) {
+TEST(EdgeFaultText, NamesFieldValueAndWhatIsPermitted) {
   EXPECT_EQ(to_string({"motor.inertia", "-1 kg m2", "must be positive", "servo.toml:3:11"}),
             "servo.toml:3:11: motor.inertia = -1 kg m2: must be positive");
   EXPECT_EQ(to_string({"load.inertia", "", "needed", ""}), "load.inertia is missing: needed");
-  for (const Violation& violation : validate(NormalizedServo{.damping = -1.0})) {
-    EXPECT_FALSE(violation.value.empty());
-    EXPECT_FALSE(violation.permitted.empty());
+  for (const Fault& fault : validate(NormalizedServo{.damping = -1.0})) {
+    EXPECT_FALSE(fault.value.empty());
+    EXPECT_FALSE(fault.permitted.empty());
   }
 }
 
-TEST(EdgeViolationText, RequireNoneThrowsOnlyWhenThereIsOne) {
+TEST(EdgeFaultText, RequireNoneThrowsOnlyWhenThereIsOne) {
   EXPECT_NO_THROW(require_none({}));
   EXPECT_THROW(require_none({{"a", "b", "c", ""}}), InvalidInput);
 }

@@ -116,11 +116,11 @@ TEST(TransferFunctionProperty, BoundsHoldWhatIsBetween) {
 }
 
 TEST(TransferFunctionEdge, EveryFaultIsNamed) {
-  const auto violations = validate(TransferFunction{{}, {0.0, infinity}, -1.0});
-  ASSERT_EQ(violations.size(), 3U);
-  EXPECT_EQ(violations[0].field, "numerator");
-  EXPECT_EQ(violations[1].field, "denominator");
-  EXPECT_EQ(violations[2].field, "delay");
+  const auto faults = validate(TransferFunction{{}, {0.0, infinity}, -1.0});
+  ASSERT_EQ(faults.size(), 3U);
+  EXPECT_EQ(faults[0].path, "numerator");
+  EXPECT_EQ(faults[1].path, "denominator");
+  EXPECT_EQ(faults[2].path, "delay");
   EXPECT_THROW(factored({{1.0}, {0.0}}), InvalidInput);
 }
 

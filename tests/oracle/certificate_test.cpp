@@ -19,7 +19,7 @@ TEST(Certificate, NoCrossingOfFiveHundredServosIsMissed) {
   for (std::uint64_t index = 0; index < 500; ++index) {
     const RandomCase drawn = random_case(seed, index);
     const CertificateCounts counts = certify(drawn, until, event_limit);
-    EXPECT_EQ(counts.first_violation, "")
+    EXPECT_EQ(counts.first_fault, "")
         << "seed " << seed << ", servo " << index << ": " << describe(drawn);
     total.add(counts);
   }
@@ -43,13 +43,13 @@ Trajectory motion_of(const RandomCase& drawn) {
 
 TEST(Certificate, TheMotionOfAnotherServoIsRefused) {
   const RandomCase hunting = hunting_servo();
-  EXPECT_EQ(certify(hunting, motion_of(hunting)).violations, 0U);
+  EXPECT_EQ(certify(hunting, motion_of(hunting)).faults, 0U);
   for (double NormalizedServo::*field :
        {&NormalizedServo::damping, &NormalizedServo::inertia_ratio,
         &NormalizedServo::friction_ratio, &NormalizedServo::backlash}) {
     RandomCase other = hunting;
     other.servo.*field *= 1.0 + 1e-9;
-    EXPECT_EQ(certify(hunting, motion_of(other)).violations, 1U);
+    EXPECT_EQ(certify(hunting, motion_of(other)).faults, 1U);
   }
 }
 
@@ -58,7 +58,7 @@ TEST(Certificate, AnImpactThatIsPassedOverIsSeen) {
   RandomCase narrower = hunting_servo();
   const Trajectory motion = motion_of(narrower);
   narrower.servo.backlash = 0.2;
-  EXPECT_EQ(certify(narrower, motion).violations, 1U);
+  EXPECT_EQ(certify(narrower, motion).faults, 1U);
 }
 
 }  // namespace

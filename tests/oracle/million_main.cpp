@@ -1,5 +1,5 @@
 // million_servos: random servos by the million, every segment of their motion certified free of
-// missed crossings, every event checked. Exit status 1 when there is a violation.
+// missed crossings, every event checked. Exit status 1 when there is a fault.
 
 #include <unistd.h>
 
@@ -53,10 +53,10 @@ CertificateCounts certify_all(const Settings& settings) {
         const auto drawn = gearlash::oracle::random_case(settings.seed, index);
         CertificateCounts one =
             gearlash::oracle::certify(drawn, settings.until, settings.event_limit);
-        one.first_violation_servo = index;
-        if (settings.list && one.violations > 0) {
+        one.first_fault_servo = index;
+        if (settings.list && one.faults > 0) {
           std::fprintf(stderr, "servo %llu: %s\n", static_cast<unsigned long long>(index),
-                       one.first_violation.c_str());
+                       one.first_fault.c_str());
         }
         counts.add(one);
       }
@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
   app.add_option("--threads", settings.threads, "workers")
       ->capture_default_str()
       ->check(CLI::Range(1U, 256U));
-  app.add_flag("--list", settings.list, "every violation on standard error");
+  app.add_flag("--list", settings.list, "every fault on standard error");
   CLI11_PARSE(app, argc, argv);
 
   const auto start = std::chrono::steady_clock::now();
@@ -102,13 +102,12 @@ int main(int argc, char** argv) {
   std::printf("| largest distance of those, of the scale | %.1e |\n", counts.closest_grazing);
   std::printf("| worst error of an event's time, of the period | %.1e |\n",
               counts.worst_event_time);
-  print_row("**violations**", counts.violations);
-  if (counts.violations == 0) return 0;
+  print_row("**faults**", counts.faults);
+  if (counts.faults == 0) return 0;
   std::printf("\nFirst: servo %llu: %s\n%s\n",
-              static_cast<unsigned long long>(counts.first_violation_servo),
-              counts.first_violation.c_str(),
+              static_cast<unsigned long long>(counts.first_fault_servo), counts.first_fault.c_str(),
               gearlash::oracle::describe(
-                  gearlash::oracle::random_case(settings.seed, counts.first_violation_servo))
+                  gearlash::oracle::random_case(settings.seed, counts.first_fault_servo))
                   .c_str());
   return 1;
 }

@@ -365,8 +365,8 @@ class TrajectoryCertificate {
       if (end != nullptr && failure_.empty()) check_law(*end);
     }
     if (failure_.empty()) return;
-    ++counts_.violations;
-    counts_.first_violation = failure_;
+    ++counts_.faults;
+    counts_.first_fault = failure_;
   }
 
  private:
@@ -556,14 +556,13 @@ void CertificateCounts::add(const CertificateCounts& other) {
   cells += other.cells;
   settlings += other.settlings;
   undecidable += other.undecidable;
-  violations += other.violations;
+  faults += other.faults;
   closest_grazing = std::max(closest_grazing, other.closest_grazing);
   worst_event_time = std::max(worst_event_time, other.worst_event_time);
-  const bool earlier =
-      first_violation.empty() || other.first_violation_servo < first_violation_servo;
-  if (!other.first_violation.empty() && earlier) {
-    first_violation = other.first_violation;
-    first_violation_servo = other.first_violation_servo;
+  const bool earlier = first_fault.empty() || other.first_fault_servo < first_fault_servo;
+  if (!other.first_fault.empty() && earlier) {
+    first_fault = other.first_fault;
+    first_fault_servo = other.first_fault_servo;
   }
 }
 

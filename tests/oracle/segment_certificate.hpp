@@ -17,11 +17,11 @@ struct CertificateCounts {
   std::uint64_t cells = 0;        ///< intervals on which a zero was excluded
   std::uint64_t settlings = 0;    ///< chains of bounces replaced by their limit
   std::uint64_t undecidable = 0;  ///< closer to grazing than rounding can tell
-  std::uint64_t violations = 0;
+  std::uint64_t faults = 0;
   double closest_grazing = 0.0;   ///< largest distance, of the scale, that stayed undecidable
   double worst_event_time = 0.0;  ///< worst |Δt| of an event, of the period 2π
-  std::string first_violation;    ///< empty when there is none
-  std::uint64_t first_violation_servo = 0;
+  std::string first_fault;        ///< empty when there is none
+  std::uint64_t first_fault_servo = 0;
 
   void add(const CertificateCounts& other);
 };

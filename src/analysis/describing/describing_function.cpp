@@ -275,12 +275,12 @@ void require_sound(const Nonlinearity& nonlinearity, double amplitude) {
   RangeCheck check;
   check.include(validate(nonlinearity));
   check.positive("amplitude", amplitude, "");
-  require_none(check.violations());
+  require_none(check.faults());
 }
 
 }  // namespace
 
-std::vector<Violation> validate(const Nonlinearity& nonlinearity) {
+std::vector<Fault> validate(const Nonlinearity& nonlinearity) {
   RangeCheck check;
   std::visit(Overloaded{
                  [&](const FrictionControlledBacklash& n) { check.not_negative("gap", n.gap, ""); },
@@ -299,7 +299,7 @@ std::vector<Violation> validate(const Nonlinearity& nonlinearity) {
                  },
              },
              nonlinearity);
-  return check.violations();
+  return check.faults();
 }
 
 std::complex<double> describing_gain(const Nonlinearity& nonlinearity, double amplitude) {

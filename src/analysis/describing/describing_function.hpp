@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/violation.hpp"
+#include "base/fault.hpp"
 
 namespace gearlash {
 
@@ -88,7 +88,7 @@ using Nonlinearity = std::variant<FrictionControlledBacklash, InertiaControlledB
                                   RelayWithHysteresis, Saturation, CoulombFriction, DeadZone>;
 
 /// Every number that is not finite or outside the range stated with it.
-std::vector<Violation> validate(const Nonlinearity& nonlinearity);
+std::vector<Fault> validate(const Nonlinearity& nonlinearity);
 
 /// N(A), to some epsilons of each part, at the ends too (A → h, A → ∞). NaN only for an
 /// inertia-controlled gap with A < gap/π. Throws InvalidInput, also for an amplitude that is not

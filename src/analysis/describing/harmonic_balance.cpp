@@ -296,7 +296,7 @@ void require_range(const Bounds& frequencies) {
     check.refuse("frequencies.high", exact_text(frequencies.high),
                  "must be at least frequencies.low");
   }
-  require_none(check.violations());
+  require_none(check.faults());
 }
 
 // ---- The servo

@@ -51,7 +51,7 @@ struct DrivetrainSlopes {
 /// A data sheet, or a normalised servo, and what becomes of it when a parameter is changed.
 class ChangeableDrive {
  public:
-  /// Both throw InvalidInput with every violation.
+  /// Both throw InvalidInput with every fault.
   explicit ChangeableDrive(const Datasheet& datasheet);
   explicit ChangeableDrive(const NormalizedServo& servo, double natural_frequency = 1.0);
 

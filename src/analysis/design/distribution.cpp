@@ -39,7 +39,7 @@ class DistributionCheck {
     check_.positive("standard_deviation", normal.standard_deviation, "");
     if (normal.min) check_.finite("min", *normal.min);
     if (normal.max) check_.finite("max", *normal.max);
-    if (!check_.violations().empty()) return;
+    if (!check_.faults().empty()) return;
     const double reach = sigmas * normal.standard_deviation;
     if (normal.min && *normal.min >= normal.mean + reach) {
       check_.refuse("min", exact_text(*normal.min),
@@ -66,7 +66,7 @@ class DistributionCheck {
     }
   }
 
-  std::vector<Violation> violations() const { return check_.violations(); }
+  std::vector<Fault> faults() const { return check_.faults(); }
 
  private:
   void require_order(double min, double max) {
@@ -152,10 +152,10 @@ std::string text_of_lots(const DiscreteLots& discrete) {
 
 }  // namespace
 
-std::vector<Violation> validate(const Distribution& distribution, std::string_view field) {
+std::vector<Fault> validate(const Distribution& distribution, std::string_view field) {
   DistributionCheck check(field);
   std::visit(check, distribution);
-  return check.violations();
+  return check.faults();
 }
 
 double quantile(const Distribution& distribution, double u) {

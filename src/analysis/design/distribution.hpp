@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "base/violation.hpp"
+#include "base/fault.hpp"
 #include "closed_form/cycle_bounds.hpp"
 
 namespace gearlash {
@@ -71,8 +71,8 @@ struct DiscreteLots {
 
 using Distribution = std::variant<ExactValue, UniformBetween, UniformAbout, Normal, DiscreteLots>;
 
-/// Every violation of the ranges above, fields being `field`.min and so on.
-std::vector<Violation> validate(const Distribution& distribution, std::string_view field);
+/// Every fault of the ranges above, fields being `field`.min and so on.
+std::vector<Fault> validate(const Distribution& distribution, std::string_view field);
 
 /// The functions below: precondition: validate() is empty.
 

@@ -11,7 +11,7 @@ SamplePlan sampling_of(std::size_t samples, const SamplePlan& like) {
   return sampling;
 }
 
-std::vector<Violation> validate(const SamplePlan& sampling) {
+std::vector<Fault> validate(const SamplePlan& sampling) {
   RangeCheck check("sampling.");
   if (sampling.points < 1) check.refuse("points", "0", "must be at least 1");
   if (sampling.replicates < 2) {
@@ -23,7 +23,7 @@ std::vector<Violation> validate(const SamplePlan& sampling) {
         "points", std::to_string(sampling.points),
         "must be at most " + std::to_string(most_samples) + " with all replicates together");
   }
-  return check.violations();
+  return check.faults();
 }
 
 }  // namespace gearlash

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "base/violation.hpp"
+#include "base/fault.hpp"
 
 namespace gearlash {
 
@@ -36,7 +36,7 @@ inline constexpr std::size_t most_samples = 1'000'000'000;
 /// The least sampling with at least so many samples whose points are a power of two.
 SamplePlan sampling_of(std::size_t samples, const SamplePlan& like = {});
 
-/// Every violation of the ranges above, and of more than most_samples.
-std::vector<Violation> validate(const SamplePlan& sampling);
+/// Every fault of the ranges above, and of more than most_samples.
+std::vector<Fault> validate(const SamplePlan& sampling);
 
 }  // namespace gearlash

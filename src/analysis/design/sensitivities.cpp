@@ -180,7 +180,7 @@ SensitivityStudy study_of(const TolerancedDrive& drive, const SamplePlan& sampli
 SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SamplePlan& sampling,
                                      const GridEvaluation& how) {
   RangeCheck check;
-  require_none(check.include(validate(drive)).include(validate(sampling)).violations());
+  require_none(check.include(validate(drive)).include(validate(sampling)).faults());
   const std::size_t numbers = drive.varied.size();
   if (numbers == 0) {
     SensitivityStudy nothing;

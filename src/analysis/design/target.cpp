@@ -120,7 +120,7 @@ Judgement judge(const Target& target, const DriveBox& box, double guessed_flight
   return both(growth, either(hunting, judge_quiet(target)));
 }
 
-std::vector<Violation> validate(const Target& target) {
+std::vector<Fault> validate(const Target& target) {
   RangeCheck check;
   const auto require_room = [&](const char* quantity, const Bounds& limits) {
     if (limits.low <= limits.high) return;
@@ -141,7 +141,7 @@ std::vector<Violation> validate(const Target& target) {
                  "no-hunting and growth-at-rest >= " + exact_text(target.growth_at_rest.low),
                  "must not contradict itself: a servo hunts whose growth at rest is above 1");
   }
-  return check.violations();
+  return check.faults();
 }
 
 }  // namespace gearlash

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/design/changeable_drive.hpp"
-#include "base/violation.hpp"
+#include "base/fault.hpp"
 #include "closed_form/limit_cycle.hpp"
 
 namespace gearlash {
@@ -62,7 +62,7 @@ enum class Judgement { none, some, all };
 Judgement judge(const Target& target, const DriveBox& box, double guessed_flight_time);
 
 /// Limits that contradict each other ("size <= 1 deg and size >= 2 deg"), or that nothing can keep,
-/// each as a violation of the field `target`.
-std::vector<Violation> validate(const Target& target);
+/// each as a fault of the field `target`.
+std::vector<Fault> validate(const Target& target);
 
 }  // namespace gearlash

@@ -151,12 +151,12 @@ void require_sound(const TolerancedDrive& drive, const SamplePlan& sampling,
                    const StudyQuestions& questions) {
   RangeCheck check;
   check.include(validate(drive)).include(validate(sampling)).include(validate(questions));
-  require_none(check.violations());
+  require_none(check.faults());
 }
 
 }  // namespace
 
-std::vector<Violation> validate(const StudyQuestions& questions) {
+std::vector<Fault> validate(const StudyQuestions& questions) {
   RangeCheck check;
   check.include(validate(questions.target));
   for (const double share : questions.shares) check.within("quantile", share, 0.0, 1.0);
@@ -165,7 +165,7 @@ std::vector<Violation> validate(const StudyQuestions& questions) {
     check.refuse("bins", std::to_string(questions.bins),
                  "must be at most " + std::to_string(most_bins));
   }
-  return check.violations();
+  return check.faults();
 }
 
 ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& sampling,

@@ -19,8 +19,8 @@ struct StudyQuestions {
   std::size_t bins = 40;                                       ///< of the histogram; 0: none
 };
 
-/// Every violation of the ranges above, and of the target.
-std::vector<Violation> validate(const StudyQuestions& questions);
+/// Every fault of the ranges above, and of the target.
+std::vector<Fault> validate(const StudyQuestions& questions);
 
 struct QuantileEstimate {
   double share = 0.0;  ///< of pieces that do not exceed the value
@@ -58,7 +58,7 @@ struct ToleranceStudy {
 /// By quasi-Monte-Carlo over all varied numbers. The same bits for any number of threads; 16 bytes
 /// a sample are kept (size and frequency, for the quantiles). Drives that bounce (restitution above
 /// 0) are followed one by one, some milliseconds each: ask for few samples of these. Throws
-/// InvalidInput with every violation of the drive, the sampling and the questions.
+/// InvalidInput with every fault of the drive, the sampling and the questions.
 ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& sampling = {},
                                 const StudyQuestions& questions = {},
                                 const GridEvaluation& how = {});

@@ -186,22 +186,21 @@ void check_range(RangeCheck& check, const VariedNumber& varied) {
 }
 
 /// Names of a normalised servo's fields as its author wrote them.
-std::vector<Violation> named_for_file(const Nominal& nominal, std::vector<Violation> violations) {
-  if (std::holds_alternative<Datasheet>(nominal)) return violations;
-  for (Violation& violation : violations) violation.field = "servo." + violation.field;
-  return violations;
+std::vector<Fault> named_for_file(const Nominal& nominal, std::vector<Fault> faults) {
+  if (std::holds_alternative<Datasheet>(nominal)) return faults;
+  for (Fault& fault : faults) fault.path = "servo." + fault.path;
+  return faults;
 }
 
 /// Of the numbers that are given, not of what follows from them and from stand-ins.
-std::vector<Violation> validate_given(const Nominal& nominal) {
-  std::vector<Violation> violations =
+std::vector<Fault> validate_given(const Nominal& nominal) {
+  std::vector<Fault> faults =
       named_for_file(nominal, std::visit([](const auto& any) { return validate(any); }, nominal));
-  const auto is_derived = [](const Violation& violation) {
-    return violation.field.find('.') == std::string::npos;
+  const auto is_derived = [](const Fault& fault) {
+    return fault.path.find('.') == std::string::npos;
   };
-  violations.erase(std::remove_if(violations.begin(), violations.end(), is_derived),
-                   violations.end());
-  return violations;
+  faults.erase(std::remove_if(faults.begin(), faults.end(), is_derived), faults.end());
+  return faults;
 }
 
 /// A value that every number may have.
@@ -218,32 +217,30 @@ std::vector<double> corner_of(std::span<const Bounds> ranges, std::size_t corner
 }
 
 /// What is wrong with the first corner that is no drive. Precondition: numbers are of the drive.
-std::vector<Violation> validate_corners(const TolerancedDrive& drive,
-                                        std::span<const Bounds> ranges) {
+std::vector<Fault> validate_corners(const TolerancedDrive& drive, std::span<const Bounds> ranges) {
   for (std::size_t corner = 0; corner < std::size_t{1} << ranges.size(); ++corner) {
-    std::vector<Violation> violations;
+    std::vector<Fault> faults;
     try {
       detail::drive_per_backlash(drive, corner_of(ranges, corner));
       continue;
     } catch (const InvalidInput& error) {
-      violations = named_for_file(drive.nominal, error.violations());
+      faults = named_for_file(drive.nominal, error.faults());
     }
-    for (Violation& violation : violations) {
-      violation.permitted += "; the tolerances permit it where";
+    for (Fault& fault : faults) {
+      fault.permitted += "; the tolerances permit it where";
       const std::vector<double> values = corner_of(ranges, corner);
       for (std::size_t i = 0; i < values.size(); ++i) {
-        violation.permitted += (i == 0 ? " " : ", ") +
-                               std::string(name_of(drive.varied[i].number)) + " = " +
-                               exact_text(values[i]);
+        fault.permitted += (i == 0 ? " " : ", ") + std::string(name_of(drive.varied[i].number)) +
+                           " = " + exact_text(values[i]);
       }
     }
-    return violations;
+    return faults;
   }
   return {};
 }
 
 /// Each varied number by itself, and those that are not varied.
-std::vector<Violation> validate_one_by_one(const TolerancedDrive& drive) {
+std::vector<Fault> validate_one_by_one(const TolerancedDrive& drive) {
   RangeCheck check;
   Nominal nominal = drive.nominal;
   std::vector<DriveNumber> seen;
@@ -260,14 +257,14 @@ std::vector<Violation> validate_one_by_one(const TolerancedDrive& drive) {
     }
     seen.push_back(varied.number);
     *place = stand_in;
-    const std::vector<Violation> faults = validate(varied.distribution, name);
+    const std::vector<Fault> faults = validate(varied.distribution, name);
     check.include(faults);
     if (faults.empty()) check_range(check, varied);
   }
   if (std::holds_alternative<NormalizedServo>(nominal)) {
     check.positive("natural_frequency", drive.natural_frequency, "rad/s");
   }
-  return check.include(validate_given(nominal)).violations();
+  return check.include(validate_given(nominal)).faults();
 }
 
 }  // namespace
@@ -282,10 +279,10 @@ std::optional<DriveNumber> drive_number_named(std::string_view name) {
   return std::nullopt;
 }
 
-std::vector<Violation> validate(const TolerancedDrive& drive) {
+std::vector<Fault> validate(const TolerancedDrive& drive) {
   RangeCheck check;
   check.include(validate_one_by_one(drive));
-  if (!check.violations().empty()) return check.violations();
+  if (!check.faults().empty()) return check.faults();
   std::vector<Bounds> drawn;
   std::vector<Bounds> possible;
   for (const VariedNumber& varied : drive.varied) {
@@ -293,8 +290,8 @@ std::vector<Violation> validate(const TolerancedDrive& drive) {
     possible.push_back(three_sigma_range_of(varied.distribution));
   }
   check.include(validate_corners(drive, drawn));
-  if (check.violations().empty()) check.include(validate_corners(drive, possible));
-  return check.violations();
+  if (check.faults().empty()) check.include(validate_corners(drive, possible));
+  return check.faults();
 }
 
 std::optional<std::size_t> place_of_backlash(const TolerancedDrive& drive) {

@@ -85,12 +85,12 @@ struct TolerancedDrive {
   bool operator==(const TolerancedDrive&) const = default;
 };
 
-/// Every violation: numbers that the drive has not, or that are given twice; distributions that are
+/// Every fault: numbers that the drive has not, or that are given twice; distributions that are
 /// none, or of which a value is drawn (drawn_range_of()) that no such number can have; nominal
 /// numbers. Where each number is possible by itself, all corners of the box of the values drawn,
 /// and of the support (three_sigma_range_of()), have to be drives. A backlash between 0 and 1e-15
 /// rad, which a drive must not have, may be drawn: sizes are worked out per backlash.
-std::vector<Violation> validate(const TolerancedDrive& drive);
+std::vector<Fault> validate(const TolerancedDrive& drive);
 
 /// Which of the drive's varied numbers is its backlash, if any is.
 std::optional<std::size_t> place_of_backlash(const TolerancedDrive& drive);

@@ -105,7 +105,7 @@ class LargestMaxima {
 
 }  // namespace
 
-std::vector<Violation> validate(const BacklashDemand& demand) {
+std::vector<Fault> validate(const BacklashDemand& demand) {
   RangeCheck check;
   check.include(validate(demand.target));
   if (demand.target.size.low > 0.0) {
@@ -116,7 +116,7 @@ std::vector<Violation> validate(const BacklashDemand& demand) {
     check.refuse("yield", exact_text(demand.yield), "must be above 0, to 1");
   }
   if (demand.min) check.not_negative("min", *demand.min, "rad");
-  return check.violations();
+  return check.faults();
 }
 
 std::optional<WidestBacklash> widest_backlash(const TolerancedDrive& drive,
@@ -125,7 +125,7 @@ std::optional<WidestBacklash> widest_backlash(const TolerancedDrive& drive,
                                               const GridEvaluation& how) {
   RangeCheck check;
   check.include(validate(drive)).include(validate(sampling)).include(validate(demand));
-  require_none(check.violations());
+  require_none(check.faults());
   const double min = lowest_backlash(drive, demand);
   const TolerancedDrive unit_drive = with_unit_backlash(drive);
   const detail::DrawnValues values(unit_drive, sampling, 1);

@@ -18,8 +18,8 @@ struct BacklashDemand {
   std::optional<double> min = {};
 };
 
-/// Every violation of the ranges above.
-std::vector<Violation> validate(const BacklashDemand& demand);
+/// Every fault of the ranges above.
+std::vector<Fault> validate(const BacklashDemand& demand);
 
 struct WidestBacklash {
   double min = 0.0;  ///< rad

@@ -327,7 +327,7 @@ WorstCorner worst_corner(const TolerancedDrive& drive, const WorstSearch& search
   RangeCheck check;
   check.include(validate(drive));
   if (search.starts < 1) check.refuse("starts", "0", "must be at least 1");
-  require_none(check.violations());
+  require_none(check.faults());
   Climb climb(drive, search, how);
   const Candidate top = climb.worst();
   WorstCorner worst;

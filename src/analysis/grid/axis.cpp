@@ -133,7 +133,7 @@ std::size_t interval_of(const Axis& axis, double value) {
   return static_cast<std::size_t>(above - axis.values.begin()) - 1;
 }
 
-std::vector<Violation> validate(const Axis& axis, std::string_view field) {
+std::vector<Fault> validate(const Axis& axis, std::string_view field) {
   RangeCheck check;
   if (axis.values.empty()) {
     check.refuse(field, "no value", "must be at least one");
@@ -152,7 +152,7 @@ std::vector<Violation> validate(const Axis& axis, std::string_view field) {
     check.refuse(field, exact_text(*fall) + " before " + exact_text(*std::next(fall)),
                  "must rise from value to value");
   }
-  return check.violations();
+  return check.faults();
 }
 
 }  // namespace gearlash

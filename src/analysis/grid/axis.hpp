@@ -61,6 +61,6 @@ std::size_t interval_of(const Axis& axis, double value);
 
 /// What is wrong with an axis: no values, values that are out of the input's range, or that do not
 /// rise, each named `field`. Empty when the axis is sound.
-std::vector<Violation> validate(const Axis& axis, std::string_view field);
+std::vector<Fault> validate(const Axis& axis, std::string_view field);
 
 }  // namespace gearlash

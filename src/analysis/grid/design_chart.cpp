@@ -51,7 +51,7 @@ void require_sound(const ServoGrid& grid, double tolerance) {
                  "must be at most " + std::to_string(most_points_of_a_design_chart) +
                      ", those between the values included: a chart is held in memory");
   }
-  require_none(check.within("tolerance", tolerance, 0.0, 1.0).violations());
+  require_none(check.within("tolerance", tolerance, 0.0, 1.0).faults());
   // Half-way to a damping of 0 may be a damping that is refused.
   require_none(validate(detail::refined(grid), names));
 }

@@ -78,7 +78,7 @@ class GridWalk {
 
 /// What is wrong with the servo at the ends of the axes, if it is so at every combination of them:
 /// a combination may be none (a massless load without friction) where others are servos.
-std::vector<Violation> validate_corners(const ServoGrid& grid) {
+std::vector<Fault> validate_corners(const ServoGrid& grid) {
   std::vector<NormalizedServo> corners = {grid.servo};
   const NormalizedServo stand_in{.damping = 0.5};
   for (const Axis& axis : grid.axes) {
@@ -91,12 +91,12 @@ std::vector<Violation> validate_corners(const ServoGrid& grid) {
       corners.back().*field = is_sound ? axis.values.back() : stand_in.*field;
     }
   }
-  std::vector<Violation> violations;
+  std::vector<Fault> faults;
   for (const NormalizedServo& corner : corners) {
-    violations = validate(corner);
-    if (violations.empty()) break;
+    faults = validate(corner);
+    if (faults.empty()) break;
   }
-  return violations;
+  return faults;
 }
 
 GridCount evaluate_part(const ServoGrid& grid, std::size_t first, const CycleColumns& columns,
@@ -147,7 +147,7 @@ bool ServoGrid::may_bounce() const {
   return highest > 0.0;
 }
 
-std::vector<Violation> validate(const ServoGrid& grid, const std::vector<std::string>& fields) {
+std::vector<Fault> validate(const ServoGrid& grid, const std::vector<std::string>& fields) {
   RangeCheck check;
   double points = 1.0;
   for (std::size_t i = 0; i < grid.axes.size(); ++i) {
@@ -165,7 +165,7 @@ std::vector<Violation> validate(const ServoGrid& grid, const std::vector<std::st
                  "must be at most " + exact_text(static_cast<double>(most_points_of_a_grid)) +
                      " on all axes together");
   }
-  return check.include(validate_corners(grid)).violations();
+  return check.include(validate_corners(grid)).faults();
 }
 
 std::size_t box_length(const ServoGrid& grid, std::size_t first, std::size_t most) {

@@ -22,11 +22,11 @@ struct ServoGrid {
   bool may_bounce() const;  ///< whether the restitution is more than 0 anywhere
 };
 
-/// Every violation of the axes, of two axes with the same input, of more points than
+/// Every fault of the axes, of two axes with the same input, of more points than
 /// most_points_of_a_grid, and of the servo. `fields` names the axes, as many as there are.
 /// Combinations that are refused (a massless load without friction) are points of which nothing is
-/// known, not violations.
-std::vector<Violation> validate(const ServoGrid& grid, const std::vector<std::string>& fields);
+/// known, not faults.
+std::vector<Fault> validate(const ServoGrid& grid, const std::vector<std::string>& fields);
 
 /// How many points from `first` on, `most` at most, are a box of the grid: some values of one axis
 /// with all values of the axes after it. Precondition: `first` is 0, or where such a box ended;

@@ -111,9 +111,9 @@ LimitCycleAnalysis analyse_row(const NormalizedServo& servo, std::size_t row) {
   try {
     return analyse_limit_cycles(servo);
   } catch (const InvalidInput& error) {
-    std::vector<Violation> violations = error.violations();
-    for (Violation& violation : violations) violation.where = "servo " + std::to_string(row);
-    throw InvalidInput(std::move(violations));
+    std::vector<Fault> faults = error.faults();
+    for (Fault& fault : faults) fault.where = "servo " + std::to_string(row);
+    throw InvalidInput(std::move(faults));
   }
 }
 

@@ -142,7 +142,7 @@ hybrid::State drive_start(const Drive& drive, const DriveSystem& system,
     check.refuse("motor_position - load_position", exact_text(gap),
                  "must be within half the backlash, " + exact_text(half) + " rad");
   }
-  require_none(check.violations());
+  require_none(check.faults());
   DriveMode mode;
   const bool is_closed = std::abs(gap) >= half - (rigid ? unknown : 0.0);
   if (is_closed && (!rigid || shafts.motor_speed == shafts.load_speed)) {

@@ -27,7 +27,7 @@ Drive with_settled_signals(Drive drive) {
     RangeCheck check;
     check.refuse("load_torque", "a ramp",
                  "must be constant or a sine in the end: there are no attractors else");
-    require_none(check.violations());
+    require_none(check.faults());
   }
   return drive;
 }

@@ -337,14 +337,14 @@ TEST(DescribingFunctionEdge, GainsThatAreNotReachedHaveNoAmplitude) {
 
 TEST(DescribingFunctionEdge, EveryFaultIsNamed) {
   EXPECT_EQ(validate(Saturation{-1.0, 0.0}).size(), 2U);
-  EXPECT_EQ(validate(FrictionControlledBacklash{-1.0}).front().field, "gap");
+  EXPECT_EQ(validate(FrictionControlledBacklash{-1.0}).front().path, "gap");
   try {
     describing_gain(Relay{0.0}, -1.0);
     FAIL();
   } catch (const InvalidInput& error) {
-    ASSERT_EQ(error.violations().size(), 2U);
-    EXPECT_EQ(error.violations()[0].field, "level");
-    EXPECT_EQ(error.violations()[1].field, "amplitude");
+    ASSERT_EQ(error.faults().size(), 2U);
+    EXPECT_EQ(error.faults()[0].path, "level");
+    EXPECT_EQ(error.faults()[1].path, "amplitude");
   }
 }
 

@@ -97,8 +97,8 @@ TEST(OracleDistribution, LotsAreAsLikelyAsTheirWeights) {
 
 std::vector<std::string> faults_of(const Distribution& distribution) {
   std::vector<std::string> lines;
-  for (const Violation& violation : validate(distribution, "load.inertia")) {
-    lines.push_back(to_string(violation));
+  for (const Fault& fault : validate(distribution, "load.inertia")) {
+    lines.push_back(to_string(fault));
   }
   return lines;
 }

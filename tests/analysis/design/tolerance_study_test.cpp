@@ -359,7 +359,7 @@ std::vector<std::string> faults_of(const Call& call) {
   try {
     call();
   } catch (const InvalidInput& error) {
-    for (const Violation& violation : error.violations()) lines.push_back(to_string(violation));
+    for (const Fault& fault : error.faults()) lines.push_back(to_string(fault));
   }
   return lines;
 }

@@ -42,7 +42,7 @@ TolerancedDrive normalised_with(DriveNumber number, const Distribution& distribu
 
 std::vector<std::string> faults_of(const TolerancedDrive& drive) {
   std::vector<std::string> lines;
-  for (const Violation& violation : validate(drive)) lines.push_back(to_string(violation));
+  for (const Fault& fault : validate(drive)) lines.push_back(to_string(fault));
   return lines;
 }
 

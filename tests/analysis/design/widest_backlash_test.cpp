@@ -124,7 +124,7 @@ TEST(EdgeWidestBacklash, EveryFaultIsNamed) {
   BacklashDemand demand{.target = at_most(1.0), .yield = 0.0, .min = -1.0};
   demand.target.size.low = 0.5;
   std::vector<std::string> lines;
-  for (const Violation& violation : validate(demand)) lines.push_back(to_string(violation));
+  for (const Fault& fault : validate(demand)) lines.push_back(to_string(fault));
   EXPECT_THAT(lines, testing::ElementsAre(
                          "target = size >= 0.5: must have no lower limit of size: more backlash "
                          "then would be better",

@@ -54,10 +54,9 @@ TEST(Axis, MeetsWholePowersOfTen) {
 }
 
 TEST(EdgeAxis, ManyBadValuesAreOneLine) {
-  const std::vector<Violation> violations =
-      validate({Input::restitution, {0.5, 1.5, 2.0, 2.5}}, "--x");
-  ASSERT_EQ(violations.size(), 1U);
-  EXPECT_EQ(to_string(violations[0]), "--x = 1.5 and 2 more: restitution must be from 0 to 1");
+  const std::vector<Fault> faults = validate({Input::restitution, {0.5, 1.5, 2.0, 2.5}}, "--x");
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(to_string(faults[0]), "--x = 1.5 and 2 more: restitution must be from 0 to 1");
 }
 
 TEST(EdgeGrid, AMasslessSideMayStandBesideAnyAxis) {
@@ -127,8 +126,8 @@ TEST(EdgeGrid, FaultsOfAllAxesAreToldAtOnce) {
       .axes = {
           {Input::damping, {0.1, -0.2}}, {Input::friction_ratio, {}}, {Input::damping, {0.1}}}};
   std::vector<std::string> lines;
-  for (const Violation& violation : validate(grid, {"--x", "--y", "--curves"})) {
-    lines.push_back(to_string(violation));
+  for (const Fault& fault : validate(grid, {"--x", "--y", "--curves"})) {
+    lines.push_back(to_string(fault));
   }
   EXPECT_THAT(lines, testing::ElementsAre(
                          HasSubstr("--x = -0.2: damping must be 0 or from"),

@@ -1,4 +1,4 @@
-// Whatever the bytes: parse_servo either throws InvalidInput, one line a violation, or returns a
+// Whatever the bytes: parse_servo either throws InvalidInput, one line a fault, or returns a
 // sound servo; parse_sweep a sound grid; and parse_servo_or_drive a sound servo or drive.
 #include <cstddef>
 #include <cstdint>
@@ -49,9 +49,9 @@ void require_sound(const gearlash::ServoOrDriveFile& file) {
 }
 
 void require_one_line_each(const gearlash::InvalidInput& refusal) {
-  require(!refusal.violations().empty());
-  for (const gearlash::Violation& violation : refusal.violations()) {
-    const std::string line = to_string(violation);
+  require(!refusal.faults().empty());
+  for (const gearlash::Fault& fault : refusal.faults()) {
+    const std::string line = to_string(fault);
     require(line.find('\n') == std::string::npos && line.find('\0') == std::string::npos);
     require(line.starts_with("fuzz.toml:"));
   }

@@ -1,5 +1,5 @@
-// The words of InvalidInput are bounded, its violations are not.
-#include "base/violation.hpp"
+// The words of InvalidInput are bounded, its faults are not.
+#include "base/fault.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@ namespace {
 
 TEST(InvalidInput, SaysAHundredAndCountsTheOthers) {
   for (const std::size_t count : {1U, 100U, 101U, 115'000U}) {
-    const InvalidInput fault(std::vector<Violation>(count, {"a.b", "x", "must be a number", ""}));
+    const InvalidInput fault(std::vector<Fault>(count, {"a.b", "x", "must be a number", ""}));
     const std::string text = fault.what();
-    EXPECT_EQ(fault.violations().size(), count);
+    EXPECT_EQ(fault.faults().size(), count);
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'),
               static_cast<long>(std::min<std::size_t>(count - 1, 100)));
     const std::string last = text.substr(text.rfind('\n') + 1);

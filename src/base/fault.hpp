@@ -1,0 +1,11 @@
+// Faults, and what is done with several of them.
+#pragma once
+
+#include "gearlash/fault.hpp"
+
+namespace gearlash {
+
+/// Throws InvalidInput when there is at least one fault.
+void require_none(std::vector<Fault> faults);
+
+}  // namespace gearlash
