@@ -106,7 +106,7 @@ int roots(realtype, N_Vector state, realtype* values, void* data) {
 
 class CvodeDriveRival::Solver {
  public:
-  Solver(const drive::Drive& drive, CvodeMethod method)
+  Solver(const drive::ReducedDrive& drive, CvodeMethod method)
       : drive_(drive),
         law_(drive::sampled_controller(drive.controller, drive.sampling.value())),
         equations_(equations_of_drive(drive)) {
@@ -164,7 +164,7 @@ class CvodeDriveRival::Solver {
   }
 
  private:
-  static Equations equations_of_drive(const drive::Drive& drive) {
+  static Equations equations_of_drive(const drive::ReducedDrive& drive) {
     const auto& contact = std::get<drive::CompliantContact>(drive.contact);
     const auto shaft = [](const drive::Shaft& s) {
       return Shaft{s.inertia, s.friction.viscous, s.friction.coulomb};
@@ -252,7 +252,7 @@ class CvodeDriveRival::Solver {
     loosened(equations_.load, equations_.mesh(z));
   }
 
-  drive::Drive drive_;
+  drive::ReducedDrive drive_;
   drive::LinearController law_;
   Equations equations_;
   double reference_ = std::get<double>(drive_.reference);
@@ -265,7 +265,7 @@ class CvodeDriveRival::Solver {
   SUNNonlinearSolver nonlinear_ = nullptr;
 };
 
-CvodeDriveRival::CvodeDriveRival(const drive::Drive& drive, CvodeMethod method)
+CvodeDriveRival::CvodeDriveRival(const drive::ReducedDrive& drive, CvodeMethod method)
     : solver_(std::make_unique<Solver>(drive, method)) {}
 CvodeDriveRival::~CvodeDriveRival() = default;
 CvodeDriveRival::CvodeDriveRival(CvodeDriveRival&&) noexcept = default;

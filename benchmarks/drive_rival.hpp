@@ -16,7 +16,7 @@ class CvodeDriveRival {
   /// Of a drive with CompliantContact (ContactDamping::full), constant reference, no load torque, a
   /// position sensor on the load and a tachometer on the motor, and sampling without delay;
   /// breakaway is Coulomb friction.
-  CvodeDriveRival(const drive::Drive& drive, CvodeMethod method);
+  CvodeDriveRival(const drive::ReducedDrive& drive, CvodeMethod method);
   ~CvodeDriveRival();
   CvodeDriveRival(CvodeDriveRival&&) noexcept;
 

@@ -106,8 +106,8 @@ Table enter_servo() {
 
 // ---- a second of a sampled drive ----------------------------------------------------------------
 
-drive::Drive sampled_drive() {
-  drive::Drive drive;
+drive::ReducedDrive sampled_drive() {
+  drive::ReducedDrive drive;
   drive.motor = {2e-3, {.viscous = 0.01, .coulomb = 0.02, .breakaway = 0.02}};
   drive.load = {4e-3, {.viscous = 0.01, .coulomb = 0.02, .breakaway = 0.02}};
   drive.backlash = 0.02;
@@ -121,7 +121,7 @@ drive::Drive sampled_drive() {
 }
 
 Table enter_drive() {
-  const drive::Drive drive = sampled_drive();
+  const drive::ReducedDrive drive = sampled_drive();
   const drive::DriveSystem built = drive_system(drive);
   const hybrid::PreparedSystem prepared(built.system);
   const hybrid::State start = drive_start(drive, built, {});

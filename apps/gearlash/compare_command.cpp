@@ -59,7 +59,7 @@ struct Step {
 Step read_step(const CompareOptions& options, const WrittenDrive& written, Faults& faults) {
   constexpr double backlashes = 10.0;
   constexpr double periods = 20.0;
-  const drive::Drive reduced = reduce(written.drive);
+  const drive::ReducedDrive reduced = reduce(written.drive);
   Step step{backlashes * reduced.backlash, 1.0};
   if (options.step) {
     step.size = faults.collect([&] { return read_angle("--step", *options.step).si; }, step.size);
@@ -98,7 +98,7 @@ SensorCase compared(const WrittenDrive& written, SensorPlace place, const Step& 
   one.report.drive = with_sensor(written.drive, place);
   one.report.angle = written.angle;
   one.report.is_normalized = is_normalized(written.drive);
-  const drive::Drive reduced = reduce(one.report.drive);
+  const drive::ReducedDrive reduced = reduce(one.report.drive);
   drive::AttractorOptions options;
   options.go_on = [&](double share) {
     show(share);

@@ -37,7 +37,7 @@ double read_positive(const DriveFile& file, const char* field, const std::string
 }
 
 /// What signals ask for and as long again, at least ten periods of the loop.
-double default_duration(const drive::Drive& drive) {
+double default_duration(const drive::ReducedDrive& drive) {
   const double signals =
       std::max(drive::settling_time(drive.reference), drive::settling_time(drive.load_torque));
   return 2.0 * signals + 10.0 * drive::time_scales(drive).swing;

@@ -14,8 +14,8 @@ using namespace gearlash::drive;
 namespace {
 
 /// The servo of the thesis, ω_n = 1: ζ 0.19, J_L/J_M 2, F_L/F 0.1, total gap 0.3 rad.
-Drive thesis_servo(const Contact& contact) {
-  Drive drive;
+ReducedDrive thesis_servo(const Contact& contact) {
+  ReducedDrive drive;
   drive.motor = {.inertia = 1.0 / 3.0, .friction = {.viscous = 0.38 * 0.9}};
   drive.load = {.inertia = 2.0 / 3.0, .friction = {.viscous = 0.38 * 0.1}};
   drive.backlash = 0.3;

@@ -174,7 +174,7 @@ StartOutcome outcome_of(const drive::Outcome& found) {
   return outcome;
 }
 
-Verdict verdict_of(const drive::AttractorSearch& search, const drive::Drive& reduced) {
+Verdict verdict_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced) {
   const bool is_forced = drive::is_driven(reduced);
   switch (drive::verdict_of(search)) {
     case drive::DriveVerdict::comes_to_rest:
@@ -218,7 +218,7 @@ std::vector<Note> notes_of(const drive::AttractorSearch& search) {
 }
 
 /// Hunting does not depend on what the signals were before.
-drive::Drive settled(drive::Drive reduced) {
+drive::ReducedDrive settled(drive::ReducedDrive reduced) {
   reduced.reference = drive::settled(reduced.reference);
   reduced.load_torque = drive::settled(reduced.load_torque);
   return reduced;
@@ -267,7 +267,7 @@ Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& serv
   return answer;
 }
 
-Answer answer_of(const drive::AttractorSearch& search, const drive::Drive& reduced) {
+Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced) {
   Answer answer;
   answer.verdict = verdict_of(search, reduced);
   const drive::DriveSystem system = drive::drive_system(reduced);
@@ -303,7 +303,7 @@ Analysis analyse_in_full(const Drive& drive, const Wanted& wanted) {
   analysis.reduced = settled(reduce(drive));
   analysis.servo = servo_in_the_end(drive);
   if (analysis.servo) {
-    drive::Drive at_rest = analysis.reduced;
+    drive::ReducedDrive at_rest = analysis.reduced;
     at_rest.reference = 0.0;
     const Drivetrain drivetrain = *drive::proportional_drivetrain(at_rest);
     analysis.closed = closed_analysis(*analysis.servo, drivetrain, wanted);

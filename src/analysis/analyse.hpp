@@ -13,7 +13,7 @@ namespace gearlash {
 /// An answer with what its engine worked it out from, for pictures.
 struct Analysis {
   Answer answer{};
-  drive::Drive reduced{};                  ///< with its signals settled
+  drive::ReducedDrive reduced{};           ///< with its signals settled
   std::optional<ClosedFormServo> servo{};  ///< of the closed form
   std::optional<LimitCycleAnalysis> closed{};
   std::optional<drive::AttractorSearch> search{};
@@ -32,6 +32,6 @@ Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& serv
                  std::optional<double> stiffness);
 
 /// The answer that a search amounts to. `reduced`: the drive that was searched.
-Answer answer_of(const drive::AttractorSearch& search, const drive::Drive& reduced);
+Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced);
 
 }  // namespace gearlash

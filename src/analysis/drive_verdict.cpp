@@ -25,7 +25,7 @@ const FoundCycle* largest_stable(const AttractorSearch& search) {
   return largest;
 }
 
-bool is_driven(const Drive& drive) {
+bool is_driven(const ReducedDrive& drive) {
   return std::holds_alternative<Sine>(settled(drive.reference)) ||
          std::holds_alternative<Sine>(settled(drive.load_torque));
 }
@@ -50,7 +50,7 @@ const char* name_of(DriveVerdict verdict) {
   return "";
 }
 
-const char* name_of(DriveVerdict verdict, const Drive& drive) {
+const char* name_of(DriveVerdict verdict, const ReducedDrive& drive) {
   const bool hunts = verdict == DriveVerdict::hunts || verdict == DriveVerdict::hunts_irregularly ||
                      verdict == DriveVerdict::hunts_if_disturbed;
   return hunts && is_driven(drive) ? "swings as it is driven" : name_of(verdict);

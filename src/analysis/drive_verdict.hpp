@@ -22,11 +22,11 @@ DriveVerdict verdict_of(const AttractorSearch& search);
 const FoundCycle* largest_stable(const AttractorSearch& search);
 
 /// Whether a reference or a load torque swings for ever: what repeats is then no hunting by itself.
-bool is_driven(const Drive& drive);
+bool is_driven(const ReducedDrive& drive);
 
 /// "hunts", "comes to rest", …
 const char* name_of(DriveVerdict verdict);
 /// Of a driven one that hunts "swings as it is driven".
-const char* name_of(DriveVerdict verdict, const Drive& drive);
+const char* name_of(DriveVerdict verdict, const ReducedDrive& drive);
 
 }  // namespace gearlash::drive

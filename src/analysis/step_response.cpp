@@ -121,7 +121,7 @@ void measure(const Path& path, StepResponse& response) {
 
 }  // namespace
 
-hybrid::Trajectory step_motion(Drive drive, double step, double until) {
+hybrid::Trajectory step_motion(ReducedDrive drive, double step, double until) {
   RangeCheck check;
   if (!(std::isfinite(step) && step != 0.0)) {
     check.refuse("step", exact_text(step), "must be finite and not 0, rad");
@@ -135,7 +135,7 @@ hybrid::Trajectory step_motion(Drive drive, double step, double until) {
   return hybrid::simulate(system.system, drive_start(drive, system, rest), {.until = until});
 }
 
-StepResponse step_response(const Drive& drive, double step, double until) {
+StepResponse step_response(const ReducedDrive& drive, double step, double until) {
   const hybrid::Trajectory motion = step_motion(drive, step, until);
   constexpr double share = 0.05;
   StepResponse response{.step = step, .until = motion.end_time()};

@@ -25,9 +25,9 @@ struct StepResponse {
 /// are (its own reference is put aside). Extremes at last are those of the last fifth. `band` is
 /// 5 % of the step. Times and extremes are found to rounding between 4096 samples and all events:
 /// a swing that comes and goes between two of them is not seen. Throws InvalidInput.
-StepResponse step_response(const Drive& drive, double step, double until);
+StepResponse step_response(const ReducedDrive& drive, double step, double until);
 
 /// The motion that it is measured on. Throws InvalidInput.
-hybrid::Trajectory step_motion(Drive drive, double step, double until);
+hybrid::Trajectory step_motion(ReducedDrive drive, double step, double until);
 
 }  // namespace gearlash::drive

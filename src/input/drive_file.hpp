@@ -39,11 +39,11 @@ TomlDocument document_with(std::string_view toml, std::string_view source_name,
 Setting read_setting(const std::string& text);
 
 struct DriveFile {
-  drive::Drive drive{};        ///< sound, all referred to the load's shaft
-  double gear_ratio = 1.0;     ///< motor turns per load turn
-  AngleUnit backlash_unit;     ///< in which the file gives the backlash
-  bool has_reference = false;  ///< there is a [reference]
-  bool is_normalized = false;  ///< times are in units of 1/ω_n, all else likewise
+  drive::ReducedDrive drive{};  ///< sound, all referred to the load's shaft
+  double gear_ratio = 1.0;      ///< motor turns per load turn
+  AngleUnit backlash_unit;      ///< in which the file gives the backlash
+  bool has_reference = false;   ///< there is a [reference]
+  bool is_normalized = false;   ///< times are in units of 1/ω_n, all else likewise
 };
 
 /// A file is a servo's where the closed form answers for it (closed_form_servo()) and it has no

@@ -38,7 +38,7 @@ void check_poles(RangeCheck& all, const SampledTransfer& controller) {
              "must have its roots in the unit circle: what is remembered grows without end");
 }
 
-void check_sampling(RangeCheck& all, const Drive& drive) {
+void check_sampling(RangeCheck& all, const ReducedDrive& drive) {
   const auto* of_samples = std::get_if<SampledTransfer>(&drive.controller);
   if (of_samples != nullptr) check_poles(all, *of_samples);
   if (!drive.sampling) {
@@ -68,7 +68,7 @@ void check_sampling(RangeCheck& all, const Drive& drive) {
 
 }  // namespace
 
-std::vector<Fault> validate(const Drive& drive) {
+std::vector<Fault> validate(const ReducedDrive& drive) {
   RangeCheck all;
   check(all, "motor", drive.motor);
   check(all, "load", drive.load);

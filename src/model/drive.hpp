@@ -61,7 +61,8 @@ struct Sensing {
   double resolution_of_speed = 0.0;  ///< rad, ≥ 0; of that whose differences are the speed
 };
 
-struct Drive {
+/// What is simulated and searched, made of a gearlash::Drive by reduce().
+struct ReducedDrive {
   Shaft motor{};
   Shaft load{};
   double backlash = 0.0;  ///< rad, > 0, face to face
@@ -75,6 +76,6 @@ struct Drive {
 };
 
 /// Every fault of the ranges above.
-std::vector<Fault> validate(const Drive& drive);
+std::vector<Fault> validate(const ReducedDrive& drive);
 
 }  // namespace gearlash::drive

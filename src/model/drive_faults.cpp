@@ -82,7 +82,7 @@ void check_normal_form(RangeCheck& check, const Drive& drive) {
 
 /// Of a servo of 1960 that is given by a data sheet, or that no general drive can be: a side
 /// without inertia, no gap.
-bool must_be_a_servo(const Drive& drive, const drive::Drive& reduced) {
+bool must_be_a_servo(const Drive& drive, const drive::ReducedDrive& reduced) {
   const bool has_voltage = !std::holds_alternative<TorqueControl>(drive.motor.kind);
   return has_voltage || reduced.motor.inertia == 0.0 || reduced.load.inertia == 0.0 ||
          reduced.backlash == 0.0;
@@ -125,7 +125,7 @@ void check_columns(RangeCheck& check, const Drive& drive) {
 
 /// Rules that join several numbers.
 std::vector<Fault> joint_faults(const Drive& drive) {
-  const drive::Drive reduced = reduce(drive);
+  const drive::ReducedDrive reduced = reduce(drive);
   std::vector<Fault> found = drive::validate(reduced);
   if (must_be_a_servo(drive, reduced) && validate(reduced.controller).empty()) {
     if (const auto drivetrain = drive::proportional_drivetrain(reduced)) {

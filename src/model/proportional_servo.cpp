@@ -14,21 +14,21 @@ bool is_proportional(const LinearController& controller) {
          controller.direct[0] == -controller.direct[1];
 }
 
-bool is_undisturbed(const Drive& drive) {
+bool is_undisturbed(const ReducedDrive& drive) {
   const auto* load_torque = std::get_if<double>(&drive.load_torque);
   return std::holds_alternative<double>(drive.reference) && load_torque != nullptr &&
          *load_torque == 0.0;
 }
 
-bool is_smooth(const Drive& drive) {
+bool is_smooth(const ReducedDrive& drive) {
   return !drive.sampling && drive.sensing.resolution == 0.0 && std::isinf(drive.torque_limit) &&
          !drive.motor.friction.is_dry() && !drive.load.friction.is_dry();
 }
 
 }  // namespace
 
-Drive drive_of(const Drivetrain& drivetrain) {
-  Drive drive;
+ReducedDrive drive_of(const Drivetrain& drivetrain) {
+  ReducedDrive drive;
   drive.motor = {drivetrain.motor_inertia, {.viscous = drivetrain.motor_friction}};
   drive.load = {drivetrain.load_inertia, {.viscous = drivetrain.load_friction}};
   drive.backlash = drivetrain.backlash;
@@ -38,12 +38,12 @@ Drive drive_of(const Drivetrain& drivetrain) {
   return drive;
 }
 
-std::optional<Drivetrain> proportional_servo(const Drive& drive) {
+std::optional<Drivetrain> proportional_servo(const ReducedDrive& drive) {
   const std::optional<Drivetrain> drivetrain = proportional_drivetrain(drive);
   return drivetrain && validate(*drivetrain).empty() ? drivetrain : std::nullopt;
 }
 
-std::optional<Drivetrain> proportional_drivetrain(const Drive& drive) {
+std::optional<Drivetrain> proportional_drivetrain(const ReducedDrive& drive) {
   const auto* rigid = std::get_if<RigidContact>(&drive.contact);
   if (rigid == nullptr || !is_smooth(drive) || !is_undisturbed(drive)) return std::nullopt;
   if (drive.sensing.load_share_of_position != 1.0) return std::nullopt;

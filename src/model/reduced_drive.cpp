@@ -139,11 +139,11 @@ double restitution_of(const Drive& drive) {
   return rigid == nullptr ? 0.0 : rigid->restitution;
 }
 
-drive::Drive reduced_plant(const Drive& drive) {
+drive::ReducedDrive reduced_plant(const Drive& drive) {
   if (drive.servo) return drive::drive_of(drivetrain_of(*drive.servo, restitution_of(drive)));
   const double ratio = drive.gearbox.ratio;
   const ReferredOutput output = refer_output(drive);
-  drive::Drive reduced;
+  drive::ReducedDrive reduced;
   reduced.motor = {drive.motor.inertia * (ratio * ratio), referred(drive.motor.friction, ratio)};
   reduced.motor.friction.viscous += output.friction;
   reduced.load = {drive.load.inertia, referred(drive.load.friction, 1.0)};
@@ -185,8 +185,8 @@ ReferredOutput refer_output(const Drive& drive) {
       drive.motor.kind);
 }
 
-drive::Drive reduce(const Drive& drive) {
-  drive::Drive reduced = reduced_plant(drive);
+drive::ReducedDrive reduce(const Drive& drive) {
+  drive::ReducedDrive reduced = reduced_plant(drive);
   reduced.contact = reduce(drive.contact);
   reduced.sensing = reduce(drive.sensor, drive.servo ? 1.0 : drive.gearbox.ratio);
   if (drive.sampling) reduced.sampling = reduce(*drive.sampling);

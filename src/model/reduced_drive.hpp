@@ -21,7 +21,7 @@ struct ReferredOutput {
 ReferredOutput refer_output(const Drive& drive);
 
 /// All at the load's shaft. Where a number is at fault the result is too: see faults().
-drive::Drive reduce(const Drive& drive);
+drive::ReducedDrive reduce(const Drive& drive);
 
 /// Whether the drive is a normal form without a natural frequency: ω_n is then 1 rad/s, and reports
 /// for people give times in units of 1/ω_n.

@@ -81,7 +81,7 @@ std::vector<std::string> row(const ComparisonReport& report, const std::string& 
   return cells;
 }
 
-bool uses_speed(const drive::Drive& drive) {
+bool uses_speed(const drive::ReducedDrive& drive) {
   const drive::LinearController controller =
       drive.sampling ? drive::sampled_controller(drive.controller, *drive.sampling)
                      : drive::linear_controller(drive.controller);

@@ -48,7 +48,7 @@ Curves curves_of(const AttractorPicture& picture, const drive::FoundCycle& cycle
 Curves curves_of(const AttractorPicture& picture, const drive::IrregularFound& irregular,
                  const drive::Outcome& outcome) {
   constexpr double periods = 5.0;
-  drive::Drive drive = picture.drive;
+  drive::ReducedDrive drive = picture.drive;
   drive.reference = drive::settled(drive.reference);
   drive.load_torque = drive::settled(drive.load_torque);
   const drive::DriveSystem system = drive::drive_system(drive);

@@ -11,7 +11,7 @@ namespace gearlash {
 
 struct AttractorPicture {
   std::string title;
-  const drive::Drive& drive;  ///< that was searched
+  const drive::ReducedDrive& drive;  ///< that was searched
   const drive::AttractorSearch& search;
   AngleUnit angle;
   bool is_normalized = false;  ///< speeds are in units of ω_n

@@ -10,8 +10,8 @@ namespace gearlash::drive {
 namespace {
 
 /// The load follows the motor: it weighs nothing, and the gap is none.
-Drive second_order(double damping) {
-  Drive drive;
+ReducedDrive second_order(double damping) {
+  ReducedDrive drive;
   drive.motor = {1.0 - 1e-9, {.viscous = 2.0 * damping}};
   drive.load.inertia = 1e-9;
   drive.backlash = 1e-12;
@@ -52,7 +52,7 @@ TEST(OracleStepResponse, IsThatOfASecondOrderSystem) {
 }
 
 TEST(StepResponse, SaysWhatDoesNotComeAbout) {
-  Drive drive = second_order(0.3);
+  ReducedDrive drive = second_order(0.3);
   drive.motor.friction.coulomb = drive.motor.friction.breakaway = 2.0;  // more than the step asks
   const StepResponse response = step_response(drive, 1.0, 10.0);
   EXPECT_TRUE(std::isnan(response.rise_time));
@@ -65,7 +65,7 @@ TEST(StepResponse, SaysWhatDoesNotComeAbout) {
 
 /// Wherever in its swing the motion is when it is no longer watched.
 TEST(StepResponse, WhatHuntsBeyondTheBandDoesNotSettle) {
-  Drive drive;
+  ReducedDrive drive;
   drive.motor = {1.0 / 3.0, {.viscous = 0.342}};
   drive.load = {2.0 / 3.0, {.viscous = 0.038}};
   drive.backlash = 0.3;

@@ -13,8 +13,9 @@ namespace gearlash::drive {
 namespace {
 
 /// ω_n = 1, total inertia 1, sensor on the load.
-Drive servo(double damping, double inertia_ratio, double friction_ratio, double restitution = 0.0) {
-  Drive drive;
+ReducedDrive servo(double damping, double inertia_ratio, double friction_ratio,
+                   double restitution = 0.0) {
+  ReducedDrive drive;
   drive.motor = {1.0 / (1.0 + inertia_ratio), {.viscous = 2.0 * damping * (1.0 - friction_ratio)}};
   drive.load = {inertia_ratio / (1.0 + inertia_ratio), {.viscous = 2.0 * damping * friction_ratio}};
   drive.backlash = 0.3;
@@ -144,7 +145,7 @@ TEST(OracleAttractors, ChaosIsMeasured) {
 /// Dry friction on the load makes rest stable; between it and the hunting there is an unstable
 /// cycle, and a little beside that either is reached.
 TEST(OracleAttractors, AnUnstableCycleSeparatesRestAndHunting) {
-  Drive drive = servo(0.19, 2.0, 0.1);
+  ReducedDrive drive = servo(0.19, 2.0, 0.1);
   drive.load.friction.coulomb = 0.01;
   drive.load.friction.breakaway = 0.015;
   const AttractorSearch found = find_attractors(drive);
@@ -181,7 +182,7 @@ TEST(OracleAttractors, AnUnstableCycleSeparatesRestAndHunting) {
 
 /// Amplitudes grow as exp(σt) for ever: Routh says so of s³ + 0.38 s² + s + 1.
 TEST(OracleAttractors, AnUnstableLoopRunsAway) {
-  Drive drive = servo(0.19, 2.0, 0.1);
+  ReducedDrive drive = servo(0.19, 2.0, 0.1);
   drive.controller = ProportionalIntegralDerivative{.proportional = 1.0, .integral = 1.0};
   const AttractorSearch found = find_attractors(drive);
   EXPECT_EQ(found.count(MotionEnd::diverges), found.outcomes.size());
@@ -191,7 +192,7 @@ TEST(OracleAttractors, AnUnstableLoopRunsAway) {
 
 /// s² + 0.38 s + 1 at s = 0.5i.
 TEST(OracleAttractors, WithoutEventsASineIsAnsweredAsTheLinearLoopDoes) {
-  Drive drive = servo(0.19, 2.0, 0.1);
+  ReducedDrive drive = servo(0.19, 2.0, 0.1);
   drive.load = {0.5, {}};
   drive.motor = {0.5, {.viscous = 0.38}};
   drive.sensing.load_share_of_position = 0.0;
@@ -210,7 +211,7 @@ TEST(OracleAttractors, WithoutEventsASineIsAnsweredAsTheLinearLoopDoes) {
 
 /// Sampled hunting that locks to no multiple of the clock is quasi-periodic: no exponent above 0.
 TEST(OracleAttractors, AClockThatNothingLocksToIsNoChaos) {
-  Drive drive = servo(0.19, 2.0, 0.1);
+  ReducedDrive drive = servo(0.19, 2.0, 0.1);
   drive.sampling = Sampling{.period = 0.05, .delay = 0.02};
   const AttractorSearch found =
       find_attractors(drive, {.starts = {{0.15, 0.0, 0.3, 0.0}, {0.45, 0.0, 0.3, 0.0}}});
@@ -225,7 +226,7 @@ TEST(OracleAttractors, AClockThatNothingLocksToIsNoChaos) {
 
 /// What a reference adds is nothing but place: fixed, or moving with a ramp (then friction counts).
 TEST(PropertyAttractors, CyclesMoveWithTheReference) {
-  Drive drive = servo(0.19, 2.0, 0.1);
+  ReducedDrive drive = servo(0.19, 2.0, 0.1);
   const auto starts = [](double place, double speed) {
     return AttractorOptions{.starts = {{place + 0.45, speed, place + 0.3, speed}}};
   };
@@ -247,7 +248,7 @@ TEST(PropertyAttractors, CyclesMoveWithTheReference) {
 
 /// Encoders in a sampled drive stay where they are while the reference moves.
 TEST(EdgeAttractors, WhatCannotBeCarriedAlongIsMeasuredInPlace) {
-  Drive drive = servo(0.19, 2.0, 0.1);
+  ReducedDrive drive = servo(0.19, 2.0, 0.1);
   drive.sampling = Sampling{.period = 0.05};
   drive.sensing.resolution = 0.01;
   drive.reference = Ramp{0.0, 0.3, 0.0};
@@ -260,7 +261,7 @@ TEST(EdgeAttractors, WhatCannotBeCarriedAlongIsMeasuredInPlace) {
 
 /// Otherwise a fast computer's drive would be watched for a few swings only.
 TEST(EdgeAttractors, TicksAreNotCountedAsEvents) {
-  Drive drive = servo(0.19, 2.0, 0.1);
+  ReducedDrive drive = servo(0.19, 2.0, 0.1);
   drive.sampling = Sampling{.period = 0.02};
   const AttractorSearch found = find_attractors(
       drive, {.starts = {{0.45, 0.0, 0.3, 0.0}}, .most_events = 1'000, .most_edges = 0});
@@ -271,7 +272,7 @@ TEST(EdgeAttractors, TicksAreNotCountedAsEvents) {
 
 /// The load creeps to rest while the motor sticks: the ticks then repeat what stands still.
 TEST(EdgeAttractors, WhatStandsStillFromTickToTickIsAtRest) {
-  Drive drive = servo(0.02, 1.0, 0.15);
+  ReducedDrive drive = servo(0.02, 1.0, 0.15);
   drive.motor.friction.coulomb = 0.26;
   drive.motor.friction.breakaway = 0.43;
   drive.sampling = Sampling{.period = 0.015};
@@ -295,20 +296,20 @@ TEST(EdgeAttractors, ASearchStopsWhenItIsTold) {
 }
 
 TEST(EdgeAttractors, ALoadTorqueThatGrowsForEverIsRefused) {
-  Drive drive = servo(0.19, 2.0, 0.1);
+  ReducedDrive drive = servo(0.19, 2.0, 0.1);
   drive.load_torque = Ramp{0.0, 1.0, 0.0};
   EXPECT_THROW(find_attractors(drive), InvalidInput);
 }
 
 // ---- any drive ----------------------------------------------------------------------------------
 
-Drive random_drive(std::mt19937& random) {
+ReducedDrive random_drive(std::mt19937& random) {
   std::uniform_real_distribution<double> share(0.0, 1.0);
   const auto between = [&](double low, double high) {
     return low * std::pow(high / low, share(random));
   };
-  Drive drive = servo(between(0.05, 0.5), between(0.1, 10.0), 0.05 + 0.9 * share(random),
-                      0.7 * share(random));
+  ReducedDrive drive = servo(between(0.05, 0.5), between(0.1, 10.0), 0.05 + 0.9 * share(random),
+                             0.7 * share(random));
   const auto one_in = [&](int n) { return share(random) * n < 1.0; };
   if (one_in(2)) {
     drive.contact = CompliantContact{between(1e2, 1e3), between(1.0, 10.0),
@@ -341,7 +342,7 @@ TEST(PropertyAttractors, EveryCycleClosesAndRepeats) {
   std::size_t cycles = 0;
   for (int i = 0; i < 16; ++i) {
     SCOPED_TRACE(i);
-    const Drive drive = random_drive(random);
+    const ReducedDrive drive = random_drive(random);
     const AttractorSearch found = find_attractors(
         drive, {.starts = {{0.15, 0.0, 0.01, 0.0}, {0.45, 0.0, 0.3, 0.0}, {3.0, 0.0, 3.0, 0.0}},
                 .swing_times = 60.0,

@@ -74,7 +74,7 @@ TEST(EdgeController, AnImproperTransferFunctionIsRefused) {
 /// An integrating controller whose motor sticks: the integral grows until it breaks away, the motor
 /// jumps past its goal and sticks on the other side.
 TEST(Controller, IntegralActionHuntsWithStiction) {
-  Drive drive;
+  ReducedDrive drive;
   drive.motor = {1.0, {.viscous = 0.1, .coulomb = 0.5, .breakaway = 1.0}};
   drive.load.inertia = 1.0;
   drive.backlash = 1e3;  // the load is out of reach

@@ -12,8 +12,8 @@ namespace {
 constexpr ShaftFriction dry{.viscous = 0.1, .coulomb = 0.5, .breakaway = 1.0};
 
 /// Dry friction on both shafts and a torque limit.
-Drive full_drive(const Contact& contact) {
-  Drive drive;
+ReducedDrive full_drive(const Contact& contact) {
+  ReducedDrive drive;
   drive.motor = {1.0, dry};
   drive.load = {2.0, dry};
   drive.backlash = 0.01;
@@ -56,7 +56,7 @@ TEST(DriveModes, RigidFacesTogetherHaveNoShaftsThatMoveApart) {
 }
 
 TEST(DriveModes, AreMadeWhenTheyAreFirstEntered) {
-  const Drive drive = full_drive(damped);
+  const ReducedDrive drive = full_drive(damped);
   const DriveSystem built = drive_system(drive);
   EXPECT_EQ(built.system.mode_count(), 189U);
   EXPECT_EQ(built.system.source.made(), 0U);
@@ -74,7 +74,7 @@ TEST(DriveModes, AreMadeWhenTheyAreFirstEntered) {
 TEST(DriveModes, HaveNoFaults) {
   for (const Contact& contact : {Contact(RigidContact{.restitution = 0.5}), Contact(damped)}) {
     for (const bool is_sampled : {false, true}) {
-      Drive drive = full_drive(contact);
+      ReducedDrive drive = full_drive(contact);
       if (is_sampled) drive.sampling = Sampling{.period = 1e-3, .delay = 5e-4};
       EXPECT_TRUE(hybrid::faults(listed(drive_system(drive).system)).empty());
     }
@@ -82,11 +82,11 @@ TEST(DriveModes, HaveNoFaults) {
 }
 
 /// Drives with signals and controllers of every kind that may follow themselves alone.
-std::vector<Drive> signalled_drives() {
-  std::vector<Drive> drives;
+std::vector<ReducedDrive> signalled_drives() {
+  std::vector<ReducedDrive> drives;
   for (const Signal& reference :
        {Signal(0.0), Signal(Ramp{.rate = 1.0}), Signal(Sine{.amplitude = 1.0, .frequency = 2.0})}) {
-    Drive drive = full_drive(RigidContact{});
+    ReducedDrive drive = full_drive(RigidContact{});
     drive.reference = reference;
     drive.load_torque = Sine{.mean = 0.1, .amplitude = 0.2, .frequency = 3.0};
     drives.push_back(drive);
@@ -105,7 +105,7 @@ std::vector<Drive> signalled_drives() {
 }
 
 TEST(DriveModes, WhatFollowsItselfAloneIsWhatAListWouldShow) {
-  for (const Drive& drive : signalled_drives()) {
+  for (const ReducedDrive& drive : signalled_drives()) {
     const hybrid::HybridSystem system = drive_system(drive).system;
     EXPECT_EQ(hybrid::PreparedSystem(system).exogenous(),
               hybrid::PreparedSystem(listed(system)).exogenous());

@@ -16,8 +16,8 @@ namespace {
 
 /// Inertia 5 kg m² against a wall behind c = 20000 N m/rad, d = 50 N m s/rad and a gap of π/4; from
 /// φ = π/2 at rest. The wall is a load that nothing moves.
-Drive modelica_backlash(ContactDamping law) {
-  Drive drive;
+ReducedDrive modelica_backlash(ContactDamping law) {
+  ReducedDrive drive;
   drive.motor.inertia = 5.0;
   drive.load.inertia = 1e12;
   drive.backlash = 0.25 * std::numbers::pi;
@@ -25,13 +25,13 @@ Drive modelica_backlash(ContactDamping law) {
   return drive;
 }
 
-hybrid::Trajectory run(const Drive& drive, const ShaftStates& shafts, double until) {
+hybrid::Trajectory run(const ReducedDrive& drive, const ShaftStates& shafts, double until) {
   const DriveSystem built = drive_system(drive);
   return simulate(built.system, drive_start(drive, built, shafts), {.until = until});
 }
 
 /// The events that begin or end contact.
-std::vector<hybrid::Event> partings_and_meetings(const Drive& drive,
+std::vector<hybrid::Event> partings_and_meetings(const ReducedDrive& drive,
                                                  const hybrid::Trajectory& motion) {
   const DriveSystem built = drive_system(drive);
   std::vector<hybrid::Event> found;
@@ -44,7 +44,7 @@ std::vector<hybrid::Event> partings_and_meetings(const Drive& drive,
 
 /// The reference file carries some 1e-5; the exact numbers beside it are of 50-digit arithmetic.
 TEST(OracleDriveSystem, CompliantBacklashIsModelicas) {
-  const Drive drive = modelica_backlash(ContactDamping::limited);
+  const ReducedDrive drive = modelica_backlash(ContactDamping::limited);
   const auto motion = run(drive, {.motor_position = 0.5 * std::numbers::pi}, 0.1);
   const auto events = partings_and_meetings(drive, motion);
   ASSERT_GE(events.size(), 3U);
@@ -63,7 +63,7 @@ TEST(OracleDriveSystem, CompliantBacklashIsModelicas) {
 }
 
 TEST(OracleDriveSystem, WithFullDampingTorqueJumps) {
-  const Drive drive = modelica_backlash(ContactDamping::full);
+  const ReducedDrive drive = modelica_backlash(ContactDamping::full);
   const auto motion = run(drive, {.motor_position = 0.5 * std::numbers::pi}, 0.1);
   const auto events = partings_and_meetings(drive, motion);
   ASSERT_GE(events.size(), 3U);
@@ -80,7 +80,7 @@ TEST(OracleDriveSystem, TheRigidServoIsTheClosedForm) {
                                 .friction_ratio = 0.1,
                                 .backlash = 0.3,
                                 .restitution = restitution};
-    Drive drive;
+    ReducedDrive drive;
     drive.motor = {1.0 / 3.0, {.viscous = 2.0 * 0.19 * 0.9}};
     drive.load = {2.0 / 3.0, {.viscous = 2.0 * 0.19 * 0.1}};
     drive.backlash = 0.3;
@@ -104,7 +104,7 @@ TEST(OracleDriveSystem, TheRigidServoIsTheClosedForm) {
 /// A motor alone, far from both faces, on a spring (K = 1) with dry friction: half swings about
 /// ±F/K, each of time π, until it sticks.
 TEST(OracleDriveSystem, DryFrictionStopsAnOscillatorInHalfSwings) {
-  Drive drive;
+  ReducedDrive drive;
   drive.motor = {1.0, {.coulomb = 0.1, .breakaway = 0.15}};
   drive.load.inertia = 1.0;
   drive.backlash = 100.0;
@@ -118,7 +118,7 @@ TEST(OracleDriveSystem, DryFrictionStopsAnOscillatorInHalfSwings) {
 }
 
 TEST(EdgeDriveSystem, FaultsAreToldAllAtOnce) {
-  Drive drive = modelica_backlash(ContactDamping::full);
+  ReducedDrive drive = modelica_backlash(ContactDamping::full);
   drive.backlash = 0.0;
   drive.motor.friction = {.coulomb = 1.0, .breakaway = 0.5};
   drive.torque_limit = -1.0;

@@ -11,8 +11,8 @@ namespace gearlash::drive {
 namespace {
 
 /// A motor by itself, far from both faces.
-Drive lone_motor() {
-  Drive drive;
+ReducedDrive lone_motor() {
+  ReducedDrive drive;
   drive.motor.inertia = 2.0;
   drive.load.inertia = 1.0;
   drive.backlash = 1e6;
@@ -21,7 +21,7 @@ Drive lone_motor() {
   return drive;
 }
 
-hybrid::Trajectory run(const Drive& drive, const ShaftStates& start, double until) {
+hybrid::Trajectory run(const ReducedDrive& drive, const ShaftStates& start, double until) {
   const DriveSystem built = drive_system(drive);
   return simulate(built.system, drive_start(drive, built, start), {.until = until});
 }
@@ -56,7 +56,7 @@ TEST(OracleSampledDrive, IsARecursionFromSampleToSample) {
                             Sampled{period, 0.0, infinite}, Sampled{0.0, 0.01, infinite},
                             Sampled{0.03, 0.02, 2.0},       Sampled{period, 0.02, 1.5}};
   for (const auto& [delay, resolution, limit] : cases) {
-    Drive drive = lone_motor();
+    ReducedDrive drive = lone_motor();
     drive.controller = ProportionalDerivative{4.0, 3.0};
     drive.sampling = Sampling{.period = period, .delay = delay};
     drive.sensing.resolution = resolution;
@@ -82,7 +82,7 @@ TEST(OracleSampledDrive, IsARecursionFromSampleToSample) {
 
 /// A continuous controller with an encoder: between counts the torque is constant.
 TEST(OracleSampledDrive, AnEncoderHoldsTheTorqueBetweenItsCounts) {
-  Drive drive = lone_motor();
+  ReducedDrive drive = lone_motor();
   drive.controller = ProportionalDerivative{4.0, 0.0};
   drive.sensing.resolution = 0.1;
   const auto motion = run(drive, {}, 0.9);
@@ -143,12 +143,12 @@ TEST(OracleSampledController, IsTheContinuousOneWithAnotherDerivative) {
 }
 
 TEST(EdgeSampledDrive, FaultsAreToldAllAtOnce) {
-  const auto fields_of = [](const Drive& drive) {
+  const auto fields_of = [](const ReducedDrive& drive) {
     std::vector<std::string> fields;
     for (const Fault& fault : validate(drive)) fields.push_back(fault.path);
     return fields;
   };
-  Drive drive = lone_motor();
+  ReducedDrive drive = lone_motor();
   drive.controller = SampledTransfer{{1.0}, {1.0, -2.0}};
   const auto with_denominator = [](const std::string& other) {
     return std::vector<std::string>{"controller.denominator", other};

@@ -6,8 +6,8 @@
 namespace gearlash::drive {
 namespace {
 
-Drive servo(double damping, double inertia_ratio, double friction_ratio) {
-  Drive drive;
+ReducedDrive servo(double damping, double inertia_ratio, double friction_ratio) {
+  ReducedDrive drive;
   drive.motor = {1.0 / (1.0 + inertia_ratio), {.viscous = 2.0 * damping * (1.0 - friction_ratio)}};
   drive.load = {inertia_ratio / (1.0 + inertia_ratio), {.viscous = 2.0 * damping * friction_ratio}};
   drive.backlash = 0.3;
@@ -15,8 +15,8 @@ Drive servo(double damping, double inertia_ratio, double friction_ratio) {
   return drive;
 }
 
-const Drive hunting = servo(0.19, 2.0, 0.1);
-const Drive fading = servo(0.4284, 3.023, 0.7225);
+const ReducedDrive hunting = servo(0.19, 2.0, 0.1);
+const ReducedDrive fading = servo(0.4284, 3.023, 0.7225);
 
 /// Two starts, and no edges between them.
 AttractorOptions few_starts() {

@@ -56,7 +56,7 @@ TEST(EdgeSignal, FaultsAreNamed) {
 TEST(PropertySignal, ADriveIsGivenTheSignal) {
   const std::vector<Signal> all = {0.7,   StepSignal{1.0, 2.0, 0.5}, long_move, Ramp{1.0, 2.0, 3.0},
                                    table, Sine{1.0, 2.0, 3.0, 0.1},  short_move};
-  Drive drive;
+  ReducedDrive drive;
   drive.motor.inertia = 1.0;
   drive.load.inertia = 1.0;
   drive.backlash = 1e6;
@@ -77,7 +77,7 @@ TEST(PropertySignal, ADriveIsGivenTheSignal) {
 
 /// J ω′ = T sin(Ωt): θ = (T/JΩ)(t − sin(Ωt)/Ω).
 TEST(OracleSignal, ALoadTorqueMovesTheLoad) {
-  Drive drive;
+  ReducedDrive drive;
   drive.motor.inertia = 1.0;
   drive.load.inertia = 2.0;
   drive.backlash = 1e6;

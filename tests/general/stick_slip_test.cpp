@@ -64,8 +64,8 @@ hybrid::HybridSystem belt_system(const Belt& belt) {
 
 /// The same seen from the ground: shafts that stay together, drawn by proportional control, the
 /// friction on the load.
-Drive belt_drive(const Belt& belt) {
-  Drive drive;
+ReducedDrive belt_drive(const Belt& belt) {
+  ReducedDrive drive;
   drive.motor.inertia = 0.9 * belt.mass;
   drive.load = {0.1 * belt.mass, {.coulomb = belt.sliding, .breakaway = belt.breakaway}};
   drive.backlash = 0.1;
@@ -157,8 +157,8 @@ struct StictionDrive {
   double integral = 1.0;
   double derivative = 2.0;
 
-  Drive drive() const {
-    Drive result;
+  ReducedDrive drive() const {
+    ReducedDrive result;
     result.motor = {motor_inertia,
                     {.viscous = motor_friction, .coulomb = sliding, .breakaway = breakaway}};
     result.load = {load_inertia, {.viscous = load_friction}};
@@ -404,8 +404,8 @@ TEST(OracleStickSlip, APidDriveWithStictionHuntsAsIn50Digits) {
 // ---- faces that give, as they become rigid ------------------------------------------------------
 
 /// The thesis's servo with ω_n = 1.
-Drive thesis_servo(const Contact& contact) {
-  Drive drive;
+ReducedDrive thesis_servo(const Contact& contact) {
+  ReducedDrive drive;
   drive.motor = {1.0 / 3.0, {.viscous = 0.38 * 0.9}};
   drive.load = {2.0 / 3.0, {.viscous = 0.38 * 0.1}};
   drive.backlash = 0.3;

@@ -104,7 +104,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 TEST(DriveFile, EveryBlockIsReadAndReferredToTheLoad) {
   const DriveFile file = drive_of(joint);
-  const drive::Drive& drive = file.drive;
+  const drive::ReducedDrive& drive = file.drive;
   EXPECT_DOUBLE_EQ(drive.motor.inertia, 2e-4 * 2500.0);
   EXPECT_DOUBLE_EQ(drive.motor.friction.viscous, 1e-4 * 2500.0);
   EXPECT_DOUBLE_EQ(drive.motor.friction.coulomb, 0.15);

@@ -165,14 +165,14 @@ TEST(FaultsOfDrives, EveryNumberOutOfItsRangeIsNamed) {
 }
 
 TEST(ReducedDrives, NumbersAreReferredToTheLoadByTheGearRatio) {
-  const drive::Drive reduced = reduce(joint());
+  const drive::ReducedDrive reduced = reduce(joint());
   EXPECT_DOUBLE_EQ(reduced.motor.inertia, 2e-4 * 2500.0);
   EXPECT_DOUBLE_EQ(reduced.motor.friction.coulomb, 3e-3 * 50.0);
   EXPECT_DOUBLE_EQ(reduced.torque_limit, 0.2 * 50.0);
   Drive at_motor = joint();
   at_motor.controller.shaft = ShaftName::motor;
   const auto& pid = std::get<drive::ProportionalIntegralDerivative>(reduced.controller);
-  const drive::Drive per_motor = reduce(at_motor);
+  const drive::ReducedDrive per_motor = reduce(at_motor);
   const auto& of_motor = std::get<drive::ProportionalIntegralDerivative>(per_motor.controller);
   EXPECT_DOUBLE_EQ(pid.proportional, 25.0);
   EXPECT_DOUBLE_EQ(of_motor.proportional, 1250.0);

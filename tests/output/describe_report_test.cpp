@@ -13,8 +13,8 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// KT = 5: two cycles of a load held by friction.
-drive::Drive type_one_servo() {
-  drive::Drive drive;
+drive::ReducedDrive type_one_servo() {
+  drive::ReducedDrive drive;
   drive.motor = {0.25, {.viscous = 0.75}};
   drive.load = {0.75, {.viscous = 0.25}};
   drive.backlash = 2.0;
@@ -22,7 +22,7 @@ drive::Drive type_one_servo() {
   return drive;
 }
 
-DescribeReport report_of(const drive::Drive& drive) {
+DescribeReport report_of(const drive::ReducedDrive& drive) {
   return {.analyses = drive::describing_analyses(drive),
           .exact = {{2.0, 3.0, 4.0, true}},
           .exact_verdict = "hunts"};
@@ -51,7 +51,7 @@ TEST(DescribeReport, APredictionWithoutAnExactCycleIsSaidToBeWrong) {
 }
 
 TEST(DescribeReport, JsonHasEveryNumber) {
-  drive::Drive drive = type_one_servo();
+  drive::ReducedDrive drive = type_one_servo();
   drive.torque_limit = 3.0;
   drive.sampling = drive::Sampling{.period = 0.2, .delay = 0.05};
   const DescribeReport report = report_of(drive);
@@ -83,7 +83,7 @@ TEST(EdgeDescribeReport, NormalisedTimesAreTold) {
 }
 
 TEST(EdgeDescribeReport, WhatIsOutsideOfTheLoopHasNoCycle) {
-  drive::Drive drive = type_one_servo();
+  drive::ReducedDrive drive = type_one_servo();
   drive.controller = drive::ProportionalDerivative{};
   EXPECT_THAT(describe_text(report_of(drive)), HasSubstr("no cycle: nothing is fed back"));
 }

@@ -15,8 +15,8 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-drive::Drive all_parts() {
-  drive::Drive drive;
+drive::ReducedDrive all_parts() {
+  drive::ReducedDrive drive;
   drive.motor = {0.25, {.viscous = 0.75, .coulomb = 0.2, .breakaway = 0.3}};
   drive.load = {0.75, {.viscous = 0.25}};
   drive.backlash = 0.02;
@@ -26,7 +26,7 @@ drive::Drive all_parts() {
   return drive;
 }
 
-NyquistPicture picture_of(const drive::Drive& drive, DescribedPart part) {
+NyquistPicture picture_of(const drive::ReducedDrive& drive, DescribedPart part) {
   NyquistPicture picture;
   picture.title = "title";
   picture.analyses = of_one_loop(describing_analyses(drive), part);
@@ -89,7 +89,7 @@ std::vector<Text> numbers_of(const std::string& svg) {
 }
 
 TEST(NyquistPicture, RealAndImaginaryPartsHaveTheSameScale) {
-  drive::Drive drive;
+  drive::ReducedDrive drive;
   drive.motor = {0.25, {.viscous = 0.75}};
   drive.load = {0.75, {.viscous = 0.25}};
   drive.backlash = 2.0;
@@ -113,7 +113,7 @@ TEST(NyquistPicture, RealAndImaginaryPartsHaveTheSameScale) {
 }
 
 TEST(EdgeNyquistPicture, WithoutCycleOrExactOneThereAreTheCurves) {
-  drive::Drive drive = all_parts();
+  drive::ReducedDrive drive = all_parts();
   drive.controller = drive::ProportionalDerivative{.proportional = 0.5, .derivative = 2.0};
   for (const auto part : {DescribedPart::gap_load_held, DescribedPart::elastic_gap,
                           DescribedPart::torque_limit, DescribedPart::coulomb_friction}) {

@@ -30,7 +30,7 @@ RationalFunction forward_shift(double period) {
   return (RationalFunction(1.0) + half) / (RationalFunction(1.0) - half);
 }
 
-Feedback feedback_of(const Drive& drive, TorqueGiven torque) {
+Feedback feedback_of(const ReducedDrive& drive, TorqueGiven torque) {
   const bool is_sampled = drive.sampling.has_value();
   const LinearController controller = is_sampled
                                           ? sampled_controller(drive.controller, *drive.sampling)
@@ -68,7 +68,7 @@ RationalFunction plant_of(const Shaft& shaft) {
   return inertia_and_friction(Rational(shaft.inertia), Rational(shaft.friction.viscous));
 }
 
-RationalFunction plant_of(const Drive& drive) {
+RationalFunction plant_of(const ReducedDrive& drive) {
   return plant_of(drive.motor) + plant_of(drive.load);
 }
 
@@ -79,16 +79,16 @@ bool is_always_0(const Signal& signal) {
   return number != nullptr && *number == 0.0;
 }
 
-double coulomb_of(const Drive& drive) {
+double coulomb_of(const ReducedDrive& drive) {
   return drive.motor.friction.coulomb + drive.load.friction.coulomb;
 }
 
-bool is_dry(const Drive& drive) {
+bool is_dry(const ReducedDrive& drive) {
   return drive.motor.friction.is_dry() || drive.load.friction.is_dry();
 }
 
 /// Whether the torque at which a shaft breaks away is more than what then slows it down.
-bool has_stiction(const Drive& drive) {
+bool has_stiction(const ReducedDrive& drive) {
   const auto sticks = [](const ShaftFriction& friction) {
     return friction.breakaway > friction.coulomb;
   };
@@ -96,7 +96,8 @@ bool has_stiction(const Drive& drive) {
 }
 
 /// What is left out of the drive for the part to stand alone.
-std::vector<Assumption> omissions(const Drive& drive, DescribedPart part, bool delay_is_rational) {
+std::vector<Assumption> omissions(const ReducedDrive& drive, DescribedPart part,
+                                  bool delay_is_rational) {
   std::vector<Assumption> found;
   const auto add = [&](bool applies, Assumption assumption) {
     if (applies) found.push_back(assumption);
@@ -169,7 +170,7 @@ struct LinearLoop {
   bool delay_is_rational = false;
 };
 
-LinearLoop gap_loop(const Drive& drive, const Feedback& feedback) {
+LinearLoop gap_loop(const ReducedDrive& drive, const Feedback& feedback) {
   if (feedback.from_motor.is_zero()) {
     return {rounded(feedback.from_load / plant_of(drive), feedback.delay)};
   }
@@ -183,7 +184,7 @@ LinearLoop gap_loop(const Drive& drive, const Feedback& feedback) {
           is_rational};
 }
 
-DescribingAnalysis described_gap(const Drive& drive, DescribedPart part) {
+DescribingAnalysis described_gap(const ReducedDrive& drive, DescribedPart part) {
   const Feedback feedback = feedback_of(drive, TorqueGiven::as_asked);
   const LinearLoop loop = gap_loop(drive, feedback);
   DescribingAnalysis analysis{.part = part,
@@ -201,7 +202,8 @@ DescribingAnalysis described_gap(const Drive& drive, DescribedPart part) {
   return analysis;
 }
 
-DescribingAnalysis described_elastic_gap(const Drive& drive, const CompliantContact& contact) {
+DescribingAnalysis described_elastic_gap(const ReducedDrive& drive,
+                                         const CompliantContact& contact) {
   const Feedback feedback = feedback_of(drive, TorqueGiven::as_asked);
   const RationalFunction delay = delay_approximation(feedback.delay);
   const RationalFunction from_load = feedback.from_load * delay;
@@ -222,7 +224,7 @@ DescribingAnalysis described_elastic_gap(const Drive& drive, const CompliantCont
   return analysis;
 }
 
-DescribingAnalysis described_torque_limit(const Drive& drive) {
+DescribingAnalysis described_torque_limit(const ReducedDrive& drive) {
   const Feedback feedback = feedback_of(drive, TorqueGiven::limited);
   const bool winds_back = !feedback.anti_windup.is_zero();
   const RationalFunction plant = plant_of(drive);
@@ -240,7 +242,7 @@ DescribingAnalysis described_torque_limit(const Drive& drive) {
   return analysis;
 }
 
-DescribingAnalysis described_coulomb_friction(const Drive& drive) {
+DescribingAnalysis described_coulomb_friction(const ReducedDrive& drive) {
   const Feedback feedback = feedback_of(drive, TorqueGiven::as_asked);
   const RationalFunction back = feedback.whole() * delay_approximation(feedback.delay);
   DescribingAnalysis analysis{
@@ -256,7 +258,7 @@ DescribingAnalysis described_coulomb_friction(const Drive& drive) {
 
 }  // namespace
 
-std::vector<DescribingAnalysis> describing_analyses(const Drive& drive) {
+std::vector<DescribingAnalysis> describing_analyses(const ReducedDrive& drive) {
   require_none(validate(drive));
   std::vector<DescribingAnalysis> analyses = {
       described_gap(drive, DescribedPart::gap_load_held),

@@ -87,7 +87,7 @@ struct DescribingAnalysis {
 /// Throws InvalidInput.
 /// Sources: Gelb and Vander Velde (1968), chapters 2 and 3; Nordin and Gutman, Automatica 38 (2002)
 /// 1633, for the dead zone; Armstrong-Hélouvry and Amin, Automatica 32 (1996) 679, for stiction.
-std::vector<DescribingAnalysis> describing_analyses(const Drive& drive);
+std::vector<DescribingAnalysis> describing_analyses(const ReducedDrive& drive);
 
 /// Whether the nonlinearity is within a loop at all.
 bool is_in_loop(const DescribingAnalysis& analysis);

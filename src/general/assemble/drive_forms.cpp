@@ -6,7 +6,7 @@ using hybrid::AffineForm;
 using hybrid::Matrix;
 using hybrid::Vector;
 
-DriveForms::DriveForms(const Drive& drive)
+DriveForms::DriveForms(const ReducedDrive& drive)
     : drive_(drive),
       controller_(drive.sampling ? sampled_controller(drive.controller, *drive.sampling)
                                  : linear_controller(drive.controller)),

@@ -18,9 +18,9 @@ enum class Side { motor, load };
 class DriveForms {
  public:
   /// Precondition: sound.
-  explicit DriveForms(const Drive& drive);
+  explicit DriveForms(const ReducedDrive& drive);
 
-  const Drive& drive() const { return drive_; }
+  const ReducedDrive& drive() const { return drive_; }
   const LinearController& controller() const { return controller_; }
   const Generator& reference_generator() const { return reference_generator_; }
   const Generator& load_generator() const { return load_generator_; }
@@ -79,7 +79,7 @@ class DriveForms {
   hybrid::AffineForm of(const Generator& generator, Eigen::Index at) const;
   hybrid::AffineForm sensed(double load_share, Eigen::Index motor, Eigen::Index load) const;
 
-  Drive drive_;
+  ReducedDrive drive_;
   LinearController controller_;
   bool is_rigid_;
   Generator reference_generator_;

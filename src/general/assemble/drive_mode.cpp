@@ -78,7 +78,7 @@ std::string text_of(const DriveMode& mode) {
   return text;
 }
 
-DriveModes::DriveModes(const Drive& drive)
+DriveModes::DriveModes(const ReducedDrive& drive)
     : is_rigid_(std::holds_alternative<RigidContact>(drive.contact)),
       contacts_(contacts_of(drive.contact)),
       torques_{TorqueState::linear} {

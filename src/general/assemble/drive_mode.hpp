@@ -46,7 +46,7 @@ std::string text_of(const DriveMode& mode);
 class DriveModes {
  public:
   DriveModes() = default;
-  explicit DriveModes(const Drive& drive);
+  explicit DriveModes(const ReducedDrive& drive);
 
   std::size_t count() const;
   /// count() where a drive has no such mode.

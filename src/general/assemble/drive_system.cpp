@@ -105,7 +105,7 @@ ShaftStates shafts_of(const hybrid::State& state) {
           numbers[load_speed]};
 }
 
-DriveSystem drive_system(const Drive& drive) {
+DriveSystem drive_system(const ReducedDrive& drive) {
   require_none(validate(drive));
   const auto forms = std::make_shared<const DriveForms>(drive);
   DriveSystem result;
@@ -129,7 +129,7 @@ DriveSystem drive_system(const Drive& drive) {
   return result;
 }
 
-hybrid::State drive_start(const Drive& drive, const DriveSystem& system,
+hybrid::State drive_start(const ReducedDrive& drive, const DriveSystem& system,
                           const ShaftStates& shafts) {
   const bool rigid = std::holds_alternative<RigidContact>(drive.contact);
   const double gap = shafts.motor_position - shafts.load_position;

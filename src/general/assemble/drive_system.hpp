@@ -47,12 +47,13 @@ ShaftStates shafts_of(const hybrid::State& state);
 /// continuous one is a number that changes by a step where the position comes half a step from it.
 /// Signals are straight or quadratic between the ticks of their clock, sines an oscillator of two
 /// numbers. Throws InvalidInput.
-DriveSystem drive_system(const Drive& drive);
+DriveSystem drive_system(const ReducedDrive& drive);
 
 /// A start at time 0 with the controller's states 0. The mode follows: faces in contact where the
 /// gap is closed (rigid ones where the shafts then move as one, else they meet at once), friction
 /// from the speeds, a dry shaft at rest sticks. Throws InvalidInput where rigid faces would be
 /// beyond each other.
-hybrid::State drive_start(const Drive& drive, const DriveSystem& system, const ShaftStates& shafts);
+hybrid::State drive_start(const ReducedDrive& drive, const DriveSystem& system,
+                          const ShaftStates& shafts);
 
 }  // namespace gearlash::drive

@@ -2,7 +2,7 @@
 
 namespace gearlash::drive {
 
-StateIndices state_indices(const Drive& drive, Eigen::Index controller_order,
+StateIndices state_indices(const ReducedDrive& drive, Eigen::Index controller_order,
                            const Generator& reference, const Generator& load_torque) {
   StateIndices indices;
   indices.controller_order = controller_order;

@@ -38,7 +38,7 @@ struct StateIndices {
   Eigen::Index own() const { return reference; }
 };
 
-StateIndices state_indices(const Drive& drive, Eigen::Index controller_order,
+StateIndices state_indices(const ReducedDrive& drive, Eigen::Index controller_order,
                            const Generator& reference, const Generator& load_torque);
 
 /// As reports name the numbers.

@@ -18,7 +18,7 @@ using hybrid::Matrix;
 constexpr double turn = 2.0 * std::numbers::pi;
 
 /// The drive without what is not linear in it but the gap.
-Drive linear_drive(Drive drive) {
+ReducedDrive linear_drive(ReducedDrive drive) {
   drive.reference = 0.0;
   drive.load_torque = 0.0;
   drive.sensing.resolution = 0.0;
@@ -43,8 +43,8 @@ Matrix of_shafts_as_one(const Matrix& matrix) {
 
 /// Eigenvalues of the loop with the faces together, per s; of a sampled one those of the flow that
 /// would do the same from sample to sample.
-std::vector<std::complex<double>> loop_eigenvalues(const Drive& drive) {
-  const Drive linear = linear_drive(drive);
+std::vector<std::complex<double>> loop_eigenvalues(const ReducedDrive& drive) {
+  const ReducedDrive linear = linear_drive(drive);
   const DriveSystem built = drive_system(linear);
   const hybrid::Mode& mode = built.system.mode(built.modes.index_of({ContactState::forward}));
   const bool is_rigid = std::holds_alternative<RigidContact>(linear.contact);
@@ -86,7 +86,7 @@ std::vector<std::complex<double>> without_free_numbers(std::vector<std::complex<
 
 }  // namespace
 
-TimeScales time_scales(const Drive& drive) {
+TimeScales time_scales(const ReducedDrive& drive) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   double slowest = infinity;
   double slowest_swing = infinity;

@@ -15,6 +15,6 @@ struct TimeScales {
 };
 
 /// Precondition: sound.
-TimeScales time_scales(const Drive& drive);
+TimeScales time_scales(const ReducedDrive& drive);
 
 }  // namespace gearlash::drive

@@ -39,7 +39,7 @@ struct Verdict {
 
 class Search {
  public:
-  Search(const Drive& drive, const AttractorOptions& options)
+  Search(const ReducedDrive& drive, const AttractorOptions& options)
       : options_(options), unscaled_(search_setting(drive, options.chosen_starts)) {
     starts_ =
         options.starts.empty() ? usual_starts(unscaled_, options.chosen_starts) : options.starts;
@@ -361,7 +361,7 @@ std::size_t AttractorSearch::count(MotionEnd end) const {
                     [&](const Outcome& outcome) { return outcome.end == end; }));
 }
 
-AttractorSearch find_attractors(const Drive& drive, const AttractorOptions& options) {
+AttractorSearch find_attractors(const ReducedDrive& drive, const AttractorOptions& options) {
   return Search(drive, options).run();
 }
 

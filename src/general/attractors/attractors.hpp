@@ -152,6 +152,6 @@ struct AttractorOptions {
 /// different ends bisection finds motion on the border, and Newton's method the unstable cycle that
 /// it hovers at. Of the signals settled() counts. Complete it cannot be: what was searched is told.
 /// The same from run to run. Throws InvalidInput, also where the load torque is a ramp in the end.
-AttractorSearch find_attractors(const Drive& drive, const AttractorOptions& options = {});
+AttractorSearch find_attractors(const ReducedDrive& drive, const AttractorOptions& options = {});
 
 }  // namespace gearlash::drive

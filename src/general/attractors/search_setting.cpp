@@ -20,7 +20,7 @@ constexpr double turn = 2.0 * std::numbers::pi;
 
 // ---- coordinates --------------------------------------------------------------------------------
 
-Drive with_settled_signals(Drive drive) {
+ReducedDrive with_settled_signals(ReducedDrive drive) {
   drive.reference = settled(drive.reference);
   drive.load_torque = settled(drive.load_torque);
   if (std::holds_alternative<Ramp>(drive.load_torque)) {
@@ -107,7 +107,7 @@ void look(SearchSetting& setting) {
 // ---- lengths ------------------------------------------------------------------------------------
 
 /// Torque by position at once, N m/rad.
-double direct_stiffness(const Drive& drive) {
+double direct_stiffness(const ReducedDrive& drive) {
   const LinearController controller = drive.sampling
                                           ? sampled_controller(drive.controller, *drive.sampling)
                                           : linear_controller(drive.controller);
@@ -115,7 +115,7 @@ double direct_stiffness(const Drive& drive) {
 }
 
 void measure_lengths(SearchSetting& setting, const StartTolerances& starts) {
-  const Drive& drive = setting.drive;
+  const ReducedDrive& drive = setting.drive;
   setting.small_length = setting.large_length = drive.backlash;
   for (const double step : {drive.sensing.resolution, drive.sensing.resolution_of_speed}) {
     if (step > 0.0) setting.small_length = std::min(setting.small_length, step);
@@ -142,7 +142,7 @@ void measure_lengths(SearchSetting& setting, const StartTolerances& starts) {
   }
 }
 
-bool is_mirrored(const Drive& drive) {
+bool is_mirrored(const ReducedDrive& drive) {
   const bool is_constant = std::holds_alternative<double>(drive.reference);
   const auto* torque = std::get_if<double>(&drive.load_torque);
   return is_constant && torque != nullptr && *torque == 0.0;
@@ -164,7 +164,7 @@ double SearchSetting::between_ticks(double time) const {
   return std::ceil((time - aside) / period) * period + aside;
 }
 
-SearchSetting search_setting(const Drive& drive, const StartTolerances& starts) {
+SearchSetting search_setting(const ReducedDrive& drive, const StartTolerances& starts) {
   require_none(validate(drive));
   SearchSetting setting;
   setting.drive = with_settled_signals(drive);

@@ -8,7 +8,7 @@
 namespace gearlash::drive {
 
 struct SearchSetting {
-  Drive drive;  ///< of settled signals
+  ReducedDrive drive;  ///< of settled signals
   DriveSystem built;
   Coordinates coordinates = Coordinates::fixed;
   MovingFrame frame;
@@ -28,7 +28,7 @@ struct SearchSetting {
 };
 
 /// Throws InvalidInput.
-SearchSetting search_setting(const Drive& drive, const StartTolerances& starts = {});
+SearchSetting search_setting(const ReducedDrive& drive, const StartTolerances& starts = {});
 
 /// With scales such that all numbers of a motion are about 1.
 SearchSetting scaled(const SearchSetting& setting, const hybrid::Trajectory& motion);

@@ -19,8 +19,8 @@ using testing::Contains;
 using testing::Not;
 
 /// K/(s(Ts + 1)), the inertia on both sides.
-Drive type_one_servo(double gain, double time_constant) {
-  Drive drive;
+ReducedDrive type_one_servo(double gain, double time_constant) {
+  ReducedDrive drive;
   drive.motor = {0.25 * time_constant, {.viscous = 0.75}};
   drive.load = {0.75 * time_constant, {.viscous = 0.25}};
   drive.backlash = 2.0;  // h = 1
@@ -36,7 +36,7 @@ const DescribingAnalysis& find(const std::vector<DescribingAnalysis>& analyses,
   throw std::runtime_error("not described");
 }
 
-DescribingAnalysis described(const Drive& drive, DescribedPart part) {
+DescribingAnalysis described(const ReducedDrive& drive, DescribedPart part) {
   return find(describing_analyses(drive), part);
 }
 
@@ -45,7 +45,7 @@ DescribingAnalysis described(const Drive& drive, DescribedPart part) {
 TEST(OracleDescribing, TheServoHasItsOwnEstimate) {
   for (const double damping : {0.05, 0.1, 0.19, 0.27, 0.5}) {
     const NormalizedServo servo{damping, 2.0, 0.1, 0.3};
-    Drive drive;
+    ReducedDrive drive;
     drive.motor = {0.25, {.viscous = 1.75 * damping}};
     drive.load = {0.75, {.viscous = 0.25 * damping}};
     drive.backlash = 0.3;
@@ -94,7 +94,7 @@ TEST(OracleDescribing, TypeOneServoWithPlayCyclesFromItsThresholdOn) {
 }
 
 TEST(Describing, SensorsOnTheMotorLeaveOnlyTheLoadsReaction) {
-  Drive drive = type_one_servo(5.0, 1.0);
+  ReducedDrive drive = type_one_servo(5.0, 1.0);
   drive.sensing.load_share_of_position = 0.0;
   const auto analysis = described(drive, DescribedPart::gap_load_coasting);
   EXPECT_THAT(analysis.assumptions, Contains(Assumption::load_reacts));
@@ -106,7 +106,7 @@ TEST(Describing, SensorsOnTheMotorLeaveOnlyTheLoadsReaction) {
 }
 
 TEST(Describing, SensorsOnBothShaftsShareTheLoop) {
-  Drive drive = type_one_servo(5.0, 1.0);
+  ReducedDrive drive = type_one_servo(5.0, 1.0);
   drive.sensing.load_share_of_position = 0.25;
   drive.sensing.load_share_of_speed = 0.5;
   drive.controller = ProportionalDerivative{.proportional = 8.0, .derivative = 0.2};
@@ -119,7 +119,7 @@ TEST(Describing, SensorsOnBothShaftsShareTheLoop) {
 }
 
 TEST(OracleDescribing, AnElasticGapMeetsTheEquationsOfBothShafts) {
-  Drive drive = type_one_servo(40.0, 0.5);
+  ReducedDrive drive = type_one_servo(40.0, 0.5);
   drive.backlash = 0.02;
   drive.contact = CompliantContact{.stiffness = 3000.0, .damping = 1.5};
   drive.sensing = {.load_share_of_position = 0.75, .load_share_of_speed = 0.0};
@@ -146,8 +146,8 @@ TEST(OracleDescribing, AnElasticGapMeetsTheEquationsOfBothShafts) {
 // ---- torque limit -------------------------------------------------------------------------------
 
 /// 9 g/(s + 9) before 1/(s² + s), the torque limited to 1.
-Drive limited_drive(double gain) {
-  Drive drive;
+ReducedDrive limited_drive(double gain) {
+  ReducedDrive drive;
   drive.motor = {0.5, {.viscous = 0.5}};
   drive.load = {0.5, {.viscous = 0.5}};
   drive.backlash = 1e-3;
@@ -179,7 +179,7 @@ TEST(OracleDescribing, ATorqueLimitPassesTheShareThatBalances) {
 }
 
 TEST(OracleDescribing, AntiWindupIsWithinTheLoopOfTheTorqueLimit) {
-  Drive drive = limited_drive(1.0);
+  ReducedDrive drive = limited_drive(1.0);
   drive.controller = ProportionalIntegralDerivative{
       .proportional = 3.0, .integral = 4.0, .derivative = 0.5, .tracking_time = 0.25};
   const auto analysis = described(drive, DescribedPart::torque_limit);
@@ -196,8 +196,8 @@ TEST(OracleDescribing, AntiWindupIsWithinTheLoopOfTheTorqueLimit) {
 
 // ---- Coulomb friction ---------------------------------------------------------------------------
 
-Drive pid_with_friction(double integral) {
-  Drive drive;
+ReducedDrive pid_with_friction(double integral) {
+  ReducedDrive drive;
   drive.motor = {1.5, {.viscous = 0.3, .coulomb = 0.4, .breakaway = 0.6}};
   drive.load = {0.5, {.viscous = 0.2, .coulomb = 0.1, .breakaway = 0.1}};
   drive.backlash = 1e-3;
@@ -227,7 +227,7 @@ TEST(OracleDescribing, OfStictionInAStableLoopTheMethodSaysNothing) {
 // ---- sampling -----------------------------------------------------------------------------------
 
 TEST(OracleDescribing, SamplingIsADelayByHalfAPeriodMore) {
-  Drive drive = type_one_servo(5.0, 1.0);
+  ReducedDrive drive = type_one_servo(5.0, 1.0);
   drive.sampling = Sampling{.period = 0.04, .delay = 0.01};
   const auto analysis = described(drive, DescribedPart::gap_load_held);
   EXPECT_EQ(analysis.loop, (TransferFunction{{5.0}, {1.0, 1.0, 0.0}, 0.03}));
@@ -236,7 +236,7 @@ TEST(OracleDescribing, SamplingIsADelayByHalfAPeriodMore) {
 }
 
 TEST(OracleDescribing, TustinLeadsBackToTheControllerThatWasSampled) {
-  Drive drive = type_one_servo(5.0, 1.0);
+  ReducedDrive drive = type_one_servo(5.0, 1.0);
   drive.controller = ProportionalIntegralDerivative{3.0, 2.0, 0.7, 0.05, 0.0};
   const auto continuous = described(drive, DescribedPart::gap_load_held).loop;
   drive.sampling = Sampling{.period = 0.01, .delay = 0.0};
@@ -250,7 +250,7 @@ TEST(OracleDescribing, TustinLeadsBackToTheControllerThatWasSampled) {
 }
 
 TEST(OracleDescribing, ADelayInsideTheLoopIsNearlyOne) {
-  Drive drive = type_one_servo(5.0, 1.0);
+  ReducedDrive drive = type_one_servo(5.0, 1.0);
   drive.motor.friction.coulomb = drive.motor.friction.breakaway = 0.1;
   drive.sampling = Sampling{.period = 0.04, .delay = 0.01};
   const auto analysis = described(drive, DescribedPart::coulomb_friction);
@@ -264,7 +264,7 @@ TEST(OracleDescribing, ADelayInsideTheLoopIsNearlyOne) {
 }
 
 TEST(OracleDescribing, SpeedByDifferencesIsLateByHalfAPeriod) {
-  Drive drive = type_one_servo(5.0, 1.0);
+  ReducedDrive drive = type_one_servo(5.0, 1.0);
   drive.sensing.load_share_of_speed = 1.0;
   drive.controller = ProportionalDerivative{.proportional = 5.0, .derivative = 2.0};
   drive.sampling = Sampling{.period = 0.04, .speed_by_differences = true};
@@ -301,7 +301,7 @@ TEST(Describing, TheInputOfTheExactCycleIsOfThePart) {
 }
 
 TEST(EdgeDescribing, WithoutFeedbackNothingIsInALoop) {
-  Drive drive = type_one_servo(0.0, 1.0);
+  ReducedDrive drive = type_one_servo(0.0, 1.0);
   for (const DescribingAnalysis& analysis : describing_analyses(drive)) {
     EXPECT_FALSE(is_in_loop(analysis));
     EXPECT_TRUE(analysis.cycles.empty());
