@@ -1,10 +1,10 @@
 // gearlash compare: the same drive with its sensor before and after the gap.
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <sstream>
 
 #include "analysis/analyse.hpp"
+#include "base/progress_part.hpp"
 #include "command.hpp"
 #include "general/assemble/time_scale.hpp"
 #include "input/units.hpp"
@@ -92,19 +92,14 @@ Drive with_sensor(Drive drive, SensorPlace place) {
 }
 
 SensorCase compared(const WrittenDrive& written, SensorPlace place, const Step& step,
-                    const std::function<void(double)>& show) {
+                    Progress& progress) {
   SensorCase one;
   one.place = place;
   one.report.drive = with_sensor(written.drive, place);
   one.report.angle = written.angle;
   one.report.is_normalized = is_normalized(written.drive);
   const drive::ReducedDrive reduced = reduce(one.report.drive);
-  drive::AttractorOptions options;
-  options.go_on = [&](double share) {
-    show(share);
-    return true;
-  };
-  one.report.answer = answer_of(drive::find_attractors(reduced, options), reduced);
+  one.report.answer = answer_of(drive::find_attractors(reduced, {}, progress), reduced);
   one.response = drive::step_response(reduced, step.size, step.until);
   return one;
 }
@@ -129,12 +124,12 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
 
   ComparisonReport report{.cases = {}, .provenance = provenance};
   {
-    Progress progress("Comparing");
+    TerminalProgress progress("Comparing");
     for (const SensorPlace place : places) {
       const auto done = static_cast<double>(report.cases.size());
-      report.cases.push_back(compared(*written, place, step, [&](double share) {
-        progress.show((done + share) / static_cast<double>(places.size()));
-      }));
+      const auto all = static_cast<double>(places.size());
+      ProgressPart part(progress, done / all, (done + 1.0) / all);
+      report.cases.push_back(compared(*written, place, step, part));
     }
   }
   Extras extras;

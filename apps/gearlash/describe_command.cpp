@@ -60,12 +60,8 @@ std::vector<drive::ExactCycle> exact_cycles(const Answer& answer) {
 DescribedDrive described_drive(const ServoOptions& options, Faults& faults) {
   std::optional<WrittenDrive> written = resolve_drive(options, faults);
   faults.require_none();
-  Progress progress("Searching");
-  const auto show = [&](double share) {
-    progress.show(share);
-    return true;
-  };
-  Analysis analysis = analyse_in_full(written->drive, {.proofs = false, .go_on = show});
+  TerminalProgress progress("Searching");
+  Analysis analysis = analyse_in_full(written->drive, {.proofs = false}, progress);
   return {*std::move(written), std::move(analysis)};
 }
 

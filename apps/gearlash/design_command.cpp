@@ -123,10 +123,10 @@ void draw(const RegionMapTask& task, const Picture& picture, const std::string& 
 
 std::vector<FeasibleValues> work_out(const ChangeableDrive& drive, const Target& target,
                                      const std::vector<DesignParameter>& parameters) {
-  Progress progress("Design");
+  TerminalProgress progress("Design");
   std::vector<FeasibleValues> answers;
   for (const DesignParameter parameter : parameters) {
-    progress.show(static_cast<double>(answers.size()) / static_cast<double>(parameters.size()));
+    progress.go_on(static_cast<double>(answers.size()) / static_cast<double>(parameters.size()));
     answers.push_back(feasible_values(drive, parameter, target));
   }
   return answers;

@@ -201,7 +201,7 @@ std::string solved_text(const GridCount& count) {
 void make_grid_file(const GridTask& task, const std::string& what, const Provenance& provenance,
                     const GridPicture& draw) {
   OutputFile output(task.file);  // before the work: it may not be permitted
-  std::optional<Progress> progress;
+  std::optional<TerminalProgress> progress;
   progress.emplace(what, task.grid.size(), "servos");
   progress->show_done(0);
   const GoingOn going_on = [&](std::size_t done) {

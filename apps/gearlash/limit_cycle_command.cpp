@@ -158,9 +158,9 @@ void add_changes(Work& work, const LimitCycleOptions& options, bool wants_sensit
   // At the very ends of the ranges rounding may put the drive's ratios beyond them.
   const bool is_sound = validate(drive.drivetrain()).empty();
   if (is_sound && (options.margins || has_quick_margins(work.servo->servo))) {
-    Progress progress("Margins");
+    TerminalProgress progress("Margins");
     work.report.changeable = drive;
-    work.report.margin = hunting_margin(drive, [&](double share) { progress.show(share); });
+    work.report.margin = hunting_margin(drive, progress);
   }
   if (!wants_sensitivities) return;
   if (!is_sound) {
@@ -174,11 +174,8 @@ void add_changes(Work& work, const LimitCycleOptions& options, bool wants_sensit
 Work analysed(const WrittenDrive& written, const Provenance& provenance) {
   Work work;
   {
-    Progress progress("Searching");
-    work.analysis = analyse_in_full(written.drive, {.go_on = [&](double share) {
-                                      progress.show(share);
-                                      return true;
-                                    }});
+    TerminalProgress progress("Searching");
+    work.analysis = analyse_in_full(written.drive, {}, progress);
   }
   work.report.drive = written.drive;
   work.report.answer = work.analysis.answer;

@@ -42,9 +42,9 @@ struct Plot {
 template <class Report>
 void write_tables(const Report& report, const SimulateOptions& options) {
   OutputFile output(options.output);
-  Progress progress("Writing");
+  TerminalProgress progress("Writing");
   const TextSink sink = [&](std::string_view text) { output.write(text); };
-  const ProgressSink show = [&](double share) { progress.show(share); };
+  const ProgressSink show = [&](double share) { progress.go_on(share); };
   if (options.format == "json") {
     write_motion_json(report, sink, show);
   } else if (options.events) {

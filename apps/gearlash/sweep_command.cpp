@@ -81,7 +81,7 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
   faults.require_none();
 
   const StopRequest stop;
-  std::optional<Progress> progress;
+  std::optional<TerminalProgress> progress;
   progress.emplace("Sweep", sweep.grid.size(), "servos");
   const SweepRun done =
       run_sweep(sweep, provenance_of(options, provenance), options.output,

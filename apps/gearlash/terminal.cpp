@@ -48,9 +48,9 @@ std::string progress_text(double share, double seconds, double things, const std
   return text + fmt::format(", {:.0f} h left", std::ceil(left / 3600.0));
 }
 
-Progress::Progress(std::string what) : Progress(std::move(what), 0, "") {}
+TerminalProgress::TerminalProgress(std::string what) : TerminalProgress(std::move(what), 0, "") {}
 
-Progress::Progress(std::string what, std::size_t count, std::string name)
+TerminalProgress::TerminalProgress(std::string what, std::size_t count, std::string name)
     : what_(std::move(what)),
       count_(count),
       name_(std::move(name)),
@@ -58,9 +58,9 @@ Progress::Progress(std::string what, std::size_t count, std::string name)
       start_(Clock::now()),
       next_(start_ + patience) {}
 
-void Progress::show(double share) {
+bool TerminalProgress::go_on(double share, std::size_t /*bytes*/) {
   const Clock::time_point now = Clock::now();
-  if (!is_watched_ || now < next_) return;
+  if (!is_watched_ || now < next_) return true;
   next_ = now + refresh;
   const double seconds = std::chrono::duration<double>(now - start_).count();
   std::string line =
@@ -69,16 +69,17 @@ void Progress::show(double share) {
   line.resize(width_, ' ');  // over what was longer
   fmt::print(stderr, "\r{}", line);
   std::fflush(stderr);
+  return true;
 }
 
-void Progress::show_done(std::size_t done) {
+void TerminalProgress::show_done(std::size_t done) {
   const double share = static_cast<double>(done) / static_cast<double>(count_);
   if (!is_told_) begun_ = share;
   is_told_ = true;
-  show(share);
+  go_on(share);
 }
 
-Progress::~Progress() {
+TerminalProgress::~TerminalProgress() {
   if (width_ == 0) return;
   // Blanks instead of an escape sequence: understood by every terminal.
   std::fputs(("\r" + std::string(width_, ' ') + "\r").c_str(), stderr);

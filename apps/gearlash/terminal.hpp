@@ -4,6 +4,8 @@
 #include <chrono>
 #include <string>
 
+#include "gearlash/progress.hpp"
+
 namespace gearlash::cli {
 
 /// `text` in bold where standard output is a terminal; as it is elsewhere, or with NO_COLOR set.
@@ -17,16 +19,16 @@ std::string progress_text(double share, double seconds, double things, const std
 
 /// A line on standard error that tells how far long work has come. Shown only on a terminal, and
 /// only when the work takes longer than a second; wiped at the end.
-class Progress {
+class TerminalProgress : public Progress {
  public:
-  explicit Progress(std::string what);
+  explicit TerminalProgress(std::string what);
   /// Work on `count` things, "servos", whose rate is shown too.
-  Progress(std::string what, std::size_t count, std::string name);
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  TerminalProgress(std::string what, std::size_t count, std::string name);
+  ~TerminalProgress() override;
+  TerminalProgress(const TerminalProgress&) = delete;
+  TerminalProgress& operator=(const TerminalProgress&) = delete;
 
-  void show(double share);
+  bool go_on(double share, std::size_t bytes = 0) override;
   /// The first call may come before any work: what is done then was done earlier.
   void show_done(std::size_t done);
 

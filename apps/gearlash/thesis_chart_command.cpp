@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 
+#include "base/progress_part.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "machine_faults.hpp"
 #include "output/columns.hpp"
@@ -51,8 +52,8 @@ int read_figure_number(const std::string& text) {
   throw InvalidInput({{"N", shown(text), permitted, ""}});
 }
 
-/// Works the figure out and draws it; `done` hears how far it is.
-std::string draw_figure(int number, PictureFormat format, const std::function<void(double)>& done) {
+/// Works the figure out and draws it.
+std::string draw_figure(int number, PictureFormat format, Progress& progress) {
   for (const auto& figure : thesis::thesis_phase_figures()) {
     if (figure.number == number) return draw_line_chart(chart_of(figure), format);
   }
@@ -64,8 +65,8 @@ std::string draw_figure(int number, PictureFormat format, const std::function<vo
   const auto count = static_cast<double>(figure->curves.size());
   for (const auto& curve : figure->curves) {
     const auto before = static_cast<double>(data.size());
-    data.push_back(
-        thesis::work_out(*figure, curve, [&](double share) { done((before + share) / count); }));
+    ProgressPart part(progress, before / count, (before + 1.0) / count);
+    data.push_back(thesis::work_out(*figure, curve, part));
   }
   return draw_line_chart(chart_of(*figure, data), format);
 }
@@ -147,8 +148,8 @@ void add_thesis_figure(CLI::App& thesis, Action& action) {
       const PictureFormat format =
           faults.collect([&] { return picture_format("--output", file); }, PictureFormat::svg);
       faults.require_none();
-      Progress progress("Figure " + options->number);
-      write_file(file, draw_figure(number, format, [&](double share) { progress.show(share); }));
+      TerminalProgress progress("Figure " + options->number);
+      write_file(file, draw_figure(number, format, progress));
       return ExitStatus::done;
     };
   });
@@ -168,16 +169,15 @@ void add_thesis_all(CLI::App& thesis, Action& action) {
         throw InvalidInput({{"--output", shown(*folder),
                              "must be a folder that can be made (" + error.message() + ")", ""}});
       }
-      Progress progress("Figures");
+      TerminalProgress progress("Figures");
       const std::vector<int> numbers = figure_numbers();
       const auto count = static_cast<double>(numbers.size());
       for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const auto done = [&](double share) {
-          progress.show((static_cast<double>(i) + share) / count);
-        };
+        const auto done = static_cast<double>(i);
+        ProgressPart part(progress, done / count, (done + 1.0) / count);
         const std::filesystem::path file =
             std::filesystem::path(*folder) / fmt::format("figure-{}.svg", numbers[i]);
-        write_file(file.string(), draw_figure(numbers[i], PictureFormat::svg, done));
+        write_file(file.string(), draw_figure(numbers[i], PictureFormat::svg, part));
       }
       return ExitStatus::done;
     };
@@ -230,9 +230,8 @@ void add_thesis_extension(CLI::App& thesis, Action& action) {
       const PictureFormat format =
           faults.collect([&] { return picture_format("--output", file); }, PictureFormat::svg);
       faults.require_none();
-      Progress progress("Extension " + options->number);
-      const thesis::Extension extension = thesis::extension(
-          std::stoi(options->number), [&](double share) { progress.show(share); });
+      TerminalProgress progress("Extension " + options->number);
+      const thesis::Extension extension = thesis::extension(std::stoi(options->number), progress);
       Extras extras;
       extras.make([&] { write_file(file, draw_line_chart(extension.chart, format)); });
       write_file("-", wrapped(fmt::format("{}. {}", extension.number, extension.wish)) + "\n" +

@@ -131,13 +131,12 @@ struct AllRuns {
 };
 
 AllRuns run_all(bool on_machine) {
-  Progress progress("Charts");
-  const auto show = [&](double share) { progress.show(share); };
+  TerminalProgress progress("Charts");
   if (!on_machine) {
     const auto run = [](const thesis::ProgramParameters& parameters) {
       return thesis::run_until_settled(parameters);
     };
-    return {thesis::chart_errors(run, show), ""};
+    return {thesis::chart_errors(run, progress), ""};
   }
   const auto start = std::chrono::steady_clock::now();
   std::size_t instructions = 0;
@@ -147,7 +146,7 @@ AllRuns run_all(bool on_machine) {
         instructions += run.instructions;
         return run.cycle;
       },
-      show);
+      progress);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   constexpr double seconds_of_1960 = 180.0;

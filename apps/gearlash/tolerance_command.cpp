@@ -176,7 +176,7 @@ Task read_task(const ToleranceOptions& options, Faults& faults) {
 ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
   Faults faults;
   const Task task = read_task(options, faults);
-  std::optional<Progress> progress;
+  std::optional<TerminalProgress> progress;
   const auto begin = [&](const char* what, std::size_t count, const char* name = "drives") {
     progress.reset();
     progress.emplace(what, count, name);

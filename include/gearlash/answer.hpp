@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gearlash/drive.hpp"
+#include "gearlash/quantity.hpp"
 
 namespace gearlash {
 
@@ -173,6 +174,10 @@ struct Answer {
 
   /// The cycle that is seen in practice: the largest that is not unstable; nullptr: none.
   [[nodiscard]] const Cycle* largest_stable() const noexcept;
+
+  /// In SI; nothing where it does not exist, or is not known. Amplitudes are 0 where the drive
+  /// comes to rest. A choice gives its number.
+  [[nodiscard]] std::optional<double> value(Quantity quantity) const;
 };
 
 /// "cannot hunt", "hunts if disturbed", …

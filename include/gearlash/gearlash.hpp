@@ -9,5 +9,7 @@
 #include "gearlash/input.hpp"
 #include "gearlash/output.hpp"
 #include "gearlash/parameter.hpp"
+#include "gearlash/progress.hpp"
+#include "gearlash/quantity.hpp"
 #include "gearlash/signal.hpp"
 #include "gearlash/version.hpp"

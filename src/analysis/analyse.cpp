@@ -297,7 +297,7 @@ Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive
 
 bool has_closed_form(const Drive& drive) { return servo_in_the_end(drive).has_value(); }
 
-Analysis analyse_in_full(const Drive& drive, const Wanted& wanted) {
+Analysis analyse_in_full(const Drive& drive, const Wanted& wanted, Progress& progress) {
   require_none(faults(drive));
   Analysis analysis;
   analysis.reduced = settled(reduce(drive));
@@ -317,15 +317,13 @@ Analysis analyse_in_full(const Drive& drive, const Wanted& wanted) {
     }
     return analysis;
   }
-  drive::AttractorOptions options;
-  options.go_on = wanted.go_on;
-  analysis.search = drive::find_attractors(analysis.reduced, options);
+  analysis.search = drive::find_attractors(analysis.reduced, {}, progress);
   analysis.answer = answer_of(*analysis.search, analysis.reduced);
   return analysis;
 }
 
-Answer analyse(const Drive& drive, const Wanted& wanted) {
-  return analyse_in_full(drive, wanted).answer;
+Answer analyse(const Drive& drive, const Wanted& wanted, Progress& progress) {
+  return analyse_in_full(drive, wanted, progress).answer;
 }
 
 }  // namespace gearlash

@@ -21,7 +21,8 @@ struct Analysis {
 
 /// What the drive ends in. Of references and load torques only the final value, ramp or sine
 /// matters. Throws InvalidInput for a drive that is not sound.
-Analysis analyse_in_full(const Drive& drive, const Wanted& wanted = {});
+Analysis analyse_in_full(const Drive& drive, const Wanted& wanted = {},
+                         Progress& progress = no_progress());
 
 /// Whether the closed form answers for a sound drive.
 bool has_closed_form(const Drive& drive);

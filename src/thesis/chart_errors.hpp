@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "gearlash/progress.hpp"
 #include "model/normalized_servo.hpp"
 #include "picture/cell_map.hpp"
 #include "thesis/settled_cycle.hpp"
@@ -32,7 +33,7 @@ struct ChartError {
 /// `size_of` runs the program for one servo.
 std::vector<ChartError> chart_errors(
     const std::function<SettledCycle(const ProgramParameters&)>& size_of,
-    const std::function<void(double share)>& done = {});
+    Progress& progress = no_progress());
 
 /// The errors as a map, a panel for each friction ratio, in per cent.
 CellMap error_map(const std::vector<ChartError>& errors);

@@ -123,7 +123,7 @@ Extension wide_inertia_ratios() {
   return result;
 }
 
-Extension elastic_contact(const std::function<void(double share)>& done) {
+Extension elastic_contact(Progress& progress) {
   Extension result{
       .number = 4,
       .wish =
@@ -157,21 +157,21 @@ Extension elastic_contact(const std::function<void(double share)>& done) {
     };
     result.chart.curves.push_back(
         bouncing_curve(fmt::format("damping {}", damping), evenly(0.0, 1.0, 51), servo_at));
-    if (done) done(static_cast<double>(result.chart.curves.size()) / dampings.size());
+    progress.go_on(static_cast<double>(result.chart.curves.size()) / dampings.size());
   }
   return result;
 }
 
 }  // namespace
 
-Extension extension(int number, const std::function<void(double share)>& done) {
+Extension extension(int number, Progress& progress) {
   switch (number) {
     case 2:
       return zero_friction_and_inertia();
     case 3:
       return wide_inertia_ratios();
     case 4:
-      return elastic_contact(done);
+      return elastic_contact(progress);
     default:
       throw std::out_of_range("no such recommendation");
   }

@@ -1,10 +1,10 @@
 // Recommendations 2 to 4 of the thesis: the charts it could not draw.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "gearlash/progress.hpp"
 #include "picture/line_chart.hpp"
 
 namespace gearlash::thesis {
@@ -19,6 +19,6 @@ struct Extension {
 /// 2: zero friction and zero inertia on either side; 3: inertia ratios from 10⁻³ to 10³; 4: contact
 /// from plastic to elastic. Works the chart out, some seconds for 4, and calls
 /// `done(share)` now and then. Precondition: 2 … 4.
-Extension extension(int number, const std::function<void(double share)>& done = {});
+Extension extension(int number, Progress& progress = no_progress());
 
 }  // namespace gearlash::thesis

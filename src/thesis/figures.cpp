@@ -226,15 +226,14 @@ NormalizedServo servo_at(const Figure& figure, const FigureCurve& curve, double 
   return servo;
 }
 
-FigureCurveData work_out(const Figure& figure, const FigureCurve& curve,
-                         const std::function<void(double share)>& done) {
+FigureCurveData work_out(const Figure& figure, const FigureCurve& curve, Progress& progress) {
   FigureCurveData data;
   for (std::size_t i = 0; i < figure.grid.size(); ++i) {
     const double place = figure.grid[i];
     const SettledCycle cycle =
         run_until_settled(program_parameters(servo_at(figure, curve, place)));
     if (cycle.hunts) data.program.push_back({place, cycle.size});
-    if (done) done(static_cast<double>(i + 1) / static_cast<double>(figure.grid.size()));
+    progress.go_on(static_cast<double>(i + 1) / static_cast<double>(figure.grid.size()));
   }
   const ExactCurve exact =
       exact_curve(places(figure), [&](double place) { return servo_at(figure, curve, place); });

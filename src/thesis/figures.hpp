@@ -2,10 +2,10 @@
 // exactly.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "gearlash/progress.hpp"
 #include "model/normalized_servo.hpp"
 #include "picture/line_chart.hpp"
 
@@ -42,7 +42,7 @@ struct FigureCurveData {
 
 /// Calls `done(share)` now and then.
 FigureCurveData work_out(const Figure& figure, const FigureCurve& curve,
-                         const std::function<void(double share)>& done = {});
+                         Progress& progress = no_progress());
 
 /// The figure as a chart to be drawn.
 LineChart chart_of(const Figure& figure, const std::vector<FigureCurveData>& data);

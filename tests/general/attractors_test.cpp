@@ -283,16 +283,19 @@ TEST(EdgeAttractors, WhatStandsStillFromTickToTickIsAtRest) {
 }
 
 TEST(EdgeAttractors, ASearchStopsWhenItIsTold) {
-  AttractorOptions options;
-  std::vector<double> shares;
-  options.go_on = [&](double share) {
-    shares.push_back(share);
-    return shares.size() < 3;
+  class TwoStarts : public Progress {
+   public:
+    bool go_on(double share, std::size_t /*bytes*/) override {
+      shares.push_back(share);
+      return shares.size() < 3;
+    }
+    std::vector<double> shares;
   };
-  const AttractorSearch found = find_attractors(servo(0.19, 2.0, 0.1), options);
+  TwoStarts progress;
+  const AttractorSearch found = find_attractors(servo(0.19, 2.0, 0.1), {}, progress);
   EXPECT_FALSE(found.is_complete);
   EXPECT_EQ(found.outcomes.size(), 2U);
-  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_TRUE(std::is_sorted(progress.shares.begin(), progress.shares.end()));
 }
 
 TEST(EdgeAttractors, ALoadTorqueThatGrowsForEverIsRefused) {

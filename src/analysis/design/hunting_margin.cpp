@@ -286,15 +286,14 @@ ParameterMargin parameter_margin(const ChangeableDrive& drive, DesignParameter p
   return margin;
 }
 
-HuntingMargin hunting_margin(const ChangeableDrive& drive,
-                             const std::function<void(double share)>& hear) {
+HuntingMargin hunting_margin(const ChangeableDrive& drive, Progress& progress) {
   HuntingMargin margin;
   margin.growth_at_rest = growth_at_rest(servo_dynamics(normalize(drive.drivetrain())));
   for (const DesignParameter parameter : all_parameters) {
     if (parameter == DesignParameter::restitution && drive.drivetrain().restitution == 0.0)
       continue;
     margin.parameters.push_back(parameter_margin(drive, parameter));
-    if (hear) hear(static_cast<double>(margin.parameters.size()) / (parameter_count + 1));
+    progress.go_on(static_cast<double>(margin.parameters.size()) / (parameter_count + 1));
   }
   margin.overall = overall_margin(drive.drivetrain());
   return margin;

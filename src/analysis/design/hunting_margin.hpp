@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <vector>
 
 #include "analysis/design/changeable_drive.hpp"
 #include "analysis/design/feasible_values.hpp"
+#include "gearlash/progress.hpp"
 
 namespace gearlash {
 
@@ -84,8 +84,7 @@ struct HuntingMargin {
 
 /// Of all parameters; of restitution where there is any. With plastic contact it takes some 30 ms;
 /// with bounces, where every value tried is a search for cycles of its own, seconds to minutes.
-/// `hear` is told what share is done. Throws InvalidInput.
-HuntingMargin hunting_margin(const ChangeableDrive& drive,
-                             const std::function<void(double share)>& hear = {});
+/// Throws InvalidInput.
+HuntingMargin hunting_margin(const ChangeableDrive& drive, Progress& progress = no_progress());
 
 }  // namespace gearlash

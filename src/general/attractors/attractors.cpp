@@ -39,8 +39,10 @@ struct Verdict {
 
 class Search {
  public:
-  Search(const ReducedDrive& drive, const AttractorOptions& options)
-      : options_(options), unscaled_(search_setting(drive, options.chosen_starts)) {
+  Search(const ReducedDrive& drive, const AttractorOptions& options, Progress& progress)
+      : options_(options),
+        progress_(progress),
+        unscaled_(search_setting(drive, options.chosen_starts)) {
     starts_ =
         options.starts.empty() ? usual_starts(unscaled_, options.chosen_starts) : options.starts;
     setting_ = scaled(unscaled_, glance());
@@ -61,7 +63,7 @@ class Search {
       ++done_;
     }
     if (result_.is_complete) seek_edges();
-    if (result_.is_complete && options_.go_on) options_.go_on(1.0);
+    if (result_.is_complete) progress_.go_on(1.0);
     finish();
     return std::move(result_);
   }
@@ -70,7 +72,7 @@ class Search {
   bool goes_on() {
     if (!result_.is_complete) return false;
     const auto all = static_cast<double>(starts_.size() + options_.most_edges);
-    if (options_.go_on && !options_.go_on(static_cast<double>(done_) / all)) {
+    if (!progress_.go_on(static_cast<double>(done_) / all)) {
       result_.is_complete = false;
     }
     return result_.is_complete;
@@ -336,6 +338,7 @@ class Search {
   }
 
   const AttractorOptions& options_;
+  Progress& progress_;
   const SearchTolerances& tolerances_ = options_.tolerances;
   const SearchBudget& budget_ = options_.budget;
   std::size_t most_events_ = 0;  ///< of a start, with the ticks of a clock
@@ -361,8 +364,9 @@ std::size_t AttractorSearch::count(MotionEnd end) const {
                     [&](const Outcome& outcome) { return outcome.end == end; }));
 }
 
-AttractorSearch find_attractors(const ReducedDrive& drive, const AttractorOptions& options) {
-  return Search(drive, options).run();
+AttractorSearch find_attractors(const ReducedDrive& drive, const AttractorOptions& options,
+                                Progress& progress) {
+  return Search(drive, options, progress).run();
 }
 
 }  // namespace gearlash::drive

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "gearlash/answer.hpp"
+#include "gearlash/progress.hpp"
 #include "general/assemble/drive_system.hpp"
 #include "general/attractors/search_tolerances.hpp"
 #include "hybrid/periodic_orbit.hpp"
@@ -143,15 +143,15 @@ struct AttractorOptions {
   SearchTolerances tolerances{};
   SearchBudget budget{};
   StartTolerances chosen_starts{};  ///< where `starts` is empty
-  /// Told the share that is done; false stops the search.
-  std::function<bool(double share)> go_on{};
 };
 
 /// Each start is watched until it comes to rest, runs away, or Newton's method (closing_orbit())
 /// closes a cycle that it is on; unstable cycles passed by are kept. Between starts that led to
 /// different ends bisection finds motion on the border, and Newton's method the unstable cycle that
 /// it hovers at. Of the signals settled() counts. Complete it cannot be: what was searched is told.
-/// The same from run to run. Throws InvalidInput, also where the load torque is a ramp in the end.
-AttractorSearch find_attractors(const ReducedDrive& drive, const AttractorOptions& options = {});
+/// The same from run to run. A search that is stopped says so (is_complete). Throws InvalidInput,
+/// also where the load torque is a ramp in the end.
+AttractorSearch find_attractors(const ReducedDrive& drive, const AttractorOptions& options = {},
+                                Progress& progress = no_progress());
 
 }  // namespace gearlash::drive

@@ -1,0 +1,66 @@
+// The list of quantities: each is found by its name and read from the motion that is meant.
+#include "model/quantities.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string_view>
+
+namespace gearlash {
+namespace {
+
+Cycle cycle(double amplitude, Stability stability) {
+  Cycle one;
+  one.amplitude = amplitude;
+  one.period = 2.0 * amplitude;
+  one.stability = stability;
+  return one;
+}
+
+TEST(Quantities, EachIsFoundByItsNameAlone) {
+  std::set<std::string_view> names;
+  for (const QuantityInfo& info : quantities()) {
+    EXPECT_TRUE(names.insert(info.name).second) << info.name;
+    EXPECT_EQ(find_quantity(info.name), info.quantity);
+    EXPECT_FALSE(info.meaning.empty()) << info.name;
+    EXPECT_EQ(info.unit.empty(), info.kind == QuantityKind::choice) << info.name;
+    const Dimension* dimension = entry_of(info.quantity).dimension;
+    if (dimension != nullptr && info.quantity != Quantity::frequency) {
+      EXPECT_EQ(dimension->unit, info.unit) << info.name;
+    }
+  }
+  EXPECT_EQ(find_quantity("growth-at-rest"), Quantity::growth_at_rest);
+  EXPECT_EQ(find_quantity("size"), Quantity::amplitude);
+  EXPECT_EQ(find_quantity("width"), std::nullopt);
+}
+
+TEST(Quantities, AreThoseOfTheLargestMotionThatIsNotUnstable) {
+  Answer answer;
+  answer.verdict = Verdict::hunts;
+  answer.cycles = {cycle(3.0, Stability::unstable), cycle(2.0, Stability::stable),
+                   cycle(1.0, Stability::stable)};
+  EXPECT_EQ(answer.value(Quantity::amplitude), 2.0);
+  EXPECT_EQ(answer.value(Quantity::frequency), 0.25);
+  EXPECT_EQ(answer.value(Quantity::impact_loss), std::nullopt);
+  answer.cycles.resize(1);
+  EXPECT_EQ(answer.value(Quantity::amplitude), std::nullopt);
+  answer.irregular.resize(1);
+  answer.irregular[0].amplitude = 7.0;
+  EXPECT_EQ(answer.value(Quantity::amplitude), 7.0);
+  EXPECT_EQ(answer.value(Quantity::period), std::nullopt);
+}
+
+TEST(Quantities, AmplitudesAreZeroOfWhatComesToRestAndUnknownOfWhatIsUndecided) {
+  Answer answer;
+  EXPECT_EQ(answer.value(Quantity::amplitude), std::nullopt);
+  answer.verdict = Verdict::cannot_hunt;
+  EXPECT_EQ(answer.value(Quantity::amplitude), 0.0);
+  EXPECT_EQ(answer.value(Quantity::period), std::nullopt);
+  answer.verdict = Verdict::comes_to_rest;
+  answer.rest = Rest{};
+  answer.rest->error = {-0.3, 0.1};
+  EXPECT_EQ(answer.value(Quantity::static_error), 0.3);
+}
+
+}  // namespace
+}  // namespace gearlash
