@@ -33,9 +33,9 @@ ExitStatus run(const ChartOptions& options, const Provenance& provenance) {
 
 }  // namespace
 
-void add_chart_command(CLI::App& app, Action& action) {
+void add_chart_command(Command& app, Action& action) {
   const auto options = std::make_shared<ChartOptions>();
-  CLI::App* command = app.add_subcommand("chart", "a family of curves over any input of the servo");
+  Command* command = app.add_subcommand("chart", "a family of curves over any input of the servo");
   command
       ->add_option("--x", options->x,
                    "axis: NAME=FROM:TO:COUNT, NAME=FROM:TO:COUNT:log or\n"

@@ -1,10 +1,10 @@
 // What the subcommands share: how they are registered, what they know and how they end.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 
+#include "command_line.hpp"
 #include "output/report_units.hpp"
 
 namespace gearlash::cli {
@@ -20,18 +20,18 @@ enum class ExitStatus {
 /// Set by the subcommand that was parsed; runs it. Throws InvalidInput, OutputError or ReaderGone.
 using Action = std::function<ExitStatus(const Provenance&)>;
 
-void add_limit_cycle_command(CLI::App& app, Action& action);
-void add_simulate_command(CLI::App& app, Action& action);
-void add_chart_command(CLI::App& app, Action& action);
-void add_map_command(CLI::App& app, Action& action);
-void add_sweep_command(CLI::App& app, Action& action);
-void add_design_command(CLI::App& app, Action& action);
-void add_describe_command(CLI::App& app, Action& action);
-void add_motor_command(CLI::App& app, Action& action);
-void add_tolerance_command(CLI::App& app, Action& action);
-void add_compare_command(CLI::App& app, Action& action);
-void add_show_command(CLI::App& app, Action& action);
-void add_thesis_command(CLI::App& app, Action& action);
+void add_limit_cycle_command(Command& app, Action& action);
+void add_simulate_command(Command& app, Action& action);
+void add_chart_command(Command& app, Action& action);
+void add_map_command(Command& app, Action& action);
+void add_sweep_command(Command& app, Action& action);
+void add_design_command(Command& app, Action& action);
+void add_describe_command(Command& app, Action& action);
+void add_motor_command(Command& app, Action& action);
+void add_tolerance_command(Command& app, Action& action);
+void add_compare_command(Command& app, Action& action);
+void add_show_command(Command& app, Action& action);
+void add_thesis_command(Command& app, Action& action);
 
 /// The end of every --help.
 std::string help_footer(const std::string& examples);

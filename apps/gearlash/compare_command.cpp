@@ -147,9 +147,9 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
 
 }  // namespace
 
-void add_compare_command(CLI::App& app, Action& action) {
+void add_compare_command(Command& app, Action& action) {
   const auto options = std::make_shared<CompareOptions>();
-  CLI::App* command = app.add_subcommand(
+  Command* command = app.add_subcommand(
       "compare", "the same drive with its sensor before and after the gap, side by side");
   command
       ->add_option("DRIVE.toml", options->servo.file,

@@ -164,9 +164,9 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
 
 }  // namespace
 
-void add_describe_command(CLI::App& app, Action& action) {
+void add_describe_command(Command& app, Action& action) {
   const auto options = std::make_shared<DescribeOptions>();
-  CLI::App* command =
+  Command* command =
       app.add_subcommand("describe", "what describing functions predict, beside the exact cycle");
   add_servo_or_drive_options(*command, options->servo);
   command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");

@@ -171,9 +171,9 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
 
 }  // namespace
 
-void add_design_command(CLI::App& app, Action& action) {
+void add_design_command(Command& app, Action& action) {
   const auto options = std::make_shared<DesignOptions>();
-  CLI::App* command = app.add_subcommand(
+  Command* command = app.add_subcommand(
       "design", "what must change so that it does not hunt, or less, or faster?");
   add_servo_options(*command, options->servo);
   command

@@ -150,7 +150,7 @@ void write_table(const GridTask& task, const GridTable& table, const GridPicture
 
 }  // namespace
 
-void add_grid_options(CLI::App& command, GridOptions& options) {
+void add_grid_options(Command& command, GridOptions& options) {
   command
       .add_option("--quantity", options.quantity,
                   "what is drawn: size (default), period, growth_at_rest, …")

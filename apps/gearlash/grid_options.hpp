@@ -1,7 +1,6 @@
 // What the commands that work out a grid of servos share: their axes, servo, quantity and output.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 #include <vector>
@@ -27,7 +26,7 @@ struct AxisOption {
 };
 
 /// --quantity, --output and the options of the servo.
-void add_grid_options(CLI::App& command, GridOptions& options);
+void add_grid_options(Command& command, GridOptions& options);
 
 /// What the output is.
 enum class GridFile { picture, csv, json, netcdf };

@@ -236,9 +236,9 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
 
 }  // namespace
 
-void add_limit_cycle_command(CLI::App& app, Action& action) {
+void add_limit_cycle_command(Command& app, Action& action) {
   const auto options = std::make_shared<LimitCycleOptions>();
-  CLI::App* command = app.add_subcommand("limit-cycle", "does it hunt, how big and how fast?");
+  Command* command = app.add_subcommand("limit-cycle", "does it hunt, how big and how fast?");
   add_servo_or_drive_options(*command, options->servo);
   command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");
   command->add_flag("--brief", options->brief, "the headline alone");

@@ -10,8 +10,6 @@
 #include "base/fault.hpp"
 #include "command.hpp"
 #include "gearlash/version.hpp"
-#include "input/section_reader.hpp"
-#include "input/units.hpp"
 #include "machine_faults.hpp"
 #include "output/output_file.hpp"
 
@@ -47,60 +45,10 @@ void install_signal_handlers() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-std::string names_of_subcommands(const CLI::App& app) {
-  std::string names;
-  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
-  for (std::size_t i = 0; i < commands.size(); ++i) {
-    if (i > 0) names += i + 1 == commands.size() ? " or " : ", ";
-    names += commands[i]->get_name();
-  }
-  return names;
-}
-
-/// What was typed where a subcommand of `app`, itself typed as `typed`, belongs.
-void require_subcommand(const CLI::App& app, const std::string& typed,
-                        const std::vector<std::string>& arguments) {
-  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
-  if (commands.empty()) return;
-  const std::string first = arguments.empty() ? "" : arguments.front();
-  if (first.starts_with("-")) return;  // an option: CLI11 knows it or says that it does not
-  const auto known = std::find_if(commands.begin(), commands.end(), [&](const CLI::App* command) {
-    return command->get_name() == first;
-  });
-  if (known == commands.end()) {
-    std::vector<std::string> names;
-    for (const CLI::App* command : commands) names.push_back(command->get_name());
-    throw InvalidInput({{"subcommand", first.empty() ? "" : shown(first),
-                         "must be " + names_of_subcommands(app) + guess_of(names, first) +
-                             "; see " + typed + " --help",
-                         ""}});
-  }
-  require_subcommand(**known, typed + " " + first, {arguments.begin() + 1, arguments.end()});
-}
-
-/// CLI11's own words, on one line, and where to find what is permitted.
-ExitStatus report_usage(const CLI::App& app, const CLI::ParseError& error) {
-  std::string name = "gearlash";
-  for (auto chosen = app.get_subcommands(); !chosen.empty();
-       chosen = chosen.front()->get_subcommands()) {
-    name += " " + chosen.front()->get_name();
-  }
-  std::string fault = error.what();
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {  // CLI11 turns their order round
-    fault = "not expected:";
-    for (const std::string& word : app.remaining(true)) fault += " " + word;
-  }
-  report_lines(shown(fault, 300) + "; see " + name + " --help");
-  return ExitStatus::bad_input;
-}
-
 ExitStatus parse_and_run(int argument_count, char** arguments) {
-  CLI::App app(description, "gearlash");
+  Command app("gearlash", description, std::string("gearlash ") + version);
   Action action;
-  app.set_version_flag("--version", std::string("gearlash ") + version);
-  app.require_subcommand(1);
   app.footer(help_footer(examples));
-  app.get_formatter()->column_width(30);
   add_limit_cycle_command(app, action);
   add_simulate_command(app, action);
   add_design_command(app, action);
@@ -113,24 +61,15 @@ ExitStatus parse_and_run(int argument_count, char** arguments) {
   add_sweep_command(app, action);
   add_show_command(app, action);
   add_thesis_command(app, action);
-  std::vector<std::string> words(arguments + std::min(argument_count, 1),
-                                 arguments + argument_count);
-  if (!words.empty() && words.front() == "help") {  // help VERB is VERB --help
-    words.erase(words.begin());
-    words.emplace_back("--help");
+  const auto message =
+      app.parse({arguments + std::min(argument_count, 1), arguments + argument_count});
+  if (message && message->is_fault) {
+    report_lines(message->text);
+    return ExitStatus::bad_input;
   }
-  require_subcommand(app, "gearlash", words);
-  try {
-    std::reverse(words.begin(), words.end());  // as CLI11 takes them
-    app.parse(std::move(words));
-  } catch (const CLI::CallForHelp&) {
-    write_file("-", app.help());
+  if (message) {
+    write_file("-", message->text);
     return ExitStatus::done;
-  } catch (const CLI::CallForVersion& version_text) {
-    write_file("-", std::string(version_text.what()) + "\n");
-    return ExitStatus::done;
-  } catch (const CLI::ParseError& error) {
-    return report_usage(app, error);
   }
   return action({typed_command(argument_count, arguments), version});
 }

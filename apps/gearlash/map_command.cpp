@@ -45,9 +45,9 @@ ExitStatus run(const MapOptions& options, const Provenance& provenance) {
 
 }  // namespace
 
-void add_map_command(CLI::App& app, Action& action) {
+void add_map_command(Command& app, Action& action) {
   const auto options = std::make_shared<MapOptions>();
-  CLI::App* command =
+  Command* command =
       app.add_subcommand("map", "contours over two inputs of the servo, and where hunting ends");
   command
       ->add_option("--x", options->x,

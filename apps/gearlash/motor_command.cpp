@@ -26,9 +26,9 @@ ExitStatus run(const std::string& path, const Provenance&) {
 
 }  // namespace
 
-void add_motor_command(CLI::App& app, Action& action) {
+void add_motor_command(Command& app, Action& action) {
   const auto path = std::make_shared<std::string>();
-  CLI::App* command =
+  Command* command =
       app.add_subcommand("motor", "from the data sheet to the numbers of the charts, step by step");
   command->add_option("SERVO.toml", *path, "data sheet (docs/data-sheets.md)")
       ->type_name("")

@@ -139,7 +139,7 @@ ServoFile read_file(const ServoOptions& options, Faults& faults) {
 
 }  // namespace
 
-void add_set_option(CLI::App& command, ServoOptions& options) {
+void add_set_option(Command& command, ServoOptions& options) {
   command
       .add_option("--set", options.settings,
                   "any parameter of the drive, with its unit, such as\n"
@@ -151,7 +151,7 @@ void add_set_option(CLI::App& command, ServoOptions& options) {
 
 namespace {
 
-void add_options(CLI::App& command, ServoOptions& options, const char* file_help,
+void add_options(Command& command, ServoOptions& options, const char* file_help,
                  const char* sensor_help) {
   command.add_option("SERVO.toml", options.file, file_help)->type_name("");
   command.add_option("--damping", options.damping, "damping coefficient, 0 or 1e-15 to 1000")
@@ -210,12 +210,12 @@ std::string option_name(std::string field) {
   return "--" + field;
 }
 
-void add_servo_options(CLI::App& command, ServoOptions& options) {
+void add_servo_options(Command& command, ServoOptions& options) {
   add_options(command, options, "data sheet or normalised servo (docs/data-sheets.md)",
               "shaft with the position sensor: load");
 }
 
-void add_servo_or_drive_options(CLI::App& command, ServoOptions& options) {
+void add_servo_or_drive_options(Command& command, ServoOptions& options) {
   add_options(command, options,
               "data sheet or normalised servo (docs/data-sheets.md), or drive\n(docs/drives.md)",
               "shaft with the position sensor: load, motor, or both (of a\n"

@@ -1,13 +1,13 @@
 // The servo that the command line describes: a file, options, or a file changed by options.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "analysis/design/changeable_drive.hpp"
+#include "command_line.hpp"
 #include "input/drive_file.hpp"
 #include "input/servo_file.hpp"
 #include "input/units.hpp"
@@ -30,9 +30,9 @@ struct ServoOptions {
 /// "--inertia-ratio" for inertia_ratio.
 std::string option_name(std::string field);
 
-void add_servo_options(CLI::App& command, ServoOptions& options);
+void add_servo_options(Command& command, ServoOptions& options);
 /// Of a command that takes drives too.
-void add_servo_or_drive_options(CLI::App& command, ServoOptions& options);
+void add_servo_or_drive_options(Command& command, ServoOptions& options);
 
 /// A file of a command: what it is for, "--output", and its name.
 struct FileUse {
@@ -41,7 +41,7 @@ struct FileUse {
 };
 
 /// --set PATH=VALUE, repeatable.
-void add_set_option(CLI::App& command, ServoOptions& options);
+void add_set_option(Command& command, ServoOptions& options);
 
 /// Collects the faults of a command line, so that all of them are reported at once.
 class Faults {

@@ -86,9 +86,9 @@ ExitStatus run(const ShowOptions& options, const Provenance& provenance) {
 
 }  // namespace
 
-void add_show_command(CLI::App& app, Action& action) {
+void add_show_command(Command& app, Action& action) {
   const auto options = std::make_shared<ShowOptions>();
-  CLI::App* command =
+  Command* command =
       app.add_subcommand("show", "the drive with all defaults taken, as a file that reads back");
   add_servo_or_drive_options(*command, options->servo);
   command->add_option("--format", options->format, "toml (default) or json")->type_name("FORMAT");

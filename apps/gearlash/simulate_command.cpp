@@ -227,7 +227,7 @@ ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
   return simulate_servo(std::get<ServoFile>(described), options, plots, provenance, faults);
 }
 
-void add_motion_options(CLI::App& command, SimulateOptions& options) {
+void add_motion_options(Command& command, SimulateOptions& options) {
   constexpr char group[] =
       "Motion (s and rad/s, or with their unit, \"50 ms\", \"3 rpm\"; without a natural frequency "
       "normalised)";
@@ -271,9 +271,9 @@ void add_motion_options(CLI::App& command, SimulateOptions& options) {
 
 }  // namespace
 
-void add_simulate_command(CLI::App& app, Action& action) {
+void add_simulate_command(Command& app, Action& action) {
   const auto options = std::make_shared<SimulateOptions>();
-  CLI::App* command =
+  Command* command =
       app.add_subcommand("simulate", "the exact motion after a step or from a disturbance");
   add_servo_or_drive_options(*command, options->servo);
   add_motion_options(*command, *options);

@@ -100,9 +100,9 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
 
 }  // namespace
 
-void add_sweep_command(CLI::App& app, Action& action) {
+void add_sweep_command(Command& app, Action& action) {
   const auto options = std::make_shared<SweepOptions>();
-  CLI::App* command = app.add_subcommand(
+  Command* command = app.add_subcommand(
       "sweep", "limit cycles over up to six inputs, into a NetCDF file of any size");
   command->add_option("SWEEP.toml", options->file, "what is varied, and the rest of the servo")
       ->type_name("")

@@ -123,13 +123,13 @@ constexpr char extension_examples[] =
 
 }  // namespace
 
-void add_thesis_figure(CLI::App& thesis, Action& action) {
+void add_thesis_figure(Command& thesis, Action& action) {
   struct Options {
     std::string number;
     std::string output;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
+  Command* command =
       thesis.add_subcommand("figure", "one of figures 2 to 15, then and exactly, as a picture");
   command->add_option("N", options->number, "number of the figure, 2 to 15")
       ->type_name("")
@@ -155,9 +155,9 @@ void add_thesis_figure(CLI::App& thesis, Action& action) {
   });
 }
 
-void add_thesis_all(CLI::App& thesis, Action& action) {
+void add_thesis_all(Command& thesis, Action& action) {
   const auto folder = std::make_shared<std::string>("thesis-figures");
-  CLI::App* command = thesis.add_subcommand("all", "all figures into a folder, as SVG");
+  Command* command = thesis.add_subcommand("all", "all figures into a folder, as SVG");
   command->add_option("--output", *folder, "folder, made if need be; default thesis-figures")
       ->type_name("DIR");
   command->footer(help_footer(figure_examples));
@@ -184,9 +184,9 @@ void add_thesis_all(CLI::App& thesis, Action& action) {
   });
 }
 
-void add_thesis_chart_reading(CLI::App& thesis, Action& action) {
+void add_thesis_chart_reading(Command& thesis, Action& action) {
   const auto options = std::make_shared<ServoOptions>();
-  CLI::App* command = thesis.add_subcommand(
+  Command* command = thesis.add_subcommand(
       "chart-reading", "the size as one read it off the charts, beside the exact one");
   add_servo_options(*command, *options);
   command->footer(help_footer(chart_reading_examples));
@@ -202,13 +202,13 @@ void add_thesis_chart_reading(CLI::App& thesis, Action& action) {
   });
 }
 
-void add_thesis_extension(CLI::App& thesis, Action& action) {
+void add_thesis_extension(Command& thesis, Action& action) {
   struct Options {
     std::string number;
     std::string output;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App* command = thesis.add_subcommand(
+  Command* command = thesis.add_subcommand(
       "extension", "what the thesis recommends to do next, as a chart: 2, 3 or 4");
   command->add_option("N", options->number, "number of the recommendation: 2, 3 or 4")
       ->type_name("")

@@ -11,10 +11,10 @@ constexpr char examples[] =
 
 }  // namespace
 
-void add_thesis_command(CLI::App& app, Action& action) {
-  CLI::App* thesis =
+void add_thesis_command(Command& app, Action& action) {
+  Command* thesis =
       app.add_subcommand("thesis", "the program and the charts of 1960, beside the exact answer");
-  thesis->require_subcommand(1);
+  thesis->require_subcommand();
   thesis->footer(help_footer(examples));
   add_thesis_table_2(*thesis, action);
   add_thesis_machine(*thesis, action);

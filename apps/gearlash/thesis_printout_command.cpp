@@ -187,20 +187,19 @@ int trace_count(const std::string& text) {
 
 }  // namespace
 
-void add_thesis_table_2(CLI::App& thesis, Action& action) {
+void add_thesis_table_2(Command& thesis, Action& action) {
   struct Options {
     std::string arithmetic = "double";
     bool properties = false;
   };
   const auto options = std::make_shared<Options>();
-  CLI::App* command =
+  Command* command =
       thesis.add_subcommand("table-2", "the typical printout, beside what was printed in 1960");
-  CLI::Option* arithmetic =
-      command
-          ->add_option("--arithmetic", options->arithmetic,
-                       "double (default), or 1604: the machine's, which cuts\n"
-                       "operands off before it adds them")
-          ->type_name("KIND");
+  Option* arithmetic = command
+                           ->add_option("--arithmetic", options->arithmetic,
+                                        "double (default), or 1604: the machine's, which cuts\n"
+                                        "operands off before it adds them")
+                           ->type_name("KIND");
   command
       ->add_flag("--properties", options->properties,
                  "show how many of its numbers each property of the\nprogram carries")
@@ -223,17 +222,17 @@ void add_thesis_table_2(CLI::App& thesis, Action& action) {
   });
 }
 
-void add_thesis_machine(CLI::App& thesis, Action& action) {
+void add_thesis_machine(Command& thesis, Action& action) {
   const auto options = std::make_shared<MachineOptions>();
-  CLI::App* command = thesis.add_subcommand(
+  Command* command = thesis.add_subcommand(
       "machine", "Table II from the octal words of Table I, by an emulated CDC 1604");
-  CLI::Option* trace =
+  Option* trace =
       command->add_option("--trace", options->trace, "show the first COUNT instructions instead")
           ->type_name("COUNT");
-  CLI::Option* rules = command->add_flag("--rules", options->rules,
-                                         "show which rules of rounding give the digits of 1960");
-  CLI::Option* listing = command->add_flag(
-      "--listing", options->listing, "show where the listing's symbolic and octal columns differ");
+  Option* rules = command->add_flag("--rules", options->rules,
+                                    "show which rules of rounding give the digits of 1960");
+  Option* listing = command->add_flag("--listing", options->listing,
+                                      "show where the listing's symbolic and octal columns differ");
   rules->excludes(trace);
   listing->excludes(trace);
   listing->excludes(rules);

@@ -197,25 +197,24 @@ ExitStatus run_program(const RunOptions& options) {
 
 }  // namespace
 
-void add_thesis_run(CLI::App& thesis, Action& action) {
+void add_thesis_run(Command& thesis, Action& action) {
   const auto options = std::make_shared<RunOptions>();
-  CLI::App* command = thesis.add_subcommand(
+  Command* command = thesis.add_subcommand(
       "run", "the size that the program of 1960 finds for any servo, beside the exact one");
   add_servo_options(*command, options->servo);
-  const std::vector<CLI::Option*> servo = command->get_options(
-      [&](const CLI::Option* option) { return option != command->get_help_ptr(); });
-  CLI::Option* all = command->add_flag("--all", options->all,
-                                       "all servos of the thesis's charts, as a table of errors");
+  const std::vector<Option*> servo = command->options();
+  Option* all = command->add_flag("--all", options->all,
+                                  "all servos of the thesis's charts, as a table of errors");
   command
       ->add_option("--plot", options->plot,
                    "with --all, draw the errors as a map; FILE ends in\n.svg, .png or .pdf")
       ->type_name("FILE")
       ->needs(all);
-  CLI::Option* machine = command->add_flag("--machine", options->machine,
-                                           "on the emulated CDC 1604 instead of by the port");
-  CLI::Option* causes = command->add_flag(
-      "--causes", options->causes, "what each property of the program does to five of the sizes");
-  for (CLI::Option* option : servo) {
+  Option* machine = command->add_flag("--machine", options->machine,
+                                      "on the emulated CDC 1604 instead of by the port");
+  Option* causes = command->add_flag("--causes", options->causes,
+                                     "what each property of the program does to five of the sizes");
+  for (Option* option : servo) {
     all->excludes(option);
     causes->excludes(option);
   }

@@ -214,9 +214,9 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
 
 }  // namespace
 
-void add_tolerance_command(CLI::App& app, Action& action) {
+void add_tolerance_command(Command& app, Action& action) {
   const auto options = std::make_shared<ToleranceOptions>();
-  CLI::App* command =
+  Command* command =
       app.add_subcommand("tolerance", "how many of a production run hunt, how big, and why?");
   command->add_option("SERVO.toml", options->file, "servo whose numbers carry tolerances")
       ->type_name("")

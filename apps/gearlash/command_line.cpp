@@ -1,0 +1,177 @@
+#include "command_line.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "base/fault.hpp"
+#include "input/section_reader.hpp"
+#include "input/units.hpp"
+
+namespace gearlash::cli {
+namespace {
+
+std::vector<std::string> names_of_subcommands(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+  }
+  return names;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? " or " : ", ";
+    text += names[i];
+  }
+  return text;
+}
+
+/// What was typed where a subcommand of `app`, itself typed as `typed`, belongs.
+void require_known_subcommand(const CLI::App& app, const std::string& typed,
+                              const std::vector<std::string>& words) {
+  const std::vector<std::string> names = names_of_subcommands(app);
+  if (names.empty()) return;
+  const std::string first = words.empty() ? "" : words.front();
+  if (first.starts_with("-")) return;  // an option: CLI11 knows it or says that it does not
+  if (std::find(names.begin(), names.end(), first) == names.end()) {
+    throw InvalidInput(
+        {{"subcommand", first.empty() ? "" : shown(first),
+          "must be " + listed(names) + guess_of(names, first) + "; see " + typed + " --help", ""}});
+  }
+  require_known_subcommand(*app.get_subcommand(first), typed + " " + first,
+                           {words.begin() + 1, words.end()});
+}
+
+/// CLI11's own words, on one line, and where to find what is permitted.
+std::string usage_fault(const CLI::App& app, const CLI::ParseError& error) {
+  std::string name = app.get_name();
+  for (auto chosen = app.get_subcommands(); !chosen.empty();
+       chosen = chosen.front()->get_subcommands()) {
+    name += " " + chosen.front()->get_name();
+  }
+  std::string fault = error.what();
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {  // CLI11 turns their order round
+    fault = "not expected:";
+    for (const std::string& word : app.remaining(true)) fault += " " + word;
+  }
+  return shown(fault, 300) + "; see " + name + " --help";
+}
+
+}  // namespace
+
+Option* Option::type_name(const std::string& name) {
+  option_->type_name(name);
+  return this;
+}
+
+Option* Option::group(const std::string& heading) {
+  option_->group(heading);
+  return this;
+}
+
+Option* Option::required() {
+  option_->required();
+  return this;
+}
+
+Option* Option::delimiter(char character) {
+  option_->delimiter(character);
+  return this;
+}
+
+Option* Option::allow_extra_args(bool allowed) {
+  option_->allow_extra_args(allowed);
+  return this;
+}
+
+Option* Option::take_all() {
+  option_->take_all();
+  return this;
+}
+
+Option* Option::expected(int count) {
+  option_->expected(count);
+  return this;
+}
+
+Option* Option::excludes(Option* other) {
+  option_->excludes(other->option_);
+  return this;
+}
+
+Option* Option::needs(Option* other) {
+  option_->needs(other->option_);
+  return this;
+}
+
+Command::Command(const std::string& name, const std::string& description,
+                 const std::string& version_text)
+    : app_(std::make_shared<CLI::App>(description, name)) {
+  app_->set_version_flag("--version", version_text);
+  app_->get_formatter()->column_width(30);
+  require_subcommand();
+}
+
+Command* Command::add_subcommand(const std::string& name, const std::string& description) {
+  // Shares the tool's ownership, points at its own.
+  subcommands_.push_back(
+      Command(std::shared_ptr<CLI::App>(app_, app_->add_subcommand(name, description))));
+  return &subcommands_.back();
+}
+
+template <class Value>
+Option* Command::bind(const std::string& name, Value& value, const std::string& help) {
+  return &options_.emplace_back(app_->add_option(name, value, help));
+}
+
+Option* Command::add_option(const std::string& name, std::string& value, const std::string& help) {
+  return bind(name, value, help);
+}
+
+Option* Command::add_option(const std::string& name, std::optional<std::string>& value,
+                            const std::string& help) {
+  return bind(name, value, help);
+}
+
+Option* Command::add_option(const std::string& name, std::vector<std::string>& values,
+                            const std::string& help) {
+  return bind(name, values, help);
+}
+
+Option* Command::add_flag(const std::string& name, bool& value, const std::string& help) {
+  return &options_.emplace_back(app_->add_flag(name, value, help));
+}
+
+std::vector<Option*> Command::options() {
+  std::vector<Option*> all;
+  for (Option& option : options_) all.push_back(&option);
+  return all;
+}
+
+void Command::footer(const std::string& text) { app_->footer(text); }
+
+void Command::callback(std::function<void()> done) { app_->callback(std::move(done)); }
+
+void Command::require_subcommand() { app_->require_subcommand(1); }
+
+std::optional<Command::Message> Command::parse(std::vector<std::string> words) {
+  if (!words.empty() && words.front() == "help") {  // help VERB is VERB --help
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
+  require_known_subcommand(*app_, app_->get_name(), words);
+  try {
+    std::reverse(words.begin(), words.end());  // as CLI11 takes them
+    app_->parse(std::move(words));
+  } catch (const CLI::CallForHelp&) {
+    return Message{app_->help()};
+  } catch (const CLI::CallForVersion& version_text) {
+    return Message{std::string(version_text.what()) + "\n"};
+  } catch (const CLI::ParseError& error) {
+    return Message{usage_fault(*app_, error), true};
+  }
+  return std::nullopt;
+}
+
+}  // namespace gearlash::cli

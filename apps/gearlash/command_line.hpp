@@ -1,0 +1,86 @@
+// Subcommands and options of the command line; CLI11, which reads them, is compiled in one place.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace gearlash::cli {
+
+/// An option or a positional argument of a command. Each call returns this option again.
+class Option {
+ public:
+  explicit Option(CLI::Option* option) : option_(option) {}
+
+  /// What the help shows in place of its value; "" shows nothing.
+  Option* type_name(const std::string& name);
+  /// The heading of the help under which it stands.
+  Option* group(const std::string& heading);
+  Option* required();
+  /// One word may hold many values, parted by this character.
+  Option* delimiter(char character);
+  /// Whether further words after the first are values of this option too.
+  Option* allow_extra_args(bool allowed);
+  /// Of a repeated option, all values are kept.
+  Option* take_all();
+  Option* expected(int count);
+  /// May not be given together with the other one.
+  Option* excludes(Option* other);
+  /// May only be given together with the other one.
+  Option* needs(Option* other);
+
+ private:
+  CLI::Option* option_;
+};
+
+/// A command with its options and subcommands. What options are bound to must outlive parse().
+class Command {
+ public:
+  /// The tool itself: --help, --version, and one of its subcommands.
+  Command(const std::string& name, const std::string& description, const std::string& version_text);
+
+  Command* add_subcommand(const std::string& name, const std::string& description);
+  /// Without leading dashes it is a positional argument. The text of its help may have many lines.
+  Option* add_option(const std::string& name, std::string& value, const std::string& help);
+  Option* add_option(const std::string& name, std::optional<std::string>& value,
+                     const std::string& help);
+  Option* add_option(const std::string& name, std::vector<std::string>& values,
+                     const std::string& help);
+  Option* add_flag(const std::string& name, bool& value, const std::string& help);
+  /// Those added so far.
+  std::vector<Option*> options();
+  /// The end of its help.
+  void footer(const std::string& text);
+  /// Called once this command has been parsed without fault.
+  void callback(std::function<void()> done);
+  /// One of its subcommands must be given.
+  void require_subcommand();
+
+  /// What is printed in place of running a command.
+  struct Message {
+    std::string text;
+    bool is_fault = false;  ///< one line; else the help or the version
+  };
+  /// Reads the words of a command line, the tool's name left out. Throws InvalidInput where a
+  /// subcommand is missing or unknown.
+  std::optional<Message> parse(std::vector<std::string> words);
+
+ private:
+  explicit Command(std::shared_ptr<CLI::App> app) : app_(std::move(app)) {}
+  template <class Value>
+  Option* bind(const std::string& name, Value& value, const std::string& help);
+
+  std::shared_ptr<CLI::App> app_;    // owned by the tool's
+  std::deque<Command> subcommands_;  // a deque: what it holds stays where it is
+  std::deque<Option> options_;
+};
+
+}  // namespace gearlash::cli
