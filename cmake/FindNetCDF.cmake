@@ -1,6 +1,7 @@
-# NetCDF's own CMake target links every library that its own build had found, with headers that its
-# Debian package does not bring. Defines NetCDF_FOUND, NetCDF_VERSION (where pkg-config knows it) and
-# the target NetCDF::netcdf, the C library.
+# NetCDF is loaded when a program writes its first file, not linked: what is wanted is its header and
+# the name under which the library is found at run time. Defines NetCDF_FOUND, NetCDF_VERSION (where
+# pkg-config knows it), NetCDF_SONAME (libnetcdf.so.19), NetCDF_PACKAGE (Debian's: libnetcdf19) and
+# the target NetCDF::headers.
 
 find_package(PkgConfig QUIET)
 if(PkgConfig_FOUND)
@@ -11,17 +12,25 @@ endif()
 find_path(NetCDF_INCLUDE_DIR netcdf.h HINTS ${NetCDF_PC_INCLUDE_DIRS})
 find_library(NetCDF_LIBRARY netcdf HINTS ${NetCDF_PC_LIBRARY_DIRS})
 mark_as_advanced(NetCDF_INCLUDE_DIR NetCDF_LIBRARY)
+if(NetCDF_LIBRARY AND NOT NetCDF_SONAME)
+  execute_process(COMMAND "${CMAKE_OBJDUMP}" -p "${NetCDF_LIBRARY}" OUTPUT_VARIABLE library_header
+                  ERROR_QUIET)
+  if(library_header MATCHES "SONAME +([^ \n]+)")
+    set(NetCDF_SONAME "${CMAKE_MATCH_1}" CACHE INTERNAL "name of the library at run time")
+    string(REPLACE ".so." "" package "${NetCDF_SONAME}")
+    set(NetCDF_PACKAGE "${package}" CACHE INTERNAL "its package")
+  endif()
+endif()
 
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(
   NetCDF
-  REQUIRED_VARS NetCDF_LIBRARY NetCDF_INCLUDE_DIR
+  REQUIRED_VARS NetCDF_LIBRARY NetCDF_INCLUDE_DIR NetCDF_SONAME
   VERSION_VAR NetCDF_VERSION
   REASON_FAILURE_MESSAGE "install NetCDF-4 with its headers (Debian: libnetcdf-dev)")
 
-if(NetCDF_FOUND AND NOT TARGET NetCDF::netcdf)
-  add_library(NetCDF::netcdf UNKNOWN IMPORTED)
-  set_target_properties(
-    NetCDF::netcdf PROPERTIES IMPORTED_LOCATION "${NetCDF_LIBRARY}"
-                              INTERFACE_INCLUDE_DIRECTORIES "${NetCDF_INCLUDE_DIR}")
+if(NetCDF_FOUND AND NOT TARGET NetCDF::headers)
+  add_library(NetCDF::headers INTERFACE IMPORTED)
+  set_target_properties(NetCDF::headers PROPERTIES INTERFACE_INCLUDE_DIRECTORIES
+                                                   "${NetCDF_INCLUDE_DIR}")
 endif()

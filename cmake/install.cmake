@@ -34,8 +34,7 @@ if(GEARLASH_BUILD_IO)
   gearlash_install_pkgconfig(gearlash-files ${files})
   install(EXPORT gearlash_files NAMESPACE gearlash:: FILE gearlashFilesTargets.cmake
           DESTINATION "${gearlash_package_dir}")
-  install(FILES cmake/FindNetCDF.cmake cmake/FindUDUNITS2.cmake
-          DESTINATION "${gearlash_package_dir}")
+  install(FILES cmake/FindUDUNITS2.cmake DESTINATION "${gearlash_package_dir}")
 endif()
 
 install(DIRECTORY include/gearlash DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"

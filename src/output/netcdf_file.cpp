@@ -1,5 +1,6 @@
 #include "output/netcdf_file.hpp"
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <netcdf.h>
 #include <unistd.h>
@@ -15,6 +16,53 @@ namespace gearlash {
 namespace {
 
 constexpr int closed = -1;
+
+/// A function of NetCDF's library, which is loaded with the first call: with the forty libraries
+/// that it needs in turn this takes longer than most commands. It is never unloaded: HDF5 does not
+/// bear it. Throws OutputError where the library is not there.
+void* function_of_library(const char* name) {
+  static void* const library = dlopen(GEARLASH_NETCDF_SONAME, RTLD_NOW | RTLD_LOCAL);
+  void* const function = library == nullptr ? nullptr : dlsym(library, name);
+  if (function == nullptr) {
+    throw OutputError(std::string("NetCDF files cannot be written without ") +
+                      GEARLASH_NETCDF_SONAME + " (Debian: " + GEARLASH_NETCDF_PACKAGE + ")");
+  }
+  errno = 0;  // whatever loading has left there
+  return function;
+}
+
+template <class Function>
+struct Loaded {
+  const char* name;
+
+  template <class... Arguments>
+  auto operator()(Arguments... arguments) const {
+    return reinterpret_cast<Function*>(function_of_library(name))(arguments...);
+  }
+};
+
+// By the names of the header's declarations, which these hide.
+constexpr Loaded<decltype(::nc_strerror)> nc_strerror{"nc_strerror"};
+constexpr Loaded<decltype(::nc_create)> nc_create{"nc_create"};
+constexpr Loaded<decltype(::nc_open)> nc_open{"nc_open"};
+constexpr Loaded<decltype(::nc_close)> nc_close{"nc_close"};
+constexpr Loaded<decltype(::nc_def_dim)> nc_def_dim{"nc_def_dim"};
+constexpr Loaded<decltype(::nc_def_var)> nc_def_var{"nc_def_var"};
+constexpr Loaded<decltype(::nc_def_var_chunking)> nc_def_var_chunking{"nc_def_var_chunking"};
+constexpr Loaded<decltype(::nc_def_var_fill)> nc_def_var_fill{"nc_def_var_fill"};
+constexpr Loaded<decltype(::nc_put_att_double)> nc_put_att_double{"nc_put_att_double"};
+constexpr Loaded<decltype(::nc_put_att_schar)> nc_put_att_schar{"nc_put_att_schar"};
+constexpr Loaded<decltype(::nc_put_att_text)> nc_put_att_text{"nc_put_att_text"};
+constexpr Loaded<decltype(::nc_enddef)> nc_enddef{"nc_enddef"};
+constexpr Loaded<decltype(::nc_redef)> nc_redef{"nc_redef"};
+constexpr Loaded<decltype(::nc_inq_varid)> nc_inq_varid{"nc_inq_varid"};
+constexpr Loaded<decltype(::nc_put_vara_double)> nc_put_vara_double{"nc_put_vara_double"};
+constexpr Loaded<decltype(::nc_put_vara_schar)> nc_put_vara_schar{"nc_put_vara_schar"};
+constexpr Loaded<decltype(::nc_get_vara_double)> nc_get_vara_double{"nc_get_vara_double"};
+constexpr Loaded<decltype(::nc_get_vara_schar)> nc_get_vara_schar{"nc_get_vara_schar"};
+constexpr Loaded<decltype(::nc_inq_attlen)> nc_inq_attlen{"nc_inq_attlen"};
+constexpr Loaded<decltype(::nc_get_att_text)> nc_get_att_text{"nc_get_att_text"};
+constexpr Loaded<decltype(::nc_sync)> nc_sync{"nc_sync"};
 
 /// "No space left on device", where the system said so, is clearer than "NetCDF: HDF error", and
 /// truer than "Permission denied", which stands for every file that HDF5 cannot make.

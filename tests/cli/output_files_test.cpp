@@ -38,6 +38,21 @@ TEST(OutputFiles, DirectoryThatIsNotThere) {
   EXPECT_EQ(run.out, "");
 }
 
+TEST(OutputFiles, NetcdfIsLoadedByThoseAloneThatWriteIt) {
+  const Scratch scratch;
+  std::ofstream(scratch / GEARLASH_NETCDF_SONAME) << "no library";
+  const std::string tool = "LD_LIBRARY_PATH=" + quoted((scratch / "").string()) + " \"$GEARLASH\" ";
+  const std::string servo = "--damping 0.2 --inertia-ratio 2 --friction-ratio 0.1 --backlash 0.3";
+  const Outcome answer = run_shell(tool + "limit-cycle --brief " + servo);
+  EXPECT_EQ(answer.status, 0) << answer.err;
+  const Outcome chart = run_shell(tool +
+                                  "chart --x backlash=0.1,0.2 --damping 0.2 "
+                                  "--inertia-ratio 2 --friction-ratio 0.1 --output " +
+                                  quoted((scratch / "chart.nc").string()));
+  EXPECT_EQ(chart.status, 3);
+  EXPECT_THAT(chart.err, HasSubstr("without " GEARLASH_NETCDF_SONAME " (Debian: libnetcdf"));
+}
+
 TEST(OutputFiles, FullDisk) {
   const Outcome table = run_tool(simulate_into("/dev/full"));
   EXPECT_EQ(table.status, 3);
