@@ -20,6 +20,9 @@ function(gearlash_install_pkgconfig name)
   install(FILES "${PROJECT_BINARY_DIR}/${name}.pc" DESTINATION "${gearlash_pkgconfig_dir}")
 endfunction()
 
+if(GEARLASH_THREADS)
+  set(threads_of_pc ", tbb >= 2021")
+endif()
 set(numerics gearlash_base gearlash_numeric gearlash_model gearlash_hybrid gearlash_closed_form
              gearlash_general gearlash_analysis)
 install(TARGETS gearlash ${numerics} EXPORT gearlash_numerics)
@@ -34,7 +37,6 @@ if(GEARLASH_BUILD_IO)
   gearlash_install_pkgconfig(gearlash-files ${files})
   install(EXPORT gearlash_files NAMESPACE gearlash:: FILE gearlashFilesTargets.cmake
           DESTINATION "${gearlash_package_dir}")
-  install(FILES cmake/FindUDUNITS2.cmake DESTINATION "${gearlash_package_dir}")
 endif()
 
 install(DIRECTORY include/gearlash DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"

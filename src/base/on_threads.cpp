@@ -1,3 +1,4 @@
+// on_threads() by oneTBB. on_one_thread.cpp is the other backend.
 #include "base/on_threads.hpp"
 
 #include <tbb/global_control.h>

@@ -1,7 +1,8 @@
-// The units that words stand for: UDUNITS-2's, and the aliases that servo engineers write.
+// The units that words stand for, of a table made from UDUNITS-2's database and our aliases.
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gearlash {
@@ -28,8 +29,7 @@ struct Unit {
 
 /// The units that one word stands for, prefixes included: one ("mN", "kΩ", "ozf"), or several where
 /// data sheets run them together ("mNm", "gcm"), of which the last takes the power ("gcm2"). Empty
-/// where there is none of that name, or one with an offset (degC) or a logarithm. Throws
-/// InvalidInput where UDUNITS-2 has no database.
-std::vector<Unit> find_units(const std::string& word);
+/// where there is none of that name, or one with an offset (degC) or a logarithm.
+std::vector<Unit> find_units(std::string_view word);
 
 }  // namespace gearlash

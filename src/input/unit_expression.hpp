@@ -21,8 +21,7 @@ class NotAUnit : public std::runtime_error {
 ///   exponent := "2" | "-2" | "^2" | "^-2" | "**2" | "²" | "⁻²"     (−9 … 9)
 ///
 /// read from left to right: a/b c is (a/b) c. UDUNITS-2's own grammar is not used, because it takes
-/// numbers, logarithms, offsets and dates within a unit. Throws NotAUnit; InvalidInput as
-/// find_units.
+/// numbers, logarithms, offsets and dates within a unit. Throws NotAUnit.
 Unit read_unit(std::string_view text);
 
 /// The length of the decimal number that `text` begins with: [+-] digits [. digits] [e [+-] digits]

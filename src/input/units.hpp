@@ -24,8 +24,7 @@ struct Measured {
 /// out, time must then be in seconds, since "V min" could be per rad/min or per rpm.
 ///
 /// Throws InvalidInput with one fault, of `field`, for a text that is no number and unit,
-/// for an unknown unit, another dimension, or a value that is not representable. UDUNITS-2 is not
-/// thread-safe: calls are serialised here, but do not call it yourself at the same time.
+/// for an unknown unit, another dimension, or a value that is not representable.
 Measured read_quantity(std::string_view field, std::string_view text, const Dimension& expected);
 
 /// read_quantity(…).si

@@ -351,7 +351,7 @@ TEST(Units, ManyThreadsReadAtOnce) {
   for (const double result : results) EXPECT_EQ(result, results[0]);
 }
 
-/// Run in a process of its own, so that it is the one to load the unit database.
+/// Run in a process of its own, whose locale is nobody else's.
 int read_under_comma_locale() {
   for (const char* name : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "nl_NL.UTF-8"}) {
     if (std::setlocale(LC_ALL, name) == nullptr) continue;

@@ -1,0 +1,11 @@
+// on_threads() where there are none, as in a browser: GEARLASH_THREADS=OFF builds it instead.
+#include "base/on_threads.hpp"
+
+namespace gearlash {
+
+void on_threads(std::size_t /*threads*/, std::size_t count,
+                const std::function<void(std::size_t)>& work) {
+  for (std::size_t i = 0; i < count; ++i) work(i);
+}
+
+}  // namespace gearlash
