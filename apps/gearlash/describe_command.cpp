@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "analysis/analyse.hpp"
-#include "analysis/drive_verdict.hpp"
 #include "command.hpp"
 #include "input/units.hpp"
 #include "machine_faults.hpp"
@@ -47,15 +46,6 @@ struct DescribedDrive {
   WrittenDrive written{};
   Analysis analysis{};
 };
-
-std::vector<drive::ExactCycle> exact_cycles(const Answer& answer) {
-  std::vector<drive::ExactCycle> exact;
-  for (const Cycle& cycle : answer.cycles) {
-    exact.push_back({cycle.amplitude, cycle.motor_amplitude, cycle.period,
-                     cycle.stability == Stability::stable});
-  }
-  return exact;
-}
 
 DescribedDrive described_drive(const ServoOptions& options, Faults& faults) {
   std::optional<WrittenDrive> written = resolve_drive(options, faults);
@@ -121,7 +111,8 @@ std::string draw(const DescribeReport& report, const DescribeOptions& options,
   }
   return draw_nyquist({.title = title_of(drawn.front().part),
                        .analyses = drawn,
-                       .exact = report.is_driven ? std::vector<drive::ExactCycle>{} : report.exact,
+                       .exact = report.answer.verdict == Verdict::forced ? std::vector<Cycle>{}
+                                                                         : report.answer.cycles,
                        .angle = report.angle,
                        .time_unit = report.time_unit},
                       format);
@@ -143,12 +134,11 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
   const DescribedDrive input = described_drive(options.servo, faults);
 
   const Answer& answer = input.analysis.answer;
-  const DescribeReport report{.analyses = drive::describing_analyses(reduce(input.written.drive)),
-                              .exact = exact_cycles(answer),
-                              .exact_verdict = answer.verdict == Verdict::forced
-                                                   ? "swings as it is driven"
-                                                   : name_of(answer.verdict),
-                              .is_driven = drive::is_driven(input.analysis.reduced),
+  const drive::ReducedDrive reduced = reduce(input.written.drive);
+  const DescribeReport report{.analyses = drive::describing_analyses(reduced),
+                              .drive = input.written.drive,
+                              .answer = answer,
+                              .backlash = reduced.backlash,
                               .angle = input.written.angle,
                               .time_unit = is_normalized(input.written.drive) ? "1/ω_n" : "s",
                               .provenance = provenance};

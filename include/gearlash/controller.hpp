@@ -96,7 +96,7 @@ enum class Discretization : std::uint8_t {
 /// worked out from `delay` later on.
 struct Sampling {
   double period = 0.0;  ///< s, > 0
-  double delay = 0.0;   ///< s, 0 … period
+  double delay = 0.0;   ///< s, 0 … 100 periods
   Discretization method = Discretization::tustin;
   /// The speed sensed is the difference of two positions divided by the period; else a
   /// tachometer's.

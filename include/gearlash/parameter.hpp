@@ -1,6 +1,7 @@
 // Every number, word and list of a drive by its path: "motor.inertia", "controller.A[1][2]".
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,9 +11,18 @@
 
 namespace gearlash {
 
+enum class ParameterKind : std::uint8_t {
+  number,
+  choice,  ///< one of several words
+  list,    ///< of numbers
+  matrix,  ///< rows of numbers
+  file     ///< the name of one
+};
+
 /// What is known of one parameter. Texts are of static storage.
 struct ParameterInfo {
   std::string_view path{};
+  ParameterKind kind = ParameterKind::number;
   std::string_view unit{};                  ///< SI; empty for a number without unit, a word, a list
   std::string_view meaning{};               ///< one sentence, without a full stop
   std::vector<std::string_view> choices{};  ///< of a word

@@ -4,7 +4,6 @@
 #include <set>
 #include <string>
 
-#include "analysis/drive_verdict.hpp"
 #include "base/interval.hpp"
 #include "base/range_check.hpp"
 #include "model/proportional_servo.hpp"
@@ -174,25 +173,27 @@ StartOutcome outcome_of(const drive::Outcome& found) {
   return outcome;
 }
 
+/// Whether a reference or a load torque swings for ever: what repeats is then no hunting by itself.
+bool is_driven(const drive::ReducedDrive& reduced) {
+  return std::holds_alternative<drive::Sine>(drive::settled(reduced.reference)) ||
+         std::holds_alternative<drive::Sine>(drive::settled(reduced.load_torque));
+}
+
+/// By where the starts led.
 Verdict verdict_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced) {
-  const bool is_forced = drive::is_driven(reduced);
-  switch (drive::verdict_of(search)) {
-    case drive::DriveVerdict::comes_to_rest:
-      return Verdict::comes_to_rest;
-    case drive::DriveVerdict::hunts:
-      return is_forced ? Verdict::forced : Verdict::hunts;
-    case drive::DriveVerdict::hunts_irregularly:
-      return is_forced ? Verdict::forced : Verdict::hunts_irregularly;
-    case drive::DriveVerdict::hunts_if_disturbed:
-      return is_forced ? Verdict::forced : Verdict::hunts_if_disturbed;
-    case drive::DriveVerdict::runs_away:
-      return Verdict::runs_away;
-    case drive::DriveVerdict::runs_away_if_disturbed:
-      return Verdict::runs_away_if_disturbed;
-    case drive::DriveVerdict::undecided:
-      return Verdict::undecided;
-  }
-  return Verdict::undecided;
+  const bool rests = search.count(drive::MotionEnd::rest) > 0;
+  const bool cycles = search.count(drive::MotionEnd::cycle) > 0;
+  const bool swings = cycles || search.count(drive::MotionEnd::irregular) > 0;
+  const bool diverges = search.count(drive::MotionEnd::diverges) > 0;
+  if (swings && is_driven(reduced)) return Verdict::forced;
+  if (swings && rests) return Verdict::hunts_if_disturbed;
+  if (cycles) return Verdict::hunts;
+  if (swings) return Verdict::hunts_irregularly;
+  if (diverges) return rests ? Verdict::runs_away_if_disturbed : Verdict::runs_away;
+  // Starts of which nothing is known could hunt.
+  const bool all_rest =
+      rests && search.count(drive::MotionEnd::undecided) == 0 && search.is_complete;
+  return all_rest ? Verdict::comes_to_rest : Verdict::undecided;
 }
 
 std::vector<Note> notes_of(const drive::AttractorSearch& search) {

@@ -290,4 +290,14 @@ double spectral_radius(const LinearController& controller) {
   return std::isfinite(radius) ? radius : std::numeric_limits<double>::infinity();
 }
 
+SplitDelay split_delay(const Sampling& sampling) {
+  if (sampling.delay == 0.0) return {};
+  constexpr double rounding = 1e-12;
+  const double periods = sampling.delay / sampling.period;
+  const double whole = std::ceil(periods * (1.0 - rounding)) - 1.0;
+  const double rest = sampling.delay - whole * sampling.period;
+  return {static_cast<int>(whole),
+          rest >= sampling.period * (1.0 - rounding) ? sampling.period : rest};
+}
+
 }  // namespace gearlash::drive

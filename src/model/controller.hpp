@@ -95,7 +95,7 @@ enum class Discretization {
 /// worked out `delay` later, to be held until the next is given out.
 struct Sampling {
   double period = 0.0;  ///< s, > 0
-  double delay = 0.0;   ///< s, 0 … period
+  double delay = 0.0;   ///< s, 0 … most_periods_of_delay periods
   Discretization method = Discretization::tustin;
   /// The speed sensed is the difference of two readings of the position by the period; else it is a
   /// tachometer's.
@@ -103,6 +103,19 @@ struct Sampling {
 
   bool operator==(const Sampling&) const = default;
 };
+
+/// What was worked out waits for its turn; each period that it waits is a number of the state.
+inline constexpr int most_periods_of_delay = 100;
+
+/// A delay as a computer has it: whole periods, in which other samples are read, and a rest.
+struct SplitDelay {
+  int whole_periods = 0;
+  double rest = 0.0;  ///< s, above 0 to the period; 0 of no delay
+};
+
+/// Precondition: a sound sampling. A delay that is a multiple of the period but for rounding counts
+/// as one.
+SplitDelay split_delay(const Sampling& sampling);
 
 /// The controller from sample to sample,
 ///   z⁺ = state_matrix z + input_matrix (r, y, v) + anti_windup (τ − τ_asked),

@@ -51,9 +51,11 @@ void check_sampling(RangeCheck& all, const ReducedDrive& drive) {
   RangeCheck check("sampling.");
   check.positive("period", sampling.period, "s");
   if (!check.faults().empty()) return void(all.include(check.faults()));
-  if (!(sampling.delay >= 0.0 && sampling.delay <= sampling.period)) {
+  const double longest = most_periods_of_delay * sampling.period;
+  if (!(sampling.delay >= 0.0 && sampling.delay <= longest)) {
     check.refuse("delay", exact_text(sampling.delay),
-                 "must be from 0 to the period, " + exact_text(sampling.period) + " s");
+                 "must be from 0 to " + std::to_string(most_periods_of_delay) + " periods, " +
+                     exact_text(longest) + " s");
   }
   all.include(check.faults());
   const bool is_told = of_samples != nullptr || !check.faults().empty();

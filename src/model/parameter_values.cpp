@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/overloaded.hpp"
 #include "gearlash/parameter.hpp"
 
 namespace gearlash {
@@ -63,6 +64,16 @@ const OtherForm* form_named(const Parameter& parameter, std::string_view path) {
   return nullptr;
 }
 
+ParameterKind kind_of(const Parameter& parameter, const Drive& drive) {
+  const Slot slot = parameter.slot(const_cast<Drive&>(drive));
+  return std::visit(Overloaded{[](const Choice&) { return ParameterKind::choice; },
+                               [](std::vector<double>*) { return ParameterKind::list; },
+                               [](Rows*) { return ParameterKind::matrix; },
+                               [](std::string*) { return ParameterKind::file; },
+                               [](const auto&) { return ParameterKind::number; }},
+                    slot);
+}
+
 }  // namespace
 
 void add_section_of(Drive& drive, std::string_view path) {
@@ -88,6 +99,7 @@ std::vector<ParameterInfo> parameters_of(const Drive& drive) {
     if (!exists(parameter, drive)) continue;
     const Dimension* dimension = parameter.dimension(drive);
     ParameterInfo info{.path = parameter.path,
+                       .kind = kind_of(parameter, drive),
                        .unit = dimension == nullptr ? std::string_view() : dimension->unit,
                        .meaning = parameter.meaning,
                        .choices = parameter.choices,

@@ -26,7 +26,9 @@ Json json_energy(const std::optional<EnergyLost>& energy) {
           {"impacts", json_number(energy->impacts)}};
 }
 
-Json json_cycle(const Cycle& cycle) {
+}  // namespace
+
+nlohmann::ordered_json json_cycle(const Cycle& cycle) {
   return {{"kind", name_of(cycle.kind)},
           {"stability", name_of(cycle.stability)},
           {"certainty", name_of(cycle.certainty)},
@@ -46,6 +48,8 @@ Json json_cycle(const Cycle& cycle) {
           {"energy", json_energy(cycle.energy)},
           {"starts", cycle.starts}};
 }
+
+namespace {
 
 Json json_irregular(const IrregularMotion& motion) {
   return {{"amplitude", json_number(motion.amplitude)},
@@ -132,35 +136,30 @@ Json json_list(const List& list, const Convert& convert) {
 std::string answer_json(const AnswerReport& report) {
   const Answer& answer = report.answer;
   const bool has_cycles = !answer.cycles.empty();
-  Json json = {
-      {"schema", "gearlash/limit-cycle/2"},
-      {"version", report.provenance.version},
-      {"command", report.provenance.command},
-      {"units", "SI"},
-      {"engine", name_of(answer.engine)},
-      {"verdict", name_of(answer.verdict)},
-      {"certainty",
-       {{"verdict", name_of(answer.certainty)},
-        {"stability", has_cycles ? Json(name_of(answer.cycles.front().certainty)) : Json(nullptr)},
-        {"completeness", name_of(answer.completeness)}}},
-      {"drive", drive_json(report.drive)},
-      {"defaults", defaults_taken(report.drive)},
-      {"normal_form", json_normal_form(answer.normal_form)},
-      {"growth_at_rest", json_optional(answer.growth_at_rest)},
-      {"bounds", json_bounds(answer.bounds)},
-      {"dissipative", answer.is_dissipative},
-      {"rests_engaged", answer.rests_engaged},
-      {"neutral_swings", answer.neutral_swings},
-      {"cycles", json_list(answer.cycles, &json_cycle)},
-      {"rest", json_rest(answer.rest)},
-      {"irregular", json_list(answer.irregular, &json_irregular)},
-      {"runaway", json_runaway(answer)},
-      {"search", json_search(answer.search)},
-      {"margin", report.margin ? margin_json(*report.changeable, *report.margin) : Json(nullptr)},
-      {"sensitivities", report.sensitivity ? sensitivity_json(*report.sensitivity) : Json(nullptr)},
-      {"notes", json_list(answer.notes, [](const Note& note) {
-         return Json{{"code", note.code}, {"text", note.text}};
-       })}};
+  Json json = json_head("limit-cycle", report.drive, report.provenance);
+  json["engine"] = name_of(answer.engine);
+  json["verdict"] = name_of(answer.verdict);
+  json["certainty"] = {
+      {"verdict", name_of(answer.certainty)},
+      {"stability", has_cycles ? Json(name_of(answer.cycles.front().certainty)) : Json(nullptr)},
+      {"completeness", name_of(answer.completeness)}};
+  json["normal_form"] = json_normal_form(answer.normal_form);
+  json["growth_at_rest"] = json_optional(answer.growth_at_rest);
+  json["bounds"] = json_bounds(answer.bounds);
+  json["dissipative"] = answer.is_dissipative;
+  json["rests_engaged"] = answer.rests_engaged;
+  json["neutral_swings"] = answer.neutral_swings;
+  json["cycles"] = json_list(answer.cycles, &json_cycle);
+  json["rest"] = json_rest(answer.rest);
+  json["irregular"] = json_list(answer.irregular, &json_irregular);
+  json["runaway"] = json_runaway(answer);
+  json["search"] = json_search(answer.search);
+  json["margin"] = report.margin ? margin_json(*report.changeable, *report.margin) : Json(nullptr);
+  json["sensitivities"] =
+      report.sensitivity ? sensitivity_json(*report.sensitivity) : Json(nullptr);
+  json["notes"] = json_list(answer.notes, [](const Note& note) {
+    return Json{{"code", note.code}, {"text", note.text}};
+  });
   return json.dump(2) + "\n";
 }
 

@@ -1,6 +1,7 @@
 // The one report of an answer: in text and in JSON, whichever engine answered.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
@@ -39,5 +40,8 @@ std::string answer_text(const AnswerReport& report);
 
 /// The contract of docs/command-line.md ("gearlash/limit-cycle/2"), in SI. Ends with a newline.
 std::string answer_json(const AnswerReport& report);
+
+/// One of its cycles.
+nlohmann::ordered_json json_cycle(const Cycle& cycle);
 
 }  // namespace gearlash

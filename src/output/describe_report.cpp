@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "base/overloaded.hpp"
+#include "output/answer_report.hpp"
 #include "output/columns.hpp"
+#include "output/drive_text.hpp"
 #include "output/json_values.hpp"
 
 namespace gearlash {
@@ -15,7 +18,6 @@ namespace {
 
 using drive::DescribedMotion;
 using drive::DescribingAnalysis;
-using drive::ExactCycle;
 using drive::PredictionError;
 
 constexpr double turn = 2.0 * std::numbers::pi;
@@ -35,41 +37,62 @@ std::string with_capital(std::string text) {
 }
 
 struct Motion {
-  double size;
-  double motor_size;
+  double amplitude;
+  double motor_amplitude;
   double period;
 };
 
 Cells motion_row(const std::string& name, const Motion& motion, const DescribeReport& report) {
-  return {name, swing_text(motion.size, report.angle, digits),
-          fmt::format("±{} {}", significant(report.angle.from_radians(motion.motor_size), digits),
-                      report.angle.name),
-          period_text(motion.period, report.time_unit, digits),
-          frequency_text(motion.period, report.time_unit, digits)};
+  return {
+      name, swing_text(motion.amplitude, report.angle, digits),
+      fmt::format("±{} {}", significant(report.angle.from_radians(motion.motor_amplitude), digits),
+                  report.angle.name),
+      period_text(motion.period, report.time_unit, digits),
+      frequency_text(motion.period, report.time_unit, digits)};
 }
 
 Cells error_row(const PredictionError& error) {
   const auto text = [](double part) { return change_text(1.0 + part); };
-  return {"  error", text(error.size), text(error.motor_size), text(error.period),
+  return {"  error", text(error.amplitude), text(error.motor_amplitude), text(error.period),
           text(error.frequency)};
+}
+
+bool is_forced(const DescribeReport& report) { return report.answer.verdict == Verdict::forced; }
+
+/// Where no exact cycle is near a predicted one that is stable.
+std::string without_exact(const DescribeReport& report) {
+  if (report.answer.verdict == Verdict::undecided) return "undecided";
+  const bool has_stable =
+      std::any_of(report.answer.cycles.begin(), report.answer.cycles.end(),
+                  [](const Cycle& cycle) { return cycle.stability == Stability::stable; });
+  return has_stable ? "no stable cycle near it" : "no stable cycle";
 }
 
 /// What was predicted, each beside the exact cycle that it is a prediction of.
 std::string cycle_table(const DescribingAnalysis& analysis, const DescribeReport& report) {
-  std::vector<Cells> rows = {{"", "size", "motor", "period", "frequency"}};
+  std::vector<Cells> rows = {{"", "amplitude", "motor", "period", "frequency"}};
   for (const DescribedMotion& cycle : analysis.cycles) {
+    if (drive::is_unseen(cycle, report.backlash)) continue;
     const std::string kind = stability(cycle.balance.stable);
     rows.push_back(motion_row("predicted, " + kind,
-                              {cycle.size, cycle.motor_size, cycle.balance.period}, report));
-    if (report.is_driven) continue;
-    const auto error = drive::prediction_error(cycle, report.exact);
-    if (!error && cycle.balance.stable) rows.push_back({"  exact", "no stable cycle"});
+                              {cycle.amplitude, cycle.motor_amplitude, cycle.balance.period},
+                              report));
+    if (is_forced(report)) continue;
+    const auto error = drive::prediction_error(analysis.part, cycle, report.answer.cycles);
+    if (!error && cycle.balance.stable) rows.push_back({"  exact", without_exact(report)});
     if (!error) continue;
-    const ExactCycle& exact = report.exact[error->exact];
-    rows.push_back(motion_row("  exact", {exact.size, exact.motor_size, exact.period}, report));
+    const Cycle& exact = report.answer.cycles[error->exact];
+    rows.push_back(
+        motion_row("  exact", {exact.amplitude, exact.motor_amplitude, exact.period}, report));
     rows.push_back(error_row(*error));
   }
   return table_text(rows);
+}
+
+bool has_cycle_to_tell(const DescribingAnalysis& analysis, const DescribeReport& report) {
+  return !std::all_of(
+      analysis.cycles.begin(), analysis.cycles.end(),
+      [&](const DescribedMotion& cycle) { return drive::is_unseen(cycle, report.backlash); });
 }
 
 /// "s² + 0.38 s + 5".
@@ -142,17 +165,18 @@ std::string analysis_text(const DescribingAnalysis& analysis, const DescribeRepo
   if (!is_in_loop(analysis)) {
     return text + "  no cycle: nothing is fed back through it\n";
   }
-  text += analysis.cycles.empty() ? "  no cycle predicted\n" : cycle_table(analysis, report);
+  text += has_cycle_to_tell(analysis, report) ? cycle_table(analysis, report)
+                                              : "  no cycle predicted\n";
   text += "  L(s) " + transfer_text(analysis.loop) + "\n";
   const std::string remarks = unresolved_text(analysis) + assumptions_text(analysis);
   return remarks.empty() ? text : text + indented(wrapped(remarks));
 }
 
 std::string exact_text(const DescribeReport& report) {
-  std::string text = "exact: " + report.exact_verdict;
-  for (const ExactCycle& cycle : report.exact) {
-    if (!cycle.stable) continue;
-    text += fmt::format(", {}, {}", swing_text(cycle.size, report.angle, digits),
+  std::string text = std::string("exact: ") + name_of(report.answer.verdict);
+  for (const Cycle& cycle : report.answer.cycles) {
+    if (cycle.stability != Stability::stable || is_forced(report)) continue;
+    text += fmt::format(", {}, {}", swing_text(cycle.amplitude, report.angle, digits),
                         frequency_text(cycle.period, report.time_unit, digits));
   }
   return text + "\n";
@@ -201,18 +225,21 @@ Json json_transfer(const TransferFunction& transfer) {
 Json json_error(const std::optional<PredictionError>& error) {
   if (!error) return nullptr;
   return {{"of_exact_cycle", error->exact},
-          {"size", json_number(error->size)},
-          {"motor_size", json_number(error->motor_size)},
+          {"amplitude", json_number(error->amplitude)},
+          {"motor_amplitude", json_number(error->motor_amplitude)},
           {"period", json_number(error->period)},
           {"frequency", json_number(error->frequency)}};
 }
 
-Json json_motion(const DescribedMotion& motion, const DescribeReport& report) {
+Json json_motion(const DescribingAnalysis& analysis, const DescribedMotion& motion,
+                 const DescribeReport& report) {
   const PredictedCycle& balance = motion.balance;
-  const auto error = report.is_driven ? std::nullopt : prediction_error(motion, report.exact);
+  const auto error = is_forced(report)
+                         ? std::nullopt
+                         : prediction_error(analysis.part, motion, report.answer.cycles);
   return {{"stable", balance.stable},
-          {"size", json_number(motion.size)},
-          {"motor_size", json_number(motion.motor_size)},
+          {"amplitude", json_number(motion.amplitude)},
+          {"motor_amplitude", json_number(motion.motor_amplitude)},
           {"period", json_number(balance.period)},
           {"frequency", json_number(1.0 / balance.period)},
           {"input_amplitude", json_number(balance.amplitude)},
@@ -230,7 +257,7 @@ Json json_analysis(const DescribingAnalysis& analysis, const DescribeReport& rep
   }
   Json cycles = Json::array();
   for (const DescribedMotion& motion : analysis.cycles) {
-    cycles.push_back(json_motion(motion, report));
+    cycles.push_back(json_motion(analysis, motion, report));
   }
   Json unresolved = Json::array();
   for (const Bounds& range : analysis.unresolved) {
@@ -245,16 +272,10 @@ Json json_analysis(const DescribingAnalysis& analysis, const DescribeReport& rep
           {"unresolved_angular_frequencies", std::move(unresolved)}};
 }
 
-Json json_exact(const DescribeReport& report) {
+Json json_cycles(const DescribeReport& report) {
   Json cycles = Json::array();
-  for (const ExactCycle& cycle : report.exact) {
-    cycles.push_back({{"stable", cycle.stable},
-                      {"size", json_number(cycle.size)},
-                      {"motor_size", json_number(cycle.motor_size)},
-                      {"period", json_number(cycle.period)},
-                      {"frequency", json_number(1.0 / cycle.period)}});
-  }
-  return {{"verdict", report.exact_verdict}, {"cycles", std::move(cycles)}};
+  for (const Cycle& cycle : report.answer.cycles) cycles.push_back(json_cycle(cycle));
+  return cycles;
 }
 
 }  // namespace
@@ -282,10 +303,11 @@ std::string describe_json(const DescribeReport& report) {
   for (const DescribingAnalysis& analysis : report.analyses) {
     analyses.push_back(json_analysis(analysis, report));
   }
-  const Json json = {{"exact", json_exact(report)},
-                     {"analyses", std::move(analyses)},
-                     {"time_unit", report.time_unit},
-                     {"provenance", json_provenance(report.provenance)}};
+  Json json = json_head("describe", report.drive, report.provenance);
+  json["engine"] = name_of(report.answer.engine);
+  json["verdict"] = name_of(report.answer.verdict);
+  json["cycles"] = json_cycles(report);
+  json["analyses"] = std::move(analyses);
   return json.dump(2) + "\n";
 }
 

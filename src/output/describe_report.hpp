@@ -5,17 +5,19 @@
 #include <vector>
 
 #include "analysis/describing/describing.hpp"
+#include "gearlash/answer.hpp"
+#include "gearlash/drive.hpp"
 #include "output/report_units.hpp"
 
 namespace gearlash {
 
 struct DescribeReport {
   std::vector<drive::DescribingAnalysis> analyses = {};
-  std::vector<drive::ExactCycle> exact = {};
-  std::string exact_verdict = {};  ///< "hunts", "cannot hunt", …: in a word, what is exact
-  bool is_driven = false;          ///< what is exact swings as it is driven: nothing predicts it
-  AngleUnit angle = {};            ///< in which the author gave the backlash
-  std::string time_unit = "s";     ///< of the drive; else periods are told in it, and ω as angles
+  Drive drive = {};
+  Answer answer = {};     ///< what is exact; of a drive that a sine drives nothing predicts it
+  double backlash = 0.0;  ///< rad; predictions that are too small beside it are not told
+  AngleUnit angle = {};   ///< in which the author gave the backlash
+  std::string time_unit = "s";  ///< of the drive; else periods are told in it, and ω as angles
   Provenance provenance = {};
 };
 
@@ -27,7 +29,8 @@ std::string frequency_text(double period, const std::string& time_unit, int digi
 /// error in per cent, the loop and what is assumed. Ends with a newline.
 std::string describe_text(const DescribeReport& report);
 
-/// The contract of docs/command-line.md, ending with a newline; numbers read back exactly.
+/// The contract of docs/schemas/describe.schema.json ("gearlash/describe/2"), in SI, ending with a
+/// newline; numbers read back exactly.
 std::string describe_json(const DescribeReport& report);
 
 }  // namespace gearlash

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include "base/range_check.hpp"
+#include "general/assemble/time_scale.hpp"
 #include "model/parameters.hpp"
+#include "model/reduced_drive.hpp"
 #include "output/json_values.hpp"
 
 namespace gearlash {
@@ -116,6 +118,52 @@ std::vector<std::string> defaults_taken(const Drive& drive) {
     }
   }
   return paths;
+}
+
+Json json_head(const char* name, const Drive& drive, const Provenance& provenance) {
+  return {{"schema", fmt::format("gearlash/{}/2", name)},
+          {"version", provenance.version},
+          {"command", provenance.command},
+          {"units", "SI"},
+          {"drive", drive_json(drive)},
+          {"defaults", defaults_taken(drive)}};
+}
+
+std::string show_text(const Drive& drive) {
+  std::string remark;
+  if (const auto closed = closed_form_servo(drive)) {
+    const NormalizedServo& servo = closed->servo;
+    remark = fmt::format(
+        "# Normal form: damping {:.4g}, inertia ratio {:.4g}, friction ratio {:.4g}, natural "
+        "frequency {:.4g} rad/s.\n",
+        servo.damping, servo.inertia_ratio, servo.friction_ratio, closed->natural_frequency);
+  } else {
+    const drive::TimeScales scales = drive::time_scales(reduce(drive));
+    remark = fmt::format(
+        "# Linear loop with the gap closed: slowest swing {:.4g} s, settling time constant {:.4g} "
+        "s.\n",
+        scales.swing, scales.settling);
+  }
+  return remark + to_toml(drive);
+}
+
+std::string show_json(const Drive& drive, const Provenance& provenance) {
+  Json json = json_head("show", drive, provenance);
+  json["normal_form"] = nullptr;
+  json["linear_loop"] = nullptr;
+  if (const auto closed = closed_form_servo(drive)) {
+    json["normal_form"] = {{"damping", json_number(closed->servo.damping)},
+                           {"inertia_ratio", json_number(closed->servo.inertia_ratio)},
+                           {"friction_ratio", json_number(closed->servo.friction_ratio)},
+                           {"backlash", json_number(closed->servo.backlash)},
+                           {"restitution", json_number(closed->servo.restitution)},
+                           {"natural_frequency", json_number(closed->natural_frequency)}};
+  } else {
+    const drive::TimeScales scales = drive::time_scales(reduce(drive));
+    json["linear_loop"] = {{"slowest_swing", json_number(scales.swing)},
+                           {"settling", json_number(scales.settling)}};
+  }
+  return json.dump(2) + "\n";
 }
 
 }  // namespace gearlash

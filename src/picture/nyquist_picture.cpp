@@ -23,7 +23,6 @@ namespace {
 using drive::DescribedMotion;
 using drive::DescribedPart;
 using drive::DescribingAnalysis;
-using drive::ExactCycle;
 
 constexpr double turn = 2.0 * std::numbers::pi;
 constexpr int digits = 3;
@@ -72,14 +71,15 @@ std::vector<KeyPoint> key_points(const NyquistPicture& picture) {
                         stable ? Mark::stable : Mark::unstable, name,
                         fmt::format("{} {}{}: {}", name, stable ? "stable" : "unstable",
                                     distinction(picture, analysis),
-                                    motion_text(cycle.size, cycle.balance.period, picture))});
+                                    motion_text(cycle.amplitude, cycle.balance.period, picture))});
     }
   }
-  for (const ExactCycle& cycle : picture.exact) {
-    if (!cycle.stable) continue;
+  for (const Cycle& cycle : picture.exact) {
+    if (cycle.stability != Stability::stable) continue;
     points.push_back(
         {loop_at(picture.analyses.front().loop, turn / cycle.period), Mark::exact_frequency,
-         "exact ω", "L at the exact frequency: " + motion_text(cycle.size, cycle.period, picture)});
+         "exact ω",
+         "L at the exact frequency: " + motion_text(cycle.amplitude, cycle.period, picture)});
     for (const DescribingAnalysis& analysis : picture.analyses) {
       points.push_back(
           {inverse_gain(analysis.nonlinearity, drive::input_amplitude(analysis, cycle)),
@@ -467,8 +467,9 @@ std::vector<DescribingAnalysis> of_one_loop(const std::vector<DescribingAnalysis
 }
 
 std::string draw_nyquist(const NyquistPicture& picture, PictureFormat format) {
-  const bool has_exact = std::any_of(picture.exact.begin(), picture.exact.end(),
-                                     [](const ExactCycle& cycle) { return cycle.stable; });
+  const bool has_exact =
+      std::any_of(picture.exact.begin(), picture.exact.end(),
+                  [](const Cycle& cycle) { return cycle.stability == Stability::stable; });
   const std::string subtitle =
       std::string("cycles are predicted where L(jω) = −1/N(A)") +
       (has_exact ? "; were that exact, the diamonds would be one point" : "");

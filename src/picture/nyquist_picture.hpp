@@ -14,7 +14,7 @@ struct NyquistPicture {
   std::string title = {};  ///< one line
   /// Nonlinearities that see the same loop, which is drawn once. At least one; all are in it.
   std::vector<drive::DescribingAnalysis> analyses = {};
-  std::vector<drive::ExactCycle> exact = {};  ///< the stable ones are drawn
+  std::vector<Cycle> exact = {};  ///< the stable ones are drawn
   AngleUnit angle = {};
   std::string time_unit = "s";  ///< "s", or that of normalised times; frequencies are then ω
 };

@@ -26,6 +26,8 @@ COMMANDS = [
     ["limit-cycle", "examples/elinco-fd162.toml", "--set", "contact.stiffness=5 N m/rad"],
     ["limit-cycle", "examples/elinco-fd162.toml", "--set", "reference.kind=sine", "--set",
      "reference.amplitude=1 deg", "--set", "reference.frequency=1 Hz"],
+    ["describe", *SERVO],
+    ["describe", "examples/telescope-axis.toml"],
     ["show", *SERVO],
     ["show", "examples/robot-joint.toml"],
     ["show", "examples/telescope-axis.toml"],

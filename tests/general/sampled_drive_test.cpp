@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <deque>
 
 #include "general/assemble/drive_system.hpp"
 
@@ -54,7 +55,9 @@ TEST(OracleSampledDrive, IsARecursionFromSampleToSample) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const std::array cases = {Sampled{0.0, 0.0, infinite},    Sampled{0.03, 0.0, infinite},
                             Sampled{period, 0.0, infinite}, Sampled{0.0, 0.01, infinite},
-                            Sampled{0.03, 0.02, 2.0},       Sampled{period, 0.02, 1.5}};
+                            Sampled{0.03, 0.02, 2.0},       Sampled{period, 0.02, 1.5},
+                            Sampled{0.13, 0.0, infinite},   Sampled{3.0 * period, 0.0, infinite},
+                            Sampled{0.25, 0.02, 2.0},       Sampled{2.0 * period, 0.02, 1.5}};
   for (const auto& [delay, resolution, limit] : cases) {
     ReducedDrive drive = lone_motor();
     drive.controller = ProportionalDerivative{4.0, 3.0};
@@ -66,13 +69,17 @@ TEST(OracleSampledDrive, IsARecursionFromSampleToSample) {
     const auto motion = run(drive, {.motor_position = 0.2, .motor_speed = 0.3}, 20.0);
     double last = rounded(0.2 - period * 0.3, resolution);
     double given = 0.0;
+    std::deque<double> waiting(static_cast<std::size_t>(delay / period), 0.0);
+    const double rest = delay - static_cast<double>(waiting.size()) * period;
     for (int sample = 0; sample < 200; ++sample) {
       const double reading = rounded(motor.position, resolution);
       const double asked = 4.0 * (1.0 - reading) - 3.0 * (reading - last) / period;
       last = reading;
-      motor.coast(given, delay);
-      given = std::clamp(asked, -limit, limit);
-      motor.coast(given, period - delay);
+      waiting.push_back(asked);
+      motor.coast(given, rest);
+      given = std::clamp(waiting.front(), -limit, limit);
+      waiting.pop_front();
+      motor.coast(given, period - rest);
       const hybrid::Vector numbers = motion.at(period * (sample + 1)).numbers;
       ASSERT_NEAR(numbers[motor_position], motor.position, 2e-12) << delay << ' ' << sample;
       ASSERT_NEAR(numbers[motor_speed], motor.speed, 2e-12) << delay << ' ' << sample;
@@ -156,7 +163,7 @@ TEST(EdgeSampledDrive, FaultsAreToldAllAtOnce) {
   EXPECT_EQ(fields_of(drive), with_denominator("sampling"));
   drive.sampling = Sampling{.period = 0.0};
   EXPECT_EQ(fields_of(drive), with_denominator("sampling.period"));
-  drive.sampling = Sampling{.period = 0.1, .delay = 0.2};
+  drive.sampling = Sampling{.period = 0.1, .delay = 10.1};
   EXPECT_EQ(fields_of(drive), with_denominator("sampling.delay"));
   drive.sampling = Sampling{.period = 0.1};
   EXPECT_EQ(fields_of(drive), std::vector<std::string>{"controller.denominator"});

@@ -23,9 +23,16 @@ drive::ReducedDrive type_one_servo() {
 }
 
 DescribeReport report_of(const drive::ReducedDrive& drive) {
-  return {.analyses = drive::describing_analyses(drive),
-          .exact = {{2.0, 3.0, 4.0, true}},
-          .exact_verdict = "hunts"};
+  Cycle cycle;
+  cycle.amplitude = 2.0;
+  cycle.motor_amplitude = 3.0;
+  cycle.period = 4.0;
+  DescribeReport report;
+  report.analyses = drive::describing_analyses(drive);
+  report.answer.verdict = Verdict::hunts;
+  report.answer.cycles = {cycle};
+  report.backlash = drive.backlash;
+  return report;
 }
 
 TEST(DescribeReport, TextPutsTheErrorBelowWhatIsExact) {
@@ -42,8 +49,8 @@ TEST(DescribeReport, TextPutsTheErrorBelowWhatIsExact) {
 
 TEST(DescribeReport, APredictionWithoutAnExactCycleIsSaidToBeWrong) {
   DescribeReport report = report_of(type_one_servo());
-  report.exact.clear();
-  report.exact_verdict = "cannot hunt";
+  report.answer.cycles.clear();
+  report.answer.verdict = Verdict::cannot_hunt;
   const std::string text = describe_text(report);
   EXPECT_THAT(text, testing::StartsWith("exact: cannot hunt\n"));
   EXPECT_THAT(text, HasSubstr("  exact              no stable cycle\n"));
@@ -57,8 +64,9 @@ TEST(DescribeReport, JsonHasEveryNumber) {
   const DescribeReport report = report_of(drive);
   const auto json = nlohmann::json::parse(describe_json(report));
   ASSERT_EQ(json["analyses"].size(), 3U);
-  EXPECT_EQ(json["exact"]["verdict"], "hunts");
-  EXPECT_EQ(json["exact"]["cycles"][0]["frequency"], 0.25);
+  EXPECT_EQ(json["schema"], "gearlash/describe/2");
+  EXPECT_EQ(json["verdict"], "hunts");
+  EXPECT_EQ(json["cycles"][0]["frequency"], 0.25);
   const auto& gap = json["analyses"][0];
   EXPECT_EQ(gap["part"], "gap, load held by friction");
   EXPECT_EQ(gap["nonlinearity"]["gap"], 2.0);
@@ -67,11 +75,25 @@ TEST(DescribeReport, JsonHasEveryNumber) {
   ASSERT_EQ(gap["cycles"].size(), report.analyses[0].cycles.size());
   for (std::size_t i = 0; i < gap["cycles"].size(); ++i) {
     const auto& motion = report.analyses[0].cycles[i];
-    EXPECT_EQ(gap["cycles"][i]["size"], motion.size);
+    EXPECT_EQ(gap["cycles"][i]["amplitude"], motion.amplitude);
     EXPECT_EQ(gap["cycles"][i]["period"], motion.balance.period);
     EXPECT_EQ(gap["cycles"][i]["error"].is_null(), !motion.balance.stable);
   }
   EXPECT_EQ(json["analyses"][2]["nonlinearity"]["kind"], "saturation");
+}
+
+TEST(DescribeReport, WhatIsUndecidedIsNotSaidToBeWrong) {
+  DescribeReport report = report_of(type_one_servo());
+  report.answer.cycles.clear();
+  report.answer.verdict = Verdict::undecided;
+  EXPECT_THAT(describe_text(report), HasSubstr("  exact              undecided\n"));
+}
+
+TEST(DescribeReport, APredictionTooSmallToBeSeenIsInTheJsonAlone) {
+  DescribeReport report = report_of(type_one_servo());
+  report.backlash = 1e5;
+  EXPECT_THAT(describe_text(report), HasSubstr("  no cycle predicted\n"));
+  EXPECT_FALSE(nlohmann::json::parse(describe_json(report))["analyses"][0]["cycles"].empty());
 }
 
 TEST(EdgeDescribeReport, NormalisedTimesAreTold) {

@@ -33,9 +33,18 @@ NyquistPicture picture_of(const drive::ReducedDrive& drive, DescribedPart part) 
   return picture;
 }
 
+Cycle exact_cycle(double amplitude, double motor_amplitude, double period) {
+  Cycle cycle;
+  cycle.amplitude = amplitude;
+  cycle.motor_amplitude = motor_amplitude;
+  cycle.period = period;
+  return cycle;
+}
+
 NyquistPicture picture_of(DescribedPart part) {
   NyquistPicture picture = picture_of(all_parts(), part);
-  picture.exact = {{0.03, 0.035, 2.5, true}, {0.01, 0.01, 5.0, false}};
+  picture.exact = {exact_cycle(0.03, 0.035, 2.5), exact_cycle(0.01, 0.01, 5.0)};
+  picture.exact[1].stability = Stability::unstable;
   return picture;
 }
 
@@ -58,7 +67,7 @@ TEST(NyquistPicture, EveryPartIsDrawn) {
     for (const auto& analysis : picture.analyses) {
       for (const auto& cycle : analysis.cycles) {
         EXPECT_THAT(svg, HasSubstr(cycle.balance.stable ? " stable" : " unstable"));
-        EXPECT_THAT(svg, HasSubstr(significant(cycle.size, 3) + " rad"));
+        EXPECT_THAT(svg, HasSubstr(significant(cycle.amplitude, 3) + " rad"));
       }
     }
     EXPECT_EQ(svg, draw_nyquist(picture, PictureFormat::svg));
@@ -126,7 +135,7 @@ TEST(EdgeNyquistPicture, WithoutCycleOrExactOneThereAreTheCurves) {
 /// The exact motor moves less than half the gap: a held load would not move at all.
 TEST(EdgeNyquistPicture, AnAmplitudeWithoutGainIsSaidSo) {
   NyquistPicture picture = picture_of(DescribedPart::gap_load_held);
-  picture.exact = {{0.003, 0.005, 2.5, true}};
+  picture.exact = {exact_cycle(0.003, 0.005, 2.5)};
   EXPECT_THAT(draw_nyquist(picture, PictureFormat::svg),
               HasSubstr("−1/N at the exact amplitude, held: none, too small"));
 }

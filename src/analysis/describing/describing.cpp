@@ -142,10 +142,10 @@ double modulus(const TransferFunction& transfer, double frequency) {
 DescribedMotion motion_of(const DescribingAnalysis& analysis, const PredictedCycle& cycle,
                           double gap) {
   DescribedMotion motion{.balance = cycle};
-  motion.motor_size = cycle.amplitude / modulus(analysis.input_per_motor, cycle.frequency);
-  motion.size =
+  motion.motor_amplitude = cycle.amplitude / modulus(analysis.input_per_motor, cycle.frequency);
+  motion.amplitude =
       analysis.load_per_motor
-          ? motion.motor_size * modulus(*analysis.load_per_motor, cycle.frequency)
+          ? motion.motor_amplitude * modulus(*analysis.load_per_motor, cycle.frequency)
           : load_size(analysis.part == DescribedPart::gap_load_held ? LoadInGap::held_by_friction
                                                                     : LoadInGap::coasting,
                       cycle, gap);
@@ -323,26 +323,38 @@ const char* description_of(Assumption assumption) {
   return "";
 }
 
-std::optional<PredictionError> prediction_error(const DescribedMotion& predicted,
-                                                const std::vector<ExactCycle>& exact) {
+std::optional<PredictionError> prediction_error(DescribedPart part,
+                                                const DescribedMotion& predicted,
+                                                const std::vector<Cycle>& exact) {
+  const bool is_of_gap =
+      part != DescribedPart::torque_limit && part != DescribedPart::coulomb_friction;
+  const double farthest =
+      is_of_gap ? std::numeric_limits<double>::infinity() : std::log(same_cycle_factor);
   std::optional<PredictionError> nearest;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < exact.size(); ++i) {
-    const ExactCycle& cycle = exact[i];
-    if (cycle.stable != predicted.balance.stable) continue;
-    const double size = predicted.size / cycle.size;
+    const Cycle& cycle = exact[i];
+    if ((cycle.stability == Stability::stable) != predicted.balance.stable) continue;
+    const double amplitude = predicted.amplitude / cycle.amplitude;
     const double period = predicted.balance.period / cycle.period;
-    const double distance = std::abs(std::log(size)) + std::abs(std::log(period));
-    if (!(distance < least)) continue;
+    const double of_amplitude = std::abs(std::log(amplitude));
+    const double of_period = std::abs(std::log(period));
+    const double distance = of_amplitude + of_period;
+    if (!(distance < least) || std::max(of_amplitude, of_period) > farthest) continue;
     least = distance;
-    nearest = PredictionError{i, size - 1.0, predicted.motor_size / cycle.motor_size - 1.0,
-                              period - 1.0, 1.0 / period - 1.0};
+    nearest =
+        PredictionError{i, amplitude - 1.0, predicted.motor_amplitude / cycle.motor_amplitude - 1.0,
+                        period - 1.0, 1.0 / period - 1.0};
   }
   return nearest;
 }
 
-double input_amplitude(const DescribingAnalysis& analysis, const ExactCycle& exact) {
-  return exact.motor_size * modulus(analysis.input_per_motor, turn / exact.period);
+bool is_unseen(const DescribedMotion& predicted, double backlash) {
+  return predicted.amplitude < unseen_share * backlash;
+}
+
+double input_amplitude(const DescribingAnalysis& analysis, const Cycle& exact) {
+  return exact.motor_amplitude * modulus(analysis.input_per_motor, turn / exact.period);
 }
 
 }  // namespace gearlash::drive

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analysis/describing/harmonic_balance.hpp"
+#include "gearlash/answer.hpp"
 #include "model/drive.hpp"
 
 namespace gearlash::drive {
@@ -37,8 +38,8 @@ enum class Assumption {
 
 /// Angles in rad, times in s (or whatever the drive is given in).
 struct DescribedMotion {
-  double size = std::numeric_limits<double>::quiet_NaN();        ///< half peak-to-peak of the load
-  double motor_size = std::numeric_limits<double>::quiet_NaN();  ///< the motor's amplitude
+  double amplitude = std::numeric_limits<double>::quiet_NaN();  ///< of the load, half peak-to-peak
+  double motor_amplitude = std::numeric_limits<double>::quiet_NaN();
   PredictedCycle balance{};  ///< the input's amplitude, the frequency, the period, stability
 };
 
@@ -99,31 +100,32 @@ const char* description_of(Assumption assumption);
 
 // ---- beside the exact cycle ---------------------------------------------------------------------
 
-/// From find_attractors(), analyse_limit_cycles() or a measurement, in the drive's units.
-struct ExactCycle {
-  double size = std::numeric_limits<double>::quiet_NaN();        ///< half peak-to-peak of the load
-  double motor_size = std::numeric_limits<double>::quiet_NaN();  ///< of the motor
-  double period = std::numeric_limits<double>::quiet_NaN();
-  bool stable = false;
-};
-
 /// Predicted by exact, less 1.
 struct PredictionError {
   std::size_t exact = 0;  ///< which of the exact cycles
-  double size = std::numeric_limits<double>::quiet_NaN();
-  double motor_size = std::numeric_limits<double>::quiet_NaN();
+  double amplitude = std::numeric_limits<double>::quiet_NaN();
+  double motor_amplitude = std::numeric_limits<double>::quiet_NaN();
   double period = std::numeric_limits<double>::quiet_NaN();
   double frequency = std::numeric_limits<double>::quiet_NaN();
 };
 
+/// A cycle predicted of a part other than the gap is that of the whole drive where amplitude and
+/// period are within this factor; else it is another motion, and there is no error to be told.
+inline constexpr double same_cycle_factor = 2.0;
+
 /// Against the exact cycle that is stable where the predicted one is and not where it is not, and
-/// among those the one with the least |ln size ratio| + |ln period ratio|. Nothing if there is
-/// none.
-std::optional<PredictionError> prediction_error(const DescribedMotion& predicted,
-                                                const std::vector<ExactCycle>& exact);
+/// among those the one with the least |ln amplitude ratio| + |ln period ratio|. Nothing if there is
+/// none that the part could be the cause of.
+std::optional<PredictionError> prediction_error(DescribedPart part,
+                                                const DescribedMotion& predicted,
+                                                const std::vector<Cycle>& exact);
+
+/// Whether a predicted cycle is too small to be seen: below `unseen_share` of the backlash.
+inline constexpr double unseen_share = 1e-4;
+bool is_unseen(const DescribedMotion& predicted, double backlash);
 
 /// The amplitude that the nonlinearity's input would have if the exact motion of the motor were a
 /// sine: that of the exact motor for a gap.
-double input_amplitude(const DescribingAnalysis& analysis, const ExactCycle& exact);
+double input_amplitude(const DescribingAnalysis& analysis, const Cycle& exact);
 
 }  // namespace gearlash::drive

@@ -53,8 +53,9 @@ Reset without_inputs(const DriveForms& forms, const DriveMode& mode, Eigen::Inde
   set(result, forms.of_controller(controller.output));
   if (at.last_reading != StateIndices::none) set(at.last_reading, forms.constant(0.0));
   const Sampling& sampling = *forms.drive().sampling;
-  if (sampling.delay > 0.0 && !gives_out_between_samples(sampling)) {
-    set(at.held, forms.number(at.worked_out));
+  if (sampling.delay > 0.0) {
+    for (Eigen::Index i = at.worked_out; i < at.last_worked_out; ++i) set(i, forms.number(i + 1));
+    if (!gives_out_between_samples(sampling)) set(at.held, forms.number(at.worked_out));
   }
   return reset;
 }
@@ -89,14 +90,14 @@ void add_inputs(const DriveForms& forms, Eigen::Index result, Reset& reset) {
 }  // namespace
 
 bool gives_out_between_samples(const Sampling& sampling) {
-  return sampling.delay > 0.0 && sampling.delay < sampling.period;
+  return sampling.delay > 0.0 && split_delay(sampling).rest < sampling.period;
 }
 
 void add_sampling(const DriveForms& forms, const DriveClocks& clocks, const DriveMode& mode,
                   hybrid::Mode& built) {
   const Sampling& sampling = *forms.drive().sampling;
   const StateIndices& at = forms.at();
-  const Eigen::Index result = sampling.delay > 0.0 ? at.worked_out : at.held;
+  const Eigen::Index result = sampling.delay > 0.0 ? at.last_worked_out : at.held;
   Reset reset = without_inputs(forms, mode, result);
   add_inputs(forms, result, reset);
   const bool gives_out = !gives_out_between_samples(sampling);

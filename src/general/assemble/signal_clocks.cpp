@@ -25,7 +25,8 @@ DriveClocks drive_clocks(const DriveForms& forms) {
   result.sample = clocks.size();
   clocks.push_back({.name = "sample", .first = 0.0, .period = sampling.period});
   if (gives_out_between_samples(sampling)) {
-    clocks.push_back({.name = "output", .first = sampling.delay, .period = sampling.period});
+    clocks.push_back(
+        {.name = "output", .first = split_delay(sampling).rest, .period = sampling.period});
   }
   return result;
 }

@@ -9,7 +9,11 @@ StateIndices state_indices(const ReducedDrive& drive, Eigen::Index controller_or
   Eigen::Index next = controller_states + controller_order;
   if (drive.sampling) {
     indices.held = next++;
-    if (drive.sampling->delay > 0.0) indices.worked_out = next++;
+    if (drive.sampling->delay > 0.0) {
+      indices.worked_out = next;
+      indices.last_worked_out = next + split_delay(*drive.sampling).whole_periods;
+      next = indices.last_worked_out + 1;
+    }
     if (drive.sampling->speed_by_differences) indices.last_reading = next++;
   } else if (drive.sensing.resolution > 0.0) {
     indices.encoder = next++;
@@ -40,7 +44,10 @@ std::vector<std::string> state_names(const StateIndices& indices) {
     name(controller_states + i, "controller " + std::to_string(i + 1));
   }
   name(indices.held, "torque held");
-  name(indices.worked_out, "torque worked out");
+  if (indices.worked_out != StateIndices::none) {
+    name_all(indices.worked_out, indices.last_worked_out - indices.worked_out + 1,
+             "torque worked out");
+  }
   name(indices.last_reading, "last reading");
   name(indices.encoder, "encoder");
   name_all(indices.reference, indices.reference_size, "reference");

@@ -23,12 +23,13 @@ enum DriveNumber : Eigen::Index {
 struct StateIndices {
   static constexpr Eigen::Index none = -1;
 
-  Eigen::Index controller_order = 0;  ///< numbers from `controller_states` on
-  Eigen::Index held = none;           ///< torque, of a sampled controller
-  Eigen::Index worked_out = none;     ///< torque, in force after the delay
-  Eigen::Index last_reading = none;   ///< of the position whose differences are the speed
-  Eigen::Index encoder = none;        ///< its reading, under a continuous controller
-  Eigen::Index reference = 0;         ///< the first of the reference's generator
+  Eigen::Index controller_order = 0;    ///< numbers from `controller_states` on
+  Eigen::Index held = none;             ///< torque, of a sampled controller
+  Eigen::Index worked_out = none;       ///< torque, the next to be given out
+  Eigen::Index last_worked_out = none;  ///< torque, the last of those that wait
+  Eigen::Index last_reading = none;     ///< of the position whose differences are the speed
+  Eigen::Index encoder = none;          ///< its reading, under a continuous controller
+  Eigen::Index reference = 0;           ///< the first of the reference's generator
   Eigen::Index reference_size = 0;
   Eigen::Index load_torque = 0;  ///< the first of the load torque's generator
   Eigen::Index load_torque_size = 0;

@@ -59,7 +59,7 @@ std::vector<std::complex<double>> loop_eigenvalues(const ReducedDrive& drive) {
     return values;
   }
   const double period = linear.sampling->period;
-  const double delay = linear.sampling->delay;
+  const double delay = split_delay(*linear.sampling).rest;
   Matrix map = reduced(mode.timed.front().reset.matrix);
   if (mode.timed.size() > 1) {
     map = exponential(flow * (period - delay)) * reduced(mode.timed.back().reset.matrix) *

@@ -57,8 +57,8 @@ TEST(OracleDescribing, TheServoHasItsOwnEstimate) {
     const auto expected = describing_function_estimate(servo);
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
-      EXPECT_NEAR(found[i].size / expected[i].size, 1.0, 1e-10);
-      EXPECT_NEAR(found[i].motor_size / expected[i].motor_size, 1.0, 1e-12);
+      EXPECT_NEAR(found[i].amplitude / expected[i].size, 1.0, 1e-10);
+      EXPECT_NEAR(found[i].motor_amplitude / expected[i].motor_size, 1.0, 1e-12);
       EXPECT_NEAR(found[i].balance.period / expected[i].period, 1.0, 1e-12);
       EXPECT_EQ(found[i].balance.stable, expected[i].stable);
     }
@@ -90,7 +90,7 @@ TEST(OracleDescribing, TypeOneServoWithPlayCyclesFromItsThresholdOn) {
   EXPECT_NEAR(five[1].balance.amplitude, 2.02063227695986025, 1e-12);
   EXPECT_NEAR(five[1].balance.frequency * time_constant, 1.59138349520143382, 1e-12);
   EXPECT_TRUE(five[1].balance.stable);
-  EXPECT_NEAR(five[1].size, 1.02063227695986025, 1e-12);  // of the play's output
+  EXPECT_NEAR(five[1].amplitude, 1.02063227695986025, 1e-12);  // of the play's output
 }
 
 TEST(Describing, SensorsOnTheMotorLeaveOnlyTheLoadsReaction) {
@@ -137,9 +137,9 @@ TEST(OracleDescribing, AnElasticGapMeetsTheEquationsOfBothShafts) {
     const Complex load = 0.375 * s * s + 0.25 * s;
     const Complex determinant = (motor + mesh) * (load + mesh) + mesh * (30.0 - mesh);
     EXPECT_LT(std::abs(determinant), 1e-9 * std::norm(mesh + motor));
-    EXPECT_NEAR(cycle.size / cycle.motor_size, std::abs(mesh / (load + mesh)), 1e-9);
-    EXPECT_NEAR(cycle.balance.amplitude / cycle.motor_size, std::abs(1.0 - mesh / (load + mesh)),
-                1e-9);
+    EXPECT_NEAR(cycle.amplitude / cycle.motor_amplitude, std::abs(mesh / (load + mesh)), 1e-9);
+    EXPECT_NEAR(cycle.balance.amplitude / cycle.motor_amplitude,
+                std::abs(1.0 - mesh / (load + mesh)), 1e-9);
   }
 }
 
@@ -166,7 +166,7 @@ TEST(OracleDescribing, AHighGainWithinLimitsIsARelay) {
   EXPECT_NEAR(balance.amplitude / gain, 2.0 / (5.0 * pi), 1e-9);
   EXPECT_TRUE(balance.stable);
   // The shafts see a torque of amplitude 4/π: |1/(s² + s)| at 3j.
-  EXPECT_NEAR(cycles[0].size, 4.0 / pi / std::abs(Complex{-9.0, 3.0}), 1e-9);
+  EXPECT_NEAR(cycles[0].amplitude, 4.0 / pi / std::abs(Complex{-9.0, 3.0}), 1e-9);
 }
 
 TEST(OracleDescribing, ATorqueLimitPassesTheShareThatBalances) {
@@ -216,7 +216,7 @@ TEST(OracleDescribing, CoulombFrictionHoldsAnUnstableLoopUpToACycle) {
   EXPECT_NEAR(cycle.balance.frequency, 2.0, 1e-12);
   const double speed = 4.0 * 0.5 / pi * 4.0 / (12.0 - 2.0 * 4.0);
   EXPECT_NEAR(cycle.balance.amplitude, speed, 1e-11);
-  EXPECT_NEAR(cycle.size, speed / 2.0, 1e-11);
+  EXPECT_NEAR(cycle.amplitude, speed / 2.0, 1e-11);
   EXPECT_FALSE(cycle.balance.stable);
 }
 
@@ -277,27 +277,53 @@ TEST(OracleDescribing, SpeedByDifferencesIsLateByHalfAPeriod) {
 
 // ---- beside the exact cycle ---------------------------------------------------------------------
 
-TEST(Describing, ErrorsAreAgainstTheExactCycleOfTheSameStability) {
-  DescribedMotion predicted{.size = 2.0, .motor_size = 3.0};
-  predicted.balance.period = 5.0;
+Cycle exact_cycle(double amplitude, double motor_amplitude, double period, Stability stability) {
+  Cycle cycle;
+  cycle.amplitude = amplitude;
+  cycle.motor_amplitude = motor_amplitude;
+  cycle.period = period;
+  cycle.stability = stability;
+  return cycle;
+}
+
+DescribedMotion predicted_cycle(double amplitude, double motor_amplitude, double period) {
+  DescribedMotion predicted{.amplitude = amplitude, .motor_amplitude = motor_amplitude};
+  predicted.balance.period = period;
   predicted.balance.stable = true;
-  const std::vector<ExactCycle> exact = {
-      {2.0, 3.0, 5.0, false}, {40.0, 1.0, 5.0, true}, {1.6, 4.0, 4.0, true}};
-  const auto error = prediction_error(predicted, exact);
+  return predicted;
+}
+
+TEST(Describing, ErrorsAreAgainstTheExactCycleOfTheSameStability) {
+  const DescribedMotion predicted = predicted_cycle(2.0, 3.0, 5.0);
+  const std::vector<Cycle> exact = {exact_cycle(2.0, 3.0, 5.0, Stability::unstable),
+                                    exact_cycle(40.0, 1.0, 5.0, Stability::stable),
+                                    exact_cycle(1.6, 4.0, 4.0, Stability::stable)};
+  const auto error = prediction_error(DescribedPart::gap_load_held, predicted, exact);
   ASSERT_TRUE(error);
   EXPECT_EQ(error->exact, 2U);
-  EXPECT_NEAR(error->size, 0.25, 1e-15);
-  EXPECT_NEAR(error->motor_size, -0.25, 1e-15);
+  EXPECT_NEAR(error->amplitude, 0.25, 1e-15);
+  EXPECT_NEAR(error->motor_amplitude, -0.25, 1e-15);
   EXPECT_NEAR(error->period, 0.25, 1e-15);
   EXPECT_NEAR(error->frequency, -0.2, 1e-15);
-  EXPECT_FALSE(prediction_error(predicted, {exact[0]}));
+  EXPECT_FALSE(prediction_error(DescribedPart::gap_load_held, predicted, {exact[0]}));
+}
+
+TEST(Describing, AnotherMotionIsNotTakenForThatOfTheTorqueLimit) {
+  const DescribedMotion predicted = predicted_cycle(50.0, 50.0, 0.5);
+  const std::vector<Cycle> exact = {exact_cycle(0.2, 0.3, 0.16, Stability::stable)};
+  EXPECT_FALSE(prediction_error(DescribedPart::torque_limit, predicted, exact));
+  EXPECT_FALSE(prediction_error(DescribedPart::coulomb_friction, predicted, exact));
+  EXPECT_TRUE(prediction_error(DescribedPart::gap_load_coasting, predicted, exact));
+  const std::vector<Cycle> near = {exact_cycle(30.0, 30.0, 0.4, Stability::stable)};
+  EXPECT_TRUE(prediction_error(DescribedPart::torque_limit, predicted, near));
 }
 
 TEST(Describing, TheInputOfTheExactCycleIsOfThePart) {
+  const Cycle exact = exact_cycle(1.0, 0.5, pi, Stability::stable);
   const auto friction = described(pid_with_friction(12.0), DescribedPart::coulomb_friction);
-  EXPECT_NEAR(input_amplitude(friction, {1.0, 0.5, pi, true}), 1.0, 1e-14);  // a speed
+  EXPECT_NEAR(input_amplitude(friction, exact), 1.0, 1e-14);  // a speed
   const auto gap = described(pid_with_friction(12.0), DescribedPart::gap_load_held);
-  EXPECT_EQ(input_amplitude(gap, {1.0, 0.5, pi, true}), 0.5);
+  EXPECT_EQ(input_amplitude(gap, exact), 0.5);
 }
 
 TEST(EdgeDescribing, WithoutFeedbackNothingIsInALoop) {
