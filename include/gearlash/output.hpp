@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 
@@ -18,6 +19,12 @@ namespace gearlash {
 
 /// The answer in one line: "hunts: ±0.0819 rad (4.69°) at 2.26 Hz".
 [[nodiscard]] std::string headline(const Drive& drive, const Answer& answer);
+
+/// The report in full, as `gearlash limit-cycle` prints it.
+[[nodiscard]] std::string to_text(const Drive& drive, const Answer& answer);
+
+/// The answer in one line, in s.
+std::ostream& operator<<(std::ostream& stream, const Answer& answer);
 
 /// Writes a file that appears whole or not at all. Throws std::runtime_error where it cannot.
 void save(const std::filesystem::path& path, std::string_view text);

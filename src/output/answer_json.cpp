@@ -1,7 +1,6 @@
 #include <cmath>
 
 #include "gearlash/output.hpp"
-#include "gearlash/version.hpp"
 #include "output/answer_report.hpp"
 #include "output/change_report.hpp"
 #include "output/drive_text.hpp"
@@ -164,11 +163,7 @@ std::string answer_json(const AnswerReport& report) {
 }
 
 std::string to_json(const Drive& drive, const Answer& answer) {
-  AnswerReport report;
-  report.drive = drive;
-  report.answer = answer;
-  report.provenance.version = version;
-  return answer_json(report);
+  return answer_json(report_of(drive, answer));
 }
 
 }  // namespace gearlash

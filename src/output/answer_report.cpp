@@ -6,9 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <ostream>
 #include <vector>
 
 #include "gearlash/output.hpp"
+#include "gearlash/version.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/answer_meaning.hpp"
 #include "output/change_report.hpp"
@@ -301,6 +303,15 @@ bool is_of_motor_alone(const Cycle& cycle) {
   return cycle.amplitude <= unseen * cycle.motor_amplitude;
 }
 
+AnswerReport report_of(const Drive& drive, const Answer& answer) {
+  AnswerReport report;
+  report.drive = drive;
+  report.answer = answer;
+  report.is_normalized = is_normalized(drive);
+  report.provenance.version = version;
+  return report;
+}
+
 std::string headline(const AnswerReport& report) {
   const Answer& answer = report.answer;
   const std::string verdict = name_of(answer.verdict);
@@ -359,11 +370,15 @@ std::string answer_text(const AnswerReport& report) {
 }
 
 std::string headline(const Drive& drive, const Answer& answer) {
-  AnswerReport report;
-  report.drive = drive;
-  report.answer = answer;
-  report.is_normalized = is_normalized(drive);
-  return headline(report);
+  return headline(report_of(drive, answer));
+}
+
+std::string to_text(const Drive& drive, const Answer& answer) {
+  return answer_text(report_of(drive, answer));
+}
+
+std::ostream& operator<<(std::ostream& stream, const Answer& answer) {
+  return stream << headline(report_of(Drive{}, answer));
 }
 
 }  // namespace gearlash

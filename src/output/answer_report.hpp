@@ -27,6 +27,9 @@ struct AnswerReport {
   std::optional<DriveSensitivity> sensitivity{};
 };
 
+/// A report in radians, without margins.
+AnswerReport report_of(const Drive& drive, const Answer& answer);
+
 /// Whether the motor swings within the gap while the load stands.
 bool is_of_motor_alone(const Cycle& cycle);
 

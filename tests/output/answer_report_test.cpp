@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+
+#include "gearlash/output.hpp"
 #include "output/comparison_report.hpp"
 
 namespace gearlash {
@@ -28,6 +31,16 @@ AnswerReport report_of(Verdict verdict, const Cycle& cycle) {
 
 constexpr Cycle swing{.amplitude = 0.02, .motor_amplitude = 0.03, .period = 0.5};
 constexpr Cycle ticking{.amplitude = 0.0, .motor_amplitude = 0.004, .period = 0.5};
+
+TEST(Headline, AnAnswerPrintsItself) {
+  Answer answer;
+  answer.verdict = Verdict::hunts;
+  answer.cycles = {swing};
+  std::ostringstream stream;
+  stream << answer;
+  EXPECT_EQ(stream.str(), "hunts: ±0.02 rad (1.15°) at 2 Hz");
+  EXPECT_THAT(to_text(Drive{}, answer), testing::StartsWith(stream.str() + "\n"));
+}
 
 TEST(Headline, GivesAmplitudeAndFrequency) {
   EXPECT_EQ(headline(report_of(Verdict::hunts, swing)), "hunts: ±0.02 rad (1.15°) at 2 Hz");
