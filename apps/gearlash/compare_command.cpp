@@ -11,6 +11,8 @@
 #include "machine_faults.hpp"
 #include "output/comparison_report.hpp"
 #include "output/output_file.hpp"
+#include "picture/comparison_picture.hpp"
+#include "plot_option.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 
@@ -28,10 +30,8 @@ struct CompareOptions {
   std::optional<std::string> step;
   std::optional<std::string> until;
   std::string format = "text";
-  std::string plot;
+  std::vector<std::string> plots;
 };
-
-constexpr std::string_view time_plot = "time=";
 
 std::vector<SensorPlace> read_sensors(const std::string& text, Faults& faults) {
   std::vector<SensorPlace> places;
@@ -92,12 +92,13 @@ Drive with_sensor(Drive drive, SensorPlace place) {
 }
 
 SensorCase compared(const WrittenDrive& written, SensorPlace place, const Step& step,
-                    Progress& progress) {
+                    const Provenance& provenance, Progress& progress) {
   SensorCase one;
   one.place = place;
   one.report.drive = with_sensor(written.drive, place);
   one.report.angle = written.angle;
   one.report.is_normalized = is_normalized(written.drive);
+  one.report.provenance = provenance;
   const drive::ReducedDrive reduced = reduce(one.report.drive);
   one.report.answer = answer_of(drive::find_attractors(reduced, {}, progress), reduced);
   one.response = drive::step_response(reduced, step.size, step.until);
@@ -107,16 +108,8 @@ SensorCase compared(const WrittenDrive& written, SensorPlace place, const Step& 
 ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "json"});
-  const bool is_drawn = !options.plot.empty();
-  const std::string plot_file =
-      options.plot.starts_with(time_plot) ? options.plot.substr(time_plot.size()) : "";
-  if (is_drawn && plot_file.empty()) {
-    faults.add({"--plot", shown(options.plot), "must be time=FILE", ""});
-  }
-  const PictureFormat picture_kind = faults.collect(
-      [&] { return plot_file.empty() ? PictureFormat::svg : picture_format("--plot", plot_file); },
-      PictureFormat::svg);
-  faults.require_distinct({"DRIVE.toml", options.servo.file}, {{"--plot", plot_file}});
+  const std::vector<Plot> plots = read_plots(options.plots, {"time"}, faults);
+  faults.require_distinct({"DRIVE.toml", options.servo.file}, files_of(plots));
   const std::vector<SensorPlace> places = read_sensors(options.sensors, faults);
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
   const Step step = written ? read_step(options, *written, faults) : Step{};
@@ -129,12 +122,12 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
       const auto done = static_cast<double>(report.cases.size());
       const auto all = static_cast<double>(places.size());
       ProgressPart part(progress, done / all, (done + 1.0) / all);
-      report.cases.push_back(compared(*written, place, step, part));
+      report.cases.push_back(compared(*written, place, step, provenance, part));
     }
   }
   Extras extras;
-  if (is_drawn) {
-    extras.make([&] { write_file(plot_file, draw_comparison(report, picture_kind)); });
+  for (const Plot& plot : plots) {
+    extras.make([&] { write_file(plot.file, draw_comparison(report, plot.format)); });
   }
   write_file("-", options.format == "json" ? comparison_json(report) : comparison_text(report));
   const bool decided =
@@ -171,10 +164,7 @@ void add_compare_command(Command& app, Action& action) {
                    "how long the step response is watched; default twenty periods of the loop")
       ->type_name("TIME");
   command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");
-  command
-      ->add_option("--plot", options->plot,
-                   "time=FILE draws the step responses; FILE ends in .svg, .png or .pdf")
-      ->type_name("time=FILE");
+  add_plot_option(*command, options->plots, "time: the step responses; ");
   command->footer(help_footer(examples));
   command->callback([options, &action] {
     action = [options](const Provenance& provenance) { return run(*options, provenance); };

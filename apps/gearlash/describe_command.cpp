@@ -9,6 +9,7 @@
 #include "output/describe_report.hpp"
 #include "output/output_file.hpp"
 #include "picture/nyquist_picture.hpp"
+#include "plot_option.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 
@@ -27,11 +28,9 @@ constexpr char explanation[] =
 struct DescribeOptions {
   ServoOptions servo;
   std::string format = "text";
-  std::string plot;
+  std::vector<std::string> plots;
   std::string part;
 };
-
-constexpr std::string_view nyquist = "nyquist=";
 
 drive::DescribedPart part_of(const std::string& name) {
   using drive::DescribedPart;
@@ -55,24 +54,11 @@ DescribedDrive described_drive(const ServoOptions& options, Faults& faults) {
   return {*std::move(written), std::move(analysis)};
 }
 
-std::string plot_file(const DescribeOptions& options) {
-  return options.plot.starts_with(nyquist) ? options.plot.substr(nyquist.size()) : options.plot;
-}
-
-PictureFormat plot_format(const DescribeOptions& options) {
-  if (options.plot.empty()) return PictureFormat::svg;
-  if (!options.plot.starts_with(nyquist)) {
-    throw InvalidInput({{"--plot", shown(options.plot),
-                         "must be nyquist=FILE, FILE ending in .svg, .png or .pdf", ""}});
-  }
-  return picture_format("--plot", plot_file(options));
-}
-
 void check_part(const DescribeOptions& options, Faults& faults) {
   if (options.part.empty()) return;
   faults.require_choice("--part", options.part,
                         {"gap", "elastic-gap", "torque-limit", "coulomb-friction"});
-  if (options.plot.empty()) {
+  if (options.plots.empty()) {
     faults.add({"--part", shown(options.part), "must come with --plot: it says what is drawn", ""});
   }
 }
@@ -105,7 +91,7 @@ std::string draw(const DescribeReport& report, const DescribeOptions& options,
   if (drawn.empty()) {
     throw InvalidInput(
         {options.part.empty()
-             ? Fault{"--plot", shown(options.plot), "must be left out: nothing is fed back", ""}
+             ? Fault{"--plot", "nyquist", "must be left out: nothing is fed back", ""}
              : Fault{"--part", shown(options.part),
                      "must be a part that the drive has within its loop", ""}});
   }
@@ -127,10 +113,9 @@ std::string text_for_terminal(const DescribeReport& report) {
 ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "json"});
-  const PictureFormat picture_kind =
-      faults.collect([&] { return plot_format(options); }, PictureFormat::svg);
+  const std::vector<Plot> plots = read_plots(options.plots, {"nyquist"}, faults);
   check_part(options, faults);
-  faults.require_distinct({"DRIVE.toml", options.servo.file}, {{"--plot", plot_file(options)}});
+  faults.require_distinct({"DRIVE.toml", options.servo.file}, files_of(plots));
   const DescribedDrive input = described_drive(options.servo, faults);
 
   const Answer& answer = input.analysis.answer;
@@ -143,8 +128,8 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
                               .time_unit = is_normalized(input.written.drive) ? "1/ω_n" : "s",
                               .provenance = provenance};
   Extras extras;
-  if (!options.plot.empty()) {
-    extras.make([&] { write_file(plot_file(options), draw(report, options, picture_kind)); });
+  for (const Plot& plot : plots) {
+    extras.make([&] { write_file(plot.file, draw(report, options, plot.format)); });
   }
   write_file("-", options.format == "json" ? describe_json(report) : text_for_terminal(report));
   if (answer.verdict != Verdict::undecided) return extras.status(ExitStatus::done);
@@ -160,11 +145,8 @@ void add_describe_command(Command& app, Action& action) {
       app.add_subcommand("describe", "what describing functions predict, beside the exact cycle");
   add_servo_or_drive_options(*command, options->servo);
   command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");
-  command
-      ->add_option("--plot", options->plot,
-                   "nyquist=FILE: draw the loop's gain against -1/N, with the\n"
-                   "exact cycle; FILE ends in .svg, .png or .pdf")
-      ->type_name("nyquist=FILE");
+  add_plot_option(*command, options->plots,
+                  "nyquist: the loop's gain against -1/N, with the exact\ncycle; ");
   command
       ->add_option("--part", options->part,
                    "what is drawn: gap, elastic-gap, torque-limit or\n"

@@ -9,6 +9,7 @@
 #include "output/design_report.hpp"
 #include "output/output_file.hpp"
 #include "picture/region_map.hpp"
+#include "plot_option.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 
@@ -22,7 +23,7 @@ constexpr char examples[] =
     "  gearlash design examples/elinco-fd162.toml --target \"size <= 30 arcmin\" \\\n"
     "      --parameters backlash,error_gain --format json | jq .answers[0].nearest\n"
     "  gearlash design examples/elinco-fd162.toml --target no-hunting \\\n"
-    "      --vary load_friction,error_gain --plot region.svg\n"
+    "      --vary load_friction,error_gain --plot region=region.svg\n"
     "  gearlash design --damping 0.19 --inertia-ratio 2 --friction-ratio 1/10 --backlash 0.3 \\\n"
     "      --target \"size <= 0.1\"\n";
 
@@ -32,7 +33,7 @@ struct DesignOptions {
   std::vector<std::string> parameters;
   std::vector<std::string> vary;
   std::string cost = "bandwidth";
-  std::string plot;
+  std::vector<std::string> plots;
   std::string format = "text";
 };
 
@@ -72,7 +73,7 @@ std::vector<DesignParameter> read_parameters(const std::string& field,
 struct Picture {
   std::vector<DesignParameter> axes;
   Cost cost = Cost::bandwidth;
-  PictureFormat format = PictureFormat::svg;
+  std::vector<Plot> plots = {};
 };
 
 Picture read_picture(const DesignOptions& options, Faults& faults) {
@@ -81,8 +82,8 @@ Picture read_picture(const DesignOptions& options, Faults& faults) {
   for (const Cost cost : {Cost::bandwidth, Cost::damping, Cost::stiffness}) {
     if (options.cost == name_of(cost)) picture.cost = cost;
   }
-  if (options.plot.empty() != options.vary.empty()) {
-    faults.add(options.plot.empty()
+  if (options.plots.empty() != options.vary.empty()) {
+    faults.add(options.plots.empty()
                    ? Fault{"--plot", "", "must name a picture of what --vary varies", ""}
                    : Fault{"--vary", "", "must name two parameters, over which --plot draws", ""});
   }
@@ -91,10 +92,7 @@ Picture read_picture(const DesignOptions& options, Faults& faults) {
     faults.add({"--vary", std::to_string(options.vary.size()) + " names",
                 "must be two different parameters, with a comma between", ""});
   }
-  if (!options.plot.empty()) {
-    picture.format =
-        faults.collect([&] { return picture_format("--plot", options.plot); }, PictureFormat::svg);
-  }
+  picture.plots = read_plots(options.plots, {"region"}, faults);
   return picture;
 }
 
@@ -110,15 +108,13 @@ void require_ranges(const ChangeableDrive& drive, const Picture& picture) {
   faults.require_none();
 }
 
-void draw(const RegionMapTask& task, const Picture& picture, const std::string& file) {
-  OutputFile output(file);
+void draw(const RegionMapTask& task, const Picture& picture, const Plot& plot) {
   const std::size_t count = values_to_draw(task.drive, picture.axes[0], picture.axes[1]);
   const auto axis = [&](DesignParameter parameter) {
     return parameter_axis(parameter, range_to_draw(task.drive, parameter), count);
   };
-  output.write(
-      draw_contour_map(map_of(task, axis(picture.axes[0]), axis(picture.axes[1])), picture.format));
-  output.commit();
+  write_file(plot.file, draw_contour_map(map_of(task, axis(picture.axes[0]), axis(picture.axes[1])),
+                                         plot.format));
 }
 
 std::vector<FeasibleValues> work_out(const ChangeableDrive& drive, const Target& target,
@@ -143,7 +139,7 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
   std::vector<DesignParameter> parameters =
       read_parameters("--parameters", options.parameters, faults);
   const Picture picture = read_picture(options, faults);
-  faults.require_distinct({"SERVO.toml", options.servo.file}, {{"--plot", options.plot}});
+  faults.require_distinct({"SERVO.toml", options.servo.file}, files_of(picture.plots));
   faults.require_none();
   if (parameters.empty()) parameters = picture.axes;
   if (parameters.empty()) parameters = {all_parameters.begin(), all_parameters.end()};
@@ -157,13 +153,13 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
                             .units = report_units(file),
                             .provenance = provenance};
   Extras extras;
-  if (!options.plot.empty()) {
+  for (const Plot& plot : picture.plots) {
     const RegionMapTask map{.drive = drive,
                             .target = target,
                             .target_text = options.target,
                             .cost = picture.cost,
                             .angle = report.units.angle};
-    extras.make([&] { draw(map, picture, options.plot); });
+    extras.make([&] { draw(map, picture, plot); });
   }
   write_file("-", options.format == "json" ? design_json(report) : design_text(report));
   return extras.status(ExitStatus::done);
@@ -198,8 +194,7 @@ void add_design_command(Command& app, Action& action) {
       ->delimiter(',');
   command->add_option("--cost", options->cost, "bandwidth (default), damping or stiffness")
       ->type_name("COST");
-  command->add_option("--plot", options->plot, "picture; FILE ends in .svg, .png or .pdf")
-      ->type_name("FILE");
+  add_plot_option(*command, options->plots, "region: where the target is met; ");
   command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");
   command->footer(help_footer(examples));
   command->callback([options, &action] {

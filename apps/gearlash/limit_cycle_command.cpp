@@ -6,13 +6,13 @@
 
 #include "analysis/analyse.hpp"
 #include "command.hpp"
+#include "gearlash/motion.hpp"
 #include "input/units.hpp"
 #include "machine_faults.hpp"
 #include "output/answer_report.hpp"
 #include "output/change_report.hpp"
 #include "output/output_file.hpp"
 #include "picture/attractor_picture.hpp"
-#include "picture/picture.hpp"
 #include "plot_option.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
@@ -95,17 +95,36 @@ ServoState start_to_draw(const Work& work, const Step& step) {
           load_position, share * start.load_speed};
 }
 
-std::string draw_servo(const Work& work, PictureFormat format) {
+/// From a state in the normal form, and until a time there.
+Motion motion_from(const Work& work, const ServoState& state, double reference, double until) {
+  Drive drive = work.report.drive;
+  drive.reference = reference;
+  drive.load_torque.reset();
+  const double rate = work.analysis.servo->natural_frequency;
+  const Start start{.load_position = state.load_position,
+                    .load_speed = state.load_speed * rate,
+                    .gap = state.motor_position - state.load_position,
+                    .gap_speed = state.gap_speed() * rate};
+  return simulate(drive, {.until = until / rate, .start = start});
+}
+
+MotionPicture servo_picture(const Work& work) {
   const Step step = step_to_draw(work);
+  const LimitCycle* cycle = largest_stable(*work.analysis.closed);
   MotionPicture picture{.title = headline(work.report),
-                        .servo = work.servo->servo,
-                        .trajectory = simulate(work.servo->servo, start_to_draw(work, step),
-                                               {.until = step.until, .reference = step.size}),
-                        .reference = step.size,
-                        .cycle = std::nullopt,
-                        .units = report_units(*work.servo)};
-  if (const LimitCycle* cycle = largest_stable(*work.analysis.closed)) picture.cycle = *cycle;
-  return draw_phase_plane(picture, format);
+                        .drive = work.report.drive,
+                        .angle = work.report.angle,
+                        .period = 2.0 * std::numbers::pi / work.analysis.servo->natural_frequency};
+  picture.motions.push_back(
+      {.motion = motion_from(work, start_to_draw(work, step), step.size, step.until),
+       .name = cycle != nullptr ? "on its way" : "",
+       .is_background = cycle != nullptr});
+  if (cycle != nullptr) {
+    picture.motions.push_back({.motion = motion_from(work, cycle->start, 0.0, cycle->period),
+                               .name = "limit cycle",
+                               .is_cycle = true});
+  }
+  return picture;
 }
 
 std::string draw_tornado(const Work& work, PictureFormat format) {
@@ -119,13 +138,12 @@ std::string draw_tornado(const Work& work, PictureFormat format) {
 
 std::string draw(const Work& work, const Plot& plot) {
   if (plot.kind == "tornado") return draw_tornado(work, plot.format);
-  if (work.analysis.closed) return draw_servo(work, plot.format);
-  return draw_attractors({.title = headline(work.report),
-                          .drive = work.analysis.reduced,
-                          .search = *work.analysis.search,
-                          .angle = work.report.angle,
-                          .is_normalized = work.report.is_normalized},
-                         plot.format);
+  return draw_phase_plane(
+      work.analysis.closed
+          ? servo_picture(work)
+          : attractor_picture(headline(work.report), work.report.drive, work.analysis.reduced,
+                              *work.analysis.search, work.report.angle),
+      plot.format);
 }
 
 std::string text_for_terminal(const std::string& text) {

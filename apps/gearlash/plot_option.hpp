@@ -26,6 +26,7 @@ std::vector<FileUse> files_of(const std::vector<Plot>& plots);
 bool has_kind(const std::vector<Plot>& plots, const std::string& kind);
 
 /// The option, repeatable; `kinds` says what each of them draws, a line each.
-void add_plot_option(Command& command, std::vector<std::string>& typed, const std::string& kinds);
+Option* add_plot_option(Command& command, std::vector<std::string>& typed,
+                        const std::string& kinds);
 
 }  // namespace gearlash::cli

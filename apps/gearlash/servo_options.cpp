@@ -292,78 +292,7 @@ ServoFile with_options(ServoFile file, const ServoOptions& options, Faults& faul
   return file;
 }
 
-ServoOrDriveFile read_either(const ServoOptions& options, Faults& faults) {
-  const ServoFile stand_in = stand_in_for(options.file);
-  const std::vector<Setting> settings = settings_of(options, faults);
-  if (options.file.empty() && options.settings.empty()) return stand_in;
-  return faults.collect(
-      [&] {
-        const Source source = source_of(options);
-        return parse_servo_or_drive(source.text, source.name, source.folder, settings);
-      },
-      ServoOrDriveFile(stand_in));
-}
-
-void apply(const ServoOptions& options, DriveFile& file, Faults& faults) {
-  for (const NumberOption& option : number_options) {
-    const std::optional<std::string>& typed = options.*option.typed;
-    if (!typed) continue;
-    const std::string name = option_name(option.name);
-    if (option.typed == &ServoOptions::backlash) {
-      const Measured angle =
-          faults.collect([&] { return read_angle(name, *typed); }, Measured{.si = 1.0});
-      file.drive.backlash = angle.si;
-      file.backlash_unit = {.name = angle.unit, .radians = angle.unit_in_si};
-    } else if (auto* rigid = std::get_if<drive::RigidContact>(&file.drive.contact);
-               rigid != nullptr && option.typed == &ServoOptions::restitution) {
-      rigid->restitution = faults.collect([&] { return read_number(name, *typed); }, 0.0);
-    } else {
-      faults.add({name, shown(*typed),
-                  "must be left out: " + shown(options.file) +
-                      " describes a drive, which has no such number",
-                  ""});
-    }
-  }
-}
-
 }  // namespace
-
-ServoOrDriveFile resolve_servo_or_drive(const ServoOptions& options, Faults& faults) {
-  ServoOrDriveFile read = read_either(options, faults);
-  if (options.sensor) faults.require_choice("--sensor", *options.sensor, {"load", "motor", "both"});
-  if (std::holds_alternative<ServoFile>(read)) {
-    ServoOptions others = options;
-    others.sensor.reset();
-    read = with_options(std::get<ServoFile>(read), others, faults);
-    const bool has_other_sensor = options.sensor && *options.sensor != "load" && faults.none();
-    if (!has_other_sensor) return read;
-    read = faults.collect([&] { return drive_file_of(std::get<ServoFile>(read)); }, DriveFile{});
-  } else {
-    apply(options, std::get<DriveFile>(read), faults);
-  }
-  auto& file = std::get<DriveFile>(read);
-  if (options.sensor) {
-    file = with_sensor(std::move(file), sensor_named(*options.sensor).value_or(SensorPlace::load));
-  }
-  if (faults.none()) faults.add(drive::validate(file.drive));
-  return read;
-}
-
-std::optional<ServoFile> closed_form_of(DriveFile file) {
-  // Hunting does not depend on where the reference stays in the end, but on whether it does.
-  if (!std::holds_alternative<double>(drive::settled(file.drive.reference))) return std::nullopt;
-  file.drive.reference = 0.0;
-  const std::optional<Drivetrain> drivetrain = drive::proportional_servo(file.drive);
-  if (!drivetrain) return std::nullopt;
-  ServoFile servo;
-  servo.servo = normalize(*drivetrain);
-  if (!file.is_normalized) {
-    servo.natural_frequency = natural_frequency(*drivetrain);
-    servo.drivetrain = drivetrain;
-  }
-  servo.backlash_unit = file.backlash_unit;
-  return servo;
-}
 
 namespace {
 

@@ -88,15 +88,6 @@ std::optional<WrittenDrive> resolve_drive(const ServoOptions& options, Faults& f
 /// and of the options go to `faults`; the result is sound if there are none.
 ServoFile resolve_servo(const ServoOptions& options, Faults& faults);
 
-/// The servo or drive, its file read and its options applied; for a drive those are the backlash,
-/// the restitution and the sensor, "both" being the load's position and the motor's speed. A servo
-/// with its sensor on the motor is a drive. Faults go to `faults`.
-ServoOrDriveFile resolve_servo_or_drive(const ServoOptions& options, Faults& faults);
-
-/// The servo of the closed form that the drive is once its reference stays somewhere; nothing if it
-/// is none, or the reference moves for ever.
-std::optional<ServoFile> closed_form_of(DriveFile file);
-
 /// The data sheet with what options say of it: its backlash and restitution. Precondition: there is
 /// one.
 Datasheet datasheet_of(const ServoFile& file);

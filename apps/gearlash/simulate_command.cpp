@@ -1,4 +1,4 @@
-// gearlash simulate: the exact motion after a step or from a disturbance.
+// gearlash simulate: the exact motion under a reference, or from a disturbance.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,13 +6,19 @@
 #include <memory>
 #include <numbers>
 
+#include "analysis/analyse.hpp"
 #include "base/range_check.hpp"
 #include "command.hpp"
+#include "gearlash/motion.hpp"
+#include "general/assemble/time_scale.hpp"
 #include "input/units.hpp"
 #include "machine_faults.hpp"
-#include "picture/picture.hpp"
+#include "output/answer_report.hpp"
+#include "output/motion_report.hpp"
+#include "picture/motion_picture.hpp"
+#include "plot_option.hpp"
 #include "servo_options.hpp"
-#include "simulate_options.hpp"
+#include "terminal.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -20,253 +26,263 @@ namespace {
 constexpr char examples[] =
     "  gearlash simulate examples/elinco-fd162.toml > step.csv\n"
     "  gearlash simulate examples/elinco-fd162.toml --until 3 --plot time=step.svg\n"
-    "  gearlash simulate examples/elinco-fd162.toml --events --output events.csv\n"
+    "  gearlash simulate examples/robot-joint.toml --events --output events.csv\n"
     "  gearlash simulate --damping 0.2 --inertia-ratio 4 --friction-ratio 1/4 --backlash 0.3 \\\n"
-    "      --reference 0 --initial-position 0.01 --format json --plot phase=growth.png\n"
-    "  gearlash simulate examples/robot-joint.toml --events\n";
+    "      --reference 0 --initial-position 0.01 --format json --plot phase=growth.png\n";
 
-constexpr double default_periods = 10.0;
 constexpr double default_samples = 1000.0;
+/// A table this long takes about a gigabyte.
+constexpr double most_samples = 1e7;
 
-Plot read_plot(const std::string& text) {
-  const std::size_t equals = text.find('=');
-  const std::string kind = text.substr(0, equals);
-  if (equals == std::string::npos || (kind != "time" && kind != "phase")) {
-    throw InvalidInput({{"--plot", shown(text), "must be time=FILE or phase=FILE", ""}});
-  }
-  const std::string file = text.substr(equals + 1);
-  return {kind == "phase", file, picture_format("--plot", file)};
-}
-
-std::vector<Plot> read_plots(const SimulateOptions& options, Faults& faults) {
-  std::vector<Plot> plots;
-  for (const std::string& text : options.plots) {
-    plots.push_back(faults.collect([&] { return read_plot(text); }, Plot{}));
-  }
-  return plots;
-}
-
-/// Times in the report's unit: seconds, or 1/ω_n.
-struct Times {
-  double until;
-  double every;
+struct SimulateOptions {
+  ServoOptions servo;
+  std::string initial_position = "0";
+  std::string initial_speed = "0";
+  std::optional<std::string> initial_gap;
+  std::string initial_gap_speed = "0";
+  std::optional<std::string> reference;
+  std::optional<std::string> until;
+  std::optional<std::string> every;
+  bool events = false;
+  std::string format = "csv";
+  std::vector<std::string> plots;
+  std::string output = "-";
 };
 
-double read_positive(const char* field, const std::string& text, const ReportUnits& units) {
-  const double number = read_scaled(field, text, dimensions::time, units, units.time_unit());
-  if (number > 0.0) return number;
-  throw InvalidInput(
-      {{field, shown(text), fmt::format("must be positive, in {}", units.time_unit()), ""}});
-}
-
-Times read_times(const SimulateOptions& options, const ReportUnits& units) {
-  Faults faults;
-  Times times{units.time(default_periods * 2.0 * std::numbers::pi), 0.0};
-  if (options.until) {
-    times.until = faults.collect([&] { return read_positive("--until", *options.until, units); },
-                                 times.until);
-    if (units.normalized_time(times.until) > longest_simulation) {
-      faults.add({"--until", shown(*options.until),
-                  fmt::format("must be at most {} {}",
-                              significant(units.time(longest_simulation), 6), units.time_unit()),
-                  ""});
-    }
-  }
-  times.every = times.until / default_samples;
-  if (options.every) {
-    times.every = faults.collect([&] { return read_positive("--every", *options.every, units); },
-                                 times.every);
-  }
-  faults.require_none();
-  if (!options.events && !(times.until / times.every < most_samples)) {
-    throw InvalidInput({{"--every", exact_text(times.every),
-                         fmt::format("must be more than {} {}: {} samples at most up to {}",
-                                     significant(times.until / most_samples, 6), units.time_unit(),
-                                     significant(most_samples, 3), exact_text(times.until)),
-                         ""}});
-  }
-  return times;
-}
-
-struct Start {
-  ServoState state;
-  double reference = 0.0;
+/// What is asked for, all in SI.
+struct Task {
+  WrittenDrive written{};
+  Start start{};
+  double period = 1.0;  ///< of the loop
+  double until = 0.0;
+  double every = 0.0;
 };
 
-/// The gap as it is to be at the start; nothing where the faces are to touch.
-std::optional<double> read_gap(const SimulateOptions& options, double backlash, Faults& faults) {
-  if (!options.initial_gap) return std::nullopt;
-  const double gap =
-      faults.collect([&] { return read_angle("--initial-gap", *options.initial_gap).si; }, 0.0);
-  // An angle written in another unit may miss the face by its rounding.
-  if (std::abs(gap) <= 0.5 * backlash * (1.0 + 1e-12)) {
-    return std::clamp(gap, -0.5 * backlash, 0.5 * backlash);
-  }
-  faults.add({"--initial-gap", shown(*options.initial_gap),
-              fmt::format("must be from -{0} to {0} rad, half the backlash each way",
-                          exact_text(0.5 * backlash)),
-              ""});
-  return std::nullopt;
+double read_si(const char* field, const std::string& text, const Dimension& dimension) {
+  return read_scaled(field, text, dimension, {.natural_frequency = 1.0}, dimension.unit);
 }
 
-Start read_start(const SimulateOptions& options, const NormalizedServo& servo,
-                 const ReportUnits& units, Faults& faults) {
+Start read_start(const SimulateOptions& options, Faults& faults) {
   const auto angle = [&](const char* field, const std::string& text) {
     return faults.collect([&] { return read_angle(field, text).si; }, 0.0);
   };
   const auto speed = [&](const char* field, const std::string& text) {
-    return units.normalized_speed(faults.collect(
-        [&] {
-          return read_scaled(field, text, dimensions::angular_speed, units, units.speed_unit());
-        },
-        0.0));
+    return faults.collect([&] { return read_si(field, text, dimensions::angular_speed); }, 0.0);
   };
-  Start start;
-  start.reference = angle("--reference", options.reference.value_or("1"));
-  start.state = engaged_start(servo, angle("--initial-position", options.initial_position),
-                              speed("--initial-speed", options.initial_speed), start.reference);
-  if (const std::optional<double> gap = read_gap(options, servo.backlash, faults)) {
-    start.state.motor_position = start.state.load_position + *gap;
-  }
-  start.state.set_gap_speed(speed("--initial-gap-speed", options.initial_gap_speed));
+  Start start{.load_position = angle("--initial-position", options.initial_position),
+              .load_speed = speed("--initial-speed", options.initial_speed),
+              .gap = std::nullopt,
+              .gap_speed = speed("--initial-gap-speed", options.initial_gap_speed)};
+  if (options.initial_gap) start.gap = angle("--initial-gap", *options.initial_gap);
   return start;
 }
 
-MotionReport simulated(const ServoFile& file, const SimulateOptions& options,
-                       const Provenance& provenance, Faults& faults) {
-  const ReportUnits units = report_units(file);
-  const Start start = read_start(options, file.servo, units, faults);
-  const Times times = faults.collect([&] { return read_times(options, units); }, Times{1.0, 1.0});
+/// A step in which hunting is seen: five backlashes, and twenty counts of an encoder.
+double default_reference(const drive::ReducedDrive& reduced) {
+  const double step = std::max(5.0 * reduced.backlash, 20.0 * reduced.sensing.resolution);
+  return step > 0.0 && std::isfinite(step) ? step : 1.0;
+}
+
+/// Of --reference; else the file's; else a step. Its unit is drawn where the file has but radians.
+void set_reference(const SimulateOptions& options, WrittenDrive& written, Faults& faults) {
+  if (options.reference) {
+    const Measured angle =
+        faults.collect([&] { return read_angle("--reference", *options.reference); }, Measured{});
+    written.drive.reference = angle.si;
+    if (written.angle == AngleUnit{}) {
+      written.angle = {.name = angle.unit, .radians = angle.unit_in_si};
+    }
+  } else if (!written.drive.reference) {
+    written.drive.reference = default_reference(reduce(written.drive));
+  }
+}
+
+double period_of_loop(const Drive& drive) {
+  Drive at_rest = drive;
+  at_rest.reference.reset();
+  at_rest.load_torque.reset();
+  if (const auto servo = closed_form_servo(at_rest)) {
+    return 2.0 * std::numbers::pi / servo->natural_frequency;
+  }
+  return drive::time_scales(reduce(drive)).swing;
+}
+
+double read_time(const char* field, const std::string& text, Faults& faults) {
+  const double time = faults.collect([&] { return read_si(field, text, dimensions::time); }, 1.0);
+  if (!(time > 0.0)) faults.add({field, shown(text), "must be positive, in s", ""});
+  return time;
+}
+
+/// Twice the time in which the signals settle, and ten periods of the loop. `drive` is nullptr
+/// where it is at fault.
+void read_times(const SimulateOptions& options, const Drive* drive, Task& task, Faults& faults) {
+  constexpr double periods = 10.0;
+  task.until = 1.0;
+  if (drive != nullptr) {
+    const auto settling_time = [](const std::optional<Signal>& signal) {
+      return signal ? drive::settling_time(*signal) : 0.0;
+    };
+    task.period = period_of_loop(*drive);
+    task.until =
+        2.0 * std::max(settling_time(drive->reference), settling_time(drive->load_torque)) +
+        periods * task.period;
+  }
+  if (options.until) task.until = read_time("--until", *options.until, faults);
+  task.every = task.until / default_samples;
+  if (options.every) task.every = read_time("--every", *options.every, faults);
+  if (!options.events && faults.none() && !(task.until / task.every < most_samples)) {
+    faults.add({"--every", exact_text(task.every),
+                fmt::format("must be more than {} s: {} samples at most up to {} s",
+                            significant(task.until / most_samples, 6), significant(most_samples, 3),
+                            exact_text(task.until)),
+                ""});
+  }
+}
+
+Task read_task(const SimulateOptions& options, Faults& faults) {
+  Task task;
+  std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
+  task.start = read_start(options, faults);
+  if (written) {
+    set_reference(options, *written, faults);
+    task.written = *std::move(written);
+    read_times(options, &task.written.drive, task, faults);
+  } else {
+    if (options.reference)
+      faults.collect([&] { return read_angle("--reference", *options.reference); }, Measured{});
+    read_times(options, nullptr, task, faults);
+  }
   faults.require_none();
-
-  return {.servo = file.servo,
-          .is_drive = false,
-          .initial = start.state,
-          .reference = start.reference,
-          .until = times.until,
-          .every = times.every,
-          .trajectory =
-              simulate(file.servo, start.state,
-                       {.until = units.normalized_time(times.until), .reference = start.reference}),
-          .units = units,
-          .provenance = provenance};
+  return task;
 }
 
-std::string title(const MotionReport& report) {
-  const AngleUnit& angle = report.units.angle;
-  const auto position = [&](double radians) {
-    return significant(angle.from_radians(radians), 4) + " " + angle.name;
+/// Faults of the span are those of the options that were typed.
+Motion simulated(const Task& task, const SimulateOptions& options) {
+  try {
+    return simulate(task.written.drive, {.until = task.until, .start = task.start});
+  } catch (const InvalidInput& error) {
+    std::vector<Fault> faults = error.faults();
+    const auto name = [](Fault& fault, const char* path, const char* option,
+                         const std::string& typed) {
+      if (fault.path != path) return;
+      fault.path = option;
+      fault.value = shown(typed);
+    };
+    for (Fault& fault : faults) {
+      name(fault, "until", "--until", options.until.value_or(fault.value));
+      name(fault, "start.gap", "--initial-gap", options.initial_gap.value_or(fault.value));
+      name(fault, "start.load_position", "--initial-position", options.initial_position);
+      name(fault, "start.load_speed", "--initial-speed", options.initial_speed);
+      name(fault, "start.gap_speed", "--initial-gap-speed", options.initial_gap_speed);
+    }
+    throw InvalidInput(faults);
+  }
+}
+
+// ---- pictures -----------------------------------------------------------------------------------
+
+std::string title_of(const Task& task) {
+  const AngleUnit& unit = task.written.angle;
+  const auto angle = [&](double radians) {
+    return significant(unit.from_radians(radians), 4) + " " + unit.name;
   };
-  const ServoState& initial = report.initial;
-  if (initial.load_position == 0.0 && initial.load_speed == 0.0) {
-    return "Step to " + position(report.reference);
+  const Signal reference = task.written.drive.reference.value_or(Signal{});
+  const bool is_at_rest = task.start.load_position == 0.0 && task.start.load_speed == 0.0;
+  if (!is_at_rest) {
+    return fmt::format("Motion from {}, {}/s", angle(task.start.load_position),
+                       angle(task.start.load_speed));
   }
-  return fmt::format("Motion from {}, {} {}; reference {}", position(initial.load_position),
-                     significant(report.units.speed(initial.load_speed), 4),
-                     report.units.speed_unit(), position(report.reference));
+  if (const auto* constant = std::get_if<double>(&reference)) return "Step to " + angle(*constant);
+  const auto* step = std::get_if<StepSignal>(&reference);
+  return step != nullptr ? "Step to " + angle(step->after) : "Response to the reference";
 }
 
-void draw(const MotionReport& report, const Plot& plot) {
-  const MotionPicture picture{.title = title(report),
-                              .servo = report.servo,
-                              .trajectory = report.trajectory,
-                              .reference = report.reference,
-                              .cycle = std::nullopt,
-                              .units = report.units};
-  write_file(plot.file, plot.is_phase_plane ? draw_phase_plane(picture, plot.format)
-                                            : draw_time_response(picture, plot.format));
+/// The verdict, where the closed form has it in no time.
+std::string verdict_of(const WrittenDrive& written) {
+  if (!has_closed_form(written.drive)) return {};
+  AnswerReport report;
+  report.drive = written.drive;
+  report.answer = analyse(written.drive, {.proofs = false});
+  report.angle = written.angle;
+  report.is_normalized = is_normalized(written.drive);
+  return headline(report);
 }
 
-ExitStatus simulate_servo(const ServoFile& file, const SimulateOptions& options,
-                          const std::vector<Plot>& plots, const Provenance& provenance,
-                          Faults& faults, bool is_drive = false) {
-  MotionReport report = simulated(file, options, provenance, faults);
-  report.is_drive = is_drive;
-  Extras extras;
-  for (const Plot& plot : plots) extras.make([&] { draw(report, plot); });
-  write_tables(report, options);
-  if (report.trajectory.stop_reason() == StopReason::reached_end) {
-    return extras.status(ExitStatus::done);
+std::string draw(const Task& task, const Motion& motion, const Plot& plot) {
+  const MotionPicture picture{.title = title_of(task),
+                              .subtitle = verdict_of(task.written),
+                              .drive = task.written.drive,
+                              .motions = {{.motion = motion}},
+                              .angle = task.written.angle,
+                              .period = task.period};
+  return plot.kind == "phase" ? draw_phase_plane(picture, plot.format)
+                              : draw_time_response(picture, plot.format);
+}
+
+// ---- the command --------------------------------------------------------------------------------
+
+void write_table(const MotionReport& report, const SimulateOptions& options) {
+  OutputFile output(options.output);
+  TerminalProgress progress("Writing");
+  const TextSink sink = [&](std::string_view text) { output.write(text); };
+  if (options.format == "json") {
+    write_motion_json(report, sink, progress);
+  } else if (options.events) {
+    write_events_csv(report, sink);
+  } else {
+    write_samples_csv(report, sink, progress);
   }
-  fmt::print(stderr, "gearlash: stopped at {} {} of {} after {} events\n",
-             exact_text(report.units.time(report.trajectory.end_time())), report.units.time_unit(),
-             exact_text(report.until), report.trajectory.events().size());
-  return extras.status(ExitStatus::undecided);
-}
-
-/// What the reference is at all times: of an option any number stands for what it will be.
-std::optional<double> constant_reference(const DriveFile& file, const SimulateOptions& options) {
-  constexpr double usual = 1.0;
-  if (options.reference || !file.has_reference) return usual;
-  const auto* constant = std::get_if<double>(&file.drive.reference);
-  return constant != nullptr ? std::optional(*constant) : std::nullopt;
-}
-
-std::optional<ServoFile> closed_form_at(DriveFile file, double reference) {
-  file.drive.reference = reference;
-  return closed_form_of(std::move(file));
+  output.commit();
 }
 
 ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
   Faults faults;
   faults.require_choice("--format", options.format, {"csv", "json"});
-  const std::vector<Plot> plots = read_plots(options, faults);
-  std::vector<FileUse> outputs = {{"--output", options.output}};
-  for (const Plot& plot : plots) outputs.push_back({"--plot", plot.file});
-  faults.require_distinct({"SERVO.toml", options.servo.file}, outputs);
-  const ServoOrDriveFile described = resolve_servo_or_drive(options.servo, faults);
-  if (const auto* drive = std::get_if<DriveFile>(&described)) {
-    const std::optional<double> reference = constant_reference(*drive, options);
-    const std::optional<ServoFile> closed =
-        faults.none() && reference ? closed_form_at(*drive, *reference) : std::nullopt;
-    if (!closed) return simulate_drive(*drive, options, plots, provenance, faults);
-    SimulateOptions constant = options;
-    if (!options.reference) constant.reference = exact_text(*reference);
-    return simulate_servo(*closed, constant, plots, provenance, faults, true);
+  const std::vector<Plot> plots = read_plots(options.plots, {"time", "phase"}, faults);
+  std::vector<FileUse> outputs = files_of(plots);
+  outputs.insert(outputs.begin(), {"--output", options.output});
+  faults.require_distinct({"DRIVE.toml", options.servo.file}, outputs);
+  const Task task = read_task(options, faults);
+  const Motion motion = simulated(task, options);
+  Extras extras;
+  for (const Plot& plot : plots) {
+    extras.make([&] { write_file(plot.file, draw(task, motion, plot)); });
   }
-  return simulate_servo(std::get<ServoFile>(described), options, plots, provenance, faults);
+  write_table({.drive = task.written.drive,
+               .motion = motion,
+               .until = task.until,
+               .every = task.every,
+               .provenance = provenance},
+              options);
+  if (motion.stop() == MotionStop::reached_end) return extras.status(ExitStatus::done);
+  report_lines(fmt::format("stopped at {} s of {} s: {}", exact_text(motion.end_time()),
+                           exact_text(task.until), motion.stop_text()));
+  return extras.status(ExitStatus::undecided);
 }
 
-void add_motion_options(Command& command, SimulateOptions& options) {
-  constexpr char group[] =
-      "Motion (s and rad/s, or with their unit, \"50 ms\", \"3 rpm\"; without a natural frequency "
-      "normalised)";
-  command
-      .add_option("--initial-position", options.initial_position,
-                  "of the load; rad or with its unit; default 0")
-      ->type_name("ANGLE")
-      ->group(group);
-  command
-      .add_option("--initial-speed", options.initial_speed,
-                  "of the load, and of the motor but for the next; default 0")
-      ->type_name("SPEED")
-      ->group(group);
-  command
-      .add_option("--initial-gap", options.initial_gap,
-                  "motor less load, within half the backlash each way; default\n"
-                  "on the face towards which the motor pushes")
-      ->type_name("ANGLE")
-      ->group(group);
-  command
-      .add_option("--initial-gap-speed", options.initial_gap_speed,
-                  "speed of the motor less that of the load; default 0")
-      ->type_name("SPEED")
-      ->group(group);
-  command
-      .add_option("--reference", options.reference,
-                  "position asked for from time 0 on; rad or with its unit; default 1,\n"
-                  "or what a drive's file says")
-      ->type_name("ANGLE")
-      ->group(group);
-  command
-      .add_option("--until", options.until,
-                  "time to stop at; default 10 periods of the natural "
-                  "frequency")
-      ->type_name("TIME")
-      ->group(group);
-  command.add_option("--every", options.every, "between samples; default a thousandth of --until")
-      ->type_name("TIME")
-      ->group(group);
+void add_start_options(Command& command, SimulateOptions& options) {
+  constexpr char group[] = "Motion (rad, s and rad/s, or with their unit, \"50 ms\", \"3 rpm\")";
+  const auto add = [&](const char* name, auto& typed, const char* help, const char* kind) {
+    command.add_option(name, typed, help)->type_name(kind)->group(group);
+  };
+  add("--initial-position", options.initial_position, "of the load; default 0", "ANGLE");
+  add("--initial-speed", options.initial_speed,
+      "of both shafts; --initial-gap-speed adds to the\nmotor's; default 0", "SPEED");
+  add("--initial-gap", options.initial_gap,
+      "motor less load, within half the backlash each way; default\n"
+      "on the face that the reference pulls to",
+      "ANGLE");
+  add("--initial-gap-speed", options.initial_gap_speed,
+      "speed of the motor less that of the load; default 0", "SPEED");
+  add("--reference", options.reference,
+      "constant position asked for; default what the file says, else a\n"
+      "step of five backlashes, and at least twenty encoder counts",
+      "ANGLE");
+  add("--until", options.until,
+      "time to stop at; default 10 periods of the loop, and twice the time\n"
+      "in which the signals settle",
+      "TIME");
+  add("--every", options.every, "between samples; default a thousandth of --until", "TIME");
 }
 
 }  // namespace
@@ -276,18 +292,13 @@ void add_simulate_command(Command& app, Action& action) {
   Command* command =
       app.add_subcommand("simulate", "the exact motion after a step or from a disturbance");
   add_servo_or_drive_options(*command, options->servo);
-  add_motion_options(*command, *options);
+  add_start_options(*command, *options);
   command->add_flag("--events", options->events,
-                    "list separations and impacts instead of samples (JSON has both)");
+                    "list what happens (faces meet, part, stick) instead of samples;\n"
+                    "JSON has both");
   command->add_option("--format", options->format, "csv (default) or json")->type_name("FORMAT");
-  command
-      ->add_option("--plot", options->plots,
-                   "time=FILE draws the response, phase=FILE the phase\n"
-                   "plane; FILE ends in .svg, .png or .pdf; may be repeated")
-      ->type_name("KIND=FILE")
-      ->take_all()
-      ->expected(1)
-      ->allow_extra_args(false);
+  add_plot_option(*command, options->plots,
+                  "time: the response, the gap and the torque; phase: the\nphase plane; ");
   command->add_option("--output", options->output, "file for the table; default standard output")
       ->type_name("FILE");
   command->footer(help_footer(examples));

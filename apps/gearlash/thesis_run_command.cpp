@@ -6,8 +6,10 @@
 #include <cmath>
 #include <memory>
 
+#include "closed_form/limit_cycle.hpp"
 #include "machine_faults.hpp"
 #include "output/output_file.hpp"
+#include "plot_option.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 #include "thesis/chart_errors.hpp"
@@ -163,17 +165,19 @@ struct RunOptions {
   bool all = false;
   bool causes = false;
   bool machine = false;
-  std::string plot;
+  std::vector<std::string> plots;
 };
 
 ExitStatus run_program(const RunOptions& options) {
   if (options.all) {
-    const PictureFormat format =
-        options.plot.empty() ? PictureFormat::svg : picture_format("--plot", options.plot);
+    Faults faults;
+    const std::vector<Plot> plots = read_plots(options.plots, {"errors"}, faults);
+    faults.require_none();
     const AllRuns runs = run_all(options.machine);
     Extras extras;
-    if (!options.plot.empty()) {
-      extras.make([&] { write_file(options.plot, draw_cell_map(error_map(runs.errors), format)); });
+    for (const Plot& plot : plots) {
+      extras.make(
+          [&] { write_file(plot.file, draw_cell_map(error_map(runs.errors), plot.format)); });
     }
     write_file("-", errors_text(runs.errors) + runs.effort);
     return extras.status(ExitStatus::done);
@@ -205,11 +209,7 @@ void add_thesis_run(Command& thesis, Action& action) {
   const std::vector<Option*> servo = command->options();
   Option* all = command->add_flag("--all", options->all,
                                   "all servos of the thesis's charts, as a table of errors");
-  command
-      ->add_option("--plot", options->plot,
-                   "with --all, draw the errors as a map; FILE ends in\n.svg, .png or .pdf")
-      ->type_name("FILE")
-      ->needs(all);
+  add_plot_option(*command, options->plots, "errors: those of --all as a map; ")->needs(all);
   Option* machine = command->add_flag("--machine", options->machine,
                                       "on the emulated CDC 1604 instead of by the port");
   Option* causes = command->add_flag("--causes", options->causes,

@@ -9,7 +9,6 @@
 #include "input/drive_file.hpp"
 #include "output/columns.hpp"
 #include "output/json_values.hpp"
-#include "picture/line_chart.hpp"
 
 namespace gearlash {
 namespace {
@@ -165,8 +164,6 @@ std::string comparison_json(const ComparisonReport& report) {
                    {"final_error", json_number(response.final_error)},
                    {"ripple", json_number(response.ripple)}}}};
     json["limit_cycle"] = Json::parse(answer_json(one.report));
-    json["limit_cycle"].erase("version");
-    json["limit_cycle"].erase("command");
     cases.push_back(std::move(json));
   }
   const Json json = {{"schema", "gearlash/compare/2"},
@@ -175,30 +172,6 @@ std::string comparison_json(const ComparisonReport& report) {
                      {"units", "SI"},
                      {"cases", std::move(cases)}};
   return json.dump(2) + "\n";
-}
-
-std::string draw_comparison(const ComparisonReport& report, PictureFormat format) {
-  const AnswerReport& first = first_of(report);
-  const AngleUnit& unit = first.angle;
-  const double step = report.cases.front().response.step;
-  LineChart chart;
-  chart.title = "Step of " + angle(report, step) + " by the place of the sensor";
-  chart.subtitle = "backlash " + angle(report, reduce(first.drive).backlash);
-  chart.x.label = first.is_normalized ? "time, 1/ω_n" : "time, s";
-  chart.y.label = "position of the load, " + unit.name;
-  for (const SensorCase& one : report.cases) {
-    ChartCurve curve;
-    curve.name = std::string("sensor on ") + name_of(one.place);
-    const hybrid::Trajectory motion =
-        drive::step_motion(reduce(one.report.drive), step, one.response.until);
-    constexpr int samples = 2000;
-    for (int i = 0; i <= samples; ++i) {
-      const double at = motion.end_time() * i / samples;
-      curve.line.push_back({at, unit.from_radians(motion.at(at).numbers[drive::load_position])});
-    }
-    chart.curves.push_back(std::move(curve));
-  }
-  return draw_line_chart(chart, format);
 }
 
 }  // namespace gearlash

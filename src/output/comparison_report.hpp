@@ -7,7 +7,6 @@
 #include "analysis/step_response.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/answer_report.hpp"
-#include "picture/picture.hpp"
 
 namespace gearlash {
 
@@ -27,8 +26,5 @@ std::string comparison_text(const ComparisonReport& report);
 
 /// As docs/command-line.md lays down.
 std::string comparison_json(const ComparisonReport& report);
-
-/// The step responses of the load.
-std::string draw_comparison(const ComparisonReport& report, PictureFormat format);
 
 }  // namespace gearlash

@@ -1,51 +1,32 @@
-// A simulated motion as CSV and JSON.
+// The motion of a drive as CSV and JSON, whichever engine made it.
 #pragma once
 
-#include <cstddef>
-#include <functional>
-#include <string_view>
-
-#include "closed_form/trajectory.hpp"
+#include "gearlash/motion.hpp"
 #include "output/output_file.hpp"
 #include "output/report_units.hpp"
 
 namespace gearlash {
 
 struct MotionReport {
-  NormalizedServo servo = {};
-  bool is_drive = false;    ///< its file describes a drive, which has a closed form
-  ServoState initial = {};  ///< normalised
-  double reference = 0.0;   ///< rad
-  double until = 0.0;       ///< asked for, in the report's unit of time
-  double every = 0.0;       ///< between samples, in the report's unit of time, > 0
-  Trajectory trajectory = {};
-  ReportUnits units = {};
-  Provenance provenance = {};
+  Drive drive{};
+  Motion motion{};
+  double until = 0.0;  ///< s, asked for
+  double every = 0.0;  ///< s, between samples, > 0
+  Provenance provenance{};
 };
 
-/// Samples are taken at 0, every, 2 every, … up to `until`, or to where the trajectory ends.
-std::size_t sample_count(const MotionReport& report);
-
-/// Told the share that is done, 0 … 1, now and then.
-using ProgressSink = std::function<void(double)>;
-
-/// One row a sample, with lines of provenance ("# …") and a row of column names before them. The
-/// names carry the units: time_s, load_speed_rad_per_s, …; without a natural frequency
-/// time_normalized (ω_n t) and load_speed_normalized_rad (per unit of that time). Numbers read back
-/// exactly. Columns: time, position and speed of the load and of the motor, mode of contact.
+/// A row a sample, at 0, every, 2 every, … up to the end: time_s, load_position_rad,
+/// load_speed_rad_per_s, motor_position_rad, motor_speed_rad_per_s, motor_torque_N_m,
+/// reference_rad, load_torque_N_m, mode.
 void write_samples_csv(const MotionReport& report, const TextSink& sink,
-                       const ProgressSink& progress);
+                       Progress& progress = no_progress());
 
-/// One row an event: time, kind, face, mode after it, energy lost, both shafts before and after.
+/// A row an event: time_s, what, mode_after, energy_lost_J (empty where it is not known), and the
+/// shafts before and after.
 void write_events_csv(const MotionReport& report, const TextSink& sink);
 
-/// Samples, events, energy books and stop reason, as docs/command-line.md lays down.
+/// The contract of docs/command-line.md ("gearlash/simulate/2"), row by row.
 void write_motion_json(const MotionReport& report, const TextSink& sink,
-                       const ProgressSink& progress);
-
-/// "engaged forward" and so on, with underscores as in the files.
-const char* name_of(Mode mode);
-const char* name_of(EventKind kind);
-const char* name_of(Face face);
+                       Progress& progress = no_progress());
 
 }  // namespace gearlash

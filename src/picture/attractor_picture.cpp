@@ -4,87 +4,78 @@
 
 #include <algorithm>
 
+#include "analysis/motion.hpp"
+#include "model/reduced_drive.hpp"
 #include "output/report_units.hpp"
-#include "picture/line_chart.hpp"
 
 namespace gearlash {
 namespace {
 
-constexpr int digits = 6;
+constexpr int digits = 3;
 
-struct Curves {
-  ChartCurve load;
-  ChartCurve motor;
-};
-
-/// In the unit of the backlash; positions from the reference.
-Curves curves_of(const AttractorPicture& picture, const hybrid::Trajectory& motion, double from,
-                 const hybrid::AffineForm& reference) {
-  const AngleUnit& unit = picture.angle;
-  constexpr int samples = 4000;
-  Curves curves;
-  for (int i = 0; i <= samples; ++i) {
-    const hybrid::State state = motion.at(from + (motion.end_time() - from) * i / samples);
-    const drive::ShaftStates shafts = drive::shafts_of(state);
-    const double at = reference.at(state.numbers);
-    curves.load.line.push_back(
-        {unit.from_radians(shafts.load_position - at), unit.from_radians(shafts.load_speed)});
-    curves.motor.line.push_back(
-        {unit.from_radians(shafts.motor_position - at), unit.from_radians(shafts.motor_speed)});
-  }
-  return curves;
-}
-
-Curves curves_of(const AttractorPicture& picture, const drive::FoundCycle& cycle) {
+/// The search's positions are from the reference, and its states may have other numbers than the
+/// drive's.
+Motion motion_of_cycle(const drive::ReducedDrive& reduced, const drive::AttractorSearch& search,
+                       const drive::FoundCycle& cycle) {
+  drive::DriveSystem system = drive::drive_system(reduced);
+  system.system = search.system;
+  system.reference = {};
+  system.load_torque = {};
+  system.motor_torques = {};
   const double from = cycle.orbit.start_time;
-  const hybrid::Trajectory motion = hybrid::simulate(
-      picture.search.system, cycle.orbit.start, {.from = from, .until = from + cycle.period()});
-  // The search's positions are from the reference.
-  return curves_of(picture, motion, from,
-                   {hybrid::Vector::Zero(picture.search.system.size()), 0.0});
+  hybrid::Trajectory trajectory = hybrid::simulate(search.system, cycle.orbit.start,
+                                                   {.from = from, .until = from + cycle.period()});
+  return motion_of(std::move(system), std::move(trajectory));
 }
 
 /// Some of its mean periods, as far on as it was watched.
-Curves curves_of(const AttractorPicture& picture, const drive::IrregularFound& irregular,
-                 const drive::Outcome& outcome) {
+Motion motion_of_irregular(const drive::ReducedDrive& reduced,
+                           const drive::IrregularFound& irregular, const drive::Outcome& outcome) {
   constexpr double periods = 5.0;
-  drive::ReducedDrive drive = picture.drive;
-  drive.reference = drive::settled(drive.reference);
-  drive.load_torque = drive::settled(drive.load_torque);
-  const drive::DriveSystem system = drive::drive_system(drive);
-  const hybrid::Trajectory motion = hybrid::simulate(
-      system.system, drive::drive_start(drive, system, outcome.start), {.until = outcome.watched});
-  const double from = std::max(0.0, motion.end_time() - periods * irregular.period);
-  return curves_of(picture, motion, from, system.reference);
+  drive::DriveSystem system = drive::drive_system(reduced);
+  const hybrid::Trajectory whole =
+      hybrid::simulate(system.system, drive::drive_start(reduced, system, outcome.start),
+                       {.until = outcome.watched});
+  const double end = whole.end_time();
+  const double from = std::max(0.0, end - periods * irregular.period);
+  hybrid::Trajectory last =
+      hybrid::simulate(system.system, whole.at(from), {.from = from, .until = end});
+  return motion_of(std::move(system), std::move(last));
+}
+
+/// Two cycles of a picture differ in it.
+std::string name_of_cycle(const drive::FoundCycle& cycle, const AngleUnit& angle) {
+  const bool is_of_load = cycle.size > 0.0;
+  return fmt::format(
+      "{} cycle {}±{} {}, {}", name_of(cycle.stability), is_of_load ? "" : "motor ",
+      significant(angle.from_radians(is_of_load ? cycle.size : cycle.motor_size), digits),
+      angle.name, significant(cycle.period(), digits));
 }
 
 }  // namespace
 
-std::string draw_attractors(const AttractorPicture& picture, PictureFormat format) {
-  const AngleUnit& unit = picture.angle;
-  LineChart chart;
-  chart.title = picture.title;
-  chart.subtitle = "backlash " + significant(unit.from_radians(picture.drive.backlash), digits) +
-                   " " + unit.name;
-  chart.x.label = "position from the reference, " + unit.name;
-  chart.y.label = fmt::format("speed, {}{}", unit.name, picture.is_normalized ? " ω_n" : "/s");
-  chart.empty_meaning = "no cycle was found";
-  const auto add = [&](Curves curves, const std::string& what) {
-    curves.load.name = "load, " + what;
-    curves.motor.name = "motor, " + what;
-    chart.curves.push_back(std::move(curves.load));
-    chart.curves.push_back(std::move(curves.motor));
-  };
-  for (const drive::FoundCycle& cycle : picture.search.cycles) {
-    add(curves_of(picture, cycle), std::string(name_of(cycle.stability)) + " cycle");
+MotionPicture attractor_picture(const std::string& title, const Drive& drive,
+                                const drive::ReducedDrive& reduced,
+                                const drive::AttractorSearch& search, const AngleUnit& angle) {
+  MotionPicture picture{.title = title, .subtitle = "", .drive = drive, .angle = angle};
+  const char* per = is_normalized(drive) ? "/ω_n" : " s";
+  for (const drive::FoundCycle& cycle : search.cycles) {
+    const bool is_first = picture.motions.empty();
+    picture.period = is_first ? cycle.period() : std::min(picture.period, cycle.period());
+    picture.motions.push_back({.motion = motion_of_cycle(reduced, search, cycle),
+                               .name = name_of_cycle(cycle, angle) + per,
+                               .is_cycle = true});
   }
-  if (chart.curves.empty() && !picture.search.irregular.empty()) {
+  if (picture.motions.empty() && !search.irregular.empty()) {
     const auto outcome = std::find_if(
-        picture.search.outcomes.begin(), picture.search.outcomes.end(),
+        search.outcomes.begin(), search.outcomes.end(),
         [](const drive::Outcome& one) { return one.end == drive::MotionEnd::irregular; });
-    add(curves_of(picture, picture.search.irregular[outcome->which], *outcome), "for some periods");
+    const drive::IrregularFound& irregular = search.irregular[outcome->which];
+    picture.motions.push_back(
+        {.motion = motion_of_irregular(reduced, irregular, *outcome), .name = "for some periods"});
+    picture.period = irregular.period;
   }
-  return draw_line_chart(chart, format);
+  return picture;
 }
 
 }  // namespace gearlash

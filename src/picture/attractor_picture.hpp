@@ -1,23 +1,17 @@
-// The cycles of a drive, and motion that does not repeat, in the phase plane.
+// The cycles of a drive, and motion that does not repeat, as a picture in the phase plane.
 #pragma once
 
 #include <string>
 
 #include "general/attractors/attractors.hpp"
-#include "input/servo_file.hpp"
-#include "picture/picture.hpp"
+#include "picture/motion_picture.hpp"
 
 namespace gearlash {
 
-struct AttractorPicture {
-  std::string title;
-  const drive::ReducedDrive& drive;  ///< that was searched
-  const drive::AttractorSearch& search;
-  AngleUnit angle;
-  bool is_normalized = false;  ///< speeds are in units of ω_n
-};
-
-/// Positions from the reference, with the speeds of both shafts. Throws OutputError.
-std::string draw_attractors(const AttractorPicture& picture, PictureFormat format);
+/// Of what a search found in `reduced`, which is `drive` with its signals settled. Positions are
+/// from the reference.
+MotionPicture attractor_picture(const std::string& title, const Drive& drive,
+                                const drive::ReducedDrive& reduced,
+                                const drive::AttractorSearch& search, const AngleUnit& angle);
 
 }  // namespace gearlash

@@ -56,12 +56,13 @@ std::string draw_bar_chart(const BarChart& chart, PictureFormat format) {
     layers.push_back(
         fmt::format("$parts {} '#08519c' title {}", style, quoted(chart.part_meaning)));
   }
-  return run_gnuplot(std::string(terminal(format)) + heading(chart.title, chart.subtitle) +
-                     "set grid xtics linewidth 0.5 linecolor rgb '#c4c4c4'\n"
-                     "set xzeroaxis\nset arrow from 0, graph 0 to 0, graph 1 nohead front\n"
-                     "set key bottom right\n" +
-                     "set xlabel " + quoted(chart.label) + "\n" + names_on_axis(chart.bars) +
-                     values.text() + (has_parts ? parts.text() : "") + plot_command(layers));
+  return run_gnuplot(terminal(format) + heading(chart.title, chart.subtitle) +
+                         "set grid xtics linewidth 0.5 linecolor rgb '#c4c4c4'\n"
+                         "set xzeroaxis\nset arrow from 0, graph 0 to 0, graph 1 nohead front\n"
+                         "set key bottom right\n" +
+                         "set xlabel " + quoted(chart.label) + "\n" + names_on_axis(chart.bars) +
+                         values.text() + (has_parts ? parts.text() : "") + plot_command(layers),
+                     chart.title);
 }
 
 }  // namespace gearlash

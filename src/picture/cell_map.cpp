@@ -64,7 +64,7 @@ std::string draw_cell_map(const CellMap& map, PictureFormat format) {
     if (layers.empty()) layers.push_back("1/0 notitle");  // keeps the axes
     plots += plot_command(layers);
   }
-  std::string script = std::string(terminal(format)) + "unset bmargin\nset encoding utf8\n";
+  std::string script = terminal(format) + "unset bmargin\nset encoding utf8\n";
   script += fmt::format(
       "set palette defined (-1 '#5aa7d6', 0 '#ffffff', 1 '#f0a868')\nset cbrange [{}:{}]\n"
       "unset colorbox\nset border linewidth 0.8\n",
@@ -82,7 +82,7 @@ std::string draw_cell_map(const CellMap& map, PictureFormat format) {
   const std::size_t after_first = plots.find('\n', first_end) + 1;
   script += plots.substr(0, after_first) + "unset label 1\nunset label 2\n" +
             plots.substr(after_first) + "unset multiplot\n";
-  return run_gnuplot(script);
+  return run_gnuplot(script, map.title);
 }
 
 }  // namespace gearlash

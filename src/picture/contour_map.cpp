@@ -165,7 +165,7 @@ std::string legend(const ContourMap& map, PictureFormat format) {
 std::string draw_contour_map(const ContourMap& map, PictureFormat format) {
   const Paper paper(map.x, map.y);
   Drawing drawing;
-  drawing.commands = std::string(terminal(format)) + heading(map.title, map.subtitle);
+  drawing.commands = terminal(format) + heading(map.title, map.subtitle);
   drawing.commands +=
       fmt::format("set lmargin screen {}\nset rmargin screen {}\nset bmargin screen {}\n",
                   Paper::left_margin, Paper::right_margin, Paper::bottom_margin);
@@ -184,7 +184,7 @@ std::string draw_contour_map(const ContourMap& map, PictureFormat format) {
     drawing.layers.push_back("$mark using 1:2 with points " + mark_style() + " notitle");
   }
   if (drawing.layers.empty()) drawing.layers.emplace_back("1/0 notitle");  // keeps the axes
-  return run_gnuplot(drawing.commands + plot_command(drawing.layers));
+  return run_gnuplot(drawing.commands + plot_command(drawing.layers), map.title);
 }
 
 }  // namespace gearlash

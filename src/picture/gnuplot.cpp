@@ -171,9 +171,30 @@ void blank_time_of_day(std::string& picture) {
   if (end != std::string::npos) picture.replace(begin, end + 1 - begin, end + 1 - begin, ' ');
 }
 
+std::string escaped_for_xml(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '&') {
+      safe += "&amp;";
+    } else if (c == '<') {
+      safe += "&lt;";
+    } else if (static_cast<unsigned char>(c) >= 0x20) {
+      safe += c;
+    }
+  }
+  return safe;
+}
+
+void set_title(std::string& picture, const std::string& title) {
+  constexpr std::string_view usual = "<title>Gnuplot</title>";
+  const std::size_t place = picture.starts_with("<?xml") ? picture.find(usual) : std::string::npos;
+  if (place == std::string::npos) return;
+  picture.replace(place, usual.size(), "<title>" + escaped_for_xml(title) + "</title>");
+}
+
 }  // namespace
 
-std::string run_gnuplot(const std::string& script) {
+std::string run_gnuplot(const std::string& script, const std::string& title) {
   const File in = nameless_file();
   const File messages = nameless_file();
   fill(in.get(), script);
@@ -190,6 +211,7 @@ std::string run_gnuplot(const std::string& script) {
   if (status != 0 || picture.empty()) refuse(with_reason("drew nothing"));
   if (!is_whole(picture)) refuse(with_reason("drew part of the picture alone"));
   blank_time_of_day(picture);
+  set_title(picture, title);
   return picture;
 }
 

@@ -12,6 +12,8 @@
 namespace gearlash {
 namespace {
 
+constexpr double rounding = 1e-9;
+
 /// How many letters from `place` on are a subscript: "n" after "ω_", or what follows a capital that
 /// stands by itself and "_", as in J_L and F_Total. None in names such as "my_servo".
 std::size_t subscript_length(const std::string& text, std::size_t place) {
@@ -28,7 +30,21 @@ std::size_t subscript_length(const std::string& text, std::size_t place) {
   return length;
 }
 
-constexpr double rounding = 1e-9;
+/// What gnuplot labels of a logarithmic axis: powers of ten.
+int decades_between(double low, double high) {
+  return static_cast<int>(std::floor(std::log10(high) + rounding)) -
+         static_cast<int>(std::ceil(std::log10(low) - rounding)) + 1;
+}
+
+/// In one line, or in two where the page is too narrow, broken after a comma or a blank.
+std::vector<std::string> subtitle_lines(const std::string& subtitle) {
+  constexpr std::size_t page = 112;
+  if (width_in_columns(subtitle) <= page) return {subtitle};
+  std::size_t place = subtitle.find_last_of(',', subtitle.size() * 3 / 5);
+  if (place == std::string::npos) place = subtitle.find_last_of(' ', subtitle.size() / 2);
+  if (place == std::string::npos) return {subtitle};
+  return {subtitle.substr(0, place + 1), subtitle.substr(place + 2)};
+}
 
 /// Whether gnuplot would write out so many zeros that the numbers run into one another.
 bool needs_powers(const ChartAxis& axis) {
@@ -90,6 +106,24 @@ std::string power_tics(char name, double low, double high) {
   return numbers < 2 ? even_tics(name, low, high) : tics_command(name, tics);
 }
 
+/// Of an axis that is too short for two powers of ten: 1, 2 and 5, else even steps.
+std::string short_log_tics(char name, double low, double high) {
+  std::vector<std::string> tics;
+  const auto add = [&](double value) {
+    if (value < low * (1.0 - rounding) || value > high * (1.0 + rounding)) return;
+    tics.push_back(fmt::format("'{:.6g}' {:.7g}", value, value));
+  };
+  const int first = static_cast<int>(std::floor(std::log10(low)));
+  for (int power = first; power <= first + 2; ++power) {
+    for (const double digit : {1.0, 2.0, 5.0}) add(digit * std::pow(10.0, power));
+  }
+  if (tics.size() >= 2) return tics_command(name, tics);
+  tics.clear();
+  const double step = round_step(high - low);
+  for (double i = std::ceil(low / step); i * step <= high * (1.0 + rounding); ++i) add(i * step);
+  return tics_command(name, tics);
+}
+
 }  // namespace
 
 std::string quoted(const std::string& text, const std::string& style) {
@@ -109,25 +143,37 @@ std::string quoted(const std::string& text, const std::string& style) {
   return safe + (style.empty() ? "'" : "}'");
 }
 
-const char* terminal(PictureFormat format) {
+std::string terminal(PictureFormat format, double height) {
   switch (format) {
     case PictureFormat::svg:
-      return "set terminal svg enhanced size 900,700 font 'sans-serif,15' background rgb 'white' "
-             "linewidth 1.2\nset bmargin screen 0.25\n";
+      return fmt::format(
+          "set terminal svg enhanced size 900,{:.0f} font 'sans-serif,15' background rgb 'white' "
+          "linewidth 1.2\nset bmargin screen 0.25\n",
+          height);
     case PictureFormat::png:
-      return "set terminal pngcairo enhanced size 1800,1400 font 'sans-serif,22' linewidth 2.4 "
-             "dashlength 1.4 pointscale 2\nset bmargin screen 0.21\n";
+      return fmt::format(
+          "set terminal pngcairo enhanced size 1800,{:.0f} font 'sans-serif,22' linewidth 2.4 "
+          "dashlength 1.4 pointscale 2\nset bmargin screen 0.21\n",
+          2.0 * height);
     case PictureFormat::pdf:
-      return "set terminal pdfcairo enhanced size 18cm,14cm font 'sans-serif,11' linewidth 1.2\n"
-             "set bmargin screen 0.21\n";
+      return fmt::format(
+          "set terminal pdfcairo enhanced size 18cm,{:.4g}cm font 'sans-serif,11' linewidth 1.2\n"
+          "set bmargin screen 0.21\n",
+          height / 50.0);
   }
   return "";
 }
 
 std::string heading(const std::string& title, const std::string& subtitle) {
-  return "set encoding utf8\nset title " + quoted(title, "/:Bold") + " offset 0,1.1\nset label 1 " +
-         quoted(subtitle, "/*0.87") +
-         " at graph 0.5, screen 0.905 center\n"
+  const std::vector<std::string> lines = subtitle_lines(subtitle);
+  std::string labels;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const double height = lines.size() == 1 ? 0.905 : i == 0 ? 0.92 : 0.893;
+    labels += fmt::format("set label {} {} at graph 0.5, screen {} center\n", i == 0 ? 1 : 1001,
+                          quoted(lines[i], "/*0.87"), height);
+  }
+  return "set encoding utf8\nset title " + quoted(title, "/:Bold") +
+         fmt::format(" offset 0,{}\n", lines.size() == 1 ? "1.1" : "1.6") + labels +
          "set tmargin screen 0.88\nset rmargin screen 0.97\n"
          "set tics nomirror out\nset border linewidth 0.8\n";
 }
@@ -168,6 +214,10 @@ std::string axis_commands(char name, const ChartAxis& axis) {
   if (axis.logarithmic) text += fmt::format("set logscale {}\n", name);
   if (needs_powers(axis)) {
     return text + (axis.logarithmic ? power_tics : even_tics)(name, *axis.low, *axis.high);
+  }
+  if (axis.logarithmic && axis.tics.empty() && axis.low && axis.high && *axis.low > 0.0 &&
+      decades_between(*axis.low, *axis.high) < 2) {
+    return text + short_log_tics(name, *axis.low, *axis.high);
   }
   if (axis.tics.empty()) return text;
   std::vector<std::string> tics;

@@ -14,10 +14,11 @@ namespace gearlash {
 /// the quotes or is taken for markup, but that the n of ω_n and the L of J_L are set low.
 std::string quoted(const std::string& text, const std::string& style = "");
 
-/// The kind of picture, its size, and the share of its height that axis and legend take.
-const char* terminal(PictureFormat format);
+/// The kind of picture, its size, and the share of its height that axis and legend take. `height`
+/// is in units of 1/900 of the width.
+std::string terminal(PictureFormat format, double height = 700.0);
 
-/// Title and subtitle, and the borders that every chart has.
+/// Title and subtitle, in two lines where it is long, and the borders that every chart has.
 std::string heading(const std::string& title, const std::string& subtitle);
 
 struct Legend {

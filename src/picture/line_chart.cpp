@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "picture/gnuplot.hpp"
 #include "picture/gnuplot_script.hpp"
@@ -77,6 +78,29 @@ ChartAxis bounded(ChartAxis axis) {
   return axis;
 }
 
+/// A logarithmic axis with the ends of its data: its labels depend on them.
+ChartAxis spanned(const LineChart& chart, char name) {
+  ChartAxis axis = name == 'x' ? chart.x : chart.y;
+  if (!axis.logarithmic || (axis.low && axis.high)) return axis;
+  double low = std::numeric_limits<double>::infinity();
+  double high = 0.0;
+  for (const ChartCurve& curve : chart.curves) {
+    for (const auto* points : {&curve.line, &curve.marks, &curve.ends}) {
+      for (const ChartPoint& point : *points) {
+        const double value = name == 'x' ? point.x : point.y;
+        if (!(value > 0.0 && std::isfinite(value))) continue;
+        low = std::min(low, value);
+        high = std::max(high, value);
+      }
+    }
+  }
+  if (!(low < high)) return axis;
+  constexpr double margin = 1.05;
+  if (!axis.low) axis.low = low / margin;
+  if (!axis.high) axis.high = high * margin;
+  return axis;
+}
+
 /// The axes alone, for which gnuplot wants a curve.
 void add_nothing(const std::string& meaning, Drawing& drawing) {
   drawing.layers.emplace_back("1/0 notitle");
@@ -111,13 +135,14 @@ std::string draw_line_chart(const LineChart& chart, PictureFormat format) {
   const bool is_empty = drawing.data.empty();
   if (is_empty) add_nothing(chart.empty_meaning, drawing);
   add_meanings(chart, drawing.layers);
-  return run_gnuplot(std::string(terminal(format)) + heading(chart.title, chart.subtitle) +
-                     "set offsets 0, 0, graph 0.02, 0\n"
-                     "set grid linewidth 0.5 linecolor rgb '#c4c4c4'\n" +
-                     legend(chart, format) +
-                     axis_commands('x', is_empty ? bounded(chart.x) : chart.x) +
-                     axis_commands('y', is_empty ? bounded(chart.y) : chart.y) + drawing.data +
-                     plot_command(drawing.layers));
+  return run_gnuplot(terminal(format) + heading(chart.title, chart.subtitle) +
+                         "set offsets 0, 0, graph 0.02, 0\n"
+                         "set grid linewidth 0.5 linecolor rgb '#c4c4c4'\n" +
+                         legend(chart, format) +
+                         axis_commands('x', is_empty ? bounded(chart.x) : spanned(chart, 'x')) +
+                         axis_commands('y', is_empty ? bounded(chart.y) : spanned(chart, 'y')) +
+                         drawing.data + plot_command(drawing.layers),
+                     chart.title);
 }
 
 }  // namespace gearlash

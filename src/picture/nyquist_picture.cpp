@@ -480,8 +480,9 @@ std::string draw_nyquist(const NyquistPicture& picture, PictureFormat format) {
       legend_below(NyquistDrawing(picture, format, usual_aspect).legend(), format, letters);
   const double aspect = frame_width * paper_width / ((frame_top - first.bottom) * paper_height);
   const NyquistDrawing drawing(picture, format, aspect);
-  return run_gnuplot(std::string(terminal(format)) + heading(picture.title, subtitle) +
-                     first.commands + drawing.script());
+  return run_gnuplot(
+      terminal(format) + heading(picture.title, subtitle) + first.commands + drawing.script(),
+      picture.title);
 }
 
 }  // namespace gearlash

@@ -124,7 +124,7 @@ TEST(DesignCommand, DrawsWhereTwoParametersMeetTheTarget) {
   for (const char* file : {"region.svg", "region.png", "region.pdf"}) {
     const Outcome run =
         run_tool({"design", "examples/elinco-fd162.toml", "--target", "size <= 1 deg", "--vary",
-                  "error_gain,load-friction", "--plot", (scratch / file).string()});
+                  "error_gain,load-friction", "--plot", "region=" + (scratch / file).string()});
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_THAT(lines_of(run.out), Contains(StartsWith("  load_friction ")));
     EXPECT_THAT(lines_of(run.out), Not(Contains(StartsWith("  backlash "))));
@@ -145,13 +145,14 @@ TEST(EdgeDesignCommand, PicturesThatCannotBeDrawnAreRefused) {
     EXPECT_EQ(run.status, 2);
     return lines_of(run.err);
   };
-  EXPECT_THAT(faults_of({"--vary", "backlash,backlash", "--plot", "a.txt", "--cost", "money"}),
-              ElementsAre("gearlash: --cost = money: must be bandwidth, damping or stiffness",
-                          StartsWith("gearlash: --vary = 2 names: must be two different"),
-                          StartsWith("gearlash: --plot = a.txt: must")));
+  EXPECT_THAT(
+      faults_of({"--vary", "backlash,backlash", "--plot", "region=a.txt", "--cost", "money"}),
+      ElementsAre("gearlash: --cost = money: must be bandwidth, damping or stiffness",
+                  StartsWith("gearlash: --vary = 2 names: must be two different"),
+                  StartsWith("gearlash: --plot = a.txt: must")));
   EXPECT_THAT(faults_of({"--vary", "backlash,error_gain"}),
               ElementsAre(StartsWith("gearlash: --plot is missing: must name a picture")));
-  EXPECT_THAT(faults_of({"--plot", "a.svg"}),
+  EXPECT_THAT(faults_of({"--plot", "region=a.svg"}),
               ElementsAre(StartsWith("gearlash: --vary is missing: must name two parameters")));
 }
 

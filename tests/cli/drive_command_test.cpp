@@ -85,25 +85,26 @@ TEST_F(DriveCommand, ADriveWithAClosedFormIsTheServoThatItIs) {
 TEST_F(DriveCommand, SimulateTakesTheClosedFormAndSaysSo) {
   const auto simulated = [&](const std::string& more, std::vector<std::string> options = {}) {
     std::vector<std::string> words = {
-        "simulate", file(std::string(mechanics) + proportional + more), "--until", "1", "--every",
-        "0.5"};
+        "simulate", file(std::string(mechanics) + proportional + more),
+        "--until",  "1",
+        "--every",  "0.5",
+        "--format", "json"};
     words.insert(words.end(), options.begin(), options.end());
     const Outcome run = run_tool(words);
     EXPECT_EQ(run.status, 0) << run.err;
-    return run.out;
+    return json::parse(run.out);
+  };
+  const auto reference = [](const json& motion) {
+    return motion["samples"]["rows"][0][6].get<double>();
   };
   const std::string constant = "[reference]\nkind = \"constant\"\nvalue = \"0.2 rad\"\n";
   const std::string ramp = "[reference]\nkind = \"ramp\"\nrate = \"1 deg/s\"\n";
-  const char* closed = "\n# worked out in closed form: ";
-  EXPECT_THAT(simulated(""), testing::Not(HasSubstr("hybrid system")));
-  EXPECT_THAT(simulated(constant), HasSubstr(closed));
-  EXPECT_THAT(simulated(constant), HasSubstr("\n# reference = 0.2 rad, "));
-  EXPECT_THAT(simulated(constant, {"--reference", "0.3"}), HasSubstr("\n# reference = 0.3 rad, "));
-  EXPECT_THAT(simulated(ramp, {"--reference", "0.3"}), HasSubstr(closed));
-  EXPECT_THAT(simulated(ramp), HasSubstr("\n# worked out as a piecewise-affine hybrid system"));
-  EXPECT_EQ(json::parse(simulated(constant, {"--format", "json"}))["method"], "closed form");
-  EXPECT_THAT(run_tool({"simulate", "examples/elinco-fd162.toml", "--until", "1"}).out,
-              testing::Not(HasSubstr("closed form")));
+  EXPECT_EQ(simulated("")["engine"], "closed form");
+  EXPECT_EQ(simulated(constant)["engine"], "closed form");
+  EXPECT_EQ(reference(simulated(constant)), 0.2);
+  EXPECT_EQ(reference(simulated(constant, {"--reference", "0.3"})), 0.3);
+  EXPECT_EQ(simulated(ramp, {"--reference", "0.3"})["engine"], "closed form");
+  EXPECT_EQ(simulated(ramp)["engine"], "general");
 }
 
 TEST_F(DriveCommand, AReferenceThatMovesForEverHasNoClosedForm) {
@@ -125,13 +126,13 @@ TEST_F(DriveCommand, SimulateTakesTheReferenceOfTheFile) {
   const Outcome run = run_tool({"simulate", drive, "--until", "0.2", "--every", "0.1"});
   EXPECT_EQ(run.status, 0) << run.err;
   const std::vector<std::string> lines = lines_of(run.out);
-  ASSERT_EQ(lines.size(), 9U);
-  EXPECT_EQ(lines[5],
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_EQ(lines[0],
             "time_s,load_position_rad,load_speed_rad_per_s,motor_position_rad,"
             "motor_speed_rad_per_s,motor_torque_N_m,reference_rad,load_torque_N_m,mode");
-  EXPECT_THAT(lines[8], HasSubstr(",0.003490658503988659,0,\""));
+  EXPECT_THAT(lines[3], HasSubstr(",0.003490658503988659,0,"));
   const Outcome events = run_tool({"simulate", drive, "--until", "2", "--events"});
-  EXPECT_THAT(events.out, HasSubstr(",\"faces part\",\"apart\","));
+  EXPECT_THAT(events.out, HasSubstr(",faces part,apart,"));
   const json all =
       json::parse(run_tool({"simulate", drive, "--until", "1", "--format", "json"}).out);
   EXPECT_EQ(all["samples"]["rows"].size(), 1001U);

@@ -28,16 +28,25 @@ COMMANDS = [
      "reference.amplitude=1 deg", "--set", "reference.frequency=1 Hz"],
     ["describe", *SERVO],
     ["describe", "examples/telescope-axis.toml"],
+    ["simulate", *SERVO],
+    ["simulate", *SERVO, "--restitution", "0.6", "--initial-gap", "0", "--initial-gap-speed", "-1"],
+    ["simulate", "examples/elinco-fd162.toml", "--until", "0.5"],
+    ["simulate", "examples/robot-joint.toml", "--until", "1"],
+    ["simulate", "examples/telescope-axis.toml", "--until", "1"],
+    ["compare", "examples/elinco-fd162.toml"],
     ["show", *SERVO],
     ["show", "examples/robot-joint.toml"],
     ["show", "examples/telescope-axis.toml"],
 ]
 
 
-def schema_of(name):
-    """The schema that the answer names: "gearlash/limit-cycle/2" is limit-cycle.schema.json."""
-    path = ROOT / "docs" / "schemas" / f"{name.split('/')[1]}.schema.json"
-    return json.loads(path.read_text(encoding="utf-8"))
+def validate(answer):
+    """By the schema that it names: "gearlash/limit-cycle/2" is limit-cycle.schema.json."""
+    path = ROOT / "docs" / "schemas" / f"{answer['schema'].split('/')[1]}.schema.json"
+    schema = json.loads(path.read_text(encoding="utf-8"))
+    jsonschema.Draft202012Validator.check_schema(schema)
+    resolver = jsonschema.RefResolver(path.as_uri(), schema)
+    jsonschema.Draft202012Validator(schema, resolver=resolver).validate(answer)
 
 
 def refuse_nan(text):
@@ -54,9 +63,7 @@ def main():
         answer = json.loads(run.stdout, parse_constant=refuse_nan)
         if answer["schema"].split("/")[1] != words[0]:
             sys.exit(f"{' '.join(words)}: schema {answer['schema']}")
-        schema = schema_of(answer["schema"])
-        jsonschema.Draft202012Validator.check_schema(schema)
-        jsonschema.Draft202012Validator(schema).validate(answer)
+        validate(answer)
         print("valid:", " ".join(words))
 
 

@@ -110,7 +110,8 @@ TEST(ThesisCommand, OptionsThatWouldBeIgnoredAreRefused) {
   };
   refused({"thesis", "run", "--all", "--damping", "3"},
           "--damping excludes --all; see gearlash thesis run");
-  refused({"thesis", "run", "--plot", "a.svg"}, "--plot requires --all; see gearlash thesis run");
+  refused({"thesis", "run", "--plot", "errors=a.svg"},
+          "--plot requires --all; see gearlash thesis run");
   refused({"thesis", "run", "--causes", "--machine"},
           "--machine excludes --causes; see gearlash thesis run");
   refused({"thesis", "machine", "--rules", "--listing"},
@@ -174,7 +175,7 @@ TEST(ThesisCommand, AllRunsAreComparedWithTheExactAnswer) {
   EXPECT_THAT(run.out, HasSubstr("\n  damping 0.6"));
   const test::Scratch scratch;
   const std::string map = (scratch / "map.svg").string();
-  EXPECT_EQ(run_tool({"thesis", "run", "--all", "--plot", map}).status, 0);
+  EXPECT_EQ(run_tool({"thesis", "run", "--all", "--plot", "errors=" + map}).status, 0);
   EXPECT_GT(std::filesystem::file_size(map), 1000U);
 }
 

@@ -53,7 +53,7 @@ class Gnuplot : public testing::Test {
     std::filesystem::permissions(folder_ / "gnuplot", std::filesystem::perms(0755));
     const Variable path("PATH", folder_.string() + ":" + std::getenv("PATH"));
     try {
-      run_gnuplot("plot x\n");
+      run_gnuplot("plot x\n", "title");
     } catch (const OutputError& error) {
       return error.what();
     }
@@ -99,7 +99,7 @@ TEST_F(Gnuplot, AFolderThatIsNoneIsNamed) {
 
 TEST_F(Gnuplot, APdfHasNoTimeOfDay) {
   const std::string pdf =
-      run_gnuplot("set terminal pdfcairo size 5cm,5cm\nset samples 2\nplot x\n");
+      run_gnuplot("set terminal pdfcairo size 5cm,5cm\nset samples 2\nplot x\n", "title");
   EXPECT_THAT(pdf, StartsWith("%PDF-"));
   EXPECT_EQ(pdf.find("CreationDate"), std::string::npos);
   EXPECT_THAT(pdf, HasSubstr("/Producer"));

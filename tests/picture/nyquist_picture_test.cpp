@@ -7,6 +7,8 @@
 #include <regex>
 #include <string>
 
+#include "output/report_units.hpp"
+
 namespace gearlash {
 namespace {
 

@@ -6,11 +6,14 @@
 
 #include <cctype>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "picture/drawn_motion.hpp"
 #include "picture/line_chart.hpp"
+#include "picture/motion_picture.hpp"
 
 namespace gearlash {
 namespace {
@@ -19,19 +22,32 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
+Drive sample_drive(double restitution = 0.0) {
+  Drive drive = normal_form(0.19, 2.0, 0.1, 0.3, restitution);
+  drive.reference = 1.0;
+  return drive;
+}
+
+MotionPicture picture_of(const Drive& drive, double until) {
+  MotionPicture picture{
+      .title = "title", .drive = drive, .angle = {}, .period = 2.0 * std::numbers::pi};
+  picture.motions.push_back({.motion = simulate(drive, {.until = until})});
+  return picture;
+}
+
 MotionPicture sample_picture(double restitution = 0.0) {
-  const NormalizedServo servo{.damping = 0.19,
-                              .inertia_ratio = 2.0,
-                              .friction_ratio = 0.1,
-                              .backlash = 0.3,
-                              .restitution = restitution};
-  return {.title = "title",
-          .servo = servo,
-          .trajectory = simulate(servo, engaged_start(servo, 0.0, 0.0, 1.0),
-                                 {.until = 20.0, .reference = 1.0}),
-          .reference = 1.0,
-          .cycle = analyse_limit_cycles(servo).cycles.at(0),
-          .units = {}};
+  return picture_of(sample_drive(restitution), 20.0);
+}
+
+/// A drive of the general engine, with friction and a torque limit.
+Drive general_drive() {
+  Drive drive;
+  drive.motor = {.inertia = 1.0, .friction = {.viscous = 0.9, .coulomb = 0.01}, .limit = 2.0};
+  drive.load = {.inertia = 2.0, .friction = {.viscous = 0.1}};
+  drive.gearbox = {.ratio = 1.0, .backlash = 0.3};
+  drive.controller.law = PID{.proportional = 3.0};
+  drive.reference = StepSignal{.before = 0.0, .after = 1.0, .time = 2.0};
+  return drive;
 }
 
 /// Every element of an XML text is closed in order. No more is asked of the text than gnuplot does.
@@ -102,28 +118,91 @@ TEST(Picture, SameMotionGivesTheSameBytes) {
 }
 
 TEST(Picture, LegendNamesWhatIsDrawn) {
-  const MotionPicture picture = sample_picture();
+  MotionPicture picture = sample_picture();
   const std::string response = visible_text(draw_time_response(picture, PictureFormat::svg));
-  for (const char* word :
-       {"load", "motor", "reference", "gap", "faces apart", "impact", "time (", "position (rad)"}) {
+  for (const char* word : {"load", "motor", "reference", "gap", "faces apart", "impact", "time (1/",
+                           "position (rad)", "damping 0.19"}) {
     EXPECT_THAT(response, HasSubstr(word));
   }
+  picture.motions.front().name = "on its way";
+  picture.motions.front().is_background = true;
+  picture.motions.push_back(
+      {.motion = simulate(picture.drive, {.until = 6.4}), .name = "limit cycle", .is_cycle = true});
   const std::string plane = visible_text(draw_phase_plane(picture, PictureFormat::svg));
-  for (const char* word : {"load, limit cycle", "motor, limit cycle", "faces apart", "impact",
-                           "position from the reference (rad)", "damping 0.19"}) {
+  for (const char* word :
+       {"load, on its way", "load, limit cycle", "motor, limit cycle", "faces apart", "impact",
+        "position from the reference (rad)", "damping 0.19", "backlash"}) {
     EXPECT_THAT(plane, HasSubstr(word));
   }
 }
 
 TEST(Picture, AxesAreInTheUnitOfTheBacklashAndInSeconds) {
   MotionPicture picture = sample_picture();
-  picture.units = {.natural_frequency = 14.5,
-                   .stiffness = std::nullopt,
-                   .angle = {.name = "arcmin", .radians = 2.908882086657216e-4}};
+  picture.drive.servo->natural_frequency = 14.5;
+  picture.angle = {.name = "arcmin", .radians = 2.908882086657216e-4};
   EXPECT_THAT(visible_text(draw_time_response(picture, PictureFormat::svg)),
-              testing::AllOf(HasSubstr("time (s)"), HasSubstr("position (arcmin)")));
+              testing::AllOf(HasSubstr("time (s)"), HasSubstr("position (arcmin)"),
+                             HasSubstr("gap (arcmin)"), HasSubstr("torque (N m)")));
   EXPECT_THAT(visible_text(draw_phase_plane(picture, PictureFormat::svg)),
               HasSubstr("speed (arcmin/s)"));
+}
+
+/// Of either engine, and with what the eye looks for first.
+TEST(Picture, ResponsesHaveGapTorqueLimitAndTheirLastSwing) {
+  const MotionPicture picture = picture_of(general_drive(), 20.0);
+  ASSERT_EQ(picture.motions.front().motion.engine(), Engine::general);
+  EXPECT_THAT(
+      visible_text(draw_time_response(picture, PictureFormat::svg)),
+      testing::AllOf(HasSubstr("gap (rad)"), HasSubstr("torque (N m)"),
+                     HasSubstr("its limit, ±2 N m"), HasSubstr("faces apart"),
+                     HasSubstr("in the last third: load ±"), HasSubstr("sensor on the load")));
+}
+
+TEST(Picture, HuntingThatIsSmallBesideTheStepIsEnlarged) {
+  Drive drive = sample_drive();
+  EXPECT_THAT(visible_text(draw_time_response(picture_of(drive, 60.0), PictureFormat::svg)),
+              Not(HasSubstr("enlarged")));
+  drive.reference = 30.0;
+  const MotionPicture picture = picture_of(drive, 60.0);
+  EXPECT_THAT(visible_text(draw_time_response(picture, PictureFormat::svg)),
+              HasSubstr("enlarged (rad)"));
+}
+
+/// Two points at the time of the leap, and none on the way.
+TEST(Picture, ALeapOfTheReferenceIsVertical) {
+  const MotionPicture picture = picture_of(general_drive(), 20.0);
+  const std::vector<DrawnPiece> pieces =
+      drawn_motion(picture.motions.front().motion, {}, picture.period, {2.0});
+  std::vector<DrawnPoint> points;
+  for (const DrawnPiece& piece : pieces) {
+    points.insert(points.end(), piece.points.begin(), piece.points.end());
+  }
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i].reference == points[i - 1].reference) continue;
+    EXPECT_NEAR(points[i].time, 2.0, 1e-12);
+    EXPECT_NEAR(points[i - 1].time, 2.0, 1e-12);
+  }
+  EXPECT_EQ(points.front().reference, 0.0);
+  EXPECT_EQ(points.back().reference, 1.0);
+}
+
+TEST(Picture, AnSvgIsNamedByItsTitle) {
+  MotionPicture picture = sample_picture();
+  picture.title = "hunts: <±0.1 rad> & more";
+  for (const auto draw : {&draw_time_response, &draw_phase_plane}) {
+    EXPECT_THAT(draw(picture, PictureFormat::svg),
+                HasSubstr("<title>hunts: &lt;±0.1 rad> &amp; more</title>"));
+  }
+}
+
+TEST(Picture, ALongSubtitleIsTwoLines) {
+  const std::string numbers = "damping 0.18861093889995897, inertia_ratio 1.992976605137472, ";
+  const LineChart chart{.title = "title",
+                        .subtitle = numbers + numbers + "friction_ratio 0.07710100231303006",
+                        .curves = {{.line = {{0.0, 0.0}, {1.0, 1.0}}}}};
+  const std::string svg = draw_line_chart(chart, PictureFormat::svg);
+  EXPECT_THAT(visible_text(svg), Not(HasSubstr(numbers + numbers + "friction")));
+  EXPECT_THAT(visible_text(svg), HasSubstr("friction_ratio 0.07710100231303006"));
 }
 
 TEST(Picture, TitleIsTextWhateverItHolds) {
@@ -140,21 +219,22 @@ TEST(Picture, TitleIsTextWhateverItHolds) {
 TEST(Picture, DegenerateMotionsCanBeDrawn) {
   for (const double backlash : {0.0, 0.3}) {
     for (const double damping : {0.0, 0.5, 100.0}) {
-      const NormalizedServo servo{.damping = damping, .backlash = backlash};
       for (const double reference : {0.0, 1.0}) {
-        const MotionPicture picture{
-            .title = "",
-            .servo = servo,
-            .trajectory = simulate(servo, engaged_start(servo, 0.0, 0.0, reference),
-                                   {.until = 10.0, .reference = reference}),
-            .reference = reference,
-            .cycle = std::nullopt,
-            .units = {}};
+        Drive drive = normal_form(damping, 1.0, 0.5, backlash);
+        drive.reference = reference;
+        const MotionPicture picture = picture_of(drive, 10.0);
         EXPECT_TRUE(is_well_formed(draw_time_response(picture, PictureFormat::svg)));
         EXPECT_TRUE(is_well_formed(draw_phase_plane(picture, PictureFormat::svg)));
       }
     }
   }
+}
+
+TEST(EdgePicture, APlaneWithoutACycleSaysSo) {
+  MotionPicture picture = sample_picture();
+  picture.motions.clear();
+  EXPECT_THAT(visible_text(draw_phase_plane(picture, PictureFormat::svg)),
+              HasSubstr("no cycle was found"));
 }
 
 TEST(EdgePicture, AChartOfNothingHasItsAxesAndSaysWhy) {
@@ -213,17 +293,25 @@ TEST(EdgePicture, NumbersOfSmallAndWideAxesArePowersOfTen) {
   EXPECT_THAT(numbers_of_axis(1e-4, 10.0, true), HasSubstr("0.00010.001"));
 }
 
-TEST(Picture, WhatCouldNotBeReadIsRefused) {
-  MotionPicture picture = sample_picture();
-  picture.trajectory = simulate(picture.servo, engaged_start(picture.servo, 0.0, 0.0, 1.0),
-                                {.until = 2.0 * longest_time_drawn, .reference = 1.0});
-  EXPECT_THROW(draw_time_response(picture, PictureFormat::svg), InvalidInput);
-  picture.servo.restitution = 0.999;
-  picture.trajectory = simulate(picture.servo, engaged_start(picture.servo, 0.0, 0.0, 0.001),
-                                {.until = 9000.0, .reference = 0.001, .event_limit = 30'000});
-  if (picture.trajectory.events().size() > most_events_drawn) {
-    EXPECT_THROW(draw_phase_plane(picture, PictureFormat::svg), InvalidInput);
+/// gnuplot labels powers of ten alone.
+TEST(EdgePicture, ALogarithmicAxisHasTwoLabelsOrMore) {
+  const struct {
+    double low;
+    double high;
+    const char* numbers;
+  } cases[] = {{0.02, 0.2, "0.020.050.10.2"}, {3.0, 4.0, "33.23.43.63.84"}, {0.5, 6.0, "0.5125"}};
+  for (const auto& [low, high, numbers] : cases) {
+    EXPECT_THAT(numbers_of_axis(low, high, true), HasSubstr(numbers));
   }
+  LineChart chart{.x = {.logarithmic = true},
+                  .y = {.low = 0.0, .high = 1.0},
+                  .curves = {{.line = {{0.02, 0.0}, {0.2, 1.0}}}}};
+  EXPECT_THAT(visible_text(draw_line_chart(chart, PictureFormat::svg)), HasSubstr("0.05"));
+}
+
+TEST(Picture, WhatCouldNotBeReadIsRefused) {
+  MotionPicture picture = picture_of(sample_drive(), 2.0 * most_periods_drawn * 6.3);
+  EXPECT_THROW(draw_time_response(picture, PictureFormat::svg), InvalidInput);
 }
 
 }  // namespace

@@ -22,17 +22,4 @@ class DecimalMultiples {
 /// a tenth.
 std::size_t count_of_samples(double end, double every);
 
-/// Calls row(i, time) for each of so many samples, telling progress now and then.
-template <class Progress, class Row>
-void for_each_time(std::size_t count, double every, const Progress& progress, const Row& row) {
-  constexpr std::size_t rows_between_progress = 4096;
-  const DecimalMultiples time_of(every);
-  for (std::size_t i = 0; i < count; ++i) {
-    row(i, time_of(i));
-    if (i % rows_between_progress == 0 && progress) {
-      progress(static_cast<double>(i) / static_cast<double>(count));
-    }
-  }
-}
-
 }  // namespace gearlash

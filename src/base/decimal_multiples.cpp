@@ -1,4 +1,4 @@
-#include "output/decimal_multiples.hpp"
+#include "base/decimal_multiples.hpp"
 
 #include <cmath>
 #include <string>

@@ -1,0 +1,150 @@
+// The exact motion of a drive: where everything is at any time, and what happens when. SI units.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gearlash/answer.hpp"
+#include "gearlash/drive.hpp"
+#include "gearlash/progress.hpp"
+
+namespace gearlash {
+
+// Positions, speeds and torques of the motor are those at the load's shaft: the motor's own
+// position over the gear ratio, its own torque times it. A normal form has J_M + J_L = 1 kg m²,
+// and 1 rad/s where it has no natural frequency.
+
+/// How a motion begins, at time 0.
+struct Start {
+  double load_position = 0.0;  ///< rad
+  double load_speed = 0.0;     ///< rad/s
+  std::optional<double>
+      gap{};               ///< rad, motor less load, −b/2 … b/2 with rigid faces (to rounding);
+                           ///< on the face that the reference pulls to where not given
+  double gap_speed = 0.0;  ///< rad/s, motor less load
+
+  bool operator==(const Start&) const = default;
+};
+
+struct Span {
+  double until = 0.0;                   ///< s, ≥ 0; in closed form at most 1e9/ω_n
+  std::optional<Start> start{};         ///< at rest at 0 where not given
+  std::size_t most_events = 1'000'000;  ///< the motion stops after so many, clock ticks included
+};
+
+/// Positions rad, speeds rad/s.
+struct Shafts {
+  double load_position = 0.0;
+  double load_speed = 0.0;
+  double motor_position = 0.0;
+  double motor_speed = 0.0;
+};
+
+/// Something that happens. What a clock does alone (a computer's sample, a point of a table) is
+/// none. Texts live as long as the Motion and its copies.
+struct MotionEvent {
+  double time = 0.0;              ///< s
+  std::string_view what{};        ///< "faces part", "impact forward", "motor stops", …
+  std::string_view mode_after{};  ///< "apart", "forward; motor sticks", …
+  Shafts before{};
+  Shafts after{};
+  std::optional<double> energy_lost{};  ///< J, at an impact; the closed form alone has it
+};
+
+/// A moment at which rounding decides whether something happens; events() has one of the answers.
+struct MotionTouch {
+  double time = 0.0;               ///< s
+  std::string_view what{};         ///< that happens or not
+  std::optional<double> within{};  ///< of the general engine: how far beyond its guard, in its unit
+};
+
+/// J, from the start: stored_at_start + supplied = stored + motor_friction + load_friction +
+/// impacts.
+struct EnergyBooks {
+  double stored_at_start = 0.0;
+  double supplied = 0.0;  ///< by the loop, while the faces are apart
+  double stored = 0.0;    ///< kinetic, and in the loop's virtual spring
+  double motor_friction = 0.0;
+  double load_friction = 0.0;
+  double impacts = 0.0;
+};
+
+enum class MotionStop : std::uint8_t {
+  reached_end,  ///< Span::until
+  event_limit,  ///< Span::most_events
+  zeno,         ///< events come ever faster
+  chattering,   ///< events without end at one instant
+  diverged,     ///< numbers grow without end
+  stopped       ///< by Progress, before it began
+};
+
+struct MotionSample {
+  double time = 0.0;  ///< s
+  Shafts shafts{};
+  double motor_torque = 0.0;  ///< N m, of the motor, without the friction of its winding
+  double reference = 0.0;     ///< rad
+  double load_torque = 0.0;   ///< N m
+  std::string_view mode{};    ///< as MotionEvent::mode_after
+  bool is_apart = false;      ///< the faces do not touch
+};
+
+/// Columns of equal length.
+struct Samples {
+  std::vector<double> time{};            ///< s
+  std::vector<double> load_position{};   ///< rad
+  std::vector<double> load_speed{};      ///< rad/s
+  std::vector<double> motor_position{};  ///< rad
+  std::vector<double> motor_speed{};     ///< rad/s
+  std::vector<double> motor_torque{};    ///< N m
+  std::vector<double> reference{};       ///< rad
+  std::vector<double> load_torque{};     ///< N m
+};
+
+/// The result of simulate(). Copies share it.
+class Motion {
+ public:
+  class Source;  // what an engine made
+  /// Of no time. simulate() makes others.
+  Motion();
+  explicit Motion(std::shared_ptr<const Source> source) : source_(std::move(source)) {}
+
+  /// At 0, every, 2 every, … up to the end. A short decimal step gives times as one would write
+  /// them. Throws InvalidInput unless `every` is positive.
+  [[nodiscard]] Samples sampled(double every) const;
+  /// How many that are.
+  [[nodiscard]] std::size_t sample_count(double every) const;
+  /// At any time from 0 to end_time(), clamped to it; at an event, after it. In closed form nothing
+  /// is allocated.
+  [[nodiscard]] MotionSample at(double time) const;
+
+  [[nodiscard]] std::span<const MotionEvent> events() const noexcept;
+  [[nodiscard]] std::span<const MotionTouch> touches() const noexcept;
+  [[nodiscard]] double end_time() const noexcept;  ///< s
+  [[nodiscard]] MotionStop stop() const noexcept;
+  /// Why the motion ended before its time, in words; empty where it did not.
+  [[nodiscard]] const std::string& stop_text() const noexcept;
+  [[nodiscard]] Engine engine() const noexcept;
+  /// Of the closed form alone.
+  [[nodiscard]] std::optional<EnergyBooks> energy() const;
+
+ private:
+  std::shared_ptr<const Source> source_;
+};
+
+/// The motion under the drive's own reference and load torque. There is no step size: in closed
+/// form where the drive is the servo of 1960 and the reference is constant from 0 on, else exact
+/// but for rounding from event to event (docs/hybrid.md). Throws InvalidInput for a drive that is
+/// not sound, and for faults of the span: "until", "start.gap", ….
+[[nodiscard]] Motion simulate(const Drive& drive, const Span& span,
+                              Progress& progress = no_progress());
+
+/// "reached_end", "event_limit", ….
+[[nodiscard]] const char* name_of(MotionStop stop);
+
+}  // namespace gearlash

@@ -1,0 +1,35 @@
+// What a Motion is made of, by either engine.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "gearlash/motion.hpp"
+#include "general/assemble/drive_system.hpp"
+#include "hybrid/hybrid_trajectory.hpp"
+
+namespace gearlash {
+
+class Motion::Source {
+ public:
+  virtual ~Source() = default;
+
+  virtual MotionSample at(double time) const = 0;
+  virtual std::optional<EnergyBooks> energy() const { return std::nullopt; }
+
+  std::vector<MotionEvent> events;
+  std::vector<MotionTouch> touches;
+  double asked_until = 0.0;  ///< s: the last sample of a motion that reached its end is there
+  double end_time = 0.0;
+  MotionStop stop = MotionStop::reached_end;
+  std::string stop_text;
+  Engine engine = Engine::closed_form;
+};
+
+/// A motion that the general engine has made of a drive, begun at any time; times of the result are
+/// from there on. Forms of `system` that have another size than its state are taken to be 0.
+Motion motion_of(drive::DriveSystem system, hybrid::Trajectory trajectory,
+                 double until = std::numeric_limits<double>::infinity());
+
+}  // namespace gearlash

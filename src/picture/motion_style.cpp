@@ -1,0 +1,82 @@
+#include "picture/motion_style.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gearlash/fault.hpp"
+#include "input/drive_file.hpp"
+#include "model/reduced_drive.hpp"
+#include "output/report_units.hpp"
+
+namespace gearlash {
+
+void Extent::include(double value) {
+  low = std::min(low, value);
+  high = std::max(high, value);
+}
+
+std::string Extent::range(double margin) const {
+  const double extent = high > low ? high - low : std::max(1.0, std::abs(high));
+  return fmt::format("[{:.7g}:{:.7g}]", low - margin * extent, high + margin * extent);
+}
+
+void ImpactMarks::add(double x, double y) {
+  constexpr double smallest_distance = 0.004;  // of the extent: a fraction of a mark
+  if (std::abs(x - x_) < smallest_distance * x_extent_ &&
+      std::abs(y - y_) < smallest_distance * y_extent_) {
+    return;
+  }
+  x_ = x;
+  y_ = y;
+  marks_.row(x, y);
+}
+
+std::vector<DrawnPiece> legible_curve(const MotionPicture& picture, const Motion& motion) {
+  if (motion.events().size() > most_events_drawn) {
+    throw InvalidInput(
+        {{"--until", fmt::format("a motion with {} events", motion.events().size()),
+          fmt::format("must be shorter to be drawn, {} events at most", most_events_drawn), ""}});
+  }
+  const double longest = most_periods_drawn * picture.period;
+  if (motion.end_time() > longest) {
+    throw InvalidInput(
+        {{"--until", significant(motion.end_time(), 6) + " s",
+          fmt::format("must be at most {} s to be drawn", significant(longest, 6)), ""}});
+  }
+  std::vector<double> leaps;
+  const Signal reference = picture.drive.reference.value_or(Signal{});
+  if (const auto* step = std::get_if<StepSignal>(&reference)) leaps.push_back(step->time);
+  return drawn_motion(motion, picture.angle, picture.period, leaps);
+}
+
+std::string numbers_line(const MotionPicture& picture) {
+  Drive drive = picture.drive;
+  drive.reference.reset();
+  drive.load_torque.reset();
+  const drive::ReducedDrive reduced = reduce(drive);
+  std::string line =
+      fmt::format("backlash {} {}", significant(picture.angle.from_radians(reduced.backlash), 4),
+                  picture.angle.name);
+  if (const auto closed = closed_form_servo(drive)) {
+    const NormalizedServo& servo = closed->servo;
+    line = fmt::format("damping {}, inertia ratio {}, friction ratio {}, {}",
+                       significant(servo.damping, 3), significant(servo.inertia_ratio, 3),
+                       significant(servo.friction_ratio, 3), line);
+    if (servo.restitution > 0.0) line += ", restitution " + significant(servo.restitution, 3);
+    if (is_normalized(drive)) return line;
+    return line +
+           fmt::format(", natural frequency {} rad/s", significant(closed->natural_frequency, 4));
+  }
+  if (drive.gearbox.ratio != 1.0) line += ", gear ratio " + significant(drive.gearbox.ratio, 4);
+  line += drive.sensor.position == SensorPlace::both
+              ? ", sensors on both shafts"
+              : std::string(", sensor on the ") + name_of(drive.sensor.position);
+  if (drive.sampling) {
+    line += fmt::format(", sampled every {} ms", significant(1e3 * drive.sampling->period, 4));
+  }
+  return line;
+}
+
+}  // namespace gearlash
