@@ -14,43 +14,45 @@ namespace gearlash::benchmarks {
 namespace {
 
 constexpr double tolerance = 1e-3;
-constexpr CycleQuantity quantity = CycleQuantity::size;
+constexpr Quantity quantity = Quantity::amplitude;
 
 Axis damping_axis(std::size_t count) {
-  return spaced_axis("damping", Input::damping, 0.05, 0.7, count, Spacing::linear);
+  return spaced_axis("damping", "servo.damping", 0.05, 0.7, count, Spacing::linear);
 }
 Axis inertia_axis(std::size_t count) {
-  return spaced_axis("inertia_ratio", Input::inertia_ratio, 1.0 / 9.0, 9.0, count,
+  return spaced_axis("inertia_ratio", "servo.inertia_ratio", 1.0 / 9.0, 9.0, count,
                      Spacing::logarithmic);
 }
 Axis friction_axis(std::size_t count) {
-  return spaced_axis("friction_ratio", Input::friction_ratio, 0.05, 0.95, count, Spacing::linear);
+  return spaced_axis("friction_ratio", "servo.friction_ratio", 0.05, 0.95, count, Spacing::linear);
 }
 
 struct ChartTask {
   std::string name;
-  ServoGrid grid;
+  Grid grid;
 };
 
 std::vector<ChartTask> chart_tasks() {
-  const NormalizedServo thesis{.damping = 0.1, .friction_ratio = 0.1, .backlash = 0.3};
-  std::vector<ChartTask> tasks = {{"inertia ratio, 100", {thesis, {inertia_axis(100)}}},
-                                  {"inertia ratio × friction ratio, 100 × 100",
-                                   {thesis, {inertia_axis(100), friction_axis(100)}}}};
+  const Drive thesis = normal_form(0.1, 1.0, 0.1, 0.3);
+  std::vector<ChartTask> tasks = {
+      {"inertia ratio, 100", {.drive = thesis, .axes = {inertia_axis(100)}}},
+      {"inertia ratio × friction ratio, 100 × 100",
+       {.drive = thesis, .axes = {inertia_axis(100), friction_axis(100)}}}};
   for (const std::size_t count : {20U, 100U, 300U}) {
     const std::string number = std::to_string(count);
     tasks.push_back({"damping × inertia ratio, " + number + " × " + number,
-                     {thesis, {damping_axis(count), inertia_axis(count)}}});
+                     {.drive = thesis, .axes = {damping_axis(count), inertia_axis(count)}}});
   }
-  tasks.push_back({"damping × inertia ratio × friction ratio, 50 × 50 × 50",
-                   {thesis, {damping_axis(50), inertia_axis(50), friction_axis(50)}}});
+  tasks.push_back(
+      {"damping × inertia ratio × friction ratio, 50 × 50 × 50",
+       {.drive = thesis, .axes = {damping_axis(50), inertia_axis(50), friction_axis(50)}}});
   return tasks;
 }
 
 using Places = std::vector<std::vector<double>>;
 
 /// Anywhere on the chart, evenly as its axes are spaced.
-Places random_places(const ServoGrid& grid) {
+Places random_places(const Grid& grid) {
   constexpr std::uint64_t seed = 1960;
   constexpr std::size_t count = 20'000;
   std::mt19937_64 engine(seed);
@@ -84,7 +86,7 @@ struct Entry {
 };
 
 /// By the clock, for all cores build.
-void enter_building(const std::string& name, const ServoGrid& grid) {
+void enter_building(const std::string& name, const Grid& grid) {
   benchmark::RegisterBenchmark(name.c_str(),
                                [grid](benchmark::State& state) {
                                  for (auto _ : state) {

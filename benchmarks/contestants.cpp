@@ -10,6 +10,7 @@
 #include "closed_form/unit_half_cycle.hpp"
 #include "cvode_rival.hpp"
 #include "odeint_rival.hpp"
+#include "servo_lists.hpp"
 #include "thesis/settled_cycle.hpp"
 
 namespace gearlash::benchmarks {
@@ -88,26 +89,11 @@ Contestant side_by_side(VectorUnit unit, bool yardstick) {
   return {name, yardstick, [unit](const std::vector<Problem>& problems) -> Task {
             std::vector<NormalizedServo> servos;
             for (const Problem& problem : problems) servos.push_back(problem.servo);
-            std::vector<Verdict> verdicts(servos.size());
-            std::vector<std::vector<double>> columns(12, std::vector<double>(servos.size()));
-            return [=](std::vector<RivalCycle>& answers) mutable {
-              find_limit_cycles(servos,
-                                {.verdict = verdicts,
-                                 .growth_at_rest = columns[0],
-                                 .size = columns[1],
-                                 .motor_size = columns[2],
-                                 .period = columns[3],
-                                 .multiplier = columns[4],
-                                 .impact_speed = columns[5],
-                                 .engaged_time = columns[6],
-                                 .separated_time = columns[7],
-                                 .motor_friction_loss = columns[8],
-                                 .load_friction_loss = columns[9],
-                                 .impact_loss = columns[10],
-                                 .residual = columns[11]},
-                                unit);
+            return [=, table = table_of(servos.size())](std::vector<RivalCycle>& answers) mutable {
+              find_limit_cycles(servos, columns_of(table), unit);
               for (std::size_t i = 0; i < servos.size(); ++i) {
-                answers[i] = {columns[1][i], columns[3][i], 0, verdicts[i] == Verdict::hunts};
+                answers[i] = {table[Quantity::amplitude][i], table[Quantity::period][i], 0,
+                              table.verdict(i) == Verdict::hunts};
               }
             };
           }};

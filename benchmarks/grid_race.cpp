@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <memory>
 
-#include "closed_form/lanes/cycle_table.hpp"
 #include "contestants.hpp"
 #include "servo_lists.hpp"
 
@@ -54,10 +53,11 @@ void enter_units(GridRace& race,
                  const std::shared_ptr<const std::vector<NormalizedServo>>& servos) {
   for (const VectorUnit unit : available_vector_units()) {
     const std::string name = batch_name(race.title, unit);
-    auto table = std::make_shared<CycleTable>(servos->size());
-    const BatchCount count = find_limit_cycles(*servos, table->columns(), unit);
+    auto table = std::make_shared<Table>(table_of(servos->size()));
+    const BatchCount count = find_limit_cycles(*servos, columns_of(*table), unit);
     const double all = static_cast<double>(servos->size());
-    const auto hunting = std::count(table->verdict.begin(), table->verdict.end(), Verdict::hunts);
+    const auto hunting =
+        std::count(table->verdicts().begin(), table->verdicts().end(), Verdict::hunts);
     race.about =
         text("%.0f servos, of which %.1f %% hunt", all, 100.0 * static_cast<double>(hunting) / all);
     race.entries.push_back({name, std::string("Gearlash, find_limit_cycles(), ") + name_of(unit),
@@ -66,7 +66,7 @@ void enter_units(GridRace& race,
                                  100.0 * static_cast<double>(count.one_by_one) / all, 0.0)});
     benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
       for (auto _ : state) {
-        benchmark::DoNotOptimize(find_limit_cycles(*servos, table->columns(), unit));
+        benchmark::DoNotOptimize(find_limit_cycles(*servos, columns_of(*table), unit));
       }
     })->Unit(benchmark::kMillisecond);
   }

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "closed_form/lanes/cycle_kernel.hpp"
-#include "closed_form/lanes/cycle_table.hpp"
 #include "fused_kernel.hpp"
 #include "servo_lists.hpp"
 
@@ -22,12 +21,13 @@ struct Entry {
 std::vector<NormalizedServo> servos_of_grid() {
   constexpr std::size_t count =
       static_cast<std::size_t>(servos_of_kernel_benchmark) / CycleBlock::rows;
-  const ServoGrid grid = thesis_grid();
+  const Grid grid = thesis_grid();
   const std::size_t stride = grid.size() / count;
+  const std::vector<NormalizedServo> all = servos_of(grid);
   std::vector<NormalizedServo> servos;
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t row = 0; row < CycleBlock::rows; ++row) {
-      servos.push_back(grid.at(i * stride + row));
+      servos.push_back(all[i * stride + row]);
     }
   }
   return servos;
@@ -64,11 +64,11 @@ Entry enter(const std::string& name, detail::CycleKernel kernel, const Blocks& b
 
 /// The same servos as a list.
 void enter_batch(VectorUnit unit, const std::vector<NormalizedServo>& servos) {
-  const auto table = std::make_shared<CycleTable>(servos.size());
+  const auto table = std::make_shared<Table>(table_of(servos.size()));
   benchmark::RegisterBenchmark(name_of_small_batch_benchmark(unit).c_str(),
                                [=](benchmark::State& state) {
                                  for (auto _ : state) {
-                                   find_limit_cycles(servos, table->columns(), unit);
+                                   find_limit_cycles(servos, columns_of(*table), unit);
                                    benchmark::ClobberMemory();
                                  }
                                })

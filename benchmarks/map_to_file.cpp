@@ -40,11 +40,11 @@ constexpr const char* command_text =
 /// All cores and the disk are seldom idle together.
 constexpr int often = 15;
 
-ServoGrid grid_of_map() {
+Grid grid_of_map() {
   constexpr std::size_t values = 1000;
-  return {.servo = {.friction_ratio = 0.1, .backlash = 1.0},
-          .axes = {spaced_axis("y", Input::damping, 0.05, 0.6, values, Spacing::linear),
-                   spaced_axis("x", Input::inertia_ratio, 1.0 / 9.0, 9.0, values,
+  return {.drive = normal_form(0.0, 1.0, 0.1, 1.0),
+          .axes = {spaced_axis("y", "servo.damping", 0.05, 0.6, values, Spacing::linear),
+                   spaced_axis("x", "servo.inertia_ratio", 1.0 / 9.0, 9.0, values,
                                Spacing::logarithmic)}};
 }
 
@@ -129,22 +129,23 @@ void keep_faster(Spent& fastest, const Spent& other) {
   if (other.clock < fastest.clock) fastest = other;
 }
 
-void compute_only(const ServoGrid& grid, MapTimes& fastest) {
+void compute_only(const Grid& grid, MapTimes& fastest) {
   constexpr std::size_t points_at_a_time = std::size_t{1} << 15U;  // as make_grid_netcdf() does
   give_memory_back();
   std::vector<double> growth;
   growth.reserve(grid.size());
   keep_faster(fastest.servos, spent_on([&] {
-                evaluate_in_pieces(grid, 0, points_at_a_time, [&](const GridPiece& piece) {
-                  const auto& column = piece.cycles[CycleQuantity::growth_at_rest];
-                  growth.insert(growth.end(), column.begin(), column.end());
-                });
+                evaluate_in_pieces(grid, closed_form_quantities, 0, points_at_a_time,
+                                   [&](const GridPiece& piece) {
+                                     const auto& column = piece.table[Quantity::growth_at_rest];
+                                     growth.insert(growth.end(), column.begin(), column.end());
+                                   });
               }));
   keep_faster(fastest.boundary,
               spent_on([&] { benchmark::DoNotOptimize(hunting_boundary(grid, growth)); }));
 }
 
-void make_file(const ServoGrid& grid, MapTimes& fastest) {
+void make_file(const Grid& grid, MapTimes& fastest) {
   give_memory_back();
   const TemporaryFolder folder;
   OutputFile output(folder.path() / file_name);

@@ -5,7 +5,6 @@
 #include <memory>
 #include <thread>
 
-#include "closed_form/lanes/cycle_table.hpp"
 #include "servo_lists.hpp"
 #include "vector_functions.hpp"
 
@@ -27,14 +26,16 @@ std::string cores_text(std::size_t cores) {
 }
 
 /// By the clock, for the work is done on other threads than the one that measures.
-Entry enter(const std::string& name, const ServoGrid& grid, const GridEvaluation& how) {
+Entry enter(const std::string& name, const Grid& grid, const Workers& how) {
   const std::string title = "Scaling/" + name;
-  auto table = std::make_shared<CycleTable>(grid.size());
+  auto table = std::make_shared<Table>(table_of(grid.size()));
+  const GridPoints points(grid);
   benchmark::RegisterBenchmark(
       title.c_str(),
       [=](benchmark::State& state) {
         for (auto _ : state) {
-          benchmark::DoNotOptimize(evaluate(grid, 0, grid.size(), table->columns(), how));
+          benchmark::DoNotOptimize(
+              evaluate(grid, points, 0, grid.size(), columns_of(*table), no_progress(), how));
         }
       })
       ->Unit(benchmark::kMillisecond)
@@ -47,12 +48,12 @@ Entry enter(const std::string& name, const ServoGrid& grid, const GridEvaluation
 /// The same servos, made beforehand.
 Entry enter_list(const std::string& name, const std::vector<NormalizedServo>& servos) {
   const std::string title = "Scaling/" + name + ", as a list";
-  auto table = std::make_shared<CycleTable>(servos.size());
+  auto table = std::make_shared<Table>(table_of(servos.size()));
   benchmark::RegisterBenchmark(
       title.c_str(),
       [=](benchmark::State& state) {
         for (auto _ : state) {
-          benchmark::DoNotOptimize(find_limit_cycles(servos, table->columns()));
+          benchmark::DoNotOptimize(find_limit_cycles(servos, columns_of(*table)));
         }
       })
       ->Unit(benchmark::kMillisecond)
@@ -64,24 +65,24 @@ Entry enter_list(const std::string& name, const std::vector<NormalizedServo>& se
 
 /// About a hundred thousand points on so many axes, in the order that maps have them. The fifth,
 /// the restitution, has the one value 0: with bounces every servo is solved alone.
-ServoGrid grid_of_axes(std::size_t count) {
+Grid grid_of_axes(std::size_t count) {
   constexpr std::size_t lengths[][5] = {{100'000, 0, 0, 0, 0},
                                         {316, 316, 0, 0, 0},
                                         {46, 46, 47, 0, 0},
                                         {18, 18, 18, 17, 0},
                                         {18, 18, 18, 17, 1}};
   const auto& length = lengths[count - 1];
-  ServoGrid grid{.servo = {.damping = 0.1, .inertia_ratio = 1.0, .backlash = 0.3}, .axes = {}};
-  const auto add = [&](Input input, double from, double to, Spacing spacing) {
+  Grid grid{.drive = normal_form(0.1, 1.0, 0.5, 0.3), .axes = {}};
+  const auto add = [&](const char* path, double from, double to, Spacing spacing) {
     const std::size_t axis = grid.axes.size();
     if (axis == count) return;
-    grid.axes.push_back(spaced_axis(name_of(input), input, from, to, length[axis], spacing));
+    grid.axes.push_back(spaced_axis(path, path, from, to, length[axis], spacing));
   };
-  add(Input::friction_ratio, 0.04, 0.6, Spacing::linear);
-  add(Input::damping, 0.05, 0.5, Spacing::linear);
-  add(Input::inertia_ratio, 1.0 / 9.0, 9.0, Spacing::logarithmic);
-  add(Input::backlash, 0.1, 0.3, Spacing::linear);
-  add(Input::restitution, 0.0, 0.0, Spacing::linear);
+  add("servo.friction_ratio", 0.04, 0.6, Spacing::linear);
+  add("servo.damping", 0.05, 0.5, Spacing::linear);
+  add("servo.inertia_ratio", 1.0 / 9.0, 9.0, Spacing::logarithmic);
+  add("servo.backlash", 0.1, 0.3, Spacing::linear);
+  add("contact.restitution", 0.0, 0.0, Spacing::linear);
   return grid;
 }
 
@@ -151,7 +152,7 @@ Entries enter_all() {
   }
   for (std::size_t axes = 1; axes <= 5; ++axes) {
     const std::string name = "1 core, grid of " + std::to_string(axes) + widest;
-    const ServoGrid grid = grid_of_axes(axes);
+    const Grid grid = grid_of_axes(axes);
     entries.axes.push_back(enter(name, grid, {.threads = 1}));
     entries.lists.push_back(enter_list(name, servos_of(grid)));
   }

@@ -6,20 +6,25 @@
 
 namespace gearlash::benchmarks {
 
-ServoGrid thesis_grid() {
-  return {.servo = {.damping = 0.1, .backlash = 0.3},
-          .axes = {spaced_axis("damping", Input::damping, 0.05, 0.5, 40, Spacing::linear),
-                   spaced_axis("inertia_ratio", Input::inertia_ratio, 1.0 / 9.0, 9.0, 50,
+Grid thesis_grid() {
+  return {.drive = normal_form(0.1, 1.0, 0.5, 0.3),
+          .axes = {spaced_axis("damping", "servo.damping", 0.05, 0.5, 40, Spacing::linear),
+                   spaced_axis("inertia_ratio", "servo.inertia_ratio", 1.0 / 9.0, 9.0, 50,
                                Spacing::logarithmic),
-                   spaced_axis("friction_ratio", Input::friction_ratio, 0.04, 0.6, 50,
+                   spaced_axis("friction_ratio", "servo.friction_ratio", 0.04, 0.6, 50,
                                Spacing::linear)}};
 }
 
-std::vector<NormalizedServo> servos_of(const ServoGrid& grid) {
+std::vector<NormalizedServo> servos_of(const Grid& grid) {
   std::vector<NormalizedServo> servos;
-  for (std::size_t i = 0; i < grid.size(); ++i) servos.push_back(grid.at(i));
+  const GridPoints points(grid);
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    servos.push_back(points.normal_form_at(values_at(grid, i)));
+  }
   return servos;
 }
+
+Table table_of(std::size_t rows) { return Table(rows, closed_form_quantities); }
 
 std::vector<NormalizedServo> wide_draw() {
   constexpr std::uint64_t seed = 1960;

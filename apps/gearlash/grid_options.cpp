@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <optional>
+#include <memory>
 
+#include "analysis/grid/grid_evaluation.hpp"
 #include "analysis/grid/hunting_boundary.hpp"
 #include "base/range_check.hpp"
 #include "input/axis_text.hpp"
+#include "machine_faults.hpp"
 #include "terminal.hpp"
 
 namespace gearlash::cli {
@@ -18,214 +21,279 @@ namespace {
 
 constexpr std::size_t most_points = 10'000'000;  // a gigabyte
 
-using TypedInput = std::optional<std::string> ServoOptions::*;
-
-/// The option of a servo's input.
-TypedInput option_of(Input input) {
-  switch (input) {
-    case Input::inertia_ratio:
-      return &ServoOptions::inertia_ratio;
-    case Input::friction_ratio:
-      return &ServoOptions::friction_ratio;
-    case Input::backlash:
-      return &ServoOptions::backlash;
-    case Input::restitution:
-      return &ServoOptions::restitution;
-    case Input::damping:
-      break;
-  }
-  return &ServoOptions::damping;
-}
-
-/// The axes that can be read, and what the options call them.
-struct TypedAxes {
-  std::vector<Axis> axes;
-  std::vector<std::string> fields;
-  bool all_sound = true;
+/// The options that give what an axis may vary.
+struct RivalOption {
+  std::string_view path;
+  const char* name;
+  std::optional<std::string> ServoOptions::*typed;
 };
+constexpr std::array<RivalOption, 7> rivals = {
+    {{"servo.damping", "--damping", &ServoOptions::damping},
+     {"servo.inertia_ratio", "--inertia-ratio", &ServoOptions::inertia_ratio},
+     {"servo.friction_ratio", "--friction-ratio", &ServoOptions::friction_ratio},
+     {"servo.backlash", "--backlash", &ServoOptions::backlash},
+     {"gearbox.backlash", "--backlash", &ServoOptions::backlash},
+     {"contact.restitution", "--restitution", &ServoOptions::restitution},
+     {"sensor.position", "--sensor", &ServoOptions::sensor}}};
 
-TypedAxes read_axes(const std::vector<AxisOption>& options, Faults& faults) {
-  TypedAxes typed;
-  for (const AxisOption& option : options) {
-    Axis axis = faults.collect([&] { return read_axis(option.field, option.text); }, Axis{});
-    if (axis.values.empty()) {
-      typed.all_sound = false;
-      continue;
-    }
-    typed.axes.push_back(std::move(axis));
-    typed.fields.push_back(option.field);
-  }
-  return typed;
+/// Without a file, what no option needs to give.
+void put_in_stand_in(ServoOptions& options, const RivalOption& rival) {
+  const bool is_number = rival.typed != &ServoOptions::sensor;
+  if (options.file.empty() && is_number && !(options.*rival.typed)) options.*rival.typed = "0.5";
 }
 
-/// The servo but for what stands on the axes, which no option may give besides. Sizes are in
+std::vector<AxisText> split_axes(const std::vector<AxisOption>& options, Faults& faults) {
+  std::vector<AxisText> texts;
+  for (const AxisOption& option : options) {
+    AxisText text =
+        faults.collect([&] { return split_axis(option.field, option.text); }, AxisText{});
+    if (!text.name.empty()) texts.push_back(std::move(text));
+  }
+  return texts;
+}
+
+/// Of options and settings that give what an axis varies.
+void refuse_given(const ServoOptions& options, const AxisText& axis, const std::string& path,
+                  Faults& faults) {
+  const std::string permitted = "must be left out: " + axis.field + " varies it";
+  for (const RivalOption& rival : rivals) {
+    const std::optional<std::string>& typed = options.*rival.typed;
+    if (rival.path == path && typed) faults.add({rival.name, shown(*typed), permitted, ""});
+  }
+  for (const std::string& setting : options.settings) {
+    if (setting.substr(0, setting.find('=')) != path) continue;
+    faults.add({"--set", shown(setting), permitted, ""});
+  }
+}
+
+/// The drive but for what stands on the axes, which no option may give besides. Amplitudes are in
 /// backlashes where none is given. Where an axis cannot be read it may be the one that gives what
 /// else is missing.
-NormalizedServo read_fixed_inputs(const ServoOptions& options, const TypedAxes& axes,
-                                  Faults& faults) {
+std::optional<WrittenDrive> read_fixed_drive(const ServoOptions& options,
+                                             const std::vector<AxisText>& axes, bool are_all_there,
+                                             Faults& faults) {
   ServoOptions completed = options;
-  const auto leave_to_axis = [&](Input input) {
-    std::optional<std::string>& text = completed.*option_of(input);
-    if (options.file.empty() && !text) text = "0.5";  // of no matter
-  };
-  for (std::size_t i = 0; i < axes.axes.size(); ++i) {
-    const Input input = axes.axes[i].input;
-    if (const std::optional<std::string>& text = options.*option_of(input)) {
-      faults.add({option_name(name_of(input)), shown(*text),
-                  "must be left out: " + axes.fields[i] + " varies it", ""});
+  const Drive any = normal_form(0.5, 1.0, 0.5);
+  for (const AxisText& axis : axes) {
+    const std::string path = path_named(axis.name, any);
+    are_all_there = are_all_there && parameter_of({.path = path}, any) != nullptr;
+    refuse_given(options, axis, path, faults);
+    for (const RivalOption& rival : rivals) {
+      if (rival.path == path) put_in_stand_in(completed, rival);
     }
-    leave_to_axis(input);
   }
   if (options.file.empty() && !completed.backlash) completed.backlash = "1";
-  if (!axes.all_sound) {
-    for (const Input input : all_inputs) leave_to_axis(input);
+  for (const RivalOption& rival : rivals) {
+    if (!are_all_there && rival.path != "contact.restitution") put_in_stand_in(completed, rival);
   }
-  return resolve_servo(completed, faults).servo;
+  return resolve_drive(completed, faults);
 }
 
-CycleQuantity read_quantity(const std::string& text, Faults& faults) {
-  if (const auto quantity = quantity_named(text)) return *quantity;
+std::vector<Axis> read_axes(const std::vector<AxisText>& texts, const Drive& drive,
+                            Faults& faults) {
+  std::vector<Axis> axes;
+  for (const AxisText& text : texts) {
+    Axis axis = faults.collect([&] { return read_axis(text, drive); }, Axis{});
+    if (!axis.values.empty()) axes.push_back(std::move(axis));
+  }
+  return axes;
+}
+
+Quantity read_quantity(const std::string& text, Faults& faults) {
+  const std::optional<Quantity> quantity = find_quantity(text);
+  if (quantity && info_of(*quantity).kind == QuantityKind::number) return *quantity;
   std::vector<std::string> names;
-  for (const CycleQuantity quantity : all_quantities) names.emplace_back(name_of(quantity));
+  for (const QuantityInfo& info : quantities()) {
+    if (info.kind == QuantityKind::number) names.emplace_back(info.name);
+  }
   faults.require_choice("--quantity", text, names);
-  return CycleQuantity::size;
+  return Quantity::amplitude;
 }
 
-/// By the ending of its name, in small or capital letters.
-GridFile read_grid_file(const std::string& file) {
+/// In small letters.
+std::string ending_of(const std::string& file) {
   std::string ending = std::filesystem::path(file).extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (ending == ".csv") return GridFile::csv;
-  if (ending == ".json") return GridFile::json;
-  if (ending == ".nc") return GridFile::netcdf;
-  if (ending == ".svg" || ending == ".png" || ending == ".pdf") return GridFile::picture;
-  throw InvalidInput(
-      {{"--output", shown(file), "must end in .svg, .png, .pdf, .csv, .json or .nc", ""}});
+  return ending;
+}
+
+/// --plot, and --output where it names a picture or a table.
+void read_outputs(const GridOptions& options, const std::string& kind, GridTask& task,
+                  Faults& faults) {
+  task.plots = read_plots(options.plots, {kind}, faults);
+  const std::string ending = ending_of(options.output);
+  if (ending == ".svg" || ending == ".png" || ending == ".pdf") {
+    task.plots.push_back({kind, options.output, picture_format("--output", options.output)});
+  } else if (ending == ".csv" || ending == ".json" || ending == ".nc") {
+    task.table = options.output;
+  } else if (!options.output.empty()) {
+    faults.add({"--output", shown(options.output),
+                "must end in .svg, .png, .pdf, .csv, .json or .nc", ""});
+  } else if (options.plots.empty()) {
+    faults.add({"--output", "", "must be given, or --plot " + kind + "=FILE", ""});
+  }
 }
 
 /// No picture has room for infinity, for very many curves, or for the digits that tell the ends of
 /// a very narrow axis apart.
-void require_drawable(const TypedAxes& axes, Faults& faults) {
+void require_drawable(const Grid& grid, const std::vector<AxisText>& texts, Faults& faults) {
   constexpr std::size_t most_curves = 16;  // a longer legend leaves no room for them
   constexpr double narrowest_share =
       1e-3;  // of the larger end: else its numbers have too many digits
-  for (std::size_t i = 0; i < axes.axes.size(); ++i) {
-    const std::vector<double>& values = axes.axes[i].values;
+  for (std::size_t i = 0; i < grid.axes.size(); ++i) {
+    const std::vector<double>& values = grid.axes[i].values;
+    const std::string& field = texts[i].field;
     const double first = values.front();
     const double last = values.back();
     const auto refuse = [&](const std::string& value, const std::string& permitted) {
-      faults.add({axes.fields[i], value,
+      faults.add({field, value,
                   "must " + permitted + " in a picture; tables (.csv, .json, .nc) may have it",
                   ""});
     };
-    const bool is_curves = axes.fields[i] == "--curves";
+    const bool is_number = !unit_of(grid.axes[i], grid.drive).empty();
     if (!std::isfinite(last)) {
       refuse(exact_text(last), "be finite");
-    } else if (is_curves && values.size() > most_curves) {
+    } else if (field == "--curves" && values.size() > most_curves) {
       refuse(fmt::format("{} values", values.size()), fmt::format("be at most {}", most_curves));
-    } else if (!is_curves && values.size() > 1 && last - first < narrowest_share * last) {
+    } else if (field != "--curves" && is_number && values.size() > 1 &&
+               last - first < narrowest_share * std::abs(last)) {
       refuse(exact_text(first) + " to " + exact_text(last),
              fmt::format("span {:g} of itself or more", narrowest_share));
     }
   }
 }
 
-void write_table(const GridTask& task, const GridTable& table, const GridPicture& draw,
+void require_room(const Grid& grid) {
+  if (grid.size() <= most_points) return;
+  throw InvalidInput({{"points", std::to_string(grid.size()),
+                       "must be at most " + std::to_string(most_points) +
+                           " on both axes together; gearlash sweep has room for more",
+                       ""}});
+}
+
+/// What tables have, or what a picture needs.
+std::vector<Quantity> quantities_of(const GridTask& task) {
+  if (task.table.empty()) return {Quantity::growth_at_rest, task.quantity};
+  const auto known = quantities_known(GridPoints(task.grid).engines());
+  std::vector<Quantity> all(known.begin(), known.end());
+  if (std::find(all.begin(), all.end(), task.quantity) == all.end()) all.push_back(task.quantity);
+  return all;
+}
+
+/// A file made before the work, which it may not be permitted to write.
+std::unique_ptr<OutputFile> opened(const std::string& file) {
+  return file.empty() ? nullptr : std::make_unique<OutputFile>(file);
+}
+
+void write_table(const GridTask& task, const GridTable& table, const GridCount& count,
                  OutputFile& output) {
   const auto sink = [&](std::string_view text) { output.write(text); };
-  switch (task.kind) {
-    case GridFile::picture:
-      output.write(draw(table, picture_format("--output", task.file)));
-      break;
-    case GridFile::csv:
-      write_grid_csv(table, sink);
-      break;
-    case GridFile::json:
-      write_grid_json(table, sink);
-      break;
-    case GridFile::netcdf:  // written as it is worked out
-      break;
-  }
+  if (ending_of(task.table) == ".csv") return write_grid_csv(table, sink);
+  if (ending_of(task.table) == ".json") return write_grid_json(table, task.verb, sink);
+  const auto known = quantities_known(GridPoints(task.grid).engines());
+  GridNetcdf file =
+      GridNetcdf::create(output.hidden_file(), output.shown_name(),
+                         {task.grid, {known.begin(), known.end()}, table.provenance, ""});
+  file.write({0, table.table, count});
+  if (table.hunting_boundary) file.write_boundary(*table.hunting_boundary);
+  file.close();
 }
 
 }  // namespace
 
-void add_grid_options(Command& command, GridOptions& options) {
+void add_grid_options(Command& command, GridOptions& options, const std::string& drawing) {
   command
       .add_option("--quantity", options.quantity,
-                  "what is drawn: size (default), period, growth_at_rest, …")
+                  "what is drawn: amplitude (default), period, growth_at_rest, …")
       ->type_name("NAME");
   command
       .add_option("--output", options.output,
-                  "picture (.svg, .png, .pdf) or table (.csv, .json, .nc)")
-      ->type_name("FILE")
-      ->required();
+                  "table (.csv, .json, .nc), or picture (.svg, .png, .pdf)")
+      ->type_name("FILE");
+  add_plot_option(command, options.plots, drawing);
   command.add_flag("--proved", options.proved,
-                   "prove each verdict with plastic contact by interval arithmetic;\n"
-                   "what this leaves open is undecided");
-  add_servo_options(command, options.servo);
+                   "prove each verdict of the closed form with plastic contact by\n"
+                   "interval arithmetic; what this leaves open is undecided");
+  add_servo_or_drive_options(command, options.servo);
 }
 
-GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption>& typed_axes) {
+GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption>& typed_axes,
+                        const std::string& verb, const std::string& kind) {
   Faults faults;
-  TypedAxes axes = read_axes(typed_axes, faults);
+  const std::vector<AxisText> texts = split_axes(typed_axes, faults);
   GridTask task;
-  task.file = options.output;
+  task.verb = verb;
   task.quantity = read_quantity(options.quantity, faults);
-  task.kind = faults.collect([&] { return read_grid_file(options.output); }, GridFile::csv);
-  if (task.kind == GridFile::picture) require_drawable(axes, faults);
-  faults.require_distinct({"SERVO.toml", options.servo.file}, {{"--output", options.output}});
-  task.grid.servo = read_fixed_inputs(options.servo, axes, faults);
-  faults.require_none();
-  task.grid.axes = std::move(axes.axes);
+  read_outputs(options, kind, task, faults);
+  std::vector<FileUse> outputs = files_of(task.plots);
+  if (!task.table.empty()) outputs.push_back({"--output", task.table});
+  faults.require_distinct({"DRIVE.toml", options.servo.file}, outputs);
+  const std::optional<WrittenDrive> written =
+      read_fixed_drive(options.servo, texts, texts.size() == typed_axes.size(), faults);
+  const bool is_known = written || options.servo.file.empty();
   task.grid.proved = options.proved;
-  require_none(validate(task.grid, axes.fields));
-  if (task.grid.size() > most_points) {
-    throw InvalidInput({{"points", std::to_string(task.grid.size()),
-                         "must be at most " + std::to_string(most_points) +
-                             " on both axes together; gearlash sweep has room for more",
-                         ""}});
-  }
+  task.grid.drive = drive_of_axes(written ? written->drive : normal_form(0.5, 1.0, 0.5), texts);
+  if (is_known) task.grid.axes = read_axes(texts, task.grid.drive, faults);
+  const bool are_read = task.grid.axes.size() == typed_axes.size();
+  if (!task.plots.empty() && are_read) require_drawable(task.grid, texts, faults);
+  faults.require_none();
+  std::vector<std::string> fields;
+  for (const AxisText& text : texts) fields.push_back(text.field);
+  require_none(gearlash::faults(task.grid, fields));
+  require_room(task.grid);
   return task;
 }
 
 std::string solved_text(const GridCount& count) {
-  const BatchCount& solved = count.solved;
-  return fmt::format(
-      "{} servos, {} solved side by side, {} one by one{}{}",
-      solved.side_by_side + solved.one_by_one + count.refused, solved.side_by_side,
-      solved.one_by_one, count.refused > 0 ? fmt::format(", {} refused", count.refused) : "",
-      count.unproved > 0 ? fmt::format(", {} left undecided by the proof", count.unproved) : "");
+  const std::size_t servos = count.solved.side_by_side + count.solved.one_by_one;
+  std::string text = fmt::format("{} {}", count.points(), count.searched > 0 ? "drives" : "servos");
+  if (servos > 0 || count.searched == 0) {
+    text += fmt::format(", {} solved side by side, {} one by one", count.solved.side_by_side,
+                        count.solved.one_by_one);
+  }
+  if (count.searched > 0) text += fmt::format(", {} searched", count.searched);
+  if (count.refused > 0) text += fmt::format(", {} refused", count.refused);
+  if (count.unproved > 0) text += fmt::format(", {} left undecided by the proof", count.unproved);
+  return text;
 }
 
-void make_grid_file(const GridTask& task, const std::string& what, const Provenance& provenance,
-                    const GridPicture& draw) {
-  OutputFile output(task.file);  // before the work: it may not be permitted
+ExitStatus make_grid_files(const GridTask& task, const Provenance& provenance,
+                           const GridPicture& draw) {
+  const std::unique_ptr<OutputFile> output = opened(task.table);
+  std::vector<std::unique_ptr<OutputFile>> pictures;
+  for (const Plot& plot : task.plots) pictures.push_back(opened(plot.file));
   std::optional<TerminalProgress> progress;
-  progress.emplace(what, task.grid.size(), "servos");
-  progress->show_done(0);
-  const GoingOn going_on = [&](std::size_t done) {
-    progress->show_done(done);
-    return true;
-  };
+  progress.emplace("Working out", task.grid.size(), "drives");
+  GridTable table{.grid = task.grid, .provenance = provenance};
   GridCount count;
-  if (task.kind == GridFile::netcdf) {
-    count = make_grid_netcdf(task.grid, task.boundary, provenance, output, going_on);
+  std::string made;
+  const auto commit = [&](OutputFile& file) {
+    file.commit();
+    made += (made.empty() ? "" : ", ") + file.shown_name();
+  };
+  if (task.plots.empty() && ending_of(task.table) == ".nc") {
+    count = make_grid_netcdf(task.grid, task.boundary, provenance, *output, *progress);
   } else {
-    GridTable table{
-        .grid = task.grid, .cycles = CycleTable(task.grid.size()), .provenance = provenance};
-    count =
-        evaluate(task.grid, 0, task.grid.size(), table.cycles.columns(), {.going_on = going_on});
+    table.table = Table(task.grid.size(), quantities_of(task));
+    count = evaluate(task.grid, GridPoints(task.grid), 0, task.grid.size(), columns_of(table.table),
+                     *progress);
     if (task.boundary == GridBoundary::hunting) {
-      table.hunting_boundary =
-          hunting_boundary(task.grid, table.cycles[CycleQuantity::growth_at_rest]);
+      table.hunting_boundary = hunting_boundary(task.grid, table.table[Quantity::growth_at_rest]);
       table.dissipative_boundary = dissipative_boundary(task.grid);
     }
-    write_table(task, table, draw, output);
+    if (output) write_table(task, table, count, *output);
   }
-  output.commit();
+  if (output) commit(*output);
   progress.reset();  // wiped before anything is said
-  write_file("-", output.shown_name() + ": " + solved_text(count) + "\n");
+  Extras extras;
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    extras.make([&] {
+      pictures[i]->write(draw(table, task.plots[i].format));
+      commit(*pictures[i]);
+    });
+  }
+  write_file("-", (made.empty() ? "" : made + ": ") + solved_text(count) + "\n");
+  return extras.status(ExitStatus::done);
 }
 
 }  // namespace gearlash::cli

@@ -231,7 +231,7 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   const std::vector<Plot> plots = read_plots(options.plots, {"phase", "tornado"}, faults);
   faults.require_distinct({"DRIVE.toml", options.servo.file}, files_of(plots));
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
-  if (written && !has_closed_form(written->drive)) {
+  if (written && !final_servo(written->drive)) {
     refuse_without_closed_form(options, plots, faults);
   }
   faults.require_none();

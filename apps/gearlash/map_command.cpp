@@ -1,4 +1,4 @@
-// gearlash map: contours over two inputs of the servo, and where hunting ends.
+// gearlash map: contours over two parameters of the drive, and where hunting ends.
 #include <array>
 #include <memory>
 
@@ -11,9 +11,9 @@ namespace {
 
 constexpr char examples[] =
     "  gearlash map --x inertia-ratio=0.05:20:200:log --y damping=0.02:1:200 \\\n"
-    "      --friction-ratio 0.2 --output hunting.svg\n"
+    "      --friction-ratio 0.2 --plot map=hunting.svg\n"
     "  gearlash map --x friction-ratio=0:1:100 --y damping=0.05:0.8:100 --inertia-ratio 2 \\\n"
-    "      --quantity period --output period.pdf\n"
+    "      --quantity period --plot map=period.pdf\n"
     "  gearlash map --x damping=0.1:0.6:50 --y restitution=0:0.5:20 examples/elinco-fd162.toml \\\n"
     "      --output table.json\n";
 
@@ -34,31 +34,30 @@ void require_an_area(const GridTask& task) {
 }
 
 ExitStatus run(const MapOptions& options, const Provenance& provenance) {
-  GridTask task = read_grid_task(options.grid, {{"--y", options.y}, {"--x", options.x}});
+  GridTask task =
+      read_grid_task(options.grid, {{"--y", options.y}, {"--x", options.x}}, "map", "map");
   task.boundary = GridBoundary::hunting;
   require_an_area(task);
-  make_grid_file(task, "Map", provenance, [&](const GridTable& table, PictureFormat format) {
-    return draw_contour_map(map_of(table, task.quantity), format);
+  return make_grid_files(task, provenance, [&](const GridTable& table, PictureFormat format) {
+    return draw_grid_map(table, task.quantity, format);
   });
-  return ExitStatus::done;
 }
 
 }  // namespace
 
 void add_map_command(Command& app, Action& action) {
   const auto options = std::make_shared<MapOptions>();
-  Command* command =
-      app.add_subcommand("map", "contours over two inputs of the servo, and where hunting ends");
-  command
-      ->add_option("--x", options->x,
-                   "axis: NAME=FROM:TO:COUNT, NAME=FROM:TO:COUNT:log or\n"
-                   "NAME=A,B,C; an input of the servo, below")
+  Command* command = app.add_subcommand(
+      "map", "contours over two parameters of the drive, and where hunting ends");
+  command->add_option("--x", options->x, axis_help)->type_name("AXIS")->required();
+  command->add_option("--y", options->y, "axis of another parameter")
       ->type_name("AXIS")
       ->required();
-  command->add_option("--y", options->y, "axis of another input")->type_name("AXIS")->required();
-  add_grid_options(*command, options->grid);
+  add_grid_options(*command, options->grid,
+                   "map: contours of the quantity, or its value at each point where\n"
+                   "drives are searched; ");
   command->footer(
-      "Without --backlash sizes are in backlashes, to which they are proportional.\n\n" +
+      "Without --backlash amplitudes are in backlashes, to which they are proportional.\n\n" +
       help_footer(examples));
   command->callback([options, &action] {
     action = [options](const Provenance& provenance) { return run(*options, provenance); };

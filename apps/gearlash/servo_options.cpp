@@ -326,33 +326,25 @@ std::vector<Fault> named_as_typed(std::vector<Fault> faults, const ServoOptions&
 /// The normal form of a drive, with the numbers of it that options change: the natural frequency
 /// stays.
 WrittenDrive changed_normal_form(const WrittenDrive& written, const ServoOptions& options) {
-  const std::optional<ClosedFormServo> closed = closed_form_servo(written.drive);
-  WrittenDrive changed{.drive = {}, .angle = written.angle, .tolerances = {}};
-  NormalForm form;
-  if (closed) {
-    form = {.damping = closed->servo.damping,
-            .inertia_ratio = closed->servo.inertia_ratio,
-            .friction_ratio = closed->servo.friction_ratio,
-            .backlash = closed->servo.backlash,
-            .natural_frequency = closed->natural_frequency};
-    changed.drive.contact = RigidContact{closed->servo.restitution};
-  }
+  const std::optional<Drive> form = normal_form_of(written.drive);
+  WrittenDrive changed{
+      .drive = form.value_or(written.drive), .angle = written.angle, .tolerances = {}};
   Faults faults;
   const auto change = [&](const char* name, const std::optional<std::string>& typed,
-                          double& number) {
+                          double NormalForm::*number) {
     if (!typed) return;
-    if (!closed) {
+    if (!form) {
       faults.add({option_name(name), shown(*typed),
                   "must be left out: the drive has no normal form with such a number", ""});
       return;
     }
-    number = faults.collect([&] { return read_number(option_name(name), *typed); }, number);
+    double& value = (*changed.drive.servo).*number;
+    value = faults.collect([&] { return read_number(option_name(name), *typed); }, value);
   };
-  change("damping", options.damping, form.damping);
-  change("inertia_ratio", options.inertia_ratio, form.inertia_ratio);
-  change("friction_ratio", options.friction_ratio, form.friction_ratio);
+  change("damping", options.damping, &NormalForm::damping);
+  change("inertia_ratio", options.inertia_ratio, &NormalForm::inertia_ratio);
+  change("friction_ratio", options.friction_ratio, &NormalForm::friction_ratio);
   faults.require_none();
-  changed.drive.servo = form;
   require_none(gearlash::faults(changed.drive));
   return changed;
 }

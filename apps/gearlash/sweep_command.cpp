@@ -1,4 +1,4 @@
-// gearlash sweep: limit cycles over up to six inputs, into a NetCDF file, in little memory.
+// gearlash sweep: answers over up to six parameters, into a NetCDF file, in little memory.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -28,12 +28,12 @@ constexpr char examples[] =
     "  python3 -c 'import xarray; print(xarray.open_dataset(\"sweep.nc\"))'\n";
 
 constexpr char explanation[] =
-    "SWEEP.toml says what is varied, and the rest of the servo as a servo file does:\n"
+    "SWEEP.toml says what is varied, and the rest of the drive as its file does:\n"
     "  [sweep]\n"
     "  axes = [\"damping=0.05:0.6:56\", \"inertia-ratio=1/9:9:100:log\"]\n"
-    "  quantities = [\"size\", \"period\"]   # all when left out\n"
+    "  quantities = [\"amplitude\", \"period\"]   # all when left out\n"
     "  [servo]\n"
-    "  friction_ratio = 0.1              # without backlash, sizes are in backlashes\n\n"
+    "  friction_ratio = 0.1          # without backlash, amplitudes are in backlashes\n\n"
     "While it runs, FILE.part holds what is done and FILE.part.json how much that is. Both\n"
     "remain when it is stopped or killed, for --resume; FILE appears when it is whole.\n\n";
 
@@ -60,13 +60,27 @@ Provenance provenance_of(const SweepOptions& options, const Provenance& typed) {
 void report_stop(const SweepRun& run, const SweepFile& sweep, const std::string& output) {
   if (run.points_done == 0) {
     report_lines("stopped before any of " + std::to_string(sweep.grid.size()) +
-                 " servos was done: there is nothing to resume");
+                 " points was done: there is nothing to resume");
     return;
   }
   fmt::print(stderr,
-             "gearlash: stopped after {} of {} servos, which {}.part holds: --resume goes on\n",
+             "gearlash: stopped after {} of {} points, which {}.part holds: --resume goes on\n",
              run.points_done, sweep.grid.size(), shown(output, std::string::npos));
 }
+
+/// Shown, and stopped by Ctrl-C.
+class StoppableProgress : public TerminalProgress {
+ public:
+  StoppableProgress(std::size_t points, const StopRequest& stop)
+      : TerminalProgress("Sweep", points, "points"), stop_(stop) {}
+
+  bool go_on(double share, std::size_t bytes = 0) override {
+    return TerminalProgress::go_on(share, bytes) && !stop_.is_made();
+  }
+
+ private:
+  const StopRequest& stop_;
+};
 
 ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
   Faults faults;
@@ -81,14 +95,11 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
   faults.require_none();
 
   const StopRequest stop;
-  std::optional<TerminalProgress> progress;
-  progress.emplace("Sweep", sweep.grid.size(), "servos");
+  std::optional<StoppableProgress> progress;
+  progress.emplace(sweep.grid.size(), stop);
   const SweepRun done =
       run_sweep(sweep, provenance_of(options, provenance), options.output,
-                options.resume ? SweepStart::resume : SweepStart::anew, [&](std::size_t count) {
-                  progress->show_done(count);
-                  return !stop.is_made();
-                });
+                options.resume ? SweepStart::resume : SweepStart::anew, *progress);
   progress.reset();  // wiped before anything is said
   if (done.points_done < sweep.grid.size()) {
     report_stop(done, sweep, options.output);
@@ -103,8 +114,8 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
 void add_sweep_command(Command& app, Action& action) {
   const auto options = std::make_shared<SweepOptions>();
   Command* command = app.add_subcommand(
-      "sweep", "limit cycles over up to six inputs, into a NetCDF file of any size");
-  command->add_option("SWEEP.toml", options->file, "what is varied, and the rest of the servo")
+      "sweep", "answers over up to six parameters, into a NetCDF file of any size");
+  command->add_option("SWEEP.toml", options->file, "what is varied, and the rest of the drive")
       ->type_name("")
       ->required();
   command->add_option("--output", options->output, "NetCDF-4 file (.nc)")

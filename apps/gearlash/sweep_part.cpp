@@ -81,10 +81,6 @@ std::uint64_t checksum_in(const Json& record, const char* key) {
   return sum;
 }
 
-std::size_t points_counted(const GridCount& count) {
-  return count.solved.side_by_side + count.solved.one_by_one + count.refused;
-}
-
 }  // namespace
 
 std::array<fs::path, 2> unfinished_files(const fs::path& output) {
@@ -170,12 +166,13 @@ SweepRecord SweepPart::read_record(const SweepFile& sweep, const Provenance& pro
     const SweepRecord record{
         .run = {.count = {.solved = {.side_by_side = count_in(json, "side_by_side"),
                                      .one_by_one = count_in(json, "one_by_one")},
+                          .searched = count_in(json, "searched"),
                           .refused = count_in(json, "refused"),
                           .unproved = count_in(json, "unproved")},
                 .points_done = count_in(json, "points_done")},
         .checksum_of_data = checksum_in(json, "checksum_of_data")};
     const SweepRun& run = record.run;
-    if (run.points_done <= sweep.grid.size() && points_counted(run.count) == run.points_done) {
+    if (run.points_done <= sweep.grid.size() && run.count.points() == run.points_done) {
       return record;
     }
   } catch (const Json::exception&) {  // reported below
@@ -193,6 +190,7 @@ void SweepPart::write_record(const SweepFile& sweep, const Provenance& provenanc
                {"points_done", run.points_done},
                {"side_by_side", run.count.solved.side_by_side},
                {"one_by_one", run.count.solved.one_by_one},
+               {"searched", run.count.searched},
                {"refused", run.count.refused},
                {"unproved", run.count.unproved},
                {"sweep", sweep.text},

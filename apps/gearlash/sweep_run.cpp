@@ -37,12 +37,12 @@ class ChecksumOfData {
   explicit ChecksumOfData(const SweepFile& sweep)
       : quantities_(sweep.quantities), numbers_(sweep.quantities.size()) {}
 
-  void add(const CycleTable& cycles) {
-    for (const Verdict verdict : cycles.verdict) {
+  void add(const Table& table) {
+    for (const Verdict verdict : table.verdicts()) {
       verdicts_.add(static_cast<std::uint64_t>(verdict));
     }
     for (std::size_t i = 0; i < quantities_.size(); ++i) {
-      for (const double number : cycles[quantities_[i]]) {
+      for (const double number : table[quantities_[i]]) {
         numbers_[i].add(std::bit_cast<std::uint64_t>(number));
       }
     }
@@ -54,7 +54,7 @@ class ChecksumOfData {
   }
 
  private:
-  std::vector<CycleQuantity> quantities_;
+  std::vector<Quantity> quantities_;
   Checksum verdicts_;
   std::vector<Checksum> numbers_;
 };
@@ -75,19 +75,19 @@ class Sweeping {
   }
 
   /// What was written and recorded in the end.
-  SweepRun run(const GoingOn& going_on) {
+  SweepRun run(Progress& progress) {
     const GridCount count = evaluate_in_pieces(
-        sweep_.grid, recorded_.points_done, longest_piece,
+        sweep_.grid, sweep_.quantities, recorded_.points_done, longest_piece,
         [&](const GridPiece& piece) {
           file_.write(piece);
-          checksum_.add(piece.cycles);
+          checksum_.add(piece.table);
           SweepRun run = recorded_;
           run.count.add(piece.count);
-          run.points_done += piece.cycles.rows();
+          run.points_done += piece.table.rows();
           file_.flush();  // first, so that a record never speaks of what is not on the disk
           record(run);
         },
-        going_on);
+        progress);
     if (!count.stopped) file_.close();
     return recorded_;
   }
@@ -114,12 +114,13 @@ class Sweeping {
 
   void require_data_of(const SweepRecord& begun) {
     try {
-      CycleTable cycles;
-      for (std::size_t first = 0; first < begun.run.points_done; first += cycles.rows()) {
+      Table table;
+      for (std::size_t first = 0; first < begun.run.points_done; first += table.rows()) {
         const std::size_t left = begun.run.points_done - first;
-        cycles = CycleTable(box_length(sweep_.grid, first, std::min(left, longest_piece)));
-        file_.read(first, cycles);
-        checksum_.add(cycles);
+        table =
+            Table(box_length(sweep_.grid, first, std::min(left, longest_piece)), sweep_.quantities);
+        file_.read(first, table);
+        checksum_.add(table);
       }
     } catch (const OutputError&) {
       part_.refuse(not_whole);
@@ -143,7 +144,7 @@ class Sweeping {
 }  // namespace
 
 SweepRun run_sweep(const SweepFile& sweep, const Provenance& provenance,
-                   const std::filesystem::path& output, SweepStart start, const GoingOn& going_on) {
+                   const std::filesystem::path& output, SweepStart start, Progress& progress) {
   SweepPart part(output);
   if (part.is_begun() && start == SweepStart::anew) {
     throw InvalidInput({{"--output", part.shown_output(),
@@ -154,7 +155,7 @@ SweepRun run_sweep(const SweepFile& sweep, const Provenance& provenance,
   const SweepRecord begun = part.is_begun() ? part.read_record(sweep, provenance) : SweepRecord{};
   require_room(part, netcdf_bytes({sweep.grid, sweep.quantities, provenance, ""}));
   Sweeping sweeping(sweep, provenance, part, begun);
-  const SweepRun run = sweeping.run(going_on);
+  const SweepRun run = sweeping.run(progress);
   if (run.points_done == sweep.grid.size()) part.finish();
   return run;
 }

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 
-#include "analysis/grid/servo_grid.hpp"
+#include "analysis/grid/grid_evaluation.hpp"
 #include "input/sweep_file.hpp"
 #include "output/report_units.hpp"
 
@@ -24,13 +24,13 @@ struct SweepRun {
 /// says how far it has come; when all is there, OUTPUT.part is renamed. Whenever the program is
 /// stopped, killed, or fails because the disk is full, the two files remain, and SweepStart::resume
 /// goes on from the last piece: the finished file has the same bytes as one of an uninterrupted
-/// run. Memory: some 130 MB for any number of points. `going_on` as in evaluate_in_pieces().
+/// run. Memory: some 130 MB for any number of points. `progress` as in evaluate_in_pieces().
 ///
 /// The command of `provenance` is written into the file as it is. Throws InvalidInput for an
 /// unfinished sweep that is not to be gone on with, or that is of another sweep file or version;
 /// OutputError where a file cannot be written, or the disk has not the room.
 SweepRun run_sweep(const SweepFile& sweep, const Provenance& provenance,
                    const std::filesystem::path& output, SweepStart start,
-                   const GoingOn& going_on = {});
+                   Progress& progress = no_progress());
 
 }  // namespace gearlash

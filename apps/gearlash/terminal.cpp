@@ -59,6 +59,8 @@ TerminalProgress::TerminalProgress(std::string what, std::size_t count, std::str
       next_(start_ + patience) {}
 
 bool TerminalProgress::go_on(double share, std::size_t /*bytes*/) {
+  if (!is_told_) begun_ = share;
+  is_told_ = true;
   const Clock::time_point now = Clock::now();
   if (!is_watched_ || now < next_) return true;
   next_ = now + refresh;
@@ -73,10 +75,7 @@ bool TerminalProgress::go_on(double share, std::size_t /*bytes*/) {
 }
 
 void TerminalProgress::show_done(std::size_t done) {
-  const double share = static_cast<double>(done) / static_cast<double>(count_);
-  if (!is_told_) begun_ = share;
-  is_told_ = true;
-  go_on(share);
+  go_on(static_cast<double>(done) / static_cast<double>(count_));
 }
 
 TerminalProgress::~TerminalProgress() {

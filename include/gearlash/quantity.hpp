@@ -2,6 +2,7 @@
 // columns are made.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -27,6 +28,7 @@ enum class Quantity : std::uint8_t {
   residual,
   static_error
 };
+inline constexpr std::size_t quantity_count = static_cast<std::size_t>(Quantity::static_error) + 1;
 
 enum class QuantityScope : std::uint8_t {
   answer,  ///< of the drive as a whole

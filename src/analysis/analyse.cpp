@@ -225,17 +225,6 @@ drive::ReducedDrive settled(drive::ReducedDrive reduced) {
   return reduced;
 }
 
-/// The closed form of a drive whose reference stays somewhere in the end.
-std::optional<ClosedFormServo> servo_in_the_end(Drive drive) {
-  if (drive.reference) {
-    const Signal end = drive::settled(*drive.reference);
-    if (!std::holds_alternative<double>(end)) return std::nullopt;
-    drive.reference = 0.0;
-  }
-  if (drive.load_torque) drive.load_torque = drive::settled(*drive.load_torque);
-  return closed_form_servo(drive);
-}
-
 }  // namespace
 
 Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& servo,
@@ -296,22 +285,32 @@ Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive
   return answer;
 }
 
-bool has_closed_form(const Drive& drive) { return servo_in_the_end(drive).has_value(); }
+std::optional<FinalServo> final_servo(const Drive& drive) {
+  Drive at_rest = drive;
+  if (drive.reference) {
+    const Signal end = drive::settled(*drive.reference);
+    if (!std::holds_alternative<double>(end)) return std::nullopt;
+    at_rest.reference = 0.0;
+  }
+  if (drive.load_torque) at_rest.load_torque = drive::settled(*drive.load_torque);
+  const std::optional<ClosedFormServo> servo = closed_form_servo(at_rest);
+  if (!servo) return std::nullopt;
+  FinalServo found{*servo, *drive::proportional_drivetrain(reduce(at_rest)), std::nullopt};
+  // A normal form with a natural frequency has no inertia, hence no stiffness.
+  const bool is_known = !drive.servo || !drive.servo->natural_frequency;
+  if (is_known) found.stiffness = found.drivetrain.stiffness;
+  return found;
+}
 
 Analysis analyse_in_full(const Drive& drive, const Wanted& wanted, Progress& progress) {
   require_none(faults(drive));
   Analysis analysis;
   analysis.reduced = settled(reduce(drive));
-  analysis.servo = servo_in_the_end(drive);
-  if (analysis.servo) {
-    drive::ReducedDrive at_rest = analysis.reduced;
-    at_rest.reference = 0.0;
-    const Drivetrain drivetrain = *drive::proportional_drivetrain(at_rest);
+  if (const std::optional<FinalServo> found = final_servo(drive)) {
+    const Drivetrain& drivetrain = found->drivetrain;
+    analysis.servo = found->closed_form;
     analysis.closed = closed_analysis(*analysis.servo, drivetrain, wanted);
-    // A normal form with a natural frequency has no inertia, hence no stiffness.
-    const bool is_known = !drive.servo || !drive.servo->natural_frequency;
-    analysis.answer = answer_of(*analysis.closed, *analysis.servo,
-                                is_known ? std::optional(drivetrain.stiffness) : std::nullopt);
+    analysis.answer = answer_of(*analysis.closed, *analysis.servo, found->stiffness);
     if (analysis.closed->bounds) {
       const Scales scales = scales_of(*analysis.servo, box_between(drivetrain, drivetrain));
       analysis.answer.bounds = bounds_of(*analysis.closed->bounds, scales);

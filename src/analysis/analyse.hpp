@@ -24,8 +24,15 @@ struct Analysis {
 Analysis analyse_in_full(const Drive& drive, const Wanted& wanted = {},
                          Progress& progress = no_progress());
 
-/// Whether the closed form answers for a sound drive.
-bool has_closed_form(const Drive& drive);
+/// What a drive is to the closed form once its signals stay where they end.
+struct FinalServo {
+  ClosedFormServo closed_form{};
+  Drivetrain drivetrain{};
+  /// K, N m/rad; not known of a normal form with a natural frequency.
+  std::optional<double> stiffness{};
+};
+/// Nothing where the general engine must answer. Precondition: the drive is sound.
+std::optional<FinalServo> final_servo(const Drive& drive);
 
 /// The answer to a servo in the normal form, in SI. `stiffness`: K, N m/rad; where it is not known
 /// there are no energies. Proved bounds, which need the error of the data, are left out.

@@ -1,15 +1,21 @@
 #include "input/axis_text.hpp"
 
+#include <algorithm>
 #include <charconv>
-#include <string>
-#include <vector>
 
+#include "analysis/grid/axis.hpp"
+#include "base/range_check.hpp"
+#include "gearlash/parameter.hpp"
+#include "input/parameter_text.hpp"
+#include "input/section_reader.hpp"
 #include "input/units.hpp"
+#include "model/parameter_values.hpp"
+#include "model/reduced_drive.hpp"
 
 namespace gearlash {
 namespace {
 
-constexpr char forms[] = "must be NAME=FROM:TO:COUNT, NAME=FROM:TO:COUNT:log or NAME=A,B,C";
+constexpr char forms[] = "must be PATH=FROM:TO:COUNT, PATH=FROM:TO:COUNT:log or PATH=A,B,C";
 
 [[noreturn]] void refuse(std::string_view field, std::string_view text, std::string permitted) {
   throw InvalidInput({{std::string(field), shown(text), std::move(permitted), ""}});
@@ -32,19 +38,36 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
-Input read_input(std::string_view field, std::string_view name) {
-  if (const auto input = input_named(name)) return *input;
-  std::string permitted = "must name an input:";
-  for (const Input input : all_inputs) {
-    permitted += input == all_inputs.front() ? " " : input == all_inputs.back() ? " or " : ", ";
-    permitted += name_of(input);
+/// What the drive has, and the short names.
+std::string known_text(const Drive& drive, std::string_view name) {
+  std::vector<std::string> known;
+  for (const ParameterInfo& parameter : parameters_of(drive)) {
+    known.emplace_back(parameter.path);
+    known.insert(known.end(), parameter.aliases.begin(), parameter.aliases.end());
   }
-  refuse(field, name, permitted);
+  for (const NormalFormNumber& number : normal_form_numbers) known.emplace_back(number.name);
+  return "must be a number or a word of this drive" + guess_of(known, name) +
+         "; gearlash show lists them";
 }
 
-double read_value(std::string_view field, Input input, std::string_view text) {
-  return input == Input::backlash && !text.empty() ? read_angle(field, text).si
-                                                   : read_number(field, text);
+double read_value(const AxisText& axis, const std::string& path, const Parameter& parameter,
+                  const Drive& drive, std::string_view text) {
+  if (!parameter.choices.empty()) {
+    return static_cast<double>(choice_of(parameter, axis.field, text));
+  }
+  if (text.empty()) return read_number(axis.field, text);
+  try {
+    return read_number(axis.field, text);  // without a unit: in SI
+  } catch (const InvalidInput&) {
+    if (parameter.dimension(drive) == nullptr) throw;
+  }
+  try {
+    return number_of(parameter, drive, path, text);
+  } catch (const InvalidInput& error) {
+    std::vector<Fault> faults = error.faults();
+    for (Fault& fault : faults) fault.path = axis.field;
+    throw InvalidInput(std::move(faults));
+  }
 }
 
 std::size_t read_count(std::string_view field, std::string_view text) {
@@ -59,27 +82,47 @@ std::size_t read_count(std::string_view field, std::string_view text) {
 
 }  // namespace
 
-Axis read_axis(std::string_view field, std::string_view text) {
+AxisText split_axis(std::string_view field, std::string_view text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos) refuse(field, text, forms);
-  const Input input = read_input(field, without_blanks(text.substr(0, equals)));
+  const std::string_view name = without_blanks(text.substr(0, equals));
   const std::string_view values = without_blanks(text.substr(equals + 1));
-  if (values.empty()) refuse(field, text, forms);
-  const std::vector<std::string_view> parts = split(values, ':');
+  if (name.empty() || values.empty()) refuse(field, text, forms);
+  return {std::string(field), std::string(name), std::string(values)};
+}
+
+Drive drive_of_axes(const Drive& drive, const std::vector<AxisText>& axes) {
+  const bool wants_normal_form = std::any_of(axes.begin(), axes.end(), [&](const AxisText& axis) {
+    return path_named(axis.name, drive).starts_with("servo.");
+  });
+  return drive.servo || !wants_normal_form ? drive : normal_form_of(drive).value_or(drive);
+}
+
+Axis read_axis(const AxisText& text, const Drive& drive) {
+  Axis axis{.path = path_named(text.name, drive)};
+  const Parameter* parameter = parameter_of(axis, drive);
+  if (parameter == nullptr) refuse(text.field, text.name, known_text(drive, text.name));
+  Drive with_part = drive;  // whose units are known
+  add_section_of(with_part, axis.path);
+  const auto value_of = [&](std::string_view value) {
+    return read_value(text, axis.path, *parameter, with_part, value);
+  };
+  const std::vector<std::string_view> parts = split(text.values, ':');
   if (parts.size() == 1) {
-    Axis axis{.input = input, .values = {}};
-    for (const std::string_view value : split(values, ',')) {
-      axis.values.push_back(read_value(field, input, value));
+    for (const std::string_view value : split(text.values, ',')) {
+      axis.values.push_back(value_of(value));
     }
-    require_none(validate(axis, field));
-    return axis;
+  } else {
+    const bool is_logarithmic = parts.size() == 4 && parts[3] == "log";
+    const bool is_word = !parameter->choices.empty();
+    if (is_word || (parts.size() != 3 && !is_logarithmic)) {
+      refuse(text.field, text.name + "=" + text.values, forms);
+    }
+    axis = spaced_axis(text.field, axis.path, value_of(parts[0]), value_of(parts[1]),
+                       read_count(text.field, parts[2]),
+                       is_logarithmic ? Spacing::logarithmic : Spacing::linear);
   }
-  const bool logarithmic = parts.size() == 4 && parts[3] == "log";
-  if (parts.size() != 3 && !logarithmic) refuse(field, text, forms);
-  Axis axis = spaced_axis(field, input, read_value(field, input, parts[0]),
-                          read_value(field, input, parts[1]), read_count(field, parts[2]),
-                          logarithmic ? Spacing::logarithmic : Spacing::linear);
-  require_none(validate(axis, field));
+  require_none(faults_of_axis(axis, drive, text.field));
   return axis;
 }
 

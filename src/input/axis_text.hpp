@@ -1,15 +1,32 @@
-// Axes as they are typed: "damping=0.1:0.6:11", "inertia-ratio=1/9:9:200:log", "damping=0.1,0.2".
+// Axes as they are typed: "controller.proportional=1:10:20:log", "gearbox.backlash=1 arcmin,1 deg",
+// "sensor.position=load,motor".
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
-#include "analysis/grid/axis.hpp"
+#include "gearlash/grid.hpp"
 
 namespace gearlash {
 
-/// name=from:to:count, name=from:to:count:log, or name=a,b,c; the name is an input of the servo,
-/// numbers may be fractions, and those of the backlash may have their unit ("1 arcmin"). Throws
-/// InvalidInput, naming `field`, for anything else, with all that is wrong.
-Axis read_axis(std::string_view field, std::string_view text);
+/// An axis whose values are not read yet: they depend on the drive.
+struct AxisText {
+  std::string field;   ///< "--x"
+  std::string name;    ///< a path, or a short name of the normal form
+  std::string values;  ///< FROM:TO:COUNT, FROM:TO:COUNT:log or A,B,C
+};
+
+/// Throws InvalidInput, naming `field`, for a text without a name or values.
+AxisText split_axis(std::string_view field, std::string_view text);
+
+/// The drive that the axes vary: in its normal form where one of them is a number of that which a
+/// data sheet does not have, as `damping`. The natural frequency stays.
+Drive drive_of_axes(const Drive& drive, const std::vector<AxisText>& axes);
+
+/// Numbers may be fractions and may have their unit; without one they are in SI. Words stand for
+/// the choices of a parameter. Throws InvalidInput, naming the field, for a parameter that the
+/// drive does not have, for what cannot be read, and for faults_of_axis().
+Axis read_axis(const AxisText& text, const Drive& drive);
 
 }  // namespace gearlash

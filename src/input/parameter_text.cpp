@@ -1,3 +1,5 @@
+#include "input/parameter_text.hpp"
+
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -20,23 +22,6 @@ const OtherForm* inverse_form(const Parameter& parameter, std::string_view path)
     if (form.dimension != nullptr && (form.path == path || parameter.path == path)) return &form;
   }
   return nullptr;
-}
-
-/// In SI, as set() takes it under that path.
-double number_of(const Parameter& parameter, const Drive& drive, std::string_view path,
-                 std::string_view text) {
-  const Dimension* dimension = parameter.dimension(drive);
-  if (dimension == nullptr || path.find('[') != std::string_view::npos) {
-    return read_number(path, text);
-  }
-  const OtherForm* inverse = inverse_form(parameter, path);
-  if (inverse != nullptr && inverse->path == path) return to_si(path, text, *inverse->dimension);
-  try {
-    return to_si(path, text, *dimension);
-  } catch (const InvalidInput&) {  // "1 kHz" for a period
-    if (inverse == nullptr) throw;
-  }
-  return inverse->inverse / to_si(path, text, *inverse->dimension);
 }
 
 /// A TOML list: "[1, 2.5]", "[[1, 0], [0, 1]]".
@@ -68,17 +53,32 @@ Rows rows_of(std::string_view path, const toml::array& array) {
   return rows;
 }
 
-void choose(const Parameter& parameter, const Choice& choice, Drive& drive, std::string_view path,
-            std::string_view text) {
+}  // namespace
+
+double number_of(const Parameter& parameter, const Drive& drive, std::string_view path,
+                 std::string_view text) {
+  const Dimension* dimension = parameter.dimension(drive);
+  if (dimension == nullptr || path.find('[') != std::string_view::npos) {
+    return read_number(path, text);
+  }
+  const OtherForm* inverse = inverse_form(parameter, path);
+  if (inverse != nullptr && inverse->path == path) return to_si(path, text, *inverse->dimension);
+  try {
+    return to_si(path, text, *dimension);
+  } catch (const InvalidInput&) {  // "1 kHz" for a period
+    if (inverse == nullptr) throw;
+  }
+  return inverse->inverse / to_si(path, text, *inverse->dimension);
+}
+
+std::size_t choice_of(const Parameter& parameter, std::string_view path, std::string_view text) {
   const auto word = std::find(parameter.choices.begin(), parameter.choices.end(), text);
   if (word == parameter.choices.end()) {
     const std::vector<std::string> words(parameter.choices.begin(), parameter.choices.end());
     refuse(path, text, one_of(words, text));
   }
-  choice.choose(drive, static_cast<std::size_t>(word - parameter.choices.begin()));
+  return static_cast<std::size_t>(word - parameter.choices.begin());
 }
-
-}  // namespace
 
 void set(Drive& drive, std::string_view path, std::string_view text) {
   add_section_of(drive, path);
@@ -86,7 +86,7 @@ void set(Drive& drive, std::string_view path, std::string_view text) {
   const bool has_index = path.find('[') != std::string_view::npos;
   const Slot slot = parameter.slot(drive);
   if (const auto* choice = std::get_if<Choice>(&slot)) {
-    choose(parameter, *choice, drive, path, text);
+    choice->choose(drive, choice_of(parameter, path, text));
   } else if (auto* const* word = std::get_if<std::string*>(&slot)) {
     **word = std::string(text);
   } else if (auto* const* list = std::get_if<std::vector<double>*>(&slot); list && !has_index) {

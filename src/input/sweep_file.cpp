@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "analysis/grid/grid_evaluation.hpp"
 #include "input/axis_text.hpp"
 #include "input/drive_reader.hpp"
 #include "input/section_reader.hpp"
@@ -17,42 +18,75 @@ std::string numbered(const char* key, std::size_t number) {
   return std::string(section_name) + "." + key + "[" + std::to_string(number) + "]";
 }
 
-std::string path_of(Input input) {
-  return input == Input::restitution ? "contact.restitution"
-                                     : std::string("servo.") + name_of(input);
-}
-
 std::string same_field(const std::string& field) { return field; }
+
+/// The number that an axis varies, under each path that a file may give it by.
+void add_paths(const AxisText& axis, std::set<std::string>& paths) {
+  for (const Drive& drive : {Drive{}, normal_form(0.5, 1.0, 0.5)}) {
+    const std::string path = path_named(axis.name, drive);
+    const Parameter* parameter = find_parameter(path);
+    paths.insert(parameter == nullptr ? path : std::string(parameter->path));
+  }
+}
 
 class SweepReader {
  public:
-  SweepReader(std::string_view text, std::string_view source_name)
-      : document_(text, source_name, largest_sweep_file), findings_(document_) {}
+  SweepReader(std::string_view text, std::string_view source_name,
+              const std::filesystem::path& folder)
+      : document_(text, source_name, largest_sweep_file), findings_(document_), folder_(folder) {}
 
   SweepFile read() {
     SectionReader section(document_, findings_, section_name, true, "with axes");
+    const std::vector<AxisText> axes = read_axes(section);
+    Variation variation{.section = section_name};
+    for (const AxisText& axis : axes) add_paths(axis, variation.paths);
     SweepFile file;
-    file.grid.axes = read_axes(section);
+    const Drive likely = likely_drive(variation);
+    for (const AxisText& axis : axes) {
+      note(section,
+           [&] { file.grid.axes.push_back(read_axis(axis, drive_of_axes(likely, axes))); });
+    }
     file.quantities = read_quantities(section);
     file.grid.proved = section.choice("verdicts", {"computed", "proved"}, false) == "proved";
     section.refuse_other_keys();
-    findings_.require_none();  // else it is not known what the servo has to give
-    Variation variation{.section = section_name};
-    for (const Axis& axis : file.grid.axes) variation.paths.insert(path_of(axis.input));
-    const WrittenDrive written = read_drive(document_, findings_, {}, variation);
-    if (findings_.none()) {
-      if (const auto servo = servo_file_of(written)) file.grid.servo = servo->servo;
-    }
-    findings_.take(validate(file.grid, axis_fields_), &same_field, section.place());
+    findings_.require_none();  // else it is not known what the drive has to give
+    file.grid.drive =
+        drive_of_axes(read_drive(document_, findings_, folder_, variation).drive, axes);
+    std::vector<std::string> fields;
+    for (const AxisText& axis : axes) fields.push_back(axis.field);
+    findings_.take(faults(file.grid, fields), &same_field, section.place());
     findings_.require_none();
+    if (file.quantities.empty()) {
+      const auto known = quantities_known(GridPoints(file.grid).engines());
+      file.quantities.assign(known.begin(), known.end());
+    }
     return file;
   }
 
  private:
-  std::vector<Axis> read_axes(SectionReader& section) {
+  /// Notes what `work` throws.
+  template <class Work>
+  void note(const SectionReader& section, const Work& work) {
+    try {
+      work();
+    } catch (const InvalidInput& fault) {
+      findings_.take(fault.faults(), &same_field, section.place());
+    }
+  }
+
+  /// The file's drive whatever is wrong with it, so that axes know their units: faults of axes are
+  /// reported first.
+  Drive likely_drive(const Variation& variation) const {
+    Findings ignored(document_);
+    const Drive drive = read_drive(document_, ignored, folder_, variation).drive;
+    const bool is_none = !drive.servo && !document_.root().contains("motor");
+    return is_none ? normal_form(0.5, 1.0, 0.5) : drive;
+  }
+
+  std::vector<AxisText> read_axes(SectionReader& section) {
     const std::vector<std::string> texts =
         section.texts("axes", "a list of axes, such as [\"damping=0.1:0.6:6\"]");
-    std::vector<Axis> axes;
+    std::vector<AxisText> axes;
     for (std::size_t i = 0; i < texts.size(); ++i) {
       const std::string field = numbered("axes", i);
       if (i >= most_axes_of_a_sweep) {
@@ -61,24 +95,21 @@ class SweepReader {
             &same_field, section.place());
         break;
       }
-      try {
-        axes.push_back(read_axis(field, texts[i]));
-        axis_fields_.push_back(field);
-      } catch (const InvalidInput& fault) {
-        findings_.take(fault.faults(), &same_field, section.place());
-      }
+      note(section, [&] { axes.push_back(split_axis(field, texts[i])); });
     }
     return axes;
   }
 
-  std::vector<CycleQuantity> read_quantities(SectionReader& section) {
+  std::vector<Quantity> read_quantities(SectionReader& section) {
     const std::vector<std::string> texts = section.texts("quantities");
-    if (texts.empty()) return {all_quantities.begin(), all_quantities.end()};
     std::vector<std::string> names;
-    for (const CycleQuantity quantity : all_quantities) names.emplace_back(name_of(quantity));
-    std::set<CycleQuantity> asked;
+    for (const QuantityInfo& info : quantities()) {
+      if (info.quantity != Quantity::verdict) names.emplace_back(info.name);
+    }
+    std::set<Quantity> asked;
     for (std::size_t i = 0; i < texts.size(); ++i) {
-      if (const auto quantity = quantity_named(texts[i])) {
+      const std::optional<Quantity> quantity = find_quantity(texts[i]);
+      if (quantity && quantity != Quantity::verdict) {
         asked.insert(*quantity);
       } else {
         findings_.take({{numbered("quantities", i), "", one_of(names, texts[i]), ""}}, &same_field,
@@ -90,19 +121,20 @@ class SweepReader {
 
   TomlDocument document_;
   Findings findings_;
-  std::vector<std::string> axis_fields_;
+  std::filesystem::path folder_;
 };
 
 }  // namespace
 
-SweepFile parse_sweep(std::string_view toml, std::string_view source_name) {
-  SweepFile file = SweepReader(toml, source_name).read();
+SweepFile parse_sweep(std::string_view toml, std::string_view source_name,
+                      const std::filesystem::path& folder) {
+  SweepFile file = SweepReader(toml, source_name, folder).read();
   file.text = toml;
   return file;
 }
 
 SweepFile read_sweep_file(const std::filesystem::path& path) {
-  return parse_sweep(read_text_file(path, largest_sweep_file), path.string());
+  return parse_sweep(read_text_file(path, largest_sweep_file), path.string(), path.parent_path());
 }
 
 }  // namespace gearlash

@@ -57,13 +57,6 @@ double* number_place(const Slot& slot, const IndexedPath& indexed, std::string_v
   return nullptr;
 }
 
-const OtherForm* form_named(const Parameter& parameter, std::string_view path) {
-  for (const OtherForm& form : parameter.other_forms) {
-    if (form.path == path) return &form;
-  }
-  return nullptr;
-}
-
 ParameterKind kind_of(const Parameter& parameter, const Drive& drive) {
   const Slot slot = parameter.slot(const_cast<Drive&>(drive));
   return std::visit(Overloaded{[](const Choice&) { return ParameterKind::choice; },
@@ -75,6 +68,13 @@ ParameterKind kind_of(const Parameter& parameter, const Drive& drive) {
 }
 
 }  // namespace
+
+const OtherForm* form_named(const Parameter& parameter, std::string_view path) {
+  for (const OtherForm& form : parameter.other_forms) {
+    if (form.path == path) return &form;
+  }
+  return nullptr;
+}
 
 void add_section_of(Drive& drive, std::string_view path) {
   const std::string_view name = path.substr(0, path.find('.'));

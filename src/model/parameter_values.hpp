@@ -11,6 +11,9 @@ namespace gearlash {
 /// none, or where the drive does not have it.
 const Parameter& parameter_of(const Drive& drive, std::string_view path);
 
+/// The other form of the parameter that has this path; nullptr where it is its own.
+const OtherForm* form_named(const Parameter& parameter, std::string_view path);
+
 /// Adds the optional part of a drive that the parameter belongs to: sampling, say.
 void add_section_of(Drive& drive, std::string_view path);
 

@@ -218,4 +218,14 @@ std::optional<ClosedFormServo> closed_form_servo(const Drive& drive) {
                          true};
 }
 
+std::optional<Drive> normal_form_of(const Drive& drive) {
+  const std::optional<ClosedFormServo> closed = closed_form_servo(drive);
+  if (!closed) return std::nullopt;
+  const NormalizedServo& servo = closed->servo;
+  Drive form = normal_form(servo.damping, servo.inertia_ratio, servo.friction_ratio, servo.backlash,
+                           servo.restitution);
+  form.servo->natural_frequency = closed->natural_frequency;
+  return form;
+}
+
 }  // namespace gearlash

@@ -41,6 +41,10 @@ struct ClosedFormServo {
 /// among them. Nothing for any other drive. Precondition: every parameter is in its range.
 std::optional<ClosedFormServo> closed_form_servo(const Drive& drive);
 
+/// The same servo as a normal form with its natural frequency; nothing for any other drive.
+/// Precondition as above.
+std::optional<Drive> normal_form_of(const Drive& drive);
+
 /// Its drivetrain, with the same conditions.
 std::optional<Drivetrain> proportional_drivetrain(const Drive& drive);
 

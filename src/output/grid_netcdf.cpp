@@ -8,7 +8,10 @@
 #include <vector>
 
 #include "analysis/grid/hunting_boundary.hpp"
-#include "output/grid_words.hpp"
+#include "gearlash/parameter.hpp"
+#include "model/reduced_drive.hpp"
+#include "output/grid_table.hpp"
+#include "output/json_values.hpp"
 #include "output/netcdf_file.hpp"
 #include "output/output_file.hpp"
 
@@ -30,27 +33,13 @@ std::vector<std::string> verdict_words() {
   return words;
 }
 
-/// What a unit is to UDUNITS, in which K would be the kelvin: time, speed and energy are
-/// normalised.
-struct NetcdfUnits {
-  std::string units;
-  std::string remark;  ///< for long_name
-};
-
-NetcdfUnits netcdf_units(const std::string& unit) {
-  if (unit == "1/omega_n") return {"1", " (times omega_n)"};
-  if (unit == "rad omega_n") return {"rad", " (over omega_n)"};
-  if (unit == "K rad2") return {"rad2", " (over K)"};
-  return {unit, ""};
-}
-
 /// Consecutive points as a box: where it starts on each axis, and how far it extends.
 struct GridBox {
   std::vector<std::size_t> start;
   std::vector<std::size_t> extent;
 };
 
-GridBox box_of(const ServoGrid& grid, std::size_t first, std::size_t count) {
+GridBox box_of(const Grid& grid, std::size_t first, std::size_t count) {
   GridBox box{std::vector<std::size_t>(grid.axes.size(), 0),
               std::vector<std::size_t>(grid.axes.size(), 1)};
   for (std::size_t i = grid.axes.size(); i-- > 0;) {
@@ -63,9 +52,33 @@ GridBox box_of(const ServoGrid& grid, std::size_t first, std::size_t count) {
   return box;
 }
 
-bool is_varied(const ServoGrid& grid, Input input) {
-  return std::any_of(grid.axes.begin(), grid.axes.end(),
-                     [&](const Axis& axis) { return axis.input == input; });
+/// A number of the drive that stands on no axis.
+struct FixedNumber {
+  std::string name;
+  std::string meaning;
+  std::string unit;
+  double value;
+};
+
+std::vector<FixedNumber> fixed_numbers(const Grid& grid) {
+  std::vector<FixedNumber> fixed;
+  for (const auto& [path, value] : fixed_parameters(grid).items()) {
+    if (!value.is_number() && value != "inf") continue;
+    const Axis axis{.path = path};
+    fixed.push_back({column_name(path), std::string(parameter_of(axis, grid.drive)->meaning),
+                     unit_of(axis, grid.drive), get(grid.drive, path)});
+  }
+  return fixed;
+}
+
+/// The words of an axis by their numbers: "load motor".
+std::string words_of(const Axis& axis, const Drive& drive) {
+  const Parameter& parameter = *parameter_of(axis, drive);
+  std::string words;
+  for (const std::string_view word : parameter.choices) {
+    words += (words.empty() ? "" : " ") + std::string(word);
+  }
+  return words;
 }
 
 }  // namespace
@@ -79,30 +92,29 @@ class GridNetcdf::Layout {
     describe_file(contents);
     std::vector<NetcdfDimension> dimensions;
     for (const Axis& axis : grid_.axes) {
-      dimensions.push_back(file_.add_dimension(name_of(axis.input), axis.values.size()));
+      dimensions.push_back(file_.add_dimension(column_name(axis.path), axis.values.size()));
     }
     for (std::size_t i = 0; i < grid_.axes.size(); ++i) describe_axis(grid_.axes[i], dimensions[i]);
-    const std::string fixed = describe_fixed_inputs();
+    const std::string fixed = describe_fixed_numbers();
     const NetcdfVariable verdict =
-        file_.add_flags(verdict_name, dimensions, "verdict on the servo", verdict_words());
+        file_.add_flags(verdict_name, dimensions, "verdict on the drive", verdict_words());
     if (!fixed.empty()) file_.set_attribute(verdict, "coordinates", fixed);
-    for (const CycleQuantity quantity : quantities_) {
-      const NetcdfUnits units = netcdf_units(unit_of(quantity));
-      const NetcdfVariable variable =
-          file_.add_numbers(name_of(quantity), dimensions,
-                            std::string(description_of(quantity)) + units.remark, units.units);
+    for (const Quantity quantity : quantities_) {
+      const QuantityInfo& info = info_of(quantity);
+      const NetcdfVariable variable = file_.add_numbers(
+          std::string(info.name), dimensions, std::string(info.meaning), std::string(info.unit));
       file_.declare_nan_missing(variable);
       if (!fixed.empty()) file_.set_attribute(variable, "coordinates", fixed);
     }
     file_.end_description();
-    write_inputs();
+    write_parameters();
     claim_places();
   }
 
   void find_variables() {
     verdict_ = file_.variable(verdict_name);
-    for (const CycleQuantity quantity : quantities_) {
-      variables_.push_back(file_.variable(name_of(quantity)));
+    for (const Quantity quantity : quantities_) {
+      variables_.push_back(file_.variable(std::string(name_of(quantity))));
     }
   }
 
@@ -112,42 +124,33 @@ class GridNetcdf::Layout {
       const bool is_free = name == "history";  // the command may spell its files in another way
       if (!is_free && file_.attribute_of_file(name) != text) return false;
     }
-    return std::all_of(grid_.axes.begin(), grid_.axes.end(),
-                       [&](const Axis& axis) {
-                         std::vector<double> values(axis.values.size());
-                         file_.read(file_.variable(name_of(axis.input)), {0}, {values.size()},
-                                    values);
-                         return values == axis.values;
-                       }) &&
-           std::all_of(all_inputs.begin(), all_inputs.end(), [&](Input input) {
-             if (is_varied(grid_, input)) return true;
-             double value = 0.0;
-             file_.read(file_.variable(name_of(input)), {}, {}, std::span(&value, 1));
-             return value == grid_.servo.*field_of(input);
-           });
+    return std::all_of(grid_.axes.begin(), grid_.axes.end(), [&](const Axis& axis) {
+      std::vector<double> values(axis.values.size());
+      file_.read(file_.variable(column_name(axis.path)), {0}, {values.size()}, values);
+      return values == axis.values;
+    });
   }
 
-  void read(std::size_t first, CycleTable& cycles) const {
-    const GridBox box = box_of(grid_, first, cycles.rows());
-    std::vector<signed char> flags(cycles.rows());
+  void read(std::size_t first, Table& table) const {
+    const GridBox box = box_of(grid_, first, table.rows());
+    std::vector<signed char> flags(table.rows());
     file_.read(verdict_, box.start, box.extent, flags);
-    std::transform(flags.begin(), flags.end(), cycles.verdict.begin(),
+    std::transform(flags.begin(), flags.end(), table.column_of_verdicts().begin(),
                    [](signed char flag) { return static_cast<Verdict>(flag); });
     for (std::size_t i = 0; i < quantities_.size(); ++i) {
-      file_.read(variables_[i], box.start, box.extent,
-                 cycles.values[static_cast<std::size_t>(quantities_[i])]);
+      file_.read(variables_[i], box.start, box.extent, table.column(quantities_[i]));
     }
   }
 
   void write(const GridPiece& piece) {
-    const CycleTable& cycles = piece.cycles;
-    const GridBox box = box_of(grid_, piece.first, cycles.rows());
-    flags_.resize(cycles.rows());
-    std::transform(cycles.verdict.begin(), cycles.verdict.end(), flags_.begin(),
+    const Table& table = piece.table;
+    const GridBox box = box_of(grid_, piece.first, table.rows());
+    flags_.resize(table.rows());
+    std::transform(table.verdicts().begin(), table.verdicts().end(), flags_.begin(),
                    [](Verdict verdict) { return static_cast<signed char>(verdict); });
     file_.write(verdict_, box.start, box.extent, flags_);
     for (std::size_t i = 0; i < quantities_.size(); ++i) {
-      file_.write(variables_[i], box.start, box.extent, cycles[quantities_[i]]);
+      file_.write(variables_[i], box.start, box.extent, table[quantities_[i]]);
     }
     begin_flush_now_and_then(piece);
   }
@@ -170,14 +173,15 @@ class GridNetcdf::Layout {
   Attributes attributes_of_file(const GridContents& contents) const {
     Attributes attributes = {
         {"Conventions", "CF-1.8"},
-        {"title", "Limit cycles of geared servos with backlash"},
+        {"title", "What geared drives with backlash end in"},
         {"source", "gearlash " + contents.provenance.version},
         {"history", contents.provenance.command},
         {"certainty", certainty_of(grid_)},
-        {"sensor", grid_.servo.sensor == ShaftName::load ? "load" : "motor"},
-        {"comment",
-         "Angles at the load shaft. Times, speeds and energies are normalised: undamped natural "
-         "frequency omega_n = 1, loop stiffness K = 1."}};
+        {"drive", fixed_parameters(grid_).dump()},
+        {"comment", is_normalized(grid_.drive)
+                        ? "SI units, with an undamped natural frequency of 1 rad/s and a loop "
+                          "stiffness of 1 N m/rad."
+                        : "SI units."}};
     if (!contents.source_text.empty()) attributes.emplace_back("sweep", contents.source_text);
     return attributes;
   }
@@ -189,30 +193,34 @@ class GridNetcdf::Layout {
   }
 
   void describe_axis(const Axis& axis, NetcdfDimension dimension) {
-    const NetcdfVariable variable = file_.add_numbers(
-        name_of(axis.input), {dimension}, description_of(axis.input), unit_of(axis.input));
+    const std::string unit = unit_of(axis, grid_.drive);
+    const NetcdfVariable variable = file_.add_numbers(column_name(axis.path), {dimension},
+                                                      meaning_of(axis), unit.empty() ? "1" : unit);
+    file_.set_attribute(variable, "path", axis.path);
     file_.set_attribute(variable, "spacing", axis.logarithmic ? "logarithmic" : "linear");
+    if (unit.empty()) file_.set_attribute(variable, "words", words_of(axis, grid_.drive));
+  }
+
+  std::string meaning_of(const Axis& axis) const {
+    return std::string(parameter_of(axis, grid_.drive)->meaning);
   }
 
   /// Their names, with blanks between.
-  std::string describe_fixed_inputs() {
+  std::string describe_fixed_numbers() {
     std::string names;
-    for (const Input input : all_inputs) {
-      if (is_varied(grid_, input)) continue;
-      file_.add_numbers(name_of(input), {}, description_of(input), unit_of(input));
-      names += (names.empty() ? "" : " ") + std::string(name_of(input));
+    for (const FixedNumber& number : fixed_numbers(grid_)) {
+      file_.add_numbers(number.name, {}, number.meaning, number.unit);
+      names += (names.empty() ? "" : " ") + number.name;
     }
     return names;
   }
 
-  void write_inputs() {
+  void write_parameters() {
     for (const Axis& axis : grid_.axes) {
-      file_.write(file_.variable(name_of(axis.input)), {0}, {axis.values.size()}, axis.values);
+      file_.write(file_.variable(column_name(axis.path)), {0}, {axis.values.size()}, axis.values);
     }
-    for (const Input input : all_inputs) {
-      if (is_varied(grid_, input)) continue;
-      const double value = grid_.servo.*field_of(input);
-      file_.write(file_.variable(name_of(input)), {}, {}, std::span(&value, 1));
+    for (const FixedNumber& number : fixed_numbers(grid_)) {
+      file_.write(file_.variable(number.name), {}, {}, std::span(&number.value, 1));
     }
   }
 
@@ -233,17 +241,17 @@ class GridNetcdf::Layout {
   }
 
   static std::string boundary_name(const Axis& axis) {
-    return std::string("hunting_boundary_") + name_of(axis.input);
+    return "hunting_boundary_" + column_name(axis.path);
   }
 
   void describe_boundary(std::size_t points) {
     file_.resume_description();
     const NetcdfDimension dimension = file_.add_dimension("hunting_boundary_point", points);
     for (const Axis& axis : grid_.axes) {
-      file_.add_numbers(boundary_name(axis), {dimension},
-                        std::string(description_of(axis.input)) +
-                            " where hunting ends (growth at rest 1); NaN between curves",
-                        unit_of(axis.input));
+      file_.add_numbers(
+          boundary_name(axis), {dimension},
+          meaning_of(axis) + ", where hunting ends (growth at rest 1); NaN between curves",
+          unit_of(axis, grid_.drive));
     }
     file_.end_description();
   }
@@ -252,7 +260,7 @@ class GridNetcdf::Layout {
   /// long pieces of each variable to take.
   void begin_flush_now_and_then(const GridPiece& piece) {
     constexpr std::size_t often_enough = std::size_t{1} << 18U;
-    const std::size_t written = piece.first + piece.cycles.rows();
+    const std::size_t written = piece.first + piece.table.rows();
     if (written - flushed_ < often_enough && written < grid_.size()) return;
     file_.begin_flush();
     flushed_ = written;
@@ -274,8 +282,8 @@ class GridNetcdf::Layout {
   }
 
   NetcdfFile file_;
-  ServoGrid grid_;
-  std::vector<CycleQuantity> quantities_;
+  Grid grid_;
+  std::vector<Quantity> quantities_;
   NetcdfVariable verdict_ = 0;
   std::vector<NetcdfVariable> variables_;  ///< of the quantities
   std::vector<signed char> flags_;
@@ -303,7 +311,7 @@ GridNetcdf GridNetcdf::reopen(const std::filesystem::path& path, const std::stri
   return GridNetcdf(std::move(layout));
 }
 
-void GridNetcdf::read(std::size_t first, CycleTable& cycles) const { layout_->read(first, cycles); }
+void GridNetcdf::read(std::size_t first, Table& table) const { layout_->read(first, table); }
 
 void GridNetcdf::write(const GridPiece& piece) { layout_->write(piece); }
 void GridNetcdf::write_boundary(const std::vector<MapCurve>& boundary) {
@@ -317,25 +325,24 @@ std::size_t netcdf_bytes(const GridContents& contents) {
   return contents.grid.size() * (1 + sizeof(double) * contents.quantities.size());
 }
 
-GridCount make_grid_netcdf(const ServoGrid& grid, GridBoundary boundary,
-                           const Provenance& provenance, const OutputFile& output,
-                           const GoingOn& going_on) {
+GridCount make_grid_netcdf(const Grid& grid, GridBoundary boundary, const Provenance& provenance,
+                           const OutputFile& output, Progress& progress) {
+  const std::span<const Quantity> known = quantities_known(GridPoints(grid).engines());
+  const std::vector<Quantity> quantities(known.begin(), known.end());
   GridNetcdf file =
       GridNetcdf::create(output.hidden_file(), output.shown_name(),
-                         {.grid = grid,
-                          .quantities = {all_quantities.begin(), all_quantities.end()},
-                          .provenance = provenance});
+                         {.grid = grid, .quantities = quantities, .provenance = provenance});
   std::vector<double> growth_at_rest;
   if (boundary == GridBoundary::hunting) growth_at_rest.reserve(grid.size());
   const GridCount count = evaluate_in_pieces(
-      grid, 0, points_at_a_time,
+      grid, quantities, 0, points_at_a_time,
       [&](const GridPiece& piece) {
         file.write(piece);
         if (boundary == GridBoundary::none) return;
-        const std::vector<double>& growth = piece.cycles[CycleQuantity::growth_at_rest];
+        const std::span<const double> growth = piece.table[Quantity::growth_at_rest];
         growth_at_rest.insert(growth_at_rest.end(), growth.begin(), growth.end());
       },
-      going_on);
+      progress);
   if (boundary == GridBoundary::hunting && !count.stopped) {
     file.write_boundary(hunting_boundary(grid, growth_at_rest));
   }

@@ -1,4 +1,4 @@
-// The limit cycles of a grid of servos as a NetCDF-4 file, written whole or piece by piece.
+// The answers of a grid as a NetCDF-4 file, written whole or piece by piece.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +7,6 @@
 #include <vector>
 
 #include "analysis/grid/region_boundary.hpp"
-#include "analysis/grid/servo_grid.hpp"
-#include "closed_form/lanes/cycle_table.hpp"
 #include "output/grid_pieces.hpp"
 #include "output/output_file.hpp"
 #include "output/report_units.hpp"
@@ -17,18 +15,18 @@ namespace gearlash {
 
 /// What a file of a grid says.
 struct GridContents {
-  ServoGrid grid;
-  std::vector<CycleQuantity> quantities;  ///< beside the verdict
+  Grid grid;
+  std::vector<Quantity> quantities;  ///< beside the verdict
   Provenance provenance;
   std::string source_text = {};  ///< of the file that asked for it; empty when there was none
 };
 
-/// A file that is being written. One dimension an axis, named as its input, with the axis's values;
-/// the other inputs as numbers; the verdict as flags and each quantity over all dimensions, NaN
-/// where it is not known, each with its long_name and with units as UDUNITS knows them, for which
-/// times, speeds and energies are normalised (ω_n = 1, K = 1); the command and the version of
-/// Gearlash. The boundary is a list of points, with NaN between curves. CF conventions 1.8; the
-/// same grid gives the same bytes, in whatever pieces it is written.
+/// A file that is being written. One dimension an axis, named as its column (column_name()), with
+/// the axis's values, or the words of its choices; the drive's other numbers; the verdict as flags
+/// and each quantity over all dimensions, NaN where it is not known, each with its long_name and
+/// with SI units as UDUNITS knows them; the drive as TOML; the command and the version of Gearlash.
+/// The boundary is a list of points, with NaN between curves. CF conventions 1.8; the same grid
+/// gives the same bytes, in whatever pieces it is written.
 ///
 /// Every member throws OutputError, naming the file as `shown_name`, where it cannot be written.
 class GridNetcdf {
@@ -37,7 +35,7 @@ class GridNetcdf {
   static GridNetcdf create(const std::filesystem::path& path, const std::string& shown_name,
                            const GridContents& contents);
   /// A file that create() made of the same contents, to go on with. OutputError too where its
-  /// attributes, axes or inputs are not those of `contents`.
+  /// attributes or axes are not those of `contents`.
   static GridNetcdf reopen(const std::filesystem::path& path, const std::string& shown_name,
                            const GridContents& contents);
   ~GridNetcdf();
@@ -47,7 +45,7 @@ class GridNetcdf {
   void write(const GridPiece& piece);
   /// Of points that were written, from `first` on as many as the table has rows (a box of the
   /// grid), what the file holds; the columns of other quantities stay.
-  void read(std::size_t first, CycleTable& cycles) const;
+  void read(std::size_t first, Table& table) const;
   /// Of a map, whose axes are y and x, once; no curve: nothing is written.
   void write_boundary(const std::vector<MapCurve>& boundary);
   /// Brings what was written to the disk (fsync).
@@ -68,11 +66,10 @@ std::size_t netcdf_bytes(const GridContents& contents);
 enum class GridBoundary { none, hunting };
 
 /// Works out the grid with every quantity and writes it, in place of output.write(): while one
-/// piece is written, the next is worked out. `going_on` as in evaluate_in_pieces(); where it stops,
+/// piece is written, the next is worked out. `progress` as in evaluate_in_pieces(); where it stops,
 /// the file is not whole. Throws OutputError where it cannot be written, and for "-" and devices,
 /// into which NetCDF cannot write.
-GridCount make_grid_netcdf(const ServoGrid& grid, GridBoundary boundary,
-                           const Provenance& provenance, const OutputFile& output,
-                           const GoingOn& going_on = {});
+GridCount make_grid_netcdf(const Grid& grid, GridBoundary boundary, const Provenance& provenance,
+                           const OutputFile& output, Progress& progress = no_progress());
 
 }  // namespace gearlash

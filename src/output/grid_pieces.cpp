@@ -4,7 +4,10 @@
 #include <array>
 #include <chrono>
 #include <future>
+#include <mutex>
 #include <thread>
+
+#include "base/progress_part.hpp"
 
 namespace gearlash {
 namespace {
@@ -14,8 +17,13 @@ using Clock = std::chrono::steady_clock;
 /// How many points are worked out and handed on at a time.
 class PieceLength {
  public:
-  PieceLength(const ServoGrid& grid, std::size_t longest)
-      : longest_(longest), may_change_(grid.may_bounce()) {
+  PieceLength(const EnginesNeeded& engines, std::size_t longest)
+      : longest_(longest),
+        shortest_(std::min<std::size_t>(
+            longest,
+            (engines.search ? 1U : 8U) * std::max(1U, std::thread::hardware_concurrency()))),
+        points_(longest),
+        may_change_(engines.bounces || engines.search) {
     if (may_change_) points_ = shortest_;
   }
 
@@ -30,11 +38,23 @@ class PieceLength {
 
  private:
   std::size_t longest_;
-  /// evaluate() gives a core eight servos that bounce at a time.
-  std::size_t shortest_ = std::min<std::size_t>(
-      longest_, std::size_t{8} * std::max(1U, std::thread::hardware_concurrency()));
-  std::size_t points_ = longest_;
+  std::size_t shortest_;  ///< what evaluate() gives to all cores at a time
+  std::size_t points_;
   bool may_change_;
+};
+
+/// Of two threads: that which works, and that which takes.
+class OneAtATime : public Progress {
+ public:
+  explicit OneAtATime(Progress& progress) : progress_(progress) {}
+  bool go_on(double share, std::size_t bytes = 0) override {
+    const std::scoped_lock lock(hearing_);
+    return progress_.go_on(share, bytes);
+  }
+
+ private:
+  Progress& progress_;
+  std::mutex hearing_;
 };
 
 struct WorkedOut {
@@ -44,30 +64,35 @@ struct WorkedOut {
 
 }  // namespace
 
-GridCount evaluate_in_pieces(const ServoGrid& grid, std::size_t first, std::size_t longest,
-                             const GridSink& take, const GoingOn& going_on) {
+GridCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantities,
+                             std::size_t first, std::size_t longest, const GridSink& take,
+                             Progress& progress) {
+  const GridPoints grid_points(grid);
   const std::size_t points = grid.size();
+  const auto share_of = [&](std::size_t done) {
+    return static_cast<double>(done) / static_cast<double>(points);
+  };
+  OneAtATime heard(progress);
   GridCount total;
-  const auto is_stopped = [&] { return first < points && going_on && !going_on(first); };
+  const auto is_stopped = [&] { return first < points && !heard.go_on(share_of(first)); };
   if (is_stopped()) {
     total.stopped = true;
     return total;
   }
-  PieceLength length(grid, longest);
+  PieceLength length(grid_points.engines(), longest);
   // Into a table of as many rows as the piece has points.
-  const auto work_out = [&](std::size_t begin, CycleTable& table) {
+  const auto work_out = [&](std::size_t begin, Table& table) {
     const std::size_t count = box_length(grid, begin, length.points());
-    if (table.rows() != count) table = CycleTable(count);
+    if (table.rows() != count) table = Table(count, quantities);
     // Where no thread can be had, the piece is worked out when it is asked for.
     return std::async(std::launch::async | std::launch::deferred, [&, begin, count] {
       const Clock::time_point start = Clock::now();
-      const GridCount solved = evaluate(
-          grid, begin, count, table.columns(),
-          {.going_on = [&](std::size_t done) { return !going_on || going_on(begin + done); }});
+      ProgressPart part(heard, share_of(begin), share_of(begin + count));
+      const GridCount solved = evaluate(grid, grid_points, begin, count, columns_of(table), part);
       return WorkedOut{solved, Clock::now() - start};
     });
   };
-  std::array<CycleTable, 2> tables;
+  std::array<Table, 2> tables;
   std::future<WorkedOut> working;  // after what it works on, so that it ends first
   if (first < points) working = work_out(first, tables[0]);
   for (std::size_t index = 0; first < points; index = 1 - index) {
@@ -75,7 +100,7 @@ GridCount evaluate_in_pieces(const ServoGrid& grid, std::size_t first, std::size
     total.stopped = piece.count.stopped;
     if (total.stopped) break;
     length.heed(piece.duration);
-    const CycleTable& table = tables[index];
+    const Table& table = tables[index];
     const std::size_t next = first + table.rows();
     if (next < points) working = work_out(next, tables[1 - index]);
     take({first, table, piece.count});

@@ -4,8 +4,7 @@
 #include <cstddef>
 #include <functional>
 
-#include "analysis/grid/servo_grid.hpp"
-#include "closed_form/lanes/cycle_table.hpp"
+#include "analysis/grid/grid_evaluation.hpp"
 
 namespace gearlash {
 
@@ -13,7 +12,7 @@ namespace gearlash {
 /// (see box_length()).
 struct GridPiece {
   std::size_t first;
-  const CycleTable& cycles;
+  const Table& table;
   GridCount count;
 };
 using GridSink = std::function<void(const GridPiece&)>;
@@ -22,12 +21,13 @@ using GridSink = std::function<void(const GridPiece&)>;
 /// while it has one piece, which it may write to a file, the next is worked out. `take` is called
 /// in the calling thread; what it throws ends the work, and is thrown on.
 ///
-/// A piece has `longest` points at most; where faces bounce, as many as take about a second, which
-/// is found by and by. Two of them are held in memory, 97 bytes a point. `going_on` hears before
-/// the work and now and then, in one thread at a time, how many points of the grid are done; false
-/// stops, after a piece or in one that is then lost, and the count says so. Precondition: as in
-/// evaluate(), longest > 0, `first` is 0 or where a box ended.
-GridCount evaluate_in_pieces(const ServoGrid& grid, std::size_t first, std::size_t longest,
-                             const GridSink& take, const GoingOn& going_on = {});
+/// A piece has `longest` points at most; where faces bounce or drives are searched, as many as
+/// take about a second, which is found by and by. Two of them are held in memory. `progress` hears
+/// the share of the whole grid before the work and now and then; it stops it after a piece or in
+/// one that is then lost, and the count says so. Precondition: as in evaluate(), longest > 0,
+/// `first` is 0 or where a box ended.
+GridCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantities,
+                             std::size_t first, std::size_t longest, const GridSink& take,
+                             Progress& progress = no_progress());
 
 }  // namespace gearlash

@@ -1,63 +1,11 @@
 #include "output/grid_table.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "base/range_check.hpp"
-#include "output/grid_words.hpp"
+#include "output/csv_table.hpp"
+#include "output/drive_text.hpp"
 #include "output/json_values.hpp"
-#include "picture/hunting_curve.hpp"
 
 namespace gearlash {
 namespace {
-
-/// One curve of the chart: rows `first` … of the table, over the last axis.
-ChartCurve curve_of(const GridTable& table, std::size_t first, CycleQuantity quantity) {
-  const Axis& x = table.grid.axes.back();
-  const std::vector<double>& values = table.cycles[quantity];
-  NormalizedServo servo_on_curve = table.grid.at(first);
-  const double limit = limit_where_hunting_ends(quantity, servo_on_curve.backlash)
-                           .value_or(std::numeric_limits<double>::infinity());
-  const bool ends = !table.grid.may_bounce() && std::isfinite(limit);
-  std::vector<CurveServo> servos;
-  for (std::size_t i = 0; i < x.values.size(); ++i) {
-    const Verdict verdict = table.cycles.verdict[first + i];
-    CurveServo servo{x.values[i], values[first + i]};
-    if (ends && verdict == Verdict::hunts) servo.hunts = true;
-    if (ends && verdict == Verdict::cannot_hunt) servo.hunts = false;
-    servos.push_back(servo);
-  }
-  const auto servo_at = [&](double place) {
-    servo_on_curve.*field_of(x.input) = place;
-    return servo_on_curve;
-  };
-  return curve_to_hunting_ends(servos, servo_at, limit);
-}
-
-/// Why nothing of these rows of the table is drawn.
-std::string word_for_nothing(const GridTable& table, std::size_t first, std::size_t count,
-                             CycleQuantity quantity) {
-  bool all_rest = true;
-  for (std::size_t row = first; row < first + count; ++row) {
-    if (std::isinf(table.cycles[quantity][row])) return "infinite";
-    all_rest = all_rest && table.cycles.verdict[row] == Verdict::cannot_hunt;
-  }
-  return all_rest ? "rests" : "not known";
-}
-
-/// A line of one point does not show.
-void mark_lone_points(ChartCurve& curve) {
-  const auto is_drawn = [&](std::size_t i) {
-    return i < curve.line.size() && std::isfinite(curve.line[i].y);
-  };
-  for (std::size_t i = 0; i < curve.line.size(); ++i) {
-    const bool has_neighbour = is_drawn(i + 1) || (i > 0 && is_drawn(i - 1));
-    if (is_drawn(i) && !has_neighbour) curve.marks.push_back(curve.line[i]);
-  }
-}
 
 /// "[[[x, y], …], …]", a curve a line.
 void write_curves(const std::vector<MapCurve>& curves, const TextSink& sink) {
@@ -73,61 +21,117 @@ void write_curves(const std::vector<MapCurve>& curves, const TextSink& sink) {
   sink(curves.empty() ? "]" : "\n  ]");
 }
 
+/// "[1, null, …]".
+template <class Values, class Convert>
+void write_list(const Values& values, const Convert& convert, const TextSink& sink) {
+  sink("[");
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    sink((i == 0 ? "" : ", ") + Json(convert(values[i])).dump());
+  }
+  sink("]");
+}
+
+/// A word where the axis has words.
+Json json_value(const Axis& axis, const Drive& drive, double value) {
+  return unit_of(axis, drive).empty() ? Json(text_of(axis, drive, value)) : json_number(value);
+}
+
+Json json_axes(const Grid& grid) {
+  Json axes = Json::array();
+  for (const Axis& axis : grid.axes) {
+    Json values = Json::array();
+    for (const double value : axis.values) values.push_back(json_value(axis, grid.drive, value));
+    const std::string unit = unit_of(axis, grid.drive);
+    axes.push_back({{"path", axis.path},
+                    {"unit", unit.empty() ? Json(nullptr) : Json(unit)},
+                    {"spacing", axis.logarithmic ? "logarithmic" : "linear"},
+                    {"values", std::move(values)}});
+  }
+  return axes;
+}
+
+std::vector<Quantity> quantities_of(const Table& table) {
+  std::vector<Quantity> found;
+  for (const QuantityInfo& info : quantities()) {
+    const bool is_number = info.kind == QuantityKind::number;
+    if (is_number && table.has(info.quantity)) found.push_back(info.quantity);
+  }
+  return found;
+}
+
+void write_columns(const Table& table, const TextSink& sink) {
+  sink("{\n    \"verdict\": ");
+  write_list(
+      table.verdicts(), [](Verdict verdict) { return name_of(verdict); }, sink);
+  for (const QuantityInfo& info : quantities()) {
+    if (info.kind != QuantityKind::number) continue;
+    sink(",\n    \"" + std::string(info.name) + "\": ");
+    table.has(info.quantity) ? write_list(table[info.quantity], json_number, sink) : sink("null");
+  }
+  sink("\n  }");
+}
+
 }  // namespace
 
-void write_grid_csv(const GridTable& table, const TextSink& sink) {
-  sink("# gearlash " + table.provenance.version + "\n# command: " + table.provenance.command +
-       "\n# " + fixed_inputs(table.grid, " = ") + "\n");
-  for (const CycleQuantity quantity : all_quantities) {
-    sink(fmt::format("# {}: {}, {}\n", name_of(quantity), description_of(quantity),
-                     unit_of(quantity)));
+std::string certainty_of(const Grid& grid) {
+  const EnginesNeeded engines = GridPoints(grid).engines();
+  const std::string plastic = name_of(grid.proved ? Certainty::enclosed : Certainty::computed);
+  const std::string searched = name_of(Certainty::searched);
+  if (engines.search) {
+    return engines.closed_form ? plastic + " in closed form, " + searched + " elsewhere" : searched;
   }
-  std::string header;
-  for (const Axis& axis : table.grid.axes) header += std::string(name_of(axis.input)) + ",";
-  header += "verdict";
-  for (const CycleQuantity quantity : all_quantities)
-    header += std::string(",") + name_of(quantity);
-  sink(header + "\n");
-  for (std::size_t row = 0; row < table.cycles.rows(); ++row) {
-    const NormalizedServo servo = table.grid.at(row);
-    std::string line;
-    for (const Axis& axis : table.grid.axes) line += exact_text(servo.*field_of(axis.input)) + ",";
-    line += name_of(table.cycles.verdict[row]);
-    for (const CycleQuantity quantity : all_quantities) {
-      const double value = table.cycles[quantity][row];
-      line += "," + (std::isnan(value) ? "" : exact_text(value));
+  return engines.bounces ? plastic + " for plastic contact, " + searched + " for restitution > 0"
+                         : plastic;
+}
+
+Json fixed_parameters(const Grid& grid) {
+  Json drive = drive_json(grid.drive);
+  for (const Axis& axis : grid.axes) {
+    const Parameter* parameter = parameter_of(axis, grid.drive);
+    if (parameter != nullptr && axis.path.find('[') == std::string::npos) {
+      drive.erase(std::string(parameter->path));
     }
-    sink(line + "\n");
+  }
+  return drive;
+}
+
+void write_grid_csv(const GridTable& table, const TextSink& sink) {
+  const std::vector<Axis>& axes = table.grid.axes;
+  const std::vector<Quantity> numbers = quantities_of(table.table);
+  std::vector<std::string> names;
+  for (const Axis& axis : axes) names.push_back(column_name(axis.path));
+  names.emplace_back("verdict");
+  for (const Quantity quantity : numbers) names.emplace_back(name_of(quantity));
+  std::vector<bool> are_words;
+  for (const Axis& axis : axes) are_words.push_back(unit_of(axis, table.grid.drive).empty());
+  CsvTable csv(sink, names);
+  for (std::size_t row = 0; row < table.table.rows(); ++row) {
+    const std::vector<double> values = values_at(table.grid, row);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      are_words[i] ? csv.cell(text_of(axes[i], table.grid.drive, values[i])) : csv.cell(values[i]);
+    }
+    csv.cell(name_of(table.table.verdict(row)));
+    for (const Quantity quantity : numbers) csv.cell(table.table[quantity][row]);
+    csv.end_row();
   }
 }
 
-void write_grid_json(const GridTable& table, const TextSink& sink) {
-  Json header = {{"provenance", json_provenance(table.provenance)},
-                 {"certainty", certainty_of(table.grid)},
-                 {"servo", json_servo(table.grid.servo)}};
-  Json axes = Json::array();
-  for (const Axis& axis : table.grid.axes) {
-    Json values = Json::array();
-    for (const double value : axis.values) values.push_back(json_number(value));
-    axes.push_back({{"input", name_of(axis.input)}, {"values", std::move(values)}});
-    header["servo"].erase(name_of(axis.input));
+void write_grid_json(const GridTable& table, const std::string& verb, const TextSink& sink) {
+  const Grid& grid = table.grid;
+  Json fixed = fixed_parameters(grid);
+  Json header = json_head(verb.c_str(), grid.drive, table.provenance);
+  Json defaults = Json::array();
+  for (const Json& path : header["defaults"]) {
+    if (fixed.contains(path.get<std::string>())) defaults.push_back(path);
   }
-  header["axes"] = std::move(axes);
+  header["certainty"] = certainty_of(grid);
+  header["drive"] = std::move(fixed);
+  header["defaults"] = std::move(defaults);
+  header["axes"] = json_axes(grid);
   std::string text = header.dump(2);
   text.resize(text.rfind("\n}"));  // reopened: the columns follow, number by number
-  sink(text + ",\n  \"verdict\": [");
-  const std::vector<Verdict>& verdicts = table.cycles.verdict;
-  for (std::size_t row = 0; row < verdicts.size(); ++row) {
-    sink((row == 0 ? "" : ", ") + Json(name_of(verdicts[row])).dump());
-  }
-  for (const CycleQuantity quantity : all_quantities) {
-    sink(fmt::format("],\n  \"{}\": [", name_of(quantity)));
-    const std::vector<double>& values = table.cycles[quantity];
-    for (std::size_t row = 0; row < values.size(); ++row) {
-      sink((row == 0 ? "" : ", ") + json_number(values[row]).dump());
-    }
-  }
-  sink("]");
+  sink(text + ",\n  \"columns\": ");
+  write_columns(table.table, sink);
   if (table.hunting_boundary) {
     sink(",\n  \"hunting_boundary\": ");
     write_curves(*table.hunting_boundary, sink);
@@ -137,41 +141,6 @@ void write_grid_json(const GridTable& table, const TextSink& sink) {
     write_curves(*table.dissipative_boundary, sink);
   }
   sink("\n}\n");
-}
-
-LineChart chart_of(const GridTable& table, CycleQuantity quantity) {
-  const ServoGrid& grid = table.grid;
-  const Axis& x = grid.axes.back();
-  LineChart chart{.title = title_of(quantity),
-                  .subtitle = in_words(fixed_inputs(grid, " ").c_str()),
-                  .x = chart_axis(x),
-                  .y = {.label = label_of(quantity, grid), .low = 0.0}};
-  const std::size_t curves = grid.axes.size() == 1 ? 1 : grid.axes.front().values.size();
-  bool nothing_drawn = true;
-  for (std::size_t i = 0; i < curves; ++i) {
-    const std::size_t first = i * x.values.size();
-    ChartCurve curve = curve_of(table, first, quantity);
-    const bool is_drawn = std::any_of(curve.line.begin(), curve.line.end(),
-                                      [](const auto& point) { return std::isfinite(point.y); });
-    if (grid.axes.size() > 1) {
-      curve.name = in_words(name_of(grid.axes.front().input)) +
-                   fmt::format(" {:.4g}", grid.axes.front().values[i]);
-      if (!is_drawn) curve.name += ": " + word_for_nothing(table, first, x.values.size(), quantity);
-    }
-    if (!is_drawn) curve.line.clear();
-    nothing_drawn = nothing_drawn && !is_drawn;
-    mark_lone_points(curve);
-    for (const ChartPoint& point : curve.line) {
-      if (point.y < 0.0) chart.y.low.reset();
-    }
-    if (!curve.ends.empty()) chart.end_meaning = "hunting ends";
-    chart.curves.push_back(std::move(curve));
-  }
-  if (nothing_drawn) {
-    const std::string word = word_for_nothing(table, 0, table.cycles.rows(), quantity);
-    chart.empty_meaning = word == "rests" ? "no limit cycle" : word;
-  }
-  return chart;
 }
 
 }  // namespace gearlash

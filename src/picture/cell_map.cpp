@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "picture/gnuplot.hpp"
@@ -40,7 +41,7 @@ Cells cells_of(const CellPanel& panel, const std::string& name) {
 }  // namespace
 
 std::string draw_cell_map(const CellMap& map, PictureFormat format) {
-  constexpr std::size_t panels_a_line = 3;
+  const std::size_t panels_a_line = std::min<std::size_t>(3, map.panels.size());
   std::string data;
   std::string plots;
   for (std::size_t i = 0; i < map.panels.size(); ++i) {
@@ -55,8 +56,8 @@ std::string draw_cell_map(const CellMap& map, PictureFormat format) {
     if (!cells.numbers.is_empty()) {
       layers.push_back(fmt::format(
           "${0} using 1:2:(0.48):(0.48):3 with boxxyerror fill solid noborder linecolor palette "
-          "notitle, ${0} using 1:2:(sprintf('{{/*0.7 %+.1f}}',$3)) with labels notitle",
-          name));
+          "notitle, ${0} using 1:2:(sprintf('{{/*0.7 {1}}}',$3)) with labels notitle",
+          name, map.number_format));
     }
     if (!cells.dots.is_empty()) {
       layers.push_back(fmt::format("${}_dots using 1:2:('·') with labels notitle", name));

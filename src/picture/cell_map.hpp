@@ -23,6 +23,7 @@ struct CellMap {
   std::vector<std::string> rows = {};  ///< the lowest first
   std::vector<CellPanel> panels = {};  ///< up to six, three a line
   double largest = 1.0;                ///< colours run from −largest to largest
+  std::string number_format = "%+.1f";
 };
 
 /// Bytes of the picture; the same map gives the same SVG. Throws OutputError where gnuplot is

@@ -1,30 +1,38 @@
 #include "picture/grid_map.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
+#include "analysis/grid/grid_evaluation.hpp"
 #include "analysis/grid/hunting_boundary.hpp"
-#include "output/grid_words.hpp"
+#include "picture/cell_map.hpp"
+#include "picture/grid_words.hpp"
 #include "picture/hatching.hpp"
 
 namespace gearlash {
 namespace {
 
-std::vector<double> levels_of(const GridTable& table, CycleQuantity quantity) {
-  std::vector<double> levels = round_levels(table.cycles[quantity]);
+std::vector<double> levels_of(const GridTable& table, Quantity quantity) {
+  std::vector<double> motions(table.table.rows());
+  for (std::size_t row = 0; row < motions.size(); ++row) {
+    motions[row] = of_motion(table.table, quantity, row);
+  }
+  std::vector<double> levels = round_levels(std::move(motions));
   // The boundary itself: its growth is 1, and so is the multiplier beside it.
-  if (quantity == CycleQuantity::growth_at_rest) std::erase(levels, 1.0);
+  if (quantity == Quantity::growth_at_rest) std::erase(levels, 1.0);
   return levels;
 }
 
 }  // namespace
 
-ContourMap map_of(const GridTable& table, CycleQuantity quantity) {
-  const ServoGrid& grid = table.grid;
+ContourMap map_of(const GridTable& table, Quantity quantity) {
+  const Grid& grid = table.grid;
   ContourMap map{.title = title_of(quantity) + unit_in_brackets(quantity, grid),
-                 .subtitle = in_words(fixed_inputs(grid, " ").c_str()),
-                 .x = chart_axis(grid.axes[1]),
-                 .y = chart_axis(grid.axes[0]),
-                 .contours = contours_of(grid, table.cycles, quantity, levels_of(table, quantity)),
+                 .subtitle = subtitle_of(grid),
+                 .x = chart_axis(grid.axes[1], grid.drive),
+                 .y = chart_axis(grid.axes[0], grid.drive),
+                 .contours = contours_of(grid, table.table, quantity, levels_of(table, quantity)),
                  .boundary = table.hunting_boundary.value(),
                  .contour_meaning = "contours",
                  .boundary_meaning = "hunting ends",
@@ -32,16 +40,64 @@ ContourMap map_of(const GridTable& table, CycleQuantity quantity) {
   const Paper paper(map.x, map.y);
   map.hatching = hatching(table, paper);
   if (!table.dissipative_boundary) return map;
+  const GridPoints points(grid);
   map.inner_boundary = *table.dissipative_boundary;
   map.inner_meaning = "none, any restitution";
   map.inner_hatching =
       hatching(map.inner_boundary, paper,
                {.stretch =
                     [&](const MapPoint& middle) {
-                      return side_of_dissipation(servo_at(grid, middle)) == Side::outside;
+                      return side_of_dissipation(servo_at(points, middle)) == Side::outside;
                     }},
                HatchLines::second);
   return map;
+}
+
+namespace {
+
+/// A cell a point: its number, infinity (a dot) where the drive comes to rest.
+CellMap cells_of(const GridTable& table, Quantity quantity) {
+  const Grid& grid = table.grid;
+  const Axis& y = grid.axes[0];
+  const Axis& x = grid.axes[1];
+  CellMap map{.title = title_of(quantity) + unit_in_brackets(quantity, grid),
+              .subtitle = subtitle_of(grid) + "; · comes to rest, empty: not known",
+              .x_label = chart_axis(x, grid.drive).label,
+              .y_label = chart_axis(y, grid.drive).label,
+              .largest = 0.0,
+              .number_format = "%.3g"};
+  for (const double value : x.values) map.columns.push_back(short_text(x, grid.drive, value));
+  for (const double value : y.values) map.rows.push_back(short_text(y, grid.drive, value));
+  CellPanel panel;
+  for (std::size_t i = 0; i < y.values.size(); ++i) {
+    std::vector<double>& row = panel.values.emplace_back();
+    for (std::size_t j = 0; j < x.values.size(); ++j) {
+      const std::size_t point = i * x.values.size() + j;
+      const double value = of_motion(table.table, quantity, point);
+      const bool is_rest = std::isnan(value) && !std::isnan(table.table[quantity][point]);
+      row.push_back(is_rest ? std::numeric_limits<double>::infinity() : value);
+      if (std::isfinite(value)) map.largest = std::max(map.largest, std::abs(value));
+    }
+  }
+  if (map.largest == 0.0) map.largest = 1.0;
+  map.panels.push_back(std::move(panel));
+  return map;
+}
+
+}  // namespace
+
+std::string draw_grid_map(const GridTable& table, Quantity quantity, PictureFormat format) {
+  constexpr std::size_t most_cells = 12;  // in a line, with their numbers
+  const Grid& grid = table.grid;
+  bool any_words = false;
+  bool is_small = true;
+  for (const Axis& axis : grid.axes) {
+    any_words = any_words || has_words(axis, grid.drive);
+    is_small = is_small && axis.values.size() <= most_cells;
+  }
+  const bool as_cells = any_words || (is_small && GridPoints(grid).engines().search);
+  return as_cells ? draw_cell_map(cells_of(table, quantity), format)
+                  : draw_contour_map(map_of(table, quantity), format);
 }
 
 }  // namespace gearlash

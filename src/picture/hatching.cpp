@@ -61,10 +61,10 @@ bool is_at_rest_for_good(const GridTable& table, const MapPoint& point) {
   bool any = false;
   for (const std::size_t corner :
        {first, first + 1, first + x.values.size(), first + x.values.size() + 1}) {
-    const double growth = table.cycles[CycleQuantity::growth_at_rest][corner];
+    const double growth = table.table[Quantity::growth_at_rest][corner];
     if (std::isnan(growth)) return false;
     if (growth > 1.0) continue;
-    if (table.cycles.verdict[corner] != Verdict::cannot_hunt) return false;
+    if (table.table.verdict(corner) != Verdict::cannot_hunt) return false;
     any = true;
   }
   return any;
@@ -100,11 +100,12 @@ std::vector<MapCurve> hatching(const std::vector<MapCurve>& boundary, const Pape
 }
 
 std::vector<MapCurve> hatching(const GridTable& table, const Paper& paper) {
+  const GridPoints points(table.grid);
   return hatching(
       table.hunting_boundary.value(), paper,
       {.stretch =
            [&](const MapPoint& middle) {
-             return side_of_hunting(servo_at(table.grid, middle)) == Side::outside;
+             return side_of_hunting(servo_at(points, middle)) == Side::outside;
            },
        .left_out = [&](const MapPoint& middle) { return !is_at_rest_for_good(table, middle); }});
 }

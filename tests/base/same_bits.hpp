@@ -3,22 +3,22 @@
 
 #include <algorithm>
 #include <cstring>
-#include <vector>
 
-#include "closed_form/lanes/cycle_table.hpp"
+#include "closed_form/lanes/cycle_batch.hpp"
+#include "gearlash/grid.hpp"
 
 namespace gearlash {
 
-inline bool same_bits(const CycleTable& a, const CycleTable& b, std::size_t row_in_a,
-                      std::size_t row_in_b) {
-  return a.verdict[row_in_a] == b.verdict[row_in_b] &&
-         std::equal(a.values.begin(), a.values.end(), b.values.begin(),
-                    [&](const std::vector<double>& left, const std::vector<double>& right) {
-                      return std::memcmp(&left[row_in_a], &right[row_in_b], sizeof(double)) == 0;
-                    });
+inline bool same_bits(const Table& a, const Table& b, std::size_t row_in_a, std::size_t row_in_b) {
+  return a.verdict(row_in_a) == b.verdict(row_in_b) &&
+         std::all_of(
+             closed_form_quantities.begin(), closed_form_quantities.end(), [&](Quantity quantity) {
+               return std::memcmp(&a[quantity][row_in_a], &b[quantity][row_in_b], sizeof(double)) ==
+                      0;
+             });
 }
 
-inline bool same_bits(const CycleTable& a, const CycleTable& b) {
+inline bool same_bits(const Table& a, const Table& b) {
   for (std::size_t row = 0; row < a.rows(); ++row) {
     if (!same_bits(a, b, row, row)) return false;
   }

@@ -55,10 +55,11 @@ TEST(BadInput, WhatIsTypedIsNeverReadAsAFile) {
   }
 }
 
-TEST(BadInput, SensorOnTheMotorIsRefusedInClearWords) {
+TEST(BadInput, WithTheSensorOnTheMotorThereIsNoNormalForm) {
   EXPECT_THAT(faults({"map", "--x", "damping=0.1:0.2:3", "--y", "friction-ratio=0.1:0.2:3",
                       "--sensor", "motor", "--output", "map.csv", "examples/elinco-fd162.toml"}),
-              ElementsAre(StartsWith("gearlash: --sensor = motor: must be load")));
+              ElementsAre(StartsWith("gearlash: --y = friction-ratio: must be a number or a word"),
+                          StartsWith("gearlash: --x = damping: must be a number or a word")));
   EXPECT_THAT(faults({"limit-cycle", "examples/elinco-fd162.toml", "--sensor", "gear"}),
               ElementsAre("gearlash: --sensor = gear: must be one of load, motor, both"));
 }

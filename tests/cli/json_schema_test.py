@@ -8,6 +8,7 @@ import json
 import pathlib
 import subprocess
 import sys
+import tempfile
 
 import jsonschema
 
@@ -34,6 +35,12 @@ COMMANDS = [
     ["simulate", "examples/robot-joint.toml", "--until", "1"],
     ["simulate", "examples/telescope-axis.toml", "--until", "1"],
     ["compare", "examples/elinco-fd162.toml"],
+    ["chart", "--x", "damping=0.1:0.6:3", "--curves", "inertia-ratio=0,1,inf", "--friction-ratio",
+     "0.2"],
+    ["chart", "examples/elinco-fd162.toml", "--x", "sensor.position=load,motor"],
+    ["map", "--x", "damping=0.1:0.9:9", "--y", "friction-ratio=0.1:0.9:9", "--inertia-ratio", "1"],
+    ["map", "examples/elinco-fd162.toml", "--x", "gearbox.ratio=10,20", "--y",
+     "sampling.period=1 ms,10 ms"],
     ["show", *SERVO],
     ["show", "examples/robot-joint.toml"],
     ["show", "examples/telescope-axis.toml"],
@@ -53,14 +60,23 @@ def refuse_nan(text):
     raise ValueError(f"{text} is no JSON")
 
 
+def printed(tool, words):
+    """The JSON of a command, which charts and maps write into a file."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = pathlib.Path(folder) / "answer.json"
+        is_grid = words[0] in ("chart", "map")
+        asked = ["--output", str(file)] if is_grid else ["--format", "json"]
+        run = subprocess.run([tool, *words, *asked], cwd=ROOT, capture_output=True, text=True,
+                             check=False)
+        if run.returncode not in (0, 1):
+            sys.exit(f"{' '.join(words)}: exit status {run.returncode}: {run.stderr}")
+        return file.read_text(encoding="utf-8") if is_grid else run.stdout
+
+
 def main():
     tool = sys.argv[1]
     for words in COMMANDS:
-        run = subprocess.run([tool, *words, "--format", "json"], cwd=ROOT, capture_output=True,
-                             text=True, check=False)
-        if run.returncode not in (0, 1):
-            sys.exit(f"{' '.join(words)}: exit status {run.returncode}: {run.stderr}")
-        answer = json.loads(run.stdout, parse_constant=refuse_nan)
+        answer = json.loads(printed(tool, words), parse_constant=refuse_nan)
         if answer["schema"].split("/")[1] != words[0]:
             sys.exit(f"{' '.join(words)}: schema {answer['schema']}")
         validate(answer)

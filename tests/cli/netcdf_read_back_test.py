@@ -14,9 +14,9 @@ import xarray
 TOOL = sys.argv.pop(1)
 SEED = 1960
 INPUTS = ["damping", "inertia_ratio", "friction_ratio", "backlash", "restitution"]
-QUANTITIES = ["growth_at_rest", "size", "motor_size", "period", "multiplier", "impact_speed",
-              "engaged_time", "separated_time", "motor_friction_loss", "load_friction_loss",
-              "impact_loss", "residual"]
+QUANTITIES = ["growth_at_rest", "amplitude", "motor_amplitude", "period", "frequency", "multiplier",
+              "impact_speed", "engaged_time", "separated_time", "motor_friction_loss",
+              "load_friction_loss", "impact_loss", "residual"]
 SWEEP = """
 [sweep]
 axes = ["friction-ratio=0.05:0.95:7", "damping = 0.1, 0.2, 0.5", "inertia-ratio=1/9:9:11:log"]
@@ -73,18 +73,18 @@ class ReadBack(unittest.TestCase):
             self.assertAlmostEqual(float(point["growth_at_rest"]), growth, delta=1e-12 * growth,
                                    msg=message)
             if verdict == "cannot hunt":
-                self.assertTrue(math.isnan(float(point["size"])), message)
+                self.assertEqual(float(point["amplitude"]), 0.0, message)
+                self.assertTrue(math.isnan(float(point["period"])), message)
                 continue
             cycle = single["cycles"][0]
-            for quantity, key in [("size", "amplitude"), ("period", "period"),
-                                  ("multiplier", "multiplier"), ("impact_speed", "impact_speed")]:
-                self.assertAlmostEqual(float(point[quantity]), cycle[key],
-                                       delta=1e-11 * abs(cycle[key]), msg=message)
+            for quantity in ("amplitude", "period", "frequency", "multiplier", "impact_speed"):
+                self.assertAlmostEqual(float(point[quantity]), cycle[quantity],
+                                       delta=1e-11 * abs(cycle[quantity]), msg=message)
 
     def test_a_sweep_has_its_axes_as_dimensions(self):
         data = self.swept()
-        self.assertEqual(data["size"].dims, ("friction_ratio", "damping", "inertia_ratio"))
-        self.assertEqual(data["size"].shape, (7, 3, 11))
+        self.assertEqual(data["amplitude"].dims, ("friction_ratio", "damping", "inertia_ratio"))
+        self.assertEqual(data["amplitude"].shape, (7, 3, 11))
         self.assertEqual(list(data["damping"].values), [0.1, 0.2, 0.5])
         self.assertEqual(float(data["inertia_ratio"][-1]), 9.0)
         self.assertAlmostEqual(float(data["backlash"]), math.radians(0.2), places=17)
@@ -95,18 +95,18 @@ class ReadBack(unittest.TestCase):
     def test_a_chart_of_one_curve_and_of_many(self):
         one = self.written("chart", "--x", "inertia-ratio=1/9:9:21:log", "--friction-ratio", "0.1",
                            "--damping", "0.1", "--backlash", "0.3")
-        self.assertEqual(one["size"].dims, ("inertia_ratio",))
+        self.assertEqual(one["amplitude"].dims, ("inertia_ratio",))
         self.assert_points_are_single_calls(one)
         many = self.written("chart", "--x", "friction-ratio=0:1:21", "--curves", "damping=0.1,0.6",
                             "--inertia-ratio", "1")
-        self.assertEqual(many["size"].dims, ("damping", "friction_ratio"))
+        self.assertEqual(many["amplitude"].dims, ("damping", "friction_ratio"))
         self.assert_points_are_single_calls(many)
 
     def test_a_map_with_its_boundary(self):
         arguments = ["map", "--x", "inertia-ratio=0.1:10:21:log", "--y", "damping=0.05:1:20",
                      "--friction-ratio", "0.3"]
         data = self.written(*arguments)
-        self.assertEqual(data["size"].dims, ("damping", "inertia_ratio"))
+        self.assertEqual(data["amplitude"].dims, ("damping", "inertia_ratio"))
         self.assert_points_are_single_calls(data)
         run(TOOL, *arguments, "--output", self.path("map.json"))
         curves = json.loads(pathlib.Path(self.path("map.json")).read_text())["hunting_boundary"]
@@ -133,18 +133,29 @@ class ReadBack(unittest.TestCase):
         for name, variable in data.variables.items():
             self.assertIn("long_name", variable.attrs, name)
             if name != "verdict":
-                self.assertIn(variable.attrs["units"], ["1", "rad", "rad2"], name)
+                self.assertIn(variable.attrs["units"], ["1", "rad", "s", "Hz", "rad/s", "J"], name)
         self.assertEqual(data.attrs["sweep"], SWEEP)
         self.assertRegex(data.attrs["source"], r"^gearlash \d+\.\d+\.\d+$")
         self.assertEqual(data.attrs["history"], "gearlash sweep " + self.path("sweep.toml") +
                          " --output " + self.path("out.nc"))
 
+    def test_a_drive_with_its_words(self):
+        root = pathlib.Path(__file__).resolve().parents[2]
+        data = self.written("chart", str(root / "examples/elinco-fd162.toml"), "--x",
+                            "sensor.position=load,motor")
+        self.assertEqual(data["amplitude"].dims, ("sensor_position",))
+        self.assertEqual(data["sensor_position"].attrs["words"], "load motor both")
+        self.assertEqual(list(data["sensor_position"].values), [0.0, 1.0])
+        self.assertIn("gearbox_ratio", data.coords)
+        self.assertNotIn("sensor.position", json.loads(data.attrs["drive"]))
+        self.assertIn("static_error", data)
+
     def test_ncdump_reads_it(self):
         self.swept()
         header = run("ncdump", "-h", self.path("out.nc"))
         self.assertIn("\tinertia_ratio = 11 ;", header)
-        self.assertIn("\tdouble size(friction_ratio, damping, inertia_ratio) ;", header)
-        self.assertIn('\t\tsize:units = "rad" ;', header)
+        self.assertIn("\tdouble amplitude(friction_ratio, damping, inertia_ratio) ;", header)
+        self.assertIn('\t\tamplitude:units = "rad" ;', header)
         values = run("ncdump", "-v", "damping", self.path("out.nc"))
         self.assertIn(" damping = 0.1, 0.2, 0.5 ;", values)
 

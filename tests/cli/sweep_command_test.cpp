@@ -74,7 +74,7 @@ TEST(SweepCommand, CtrlCKeepsWhatIsDone) {
   // In the background a shell has SIGINT ignored.
   const Outcome run = run_shell(in_folder(scratch, interrupted("TERM", "")));
   EXPECT_THAT(run.out, HasSubstr("status 143\n")) << run.err;
-  EXPECT_THAT(run.err, HasSubstr(" of 400 servos, which a.nc.part holds: --resume goes on\n"));
+  EXPECT_THAT(run.err, HasSubstr(" of 400 points, which a.nc.part holds: --resume goes on\n"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "a.nc"));
   const auto record = nlohmann::json::parse(file_text(scratch / "a.nc.part.json"));
   EXPECT_GT(record["points_done"], 0);
@@ -93,8 +93,8 @@ TEST(SweepCommand, WhatItSaysOfItsFilesIsTrueWheneverItIsStopped) {
   EXPECT_THAT(run.out, HasSubstr("status 143\n")) << run.err;
   const bool has_files = std::filesystem::exists(scratch / "a.nc.part");
   EXPECT_EQ(std::filesystem::exists(scratch / "a.nc.part.json"), has_files);
-  EXPECT_THAT(run.err, HasSubstr(has_files ? " of 400 servos, which a.nc.part holds: --resume"
-                                           : "stopped before any of 400 servos was done: there is "
+  EXPECT_THAT(run.err, HasSubstr(has_files ? " of 400 points, which a.nc.part holds: --resume"
+                                           : "stopped before any of 400 points was done: there is "
                                              "nothing to resume\n"));
 }
 
@@ -289,21 +289,23 @@ TEST(SweepCommand, EveryFaultOfTheFileIsToldWithItsPlace) {
         "[sweep]\n"
         "axes = [\"damping=0.6:0.1:5\", \"weight=1:2:3\", \"friction-ratio=0:1:1000000000000\",\n"
         "        \"inertia-ratio=0:1:5:log\", \"backlash=\", 3]\n"
-        "quantities = [\"sizes\"]\n");
+        "quantities = [\"amplitudes\"]\n");
   const Outcome run =
       run_shell(in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.txt"));
   EXPECT_EQ(run.status, 2);
   const std::string place = "gearlash: sweep.toml:";
   EXPECT_THAT(run.err, HasSubstr(place + "2:9: sweep.axes[0] = damping=0.6:0.1:5: must rise"));
-  EXPECT_THAT(run.err, HasSubstr(place + "2:30: sweep.axes[1] = weight=1:2:3: must name an input"));
+  EXPECT_THAT(run.err,
+              HasSubstr(place + "2:30: sweep.axes[1] = weight=1:2:3: must be a number or a word"));
   EXPECT_THAT(run.err, HasSubstr("sweep.axes[2] = friction-ratio=0:1:1000000000000: must be from 1 "
                                  "to 1000000\n"));
   EXPECT_THAT(run.err, HasSubstr("sweep.axes[3] = inertia-ratio=0:1:5:log: must be positive"));
-  EXPECT_THAT(run.err, HasSubstr("sweep.axes[4] = backlash=: must be NAME="));
+  EXPECT_THAT(run.err, HasSubstr("sweep.axes[4] = backlash=: must be PATH="));
   EXPECT_THAT(run.err, HasSubstr("sweep.axes[5] = 3: must be a text"));
-  EXPECT_THAT(run.err,
-              HasSubstr("sweep.quantities[0] = sizes: must be one of growth_at_rest, size"));
-  EXPECT_THAT(run.err, HasSubstr("(did you mean size?)"));
+  EXPECT_THAT(
+      run.err,
+      HasSubstr("sweep.quantities[0] = amplitudes: must be one of growth_at_rest, amplitude"));
+  EXPECT_THAT(run.err, HasSubstr("(did you mean amplitude?)"));
   EXPECT_THAT(run.err, HasSubstr("--output = a.txt: must end in .nc"));
 
   write(scratch / "sweep.toml",
@@ -311,8 +313,8 @@ TEST(SweepCommand, EveryFaultOfTheFileIsToldWithItsPlace) {
         "[servo]\ndamping = 0.1\ninertia_ratio = 1\n");
   const Outcome servo =
       run_shell(in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.nc"));
-  EXPECT_THAT(servo.err, HasSubstr("sweep.axes[1] = damping=0.7:0.8:5: must be another input than "
-                                   "that of sweep.axes[0]\n"));
+  EXPECT_THAT(servo.err, HasSubstr("sweep.axes[1] = damping=0.7:0.8:5: must be another parameter "
+                                   "than that of sweep.axes[0]\n"));
   EXPECT_THAT(servo.err, HasSubstr("servo.damping = 0.1: must be left out: [sweep] varies it\n"));
   EXPECT_THAT(servo.err, HasSubstr("servo.friction_ratio is missing: must be from 0 to 1\n"));
   EXPECT_EQ(scratch.file_count(), 1U);
@@ -325,7 +327,7 @@ TEST(SweepCommand, TellsBeforehandThatTheDiskIsTooSmall) {
         "[servo]\ninertia_ratio = 1\n");
   const Outcome run = run_shell(in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.nc"));
   EXPECT_EQ(run.status, 3);
-  EXPECT_THAT(run.err, HasSubstr("a.nc: cannot be written: 970 GB are wanting, "));
+  EXPECT_THAT(run.err, HasSubstr("a.nc: cannot be written: 1.05e+03 GB are wanting, "));
   EXPECT_EQ(scratch.file_count(), 1U);
 }
 

@@ -6,12 +6,18 @@
 
 #include <numbers>
 
+#include "base/fault.hpp"
+
 namespace gearlash {
 namespace {
 
+Axis axis(std::string_view text, const Drive& drive = normal_form(0.5, 1.0, 0.5)) {
+  return read_axis(split_axis("--x", text), drive_of_axes(drive, {split_axis("--x", text)}));
+}
+
 std::string fault(std::string_view text) {
   try {
-    read_axis("--x", text);
+    read_axis(split_axis("--x", text), normal_form(0.5, 1.0, 0.5));
   } catch (const InvalidInput& error) {
     return error.what();
   }
@@ -19,33 +25,81 @@ std::string fault(std::string_view text) {
 }
 
 TEST(AxisText, IsReadInItsThreeForms) {
-  EXPECT_EQ(read_axis("--x", "damping=0.1,0.2,1/2"), (Axis{Input::damping, {0.1, 0.2, 0.5}}));
-  const Axis linear = read_axis("--x", "friction_ratio=0:1:5");
-  EXPECT_EQ(linear, (Axis{Input::friction_ratio, {0.0, 0.25, 0.5, 0.75, 1.0}}));
-  const Axis logarithmic = read_axis("--x", "inertia-ratio=1/9:9:3:log");
-  EXPECT_EQ(logarithmic.input, Input::inertia_ratio);
+  EXPECT_EQ(axis("damping=0.1,0.2,1/2"), (Axis{"servo.damping", {0.1, 0.2, 0.5}}));
+  const Axis linear = axis("friction_ratio=0:1:5");
+  EXPECT_EQ(linear, (Axis{"servo.friction_ratio", {0.0, 0.25, 0.5, 0.75, 1.0}}));
+  const Axis logarithmic = axis("inertia-ratio=1/9:9:3:log");
+  EXPECT_EQ(logarithmic.path, "servo.inertia_ratio");
   EXPECT_TRUE(logarithmic.logarithmic);
   EXPECT_THAT(logarithmic.values,
               testing::ElementsAre(1.0 / 9.0, testing::DoubleNear(1.0, 1e-15), 9.0));
 }
 
 TEST(AxisText, BacklashMayHaveItsUnit) {
-  const Axis axis = read_axis("--x", "backlash=6 arcmin,1 deg");
-  EXPECT_THAT(axis.values,
+  const Axis read = axis("backlash=6 arcmin,1 deg");
+  EXPECT_THAT(read.values,
               testing::ElementsAre(testing::DoubleNear(std::numbers::pi / 1800, 1e-15),
                                    testing::DoubleNear(std::numbers::pi / 180, 1e-15)));
 }
 
+Drive joint() {
+  Drive drive;
+  drive.motor = {.inertia = 2e-4, .friction = {.viscous = 1e-3}};
+  drive.gearbox = {.ratio = 20.0, .backlash = 0.01};
+  drive.load = {.inertia = 0.05, .friction = {.viscous = 0.05}};
+  drive.controller.law = PID{.terms = PIDTerms::P, .proportional = 1.0};
+  return drive;
+}
+
+TEST(AxisText, AnyParameterOfTheDriveHasAnAxis) {
+  EXPECT_EQ(axis("controller.proportional=1:10:2:log", joint()),
+            (Axis{"controller.proportional", {1.0, 10.0}, true}));
+  EXPECT_EQ(axis("controller.kp=0.5 N m/rad, 1", joint()), (Axis{"controller.kp", {0.5, 1.0}}));
+  EXPECT_EQ(axis("sensor.position=motor,load", joint()), (Axis{"sensor.position", {1.0, 0.0}}));
+  EXPECT_EQ(axis("sampling.frequency=1 kHz,2 kHz", joint()).values,
+            (std::vector<double>{1000.0, 2000.0}));
+  EXPECT_EQ(axis("sampling.period=2 kHz,1 kHz", joint()).values,
+            (std::vector<double>{0.0005, 0.001}));
+  const Axis backlash = axis("backlash=1 arcmin:30 arcmin:3", joint());
+  EXPECT_EQ(backlash.path, "gearbox.backlash");
+  EXPECT_NEAR(backlash.values[0], std::numbers::pi / 180 / 60, 1e-18);
+}
+
+/// What a data sheet does not have is varied in its normal form, whose natural frequency stays.
+TEST(AxisText, NumbersOfTheNormalFormAreVariedOfADataSheetToo) {
+  const Drive form = drive_of_axes(joint(), {split_axis("--x", "damping=0.1,0.2")});
+  ASSERT_TRUE(form.servo.has_value());
+  EXPECT_TRUE(form.servo->natural_frequency.has_value());
+  EXPECT_EQ(axis("damping=0.1,0.2", joint()), (Axis{"servo.damping", {0.1, 0.2}}));
+}
+
+TEST(EdgeAxisText, FaultsOfPathsAndWordsSaySo) {
+  const auto fault_of = [](std::string_view text) {
+    try {
+      axis(text, joint());
+    } catch (const InvalidInput& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(fault_of("controller.proportinal=1,2"),
+            "--x = controller.proportinal: must be a number or a word of this drive (did you mean "
+            "controller.proportional?); gearlash show lists them");
+  EXPECT_EQ(fault_of("sensor.position=load,moon"), "--x = moon: must be one of load, motor, both");
+  EXPECT_THAT(fault_of("sensor.position=0:1:2"), testing::HasSubstr("must be PATH=FROM:TO:COUNT"));
+  EXPECT_THAT(fault_of("gearbox.backlash=1 kg,2 kg"), testing::HasSubstr("--x = \"1 kg\": must"));
+  EXPECT_EQ(fault_of("gearbox.ratio=0,2"), "--x = 0: gearbox.ratio must be positive and finite");
+}
+
 TEST(EdgeAxisText, EachFaultIsOneLine) {
-  const std::string forms = "must be NAME=FROM:TO:COUNT, NAME=FROM:TO:COUNT:log or NAME=A,B,C";
+  const std::string forms = "must be PATH=FROM:TO:COUNT, PATH=FROM:TO:COUNT:log or PATH=A,B,C";
   EXPECT_EQ(fault(""), "--x = \"\": " + forms);
   EXPECT_EQ(fault("damping"), "--x = damping: " + forms);
   EXPECT_EQ(fault("damping="), "--x = damping=: " + forms);
   EXPECT_EQ(fault("damping=1:2"), "--x = damping=1:2: " + forms);
   EXPECT_EQ(fault("damping=0.1:0.2:5:lin"), "--x = damping=0.1:0.2:5:lin: " + forms);
   EXPECT_EQ(fault("stiffness=1:2:3"),
-            "--x = stiffness: must name an input: damping, inertia_ratio, friction_ratio, "
-            "backlash or restitution");
+            "--x = stiffness: must be a number or a word of this drive; gearlash show lists them");
   EXPECT_EQ(fault("damping=0.1:0.6:0"), "--x = 0 values: must be from 1 to 1000000");
   EXPECT_EQ(fault("damping=0.1:0.6:1000000000000"),
             "--x = 1000000000000 values: must be from 1 to 1000000");
@@ -53,7 +107,7 @@ TEST(EdgeAxisText, EachFaultIsOneLine) {
             "--x = -3: must be a count, a whole number from 1 to 1000000");
   EXPECT_EQ(fault("damping=0.6:0.1:5:log"), "--x = 0.6 to 0.1: must rise: the smaller value first");
   EXPECT_EQ(fault("inertia-ratio=0:9:5:log"), "--x = 0: must be positive on a logarithmic axis");
-  EXPECT_EQ(fault("friction-ratio=0.5,1.5"), "--x = 1.5: friction_ratio must be from 0 to 1");
+  EXPECT_EQ(fault("friction-ratio=0.5,1.5"), "--x = 1.5: servo.friction_ratio must be from 0 to 1");
   EXPECT_THAT(fault("damping=0.1,,0.3"), testing::StartsWith("--x = \"\": must be"));
 }
 

@@ -25,12 +25,12 @@ TEST(SweepFile, TheExampleIsRead) {
   const SweepFile file =
       read_sweep_file(std::filesystem::path(GEARLASH_SOURCE_DIRECTORY) / "examples/sweep.toml");
   ASSERT_EQ(file.grid.axes.size(), 3U);
-  EXPECT_EQ(file.grid.axes[0].input, Input::damping);
+  EXPECT_EQ(file.grid.axes[0].path, "servo.damping");
   EXPECT_EQ(file.grid.size(), 56U * 97U * 101U);
   EXPECT_TRUE(file.grid.axes[2].logarithmic);
-  EXPECT_EQ(file.grid.servo.backlash, 0.3);
-  EXPECT_THAT(file.quantities, ElementsAre(CycleQuantity::growth_at_rest, CycleQuantity::size,
-                                           CycleQuantity::period, CycleQuantity::multiplier));
+  EXPECT_EQ(file.grid.drive.servo->backlash, 0.3);
+  EXPECT_THAT(file.quantities, ElementsAre(Quantity::growth_at_rest, Quantity::amplitude,
+                                           Quantity::period, Quantity::multiplier));
 }
 
 TEST(SweepFile, WhatIsVariedNeedNotBeGiven) {
@@ -39,13 +39,25 @@ TEST(SweepFile, WhatIsVariedNeedNotBeGiven) {
       "'restitution=0,0.1', 'backlash=1 arcmin, 2 arcmin']\n",
       "s.toml");
   EXPECT_EQ(file.grid.size(), 32U);
-  EXPECT_EQ(file.quantities.size(), quantity_count);
+  EXPECT_EQ(file.quantities.size(), 13U);  // all that the closed form knows
   const SweepFile in_backlashes = parse_sweep(
       "[sweep]\naxes = ['damping=0.1,0.2']\n[servo]\ninertia_ratio = 1\nfriction_ratio = '1/9'\n",
       "s.toml");
-  EXPECT_EQ(in_backlashes.grid.servo.backlash, 1.0);
-  EXPECT_EQ(in_backlashes.grid.servo.friction_ratio, 1.0 / 9.0);
-  EXPECT_EQ(in_backlashes.grid.servo.restitution, 0.0);
+  EXPECT_EQ(in_backlashes.grid.drive.servo->backlash, 1.0);
+  EXPECT_EQ(in_backlashes.grid.drive.servo->friction_ratio, 1.0 / 9.0);
+  EXPECT_EQ(std::get<RigidContact>(in_backlashes.grid.drive.contact).restitution, 0.0);
+}
+
+TEST(SweepFile, AnyDriveIsSwept) {
+  const SweepFile file = parse_sweep(
+      "[sweep]\naxes = ['backlash = 1 arcmin:10 arcmin:4', 'controller.proportional=1,2']\n"
+      "[motor]\nkind = 'torque-controlled'\ninertia = '1 kg cm2'\nfriction = '1 mN m s/rad'\n"
+      "[gearbox]\nratio = 20\n[load]\ninertia = '0.05 kg m2'\nfriction = '0.05 N m s/rad'\n"
+      "[controller]\nkind = 'P'\n",
+      "s.toml");
+  ASSERT_EQ(file.grid.axes.size(), 2U);
+  EXPECT_EQ(file.grid.axes[0].path, "gearbox.backlash");
+  EXPECT_EQ(file.grid.axes[1].values, (std::vector<double>{1.0, 2.0}));
 }
 
 TEST(SweepFile, FaultsAreToldWithTheirPlaces) {

@@ -54,6 +54,7 @@ if("files" IN_LIST COMPONENTS)
   execute_process(COMMAND "${WORK}/build/data_sheet_consumer" "${DATA_SHEET}"
                   COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND "${WORK}/build/sensor_place" COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND "${WORK}/build/sweep" COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND "${WORK}/build/change_file" "${DATA_SHEET}"
                   WORKING_DIRECTORY "${WORK}" COMMAND_ERROR_IS_FATAL ANY)
   # What the program has written reads back.

@@ -5,39 +5,41 @@
 
 #include <stdexcept>
 
+#include "analysis/grid/servo_grids.hpp"
 #include "base/same_bits.hpp"
 
 namespace gearlash {
 namespace {
 
-ServoGrid grid_of_servos() {
-  return {.servo = {.friction_ratio = 0.1, .backlash = 0.3},
-          .axes = {spaced_axis("x", Input::damping, 0.05, 0.65, 23, Spacing::linear),
-                   spaced_axis("y", Input::inertia_ratio, 0.1, 10.0, 31, Spacing::logarithmic)}};
+Grid grid_of_servos() {
+  return {.drive = drive_of({.friction_ratio = 0.1, .backlash = 0.3}),
+          .axes = {spaced_axis("x", "servo.damping", 0.05, 0.65, 23, Spacing::linear),
+                   spaced_axis("y", "servo.inertia_ratio", 0.1, 10.0, 31, Spacing::logarithmic)}};
 }
 
 /// Few, since each is a search for cycles of its own.
-ServoGrid grid_of_bouncing_servos() {
-  return {.servo = {.friction_ratio = 0.1, .backlash = 0.3, .restitution = 0.1},
-          .axes = {spaced_axis("x", Input::damping, 0.3, 0.65, 2, Spacing::linear),
-                   spaced_axis("y", Input::inertia_ratio, 1.0, 3.0, 5, Spacing::logarithmic)}};
+Grid grid_of_bouncing_servos() {
+  return {.drive = drive_of({.friction_ratio = 0.1, .backlash = 0.3, .restitution = 0.1}),
+          .axes = {spaced_axis("x", "servo.damping", 0.3, 0.65, 2, Spacing::linear),
+                   spaced_axis("y", "servo.inertia_ratio", 1.0, 3.0, 5, Spacing::logarithmic)}};
 }
 
 class GridInPieces : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(GridInPieces, IsTheGridAtOnce) {
-  for (const ServoGrid& grid : {grid_of_servos(), grid_of_bouncing_servos()}) {
-    CycleTable whole(grid.size());
-    const GridCount at_once = evaluate(grid, 0, grid.size(), whole.columns());
+  for (const Grid& grid : {grid_of_servos(), grid_of_bouncing_servos()}) {
+    Table whole = table_of(grid.size());
+    const GridCount at_once = work_out(grid, 0, whole);
     std::size_t next = 0;
-    const GridCount count = evaluate_in_pieces(grid, 0, GetParam(), [&](const GridPiece& piece) {
-      ASSERT_EQ(piece.first, next);
-      ASSERT_LE(piece.cycles.rows(), GetParam());
-      for (std::size_t row = 0; row < piece.cycles.rows(); ++row) {
-        ASSERT_TRUE(same_bits(piece.cycles, whole, row, next + row)) << next + row;
-      }
-      next += piece.cycles.rows();
-    });
+    const GridCount count = evaluate_in_pieces(
+        grid, closed_form_quantities, 0, GetParam(), [&](const GridPiece& piece) {
+          ASSERT_EQ(piece.first, next);
+          ASSERT_LE(piece.table.rows(), GetParam());
+          for (std::size_t row = 0; row < piece.table.rows(); ++row) {
+            ASSERT_TRUE(same_bits(piece.table, whole, row, next + row)) << next + row;
+          }
+          next += piece.table.rows();
+        });
     EXPECT_EQ(next, grid.size());
     EXPECT_FALSE(count.stopped);
     EXPECT_EQ(count.solved.side_by_side, at_once.solved.side_by_side);
@@ -48,25 +50,37 @@ TEST_P(GridInPieces, IsTheGridAtOnce) {
 INSTANTIATE_TEST_SUITE_P(Lengths, GridInPieces, testing::Values(1, 30, 31, 32, 100, 713, 5000));
 
 TEST(EdgeGridInPieces, GoesOnFromWhereAPieceEnded) {
-  const ServoGrid grid = grid_of_servos();
+  const Grid grid = grid_of_servos();
   std::size_t first = 5 * 31;
-  evaluate_in_pieces(grid, first, 62, [&](const GridPiece& piece) {
+  evaluate_in_pieces(grid, closed_form_quantities, first, 62, [&](const GridPiece& piece) {
     EXPECT_EQ(piece.first, first);
-    first += piece.cycles.rows();
+    first += piece.table.rows();
   });
   EXPECT_EQ(first, grid.size());
-  const GridCount nothing =
-      evaluate_in_pieces(grid, grid.size(), 62, [](const GridPiece&) { FAIL(); });
+  const GridCount nothing = evaluate_in_pieces(grid, closed_form_quantities, grid.size(), 62,
+                                               [](const GridPiece&) { FAIL(); });
   EXPECT_FALSE(nothing.stopped);
 }
 
+/// Stops when so many points are done.
+class StopsAt : public Progress {
+ public:
+  StopsAt(std::size_t most, std::size_t points)
+      : most_(static_cast<double>(most) / static_cast<double>(points)) {}
+  bool go_on(double share, std::size_t /*bytes*/) override { return share < most_; }
+
+ private:
+  double most_;
+};
+
 TEST(EdgeGridInPieces, StopsWhenAsked) {
-  const ServoGrid grid = grid_of_servos();
+  const Grid grid = grid_of_servos();
   for (const std::size_t most : {0U, 1U, 200U, 500U}) {
     std::size_t taken = 0;
+    StopsAt progress(most, grid.size());
     const GridCount count = evaluate_in_pieces(
-        grid, 0, 31, [&](const GridPiece& piece) { taken += piece.cycles.rows(); },
-        [&](std::size_t done) { return done < most; });
+        grid, closed_form_quantities, 0, 31,
+        [&](const GridPiece& piece) { taken += piece.table.rows(); }, progress);
     EXPECT_TRUE(count.stopped) << most;
     EXPECT_EQ(count.solved.side_by_side + count.solved.one_by_one, taken);
     EXPECT_LE(taken, most + 31);  // a piece may be done as it is heard of
@@ -75,7 +89,7 @@ TEST(EdgeGridInPieces, StopsWhenAsked) {
 
 TEST(EdgeGridInPieces, WhatItsTakerThrowsIsThrownOn) {
   std::size_t pieces = 0;
-  EXPECT_THROW(evaluate_in_pieces(grid_of_servos(), 0, 31,
+  EXPECT_THROW(evaluate_in_pieces(grid_of_servos(), closed_form_quantities, 0, 31,
                                   [&](const GridPiece&) {
                                     if (++pieces == 3) throw std::runtime_error("disk full");
                                   }),

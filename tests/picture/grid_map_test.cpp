@@ -7,19 +7,21 @@
 #include <cmath>
 #include <sstream>
 
-#include "analysis/grid/hunting_boundary.hpp"
+#include "analysis/grid/servo_grids.hpp"
 
 namespace gearlash {
 namespace {
 
-GridTable worked_out(double restitution) {
-  const ServoGrid grid{{.inertia_ratio = 2.0, .backlash = 1.0, .restitution = restitution},
-                       {spaced_axis("y", Input::damping, 0.1, 0.9, 13, Spacing::logarithmic),
-                        spaced_axis("x", Input::friction_ratio, 0.05, 0.95, 17, Spacing::linear)}};
-  GridTable table{.grid = grid, .cycles = CycleTable(grid.size()), .provenance = {}};
-  evaluate(grid, 0, grid.size(), table.cycles.columns());
-  table.hunting_boundary = hunting_boundary(grid, table.cycles[CycleQuantity::growth_at_rest]);
+GridTable map_table(const Grid& grid) {
+  GridTable table{.grid = grid, .table = worked_out(grid), .provenance = {}};
+  table.hunting_boundary = hunting_boundary(grid, table.table[Quantity::growth_at_rest]);
   return table;
+}
+
+GridTable map_table(double restitution) {
+  return map_table({drive_of({.inertia_ratio = 2.0, .backlash = 1.0, .restitution = restitution}),
+                    {spaced_axis("y", "servo.damping", 0.1, 0.9, 13, Spacing::logarithmic),
+                     spaced_axis("x", "servo.friction_ratio", 0.05, 0.95, 17, Spacing::linear)}});
 }
 
 /// A place in shares of the axes.
@@ -28,7 +30,7 @@ struct Place {
   double up;
 };
 
-Place place_of(const ServoGrid& grid, const MapPoint& point) {
+Place place_of(const Grid& grid, const MapPoint& point) {
   return {position_on(grid.axes[1], point.x), position_on(grid.axes[0], point.y)};
 }
 
@@ -40,7 +42,7 @@ double distance(const Place& point, const Place& from, const Place& to) {
   return std::hypot(point.along - from.along - share * along, point.up - from.up - share * up);
 }
 
-double distance(const ServoGrid& grid, const MapPoint& point, const std::vector<MapCurve>& curves) {
+double distance(const Grid& grid, const MapPoint& point, const std::vector<MapCurve>& curves) {
   double nearest = INFINITY;
   for (const MapCurve& curve : curves) {
     for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
@@ -51,14 +53,14 @@ double distance(const ServoGrid& grid, const MapPoint& point, const std::vector<
   return nearest;
 }
 
-bool is_at_edge(const ServoGrid& grid, const MapPoint& point) {
+bool is_at_edge(const Grid& grid, const MapPoint& point) {
   const Place place = place_of(grid, point);
   return std::min({place.along, 1.0 - place.along, place.up, 1.0 - place.up}) < 1e-9;
 }
 
 TEST(GridMap, HatchingEndsAtTheBoundary) {
-  const GridTable table = worked_out(0.0);
-  const ContourMap map = map_of(table, CycleQuantity::size);
+  const GridTable table = map_table(0.0);
+  const ContourMap map = map_of(table, Quantity::amplitude);
   ASSERT_GT(map.hatching.size(), 10U);
   for (const MapCurve& line : map.hatching) {
     ASSERT_EQ(line.size(), 2U);
@@ -74,15 +76,15 @@ TEST(GridMap, HatchingEndsAtTheBoundary) {
 }
 
 TEST(GridMap, HatchingCoversAllThatHasNoCycleAndNothingElse) {
-  const GridTable table = worked_out(0.0);
-  const ContourMap map = map_of(table, CycleQuantity::size);
+  const GridTable table = map_table(0.0);
+  const ContourMap map = map_of(table, Quantity::amplitude);
   constexpr double spacing = 0.03;  // of the lines, in shares of the axes
   std::size_t covered = 0;
   for (std::size_t row = 0; row < table.grid.size(); ++row) {
-    const NormalizedServo servo = table.grid.at(row);
+    const NormalizedServo servo = servo_of(table.grid.at(row));
     const MapPoint point{servo.friction_ratio, servo.damping};
     if (distance(table.grid, point, *table.hunting_boundary) < spacing) continue;
-    const bool has_cycle = table.cycles.verdict[row] == Verdict::hunts;
+    const bool has_cycle = table.table.verdict(row) == Verdict::hunts;
     // The first diagonals keep clear of two corners of the map.
     if (is_at_edge(table.grid, point)) continue;
     EXPECT_EQ(distance(table.grid, point, map.hatching) > spacing, has_cycle)
@@ -94,13 +96,14 @@ TEST(GridMap, HatchingCoversAllThatHasNoCycleAndNothingElse) {
 
 TEST(GridMap, ACellThatMayHuntOrIsNotKnownIsNotHatched) {
   for (const bool known : {true, false}) {
-    GridTable table = worked_out(0.0);
+    GridTable table = map_table(0.0);
     const std::size_t row = 11 * 17 + 8;
-    const NormalizedServo servo = table.grid.at(row);
-    ASSERT_EQ(table.cycles.verdict[row], Verdict::cannot_hunt);
-    table.cycles.columns().verdict[row] = known ? Verdict::hunts_if_disturbed : Verdict::undecided;
-    if (!known) table.cycles.columns().growth_at_rest[row] = NAN;
-    const ContourMap map = map_of(table, CycleQuantity::size);
+    const NormalizedServo servo = servo_of(table.grid.at(row));
+    ASSERT_EQ(table.table.verdict(row), Verdict::cannot_hunt);
+    table.table.column_of_verdicts()[row] =
+        known ? Verdict::hunts_if_disturbed : Verdict::undecided;
+    if (!known) table.table.column(Quantity::growth_at_rest)[row] = NAN;
+    const ContourMap map = map_of(table, Quantity::amplitude);
     // A cell is 1/16 of the map wide and 1/12 high; lines are looked at in steps of 0.0026.
     const double clear = distance(table.grid, {servo.friction_ratio, servo.damping}, map.hatching);
     EXPECT_GT(clear, 1.0 / 16.0 - 0.004);
@@ -110,18 +113,16 @@ TEST(GridMap, ACellThatMayHuntOrIsNotKnownIsNotHatched) {
 
 TEST(EdgeGridMap, WhatIsSmallerThanACellIsNotHatched) {
   // Friction on one side only hunts, at either end: the quiet servos between are missed altogether.
-  const ServoGrid grid{{.inertia_ratio = 2.0, .backlash = 1.0},
-                       {{Input::damping, {0.5, 1.0}}, {Input::friction_ratio, {0.0, 1.0}}}};
-  GridTable table{.grid = grid, .cycles = CycleTable(4), .provenance = {}};
-  evaluate(grid, 0, 4, table.cycles.columns());
-  table.hunting_boundary = hunting_boundary(grid, table.cycles[CycleQuantity::growth_at_rest]);
+  const Grid grid{drive_of({.inertia_ratio = 2.0, .backlash = 1.0}),
+                  {{"servo.damping", {0.5, 1.0}}, {"servo.friction_ratio", {0.0, 1.0}}}};
+  const GridTable table = map_table(grid);
   EXPECT_TRUE(table.hunting_boundary->empty());
-  EXPECT_TRUE(map_of(table, CycleQuantity::size).hatching.empty());
+  EXPECT_TRUE(map_of(table, Quantity::amplitude).hatching.empty());
 }
 
 TEST(GridMap, TheBoundaryIsNoContour) {
-  const GridTable table = worked_out(0.0);
-  const ContourMap map = map_of(table, CycleQuantity::growth_at_rest);
+  const GridTable table = map_table(0.0);
+  const ContourMap map = map_of(table, Quantity::growth_at_rest);
   EXPECT_GE(map.contours.size(), 5U);
   for (const Contour& contour : map.contours) EXPECT_NE(contour.level, 1.0);
 }
@@ -133,7 +134,7 @@ std::string number_text(double number) {
 }
 
 TEST(GridMap, ItsPictureIsTheSameEachTimeAndHasItsNumbers) {
-  const ContourMap map = map_of(worked_out(0.0), CycleQuantity::size);
+  const ContourMap map = map_of(map_table(0.0), Quantity::amplitude);
   const std::string svg = draw_contour_map(map, PictureFormat::svg);
   EXPECT_EQ(svg, draw_contour_map(map, PictureFormat::svg));
   std::size_t numbers = 0;
@@ -145,15 +146,14 @@ TEST(GridMap, ItsPictureIsTheSameEachTimeAndHasItsNumbers) {
 }
 
 TEST(EdgeGridMap, NothingKnownIsAnEmptyPicture) {
-  GridTable table = worked_out(0.0);
+  GridTable table = map_table(0.0);
   const std::size_t rows = table.grid.size();
-  table.cycles = CycleTable(rows);
+  table.table = table_of(rows);
   table.hunting_boundary = std::vector<MapCurve>{};
-  const ContourMap map = map_of(table, CycleQuantity::size);
+  const ContourMap map = map_of(table, Quantity::amplitude);
   EXPECT_TRUE(map.contours.empty());
   EXPECT_TRUE(map.hatching.empty());
-  EXPECT_NE(draw_contour_map(map, PictureFormat::svg).find("damping coefficient"),
-            std::string::npos);
+  EXPECT_NE(draw_contour_map(map, PictureFormat::svg).find("damping"), std::string::npos);
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 // decay, not the motor's, is fast.
 #include <gtest/gtest.h>
 
+#include "analysis/grid/servo_grids.hpp"
 #include "base/bracketed_root.hpp"
 #include "closed_form/extremes.hpp"
-#include "closed_form/lanes/cycle_table.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "closed_form/trajectory.hpp"
 
@@ -33,9 +33,9 @@ TEST(RegressionMotorTurning, IsFoundOneByOneAndSideBySide) {
     EXPECT_NEAR(analyse_limit_cycles(servo).cycles.at(0).motor_size, one.motor_size,
                 1e-13 * one.motor_size);
     for (const VectorUnit unit : available_vector_units()) {
-      CycleTable table(1);
-      find_limit_cycles({&servo, 1}, table.columns(), unit);
-      EXPECT_NEAR(table[CycleQuantity::motor_size].front(), one.motor_size, 1e-13 * one.motor_size);
+      Table table = table_of(1);
+      find_limit_cycles({&servo, 1}, columns_of(table), unit);
+      EXPECT_NEAR(table[Quantity::motor_amplitude].front(), one.motor_size, 1e-13 * one.motor_size);
     }
   }
 }

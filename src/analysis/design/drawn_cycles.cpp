@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "analysis/design/drive_per_backlash.hpp"
-#include "closed_form/lanes/cycle_table.hpp"
 
 namespace gearlash::detail {
 namespace {
@@ -64,12 +63,15 @@ DrawnCycles solve(const TolerancedDrive& drive, std::size_t rows, std::span<cons
     natural_frequency[row] = drawn->drive.natural_frequency;
     cycles.backlash[row] = drawn->backlash;
   }
-  CycleTable table(rows);
-  cycles.solved = find_limit_cycles(servos, table.columns(), unit);
-  cycles.verdict = table.verdict;
-  cycles.growth_at_rest = table[CycleQuantity::growth_at_rest];
-  const std::vector<double>& size = table[CycleQuantity::size];
-  const std::vector<double>& period = table[CycleQuantity::period];
+  std::vector<double> size(rows);
+  std::vector<double> period(rows);
+  cycles.verdict.resize(rows);
+  cycles.growth_at_rest.resize(rows);
+  CycleColumns columns{.verdict = cycles.verdict};
+  columns[Quantity::growth_at_rest] = cycles.growth_at_rest;
+  columns[Quantity::amplitude] = size;
+  columns[Quantity::period] = period;
+  cycles.solved = find_limit_cycles(servos, columns, unit);
   cycles.size_per_backlash.resize(rows);
   cycles.frequency.resize(rows);
   for (std::size_t row = 0; row < rows; ++row) {

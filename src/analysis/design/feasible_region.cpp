@@ -80,7 +80,7 @@ const char* name_of(Cost cost) {
 }
 
 ParameterAxis parameter_axis(DesignParameter parameter, const Bounds& range, std::size_t count) {
-  return {parameter, spaced_axis(name_of(parameter), Input::damping, range.low, range.high, count,
+  return {parameter, spaced_axis(name_of(parameter), "", range.low, range.high, count,
                                  range.low > 0.0 ? Spacing::logarithmic : Spacing::linear)};
 }
 

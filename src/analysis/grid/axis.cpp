@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <set>
 
 #include "base/range_check.hpp"
+#include "gearlash/parameter.hpp"
+#include "model/parameter_values.hpp"
 
 namespace gearlash {
 namespace {
@@ -13,80 +15,65 @@ namespace {
   throw InvalidInput({{std::string(field), std::move(value), std::move(permitted), ""}});
 }
 
-/// Whether this one number is permitted in an otherwise sound servo.
-bool is_permitted(Input input, double value) {
-  NormalizedServo servo{.damping = 0.5, .friction_ratio = 0.5};
-  servo.*field_of(input) = value;
-  return validate(servo).empty();
+bool is_word(const Parameter& parameter) { return !parameter.choices.empty(); }
+
+/// Whether it stands for one value: a number, an element of a list, or a word.
+bool is_single(const Axis& axis, const Parameter& parameter, const Drive& drive) {
+  Drive copy = drive;
+  add_section_of(copy, axis.path);
+  const Slot slot = parameter.slot(copy);
+  const bool is_list =
+      std::holds_alternative<std::vector<double>*>(slot) || std::holds_alternative<Rows*>(slot);
+  return !std::holds_alternative<std::string*>(slot) &&
+         (!is_list || axis.path.find('[') != std::string::npos);
+}
+
+/// Rules for this one number, whatever the others are.
+std::vector<Fault> faults_of_value(const Axis& axis, const Parameter& parameter, double value) {
+  RangeCheck check;
+  if (is_word(parameter)) {
+    const double last = static_cast<double>(parameter.choices.size()) - 1.0;
+    return check.within(parameter.path, value, 0.0, last).faults();
+  }
+  const OtherForm* form = form_named(parameter, axis.path);
+  if (form != nullptr && form->dimension != nullptr) value = form->inverse / value;
+  if (const NormalFormNumber* number = normal_form_number(parameter.path)) {
+    NormalizedServo servo{.damping = 0.5};
+    servo.*number->member = value;
+    return validate(servo);
+  }
+  check_number(check, parameter, value, "");
+  return check.faults();
+}
+
+void check_order(RangeCheck& check, const Axis& axis, bool are_words, std::string_view field) {
+  if (are_words) {
+    const std::set<double> different(axis.values.begin(), axis.values.end());
+    if (different.size() == axis.values.size()) return;
+    check.refuse(field, axis.path, "must have each word once");
+    return;
+  }
+  const auto fall = std::adjacent_find(axis.values.begin(), axis.values.end(),
+                                       [](double one, double next) { return !(one < next); });
+  if (fall == axis.values.end()) return;
+  check.refuse(field, exact_text(*fall) + " before " + exact_text(*std::next(fall)),
+               "must rise from value to value");
 }
 
 }  // namespace
 
-const char* name_of(Input input) {
-  switch (input) {
-    case Input::damping:
-      return "damping";
-    case Input::inertia_ratio:
-      return "inertia_ratio";
-    case Input::friction_ratio:
-      return "friction_ratio";
-    case Input::backlash:
-      return "backlash";
-    case Input::restitution:
-      return "restitution";
-  }
-  return "";
+const NormalFormNumber* normal_form_number(std::string_view path) {
+  const auto found = std::find_if(normal_form_numbers.begin(), normal_form_numbers.end(),
+                                  [&](const NormalFormNumber& one) { return one.path == path; });
+  return found == normal_form_numbers.end() ? nullptr : &*found;
 }
 
-std::optional<Input> input_named(std::string_view name) {
-  std::string underscored(name);
-  std::replace(underscored.begin(), underscored.end(), '-', '_');
-  for (const Input input : all_inputs) {
-    if (underscored == name_of(input)) return input;
-  }
-  return std::nullopt;
-}
-
-const char* description_of(Input input) {
-  switch (input) {
-    case Input::damping:
-      return "damping coefficient";
-    case Input::inertia_ratio:
-      return "inertia ratio, load to motor";
-    case Input::friction_ratio:
-      return "friction ratio, load to total";
-    case Input::backlash:
-      return "backlash";
-    case Input::restitution:
-      return "coefficient of restitution";
-  }
-  return "";
-}
-
-const char* unit_of(Input input) { return input == Input::backlash ? "rad" : "1"; }
-
-double NormalizedServo::*field_of(Input input) {
-  switch (input) {
-    case Input::damping:
-      return &NormalizedServo::damping;
-    case Input::inertia_ratio:
-      return &NormalizedServo::inertia_ratio;
-    case Input::friction_ratio:
-      return &NormalizedServo::friction_ratio;
-    case Input::backlash:
-      return &NormalizedServo::backlash;
-    case Input::restitution:
-      return &NormalizedServo::restitution;
-  }
-  return nullptr;
-}
-
-Axis spaced_axis(std::string_view field, Input input, double from, double to, std::size_t count,
-                 Spacing spacing) {
-  const bool logarithmic = spacing == Spacing::logarithmic;
+Axis spaced_axis(std::string_view field, std::string path, double from, double to,
+                 std::size_t count, Spacing spacing) {
+  const bool is_logarithmic = spacing == Spacing::logarithmic;
   const std::string ends = exact_text(from) + " to " + exact_text(to);
   if (!std::isfinite(from) || !std::isfinite(to)) refuse(field, ends, "must be finite");
-  if (logarithmic && !(from > 0.0)) {
+  if (is_logarithmic && !(from > 0.0)) {
     refuse(field, exact_text(from), "must be positive on a logarithmic axis");
   }
   if (from > to) refuse(field, ends, "must rise: the smaller value first");
@@ -98,15 +85,15 @@ Axis spaced_axis(std::string_view field, Input input, double from, double to, st
     refuse(field, std::to_string(count) + " values from " + ends,
            "must be two or more between different ends, or one where they are the same");
   }
-  Axis axis{input, {}, logarithmic};
+  Axis axis{std::move(path), {}, is_logarithmic};
   axis.values.reserve(count);
   const double steps = std::max(1.0, static_cast<double>(count) - 1.0);
   for (std::size_t i = 0; i < count; ++i) {
     const auto step = static_cast<double>(i);
     // By powers of ten, so that whole ones are met exactly.
     const double exponent = (std::log10(from) * (steps - step) + std::log10(to) * step) / steps;
-    axis.values.push_back(logarithmic ? std::pow(10.0, exponent)
-                                      : from + step / steps * (to - from));
+    axis.values.push_back(is_logarithmic ? std::pow(10.0, exponent)
+                                         : from + step / steps * (to - from));
   }
   axis.values.front() = from;
   axis.values.back() = to;
@@ -133,26 +120,89 @@ std::size_t interval_of(const Axis& axis, double value) {
   return static_cast<std::size_t>(above - axis.values.begin()) - 1;
 }
 
-std::vector<Fault> validate(const Axis& axis, std::string_view field) {
-  RangeCheck check;
-  if (axis.values.empty()) {
-    check.refuse(field, "no value", "must be at least one");
+Axis linear(std::string_view path, double from, double to, std::size_t count) {
+  return spaced_axis(path, std::string(path), from, to, count, Spacing::linear);
+}
+
+Axis logarithmic(std::string_view path, double from, double to, std::size_t count) {
+  return spaced_axis(path, std::string(path), from, to, count, Spacing::logarithmic);
+}
+
+const Parameter* parameter_of(const Axis& axis, const Drive& drive) {
+  Drive copy = drive;
+  add_section_of(copy, axis.path);
+  const std::string_view plain = std::string_view(axis.path).substr(0, axis.path.find('['));
+  const Parameter* parameter = find_parameter(plain, copy);
+  if (parameter == nullptr || !exists(*parameter, copy)) return nullptr;
+  return is_single(axis, *parameter, drive) ? parameter : nullptr;
+}
+
+void set_on(const Axis& axis, Drive& drive, double value) {
+  add_section_of(drive, axis.path);
+  const Parameter* parameter = find_parameter(axis.path, drive);
+  if (parameter == nullptr || !is_word(*parameter)) return set(drive, axis.path, value);
+  const Slot slot = parameter->slot(drive);
+  if (const auto* choice = std::get_if<Choice>(&slot)) {
+    choice->choose(drive, static_cast<std::size_t>(value));
   }
-  const auto refused = [&](double value) { return !is_permitted(axis.input, value); };
+}
+
+std::vector<Fault> faults_of_axis(const Axis& axis, const Drive& drive, std::string_view field) {
+  RangeCheck check;
+  const Parameter* parameter = parameter_of(axis, drive);
+  if (parameter == nullptr) {
+    return check.refuse(field, axis.path, "must name a number or a word that the drive has")
+        .faults();
+  }
+  if (axis.values.empty()) check.refuse(field, "no value", "must be at least one");
+  const auto refused = [&](double value) {
+    return !faults_of_value(axis, *parameter, value).empty();
+  };
   const auto first = std::find_if(axis.values.begin(), axis.values.end(), refused);
   if (first != axis.values.end()) {
     const auto others = std::count_if(std::next(first), axis.values.end(), refused);
     check.refuse(
         field, exact_text(*first) + (others > 0 ? " and " + std::to_string(others) + " more" : ""),
-        std::string(name_of(axis.input)) + " must be " + permitted_values(name_of(axis.input)));
+        axis.path + " " + faults_of_value(axis, *parameter, *first).front().permitted);
   }
-  const auto fall = std::adjacent_find(axis.values.begin(), axis.values.end(),
-                                       [](double one, double next) { return !(one < next); });
-  if (fall != axis.values.end()) {
-    check.refuse(field, exact_text(*fall) + " before " + exact_text(*std::next(fall)),
-                 "must rise from value to value");
-  }
+  check_order(check, axis, is_word(*parameter), field);
   return check.faults();
+}
+
+std::string column_name(std::string_view path) {
+  if (const NormalFormNumber* number = normal_form_number(path)) return number->name;
+  std::string name(path);
+  std::erase(name, ']');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '.' || c == '['; }, '_');
+  return name;
+}
+
+std::string path_named(std::string_view name, const Drive& drive) {
+  std::string underscored(name);
+  std::replace(underscored.begin(), underscored.end(), '-', '_');
+  for (const NormalFormNumber& number : normal_form_numbers) {
+    if (underscored != number.name) continue;
+    const bool is_of_plant = !drive.servo && underscored == "backlash";
+    return is_of_plant ? "gearbox.backlash" : std::string(number.path);
+  }
+  return std::string(name);
+}
+
+std::string unit_of(const Axis& axis, const Drive& drive) {
+  const Parameter* parameter = parameter_of(axis, drive);
+  if (parameter == nullptr || is_word(*parameter)) return "";
+  const OtherForm* form = form_named(*parameter, axis.path);
+  const bool is_inverse = form != nullptr && form->dimension != nullptr;
+  const Dimension* dimension = is_inverse ? form->dimension : parameter->dimension(drive);
+  const bool is_bare = dimension == nullptr || axis.path.find('[') != std::string::npos;
+  return is_bare ? "1" : std::string(dimension->unit);
+}
+
+std::string text_of(const Axis& axis, const Drive& drive, double value) {
+  const Parameter* parameter = parameter_of(axis, drive);
+  if (parameter == nullptr || !is_word(*parameter)) return exact_text(value);
+  return std::string(parameter->choices.at(static_cast<std::size_t>(value)));
 }
 
 }  // namespace gearlash

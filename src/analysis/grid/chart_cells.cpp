@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/grid/grid_evaluation.hpp"
 #include "base/on_threads.hpp"
 
 namespace gearlash::detail {
@@ -54,19 +55,19 @@ std::size_t point_of_node(std::size_t node, std::size_t intervals) {
 
 std::size_t intervals_of(std::size_t points) { return (points - 5) / 2; }
 
-Box points_of(const ServoGrid& refined_grid) {
+Box points_of(const Grid& refined_grid) {
   Box box;
   for (const Axis& axis : refined_grid.axes) box.sizes.push_back(axis.values.size());
   return box;
 }
 
-Box nodes_of(const ServoGrid& refined_grid) {
+Box nodes_of(const Grid& refined_grid) {
   Box box = points_of(refined_grid);
   for (std::size_t& size : box.sizes) size = intervals_of(size) + 1;
   return box;
 }
 
-Box cells_of(const ServoGrid& refined_grid) {
+Box cells_of(const Grid& refined_grid) {
   Box box = points_of(refined_grid);
   for (std::size_t& size : box.sizes) size = intervals_of(size);
   return box;
@@ -84,9 +85,9 @@ std::vector<double> values_between(double one, double next, std::size_t parts, b
 }
 
 /// As ChartAnswer::error has it; both the error, not negative, and the value are straightened.
-double relative_error(CycleQuantity quantity, double error, double value) {
+double relative_error(Quantity quantity, double error, double value) {
   if (error == 0.0) return 0.0;
-  if (quantity != CycleQuantity::growth_at_rest) return error / value;
+  if (quantity != Quantity::growth_at_rest) return error / value;
   // Growth is 1/value − 1. Too small a value errs more than too large a one.
   const double too_small = value - error;
   if (too_small <= 0.0) return infinity;
@@ -116,7 +117,7 @@ class Likeness {
     if (!std::isnan(value)) ++values_;
     if (value == 0.0) ++zeros_;
     ++points_;
-    place_.add(straightened(CycleQuantity::growth_at_rest, growth_at_rest));
+    place_.add(straightened(Quantity::growth_at_rest, growth_at_rest));
   }
 
   Verdict verdict() const { return verdict_; }
@@ -148,8 +149,8 @@ class Likeness {
 /// Compares a table with the points of its cells, one cell at a time.
 class CellExamination {
  public:
-  CellExamination(const CubicTable& table, const ServoGrid& refined_grid, CycleQuantity quantity,
-                  const SolvedPoints& solved)
+  CellExamination(const CubicTable& table, const Grid& refined_grid, Quantity quantity,
+                  const Table& solved)
       : table_(table),
         grid_(refined_grid),
         quantity_(quantity),
@@ -168,8 +169,9 @@ class CellExamination {
       const Position offset = points.position_of(i);
       const Position point = point_at(cell, offset);
       const std::size_t row = points_.index_of(point);
-      const double exact = straightened(quantity_, solved_.value[row]);
-      likeness.add(solved_.verdict[row], solved_.growth_at_rest[row], solved_.value[row]);
+      const double exact = straightened(quantity_, solved_[quantity_][row]);
+      likeness.add(solved_.verdict(row), solved_[Quantity::growth_at_rest][row],
+                   solved_[quantity_][row]);
       values.add(exact);
       if (is_node(offset, points) || std::isnan(exact) || std::isnan(largest)) continue;
       const double error = std::abs(interpolated(cell, point) - exact);
@@ -220,9 +222,9 @@ class CellExamination {
   }
 
   const CubicTable& table_;
-  const ServoGrid& grid_;
-  CycleQuantity quantity_;
-  const SolvedPoints& solved_;
+  const Grid& grid_;
+  Quantity quantity_;
+  const Table& solved_;
   Box points_;
 };
 
@@ -287,16 +289,16 @@ ChartAccuracy accuracy_of(const std::vector<ChartCell>& cells, const std::vector
 
 }  // namespace
 
-double straightened(CycleQuantity quantity, double value) {
-  return quantity == CycleQuantity::growth_at_rest ? 1.0 / (1.0 + value) : value;
+double straightened(Quantity quantity, double value) {
+  return quantity == Quantity::growth_at_rest ? 1.0 / (1.0 + value) : value;
 }
 
-double unstraightened(CycleQuantity quantity, double value) {
-  return quantity == CycleQuantity::growth_at_rest ? std::max(1.0 / value - 1.0, 0.0) : value;
+double unstraightened(Quantity quantity, double value) {
+  return quantity == Quantity::growth_at_rest ? std::max(1.0 / value - 1.0, 0.0) : value;
 }
 
-ServoGrid refined(const ServoGrid& grid) {
-  ServoGrid finer = grid;
+Grid refined(const Grid& grid) {
+  Grid finer = grid;
   for (Axis& axis : finer.axes) {
     const std::vector<double> nodes = axis.values;
     const std::size_t intervals = nodes.size() - 1;
@@ -311,27 +313,20 @@ ServoGrid refined(const ServoGrid& grid) {
   return finer;
 }
 
-SolvedPoints solve_points(const ServoGrid& refined_grid, CycleQuantity quantity,
-                          std::size_t threads) {
-  constexpr std::size_t points_at_a_time = 1 << 18;  // a table of them takes 30 megabytes
-  SolvedPoints solved;
-  const std::size_t points = refined_grid.size();
-  solved.verdict.reserve(points);
-  solved.growth_at_rest.reserve(points);
-  solved.value.reserve(points);
-  for (std::size_t first = 0; first < points; first += points_at_a_time) {
-    CycleTable part(std::min(points_at_a_time, points - first));
-    evaluate(refined_grid, first, part.rows(), part.columns(), {.threads = threads});
-    solved.verdict.insert(solved.verdict.end(), part.verdict.begin(), part.verdict.end());
-    const std::vector<double>& growth = part[CycleQuantity::growth_at_rest];
-    solved.growth_at_rest.insert(solved.growth_at_rest.end(), growth.begin(), growth.end());
-    solved.value.insert(solved.value.end(), part[quantity].begin(), part[quantity].end());
+Table solve_points(const Grid& refined_grid, Quantity quantity, std::size_t threads) {
+  const std::array wanted = {Quantity::growth_at_rest, quantity};
+  Table table(refined_grid.size(), wanted);
+  evaluate(refined_grid, GridPoints(refined_grid), 0, table.rows(), columns_of(table),
+           no_progress(), {.threads = threads});
+  const std::span<double> values = table.column(quantity);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    values[row] = of_motion(table, quantity, row);
   }
-  return solved;
+  return table;
 }
 
-std::vector<double> values_of_nodes(const ServoGrid& refined_grid, CycleQuantity quantity,
-                                    const std::vector<double>& values) {
+std::vector<double> values_of_nodes(const Grid& refined_grid, Quantity quantity,
+                                    std::span<const double> values) {
   const Box points = points_of(refined_grid);
   const Box nodes = nodes_of(refined_grid);
   std::vector<double> of_nodes(nodes.size());
@@ -345,9 +340,8 @@ std::vector<double> values_of_nodes(const ServoGrid& refined_grid, CycleQuantity
   return of_nodes;
 }
 
-ExaminedCells examine_cells(const CubicTable& table, const ServoGrid& refined_grid,
-                            CycleQuantity quantity, const SolvedPoints& points,
-                            const DesignChartOptions& options) {
+ExaminedCells examine_cells(const CubicTable& table, const Grid& refined_grid, Quantity quantity,
+                            const Table& points, const DesignChartOptions& options) {
   const CellExamination examination(table, refined_grid, quantity, points);
   const Box cells = cells_of(refined_grid);
   std::vector<ChartCell> found(cells.size());

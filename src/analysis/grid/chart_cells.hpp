@@ -10,28 +10,21 @@ namespace gearlash::detail {
 
 /// The quantity as it is interpolated: 1/(1 + μ₀) for growth at rest (0 where a shaft has
 /// no friction, ½ where hunting ends).
-double straightened(CycleQuantity quantity, double value);
+double straightened(Quantity quantity, double value);
 /// The quantity again.
-double unstraightened(CycleQuantity quantity, double value);
+double unstraightened(Quantity quantity, double value);
 
 /// The axes with a value half-way, in the axis's own scale, between each two, and with three
 /// between the first two and the last two.
-ServoGrid refined(const ServoGrid& grid);
+Grid refined(const Grid& grid);
 
-/// What is known of the points of a refined grid, the last axis fastest.
-struct SolvedPoints {
-  std::vector<Verdict> verdict;
-  std::vector<double> growth_at_rest;
-  std::vector<double> value;  ///< of the chart's quantity
-};
-
-/// Precondition: validate(refined_grid) is empty.
-SolvedPoints solve_points(const ServoGrid& refined_grid, CycleQuantity quantity,
-                          std::size_t threads);
+/// The growth at rest and the quantity at the points of a refined grid, NaN where there is no
+/// cycle. Precondition: faults(refined_grid) is empty.
+Table solve_points(const Grid& refined_grid, Quantity quantity, std::size_t threads);
 
 /// The straightened values of the points of the grid itself.
-std::vector<double> values_of_nodes(const ServoGrid& refined_grid, CycleQuantity quantity,
-                                    const std::vector<double>& values);
+std::vector<double> values_of_nodes(const Grid& refined_grid, Quantity quantity,
+                                    std::span<const double> values);
 
 /// The cells of a table and how well it does in them.
 struct ExaminedCells {
@@ -39,8 +32,7 @@ struct ExaminedCells {
   ChartAccuracy accuracy;
 };
 
-ExaminedCells examine_cells(const CubicTable& table, const ServoGrid& refined_grid,
-                            CycleQuantity quantity, const SolvedPoints& points,
-                            const DesignChartOptions& options);
+ExaminedCells examine_cells(const CubicTable& table, const Grid& refined_grid, Quantity quantity,
+                            const Table& points, const DesignChartOptions& options);
 
 }  // namespace gearlash::detail

@@ -6,7 +6,9 @@
 #include <limits>
 #include <span>
 
+#include "analysis/grid/grid_evaluation.hpp"
 #include "analysis/grid/hunting_boundary.hpp"
+#include "analysis/grid/hunting_end.hpp"
 
 namespace gearlash {
 namespace {
@@ -31,8 +33,7 @@ CellPlace cell_of(const Axis& axis, double value) {
 }
 
 /// Between the four points round a place; NaN where one of them has none.
-double interpolated(const ServoGrid& grid, const std::vector<double>& values,
-                    const MapPoint& point) {
+double interpolated(const Grid& grid, const std::vector<double>& values, const MapPoint& point) {
   const Axis& x_axis = grid.axes[1];
   const CellPlace y = cell_of(grid.axes[0], point.y);
   const CellPlace x = cell_of(x_axis, point.x);
@@ -48,18 +49,17 @@ double interpolated(const ServoGrid& grid, const std::vector<double>& values,
   return sum;
 }
 
-double limit_beside(const NormalizedServo& servo, CycleQuantity quantity) {
+double limit_beside(const NormalizedServo& servo, Quantity quantity) {
   return limit_where_hunting_ends(quantity, servo.backlash).value_or(nothing);
 }
 
-/// The quantity of a servo with plastic contact, or its limit where it does not hunt.
-double worked_out(const NormalizedServo& servo, CycleQuantity quantity) {
-  if (!validate(servo).empty()) return nothing;
-  CycleTable row(1);
-  find_limit_cycles({&servo, 1}, row.columns());
-  const double value = row[quantity][0];
-  return std::isnan(value) && row.verdict[0] == Verdict::cannot_hunt ? limit_beside(servo, quantity)
-                                                                     : value;
+/// The quantity at a place with plastic contact, or its limit where the servo does not hunt.
+double worked_out(const GridPoints& points, Quantity quantity, const MapPoint& place) {
+  const PointAnswer answer = answer_at(points, std::array{place.y, place.x}, quantity);
+  const double value = of_motion(quantity, answer.verdict, answer.value);
+  return std::isnan(value) && answer.verdict == Verdict::cannot_hunt
+             ? limit_beside(servo_at(points, place).value(), quantity)
+             : value;
 }
 
 Side side_of(double value, double level) {
@@ -129,24 +129,27 @@ std::vector<double> round_levels(std::vector<double> values) {
   return thinned_out(levels_by_factors(low, high, coarse_digits));
 }
 
-std::vector<Contour> contours_of(const ServoGrid& grid, const CycleTable& cycles,
-                                 CycleQuantity quantity, const std::vector<double>& levels) {
-  const bool plastic = !grid.may_bounce();
-  std::vector<double> values = cycles[quantity];
-  for (std::size_t row = 0; plastic && row < values.size(); ++row) {
-    if (std::isnan(values[row]) && cycles.verdict[row] == Verdict::cannot_hunt) {
-      values[row] = limit_beside(grid.at(row), quantity);
-    }
+std::vector<Contour> contours_of(const Grid& grid, const Table& table, Quantity quantity,
+                                 const std::vector<double>& levels) {
+  const GridPoints points(grid);
+  const bool plastic = !points.engines().bounces && !points.engines().search;
+  const std::size_t width = grid.axes[1].values.size();
+  std::vector<double> values(table.rows());
+  for (std::size_t row = 0; row < values.size(); ++row) {
+    values[row] = of_motion(table, quantity, row);
+    if (!plastic || !std::isnan(values[row]) || table.verdict(row) != Verdict::cannot_hunt)
+      continue;
+    const MapPoint place{grid.axes[1].values[row % width], grid.axes[0].values[row / width]};
+    values[row] = limit_beside(servo_at(points, place).value(), quantity);
   }
   std::vector<Contour> contours;
   for (const double level : levels) {
     std::vector<Side> corners;
     corners.reserve(values.size());
     for (const double value : values) corners.push_back(side_of(value, level));
-    const auto side_at = [&](const MapPoint& point) {
+    const auto side_at = [&](const MapPoint& place) {
       return side_of(
-          plastic ? worked_out(servo_at(grid, point), quantity) : interpolated(grid, values, point),
-          level);
+          plastic ? worked_out(points, quantity, place) : interpolated(grid, values, place), level);
     };
     contours.push_back({level, boundary_of_region(grid.axes[1], grid.axes[0], corners, side_at,
                                                   picture_accuracy)});

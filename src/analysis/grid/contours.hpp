@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "analysis/grid/region_boundary.hpp"
-#include "analysis/grid/servo_grid.hpp"
-#include "closed_form/lanes/cycle_table.hpp"
+#include "gearlash/grid.hpp"
 
 namespace gearlash {
 
@@ -22,10 +21,10 @@ std::vector<double> round_levels(std::vector<double> values);
 
 /// Where the quantity has these levels. With plastic contact each point of the curves is worked
 /// out, to 1e-6 of the picture, and beyond the end of hunting the quantity has its limit there:
-/// contours of the size run on to the hunting-free boundary. Where faces bounce the quantity is
-/// interpolated between the grid's points. Precondition: `cycles` are those of `grid`, whose two
-/// axes are y, x.
-std::vector<Contour> contours_of(const ServoGrid& grid, const CycleTable& cycles,
-                                 CycleQuantity quantity, const std::vector<double>& levels);
+/// contours of the amplitude run on to the hunting-free boundary. Where faces bounce,
+/// and where drives are searched, the quantity is interpolated between the grid's points.
+/// Precondition: `table` is the grid's, whose two axes are y, x.
+std::vector<Contour> contours_of(const Grid& grid, const Table& table, Quantity quantity,
+                                 const std::vector<double>& levels);
 
 }  // namespace gearlash

@@ -17,7 +17,7 @@ struct CubicPlace {
   std::array<double, 4> weights;
 };
 
-/// Lagrange's cubic in s, which is the input's value or, on a logarithmic axis, its logarithm:
+/// Lagrange's cubic in s, which is the parameter's value or, on a logarithmic axis, its logarithm:
 ///   weights[k] = Π_{j≠k} (s − s_j)/(s_k − s_j),
 /// over two values on either side of the place, or the four at an end of the axis. The interval is
 /// found at once where the values are evenly spaced in s, else by bisection.
@@ -25,7 +25,7 @@ class CubicAxis {
  public:
   static constexpr std::size_t fewest_values = 4;
 
-  /// Precondition: validate(axis) is empty; fewest_values or more, finite, positive where
+  /// Precondition: rising; fewest_values or more, finite, positive where
   /// logarithmic.
   explicit CubicAxis(const Axis& axis);
 
@@ -61,7 +61,7 @@ class CubicAxis {
 /// Tensor product of the axes' cubics: 4ⁿ values for n axes.
 class CubicTable {
  public:
-  static constexpr std::size_t most_axes = all_inputs.size();
+  static constexpr std::size_t most_axes = 5;
 
   CubicTable() = default;
   /// Precondition: 1 to most_axes axes as CubicAxis wants them; a value for each combination, the

@@ -6,16 +6,11 @@
 #include <string>
 
 #include "analysis/grid/chart_cells.hpp"
+#include "analysis/grid/grid_evaluation.hpp"
 #include "base/range_check.hpp"
 
 namespace gearlash {
 namespace {
-
-std::vector<std::string> names_of_axes(const ServoGrid& grid) {
-  std::vector<std::string> names;
-  for (std::size_t i = 1; i <= grid.axes.size(); ++i) names.push_back("axis " + std::to_string(i));
-  return names;
-}
 
 /// What a cubic asks for, beyond what a grid does.
 void check_axis(RangeCheck& check, const Axis& axis, const std::string& name) {
@@ -33,18 +28,23 @@ void check_axis(RangeCheck& check, const Axis& axis, const std::string& name) {
   }
 }
 
-double points_with_those_between(const ServoGrid& grid) {
+double points_with_those_between(const Grid& grid) {
   double points = 1.0;
   for (const Axis& axis : grid.axes) points *= 2.0 * static_cast<double>(axis.values.size()) + 3.0;
   return points;
 }
 
-void require_sound(const ServoGrid& grid, double tolerance) {
-  const std::vector<std::string> names = names_of_axes(grid);
+void require_sound(const Grid& grid, double tolerance) {
   RangeCheck check;
-  check.include(validate(grid, names));
-  for (std::size_t i = 0; i < grid.axes.size(); ++i) check_axis(check, grid.axes[i], names[i]);
+  check.include(faults(grid));
+  for (std::size_t i = 0; i < grid.axes.size(); ++i) {
+    check_axis(check, grid.axes[i], "axis " + std::to_string(i + 1));
+  }
   if (grid.axes.empty()) check.refuse("axes", "none", "must be at least one");
+  if (grid.axes.size() > CubicTable::most_axes) {
+    check.refuse("axes", std::to_string(grid.axes.size()),
+                 "must be at most " + std::to_string(CubicTable::most_axes));
+  }
   const double points = points_with_those_between(grid);
   if (points > static_cast<double>(most_points_of_a_design_chart)) {
     check.refuse("points", exact_text(points),
@@ -53,7 +53,7 @@ void require_sound(const ServoGrid& grid, double tolerance) {
   }
   require_none(check.within("tolerance", tolerance, 0.0, 1.0).faults());
   // Half-way to a damping of 0 may be a damping that is refused.
-  require_none(validate(detail::refined(grid), names));
+  require_none(faults(detail::refined(grid)));
 }
 
 }  // namespace
@@ -70,12 +70,14 @@ const char* name_of(ChartSource source) {
   return "";
 }
 
-DesignChart::DesignChart(ServoGrid grid, CycleQuantity quantity, const DesignChartOptions& options)
-    : grid_(std::move(grid)), quantity_(quantity) {
-  require_sound(grid_, options.tolerance);
-  const ServoGrid refined_grid = detail::refined(grid_);
-  const detail::SolvedPoints points = detail::solve_points(refined_grid, quantity, options.threads);
-  table_ = CubicTable(grid_.axes, detail::values_of_nodes(refined_grid, quantity, points.value));
+DesignChart::DesignChart(Grid grid, Quantity quantity, const DesignChartOptions& options)
+    : grid_((require_sound(grid, options.tolerance), std::move(grid))),
+      points_(grid_),
+      quantity_(quantity) {
+  const Grid refined_grid = detail::refined(grid_);
+  const Table points = detail::solve_points(refined_grid, quantity, options.threads);
+  table_ =
+      CubicTable(grid_.axes, detail::values_of_nodes(refined_grid, quantity, points[quantity]));
   detail::ExaminedCells examined =
       detail::examine_cells(table_, refined_grid, quantity, points, options);
   cells_ = std::move(examined.cells);
@@ -106,18 +108,10 @@ ChartAnswer DesignChart::look_up(std::span<const double> place) const {
 }
 
 ChartAnswer DesignChart::solved(std::span<const double> place) const {
-  NormalizedServo servo = grid_.servo;
-  for (std::size_t axis = 0; axis < place.size(); ++axis) {
-    servo.*field_of(grid_.axes[axis].input) = place[axis];
-  }
-  if (!validate(servo).empty()) return {};
-  Verdict verdict = Verdict::undecided;
-  std::array<double, quantity_count> values;
-  std::array<std::span<double>, quantity_count> numbers;
-  for (std::size_t i = 0; i < quantity_count; ++i) numbers[i] = {&values[i], 1};
-  find_limit_cycles({&servo, 1}, columns_of({&verdict, 1}, numbers));
-  return {.value = values[static_cast<std::size_t>(quantity_)],
-          .verdict = verdict,
+  const PointAnswer answer = answer_at(points_, place, quantity_);
+  if (!answer.is_drive) return {};
+  return {.value = of_motion(quantity_, answer.verdict, answer.value),
+          .verdict = answer.verdict,
           .error = 0.0,
           .source = ChartSource::solved};
 }

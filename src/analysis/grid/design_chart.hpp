@@ -8,22 +8,21 @@
 #include <vector>
 
 #include "analysis/grid/cubic_table.hpp"
-#include "analysis/grid/servo_grid.hpp"
-#include "closed_form/lanes/cycle_table.hpp"
+#include "analysis/grid/grid_points.hpp"
 
 namespace gearlash {
 
 /// Where an answer of a chart comes from.
 enum class ChartSource {
   interpolated,  ///< between servos that are alike
-  solved,        ///< by find_limit_cycles(), where interpolation would not keep the tolerance
+  solved,        ///< at once, where interpolation would not keep the tolerance
   outside        ///< nowhere: the place is not on the chart, or is no servo
 };
 
 /// "interpolated", "solved", "outside".
 const char* name_of(ChartSource source);
 
-/// NaN and undecided where nothing is known. Units as CycleTable has them.
+/// NaN and undecided where nothing is known. SI.
 struct ChartAnswer {
   double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN, too, where there is no cycle
   Verdict verdict = Verdict::undecided;
@@ -65,7 +64,8 @@ struct ChartCell {
 
 }  // namespace detail
 
-/// One quantity of the limit cycle over one to five inputs of the servo.
+/// One quantity of the limit cycle over one to five parameters of a drive that has a closed form:
+/// of others each cell takes searches.
 ///
 /// Interpolation is by a cubic along each axis (cubic_table.hpp), of growth at rest as 1/(1 + μ₀),
 /// which stays smooth where μ₀ grows to infinity. When the chart is built, every cell is compared
@@ -91,10 +91,10 @@ struct ChartCell {
 /// The same bits for any number of threads that build it. Any number may look up at once.
 class DesignChart {
  public:
-  /// Throws InvalidInput for a grid that is not sound (validate(grid); its axes are called "axis
+  /// Throws InvalidInput for a grid that is not sound (faults(grid); its axes are called "axis
   /// 1", …), has no axis, or an axis with fewer than four values, an infinite one or, where
   /// logarithmic, 0; for too many points; and for a tolerance outside its range.
-  DesignChart(ServoGrid grid, CycleQuantity quantity, const DesignChartOptions& options = {});
+  DesignChart(Grid grid, Quantity quantity, const DesignChartOptions& options = {});
 
   /// The answer at a place, one value for each axis in their order. Outside the axes' ranges, and
   /// for NaN, ChartSource::outside: nothing is extrapolated. Allocates nothing, but where a servo
@@ -105,15 +105,16 @@ class DesignChart {
     return look_up(std::span<const double>(place.begin(), place.size()));
   }
 
-  const ServoGrid& grid() const { return grid_; }
-  CycleQuantity quantity() const { return quantity_; }
+  const Grid& grid() const { return grid_; }
+  Quantity quantity() const { return quantity_; }
   const ChartAccuracy& accuracy() const { return accuracy_; }
 
  private:
   ChartAnswer solved(std::span<const double> place) const;
 
-  ServoGrid grid_;
-  CycleQuantity quantity_;
+  Grid grid_;
+  GridPoints points_;
+  Quantity quantity_;
   CubicTable table_;                      ///< straightened
   std::vector<detail::ChartCell> cells_;  ///< the last axis fastest
   ChartAccuracy accuracy_;

@@ -1,5 +1,6 @@
 #include "analysis/grid/hunting_boundary.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "closed_form/energy_balance.hpp"
@@ -15,26 +16,24 @@ Side side_of(double growth_at_rest) {
 
 }  // namespace
 
-NormalizedServo servo_at(const ServoGrid& grid, const MapPoint& point) {
-  NormalizedServo servo = grid.servo;
-  servo.*field_of(grid.axes[0].input) = point.y;
-  servo.*field_of(grid.axes[1].input) = point.x;
-  return servo;
+std::optional<NormalizedServo> servo_at(const GridPoints& points, const MapPoint& place) {
+  const std::optional<FinalServo> servo = points.servo_at(std::array{place.y, place.x});
+  return servo ? std::optional(servo->closed_form.servo) : std::nullopt;
 }
 
-Side side_of_hunting(const NormalizedServo& servo) {
-  if (!validate(servo).empty()) return Side::unknown;
-  return side_of(growth_at_rest(servo_dynamics(servo)));
+Side side_of_hunting(const std::optional<NormalizedServo>& servo) {
+  return servo ? side_of(growth_at_rest(servo_dynamics(*servo))) : Side::unknown;
 }
 
-Side side_of_dissipation(const NormalizedServo& servo) {
-  if (!validate(servo).empty()) return Side::unknown;
-  return is_dissipative(servo) ? Side::outside : Side::inside;
+Side side_of_dissipation(const std::optional<NormalizedServo>& servo) {
+  if (!servo) return Side::unknown;
+  return is_dissipative(*servo) ? Side::outside : Side::inside;
 }
 
-std::vector<MapCurve> dissipative_boundary(const ServoGrid& grid) {
+std::vector<MapCurve> dissipative_boundary(const Grid& grid) {
+  const GridPoints points(grid);
   const auto side = [&](const MapPoint& place) {
-    return side_of_dissipation(servo_at(grid, place));
+    return side_of_dissipation(servo_at(points, place));
   };
   std::vector<Side> corners;
   corners.reserve(grid.size());
@@ -44,13 +43,13 @@ std::vector<MapCurve> dissipative_boundary(const ServoGrid& grid) {
   return boundary_of_region(grid.axes[1], grid.axes[0], corners, side);
 }
 
-std::vector<MapCurve> hunting_boundary(const ServoGrid& grid,
-                                       std::span<const double> growth_at_rest) {
+std::vector<MapCurve> hunting_boundary(const Grid& grid, std::span<const double> growth_at_rest) {
+  const GridPoints points(grid);
   std::vector<Side> corners;
   corners.reserve(growth_at_rest.size());
   for (const double growth : growth_at_rest) corners.push_back(side_of(growth));
-  return boundary_of_region(grid.axes[1], grid.axes[0], corners, [&](const MapPoint& point) {
-    return side_of_hunting(servo_at(grid, point));
+  return boundary_of_region(grid.axes[1], grid.axes[0], corners, [&](const MapPoint& place) {
+    return side_of_hunting(servo_at(points, place));
   });
 }
 

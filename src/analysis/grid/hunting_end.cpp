@@ -1,5 +1,7 @@
 #include "analysis/grid/hunting_end.hpp"
 
+#include <limits>
+
 #include "analysis/grid/side_bisection.hpp"
 #include "closed_form/growth_at_rest.hpp"
 
@@ -12,6 +14,27 @@ double hunting_end(const std::function<NormalizedServo(double place)>& servo_at,
   };
   constexpr int halvings = 60;
   return bisect_sides(side_at, hunting, quiet, halvings).place;
+}
+
+std::optional<double> limit_where_hunting_ends(Quantity quantity, double backlash) {
+  switch (quantity) {
+    case Quantity::motor_amplitude:
+      return 0.5 * backlash;
+    case Quantity::amplitude:
+    case Quantity::frequency:
+    case Quantity::impact_speed:
+    case Quantity::motor_friction_loss:
+    case Quantity::load_friction_loss:
+    case Quantity::impact_loss:
+      return 0.0;
+    case Quantity::multiplier:
+      return 1.0;
+    case Quantity::period:
+    case Quantity::separated_time:
+      return std::numeric_limits<double>::infinity();
+    default:
+      return std::nullopt;
+  }
 }
 
 }  // namespace gearlash

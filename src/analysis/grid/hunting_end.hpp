@@ -2,7 +2,9 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
+#include "gearlash/quantity.hpp"
 #include "model/normalized_servo.hpp"
 
 namespace gearlash {
@@ -14,5 +16,11 @@ namespace gearlash {
 /// sound.
 double hunting_end(const std::function<NormalizedServo(double place)>& servo_at, double hunting,
                    double quiet);
+
+/// What it tends to where hunting ends, with plastic contact: 0 for the load's amplitude, the
+/// speed, the losses and the frequency, half the backlash for the motor's amplitude, 1 for the
+/// multiplier, infinity for the period and the time apart. Nothing where that is another number
+/// from place to place, or where there is no such end.
+std::optional<double> limit_where_hunting_ends(Quantity quantity, double backlash);
 
 }  // namespace gearlash

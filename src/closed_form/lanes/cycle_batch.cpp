@@ -1,8 +1,8 @@
 #include "closed_form/lanes/cycle_batch.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -27,25 +27,14 @@ detail::CycleKernel kernel_for(VectorUnit unit) {
 }
 
 void require_rows(const CycleColumns& cycles, std::size_t rows) {
-  const auto require = [&](const char* name, std::size_t size) {
-    if (size == rows) return;
-    throw std::invalid_argument(std::string("column ") + name + ": " + std::to_string(size) +
-                                " rows; must be " + std::to_string(rows) +
-                                ", as many as there are servos");
+  const auto require = [&](Quantity quantity, std::size_t size) {
+    if (size == 0 || size == rows) return;
+    throw std::invalid_argument("column " + std::string(name_of(quantity)) + ": " +
+                                std::to_string(size) + " rows; must be " + std::to_string(rows) +
+                                ", as many as there are servos, or none");
   };
-  require("verdict", cycles.verdict.size());
-  require("growth_at_rest", cycles.growth_at_rest.size());
-  require("size", cycles.size.size());
-  require("motor_size", cycles.motor_size.size());
-  require("period", cycles.period.size());
-  require("multiplier", cycles.multiplier.size());
-  require("impact_speed", cycles.impact_speed.size());
-  require("engaged_time", cycles.engaged_time.size());
-  require("separated_time", cycles.separated_time.size());
-  require("motor_friction_loss", cycles.motor_friction_loss.size());
-  require("load_friction_loss", cycles.load_friction_loss.size());
-  require("impact_loss", cycles.impact_loss.size());
-  require("residual", cycles.residual.size());
+  require(Quantity::verdict, cycles.verdict.size());
+  for (const Quantity quantity : closed_form_quantities) require(quantity, cycles[quantity].size());
 }
 
 /// The last servo fills up the last lanes.
@@ -63,46 +52,59 @@ void load(CycleBlock& block, std::span<const NormalizedServo> servos) {
 
 void write_row(const CycleColumns& cycles, std::size_t row, Verdict verdict, double growth_at_rest,
                const LimitCycle& cycle) {
-  cycles.verdict[row] = verdict;
-  cycles.growth_at_rest[row] = growth_at_rest;
-  cycles.size[row] = cycle.size;
-  cycles.motor_size[row] = cycle.motor_size;
-  cycles.period[row] = cycle.period;
-  cycles.multiplier[row] = cycle.multiplier;
-  cycles.impact_speed[row] = cycle.impact_speed;
-  cycles.engaged_time[row] = cycle.engaged_time;
-  cycles.separated_time[row] = cycle.separated_time;
-  cycles.motor_friction_loss[row] = cycle.energy.motor_friction;
-  cycles.load_friction_loss[row] = cycle.energy.load_friction;
-  cycles.impact_loss[row] = cycle.energy.impacts;
-  cycles.residual[row] = cycle.residual;
+  if (!cycles.verdict.empty()) cycles.verdict[row] = verdict;
+  const auto write = [&](Quantity quantity, double value) {
+    if (!cycles[quantity].empty()) cycles[quantity][row] = value;
+  };
+  write(Quantity::growth_at_rest, growth_at_rest);
+  write(Quantity::amplitude, cycle.size);
+  write(Quantity::motor_amplitude, cycle.motor_size);
+  write(Quantity::period, cycle.period);
+  write(Quantity::frequency, 1.0 / cycle.period);
+  write(Quantity::multiplier, cycle.multiplier);
+  write(Quantity::impact_speed, cycle.impact_speed);
+  write(Quantity::engaged_time, cycle.engaged_time);
+  write(Quantity::separated_time, cycle.separated_time);
+  write(Quantity::motor_friction_loss, cycle.energy.motor_friction);
+  write(Quantity::load_friction_loss, cycle.energy.load_friction);
+  write(Quantity::impact_loss, cycle.energy.impacts);
+  write(Quantity::residual, cycle.residual);
 }
+
+/// The kernel's properties, in its order.
+constexpr std::array properties = {Quantity::amplitude,
+                                   Quantity::motor_amplitude,
+                                   Quantity::period,
+                                   Quantity::multiplier,
+                                   Quantity::impact_speed,
+                                   Quantity::engaged_time,
+                                   Quantity::separated_time,
+                                   Quantity::motor_friction_loss,
+                                   Quantity::load_friction_loss,
+                                   Quantity::impact_loss,
+                                   Quantity::residual};
+static_assert(properties.size() == CycleBlock::property_count);
+constexpr std::size_t period_in_block = 2;
+static_assert(properties[period_in_block] == Quantity::period);
 
 /// The rows of the block, those that are not certain included.
 void write_from_block(const CycleColumns& cycles, std::size_t begin, const CycleBlock& block,
                       std::size_t rows) {
-  for (std::size_t row = 0; row < rows; ++row) {
+  for (std::size_t row = 0; row < (cycles.verdict.empty() ? 0 : rows); ++row) {
     cycles.verdict[begin + row] =
         block.outcome[row] == CycleBlock::hunts ? Verdict::hunts : Verdict::cannot_hunt;
   }
   const auto copy = [&](const CycleBlock::Column& from, std::span<double> to) {
+    if (to.empty()) return;
     std::copy_n(from, rows, to.begin() + static_cast<std::ptrdiff_t>(begin));
   };
-  copy(block.growth_at_rest, cycles.growth_at_rest);
-  const std::span<double> properties[] = {cycles.size,
-                                          cycles.motor_size,
-                                          cycles.period,
-                                          cycles.multiplier,
-                                          cycles.impact_speed,
-                                          cycles.engaged_time,
-                                          cycles.separated_time,
-                                          cycles.motor_friction_loss,
-                                          cycles.load_friction_loss,
-                                          cycles.impact_loss,
-                                          cycles.residual};
-  static_assert(std::size(properties) == CycleBlock::property_count);
-  for (std::size_t i = 0; i < CycleBlock::property_count; ++i) {
-    copy(block.properties[i], properties[i]);
+  copy(block.growth_at_rest, cycles[Quantity::growth_at_rest]);
+  for (std::size_t i = 0; i < properties.size(); ++i) {
+    copy(block.properties[i], cycles[properties[i]]);
+  }
+  const std::span<double> frequency = cycles[Quantity::frequency];
+  for (std::size_t row = 0; row < (frequency.empty() ? 0 : rows); ++row) {
+    frequency[begin + row] = 1.0 / block.properties[period_in_block][row];
   }
 }
 
@@ -120,8 +122,9 @@ LimitCycleAnalysis analyse_row(const NormalizedServo& servo, std::size_t row) {
 void solve_alone(const NormalizedServo& servo, const CycleColumns& cycles, std::size_t row) {
   const LimitCycleAnalysis analysis = analyse_row(servo, row);
   const LimitCycle* cycle = largest_stable(analysis);
-  write_row(cycles, row, analysis.verdict, analysis.growth_at_rest,
-            cycle != nullptr ? *cycle : LimitCycle{});
+  LimitCycle seen = cycle != nullptr ? *cycle : LimitCycle{};
+  if (cycle == nullptr) seen.size = analysis.irregular_size;
+  write_row(cycles, row, analysis.verdict, analysis.growth_at_rest, seen);
 }
 
 bool for_kernel(const NormalizedServo& servo) {
@@ -184,7 +187,8 @@ std::size_t keep_proved(std::span<const NormalizedServo> servos, const CycleColu
   for (std::size_t row = 0; row < servos.size(); ++row) {
     const NormalizedServo& servo = servos[row];
     if (!has_plastic_contact(servo) || is_proved(servo, cycles.verdict[row])) continue;
-    write_row(cycles, row, Verdict::undecided, cycles.growth_at_rest[row], LimitCycle{});
+    const std::span<double> growth = cycles[Quantity::growth_at_rest];
+    write_row(cycles, row, Verdict::undecided, growth.empty() ? 0.0 : growth[row], LimitCycle{});
     ++unproved;
   }
   return unproved;

@@ -1,11 +1,13 @@
 // The limit cycles of many servos at once: several side by side in the lanes of a vector unit.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 #include "closed_form/limit_cycle.hpp"
+#include "gearlash/quantity.hpp"
 #include "model/normalized_servo.hpp"
 
 namespace gearlash {
@@ -25,23 +27,35 @@ VectorUnit widest_vector_unit();
 /// "baseline", "avx2", "avx512".
 const char* name_of(VectorUnit unit);
 
-/// Where the answers are written: one column a quantity, as many rows as there are servos. Units as
-/// in LimitCycle. A servo that cannot hunt, or whose cycle is not known, has NaN but in the first
-/// two.
+/// What is known of a servo in closed form, beside its verdict.
+inline constexpr std::array closed_form_quantities = {Quantity::growth_at_rest,
+                                                      Quantity::amplitude,
+                                                      Quantity::motor_amplitude,
+                                                      Quantity::period,
+                                                      Quantity::frequency,
+                                                      Quantity::multiplier,
+                                                      Quantity::impact_speed,
+                                                      Quantity::engaged_time,
+                                                      Quantity::separated_time,
+                                                      Quantity::motor_friction_loss,
+                                                      Quantity::load_friction_loss,
+                                                      Quantity::impact_loss,
+                                                      Quantity::residual};
+
+/// Where the answers are written: as many rows as there are servos, in every column that is given;
+/// those left out are empty. Numbers are those of the normal form, in SI (ω_n = 1 rad/s, K =
+/// 1 N m/rad). A servo that cannot hunt, or whose cycle is not known, has NaN but in the growth at
+/// rest; what is not among closed_form_quantities stays as it is.
 struct CycleColumns {
-  std::span<Verdict> verdict;
-  std::span<double> growth_at_rest;
-  std::span<double> size;
-  std::span<double> motor_size;
-  std::span<double> period;
-  std::span<double> multiplier;
-  std::span<double> impact_speed;
-  std::span<double> engaged_time;
-  std::span<double> separated_time;
-  std::span<double> motor_friction_loss;  ///< CycleEnergy::motor_friction
-  std::span<double> load_friction_loss;
-  std::span<double> impact_loss;
-  std::span<double> residual;
+  std::span<Verdict> verdict{};
+  std::array<std::span<double>, quantity_count> numbers{};  ///< by Quantity
+
+  std::span<double>& operator[](Quantity quantity) {
+    return numbers[static_cast<std::size_t>(quantity)];
+  }
+  const std::span<double>& operator[](Quantity quantity) const {
+    return numbers[static_cast<std::size_t>(quantity)];
+  }
 };
 
 /// How the servos were solved.
@@ -50,7 +64,8 @@ struct BatchCount {
   std::size_t one_by_one = 0;    ///< by analyse_limit_cycles()
 };
 
-/// The verdict on each servo and the cycle seen in practice (largest_stable()).
+/// The verdict on each servo and the cycle seen in practice (largest_stable()), else the amplitude of
+/// its irregular motion.
 ///
 /// Side by side are solved servos with two masses and plastic contact, with damping in [1e-4,
 /// 0.99], inertia ratio in [1e-4, 1e4] and friction ratio in [1e-4, 1 − 1e-4]; each lane by itself,
@@ -74,7 +89,7 @@ BatchCount find_limit_cycles(std::span<const NormalizedServo> servos, const Cycl
 /// plastic contact and damping that the enclosure of its growth at rest does not confirm
 /// (bound_cycles() of the servo's own doubles), and returns how many. The others are then proved;
 /// those on servos that bounce are left as they are. Precondition: the columns are those that
-/// find_limit_cycles() wrote.
+/// find_limit_cycles() wrote, with the verdict.
 std::size_t keep_proved(std::span<const NormalizedServo> servos, const CycleColumns& cycles);
 
 }  // namespace gearlash

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "analysis/grid/hunting_boundary.hpp"
+#include "analysis/grid/servo_grids.hpp"
 
 namespace gearlash {
 namespace {
@@ -48,33 +49,27 @@ TEST(EdgeContours, LevelsOfFewOrStrangeValues) {
               Pointwise(DoubleEq(), {1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.7, 1.8}));
 }
 
-ServoGrid grid_with(double restitution) {
-  return {{.inertia_ratio = 2.0, .backlash = 1.0, .restitution = restitution},
-          {spaced_axis("y", Input::damping, 0.1, 0.7, 9, Spacing::linear),
-           spaced_axis("x", Input::friction_ratio, 0.05, 0.95, 9, Spacing::linear)}};
+Grid grid_with(double restitution) {
+  return {drive_of({.inertia_ratio = 2.0, .backlash = 1.0, .restitution = restitution}),
+          {spaced_axis("y", "servo.damping", 0.1, 0.7, 9, Spacing::linear),
+           spaced_axis("x", "servo.friction_ratio", 0.05, 0.95, 9, Spacing::linear)}};
 }
 
-CycleTable worked_out(const ServoGrid& grid) {
-  CycleTable cycles(grid.size());
-  evaluate(grid, 0, grid.size(), cycles.columns());
-  return cycles;
-}
-
-double quantity_at(const ServoGrid& grid, const MapPoint& point, CycleQuantity quantity) {
+double quantity_at(const Grid& grid, const MapPoint& point, Quantity quantity) {
   const NormalizedServo servo = servo_at(grid, point);
-  CycleTable row(1);
-  find_limit_cycles({&servo, 1}, row.columns());
+  Table row = table_of(1);
+  find_limit_cycles({&servo, 1}, columns_of(row));
   return row[quantity][0];
 }
 
 TEST(PropertyContours, TheQuantityIsTheirLevel) {
-  const ServoGrid grid = grid_with(0.0);
-  const CycleTable cycles = worked_out(grid);
-  for (const auto& [quantity, levels] : std::vector<std::pair<CycleQuantity, std::vector<double>>>{
-           {CycleQuantity::size, {0.1, 0.2, 0.5}},
-           {CycleQuantity::period, {7.0, 8.0, 12.0}},
-           {CycleQuantity::multiplier, {0.3, 0.6, 0.9}},
-           {CycleQuantity::growth_at_rest, {0.5, 2.0, 5.0}}}) {
+  const Grid grid = grid_with(0.0);
+  const Table cycles = worked_out(grid);
+  for (const auto& [quantity, levels] : std::vector<std::pair<Quantity, std::vector<double>>>{
+           {Quantity::amplitude, {0.1, 0.2, 0.5}},
+           {Quantity::period, {7.0, 8.0, 12.0}},
+           {Quantity::multiplier, {0.3, 0.6, 0.9}},
+           {Quantity::growth_at_rest, {0.5, 2.0, 5.0}}}) {
     const std::vector<Contour> contours = contours_of(grid, cycles, quantity, levels);
     ASSERT_EQ(contours.size(), levels.size());
     for (const Contour& contour : contours) {
@@ -92,9 +87,9 @@ TEST(PropertyContours, TheQuantityIsTheirLevel) {
 }
 
 TEST(PropertyContours, RunAlongTheBoundaryWithoutCrossingIt) {
-  const ServoGrid grid = grid_with(0.0);
+  const Grid grid = grid_with(0.0);
   const std::vector<Contour> contours =
-      contours_of(grid, worked_out(grid), CycleQuantity::size, {0.02, 0.05, 0.1});
+      contours_of(grid, worked_out(grid), Quantity::amplitude, {0.02, 0.05, 0.1});
   for (const Contour& contour : contours) {
     ASSERT_EQ(contour.curves.size(), 1U);  // not broken where a cell has no cycle in a corner
     for (const MapPoint& point : contour.curves[0]) {
@@ -104,22 +99,22 @@ TEST(PropertyContours, RunAlongTheBoundaryWithoutCrossingIt) {
 }
 
 TEST(Contours, AreInterpolatedWhereFacesBounce) {
-  const ServoGrid grid = grid_with(0.2);
+  const Grid grid = grid_with(0.2);
   // A plane of its own, not of these servos: what is interpolated is the table.
-  CycleTable cycles(grid.size());
+  Table cycles = table_of(grid.size());
   const auto plane = [](double damping, double friction) { return 2.0 * damping + friction; };
   for (std::size_t row = 0; row < grid.size(); ++row) {
-    const NormalizedServo servo = grid.at(row);
-    cycles.columns().size[row] = plane(servo.damping, servo.friction_ratio);
+    const NormalizedServo servo = servo_of(grid.at(row));
+    cycles.column(Quantity::amplitude)[row] = plane(servo.damping, servo.friction_ratio);
   }
-  const std::vector<Contour> contours = contours_of(grid, cycles, CycleQuantity::size, {1.0});
+  const std::vector<Contour> contours = contours_of(grid, cycles, Quantity::amplitude, {1.0});
   ASSERT_EQ(contours[0].curves.size(), 1U);
   for (const MapPoint& point : contours[0].curves[0]) {
     EXPECT_NEAR(plane(point.y, point.x), 1.0, 1e-6);
   }
   // Nothing is known of a point: no contour passes its cells.
-  cycles.columns().size[4 * 9 + 4] = NAN;
-  const std::vector<Contour> broken = contours_of(grid, cycles, CycleQuantity::size, {1.3});
+  cycles.column(Quantity::amplitude)[4 * 9 + 4] = NAN;
+  const std::vector<Contour> broken = contours_of(grid, cycles, Quantity::amplitude, {1.3});
   ASSERT_EQ(broken[0].curves.size(), 2U);
   std::vector<double> ends;
   for (const MapCurve& curve : broken[0].curves) {

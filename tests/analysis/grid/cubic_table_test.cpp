@@ -13,10 +13,10 @@ namespace {
 
 double cubic(double s) { return ((0.7 * s - 1.1) * s + 0.3) * s + 2.0; }
 
-const Axis even{Input::friction_ratio, {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}};
-const Axis uneven{Input::damping, {0.1, 0.15, 0.4, 0.5, 0.9}};
-const Axis even_logarithms{Input::inertia_ratio, {0.125, 0.25, 0.5, 1.0, 2.0, 4.0}, true};
-const Axis uneven_logarithms{Input::backlash, {0.25, 0.5, 2.0, 3.0}, true};
+const Axis even{"servo.friction_ratio", {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}};
+const Axis uneven{"servo.damping", {0.1, 0.15, 0.4, 0.5, 0.9}};
+const Axis even_logarithms{"servo.inertia_ratio", {0.125, 0.25, 0.5, 1.0, 2.0, 4.0}, true};
+const Axis uneven_logarithms{"servo.backlash", {0.25, 0.5, 2.0, 3.0}, true};
 
 double place_on(const Axis& axis, double value) {
   return axis.logarithmic ? std::log(value) : value;
@@ -25,7 +25,7 @@ double place_on(const Axis& axis, double value) {
 TEST(OracleCubicTable, IsExactForCubicsOnOneAxis) {
   SeededDraws draws(901);
   for (const Axis& axis : {even, uneven, even_logarithms, uneven_logarithms}) {
-    SCOPED_TRACE(name_of(axis.input));
+    SCOPED_TRACE(axis.path);
     std::vector<double> values;
     for (const double value : axis.values) values.push_back(cubic(place_on(axis, value)));
     const CubicTable table({axis}, values);
@@ -61,7 +61,7 @@ TEST(OracleCubicTable, IsExactForProductsOfCubics) {
 
 TEST(CubicAxis, FindsTheIntervalOfAPlace) {
   for (const Axis& axis : {even, uneven, even_logarithms, uneven_logarithms}) {
-    SCOPED_TRACE(name_of(axis.input));
+    SCOPED_TRACE(axis.path);
     const CubicAxis cubics(axis);
     ASSERT_EQ(cubics.intervals(), axis.values.size() - 1);
     for (std::size_t i = 0; i < cubics.intervals(); ++i) {

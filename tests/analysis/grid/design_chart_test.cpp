@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "analysis/grid/hunting_end.hpp"
+#include "analysis/grid/servo_grids.hpp"
 #include "base/seeded_draws.hpp"
 #include "closed_form/growth_at_rest.hpp"
 
@@ -22,18 +23,18 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 Axis damping_axis(std::size_t count) {
-  return spaced_axis("x", Input::damping, 0.05, 0.7, count, Spacing::linear);
+  return spaced_axis("x", "servo.damping", 0.05, 0.7, count, Spacing::linear);
 }
 Axis inertia_axis(std::size_t count) {
-  return spaced_axis("y", Input::inertia_ratio, 1.0 / 9.0, 9.0, count, Spacing::logarithmic);
+  return spaced_axis("y", "servo.inertia_ratio", 1.0 / 9.0, 9.0, count, Spacing::logarithmic);
 }
 Axis friction_axis(std::size_t count) {
-  return spaced_axis("z", Input::friction_ratio, 0.05, 0.95, count, Spacing::linear);
+  return spaced_axis("z", "servo.friction_ratio", 0.05, 0.95, count, Spacing::linear);
 }
 
 /// Part of it hunts, part of it does not.
-ServoGrid grid_of_two(std::size_t count) {
-  return {.servo = {.friction_ratio = 0.3, .backlash = 0.3},
+Grid grid_of_two(std::size_t count) {
+  return {.drive = drive_of({.friction_ratio = 0.3, .backlash = 0.3}),
           .axes = {damping_axis(count), inertia_axis(count)}};
 }
 
@@ -42,7 +43,7 @@ double drawn_between(SeededDraws& draws, double low, double high, bool logarithm
   return std::min(std::max(draws.log_uniform(low, high), low), high);
 }
 
-std::vector<double> any_place(SeededDraws& draws, const ServoGrid& grid) {
+std::vector<double> any_place(SeededDraws& draws, const Grid& grid) {
   std::vector<double> place;
   for (const Axis& axis : grid.axes) {
     place.push_back(
@@ -51,10 +52,10 @@ std::vector<double> any_place(SeededDraws& draws, const ServoGrid& grid) {
   return place;
 }
 
-NormalizedServo servo_at(const ServoGrid& grid, const std::vector<double>& place) {
-  NormalizedServo servo = grid.servo;
+NormalizedServo servo_there(const Grid& grid, const std::vector<double>& place) {
+  NormalizedServo servo = servo_of(grid.drive);
   for (std::size_t axis = 0; axis < place.size(); ++axis) {
-    servo.*field_of(grid.axes[axis].input) = place[axis];
+    servo.*normal_form_number(grid.axes[axis].path)->member = place[axis];
   }
   return servo;
 }
@@ -69,62 +70,62 @@ void space_unevenly(SeededDraws& draws, Axis& axis) {
 
 /// Of 4 to `most` values over one to five decades, linear: most of what varies does so between the
 /// first two.
-Axis wide_axis(SeededDraws& draws, Input input, double high, double most) {
+Axis wide_axis(SeededDraws& draws, const char* path, double high, double most) {
   const double to = draws.log_uniform(0.3 * high, high);
   const double from = to * std::pow(10.0, draws.uniform(-5.0, -1.0));
-  Axis axis = spaced_axis("axis", input, from, to, static_cast<std::size_t>(draws.uniform(4, most)),
+  Axis axis = spaced_axis("axis", path, from, to, static_cast<std::size_t>(draws.uniform(4, most)),
                           Spacing::linear);
   space_unevenly(draws, axis);
   return axis;
 }
 
 /// Of 4 to `most` values between ends drawn in what drives have.
-Axis any_axis(SeededDraws& draws, Input input, double low, double high, double most) {
+Axis any_axis(SeededDraws& draws, const char* path, double low, double high, double most) {
   const double from = drawn_between(draws, low, 0.9 * low + 0.1 * high, true);
   const double to = drawn_between(draws, 0.5 * low + 0.5 * high, high, false);
   const bool logarithmic = draws.happens(0.5);
-  Axis axis = spaced_axis("axis", input, from, to, static_cast<std::size_t>(draws.uniform(4, most)),
+  Axis axis = spaced_axis("axis", path, from, to, static_cast<std::size_t>(draws.uniform(4, most)),
                           logarithmic ? Spacing::logarithmic : Spacing::linear);
   space_unevenly(draws, axis);
   return axis;
 }
 
-ServoGrid any_grid(SeededDraws& draws) {
-  ServoGrid grid;
-  grid.servo.damping = draws.uniform(0.02, 0.9);
-  grid.servo.inertia_ratio = draws.log_uniform(0.05, 20.0);
-  grid.servo.friction_ratio = draws.uniform(0.02, 0.98);
-  grid.servo.backlash = 0.3;
+Grid any_grid(SeededDraws& draws) {
+  NormalizedServo servo{.backlash = 0.3};
+  servo.damping = draws.uniform(0.02, 0.9);
+  servo.inertia_ratio = draws.log_uniform(0.05, 20.0);
+  servo.friction_ratio = draws.uniform(0.02, 0.98);
+  Grid grid{.drive = drive_of(servo)};
   const double most = draws.one_of({15.0, 50.0});
-  if (draws.happens(0.6)) grid.axes.push_back(any_axis(draws, Input::damping, 0.02, 1.2, most));
+  if (draws.happens(0.6)) grid.axes.push_back(any_axis(draws, "servo.damping", 0.02, 1.2, most));
   if (draws.happens(0.6)) {
-    grid.axes.push_back(any_axis(draws, Input::inertia_ratio, 0.01, 50.0, most));
+    grid.axes.push_back(any_axis(draws, "servo.inertia_ratio", 0.01, 50.0, most));
   }
   if (grid.axes.size() < 2) {
-    grid.axes.push_back(any_axis(draws, Input::friction_ratio, 0.02, 0.98, most));
+    grid.axes.push_back(any_axis(draws, "servo.friction_ratio", 0.02, 0.98, most));
   }
   return grid;
 }
 
 /// One axis or two, at least one of them wide.
-ServoGrid any_wide_grid(SeededDraws& draws) {
-  ServoGrid grid;
-  grid.servo.damping = draws.log_uniform(1e-4, 0.9);
-  grid.servo.inertia_ratio = draws.log_uniform(1e-3, 100.0);
-  grid.servo.friction_ratio = draws.uniform(0.02, 0.98);
-  grid.servo.backlash = 0.3;
+Grid any_wide_grid(SeededDraws& draws) {
+  NormalizedServo servo{.backlash = 0.3};
+  servo.damping = draws.log_uniform(1e-4, 0.9);
+  servo.inertia_ratio = draws.log_uniform(1e-3, 100.0);
+  servo.friction_ratio = draws.uniform(0.02, 0.98);
+  Grid grid{.drive = drive_of(servo)};
   const double which = draws.one_of({1.0, 2.0, 3.0});
-  if (which != 3.0) grid.axes.push_back(wide_axis(draws, Input::damping, 1.2, 40.0));
-  if (which != 1.0) grid.axes.push_back(wide_axis(draws, Input::inertia_ratio, 50.0, 40.0));
+  if (which != 3.0) grid.axes.push_back(wide_axis(draws, "servo.damping", 1.2, 40.0));
+  if (which != 1.0) grid.axes.push_back(wide_axis(draws, "servo.inertia_ratio", 50.0, 40.0));
   if (grid.axes.size() < 2 && draws.happens(0.5)) {
-    grid.axes.push_back(any_axis(draws, Input::friction_ratio, 0.02, 0.98, 40.0));
+    grid.axes.push_back(any_axis(draws, "servo.friction_ratio", 0.02, 0.98, 40.0));
   }
   return grid;
 }
 
 /// As ChartAnswer::error has it.
 double error_of(const DesignChart& chart, double value, double exact) {
-  const bool growth = chart.quantity() == CycleQuantity::growth_at_rest;
+  const bool growth = chart.quantity() == Quantity::growth_at_rest;
   return std::abs(value - exact) / (growth ? std::max(exact, 1.0) : std::abs(exact));
 }
 
@@ -142,18 +143,18 @@ void expect_within_stated_error(const DesignChart& chart,
   std::vector<NormalizedServo> servos;
   std::vector<ChartAnswer> answers;
   for (const std::vector<double>& place : looked_up) {
-    servos.push_back(servo_at(chart.grid(), place));
+    servos.push_back(servo_there(chart.grid(), place));
     answers.push_back(chart.look_up(place));
   }
-  CycleTable exact(count);
-  find_limit_cycles(servos, exact.columns());
+  Table exact = table_of(count);
+  find_limit_cycles(servos, columns_of(exact));
   for (std::size_t i = 0; i < count; ++i) {
     const ChartAnswer& answer = answers[i];
     const double value = exact[chart.quantity()][i];
     ++places.all;
     if (answer.source == ChartSource::interpolated) ++places.interpolated;
     ASSERT_NE(answer.source, ChartSource::outside);
-    ASSERT_EQ(answer.verdict, exact.verdict[i]);
+    ASSERT_EQ(answer.verdict, exact.verdict(i));
     ASSERT_EQ(std::isnan(answer.value), std::isnan(value));
     ASSERT_LE(answer.error, chart.accuracy().stated_error);
     if (std::isnan(value) || answer.value == value) continue;
@@ -172,7 +173,7 @@ void expect_within_stated_error(const DesignChart& chart, SeededDraws& draws, Pl
 /// Half of the places are drawn evenly on each axis, half of them evenly in each decade.
 void expect_within_stated_error_by_decades(const DesignChart& chart, SeededDraws& draws,
                                            Places& places) {
-  ServoGrid by_decades = chart.grid();
+  Grid by_decades = chart.grid();
   for (Axis& axis : by_decades.axes) axis.logarithmic = true;
   std::vector<std::vector<double>> looked_up;
   for (int i = 0; i < 500; ++i) {
@@ -202,10 +203,10 @@ TEST(PropertyDesignChart, AnswersAreWithinTheStatedError) {
   SeededDraws draws(seed);
   Places places;
   for (int i = 0; i < 120; ++i) {
-    const ServoGrid grid = any_grid(draws);
+    const Grid grid = any_grid(draws);
     const double tolerance = draws.one_of({1e-2, 1e-3, 1e-4});
-    for (const CycleQuantity quantity :
-         {CycleQuantity::size, CycleQuantity::motor_size, CycleQuantity::growth_at_rest}) {
+    for (const Quantity quantity :
+         {Quantity::amplitude, Quantity::motor_amplitude, Quantity::growth_at_rest}) {
       SCOPED_TRACE(testing::Message() << "chart " << i << " of " << name_of(quantity));
       const DesignChart chart(grid, quantity, {.tolerance = tolerance});
       ASSERT_LE(chart.accuracy().stated_error, tolerance);
@@ -223,11 +224,10 @@ TEST(PropertyDesignChart, AnswersAreWithinTheStatedErrorOverSeveralDecadesOnALin
   SeededDraws draws(seed);
   Places places;
   for (int i = 0; i < 200; ++i) {
-    const ServoGrid grid = any_wide_grid(draws);
+    const Grid grid = any_wide_grid(draws);
     const double tolerance = draws.one_of({1e-2, 1e-3});
-    for (const CycleQuantity quantity :
-         {CycleQuantity::size, CycleQuantity::period, CycleQuantity::growth_at_rest,
-          CycleQuantity::multiplier, CycleQuantity::load_friction_loss}) {
+    for (const Quantity quantity : {Quantity::amplitude, Quantity::period, Quantity::growth_at_rest,
+                                    Quantity::multiplier, Quantity::load_friction_loss}) {
       SCOPED_TRACE(testing::Message() << "chart " << i << " of " << name_of(quantity));
       const DesignChart chart(grid, quantity, {.tolerance = tolerance});
       expect_within_stated_error_by_decades(chart, draws, places);
@@ -248,11 +248,12 @@ TEST(DesignChart, GrowthAtRestThatVariesByDecadesWithinACell) {
   };
   for (const Case& one : {Case{0.0002, 10, 0.01}, {0.001, 10, 0.01}, {0.0001, 50, 1.0}}) {
     SCOPED_TRACE(one.lowest_damping);
-    const ServoGrid grid{
-        .servo = {.inertia_ratio = one.inertia_ratio, .friction_ratio = 0.95, .backlash = 0.3},
-        .axes = {
-            spaced_axis("x", Input::damping, one.lowest_damping, 0.8, one.count, Spacing::linear)}};
-    const DesignChart chart(grid, CycleQuantity::growth_at_rest, {.tolerance = 1e-2});
+    const Grid grid{
+        .drive =
+            drive_of({.inertia_ratio = one.inertia_ratio, .friction_ratio = 0.95, .backlash = 0.3}),
+        .axes = {spaced_axis("x", "servo.damping", one.lowest_damping, 0.8, one.count,
+                             Spacing::linear)}};
+    const DesignChart chart(grid, Quantity::growth_at_rest, {.tolerance = 1e-2});
     Places places;
     expect_within_stated_error(chart, places_along(grid.axes.front()), places);
     EXPECT_EQ(places.beyond, 0U);
@@ -264,20 +265,21 @@ TEST(DesignChart, GrowthAtRestThatVariesByDecadesWithinACell) {
 /// would tell.
 TEST(DesignChart, AnErrorThatHappensToBeSmallHalfWay) {
   struct Case {
-    CycleQuantity quantity;
+    Quantity quantity;
     double damping;
     double friction_ratio;
     Axis inertia_ratios;
   };
   const auto from_to = [](double low, double high, std::size_t count) {
-    return spaced_axis("x", Input::inertia_ratio, low, high, count, Spacing::linear);
+    return spaced_axis("x", "servo.inertia_ratio", low, high, count, Spacing::linear);
   };
   for (const Case& one :
-       {Case{CycleQuantity::period, 0.310967, 0.0805016, from_to(0.26264, 35.5773, 12)},
-        {CycleQuantity::impact_speed, 0.0742811, 0.663, from_to(0.141731, 37.9208, 13)}}) {
+       {Case{Quantity::period, 0.310967, 0.0805016, from_to(0.26264, 35.5773, 12)},
+        {Quantity::impact_speed, 0.0742811, 0.663, from_to(0.141731, 37.9208, 13)}}) {
     SCOPED_TRACE(name_of(one.quantity));
-    const ServoGrid grid{
-        .servo = {.damping = one.damping, .friction_ratio = one.friction_ratio, .backlash = 0.3},
+    const Grid grid{
+        .drive = drive_of(
+            {.damping = one.damping, .friction_ratio = one.friction_ratio, .backlash = 0.3}),
         .axes = {one.inertia_ratios}};
     const DesignChart chart(grid, one.quantity, {.tolerance = 1e-2});
     Places places;
@@ -292,10 +294,10 @@ TEST(PropertyDesignChart, ThreeAxesAndEveryQuantity) {
   SCOPED_TRACE(seed);
   SeededDraws draws(seed);
   Places places;
-  const ServoGrid grid{.servo = {.backlash = 0.3},
-                       .axes = {damping_axis(15), inertia_axis(16), friction_axis(17)}};
-  for (const CycleQuantity quantity : all_quantities) {
-    if (quantity == CycleQuantity::residual) continue;  // rounding alone
+  const Grid grid{.drive = drive_of({.backlash = 0.3}),
+                  .axes = {damping_axis(15), inertia_axis(16), friction_axis(17)}};
+  for (const Quantity quantity : closed_form_quantities) {
+    if (quantity == Quantity::residual) continue;  // rounding alone
     SCOPED_TRACE(name_of(quantity));
     expect_within_stated_error(DesignChart(grid, quantity, {.tolerance = 1e-2}), draws, places);
     if (HasFatalFailure()) return;
@@ -305,9 +307,9 @@ TEST(PropertyDesignChart, ThreeAxesAndEveryQuantity) {
 }
 
 TEST(OracleDesignChart, TheThesissChart) {
-  const ServoGrid grid{.servo = {.damping = 0.1, .backlash = 0.3},
-                       .axes = {inertia_axis(100), friction_axis(100)}};
-  const DesignChart chart(grid, CycleQuantity::size);
+  const Grid grid{.drive = drive_of({.damping = 0.1, .backlash = 0.3}),
+                  .axes = {inertia_axis(100), friction_axis(100)}};
+  const DesignChart chart(grid, Quantity::amplitude);
   EXPECT_EQ(chart.accuracy().solved_share, 0.0);
   // Of 97 intervals two parts, of the first and the last four; the corners are not compared.
   EXPECT_EQ(chart.accuracy().checked_points, 301U * 301U - 4U * 99U * 99U);
@@ -322,24 +324,24 @@ TEST(OracleDesignChart, TheThesissChart) {
 }
 
 TEST(DesignChart, GivesTheValuesOfItsGrid) {
-  const ServoGrid grid = grid_of_two(12);
-  CycleTable table(grid.size());
-  evaluate(grid, 0, grid.size(), table.columns());
-  for (const CycleQuantity quantity : {CycleQuantity::size, CycleQuantity::growth_at_rest}) {
+  const Grid grid = grid_of_two(12);
+  const Table table = worked_out(grid);
+  for (const Quantity quantity : {Quantity::amplitude, Quantity::growth_at_rest}) {
     const DesignChart chart(grid, quantity);
     for (std::size_t i = 0; i < grid.size(); ++i) {
-      const NormalizedServo servo = grid.at(i);
+      const NormalizedServo servo = servo_of(grid.at(i));
       const ChartAnswer answer = chart.look_up({servo.damping, servo.inertia_ratio});
-      ASSERT_EQ(answer.verdict, table.verdict[i]);
-      ASSERT_EQ(std::isnan(answer.value), std::isnan(table[quantity][i]));
+      ASSERT_EQ(answer.verdict, table.verdict(i));
+      const double exact = of_motion(table, quantity, i);
+      ASSERT_EQ(std::isnan(answer.value), std::isnan(exact));
       if (std::isnan(answer.value)) continue;
-      ASSERT_NEAR(answer.value, table[quantity][i], 1e-13 * table[quantity][i]);
+      ASSERT_NEAR(answer.value, exact, 1e-13 * exact);
     }
   }
 }
 
 TEST(DesignChart, ServosThatCannotHuntHaveAVerdictAndNoValue) {
-  const DesignChart chart(grid_of_two(40), CycleQuantity::size);
+  const DesignChart chart(grid_of_two(40), Quantity::amplitude);
   const ChartAnswer quiet = chart.look_up({0.65, 1.05});
   EXPECT_EQ(quiet.source, ChartSource::interpolated);
   EXPECT_EQ(quiet.verdict, Verdict::cannot_hunt);
@@ -348,13 +350,13 @@ TEST(DesignChart, ServosThatCannotHuntHaveAVerdictAndNoValue) {
 }
 
 TEST(DesignChart, TheVerdictIsRightNextToTheEndOfHunting) {
-  const ServoGrid grid = grid_of_two(25);
-  for (const CycleQuantity quantity : {CycleQuantity::size, CycleQuantity::growth_at_rest}) {
+  const Grid grid = grid_of_two(25);
+  for (const Quantity quantity : {Quantity::amplitude, Quantity::growth_at_rest}) {
     const DesignChart chart(grid, quantity);
     for (const double inertia_ratio : {0.2, 0.5, 1.0, 3.0}) {
       const double end = hunting_end(
           [&](double damping) {
-            return servo_at(grid, {damping, inertia_ratio});
+            return servo_there(grid, {damping, inertia_ratio});
           },
           0.05, 0.7);
       for (const double distance : {1e-6, 1e-4, 1e-2}) {
@@ -374,15 +376,15 @@ TEST(DesignChart, TheVerdictIsRightNextToTheEndOfHunting) {
 /// turns at 1: here it enters a chart across its border and leaves it again before it comes to the
 /// next point that was solved.
 TEST(DesignChart, TheVerdictIsRightWhereHuntingEndsBetweenThePointsOfACell) {
-  ServoGrid grid{.servo = {.friction_ratio = 0.5, .backlash = 0.3},
-                 .axes = {{Input::damping, {}}, {Input::inertia_ratio, {}, true}}};
+  Grid grid{.drive = drive_of({.friction_ratio = 0.5, .backlash = 0.3}),
+            .axes = {{"servo.damping", {}}, {"servo.inertia_ratio", {}, true}}};
   const auto growth = [&](double damping, double inertia_ratio) {
-    return growth_at_rest(servo_dynamics(servo_at(grid, {damping, inertia_ratio})));
+    return growth_at_rest(servo_dynamics(servo_there(grid, {damping, inertia_ratio})));
   };
   const auto end = [&](double inertia_ratio) {
     return hunting_end(
         [&](double damping) {
-          return servo_at(grid, {damping, inertia_ratio});
+          return servo_there(grid, {damping, inertia_ratio});
         },
         0.01, 0.9);
   };
@@ -402,13 +404,13 @@ TEST(DesignChart, TheVerdictIsRightWhereHuntingEndsBetweenThePointsOfACell) {
     ASSERT_NE(growth(border, std::exp(logarithm)) > 1.0, hunts);
     ASSERT_NE(growth(border + towards_turn, std::exp(logarithm)) > 1.0, hunts);
   }
-  const DesignChart chart(grid, CycleQuantity::growth_at_rest, {.tolerance = 1.0});
+  const DesignChart chart(grid, Quantity::growth_at_rest, {.tolerance = 1.0});
   EXPECT_EQ(chart.look_up({within, 1.0}).verdict, hunts ? Verdict::hunts : Verdict::cannot_hunt);
 }
 
 TEST(DesignChart, WithoutToleranceEveryServoIsSolved) {
-  const ServoGrid grid = grid_of_two(10);
-  const DesignChart chart(grid, CycleQuantity::size, {.tolerance = 0.0});
+  const Grid grid = grid_of_two(10);
+  const DesignChart chart(grid, Quantity::amplitude, {.tolerance = 0.0});
   EXPECT_EQ(chart.accuracy().checked_points, 0U);
   SeededDraws draws(904);
   for (int i = 0; i < 100; ++i) {
@@ -418,19 +420,19 @@ TEST(DesignChart, WithoutToleranceEveryServoIsSolved) {
       EXPECT_EQ(answer.verdict, Verdict::cannot_hunt);  // there is no value to be wrong
       continue;
     }
-    const NormalizedServo servo = servo_at(grid, place);
-    CycleTable exact(1);
-    find_limit_cycles({&servo, 1}, exact.columns());
-    EXPECT_EQ(answer.verdict, exact.verdict.front());
+    const NormalizedServo servo = servo_there(grid, place);
+    Table exact = table_of(1);
+    find_limit_cycles({&servo, 1}, columns_of(exact));
+    EXPECT_EQ(answer.verdict, exact.verdict(0));
     if (answer.verdict != Verdict::hunts) continue;
-    EXPECT_EQ(answer.value, exact[CycleQuantity::size].front());
+    EXPECT_EQ(answer.value, exact[Quantity::amplitude].front());
   }
 }
 
 TEST(DesignChart, AFinerGridIsSolvedInFewerCells) {
   double share = 1.0;
   for (const std::size_t count : {20U, 60U, 180U}) {
-    const DesignChart chart(grid_of_two(count), CycleQuantity::size);
+    const DesignChart chart(grid_of_two(count), Quantity::amplitude);
     EXPECT_LT(chart.accuracy().solved_share, 0.7 * share);
     share = chart.accuracy().solved_share;
   }
@@ -439,10 +441,10 @@ TEST(DesignChart, AFinerGridIsSolvedInFewerCells) {
 TEST(PropertyDesignChart, ThreadsGiveTheSameAnswers) {
   constexpr std::uint64_t seed = 905;
   SCOPED_TRACE(seed);
-  const ServoGrid grid = grid_of_two(30);
-  const DesignChart one(grid, CycleQuantity::period, {.threads = 1});
+  const Grid grid = grid_of_two(30);
+  const DesignChart one(grid, Quantity::period, {.threads = 1});
   for (const std::size_t threads : {2U, 7U}) {
-    const DesignChart several(grid, CycleQuantity::period, {.threads = threads});
+    const DesignChart several(grid, Quantity::period, {.threads = threads});
     EXPECT_EQ(several.accuracy(), one.accuracy());
     SeededDraws draws(seed);
     for (int i = 0; i < 1'000; ++i) {
@@ -457,7 +459,7 @@ TEST(PropertyDesignChart, ThreadsGiveTheSameAnswers) {
 }
 
 TEST(EdgeDesignChart, NothingIsExtrapolated) {
-  const DesignChart chart(grid_of_two(10), CycleQuantity::size);
+  const DesignChart chart(grid_of_two(10), Quantity::amplitude);
   for (const std::vector<double>& place : {std::vector{std::nextafter(0.05, 0.0), 1.0},
                                            {std::nextafter(0.7, 1.0), 1.0},
                                            {0.1, 0.1},
@@ -477,15 +479,15 @@ TEST(EdgeDesignChart, NothingIsExtrapolated) {
 }
 
 TEST(EdgeDesignChart, APlaceHasAValueForEachAxis) {
-  const DesignChart chart(grid_of_two(10), CycleQuantity::size);
+  const DesignChart chart(grid_of_two(10), Quantity::amplitude);
   EXPECT_THAT([&] { chart.look_up({0.1}); },
               testing::ThrowsMessage<std::invalid_argument>(
                   HasSubstr("place: 1 values; must be 2, one for each axis")));
 }
 
-std::string fault_of(const ServoGrid& grid, double tolerance = 1e-3) {
+std::string fault_of(const Grid& grid, double tolerance = 1e-3) {
   try {
-    const DesignChart chart(grid, CycleQuantity::size, {.tolerance = tolerance});
+    const DesignChart chart(grid, Quantity::amplitude, {.tolerance = tolerance});
   } catch (const InvalidInput& error) {
     return error.what();
   }
@@ -493,45 +495,47 @@ std::string fault_of(const ServoGrid& grid, double tolerance = 1e-3) {
 }
 
 TEST(EdgeDesignChart, FaultsAreToldAtOnce) {
-  const std::string faults = fault_of({.servo = {.damping = 0.1, .backlash = -1.0},
-                                       .axes = {{Input::friction_ratio, {0.1, 0.2, 0.3}},
-                                                {Input::inertia_ratio, {1.0, 2.0, 3.0, infinity}}}},
-                                      1.5);
+  const std::string faults =
+      fault_of({.drive = drive_of({.damping = 0.1, .backlash = -1.0}),
+                .axes = {{"servo.friction_ratio", {0.1, 0.2, 0.3}},
+                         {"servo.inertia_ratio", {1.0, 2.0, 3.0, infinity}}}},
+               1.5);
   EXPECT_THAT(faults, HasSubstr("backlash = -1: must be"));
   EXPECT_THAT(faults, HasSubstr("axis 1 = 3 values: must be at least 4"));
   EXPECT_THAT(faults, HasSubstr("axis 2 = inf: must be finite"));
   EXPECT_THAT(faults, HasSubstr("tolerance = 1.5: must be from 0 to 1"));
   EXPECT_THAT(fault_of(grid_of_two(10), not_known), HasSubstr("tolerance = nan: must be"));
-  EXPECT_EQ(fault_of({.servo = {.backlash = 0.3}, .axes = {}}),
+  EXPECT_EQ(fault_of({.drive = drive_of({.backlash = 0.3}), .axes = {}}),
             "axes = none: must be at least one");
-  EXPECT_THAT(fault_of({{.backlash = 0.3}, {{Input::damping, {0.4, 0.3, 0.2, 0.1}}}}),
+  EXPECT_THAT(fault_of({drive_of({.backlash = 0.3}), {{"servo.damping", {0.4, 0.3, 0.2, 0.1}}}}),
               HasSubstr("axis 1 = 0.4 before 0.3: must rise"));
-  EXPECT_THAT(fault_of({{.backlash = 0.3}, {{Input::damping, {0.0, 0.1, 0.2, 0.3}, true}}}),
-              HasSubstr("axis 1 = 0: must be positive on a logarithmic axis"));
-  EXPECT_THAT(fault_of({{.backlash = 0.3}, {{Input::damping, {0.0, 1e-15, 0.2, 0.3}}}}),
-              HasSubstr("axis 1 = 2.5e-16 and 2 more: damping must be"));
+  EXPECT_THAT(
+      fault_of({drive_of({.backlash = 0.3}), {{"servo.damping", {0.0, 0.1, 0.2, 0.3}, true}}}),
+      HasSubstr("axis 1 = 0: must be positive on a logarithmic axis"));
+  EXPECT_THAT(fault_of({drive_of({.backlash = 0.3}), {{"servo.damping", {0.0, 1e-15, 0.2, 0.3}}}}),
+              HasSubstr("axis 1 = 2.5e-16 and 2 more: servo.damping must be"));
   EXPECT_THAT(fault_of(grid_of_two(6'000)), HasSubstr("points = 144072009: must be at most"));
 }
 
 TEST(EdgeDesignChart, GrowthMayBeInfinite) {
-  const ServoGrid grid{.servo = {.damping = 0.3, .backlash = 0.3},
-                       .axes = {{Input::friction_ratio, {0.0, 0.02, 0.04, 0.06, 0.08, 0.1}}}};
-  const DesignChart chart(grid, CycleQuantity::growth_at_rest, {.tolerance = 1e-2});
+  const Grid grid{.drive = drive_of({.damping = 0.3, .backlash = 0.3}),
+                  .axes = {{"servo.friction_ratio", {0.0, 0.02, 0.04, 0.06, 0.08, 0.1}}}};
+  const DesignChart chart(grid, Quantity::growth_at_rest, {.tolerance = 1e-2});
   EXPECT_EQ(chart.look_up({0.0}).value, infinity);
   for (const double friction_ratio : {1e-6, 0.05}) {
     const ChartAnswer answer = chart.look_up({friction_ratio});
     // Next to the infinite one, which is interpolated as 0, no error can be told relative to it.
     EXPECT_EQ(answer.source,
               friction_ratio < 0.02 ? ChartSource::solved : ChartSource::interpolated);
-    const double exact = analyse_limit_cycles(servo_at(grid, {friction_ratio})).growth_at_rest;
+    const double exact = analyse_limit_cycles(servo_there(grid, {friction_ratio})).growth_at_rest;
     EXPECT_NEAR(answer.value, exact, answer.error * exact);
   }
 }
 
 TEST(EdgeDesignChart, NoBacklashIsUnlikeAnyBacklash) {
-  const ServoGrid grid{.servo = {.damping = 0.2},
-                       .axes = {{Input::backlash, {0.0, 0.1, 0.2, 0.3, 0.4}}}};
-  const DesignChart chart(grid, CycleQuantity::growth_at_rest);
+  const Grid grid{.drive = drive_of({.damping = 0.2}),
+                  .axes = {{"servo.backlash", {0.0, 0.1, 0.2, 0.3, 0.4}}}};
+  const DesignChart chart(grid, Quantity::growth_at_rest);
   EXPECT_EQ(chart.look_up({0.0}).verdict, Verdict::cannot_hunt);
   EXPECT_EQ(chart.look_up({1e-6}).verdict, Verdict::hunts);
   EXPECT_EQ(chart.look_up({1e-6}).source, ChartSource::solved);
@@ -539,24 +543,25 @@ TEST(EdgeDesignChart, NoBacklashIsUnlikeAnyBacklash) {
 }
 
 TEST(EdgeDesignChart, CombinationsThatAreNoServoAreOutside) {
-  const ServoGrid grid{.servo = {.damping = 0.2, .backlash = 0.3},
-                       .axes = {{Input::inertia_ratio, {0.0, 0.1, 0.2, 0.3}},
-                                {Input::friction_ratio, {0.0, 0.1, 0.2, 0.3}}}};
-  const DesignChart chart(grid, CycleQuantity::size);
+  const Grid grid{.drive = drive_of({.damping = 0.2, .backlash = 0.3}),
+                  .axes = {{"servo.inertia_ratio", {0.0, 0.1, 0.2, 0.3}},
+                           {"servo.friction_ratio", {0.0, 0.1, 0.2, 0.3}}}};
+  const DesignChart chart(grid, Quantity::amplitude);
   EXPECT_EQ(chart.look_up({0.0, 0.0}).source, ChartSource::outside);
   EXPECT_EQ(chart.look_up({0.01, 0.01}).verdict, Verdict::hunts);
 }
 
 TEST(DesignChart, WithRestitutionUnlikeCellsAreSolved) {
-  const ServoGrid grid{
-      .servo = {.damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3},
-      .axes = {{Input::restitution, {0.1, 0.15, 0.2, 0.25}}}};
+  const Grid grid{
+      .drive =
+          drive_of({.damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3}),
+      .axes = {{"contact.restitution", {0.1, 0.15, 0.2, 0.25}}}};
   for (const double damping : {0.19, 0.6}) {
-    ServoGrid of_damping = grid;
-    of_damping.servo.damping = damping;
-    const DesignChart chart(of_damping, CycleQuantity::size, {.tolerance = 1e-2});
+    Grid of_damping = grid;
+    of_damping.drive.servo->damping = damping;
+    const DesignChart chart(of_damping, Quantity::amplitude, {.tolerance = 1e-2});
     for (const double restitution : {0.12, 0.17}) {
-      const LimitCycleAnalysis exact = analyse_limit_cycles(servo_at(of_damping, {restitution}));
+      const LimitCycleAnalysis exact = analyse_limit_cycles(servo_there(of_damping, {restitution}));
       const LimitCycle* cycle = largest_stable(exact);
       const ChartAnswer answer = chart.look_up({restitution});
       EXPECT_EQ(answer.verdict, exact.verdict);

@@ -8,8 +8,8 @@
 #include <optional>
 #include <random>
 
+#include "analysis/grid/servo_grids.hpp"
 #include "closed_form/growth_at_rest.hpp"
-#include "closed_form/lanes/cycle_table.hpp"
 #include "closed_form/trajectory.hpp"
 
 namespace gearlash {
@@ -17,37 +17,28 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-Axis linear(Input input, double from, double to, std::size_t count) {
-  return spaced_axis("axis", input, from, to, count, Spacing::linear);
-}
-Axis logarithmic(Input input, double from, double to, std::size_t count) {
-  return spaced_axis("axis", input, from, to, count, Spacing::logarithmic);
-}
-
-std::vector<MapCurve> boundary_of(const ServoGrid& grid) {
-  CycleTable cycles(grid.size());
-  evaluate(grid, 0, grid.size(), cycles.columns());
-  return hunting_boundary(grid, cycles[CycleQuantity::growth_at_rest]);
+std::vector<MapCurve> boundary_of(const Grid& grid) {
+  return hunting_boundary(grid, worked_out(grid)[Quantity::growth_at_rest]);
 }
 
 double growth_of(const NormalizedServo& servo) { return growth_at_rest(servo_dynamics(servo)); }
 
 /// Of all pairs of inputs on which the growth depends, on axes of both kinds.
-std::vector<ServoGrid> plastic_grids() {
+std::vector<Grid> plastic_grids() {
   return {
-      {{.inertia_ratio = 2.0, .backlash = 1.0},
-       {linear(Input::damping, 0.1, 0.8, 15), linear(Input::friction_ratio, 0.05, 0.95, 17)}},
-      {{.friction_ratio = 0.2, .backlash = 1.0},
-       {linear(Input::damping, 0.1, 0.9, 11), logarithmic(Input::inertia_ratio, 0.05, 20.0, 12)}},
-      {{.damping = 0.5, .backlash = 1.0},
-       {logarithmic(Input::inertia_ratio, 0.05, 20.0, 21),
-        linear(Input::friction_ratio, 0.05, 0.95, 9)}},
-      {{.damping = 0.45, .backlash = 1.0},
-       {logarithmic(Input::friction_ratio, 0.03, 0.97, 13),
-        logarithmic(Input::inertia_ratio, 0.1, 10.0, 14)}},
-      {{.inertia_ratio = 0.5, .backlash = 1.0},
-       {logarithmic(Input::friction_ratio, 0.03, 0.97, 10),
-        logarithmic(Input::damping, 0.2, 0.9, 8)}}};
+      {drive_of({.inertia_ratio = 2.0, .backlash = 1.0}),
+       {linear("servo.damping", 0.1, 0.8, 15), linear("servo.friction_ratio", 0.05, 0.95, 17)}},
+      {drive_of({.friction_ratio = 0.2, .backlash = 1.0}),
+       {linear("servo.damping", 0.1, 0.9, 11), logarithmic("servo.inertia_ratio", 0.05, 20.0, 12)}},
+      {drive_of({.damping = 0.5, .backlash = 1.0}),
+       {logarithmic("servo.inertia_ratio", 0.05, 20.0, 21),
+        linear("servo.friction_ratio", 0.05, 0.95, 9)}},
+      {drive_of({.damping = 0.45, .backlash = 1.0}),
+       {logarithmic("servo.friction_ratio", 0.03, 0.97, 13),
+        logarithmic("servo.inertia_ratio", 0.1, 10.0, 14)}},
+      {drive_of({.inertia_ratio = 0.5, .backlash = 1.0}),
+       {logarithmic("servo.friction_ratio", 0.03, 0.97, 10),
+        logarithmic("servo.damping", 0.2, 0.9, 8)}}};
 }
 
 /// How far the place of the boundary may be off along an axis, in shares of it: where the growth
@@ -59,7 +50,7 @@ double place_tolerance(double slope, double epsilons) {
 }
 
 TEST(PropertyHuntingBoundary, GrowthAtRestIsOneThere) {
-  for (const ServoGrid& grid : plastic_grids()) {
+  for (const Grid& grid : plastic_grids()) {
     const std::vector<MapCurve> curves = boundary_of(grid);
     ASSERT_FALSE(curves.empty());
     for (const MapCurve& curve : curves) {
@@ -77,7 +68,7 @@ TEST(PropertyHuntingBoundary, GrowthAtRestIsOneThere) {
 }
 
 TEST(PropertyHuntingBoundary, BetweenItsPointsItIsStraight) {
-  for (const ServoGrid& grid : plastic_grids()) {
+  for (const Grid& grid : plastic_grids()) {
     for (const MapCurve& curve : boundary_of(grid)) {
       for (std::size_t i = 0; i + 1 < curve.size(); ++i) {
         const auto middle = [&](const Axis& axis, double from, double to) {
@@ -131,7 +122,7 @@ double simulated_growth(const NormalizedServo& servo) {
 
 /// Across the boundary at one of its points, along one axis: position, and what grows there.
 struct Crossing {
-  const ServoGrid& grid;
+  const Grid& grid;
   MapPoint point;
   std::size_t axis;
 
@@ -154,7 +145,7 @@ double simulated_place(const Crossing& crossing, double grows, double dies) {
 
 /// Compares at a point of the curve, along the axis over which the growth changes faster. Nothing
 /// is compared next to the plane's edge, where there is no room to bisect.
-bool agrees_at(const ServoGrid& grid, const MapPoint& point, double epsilons) {
+bool agrees_at(const Grid& grid, const MapPoint& point, double epsilons) {
   constexpr double reach = 1e-3;
   double slope = 0.0;
   Crossing steepest{grid, point, 0};
@@ -179,9 +170,9 @@ bool agrees_at(const ServoGrid& grid, const MapPoint& point, double epsilons) {
   return true;
 }
 
-void compare_at_random(const std::vector<ServoGrid>& grids, std::size_t places, double epsilons) {
+void compare_at_random(const std::vector<Grid>& grids, std::size_t places, double epsilons) {
   std::vector<std::vector<MapCurve>> boundaries;
-  for (const ServoGrid& grid : grids) boundaries.push_back(boundary_of(grid));
+  for (const Grid& grid : grids) boundaries.push_back(boundary_of(grid));
   constexpr unsigned seed = 1960;
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937 random(seed);
@@ -204,28 +195,28 @@ TEST(OracleHuntingBoundary, LongSimulationsNeitherGrowNorDieThere) {
 }
 
 TEST(OracleHuntingBoundary, LongSimulationsWithBouncesNeitherGrowNorDieThere) {
-  const ServoGrid grid{
-      {.inertia_ratio = 2.0, .backlash = 1.0, .restitution = 0.3},
-      {linear(Input::damping, 0.3, 0.6, 12), linear(Input::friction_ratio, 0.2, 0.9, 12)}};
+  const Grid grid{
+      drive_of({.inertia_ratio = 2.0, .backlash = 1.0, .restitution = 0.3}),
+      {linear("servo.damping", 0.3, 0.6, 12), linear("servo.friction_ratio", 0.2, 0.9, 12)}};
   compare_at_random({grid}, 30, 50.0);
 }
 
 TEST(EdgeHuntingBoundary, NoneWhereAllHuntOrNoneDoes) {
-  const Axis friction = linear(Input::friction_ratio, 0.2, 0.8, 9);
-  EXPECT_TRUE(boundary_of({{.inertia_ratio = 1.0, .backlash = 0.3},
-                           {linear(Input::damping, 0.05, 0.2, 9), friction}})
+  const Axis friction = linear("servo.friction_ratio", 0.2, 0.8, 9);
+  EXPECT_TRUE(boundary_of({drive_of({.inertia_ratio = 1.0, .backlash = 0.3}),
+                           {linear("servo.damping", 0.05, 0.2, 9), friction}})
                   .empty());
-  EXPECT_TRUE(boundary_of({{.inertia_ratio = 1.0, .backlash = 0.3},
-                           {linear(Input::damping, 0.7, 0.9, 9), friction}})
+  EXPECT_TRUE(boundary_of({drive_of({.inertia_ratio = 1.0, .backlash = 0.3}),
+                           {linear("servo.damping", 0.7, 0.9, 9), friction}})
                   .empty());
 }
 
 TEST(EdgeHuntingBoundary, FrictionOnOneSideOnlyAlwaysHunts) {
   // The growth is infinite at friction ratio 0 and 1: the boundary ends at the map's top on either
   // side, short of them.
-  const ServoGrid grid{
-      {.inertia_ratio = 2.0, .backlash = 1.0},
-      {linear(Input::damping, 0.0, 0.8, 9), linear(Input::friction_ratio, 0.0, 1.0, 11)}};
+  const Grid grid{
+      drive_of({.inertia_ratio = 2.0, .backlash = 1.0}),
+      {linear("servo.damping", 0.0, 0.8, 9), linear("servo.friction_ratio", 0.0, 1.0, 11)}};
   const std::vector<MapCurve> curves = boundary_of(grid);
   ASSERT_EQ(curves.size(), 1U);
   EXPECT_EQ(curves[0].front().y, 0.8);
@@ -237,9 +228,9 @@ TEST(EdgeHuntingBoundary, FrictionOnOneSideOnlyAlwaysHunts) {
 }
 
 TEST(EdgeHuntingBoundary, BacklashHasNoInfluence) {
-  const ServoGrid grid{
-      {.inertia_ratio = 2.0, .friction_ratio = 0.5},
-      {logarithmic(Input::backlash, 1e-3, 1.0, 4), linear(Input::damping, 0.2, 0.8, 7)}};
+  const Grid grid{
+      drive_of({.inertia_ratio = 2.0, .friction_ratio = 0.5}),
+      {logarithmic("servo.backlash", 1e-3, 1.0, 4), linear("servo.damping", 0.2, 0.8, 7)}};
   const std::vector<MapCurve> curves = boundary_of(grid);
   ASSERT_EQ(curves.size(), 1U);
   EXPECT_EQ(curves[0].front().y, 1e-3);  // upwards: what hunts has less damping, on the left
@@ -249,9 +240,9 @@ TEST(EdgeHuntingBoundary, BacklashHasNoInfluence) {
 
 TEST(EdgeHuntingBoundary, RefusedCombinationsHaveNone) {
   // A massless load without friction is no servo: nothing is known of the cell beside it.
-  const ServoGrid grid{
-      {.damping = 0.5, .backlash = 1.0},
-      {{Input::inertia_ratio, {0.0, 0.5, 1.0, 2.0}}, linear(Input::friction_ratio, 0.0, 1.0, 6)}};
+  const Grid grid{
+      drive_of({.damping = 0.5, .backlash = 1.0}),
+      {{"servo.inertia_ratio", {0.0, 0.5, 1.0, 2.0}}, linear("servo.friction_ratio", 0.0, 1.0, 6)}};
   const std::vector<MapCurve> curves = boundary_of(grid);
   ASSERT_FALSE(curves.empty());
   for (const MapCurve& curve : curves) {
@@ -264,13 +255,13 @@ TEST(EdgeHuntingBoundary, RefusedCombinationsHaveNone) {
 TEST(PropertyHuntingBoundary, TheExchangeOfMotorAndLoadKeepsIt) {
   // (friction_ratio, inertia_ratio) → (1 − friction_ratio, 1/inertia_ratio): a half turn of the
   // map.
-  const ServoGrid grid{{.damping = 0.5, .backlash = 1.0},
-                       {logarithmic(Input::inertia_ratio, 1.0 / 30.0, 30.0, 21),
-                        linear(Input::friction_ratio, 0.0, 1.0, 21)}};
+  const Grid grid{drive_of({.damping = 0.5, .backlash = 1.0}),
+                  {logarithmic("servo.inertia_ratio", 1.0 / 30.0, 30.0, 21),
+                   linear("servo.friction_ratio", 0.0, 1.0, 21)}};
   std::size_t points = 0;
   for (const MapCurve& curve : boundary_of(grid)) {
     for (const MapPoint& point : curve) {
-      NormalizedServo exchanged = grid.servo;
+      NormalizedServo exchanged = servo_of(grid.drive);
       exchanged.friction_ratio = 1.0 - point.x;
       exchanged.inertia_ratio = 1.0 / point.y;
       // Close to friction ratio 0 the complement loses digits: 1e-16 of 1e-2.

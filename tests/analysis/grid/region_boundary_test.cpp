@@ -11,12 +11,12 @@ namespace {
 
 using SideAt = std::function<Side(const MapPoint&)>;
 
-Axis axis(Input input, double from, double to, std::size_t count,
+Axis axis(const char* path, double from, double to, std::size_t count,
           Spacing spacing = Spacing::linear) {
-  return spaced_axis("axis", input, from, to, count, spacing);
+  return spaced_axis("axis", path, from, to, count, spacing);
 }
 
-Axis unit_axis(std::size_t count) { return axis(Input::friction_ratio, 0.0, 1.0, count); }
+Axis unit_axis(std::size_t count) { return axis("servo.friction_ratio", 0.0, 1.0, count); }
 
 std::vector<MapCurve> boundary(const Axis& x, const Axis& y, const SideAt& side_at) {
   std::vector<Side> corners;
@@ -65,8 +65,8 @@ TEST(OracleRegionBoundary, CoarseGridGivesASmoothCircle) {
 }
 
 TEST(OracleRegionBoundary, ALineInLogarithmsRunsFromEdgeToEdge) {
-  const Axis x = axis(Input::inertia_ratio, 0.01, 100.0, 7, Spacing::logarithmic);
-  const Axis y = axis(Input::damping, 0.1, 10.0, 6, Spacing::logarithmic);
+  const Axis x = axis("servo.inertia_ratio", 0.01, 100.0, 7, Spacing::logarithmic);
+  const Axis y = axis("servo.damping", 0.1, 10.0, 6, Spacing::logarithmic);
   const auto curves =
       boundary(x, y, [](const MapPoint& point) { return inside_if(point.x * point.y < 2.0); });
   ASSERT_EQ(curves.size(), 1U);
@@ -130,9 +130,9 @@ TEST(EdgeRegionBoundary, NothingPassesWhatIsUnknown) {
 
 TEST(EdgeRegionBoundary, AnAxisWithoutLengthHasNone) {
   const auto left = [](const MapPoint& point) { return inside_if(point.x < 2.0); };
-  const Axis infinite{Input::inertia_ratio, {1.0, 3.0, INFINITY}};
+  const Axis infinite{"servo.inertia_ratio", {1.0, 3.0, INFINITY}};
   EXPECT_TRUE(boundary(infinite, unit_axis(3), left).empty());
-  EXPECT_TRUE(boundary(axis(Input::inertia_ratio, 1.0, 1.0, 1), unit_axis(3), left).empty());
+  EXPECT_TRUE(boundary(axis("servo.inertia_ratio", 1.0, 1.0, 1), unit_axis(3), left).empty());
 }
 
 }  // namespace

@@ -1,0 +1,120 @@
+#include "gearlash/grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/grid/grid_evaluation.hpp"
+#include "base/range_check.hpp"
+
+namespace gearlash {
+namespace {
+
+/// What is wrong with the drive at the ends of the axes, if it is so at every combination of them:
+/// a combination may be none (a massless load without friction) where others are drives.
+std::vector<Fault> faults_of_corners(const Grid& grid, bool are_axes_sound) {
+  if (!are_axes_sound) return {};  // what they vary may be at fault in the drive
+  std::vector<Fault> found;
+  for (const std::vector<double>& corner : corners_of(grid)) {
+    Drive drive = grid.drive;
+    for (std::size_t i = 0; i < corner.size(); ++i) set_on(grid.axes[i], drive, corner[i]);
+    found = faults(drive);
+    if (found.empty()) break;
+  }
+  return found;
+}
+
+/// Whether two axes vary the same number.
+bool are_same(const Axis& one, const Axis& other, const Drive& drive) {
+  if (one.path.find('[') != std::string::npos) return one.path == other.path;
+  const Parameter* parameter = parameter_of(one, drive);
+  return parameter != nullptr && parameter == parameter_of(other, drive);
+}
+
+}  // namespace
+
+std::size_t Grid::size() const {
+  std::size_t points = 1;
+  for (const Axis& axis : axes) points *= axis.values.size();
+  return points;
+}
+
+Drive Grid::at(std::size_t index) const {
+  const std::vector<double> values = values_at(*this, index);
+  Drive point = drive;
+  for (std::size_t i = 0; i < axes.size(); ++i) set_on(axes[i], point, values[i]);
+  return point;
+}
+
+std::vector<Fault> faults(const Grid& grid, const std::vector<std::string>& fields) {
+  RangeCheck check;
+  double points = 1.0;
+  const auto name_of_axis = [&](std::size_t i) {
+    return i < fields.size() ? fields[i] : "axis " + std::to_string(i + 1);
+  };
+  for (std::size_t i = 0; i < grid.axes.size(); ++i) {
+    const Axis& axis = grid.axes[i];
+    check.include(faults_of_axis(axis, grid.drive, name_of_axis(i)));
+    points *= static_cast<double>(axis.values.size());
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!are_same(grid.axes[j], axis, grid.drive)) continue;
+      check.refuse(name_of_axis(i), axis.path,
+                   "must be another parameter than that of " + name_of_axis(j));
+    }
+  }
+  if (points > static_cast<double>(most_points_of_a_grid)) {
+    check.refuse("points", exact_text(points),
+                 "must be at most " + exact_text(static_cast<double>(most_points_of_a_grid)) +
+                     " on all axes together");
+  }
+  const bool are_axes_sound = check.faults().empty();
+  return check.include(faults_of_corners(grid, are_axes_sound)).faults();
+}
+
+Table::Table(std::size_t rows, std::span<const Quantity> quantities, std::size_t line)
+    : verdicts_(rows, Verdict::undecided), line_(line == 0 ? rows : line) {
+  for (const Quantity quantity : quantities) {
+    columns_[static_cast<std::size_t>(quantity)].assign(rows,
+                                                        std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+bool Table::has(Quantity quantity) const noexcept {
+  return !columns_[static_cast<std::size_t>(quantity)].empty();
+}
+
+std::span<const double> Table::operator[](Quantity quantity) const {
+  const std::vector<double>& column = columns_[static_cast<std::size_t>(quantity)];
+  if (column.empty() && rows() > 0) {
+    require_none({{"quantity", std::string(name_of(quantity)),
+                   "must be one of those that the table was worked out for", ""}});
+  }
+  return column;
+}
+
+std::span<double> Table::column(Quantity quantity) noexcept {
+  return columns_[static_cast<std::size_t>(quantity)];
+}
+
+std::span<const double> Table::line(Quantity quantity, std::size_t number) const {
+  return (*this)[quantity].subspan(number * line_, line_);
+}
+
+std::size_t Table::smallest(Quantity quantity, std::size_t number) const {
+  const std::span<const double> values = line(quantity, number);
+  std::size_t least = values.size();
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i])) continue;
+    if (least == values.size() || values[i] < values[least]) least = i;
+  }
+  return least;
+}
+
+Table evaluate(const Grid& grid, std::span<const Quantity> quantities, Progress& progress) {
+  require_none(faults(grid));
+  Table table(grid.size(), quantities, grid.axes.empty() ? 0 : grid.axes.back().values.size());
+  evaluate(grid, GridPoints(grid), 0, grid.size(), columns_of(table), progress);
+  return table;
+}
+
+}  // namespace gearlash

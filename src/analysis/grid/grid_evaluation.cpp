@@ -1,0 +1,303 @@
+#include "analysis/grid/grid_evaluation.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "base/on_threads.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// Points that a thread works out at a time: some tenths of a millisecond where nothing bounces,
+/// some tens of milliseconds where it does, and one search.
+std::size_t points_at_a_time(const EnginesNeeded& engines) {
+  if (engines.search) return 1;
+  return engines.bounces ? 8 : 4096;
+}
+
+bool is_at_rest(Verdict verdict) {
+  return verdict == Verdict::cannot_hunt || verdict == Verdict::comes_to_rest;
+}
+
+CycleColumns rows_of(const CycleColumns& columns, std::size_t first, std::size_t count) {
+  CycleColumns rows;
+  rows.verdict = columns.verdict.subspan(first, count);
+  for (std::size_t i = 0; i < quantity_count; ++i) {
+    if (!columns.numbers[i].empty()) rows.numbers[i] = columns.numbers[i].subspan(first, count);
+  }
+  return rows;
+}
+
+void write(const CycleColumns& columns, std::size_t row, const Answer& answer) {
+  columns.verdict[row] = answer.verdict;
+  for (std::size_t i = 0; i < quantity_count; ++i) {
+    if (columns.numbers[i].empty()) continue;
+    columns.numbers[i][row] = answer.value(static_cast<Quantity>(i)).value_or(nothing);
+  }
+}
+
+/// A row from the normal form to SI.
+void scale(const CycleColumns& columns, std::size_t row, double natural_frequency,
+           double stiffness) {
+  const auto by = [&](Quantity quantity, double factor) {
+    if (!columns[quantity].empty()) columns[quantity][row] *= factor;
+  };
+  for (const Quantity time : {Quantity::period, Quantity::engaged_time, Quantity::separated_time}) {
+    by(time, 1.0 / natural_frequency);
+  }
+  for (const Quantity rate : {Quantity::frequency, Quantity::impact_speed}) {
+    by(rate, natural_frequency);
+  }
+  for (const Quantity loss :
+       {Quantity::motor_friction_loss, Quantity::load_friction_loss, Quantity::impact_loss}) {
+    by(loss, stiffness);
+  }
+}
+
+void scale(const CycleColumns& columns, std::size_t row, const FinalServo& servo) {
+  scale(columns, row, servo.closed_form.natural_frequency, servo.stiffness.value_or(nothing));
+}
+
+/// What Answer::value() says of drives that come to rest, and of the verdict.
+void complete(const CycleColumns& columns, std::size_t row) {
+  const Verdict verdict = columns.verdict[row];
+  const std::span<double> words = columns[Quantity::verdict];
+  if (!words.empty()) words[row] = static_cast<double>(verdict);
+  if (!is_at_rest(verdict)) return;
+  for (const Quantity quantity : {Quantity::amplitude, Quantity::motor_amplitude}) {
+    if (!columns[quantity].empty()) columns[quantity][row] = 0.0;
+  }
+}
+
+/// The points of a grid one after another: at() divides once an axis and point, which is felt
+/// beside the kernel.
+class GridWalk {
+ public:
+  GridWalk(const Grid& grid, std::size_t first)
+      : grid_(grid), places_(grid.axes.size()), values_(values_at(grid, first)) {
+    for (std::size_t i = places_.size(); i-- > 0;) {
+      places_[i] = first % grid.axes[i].values.size();
+      first /= grid.axes[i].values.size();
+    }
+  }
+
+  std::span<const double> values() const { return values_; }
+
+  void go_on() {
+    for (std::size_t i = places_.size(); i-- > 0;) {
+      const std::vector<double>& values = grid_.axes[i].values;
+      const bool carries = ++places_[i] == values.size();
+      if (carries) places_[i] = 0;
+      values_[i] = values[places_[i]];
+      if (!carries) return;
+    }
+  }
+
+ private:
+  const Grid& grid_;
+  std::vector<std::size_t> places_;  ///< of the point on the axes
+  std::vector<double> values_;
+};
+
+/// Goes into searches, several at a time: they are told whether the whole goes on.
+class ProgressOfSearches : public Progress {
+ public:
+  ProgressOfSearches(Progress& whole, std::size_t points)
+      : whole_(whole), points_(static_cast<double>(points)) {}
+
+  bool go_on(double /*share*/, std::size_t bytes = 0) override { return tell(0, bytes); }
+  bool tell(std::size_t more, std::size_t bytes = 0) {
+    const std::scoped_lock lock(telling_);
+    done_ += more;
+    if (!stopped_ && !whole_.go_on(static_cast<double>(done_) / points_, bytes)) stopped_ = true;
+    return !stopped_;
+  }
+  bool is_stopped() const { return stopped_; }
+  std::size_t done() const { return done_; }
+
+ private:
+  Progress& whole_;
+  double points_;
+  std::mutex telling_;
+  std::size_t done_ = 0;
+  std::atomic<bool> stopped_ = false;
+};
+
+/// Some points one after another: those in closed form as a batch, the others by a search each.
+class Part {
+ public:
+  Part(const GridPoints& points, const CycleColumns& columns)
+      : points_(points), columns_(columns), servos_(columns.verdict.size()) {}
+
+  GridCount work_out(GridWalk walk, bool proved, VectorUnit unit, Progress& progress) {
+    for (std::size_t row = 0; row < servos_.size(); ++row, walk.go_on()) {
+      points_.are_of_normal_form() ? place(row, points_.normal_form_at(walk.values()))
+                                   : place(row, points_.drive_at(walk.values()));
+    }
+    GridCount count;
+    count.solved = find_limit_cycles(servos_, columns_, unit);
+    count.solved.one_by_one -= refused_.size() + searched_.size();  // stand-ins have no gap
+    if (proved) count.unproved = keep_proved(servos_, columns_);
+    bring_to_si();
+    for (const auto& [row, drive] : searched_) {
+      write(columns_, row, analyse(drive, {.proofs = false}, progress));
+    }
+    for (const std::size_t row : refused_) write(columns_, row, Answer{});
+    for (std::size_t row = 0; row < servos_.size(); ++row) complete(columns_, row);
+    count.searched = searched_.size();
+    count.refused = refused_.size();
+    return count;
+  }
+
+ private:
+  struct Searched {
+    std::size_t row;
+    Drive drive;
+  };
+  struct Scale {
+    std::size_t row;
+    double natural_frequency;
+    double stiffness;  ///< NaN where it is not known
+  };
+
+  static NormalizedServo stand_in() { return {.damping = 1.0}; }
+
+  void place(std::size_t row, const NormalizedServo& servo) {
+    servos_[row] = servo;
+    const bool two_masses = servo.inertia_ratio > 0.0 && std::isfinite(servo.inertia_ratio);
+    if (two_masses || validate(servo).empty()) return;  // all else the axes have settled
+    servos_[row] = stand_in();
+    refused_.push_back(row);
+  }
+
+  void place(std::size_t row, Drive drive) {
+    servos_[row] = stand_in();
+    if (!faults(drive).empty()) {
+      refused_.push_back(row);
+    } else if (const std::optional<FinalServo> servo = final_servo(drive)) {
+      servos_[row] = servo->closed_form.servo;
+      scales_.push_back(
+          {row, servo->closed_form.natural_frequency, servo->stiffness.value_or(nothing)});
+    } else {
+      searched_.push_back({row, std::move(drive)});
+    }
+  }
+
+  /// From the normal form to SI.
+  void bring_to_si() {
+    if (!points_.are_of_normal_form()) {
+      for (const Scale& one : scales_) {
+        scale(columns_, one.row, one.natural_frequency, one.stiffness);
+      }
+      return;
+    }
+    const FinalServo& base = *points_.base();
+    const double frequency = base.closed_form.natural_frequency;
+    if (frequency == 1.0 && base.stiffness == 1.0) return;
+    for (std::size_t row = 0; row < servos_.size(); ++row) {
+      scale(columns_, row, base);
+    }
+  }
+
+  const GridPoints& points_;
+  CycleColumns columns_;
+  std::vector<NormalizedServo> servos_;
+  std::vector<Scale> scales_;
+  std::vector<Searched> searched_;
+  std::vector<std::size_t> refused_;
+};
+
+}  // namespace
+
+void GridCount::add(const GridCount& others) {
+  solved.side_by_side += others.solved.side_by_side;
+  solved.one_by_one += others.solved.one_by_one;
+  searched += others.searched;
+  refused += others.refused;
+  unproved += others.unproved;
+}
+
+CycleColumns columns_of(Table& table) {
+  CycleColumns columns{.verdict = table.column_of_verdicts()};
+  for (std::size_t i = 0; i < quantity_count; ++i) {
+    columns.numbers[i] = table.column(static_cast<Quantity>(i));
+  }
+  return columns;
+}
+
+std::span<const Quantity> quantities_known(const EnginesNeeded& engines) {
+  static const std::vector<Quantity> all = [] {
+    std::vector<Quantity> list;
+    for (const QuantityInfo& info : quantities()) {
+      if (info.kind == QuantityKind::number) list.push_back(info.quantity);
+    }
+    return list;
+  }();
+  return engines.search ? std::span<const Quantity>(all) : closed_form_quantities;
+}
+
+PointAnswer answer_at(const GridPoints& points, std::span<const double> place, Quantity quantity) {
+  PointAnswer answer;
+  CycleColumns columns{.verdict = {&answer.verdict, 1}};
+  columns[quantity] = {&answer.value, 1};
+  if (const std::optional<FinalServo> servo = points.servo_at(place)) {
+    find_limit_cycles({&servo->closed_form.servo, 1}, columns);
+    scale(columns, 0, *servo);
+    complete(columns, 0);
+    return answer;
+  }
+  const Drive drive = points.drive_at(place);
+  answer.is_drive = faults(drive).empty();
+  if (answer.is_drive) write(columns, 0, analyse(drive, {.proofs = false}));
+  return answer;
+}
+
+double of_motion(Quantity quantity, Verdict verdict, double value) {
+  return is_at_rest(verdict) && quantity != Quantity::growth_at_rest ? nothing : value;
+}
+
+double of_motion(const Table& table, Quantity quantity, std::size_t row) {
+  return of_motion(quantity, table.verdict(row), table[quantity][row]);
+}
+
+std::size_t box_length(const Grid& grid, std::size_t first, std::size_t most) {
+  std::size_t whole = 1;  // points of the axes that the box takes whole
+  for (auto axis = grid.axes.rbegin(); axis != grid.axes.rend(); ++axis) {
+    const std::size_t values = axis->values.size();
+    const std::size_t left = values - first / whole % values;
+    if (left < values || whole * values > most) return std::min(left, most / whole) * whole;
+    whole *= values;
+  }
+  return whole;
+}
+
+GridCount evaluate(const Grid& grid, const GridPoints& points, std::size_t first, std::size_t count,
+                   const CycleColumns& columns, Progress& progress, const Workers& workers) {
+  const std::size_t part = points_at_a_time(points.engines());
+  GridCount total;
+  std::mutex adding;
+  ProgressOfSearches searches(progress, count);
+  const auto work = [&](std::size_t index) {
+    if (searches.is_stopped()) return;
+    const std::size_t begin = index * part;
+    const std::size_t rows = std::min(part, count - begin);
+    Part points_of_part(points, rows_of(columns, begin, rows));
+    const GridCount of_part =
+        points_of_part.work_out(GridWalk(grid, first + begin), grid.proved, workers.unit, searches);
+    {
+      const std::scoped_lock lock(adding);
+      total.add(of_part);
+    }
+    searches.tell(rows);
+  };
+  on_threads(workers.threads, (count + part - 1) / part, work);
+  total.stopped = searches.is_stopped() && searches.done() < count;
+  return total;
+}
+
+}  // namespace gearlash

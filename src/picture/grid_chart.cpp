@@ -1,0 +1,105 @@
+#include "picture/grid_chart.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analysis/grid/grid_evaluation.hpp"
+#include "analysis/grid/hunting_end.hpp"
+#include "picture/grid_words.hpp"
+#include "picture/hunting_curve.hpp"
+
+namespace gearlash {
+namespace {
+
+/// One curve of the chart: rows `first` … of the table, over the last axis.
+ChartCurve curve_of(const GridTable& table, const GridPoints& points, std::size_t first,
+                    Quantity quantity) {
+  const Axis& x = table.grid.axes.back();
+  std::vector<double> place = values_at(table.grid, first);
+  const auto servo_at = [&](double on_curve) {
+    place.back() = on_curve;
+    const std::optional<FinalServo> servo = points.servo_at(place);
+    return servo ? servo->closed_form.servo : NormalizedServo{.damping = 1.0};
+  };
+  const bool is_plastic = !points.engines().bounces && !points.engines().search;
+  const double limit = limit_where_hunting_ends(quantity, servo_at(x.values.front()).backlash)
+                           .value_or(std::numeric_limits<double>::infinity());
+  const bool ends = is_plastic && std::isfinite(limit);
+  std::vector<CurveServo> servos;
+  for (std::size_t i = 0; i < x.values.size(); ++i) {
+    const Verdict verdict = table.table.verdict(first + i);
+    // Rest is a number where drives are searched: 0 for an amplitude.
+    CurveServo servo{x.values[i], points.engines().search
+                                      ? table.table[quantity][first + i]
+                                      : of_motion(table.table, quantity, first + i)};
+    if (ends && verdict == Verdict::hunts) servo.hunts = true;
+    if (ends && verdict == Verdict::cannot_hunt) servo.hunts = false;
+    servos.push_back(servo);
+  }
+  return curve_to_hunting_ends(servos, servo_at, limit);
+}
+
+/// Why nothing of these rows of the table is drawn.
+std::string word_for_nothing(const GridTable& table, std::size_t first, std::size_t count,
+                             Quantity quantity) {
+  bool all_rest = true;
+  for (std::size_t row = first; row < first + count; ++row) {
+    if (std::isinf(table.table[quantity][row])) return "infinite";
+    const Verdict verdict = table.table.verdict(row);
+    all_rest = all_rest && (verdict == Verdict::cannot_hunt || verdict == Verdict::comes_to_rest);
+  }
+  return all_rest ? "rests" : "not known";
+}
+
+/// A line of one point does not show.
+void mark_lone_points(ChartCurve& curve, bool are_all_lone) {
+  const auto is_drawn = [&](std::size_t i) {
+    return i < curve.line.size() && std::isfinite(curve.line[i].y);
+  };
+  for (std::size_t i = 0; i < curve.line.size(); ++i) {
+    const bool has_neighbour = !are_all_lone && (is_drawn(i + 1) || (i > 0 && is_drawn(i - 1)));
+    if (is_drawn(i) && !has_neighbour) curve.marks.push_back(curve.line[i]);
+  }
+  if (are_all_lone) curve.line.clear();
+}
+
+}  // namespace
+
+LineChart chart_of(const GridTable& table, Quantity quantity) {
+  const Grid& grid = table.grid;
+  const GridPoints points(grid);
+  const Axis& x = grid.axes.back();
+  LineChart chart{.title = title_of(quantity),
+                  .subtitle = subtitle_of(grid),
+                  .x = chart_axis(x, grid.drive),
+                  .y = {.label = label_of(quantity, grid), .low = 0.0}};
+  const std::size_t curves = grid.axes.size() == 1 ? 1 : grid.axes.front().values.size();
+  bool nothing_drawn = true;
+  for (std::size_t i = 0; i < curves; ++i) {
+    const std::size_t first = i * x.values.size();
+    ChartCurve curve = curve_of(table, points, first, quantity);
+    const bool is_drawn = std::any_of(curve.line.begin(), curve.line.end(),
+                                      [](const auto& point) { return std::isfinite(point.y); });
+    if (grid.axes.size() > 1) {
+      const Axis& family = grid.axes.front();
+      curve.name = in_words(family.path) + " " + short_text(family, grid.drive, family.values[i]);
+      if (!is_drawn) curve.name += ": " + word_for_nothing(table, first, x.values.size(), quantity);
+    }
+    for (const ChartPoint& point : curve.line) {
+      if (point.y < 0.0) chart.y.low.reset();
+    }
+    if (!is_drawn) curve.line.clear();
+    nothing_drawn = nothing_drawn && !is_drawn;
+    mark_lone_points(curve, has_words(x, grid.drive));
+    if (!curve.ends.empty()) chart.end_meaning = "hunting ends";
+    chart.curves.push_back(std::move(curve));
+  }
+  if (nothing_drawn) {
+    const std::string word = word_for_nothing(table, 0, table.table.rows(), quantity);
+    chart.empty_meaning = word == "rests" ? "no limit cycle" : word;
+  }
+  return chart;
+}
+
+}  // namespace gearlash

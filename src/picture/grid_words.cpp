@@ -1,0 +1,133 @@
+#include "picture/grid_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "gearlash/parameter.hpp"
+#include "model/reduced_drive.hpp"
+#include "output/grid_table.hpp"
+
+namespace gearlash {
+namespace {
+
+bool is_varied(const Grid& grid, std::string_view path) {
+  return std::any_of(grid.axes.begin(), grid.axes.end(),
+                     [&](const Axis& axis) { return axis.path == path; });
+}
+
+bool in_backlashes(const Grid& grid) {
+  return grid.drive.servo && grid.drive.servo->backlash == 1.0 &&
+         !is_varied(grid, "servo.backlash");
+}
+
+/// Those of a picture: in backlashes, and with ω_n and K where these are 1.
+std::string unit_of(Quantity quantity, const Grid& grid) {
+  const std::string unit(info_of(quantity).unit);
+  const bool is_free = in_backlashes(grid);
+  if (unit == "rad") return is_free ? "backlashes" : unit;
+  if (!is_normalized(grid.drive)) return unit;
+  if (unit == "s") return "1/ω_n";
+  if (unit == "Hz") return "ω_n";
+  if (unit == "rad/s") return is_free ? "backlashes × ω_n" : "rad ω_n";
+  if (unit == "J") return is_free ? "K × backlash²" : "K rad²";
+  return unit;
+}
+
+/// Where gnuplot, which has one a power of ten, would set fewer than two: 1, 2, 5, or all digits.
+std::vector<std::pair<std::string, double>> logarithmic_tics(double low, double high) {
+  if (!(low > 0.0)) return {};
+  constexpr double more = 1.0 + 1e-9;
+  std::vector<std::pair<std::string, double>> tics;
+  const auto add = [&](std::initializer_list<int> digits) {
+    tics.clear();
+    for (double power = std::floor(std::log10(low)); power <= std::log10(high); ++power) {
+      for (const int digit : digits) {
+        const double value = digit * std::pow(10.0, power);
+        if (value * more < low || value > high * more) continue;
+        tics.emplace_back(fmt::format("{:.7g}", value), value);
+      }
+    }
+    return tics.size() >= 2;
+  };
+  if (add({1})) return {};
+  if (add({1, 2, 5}) || add({1, 2, 3, 4, 5, 6, 7, 8, 9})) return tics;
+  return {{fmt::format("{:.4g}", low), low}, {fmt::format("{:.4g}", high), high}};
+}
+
+}  // namespace
+
+std::string subtitle_of(const Grid& grid) {
+  if (GridPoints(grid).engines().search) return certainty_of(grid);
+  std::string text;
+  for (const NormalFormNumber& number : normal_form_numbers) {
+    const bool is_there =
+        grid.drive.servo && parameter_of({.path = std::string(number.path)}, grid.drive) != nullptr;
+    if (!is_there || is_varied(grid, number.path)) continue;
+    text += fmt::format("{}{} {:.4g}", text.empty() ? "" : ", ", in_words(std::string(number.path)),
+                        get(grid.drive, number.path));
+  }
+  return text;
+}
+
+std::string in_words(const std::string& path) {
+  std::string text = normal_form_number(path) == nullptr ? path : column_name(path);
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '_' || c == '.'; }, ' ');
+  return text;
+}
+
+std::string title_of(Quantity quantity) {
+  std::string title(info_of(quantity).meaning);
+  title = title.substr(0, title.find_first_of(":,"));
+  title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
+  return title;
+}
+
+std::string unit_in_brackets(Quantity quantity, const Grid& grid) {
+  const std::string unit = unit_of(quantity, grid);
+  return unit == "1" ? "" : " (" + unit + ")";
+}
+
+std::string label_of(Quantity quantity, const Grid& grid) {
+  return in_words(std::string(name_of(quantity))) + unit_in_brackets(quantity, grid);
+}
+
+bool has_words(const Axis& axis, const Drive& drive) { return unit_of(axis, drive).empty(); }
+
+std::string short_text(const Axis& axis, const Drive& drive, double value) {
+  return has_words(axis, drive) ? text_of(axis, drive, value) : fmt::format("{:.4g}", value);
+}
+
+ChartAxis chart_axis(const Axis& axis, const Drive& drive) {
+  const std::string unit = unit_of(axis, drive);
+  ChartAxis drawn{
+      .label = in_words(axis.path) + (unit.empty() || unit == "1" ? "" : " (" + unit + ")"),
+      .logarithmic = axis.logarithmic};
+  if (has_words(axis, drive)) {
+    constexpr double room = 0.5;
+    const auto [low, high] = std::minmax_element(axis.values.begin(), axis.values.end());
+    drawn.low = *low - room;
+    drawn.high = *high + room;
+    for (const double value : axis.values) {
+      drawn.tics.emplace_back(text_of(axis, drive, value), value);
+    }
+    return drawn;
+  }
+  drawn.low = axis.values.front();
+  drawn.high = axis.values.back();
+  if (axis.logarithmic) drawn.tics = logarithmic_tics(*drawn.low, *drawn.high);
+  if (axis.values.size() == 1) {
+    const double value = axis.values.front();
+    const double room = value > 0.0 ? 0.1 * value : 0.1;
+    drawn = {.label = drawn.label,
+             .low = value - room,
+             .high = value + room,
+             .tics = {{fmt::format("{:.7g}", value), value}}};
+  }
+  return drawn;
+}
+
+}  // namespace gearlash
