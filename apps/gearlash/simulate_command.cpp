@@ -28,7 +28,7 @@ constexpr char examples[] =
 constexpr double default_periods = 10.0;
 constexpr double default_samples = 1000.0;
 
-Plot read_plot(const std::string& text) {
+MotionPlot read_plot(const std::string& text) {
   const std::size_t equals = text.find('=');
   const std::string kind = text.substr(0, equals);
   if (equals == std::string::npos || (kind != "time" && kind != "phase")) {
@@ -38,10 +38,10 @@ Plot read_plot(const std::string& text) {
   return {kind == "phase", file, picture_format("--plot", file)};
 }
 
-std::vector<Plot> read_plots(const SimulateOptions& options, Faults& faults) {
-  std::vector<Plot> plots;
+std::vector<MotionPlot> read_plots(const SimulateOptions& options, Faults& faults) {
+  std::vector<MotionPlot> plots;
   for (const std::string& text : options.plots) {
-    plots.push_back(faults.collect([&] { return read_plot(text); }, Plot{}));
+    plots.push_back(faults.collect([&] { return read_plot(text); }, MotionPlot{}));
   }
   return plots;
 }
@@ -166,7 +166,7 @@ std::string title(const MotionReport& report) {
                      report.units.speed_unit(), position(report.reference));
 }
 
-void draw(const MotionReport& report, const Plot& plot) {
+void draw(const MotionReport& report, const MotionPlot& plot) {
   const MotionPicture picture{.title = title(report),
                               .servo = report.servo,
                               .trajectory = report.trajectory,
@@ -178,12 +178,12 @@ void draw(const MotionReport& report, const Plot& plot) {
 }
 
 ExitStatus simulate_servo(const ServoFile& file, const SimulateOptions& options,
-                          const std::vector<Plot>& plots, const Provenance& provenance,
+                          const std::vector<MotionPlot>& plots, const Provenance& provenance,
                           Faults& faults, bool is_drive = false) {
   MotionReport report = simulated(file, options, provenance, faults);
   report.is_drive = is_drive;
   Extras extras;
-  for (const Plot& plot : plots) extras.make([&] { draw(report, plot); });
+  for (const MotionPlot& plot : plots) extras.make([&] { draw(report, plot); });
   write_tables(report, options);
   if (report.trajectory.stop_reason() == StopReason::reached_end) {
     return extras.status(ExitStatus::done);
@@ -210,9 +210,9 @@ std::optional<ServoFile> closed_form_at(DriveFile file, double reference) {
 ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
   Faults faults;
   faults.require_choice("--format", options.format, {"csv", "json"});
-  const std::vector<Plot> plots = read_plots(options, faults);
+  const std::vector<MotionPlot> plots = read_plots(options, faults);
   std::vector<FileUse> outputs = {{"--output", options.output}};
-  for (const Plot& plot : plots) outputs.push_back({"--plot", plot.file});
+  for (const MotionPlot& plot : plots) outputs.push_back({"--plot", plot.file});
   faults.require_distinct({"SERVO.toml", options.servo.file}, outputs);
   const ServoOrDriveFile described = resolve_servo_or_drive(options.servo, faults);
   if (const auto* drive = std::get_if<DriveFile>(&described)) {

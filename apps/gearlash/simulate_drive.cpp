@@ -123,11 +123,11 @@ DriveMotionReport simulated(DriveFile file, const SimulateOptions& options,
 }  // namespace
 
 ExitStatus simulate_drive(DriveFile file, const SimulateOptions& options,
-                          const std::vector<Plot>& plots, const Provenance& provenance,
+                          const std::vector<MotionPlot>& plots, const Provenance& provenance,
                           Faults& faults) {
   const DriveMotionReport report = simulated(std::move(file), options, provenance, faults);
   Extras extras;
-  for (const Plot& plot : plots) {
+  for (const MotionPlot& plot : plots) {
     extras.make([&] {
       write_file(plot.file, plot.is_phase_plane ? draw_phase_plane(report, plot.format)
                                                 : draw_time_response(report, plot.format));

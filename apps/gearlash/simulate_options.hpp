@@ -32,7 +32,7 @@ struct SimulateOptions {
   std::string output = "-";
 };
 
-struct Plot {
+struct MotionPlot {
   bool is_phase_plane = false;
   std::string file;
   PictureFormat format = PictureFormat::svg;
@@ -57,7 +57,7 @@ void write_tables(const Report& report, const SimulateOptions& options) {
 
 /// The motion of a drive without a closed form. `faults` has those found so far.
 ExitStatus simulate_drive(DriveFile file, const SimulateOptions& options,
-                          const std::vector<Plot>& plots, const Provenance& provenance,
+                          const std::vector<MotionPlot>& plots, const Provenance& provenance,
                           Faults& faults);
 
 }  // namespace gearlash::cli

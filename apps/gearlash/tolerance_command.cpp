@@ -56,13 +56,13 @@ void write_data(const ToleranceReport& report, const std::string& file) {
 }
 
 /// "yield=FILE", as typed.
-struct Plot {
+struct TolerancePlot {
   TolerancePicture picture = TolerancePicture::distribution;
   std::string file;
   PictureFormat format = PictureFormat::svg;
 };
 
-Plot read_plot(const std::string& text) {
+TolerancePlot read_plot(const std::string& text) {
   const std::size_t equals = std::min(text.find('='), text.size());
   const std::string kind = text.substr(0, equals);
   const std::string file = text.substr(std::min(equals + 1, text.size()));
@@ -108,7 +108,7 @@ struct Task {
   StudyQuestions questions;
   double yield = 0.0;  ///< demanded; 0: none
   WorstSearch worst_search;
-  std::vector<Plot> plots;
+  std::vector<TolerancePlot> plots;
 };
 
 TolerancedDrive toleranced_drive(const ServoFile& file) {
@@ -155,7 +155,7 @@ Task read_task(const ToleranceOptions& options, Faults& faults) {
   }
   std::vector<FileUse> outputs;
   for (const std::string& text : options.plots) {
-    task.plots.push_back(faults.collect([&] { return read_plot(text); }, Plot{}));
+    task.plots.push_back(faults.collect([&] { return read_plot(text); }, TolerancePlot{}));
     outputs.push_back({"--plot", task.plots.back().file});
   }
   const auto ends_in = [&](const char* ending) { return options.output.ends_with(ending); };
@@ -205,7 +205,7 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
   progress.reset();
   Extras extras;
   if (!options.output.empty()) extras.make([&] { write_data(report, options.output); });
-  for (const Plot& plot : task.plots) {
+  for (const TolerancePlot& plot : task.plots) {
     extras.make([&] { write_file(plot.file, draw_tolerances(report, plot.picture, plot.format)); });
   }
   write_file("-", options.format == "json" ? tolerance_json(report) : tolerance_text(report));
