@@ -3,6 +3,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "base/interval.hpp"
 #include "base/range_check.hpp"
@@ -225,17 +226,6 @@ drive::ReducedDrive settled(drive::ReducedDrive reduced) {
   return reduced;
 }
 
-/// The closed form of a drive whose reference stays somewhere in the end.
-std::optional<ClosedFormServo> servo_in_the_end(Drive drive) {
-  if (drive.reference) {
-    const Signal end = drive::settled(*drive.reference);
-    if (!std::holds_alternative<double>(end)) return std::nullopt;
-    drive.reference = 0.0;
-  }
-  if (drive.load_torque) drive.load_torque = drive::settled(*drive.load_torque);
-  return closed_form_servo(drive);
-}
-
 }  // namespace
 
 Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& servo,
@@ -296,14 +286,27 @@ Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive
   return answer;
 }
 
-bool has_closed_form(const Drive& drive) { return servo_in_the_end(drive).has_value(); }
+std::optional<Drive> closed_form_drive(Drive drive) {
+  if (drive.reference) {
+    const Signal end = drive::settled(*drive.reference);
+    if (!std::holds_alternative<double>(end)) return std::nullopt;
+    drive.reference.reset();
+  }
+  if (drive.load_torque) {
+    drive.load_torque = drive::settled(*drive.load_torque);
+    const auto* constant = std::get_if<double>(&*drive.load_torque);
+    if (constant == nullptr || *constant != 0.0) return std::nullopt;
+    drive.load_torque.reset();
+  }
+  return closed_form_servo(drive) ? std::optional(std::move(drive)) : std::nullopt;
+}
 
 Analysis analyse_in_full(const Drive& drive, const Wanted& wanted, Progress& progress) {
   require_none(faults(drive));
   Analysis analysis;
   analysis.reduced = settled(reduce(drive));
-  analysis.servo = servo_in_the_end(drive);
-  if (analysis.servo) {
+  if (const std::optional<Drive> closed = closed_form_drive(drive)) {
+    analysis.servo = closed_form_servo(*closed);
     drive::ReducedDrive at_rest = analysis.reduced;
     at_rest.reference = 0.0;
     const Drivetrain drivetrain = *drive::proportional_drivetrain(at_rest);

@@ -10,10 +10,6 @@
 namespace gearlash {
 namespace {
 
-Json json_optional(const std::optional<double>& number) {
-  return number ? json_number(*number) : Json(nullptr);
-}
-
 Json json_range(const Range& range) {
   return {json_number(range.lowest), json_number(range.highest)};
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "model/normalized_servo.hpp"
 #include "output/report_units.hpp"
@@ -16,6 +17,10 @@ inline Json json_number(double value) {
   if (std::isnan(value)) return nullptr;
   if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
   return value;
+}
+
+inline Json json_optional(const std::optional<double>& number) {
+  return number ? json_number(*number) : Json(nullptr);
 }
 
 inline Json json_servo(const NormalizedServo& servo) {

@@ -36,7 +36,7 @@ TEST(ExitStatus, ThreeForAPictureThatFailsWhoseAnswerIsPrinted) {
         std::pair("simulate" + sheet + " --plot phase=" + plot, "# gearlash "),
         std::pair("simulate examples/robot-joint.toml --plot time=" + plot, "# gearlash "),
         std::pair("design" + sheet +
-                      " --target no-hunting --vary error_gain,load_friction --plot " + plot,
+                      " --target no-hunting --vary error_gain,load_friction --plot region=" + plot,
                   "target: ")}) {
     const Outcome run = run_shell(without_gnuplot(scratch, "\"$GEARLASH\" " + command));
     EXPECT_EQ(run.status, 3) << command;

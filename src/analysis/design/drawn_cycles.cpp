@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "analysis/design/drive_per_backlash.hpp"
 #include "closed_form/lanes/cycle_table.hpp"
+#include "gearlash/parameter.hpp"
 
 namespace gearlash::detail {
 namespace {
@@ -12,27 +12,22 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 void write_refused(DrawnCycles& cycles, std::size_t row) {
   cycles.verdict[row] = Verdict::undecided;
-  cycles.size_per_backlash[row] = nothing;
+  cycles.amplitude_per_backlash[row] = nothing;
   cycles.growth_at_rest[row] = nothing;
   cycles.frequency[row] = nothing;
 }
 
-double known_size(Verdict verdict, double size) {
+double known_amplitude(Verdict verdict, double amplitude) {
   if (verdict == Verdict::cannot_hunt) return 0.0;
   if (verdict == Verdict::grows_without_bound) return std::numeric_limits<double>::infinity();
-  return size;
+  return amplitude;
 }
 
 double highest_restitution(const TolerancedDrive& drive) {
-  for (const VariedNumber& varied : drive.varied) {
-    if (varied.number == DriveNumber::contact_restitution ||
-        varied.number == DriveNumber::servo_restitution) {
-      return drawn_range_of(varied.distribution).high;
-    }
+  for (const ParameterTolerance& varied : drive.varied) {
+    if (varied.path == "contact.restitution") return drawn_range_of(varied.distribution).high;
   }
-  const Datasheet* datasheet = std::get_if<Datasheet>(&drive.nominal);
-  return datasheet != nullptr ? datasheet->contact.restitution
-                              : std::get<NormalizedServo>(drive.nominal).restitution;
+  return get(drive.nominal, "contact.restitution");
 }
 
 }  // namespace
@@ -40,7 +35,7 @@ double highest_restitution(const TolerancedDrive& drive) {
 Performance DrawnCycles::performance(std::size_t row) const {
   return {.verdict = verdict[row],
           .growth_at_rest = growth_at_rest[row],
-          .size = size(row),
+          .amplitude = amplitude(row),
           .frequency = frequency[row]};
 }
 
@@ -53,8 +48,9 @@ DrawnCycles solve(const TolerancedDrive& drive, std::size_t rows, std::span<cons
   std::vector<double> natural_frequency(rows, 1.0);
   std::vector<std::size_t> refused;
   const std::size_t width = drive.varied.size();
+  DrawnDrive drawn_drive(drive);
   for (std::size_t row = 0; row < rows; ++row) {
-    const auto drawn = sound_drive_per_backlash(drive, values.subspan(row * width, width));
+    const auto drawn = drawn_drive.per_backlash(values.subspan(row * width, width));
     if (!drawn) {
       servos[row] = stand_in;
       refused.push_back(row);
@@ -70,10 +66,10 @@ DrawnCycles solve(const TolerancedDrive& drive, std::size_t rows, std::span<cons
   cycles.growth_at_rest = table[CycleQuantity::growth_at_rest];
   const std::vector<double>& size = table[CycleQuantity::size];
   const std::vector<double>& period = table[CycleQuantity::period];
-  cycles.size_per_backlash.resize(rows);
+  cycles.amplitude_per_backlash.resize(rows);
   cycles.frequency.resize(rows);
   for (std::size_t row = 0; row < rows; ++row) {
-    cycles.size_per_backlash[row] = known_size(cycles.verdict[row], size[row]);
+    cycles.amplitude_per_backlash[row] = known_amplitude(cycles.verdict[row], size[row]);
     cycles.frequency[row] = natural_frequency[row] / period[row];
   }
   for (const std::size_t row : refused) write_refused(cycles, row);
