@@ -13,6 +13,7 @@
 #include "output/change_report.hpp"
 #include "output/output_file.hpp"
 #include "picture/attractor_picture.hpp"
+#include "picture/tornado.hpp"
 #include "plot_option.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
@@ -42,7 +43,6 @@ struct LimitCycleOptions {
 struct Work {
   Analysis analysis{};
   AnswerReport report{};
-  std::optional<ServoFile> servo{};  ///< what the drive is to the closed form
 };
 
 /// A number that is easily said, not far above `value`.
@@ -62,7 +62,7 @@ struct Step {
 };
 
 Step step_to_draw(const Work& work) {
-  const NormalizedServo& servo = work.servo->servo;
+  const NormalizedServo& servo = work.analysis.servo->servo;
   const AngleUnit& unit = work.report.angle;
   const auto rounded = [&](double size) {
     return unit.radians * round_up(unit.from_radians(size));
@@ -86,7 +86,7 @@ Step step_to_draw(const Work& work) {
 ServoState start_to_draw(const Work& work, const Step& step) {
   const LimitCycle* cycle = largest_stable(*work.analysis.closed);
   if (cycle == nullptr || !work.analysis.closed->rests_engaged) {
-    return engaged_start(work.servo->servo, 0.0, 0.0, step.size);
+    return engaged_start(work.analysis.servo->servo, 0.0, 0.0, step.size);
   }
   constexpr double share = 0.2;
   const ServoState& start = cycle->start;
@@ -165,27 +165,18 @@ bool is_decided(const Answer& answer) {
   }
 }
 
-/// Then margins take no time: contact is plastic.
-bool has_quick_margins(const NormalizedServo& servo) {
-  return servo.damping > 0.0 && servo_dynamics(servo).plastic_contact();
-}
-
-/// Margins and sensitivities, of the numbers of a data sheet or of the normal form.
-void add_changes(Work& work, const LimitCycleOptions& options, bool wants_sensitivities) {
-  const ChangeableDrive drive = changeable_drive(*work.servo);
+/// Margins and sensitivities, by the numbers of a drive with a closed form.
+void add_changes(Work& work, const Drive& drive, bool wants_margins, bool wants_sensitivities) {
+  const ChangeableDrive changeable(drive);
   // At the very ends of the ranges rounding may put the drive's ratios beyond them.
-  const bool is_sound = validate(drive.drivetrain()).empty();
-  if (is_sound && (options.margins || has_quick_margins(work.servo->servo))) {
+  const bool is_sound = validate(changeable.drivetrain()).empty();
+  if (wants_margins && is_sound) {
     TerminalProgress progress("Margins");
-    work.report.changeable = drive;
-    work.report.margin = hunting_margin(drive, progress);
+    work.report.margin = hunting_margin(changeable, progress);
+    work.report.changeable = changeable;
   }
-  if (!wants_sensitivities) return;
-  if (!is_sound) {
-    work.report.sensitivity = DriveSensitivity{};
-  } else {
-    work.report.sensitivity = drive.is_normalized() ? drive_sensitivity(drive)
-                                                    : datasheet_sensitivity(*work.servo->datasheet);
+  if (wants_sensitivities) {
+    work.report.sensitivity = is_sound ? drive_sensitivity(changeable) : DriveSensitivity{};
   }
 }
 
@@ -200,12 +191,6 @@ Work analysed(const WrittenDrive& written, const Provenance& provenance) {
   work.report.angle = written.angle;
   work.report.is_normalized = is_normalized(written.drive);
   work.report.provenance = provenance;
-  if (work.analysis.closed) {
-    WrittenDrive at_rest = written;  // hunting does not depend on where the reference stays
-    at_rest.drive.reference.reset();
-    at_rest.drive.load_torque.reset();
-    work.servo = servo_file_of(at_rest);
-  }
   return work;
 }
 
@@ -231,16 +216,15 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   const std::vector<Plot> plots = read_plots(options.plots, {"phase", "tornado"}, faults);
   faults.require_distinct({"DRIVE.toml", options.servo.file}, files_of(plots));
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
-  if (written && !final_servo(written->drive)) {
+  if (written && !closed_form_drive(written->drive)) {
     refuse_without_closed_form(options, plots, faults);
   }
   faults.require_none();
 
   Work work = analysed(*written, provenance);
   const bool wants_sensitivities = options.sensitivities || has_kind(plots, "tornado");
-  const bool wants_text = options.format == "json" || !options.brief;
-  if (work.servo && (wants_text || wants_sensitivities)) {
-    add_changes(work, options, wants_sensitivities);
+  if (options.margins || wants_sensitivities) {
+    add_changes(work, *closed_form_drive(written->drive), options.margins, wants_sensitivities);
   }
   Extras extras;
   for (const Plot& plot : plots) {
@@ -265,8 +249,8 @@ void add_limit_cycle_command(Command& app, Action& action) {
                   "response that leads to them; tornado: what the amplitude\n"
                   "depends on; ");
   command->add_flag("--margins", options->margins,
-                    "how far each number may change until hunting ends or begins; shown\n"
-                    "anyway but with bounces, where it takes a minute or more");
+                    "how far each number may change until hunting ends or begins; with\n"
+                    "bounces it takes a minute or more");
   command->add_flag("--sensitivities", options->sensitivities,
                     "exact sensitivities to every number, in per cent for one per cent");
   command->footer(help_footer(examples));

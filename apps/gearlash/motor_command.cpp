@@ -5,6 +5,7 @@
 #include "input/units.hpp"
 #include "motor_procedure.hpp"
 #include "output/output_file.hpp"
+#include "servo_options.hpp"
 #include "written_values.hpp"
 
 namespace gearlash::cli {
@@ -14,28 +15,42 @@ constexpr char examples[] =
     "  gearlash motor examples/elinco-fd162.toml\n"
     "  gearlash motor examples/instrument-two-phase.toml\n";
 
-ExitStatus run(const std::string& path, const Provenance&) {
-  const ServoFile file = read_servo_file(path);
-  if (!file.datasheet) {
+/// The procedure is that of a proportional loop around a motor with a winding.
+bool is_data_sheet(const Drive& drive) {
+  const auto* pid = std::get_if<PID>(&drive.controller.law);
+  return !drive.servo && !std::holds_alternative<TorqueControl>(drive.motor.kind) &&
+         pid != nullptr && pid->terms == PIDTerms::P;
+}
+
+ExitStatus run(const ServoOptions& options, const Provenance&) {
+  Faults faults;
+  const std::optional<WrittenDrive> written = resolve_drive(options, faults);
+  faults.require_none();
+  if (!is_data_sheet(written->drive)) {
     throw InvalidInput({{"motor", "", "the procedure starts from a data sheet with [motor]",
-                         shown(path, std::string_view::npos)}});
+                         shown(options.file, std::string_view::npos)}});
   }
-  write_file("-", motor_procedure(file, written_values(path)));
+  const Drive drive = closed_form_drive(*written, options);
+  // What --set has changed is not what the file says.
+  using Values = std::map<std::string, std::string>;
+  const Values values = options.settings.empty() ? written_values(options.file) : Values{};
+  write_file("-", motor_procedure(drive, written->angle, values));
   return ExitStatus::done;
 }
 
 }  // namespace
 
 void add_motor_command(Command& app, Action& action) {
-  const auto path = std::make_shared<std::string>();
+  const auto options = std::make_shared<ServoOptions>();
   Command* command =
       app.add_subcommand("motor", "from the data sheet to the numbers of the charts, step by step");
-  command->add_option("SERVO.toml", *path, "data sheet (docs/data-sheets.md)")
+  command->add_option("DRIVE.toml", options->file, "data sheet (docs/data-sheets.md)")
       ->type_name("")
       ->required();
+  add_set_option(*command, *options);
   command->footer(help_footer(examples));
-  command->callback([path, &action] {
-    action = [path](const Provenance& provenance) { return run(*path, provenance); };
+  command->callback([options, &action] {
+    action = [options](const Provenance& provenance) { return run(*options, provenance); };
   });
 }
 

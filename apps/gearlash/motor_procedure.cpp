@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include "analysis/analyse.hpp"
 #include "base/overloaded.hpp"
 #include "closed_form/limit_cycle.hpp"
+#include "model/reduced_drive.hpp"
 #include "output/answer_report.hpp"
 
 namespace gearlash::cli {
@@ -28,49 +30,53 @@ struct Given {
   std::string unit;
 };
 
-std::vector<Given> motor_values(const SheetMotor& motor) {
+/// Of the kind of motor; those of all motors stand below it.
+std::vector<Given> motor_constants(const MotorKind& kind) {
   return std::visit(
-      Overloaded{
-          [](const ArmatureControlledMotor& armature) -> std::vector<Given> {
-            return {{"armature resistance", "R", "motor.resistance", armature.resistance, "ohm"},
-                    {"motor generator constant", "K_2", "motor.back_emf_constant",
-                     armature.back_emf_constant, "V s/rad"},
-                    {"torque constant", "K_1", "motor.torque_constant", armature.torque_constant,
-                     "N m/A"},
-                    {"motor inertia", "J_m", "motor.inertia", armature.inertia, "kg m2"},
-                    {"motor friction", "f_m", "motor.friction", armature.friction, "N m s/rad"}};
-          },
-          [](const FieldControlledMotor& field) -> std::vector<Given> {
-            return {
-                {"field resistance", "R", "motor.resistance", field.resistance, "ohm"},
-                {"torque constant", "K_1", "motor.torque_constant", field.torque_constant, "N m/A"},
-                {"motor inertia", "J_m", "motor.inertia", field.inertia, "kg m2"},
-                {"motor friction", "f_m", "motor.friction", field.friction, "N m s/rad"}};
-          },
-          [](const TwoPhaseMotor& two_phase) -> std::vector<Given> {
-            return {{"torque per volt", "K_e", "motor.torque_per_volt", two_phase.torque_per_volt,
-                     "N m/V"},
-                    {"torque per speed", "K_N", "motor.torque_per_speed",
-                     two_phase.torque_per_speed, "N m s/rad"},
-                    {"motor inertia", "J_m", "motor.inertia", two_phase.inertia, "kg m2"},
-                    {"motor friction", "f_m", "motor.friction", two_phase.friction, "N m s/rad"}};
-          }},
-      motor);
+      Overloaded{[](const ArmatureControl& armature) -> std::vector<Given> {
+                   return {
+                       {"armature resistance", "R", "motor.resistance", armature.resistance, "ohm"},
+                       {"motor generator constant", "K_2", "motor.back_emf_constant",
+                        armature.back_emf_constant, "V s/rad"},
+                       {"torque constant", "K_1", "motor.torque_constant", armature.torque_constant,
+                        "N m/A"}};
+                 },
+                 [](const FieldControl& field) -> std::vector<Given> {
+                   return {{"field resistance", "R", "motor.resistance", field.resistance, "ohm"},
+                           {"torque constant", "K_1", "motor.torque_constant",
+                            field.torque_constant, "N m/A"}};
+                 },
+                 [](const TwoPhase& two_phase) -> std::vector<Given> {
+                   return {{"torque per volt", "K_e", "motor.torque_per_volt",
+                            two_phase.torque_per_volt, "N m/V"},
+                           {"torque per speed", "K_N", "motor.torque_per_speed",
+                            two_phase.torque_per_speed, "N m s/rad"}};
+                 },
+                 [](const TorqueControl&) -> std::vector<Given> { return {}; }},
+      kind);
 }
 
-std::vector<Given> given_values(const Datasheet& datasheet) {
-  std::vector<Given> values = motor_values(datasheet.motor);
-  values.push_back(
-      {"error measurement constant", "K_3", "loop.error_gain", datasheet.loop.error_gain, "V/rad"});
-  values.push_back({"load inertia", "J_L", "load.inertia", datasheet.load.inertia, "kg m2"});
-  values.push_back({"load friction", "F_L", "load.friction", datasheet.load.friction, "N m s/rad"});
-  values.push_back({"backlash, total", "b", "gearbox.backlash", datasheet.gearbox.backlash, "rad"});
+/// Volts per radian of the load.
+double error_gain_of(const Drive& drive) {
+  const double gain = std::get<PID>(drive.controller.law).proportional;
+  return drive.controller.shaft == ShaftName::motor ? gain * drive.gearbox.ratio : gain;
+}
+
+std::vector<Given> given_values(const Drive& drive) {
+  std::vector<Given> values = motor_constants(drive.motor.kind);
+  const std::vector<Given> others = {
+      {"motor inertia", "J_m", "motor.inertia", drive.motor.inertia, "kg m2"},
+      {"motor friction", "f_m", "motor.friction", drive.motor.friction.viscous, "N m s/rad"},
+      {"error measurement constant", "K_3", "loop.error_gain", error_gain_of(drive), "V/rad"},
+      {"load inertia", "J_L", "load.inertia", drive.load.inertia, "kg m2"},
+      {"load friction", "F_L", "load.friction", drive.load.friction.viscous, "N m s/rad"},
+      {"backlash, total", "b", "gearbox.backlash", drive.gearbox.backlash, "rad"}};
+  values.insert(values.end(), others.begin(), others.end());
   return values;
 }
 
-std::string given_table(const Datasheet& datasheet,
-                        const std::map<std::string, std::string>& written) {
-  const std::vector<Given> values = given_values(datasheet);
+std::string given_table(const Drive& drive, const std::map<std::string, std::string>& written) {
+  const std::vector<Given> values = given_values(drive);
   std::size_t longest = 0;
   for (const auto& [key, text] : written) longest = std::max(longest, text.size());
   std::string table;
@@ -82,7 +88,7 @@ std::string given_table(const Datasheet& datasheet,
     table += is_converted ? fmt::format("= {:<{}} = {}\n", as_written->second, longest, si)
                           : fmt::format("= {}\n", si);
   }
-  const double ratio = datasheet.gearbox.ratio;
+  const double ratio = drive.gearbox.ratio;
   table += fmt::format("  {:<27} {:<4}= {}, the thesis's P = 1/n = {}\n",
                        "motor turns per load turn", "n", number(ratio), number(1.0 / ratio));
   return table;
@@ -115,44 +121,44 @@ class Steps {
 
 /// Everything that more than one step needs.
 struct Known {
-  const Datasheet& datasheet;
-  ReferredMotor motor;
-  Drivetrain drivetrain;
-  NormalizedServo servo;
-  double frequency;
+  explicit Known(const Drive& of) : drive(of) {}
 
-  double ratio() const { return datasheet.gearbox.ratio; }
+  const Drive& drive;
+  Drivetrain drivetrain = referred_drivetrain(drive);
+  NormalizedServo servo = normalize(drivetrain);
+  double frequency = natural_frequency(drivetrain);
+  double electrical_friction = refer_output(drive).friction;
+  double motor_friction = drive.motor.friction.viscous;
+
+  double ratio() const { return drive.gearbox.ratio; }
   double mechanical_friction() const {
-    return drivetrain.load_friction + motor.mechanical_friction;
+    return drivetrain.load_friction + motor_friction * (ratio() * ratio());
   }
-  double total_friction() const { return mechanical_friction() + motor.electrical_friction; }
+  double total_friction() const { return mechanical_friction() + electrical_friction; }
 };
 
 void add_stiffness(Steps& steps, double torque_constant, double resistance, const Known& known) {
   steps.add("Loop stiffness at the load shaft", "K", "K_1 K_3 n/R",
             fmt::format("{} × {} × {}/{} = {} N m/rad", number(torque_constant),
-                        number(known.datasheet.loop.error_gain), number(known.ratio()),
-                        number(resistance), number(known.motor.stiffness)));
+                        number(error_gain_of(known.drive)), number(known.ratio()),
+                        number(resistance), number(known.drivetrain.stiffness)));
 }
 
-void add_motor_inertia(Steps& steps, double inertia, const Known& known) {
+/// Motor inertia, natural frequency and friction at the load's shaft.
+void add_mechanics(Steps& steps, const Known& known) {
+  const Drivetrain& drivetrain = known.drivetrain;
   steps.add("Motor inertia referred to the load shaft", "J_M", "J_m n²",
-            fmt::format("{} × {}² = {} kg m2", number(inertia), number(known.ratio()),
-                        number(known.motor.inertia)));
-}
-
-void add_natural_frequency(Steps& steps, const Known& known) {
+            fmt::format("{} × {}² = {} kg m2", number(known.drive.motor.inertia),
+                        number(known.ratio()), number(drivetrain.motor_inertia)));
   steps.add("Undamped natural frequency", "ω_n", "√(K/(J_M + J_L))",
-            fmt::format("√({}/({} + {})) = {} rad/s", number(known.motor.stiffness),
-                        number(known.motor.inertia), number(known.drivetrain.load_inertia),
+            fmt::format("√({}/({} + {})) = {} rad/s", number(drivetrain.stiffness),
+                        number(drivetrain.motor_inertia), number(drivetrain.load_inertia),
                         number(known.frequency)));
-}
-
-void add_mechanical_friction(Steps& steps, double friction, const Known& known) {
-  steps.add(
-      "Friction of the load and, referred to the load shaft, of the motor", "F_T", "F_L + f_m n²",
-      fmt::format("{} + {} × {}² = {} N m s/rad", number(known.drivetrain.load_friction),
-                  number(friction), number(known.ratio()), number(known.mechanical_friction())));
+  steps.add("Friction of the load and, referred to the load shaft, of the motor", "F_T",
+            "F_L + f_m n²",
+            fmt::format("{} + {} × {}² = {} N m s/rad", number(drivetrain.load_friction),
+                        number(known.motor_friction), number(known.ratio()),
+                        number(known.mechanical_friction())));
 }
 
 /// Friction by electrical means is left out of the sums of a motor that has none.
@@ -164,21 +170,21 @@ struct FrictionSum {
 FrictionSum friction_sum(bool has_electrical_friction, const Known& known) {
   const std::string mechanical = number(known.mechanical_friction());
   if (!has_electrical_friction) return {"F_T", mechanical};
-  return {"(F_T + F_1)",
-          fmt::format("({} + {})", mechanical, number(known.motor.electrical_friction))};
+  return {"(F_T + F_1)", fmt::format("({} + {})", mechanical, number(known.electrical_friction))};
 }
 
 void add_damping(Steps& steps, const FrictionSum& sum, const Known& known) {
-  steps.add("Damping coefficient", "ζ", sum.formula + "/(J_M + J_L) × 1/(2 ω_n)",
-            fmt::format("{}/({} + {}) × 1/(2 × {}) = {}", sum.numbers, number(known.motor.inertia),
-                        number(known.drivetrain.load_inertia), number(known.frequency),
-                        number(known.servo.damping)));
+  steps.add(
+      "Damping coefficient", "ζ", sum.formula + "/(J_M + J_L) × 1/(2 ω_n)",
+      fmt::format("{}/({} + {}) × 1/(2 × {}) = {}", sum.numbers,
+                  number(known.drivetrain.motor_inertia), number(known.drivetrain.load_inertia),
+                  number(known.frequency), number(known.servo.damping)));
 }
 
 void add_ratios(Steps& steps, const FrictionSum& sum, const Known& known) {
   steps.add("Inertia ratio",
             fmt::format("J_L/J_M = {}/{} = {}", number(known.drivetrain.load_inertia),
-                        number(known.motor.inertia), number(known.servo.inertia_ratio)));
+                        number(known.drivetrain.motor_inertia), number(known.servo.inertia_ratio)));
   if (known.total_friction() == 0.0) {
     steps.add("Friction ratio", "there is no friction: it has no influence, and is taken as 0");
     return;
@@ -188,58 +194,63 @@ void add_ratios(Steps& steps, const FrictionSum& sum, const Known& known) {
                         number(known.servo.friction_ratio)));
 }
 
-Steps armature_steps(const ArmatureControlledMotor& motor, const Known& known) {
+void add_ratios_and_damping(Steps& steps, bool has_electrical_friction, const Known& known) {
+  const FrictionSum sum = friction_sum(has_electrical_friction, known);
+  add_damping(steps, sum, known);
+  add_ratios(steps, sum, known);
+}
+
+struct Procedure {
+  std::string title;
   Steps steps;
+};
+
+Procedure procedure_for(const ArmatureControl& motor, const Known& known) {
+  Procedure procedure{"armature control motor", {}};
+  Steps& steps = procedure.steps;
   add_stiffness(steps, motor.torque_constant, motor.resistance, known);
-  add_motor_inertia(steps, motor.inertia, known);
-  add_natural_frequency(steps, known);
-  add_mechanical_friction(steps, motor.friction, known);
+  add_mechanics(steps, known);
   steps.add("Friction by back-EMF, referred to the load shaft", "F_1", "K_1 K_2 n²/R",
             fmt::format("{} × {} × {}²/{} = {} N m s/rad", number(motor.torque_constant),
                         number(motor.back_emf_constant), number(known.ratio()),
-                        number(motor.resistance), number(known.motor.electrical_friction)));
-  const FrictionSum sum = friction_sum(true, known);
-  add_damping(steps, sum, known);
-  add_ratios(steps, sum, known);
-  return steps;
+                        number(motor.resistance), number(known.electrical_friction)));
+  add_ratios_and_damping(steps, true, known);
+  return procedure;
 }
 
-Steps field_steps(const FieldControlledMotor& motor, const Known& known) {
-  Steps steps;
-  add_stiffness(steps, motor.torque_constant, motor.resistance, known);
-  add_motor_inertia(steps, motor.inertia, known);
-  add_natural_frequency(steps, known);
-  add_mechanical_friction(steps, motor.friction, known);
-  const FrictionSum sum = friction_sum(false, known);
-  add_damping(steps, sum, known);
-  add_ratios(steps, sum, known);
-  return steps;
+Procedure procedure_for(const FieldControl& motor, const Known& known) {
+  Procedure procedure{"field control motor", {}};
+  add_stiffness(procedure.steps, motor.torque_constant, motor.resistance, known);
+  add_mechanics(procedure.steps, known);
+  add_ratios_and_damping(procedure.steps, false, known);
+  return procedure;
 }
 
-Steps two_phase_steps(const TwoPhaseMotor& motor, const Known& known) {
-  Steps steps;
+Procedure procedure_for(const TwoPhase& motor, const Known& known) {
+  Procedure procedure{"two phase motor", {}};
+  Steps& steps = procedure.steps;
   steps.add("Loop stiffness at the load shaft, from the characteristic curves", "K", "K_e K_3 n",
             fmt::format("{} × {} × {} = {} N m/rad", number(motor.torque_per_volt),
-                        number(known.datasheet.loop.error_gain), number(known.ratio()),
-                        number(known.motor.stiffness)));
-  add_motor_inertia(steps, motor.inertia, known);
-  add_natural_frequency(steps, known);
-  add_mechanical_friction(steps, motor.friction, known);
+                        number(error_gain_of(known.drive)), number(known.ratio()),
+                        number(known.drivetrain.stiffness)));
+  add_mechanics(steps, known);
   steps.add("Friction by the slope of the characteristic curves, referred to the load shaft", "F_1",
             "K_N n²",
             fmt::format("{} × {}² = {} N m s/rad", number(motor.torque_per_speed),
-                        number(known.ratio()), number(known.motor.electrical_friction)));
-  const FrictionSum sum = friction_sum(true, known);
-  add_damping(steps, sum, known);
-  add_ratios(steps, sum, known);
-  return steps;
+                        number(known.ratio()), number(known.electrical_friction)));
+  add_ratios_and_damping(steps, true, known);
+  return procedure;
+}
+
+Procedure procedure_for(const TorqueControl&, const Known&) {
+  throw std::logic_error("there is no procedure for a torque-controlled motor");
 }
 
 // --- the limit cycle ---
 
 /// The thesis reads a chart here; the equation behind the charts is solved instead.
-void add_limit_cycle(Steps& steps, const ServoFile& file) {
-  NormalizedServo charted = file.servo;
+void add_limit_cycle(Steps& steps, const NormalizedServo& servo) {
+  NormalizedServo charted = servo;
   charted.backlash = chart_backlash;
   const LimitCycleAnalysis analysis = analyse_limit_cycles(charted);
   const auto cycle = std::find_if(analysis.cycles.begin(), analysis.cycles.end(),
@@ -258,50 +269,27 @@ void add_limit_cycle(Steps& steps, const ServoFile& file) {
     return;
   }
   steps.more(fmt::format("computed, not read: ±{} rad", number(cycle->size)));
-  const double size = cycle->size * file.servo.backlash / chart_backlash;
+  const double size = cycle->size * servo.backlash / chart_backlash;
   steps.add("Limit cycle for this backlash",
-            fmt::format("{} × {}/0.3 = {} rad", number(cycle->size), number(file.servo.backlash),
+            fmt::format("{} × {}/0.3 = {} rad", number(cycle->size), number(servo.backlash),
                         number(size)));
-}
-
-Known known_of(const ServoFile& file) {
-  return {*file.datasheet, refer_to_load(*file.datasheet), *file.drivetrain, file.servo,
-          *file.natural_frequency};
-}
-
-struct Procedure {
-  std::string title;
-  Steps steps;
-};
-
-Procedure procedure_for(const Known& known) {
-  return std::visit(
-      Overloaded{[&](const ArmatureControlledMotor& motor) {
-                   return Procedure{"armature control motor", armature_steps(motor, known)};
-                 },
-                 [&](const FieldControlledMotor& motor) {
-                   return Procedure{"field control motor", field_steps(motor, known)};
-                 },
-                 [&](const TwoPhaseMotor& motor) {
-                   return Procedure{"two phase motor", two_phase_steps(motor, known)};
-                 }},
-      known.datasheet.motor);
 }
 
 }  // namespace
 
-std::string motor_procedure(const ServoFile& file,
+std::string motor_procedure(const Drive& drive, const AngleUnit& angle,
                             const std::map<std::string, std::string>& written) {
-  Procedure procedure = procedure_for(known_of(file));
-  add_limit_cycle(procedure.steps, file);
-  const ClosedFormServo servo{file.servo, *file.natural_frequency, false};
+  const Known known(drive);
+  Procedure procedure =
+      std::visit([&](const auto& motor) { return procedure_for(motor, known); }, drive.motor.kind);
+  add_limit_cycle(procedure.steps, known.servo);
+  const ClosedFormServo servo{known.servo, known.frequency, false};
   const AnswerReport report{
-      .answer = answer_of(analyse_limit_cycles(file.servo), servo, file.drivetrain->stiffness),
-      .angle = file.backlash_unit};
+      .answer = answer_of(analyse_limit_cycles(known.servo), servo, known.drivetrain.stiffness),
+      .angle = angle};
   return fmt::format(
       "Procedure for the {} (Appendix A of the thesis)\n\nData sheet\n{}\nSteps\n{}\n{}\n",
-      procedure.title, given_table(*file.datasheet, written), procedure.steps.text(),
-      headline(report));
+      procedure.title, given_table(drive, written), procedure.steps.text(), headline(report));
 }
 
 }  // namespace gearlash::cli

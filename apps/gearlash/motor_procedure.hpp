@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "gearlash/drive.hpp"
 #include "input/servo_file.hpp"
 
 namespace gearlash::cli {
@@ -12,8 +13,8 @@ namespace gearlash::cli {
 /// them, each with formula, numbers and result, and the limit cycle. Every step can be recomputed
 /// from the numbers on its line, to five digits at least. `written` are the values as their author
 /// wrote them, by "section.key"; those that are missing are printed in SI alone.
-/// Precondition: the file holds a data sheet.
-std::string motor_procedure(const ServoFile& file,
+/// Precondition: a motor with a winding, proportional control, a closed form.
+std::string motor_procedure(const Drive& drive, const AngleUnit& angle,
                             const std::map<std::string, std::string>& written);
 
 }  // namespace gearlash::cli

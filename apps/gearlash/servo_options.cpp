@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
+#include "analysis/analyse.hpp"
 #include "input/named_files.hpp"
 #include "input/text_file.hpp"
 #include "input/units.hpp"
@@ -267,18 +269,6 @@ double read_scaled(std::string_view field, std::string_view text, const Dimensio
                        ""}});
 }
 
-Datasheet datasheet_of(const ServoFile& file) {
-  Datasheet datasheet = *file.datasheet;
-  datasheet.gearbox.backlash = file.servo.backlash;
-  datasheet.contact.restitution = file.servo.restitution;
-  return datasheet;
-}
-
-ChangeableDrive changeable_drive(const ServoFile& file) {
-  if (file.datasheet) return ChangeableDrive(datasheet_of(file));
-  return ChangeableDrive(file.servo, file.natural_frequency.value_or(1.0));
-}
-
 namespace {
 
 /// The servo with what options say of it; their faults, and what comes of both, go to `faults`.
@@ -385,6 +375,12 @@ std::optional<WrittenDrive> resolve_drive(const ServoOptions& options, Faults& f
     faults.add(named_as_typed(error.faults(), options));
     return std::nullopt;
   }
+}
+
+Drive closed_form_drive(const WrittenDrive& written, const ServoOptions& options) {
+  if (auto drive = gearlash::closed_form_drive(written.drive)) return *std::move(drive);
+  throw InvalidInput(
+      {{"drive", "without a closed form", permitted_with_closed_form, shown(options.file)}});
 }
 
 ServoFile resolve_servo(const ServoOptions& options, Faults& faults) {

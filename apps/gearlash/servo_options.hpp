@@ -6,7 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/design/changeable_drive.hpp"
 #include "command_line.hpp"
 #include "input/drive_file.hpp"
 #include "input/servo_file.hpp"
@@ -88,12 +87,8 @@ std::optional<WrittenDrive> resolve_drive(const ServoOptions& options, Faults& f
 /// and of the options go to `faults`; the result is sound if there are none.
 ServoFile resolve_servo(const ServoOptions& options, Faults& faults);
 
-/// The data sheet with what options say of it: its backlash and restitution. Precondition: there is
-/// one.
-Datasheet datasheet_of(const ServoFile& file);
-
-/// The drive that the file describes, with a data sheet in its own numbers. Precondition: sound,
-/// and no option has changed a number that a data sheet has not.
-ChangeableDrive changeable_drive(const ServoFile& file);
+/// The drive without its signals, on which hunting does not depend. Throws InvalidInput, located at
+/// the file, where it has no closed form.
+Drive closed_form_drive(const WrittenDrive& written, const ServoOptions& options);
 
 }  // namespace gearlash::cli

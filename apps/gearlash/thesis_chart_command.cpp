@@ -10,6 +10,7 @@
 #include "base/progress_part.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "machine_faults.hpp"
+#include "model/reduced_drive.hpp"
 #include "output/columns.hpp"
 #include "output/output_file.hpp"
 #include "servo_options.hpp"
@@ -194,9 +195,10 @@ void add_thesis_chart_reading(Command& thesis, Action& action) {
     action = [options](const Provenance&) {
       if (options->file.empty() && !options->backlash) options->backlash = "0.3";
       Faults faults;
-      const ServoFile file = resolve_servo(*options, faults);
+      const std::optional<WrittenDrive> written = resolve_drive(*options, faults);
       faults.require_none();
-      write_file("-", chart_reading_text(file.servo, thesis::read_chart(file.servo)));
+      const NormalizedServo servo = closed_form_servo(closed_form_drive(*written, *options))->servo;
+      write_file("-", chart_reading_text(servo, thesis::read_chart(servo)));
       return ExitStatus::done;
     };
   });

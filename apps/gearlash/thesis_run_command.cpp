@@ -8,6 +8,7 @@
 
 #include "closed_form/limit_cycle.hpp"
 #include "machine_faults.hpp"
+#include "model/reduced_drive.hpp"
 #include "output/output_file.hpp"
 #include "plot_option.hpp"
 #include "servo_options.hpp"
@@ -189,13 +190,14 @@ ExitStatus run_program(const RunOptions& options) {
   ServoOptions typed = options.servo;
   if (typed.file.empty() && !typed.backlash) typed.backlash = "0.3";  // of the charts
   Faults faults;
-  const ServoFile file = resolve_servo(typed, faults);
+  const std::optional<WrittenDrive> written = resolve_drive(typed, faults);
   faults.require_none();
-  const auto parameters = thesis::program_parameters(file.servo);
+  const NormalizedServo servo = closed_form_servo(closed_form_drive(*written, typed))->servo;
+  const auto parameters = thesis::program_parameters(servo);
   const thesis::SettledCycle cycle = options.machine
                                          ? thesis::run_machine_until_settled(parameters).cycle
                                          : thesis::run_until_settled(parameters);
-  write_file("-", run_text(file.servo, cycle));
+  write_file("-", run_text(servo, cycle));
   return cycle.settled ? ExitStatus::done : ExitStatus::undecided;
 }
 

@@ -8,10 +8,12 @@
 #include "command.hpp"
 #include "input/target_text.hpp"
 #include "machine_faults.hpp"
+#include "model/reduced_drive.hpp"
 #include "output/output_file.hpp"
 #include "output/tolerance_data.hpp"
 #include "output/tolerance_report.hpp"
 #include "picture/tolerance_pictures.hpp"
+#include "plot_option.hpp"
 #include "servo_options.hpp"
 #include "terminal.hpp"
 
@@ -20,19 +22,20 @@ namespace {
 
 constexpr char examples[] =
     "  gearlash tolerance examples/toleranced.toml\n"
-    "  gearlash tolerance examples/toleranced.toml --target \"size <= 1 deg\" --yield \"95 %\"\n"
+    "  gearlash tolerance examples/toleranced.toml --target \"amplitude <= 1 deg\" --yield \"95 "
+    "%\"\n"
     "  gearlash tolerance examples/toleranced.toml --samples 10000000 --format json | jq "
     ".hunting\n";
 
 constexpr char explanation[] =
-    "Numbers of SERVO.toml carry their tolerances:\n"
+    "Numbers of DRIVE.toml carry their tolerances:\n"
     "  inertia = \"0.61 oz in2 ± 10 %\"                       uniform\n"
     "  backlash = { min = \"5 arcmin\", max = \"12 arcmin\" }   uniform\n"
     "  friction = { value = \"2 mN m s/rad\", normal = \"5 %\", min = \"1 mN m s/rad\" }\n"
     "  ratio = { lots = [40, { value = 50, weight = 3 }] }\n\n";
 
 struct ToleranceOptions {
-  std::string file;
+  ServoOptions servo;
   std::string samples;
   std::string seed = "1960";
   std::string target;
@@ -55,24 +58,15 @@ void write_data(const ToleranceReport& report, const std::string& file) {
   output.commit();
 }
 
-/// "yield=FILE", as typed.
-struct TolerancePlot {
-  TolerancePicture picture = TolerancePicture::distribution;
-  std::string file;
-  PictureFormat format = PictureFormat::svg;
-};
+constexpr std::pair<const char*, TolerancePicture> pictures[] = {
+    {"distribution", TolerancePicture::distribution},
+    {"yield", TolerancePicture::yield},
+    {"indices", TolerancePicture::indices}};
 
-TolerancePlot read_plot(const std::string& text) {
-  const std::size_t equals = std::min(text.find('='), text.size());
-  const std::string kind = text.substr(0, equals);
-  const std::string file = text.substr(std::min(equals + 1, text.size()));
-  for (const auto& [name, picture] : {std::pair("distribution", TolerancePicture::distribution),
-                                      std::pair("yield", TolerancePicture::yield),
-                                      std::pair("indices", TolerancePicture::indices)}) {
-    if (kind == name && !file.empty()) return {picture, file, picture_format("--plot", file)};
-  }
-  throw InvalidInput(
-      {{"--plot", shown(text), "must be distribution=FILE, yield=FILE or indices=FILE", ""}});
+TolerancePicture picture_of(const Plot& plot) {
+  return std::find_if(std::begin(pictures), std::end(pictures),
+                      [&](const auto& one) { return plot.kind == one.first; })
+      ->second;
 }
 
 /// Without sign, fraction or exponent.
@@ -103,79 +97,80 @@ double read_share(const std::string& field, std::string text, Faults& faults) {
 
 struct Task {
   TolerancedDrive drive;
-  ReportUnits units;
+  AngleUnit angle;
   SamplePlan sampling;
   StudyQuestions questions;
   double yield = 0.0;  ///< demanded; 0: none
   WorstSearch worst_search;
-  std::vector<TolerancePlot> plots;
+  std::vector<Plot> plots;
 };
 
-TolerancedDrive toleranced_drive(const ServoFile& file) {
-  TolerancedDrive drive{.nominal = file.servo,
-                        .natural_frequency = file.natural_frequency.value_or(1.0),
-                        .varied = file.varied};
-  if (file.datasheet) drive.nominal = *file.datasheet;
-  return drive;
+/// Then a sample takes milliseconds.
+bool may_bounce(const WrittenDrive& written) {
+  const auto* rigid = std::get_if<RigidContact>(&written.drive.contact);
+  return (rigid != nullptr && rigid->restitution > 0.0) ||
+         std::any_of(written.tolerances.begin(), written.tolerances.end(),
+                     [](const auto& varied) { return varied.path == "contact.restitution"; });
 }
 
-/// Then a piece takes milliseconds.
-bool may_bounce(const ServoFile& file) {
-  return file.servo.restitution > 0.0 ||
-         std::any_of(file.varied.begin(), file.varied.end(), [](const VariedNumber& varied) {
-           return varied.number == DriveNumber::contact_restitution ||
-                  varied.number == DriveNumber::servo_restitution;
-         });
-}
-
-Task read_task(const ToleranceOptions& options, Faults& faults) {
-  Task task;
-  faults.require_choice("--format", options.format, {"text", "json"});
-  const ServoFile file = faults.collect([&] { return read_servo_file(options.file); }, ServoFile{});
-  task.drive = toleranced_drive(file);
-  task.units = report_units(file);
+void read_sampling(const ToleranceOptions& options, bool may_bounce, Task& task, Faults& faults) {
   // A fraction of a second's work, or some minutes'.
-  const std::string usual_samples = may_bounce(file) ? "512" : "65536";
-  if (may_bounce(file)) task.worst_search.samples = 256;
+  const std::string usual_samples = may_bounce ? "512" : "65536";
+  if (may_bounce) task.worst_search.samples = 256;
   task.sampling = sampling_of(read_whole<std::size_t>(
       "--samples", options.samples.empty() ? usual_samples : options.samples, 32, most_samples,
       faults));
   task.sampling.seed =
       read_whole<std::uint64_t>("--seed", options.seed, 0, std::uint64_t{1} << 53U, faults);
+}
+
+void read_questions(const ToleranceOptions& options, TimeScale scale, Task& task, Faults& faults) {
   if (!options.target.empty()) {
-    const TimeScale scale = file.natural_frequency ? TimeScale::known : TimeScale::unknown;
     task.questions.target =
         faults.collect([&] { return read_target("--target", options.target, scale); }, Target{});
   }
-  if (!options.yield.empty()) {
-    task.yield = read_share("--yield", options.yield, faults);
-    if (options.target.empty()) {
-      faults.add({"--target", "", "must say what --yield is to be a share of", ""});
-    }
+  if (options.yield.empty()) return;
+  task.yield = read_share("--yield", options.yield, faults);
+  if (options.target.empty()) {
+    faults.add({"--target", "", "must say what --yield is to be a share of", ""});
   }
-  std::vector<FileUse> outputs;
-  for (const std::string& text : options.plots) {
-    task.plots.push_back(faults.collect([&] { return read_plot(text); }, TolerancePlot{}));
-    outputs.push_back({"--plot", task.plots.back().file});
-  }
+}
+
+void read_outputs(const ToleranceOptions& options, Task& task, Faults& faults) {
+  std::vector<std::string> kinds;
+  for (const auto& [name, picture] : pictures) kinds.emplace_back(name);
+  task.plots = read_plots(options.plots, kinds, faults);
   const auto ends_in = [&](const char* ending) { return options.output.ends_with(ending); };
   if (!options.output.empty() && !ends_in(".csv") && !ends_in(".json") && !ends_in(".nc")) {
     faults.add({"--output", shown(options.output), "must end in .csv, .json or .nc", ""});
   }
+  std::vector<FileUse> outputs = files_of(task.plots);
   outputs.push_back({"--output", options.output});
-  faults.require_distinct({"SERVO.toml", options.file}, outputs);
+  faults.require_distinct({"DRIVE.toml", options.servo.file}, outputs);
+}
+
+Task read_task(const ToleranceOptions& options) {
+  Task task;
+  Faults faults;
+  faults.require_choice("--format", options.format, {"text", "json"});
+  const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
+  const bool has_time = !written || !is_normalized(written->drive);
+  read_sampling(options, written && may_bounce(*written), task, faults);
+  read_questions(options, has_time ? TimeScale::known : TimeScale::unknown, task, faults);
+  read_outputs(options, task, faults);
   faults.require_none();
-  if (file.varied.empty()) {
+  task.drive = {closed_form_drive(*written, options.servo), written->tolerances};
+  task.angle = written->angle;
+  if (task.drive.varied.empty()) {
     throw InvalidInput(
-        {{"SERVO.toml", shown(options.file),
+        {{"DRIVE.toml", shown(options.servo.file),
           "must have a number with a tolerance, such as \"0.61 oz in2 ± 10 %\"", ""}});
   }
   return task;
 }
 
 ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
-  Faults faults;
-  const Task task = read_task(options, faults);
+  const Task task = read_task(options);
   std::optional<TerminalProgress> progress;
   const auto begin = [&](const char* what, std::size_t count, const char* name = "drives") {
     progress.reset();
@@ -188,7 +183,7 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
   ToleranceReport report{.drive = task.drive,
                          .target_text = options.target,
                          .demanded_yield = task.yield,
-                         .units = task.units,
+                         .angle = task.angle,
                          .provenance = provenance};
   const std::size_t samples = task.sampling.samples();
   report.study =
@@ -201,12 +196,13 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
                         task.sampling, begin("Backlash", samples));
   }
   report.worst = worst_corner(task.drive, task.worst_search,
-                              begin("Worst piece", 2 * task.worst_search.starts, "climbs"));
+                              begin("Worst sample", 2 * task.worst_search.starts, "climbs"));
   progress.reset();
   Extras extras;
   if (!options.output.empty()) extras.make([&] { write_data(report, options.output); });
-  for (const TolerancePlot& plot : task.plots) {
-    extras.make([&] { write_file(plot.file, draw_tolerances(report, plot.picture, plot.format)); });
+  for (const Plot& plot : task.plots) {
+    extras.make(
+        [&] { write_file(plot.file, draw_tolerances(report, picture_of(plot), plot.format)); });
   }
   write_file("-", options.format == "json" ? tolerance_json(report) : tolerance_text(report));
   return extras.status(ExitStatus::done);
@@ -218,28 +214,25 @@ void add_tolerance_command(Command& app, Action& action) {
   const auto options = std::make_shared<ToleranceOptions>();
   Command* command =
       app.add_subcommand("tolerance", "how many of a production run hunt, how big, and why?");
-  command->add_option("SERVO.toml", options->file, "servo whose numbers carry tolerances")
-      ->type_name("")
-      ->required();
+  add_servo_or_drive_options(*command, options->servo);
   command
       ->add_option("--samples", options->samples,
-                   "pieces, at least (default 65536; 512 where faces bounce): 16 times a\n"
+                   "samples, at least (default 65536; 512 where faces bounce): 16 times a\n"
                    "power of two")
       ->type_name("N");
   command->add_option("--seed", options->seed, "of the random shifts (default 1960)")
       ->type_name("N");
-  command->add_option("--target", options->target, "of which the yield is told, as design has it")
+  command
+      ->add_option("--target", options->target, "of which the yield is reported, as design has it")
       ->type_name("TARGET");
   command
       ->add_option("--yield", options->yield,
                    "how much backlash may be let through so that this share meets\n"
                    "the target: \"95 %\" or 0.95")
       ->type_name("SHARE");
-  command
-      ->add_option("--plot", options->plots,
-                   "distribution=FILE, yield=FILE or indices=FILE, a picture each; may be\n"
-                   "given several times; FILE ends in .svg, .png or .pdf")
-      ->type_name("KIND=FILE");
+  add_plot_option(*command, options->plots,
+                  "distribution: of amplitudes; yield: against a limit of the amplitude;\n"
+                  "indices: what decides; ");
   command->add_option("--output", options->output, "data too (.csv, .json, .nc)")
       ->type_name("FILE");
   command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");

@@ -35,48 +35,6 @@ Drivetrain drivetrain_of(const ServoFile& file) {
   return drivetrain;
 }
 
-/// The data sheet of a proportional servo whose controller gives volts.
-std::optional<Datasheet> datasheet_of(const Drive& drive) {
-  const auto* pid = std::get_if<PID>(&drive.controller.law);
-  if (pid == nullptr || pid->terms != PIDTerms::P) return std::nullopt;
-  const double inertia = drive.motor.inertia;
-  const double friction = drive.motor.friction.viscous;
-  Datasheet sheet;
-  if (const auto* armature = std::get_if<ArmatureControl>(&drive.motor.kind)) {
-    sheet.motor = ArmatureControlledMotor{inertia, friction, armature->torque_constant,
-                                          armature->back_emf_constant, armature->resistance};
-  } else if (const auto* field = std::get_if<FieldControl>(&drive.motor.kind)) {
-    sheet.motor =
-        FieldControlledMotor{inertia, friction, field->torque_constant, field->resistance};
-  } else if (const auto* two_phase = std::get_if<TwoPhase>(&drive.motor.kind)) {
-    sheet.motor =
-        TwoPhaseMotor{inertia, friction, two_phase->torque_per_volt, two_phase->torque_per_speed};
-  } else {
-    return std::nullopt;
-  }
-  sheet.gearbox = {drive.gearbox.ratio, drive.gearbox.backlash};
-  sheet.load = {drive.load.inertia, drive.load.friction.viscous};
-  const double per_load = drive.controller.shaft == ShaftName::motor ? drive.gearbox.ratio : 1.0;
-  sheet.loop.error_gain = pid->proportional * per_load;
-  const auto* rigid = std::get_if<RigidContact>(&drive.contact);
-  sheet.contact.restitution = rigid == nullptr ? 0.0 : rigid->restitution;
-  return sheet;
-}
-
-/// The tolerances by the names that data sheets and the normal form have for them.
-std::vector<VariedNumber> varied_numbers(const WrittenDrive& written) {
-  std::vector<VariedNumber> varied;
-  for (const ParameterTolerance& tolerance : written.tolerances) {
-    std::string name = tolerance.path;
-    if (name == "controller.proportional") name = "loop.error_gain";
-    if (name == "contact.restitution" && written.drive.servo) name = "servo.restitution";
-    if (const auto number = drive_number_named(name)) {
-      varied.push_back({*number, tolerance.distribution});
-    }
-  }
-  return varied;
-}
-
 /// A TOML list, "[1, 2]"; all else is text, which the reader of the key takes: "30 arcmin", "0.25".
 toml::table value_of(const std::string& text) {
   try {
@@ -173,13 +131,8 @@ std::optional<ServoFile> servo_file_of(const WrittenDrive& written) {
     file.natural_frequency = drive.servo->natural_frequency;
   } else {
     file.natural_frequency = closed->natural_frequency;
-    file.datasheet = datasheet_of(drive);
-    file.drivetrain =
-        file.datasheet ? to_drivetrain_sound(*file.datasheet) : proportional_drivetrain(drive);
-    file.servo = normalize_sound(*file.drivetrain);
-    file.natural_frequency = natural_frequency(*file.drivetrain);
+    file.drivetrain = referred_drivetrain(drive);
   }
-  file.varied = varied_numbers(written);
   return file;
 }
 
@@ -209,7 +162,6 @@ ServoOrDriveFile read_servo_or_drive_file(const std::filesystem::path& path,
 DriveFile drive_file_of(const ServoFile& servo) {
   DriveFile file;
   file.drive = drive::drive_of(drivetrain_of(servo));
-  if (servo.datasheet) file.gear_ratio = servo.datasheet->gearbox.ratio;
   file.backlash_unit = servo.backlash_unit;
   file.is_normalized = !servo.natural_frequency;
   require_none(drive::validate(file.drive));

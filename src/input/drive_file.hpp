@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "analysis/design/toleranced_drive.hpp"
 #include "gearlash/drive.hpp"
 #include "input/servo_file.hpp"
 #include "input/toml_document.hpp"

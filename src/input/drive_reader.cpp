@@ -8,6 +8,7 @@
 #include "input/units.hpp"
 #include "model/normalized_servo.hpp"
 #include "model/parameters.hpp"
+#include "model/reduced_drive.hpp"
 
 namespace gearlash {
 namespace {
@@ -366,13 +367,19 @@ class DriveReader {
   }
 
   void check_tolerances() {
-    for (const ParameterTolerance& tolerance : file_.tolerances) {
-      findings_.take(
-          validate(tolerance.distribution, tolerance.path),
-          [&](const std::string&) { return tolerance.path; }, place_);
-    }
     for (ParameterTolerance& tolerance : file_.tolerances) {
       tolerance.path = std::string(find_parameter(tolerance.path)->path);
+    }
+    // "gearbox.backlash.min" is found at "gearbox.backlash".
+    const auto name_of = [&](const std::string& field) {
+      return name_in_file(field.substr(0, field.find('.', field.find('.') + 1)));
+    };
+    if (!file_.tolerances.empty() && closed_form_servo(drive())) {
+      findings_.take(validate(TolerancedDrive{drive(), file_.tolerances}), name_of, place_);
+      return;
+    }
+    for (const ParameterTolerance& tolerance : file_.tolerances) {
+      findings_.take(validate(tolerance.distribution, tolerance.path), name_of, place_);
     }
   }
 

@@ -8,9 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/design/toleranced_drive.hpp"
 #include "base/fault.hpp"
-#include "model/datasheet.hpp"
 #include "model/drivetrain.hpp"
 #include "model/normalized_servo.hpp"
 
@@ -27,15 +25,12 @@ struct AngleUnit {
   bool operator==(const AngleUnit&) const = default;
 };
 
-/// Either form of file ends in a normalised servo; what only a data sheet knows is optional.
+/// Either form of file ends in a normalised servo.
 struct ServoFile {
   NormalizedServo servo{};                    ///< sound: validate(servo) is empty
   std::optional<double> natural_frequency{};  ///< ω_n, rad/s: of the drivetrain, or as [servo] says
-  std::optional<Datasheet> datasheet{};       ///< with [motor], sound
-  std::optional<Drivetrain> drivetrain{};     ///< with [motor], that of the data sheet
+  std::optional<Drivetrain> drivetrain{};     ///< of a drive with [motor]
   AngleUnit backlash_unit{};                  ///< in which the file gives the backlash
-  /// Numbers with tolerances, in the order of the file; all else here is of nominal values.
-  std::vector<VariedNumber> varied = {};
 
   bool operator==(const ServoFile&) const = default;
 };

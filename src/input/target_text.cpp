@@ -10,14 +10,15 @@
 #include <vector>
 
 #include "input/units.hpp"
+#include "model/quantities.hpp"
 
 namespace gearlash {
 namespace {
 
 constexpr std::string_view blanks = " \t";
 constexpr char forms[] =
-    "must be no-hunting, or size, frequency, period or growth-at-rest, then <= or >=, then a "
-    "limit, as in \"size <= 1 arcmin\"; several joined by \"and\"";
+    "must be no-hunting, or amplitude, frequency, period or growth-at-rest, then <= or >=, then a "
+    "limit, as in \"amplitude <= 1 arcmin\"; several joined by \"and\"";
 
 std::string_view without_blanks(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(blanks);
@@ -89,37 +90,27 @@ class TargetReader {
   }
 
   void add(std::string_view condition, const Condition& parts) {
-    if (parts.quantity == "size") {
-      restrict(target_.size, parts.is_at_most,
-               not_negative(condition, read_angle(field_, parts.limit).si));
-    } else if (parts.quantity == "frequency" || parts.quantity == "period") {
-      add_pace(condition, parts);
-    } else if (parts.quantity == "growth-at-rest" || parts.quantity == "growth_at_rest") {
-      restrict(target_.growth_at_rest, parts.is_at_most,
-               not_negative(condition, read_number(field_, parts.limit)));
-    } else {
-      refuse(condition, forms);
+    const std::optional<Quantity> quantity = find_quantity(parts.quantity);
+    Bounds* limits = quantity ? target_.limits_of(*quantity) : nullptr;
+    if (limits == nullptr) refuse(condition, forms);
+    const bool is_period = quantity == Quantity::period;
+    if (time_scale_ == TimeScale::unknown && (is_period || quantity == Quantity::frequency)) {
+      refuse(condition, "needs a time scale: a servo with a natural_frequency, or a data sheet");
     }
+    const double limit = read_limit(*quantity, parts.limit);
+    if (is_period && !(limit > 0.0)) refuse(condition, "must have a positive limit");
+    if (!(limit >= 0.0)) refuse(condition, "must have a limit of 0 or more");
+    restrict(*limits, parts.is_at_most != is_period, is_period ? 1.0 / limit : limit);
   }
 
-  void add_pace(std::string_view condition, const Condition& parts) {
-    if (time_scale_ == TimeScale::unknown) {
-      refuse(condition, "must be told of a servo with a natural_frequency, or of a data sheet");
+  double read_limit(Quantity quantity, std::string_view text) const {
+    const Dimension* dimension = entry_of(quantity).dimension;
+    if (quantity == Quantity::frequency) {  // "5 Hz" or "30 rad/s"
+      return to_si(field_, text, dimensions::angular_frequency) / (2.0 * std::numbers::pi);
     }
-    if (parts.quantity == "frequency") {
-      const double angular = to_si(field_, parts.limit, dimensions::angular_frequency);
-      restrict(target_.frequency, parts.is_at_most,
-               not_negative(condition, angular / (2.0 * std::numbers::pi)));
-    } else {
-      const double period = to_si(field_, parts.limit, dimensions::time);
-      if (!(period > 0.0)) refuse(condition, "must have a positive limit");
-      restrict(target_.frequency, !parts.is_at_most, 1.0 / period);
-    }
-  }
-
-  double not_negative(std::string_view text, double limit) const {
-    if (!(limit >= 0.0)) refuse(text, "must have a limit of 0 or more");
-    return limit;
+    if (dimension == nullptr) return read_number(field_, text);
+    if (dimension == &dimensions::angle) return read_angle(field_, text).si;
+    return to_si(field_, text, *dimension);
   }
 
   static void restrict(Bounds& limits, bool is_at_most, double limit) {

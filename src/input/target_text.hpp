@@ -1,5 +1,5 @@
-// Targets as they are typed: "size <= 1 arcmin", "no-hunting", "size <= 1 deg and frequency >= 5
-// Hz".
+// Targets as they are typed: "amplitude <= 1 arcmin", "no-hunting", "amplitude <= 1 deg and
+// frequency >= 5 Hz".
 #pragma once
 
 #include <string_view>
@@ -12,10 +12,11 @@ namespace gearlash {
 enum class TimeScale { known, unknown };
 
 /// Conditions joined by "and": no-hunting, or a quantity, <=, <, >= or >, and its limit.
-/// Quantities: size (an angle; a bare number is in radians), frequency ("5 Hz", "30 rad/s") and
-/// period ("0.2 s"), which a servo that comes to rest keeps, and growth-at-rest (a number). A limit
-/// itself is permitted, with < as with <=. Throws InvalidInput, naming `field`, with all that is
-/// wrong: unknown quantities, wrong units, contradictions (validate(Target)).
+/// Quantities by their names and older names (gearlash/quantity.hpp): amplitude (an angle; a bare
+/// number is in radians), frequency ("5 Hz", "30 rad/s") and period ("0.2 s"), which a servo that
+/// comes to rest keeps, and growth-at-rest (a number). A limit itself is permitted, with < as with
+/// <=. Throws InvalidInput, naming `field`, with all that is wrong: unknown quantities, wrong
+/// units, contradictions (validate(Target)).
 Target read_target(std::string_view field, std::string_view text, TimeScale time_scale);
 
 }  // namespace gearlash

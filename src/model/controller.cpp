@@ -106,6 +106,10 @@ LinearController linear(const SampledTransfer& controller) {
 }
 
 LinearController linear(const LeadLag& controller) {
+  // Rounding must not leave dynamics where there are none.
+  if (controller.zero == controller.pole) {
+    return linear(ProportionalDerivative{.proportional = controller.gain});
+  }
   return linear(ErrorTransfer{
       {{controller.gain / controller.zero, controller.gain}, {1.0 / controller.pole, 1.0}}});
 }

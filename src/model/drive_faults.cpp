@@ -1,9 +1,9 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "base/range_check.hpp"
-#include "model/datasheet.hpp"
 #include "model/parameters.hpp"
 #include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
@@ -88,10 +88,33 @@ bool must_be_a_servo(const Drive& drive, const drive::ReducedDrive& reduced) {
          reduced.backlash == 0.0;
 }
 
+/// What the numbers at the load's shaft are made of, for an author who has given none of them.
+struct Origin {
+  std::string_view number;
+  std::string_view made_of;
+};
+constexpr std::array origins = {
+    Origin{"motor_inertia", "motor.inertia * gearbox.ratio^2"},
+    Origin{"motor_friction", "(motor.friction + the motor's electrical one) * gearbox.ratio^2"},
+    Origin{"stiffness", "the motor's torque per volt * loop.error_gain * gearbox.ratio"},
+    Origin{"damping", "friction/(2 sqrt(stiffness * inertia)), everything at the load"},
+    Origin{"inertia_ratio", "load.inertia/(motor.inertia * gearbox.ratio^2)"}};
+/// And those that it has, by their paths.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> given = {
+    {{"backlash", "gearbox.backlash"},
+     {"restitution", "contact.restitution"},
+     {"sensor", "loop.sensor"},
+     {"load_inertia", "load.inertia"}}};
+
 std::vector<Fault> servo_faults(const Drivetrain& drivetrain) {
-  std::vector<Fault> found = named_for_datasheet(validate(drivetrain));
+  std::vector<Fault> found = validate(drivetrain);
   for (Fault& fault : found) {
-    if (fault.path == "load_inertia") fault.path = "load.inertia";
+    for (const Origin& origin : origins) {
+      if (fault.path == origin.number) fault.permitted += "; it is " + std::string(origin.made_of);
+    }
+    for (const auto& [number, path] : given) {
+      if (fault.path == number) fault.path = path;
+    }
   }
   const double frequency = natural_frequency(drivetrain);
   if (found.empty() && !std::isnormal(frequency)) {

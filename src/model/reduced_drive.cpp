@@ -195,10 +195,76 @@ drive::ReducedDrive reduce(const Drive& drive) {
   return reduced;
 }
 
+Drive physical_form(const Drive& drive) {
+  if (!drive.servo) return drive;
+  const Drivetrain drivetrain = drivetrain_of(*drive.servo, restitution_of(drive));
+  Drive physical = drive;
+  physical.servo.reset();
+  physical.motor = {.kind = TorqueControl{},
+                    .inertia = drivetrain.motor_inertia,
+                    .friction = {.viscous = drivetrain.motor_friction}};
+  physical.gearbox = {.ratio = 1.0, .backlash = drivetrain.backlash};
+  physical.load = {drivetrain.load_inertia, {.viscous = drivetrain.load_friction}};
+  physical.controller = {.law = PID{.proportional = drivetrain.stiffness}};
+  return physical;
+}
+
 bool is_normalized(const Drive& drive) { return drive.servo && !drive.servo->natural_frequency; }
 
 std::optional<Drivetrain> proportional_drivetrain(const Drive& drive) {
   return drive::proportional_servo(reduce(drive));
+}
+
+namespace {
+
+/// Output per error and per speed sensed, of a controller that is proportional.
+struct Gains {
+  double error = 0.0;
+  double speed = 0.0;
+};
+
+Gains gains_of(const Controller& controller) {
+  if (const auto* pid = std::get_if<PID>(&controller.law)) {
+    const bool has_derivative = pid->terms == PIDTerms::PD || pid->terms == PIDTerms::PID;
+    return {pid->proportional, has_derivative ? pid->derivative : 0.0};
+  }
+  if (const auto* cascade = std::get_if<CascadeController>(&controller.law)) {
+    return {cascade->position * cascade->speed, cascade->speed};
+  }
+  const drive::LinearController linear = drive::linear_controller(
+      std::visit([](const auto& law) { return reduce(law, 1.0); }, controller.law));
+  return {linear.direct[0], -linear.direct[2]};
+}
+
+}  // namespace
+
+Drivetrain referred_drivetrain(const Drive& drive) {
+  if (drive.servo) return drivetrain_of(*drive.servo, restitution_of(drive));
+  const double ratio = drive.gearbox.ratio;
+  const double square = ratio * ratio;
+  const ReferredOutput output = refer_output(drive);
+  const double per_output =
+      output.torque * (drive.controller.shaft == ShaftName::motor ? ratio : 1.0);
+  const Gains gains = gains_of(drive.controller);
+  return {.motor_inertia = drive.motor.inertia * square,
+          .load_inertia = drive.load.inertia,
+          .motor_friction =
+              drive.motor.friction.viscous * square + output.friction + per_output * gains.speed,
+          .load_friction = drive.load.friction.viscous,
+          .stiffness = per_output * gains.error,
+          .backlash = drive.gearbox.backlash,
+          .restitution = restitution_of(drive)};
+}
+
+ClosedFormServo normal_form_servo(const Drive& drive) {
+  const NormalForm& form = *drive.servo;
+  return {{.damping = form.damping,
+           .inertia_ratio = form.inertia_ratio,
+           .friction_ratio = form.friction_ratio,
+           .backlash = form.backlash,
+           .restitution = restitution_of(drive)},
+          form.natural_frequency.value_or(1.0),
+          true};
 }
 
 std::optional<ClosedFormServo> closed_form_servo(const Drive& drive) {
@@ -208,14 +274,7 @@ std::optional<ClosedFormServo> closed_form_servo(const Drive& drive) {
     if (!validate(*drivetrain).empty()) return std::nullopt;
     return ClosedFormServo{normalize_sound(*drivetrain), natural_frequency(*drivetrain), false};
   }
-  const NormalForm& form = *drive.servo;
-  return ClosedFormServo{{.damping = form.damping,
-                          .inertia_ratio = form.inertia_ratio,
-                          .friction_ratio = form.friction_ratio,
-                          .backlash = form.backlash,
-                          .restitution = restitution_of(drive)},
-                         form.natural_frequency.value_or(1.0),
-                         true};
+  return normal_form_servo(drive);
 }
 
 std::optional<Drive> normal_form_of(const Drive& drive) {

@@ -23,6 +23,10 @@ ReferredOutput refer_output(const Drive& drive);
 /// All at the load's shaft. Where a number is at fault the result is too: see faults().
 drive::ReducedDrive reduce(const Drive& drive);
 
+/// A normal form by the numbers that it stands for: torque control, n = 1, J_M + J_L = 1 kg m². Any
+/// other drive as it is.
+Drive physical_form(const Drive& drive);
+
 /// Whether the drive is a normal form without a natural frequency: ω_n is then 1 rad/s, and reports
 /// for people give times in units of 1/ω_n.
 bool is_normalized(const Drive& drive);
@@ -35,6 +39,11 @@ struct ClosedFormServo {
   bool is_as_given = false;
 };
 
+/// What a drive must be to have one, for faults.
+inline constexpr char permitted_with_closed_form[] =
+    "must have a closed-form answer for this: proportional control of the load's position, "
+    "continuous, exact and unlimited; rigid faces; no dry friction";
+
 /// The servo of 1960 that a drive is by its physics: proportional control of the load's position,
 /// continuous, exact, unlimited, rigid faces, no dry friction, a constant reference, no load
 /// torque; speed fed back from the motor is friction on it. Sides without inertia and gaps of 0 are
@@ -44,8 +53,15 @@ std::optional<ClosedFormServo> closed_form_servo(const Drive& drive);
 /// The same servo as a normal form with its natural frequency; nothing for any other drive.
 /// Precondition as above.
 std::optional<Drive> normal_form_of(const Drive& drive);
+/// The servo that a normal form with a closed form is, without checks.
+ClosedFormServo normal_form_servo(const Drive& drive);
 
 /// Its drivetrain, with the same conditions.
 std::optional<Drivetrain> proportional_drivetrain(const Drive& drive);
+
+/// Its drivetrain for one that is known to have a closed form, without checks: J_M = J n²,
+/// F_M = (f + E) n² + S d, K = S g (model/drivetrain_slopes.hpp); nothing is allocated where the
+/// controller is P, PD or a cascade.
+Drivetrain referred_drivetrain(const Drive& drive);
 
 }  // namespace gearlash

@@ -292,6 +292,17 @@ std::string normal_form_table(const AnswerReport& report) {
   return "\nServo\n" + table_text(rows);
 }
 
+/// How to get what was not asked for.
+std::string offer_text(const AnswerReport& report) {
+  std::string text;
+  if (!report.margin) text += "how far each number is from the limit of hunting: --margins";
+  if (!report.sensitivity) {
+    text +=
+        std::string(text.empty() ? "" : "; ") + "what the amplitude depends on: --sensitivities";
+  }
+  return text.empty() ? "" : "\n" + wrapped("Not shown: " + text + ".");
+}
+
 }  // namespace
 
 std::string starts_text(std::size_t count) {
@@ -350,13 +361,7 @@ std::string answer_text(const AnswerReport& report) {
   if (answer.normal_form) text += normal_form_table(report);
   text += "\n";
   if (report.margin) {
-    const ReportUnits units{
-        .natural_frequency = report.is_normalized
-                                 ? std::nullopt
-                                 : std::optional(answer.normal_form->natural_frequency),
-        .stiffness = std::nullopt,
-        .angle = report.angle};
-    text += margin_text(*report.changeable, *report.margin, units) + "\n";
+    text += margin_text(*report.changeable, *report.margin, report.angle) + "\n";
   }
   if (report.sensitivity) text += sensitivity_text(*report.sensitivity) + "\n";
   for (const Note& note : answer.notes) {
@@ -366,6 +371,7 @@ std::string answer_text(const AnswerReport& report) {
   for (const Note& note : answer.notes) {
     if (note.code == "undecided-start") text += wrapped(note.text);
   }
+  if (answer.engine == Engine::closed_form) text += offer_text(report);
   return text;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "output/columns.hpp"
 #include "output/json_values.hpp"
@@ -13,19 +14,17 @@ namespace {
 
 constexpr int digits = 4;
 
-std::string value_text(const ChangeableDrive& drive, DesignParameter parameter, double value,
-                       const ReportUnits& units) {
-  if (parameter == DesignParameter::backlash) {
-    return significant(units.angle.from_radians(value), digits) + " " + units.angle.name;
+std::string value_text(const ChangeableNumber& number, double value, const AngleUnit& angle) {
+  if (number.is_backlash()) {
+    return significant(angle.from_radians(value), digits) + " " + angle.name;
   }
-  const std::string unit = drive.unit_of(parameter);
-  return significant(value, digits) + (unit == "1" ? "" : " " + unit);
+  return significant(value, digits) + (number.unit == "1" ? "" : " " + number.unit);
 }
 
-std::string boundary_text(const ChangeableDrive& drive, const ParameterMargin& margin, double value,
-                          const ReportUnits& units) {
+std::string boundary_text(const ChangeableNumber& number, const ParameterMargin& margin,
+                          double value, const AngleUnit& angle) {
   if (std::isnan(value)) return "–";
-  const std::string text = value_text(drive, margin.parameter, value, units);
+  const std::string text = value_text(number, value, angle);
   return margin.present > 0.0 ? text + " (" + change_text(value / margin.present) + ")" : text;
 }
 
@@ -66,31 +65,43 @@ std::string reason(SensitivityOutcome outcome) {
   return "";
 }
 
-/// By falling effect on the size, or where there is none on growth at rest.
-std::vector<ParameterSensitivity> sorted(const DriveSensitivity& sensitivity,
-                                         CycleMeasure measure) {
-  std::vector<ParameterSensitivity> numbers = sensitivity.parameters;
-  const auto effect = [&](const ParameterSensitivity& number) {
-    const double elasticity = number.of[measure].elasticity;
-    return std::isnan(elasticity) ? 0.0 : std::abs(elasticity);
-  };
-  std::stable_sort(numbers.begin(), numbers.end(),
-                   [&](const auto& a, const auto& b) { return effect(a) > effect(b); });
-  return numbers;
-}
-
 }  // namespace
 
+Quantity quantity_of_effect(const DriveSensitivity& sensitivity) {
+  return sensitivity.outcome == SensitivityOutcome::available ? Quantity::amplitude
+                                                              : Quantity::growth_at_rest;
+}
+
+std::optional<double> elasticity_of(const DriveSensitivity& sensitivity, Quantity quantity,
+                                    std::size_t parameter) {
+  const std::vector<Quantity>& quantities = sensitivity.jacobian.quantities;
+  const auto row = std::find(quantities.begin(), quantities.end(), quantity) - quantities.begin();
+  return sensitivity.jacobian.elasticity(static_cast<std::size_t>(row), parameter);
+}
+
+std::vector<std::size_t> by_falling_effect(const DriveSensitivity& sensitivity) {
+  std::vector<std::size_t> order(sensitivity.jacobian.paths.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const Quantity quantity = quantity_of_effect(sensitivity);
+  const auto effect = [&](std::size_t parameter) {
+    return std::abs(elasticity_of(sensitivity, quantity, parameter).value_or(0.0));
+  };
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return effect(a) > effect(b); });
+  return order;
+}
+
 std::string margin_text(const ChangeableDrive& drive, const HuntingMargin& margin,
-                        const ReportUnits& units) {
+                        const AngleUnit& angle) {
   std::vector<std::vector<std::string>> rows = {{"parameter", "now", "down to", "up to"}};
   bool hunts = false;
   for (const ParameterMargin& one : margin.parameters) {
     hunts = hunts || one.hunts;
     if (std::isnan(one.below) && std::isnan(one.above)) continue;
-    rows.push_back({name_of(one.parameter), value_text(drive, one.parameter, one.present, units),
-                    boundary_text(drive, one, one.below, units),
-                    boundary_text(drive, one, one.above, units)});
+    const ChangeableNumber& number = drive.number(one.parameter);
+    rows.push_back({number.name, value_text(number, one.present, angle),
+                    boundary_text(number, one, one.below, angle),
+                    boundary_text(number, one, one.above, angle)});
   }
   const std::string what = hunts ? "Where hunting ends" : "Where hunting begins";
   std::string text =
@@ -109,21 +120,19 @@ std::string margin_text(const ChangeableDrive& drive, const HuntingMargin& margi
 
 std::string sensitivity_text(const DriveSensitivity& sensitivity) {
   const std::string why = reason(sensitivity.outcome);
-  const bool has_growth = std::isfinite(sensitivity.values[CycleMeasure::growth_at_rest]);
   std::string text = "Sensitivities: per cent for one per cent more";
   text += why.empty() ? "\n" : "; " + why + "\n";
-  if (!why.empty() && !has_growth) return text;
-  std::vector<std::vector<std::string>> rows = {
-      {"number", "size", "frequency", "multiplier", "growth at rest"}};
-  const auto shown = [](const Sensitivity& of) {
-    return std::isnan(of.elasticity) ? std::string("–") : fmt::format("{:+.3f}", of.elasticity);
+  if (sensitivity.outcome == SensitivityOutcome::undamped) return text;
+  const auto shown = [&](Quantity quantity, std::size_t parameter) {
+    const std::optional<double> elasticity = elasticity_of(sensitivity, quantity, parameter);
+    return elasticity ? fmt::format("{:+.3f}", *elasticity) : std::string("–");
   };
-  const CycleMeasure first = why.empty() ? CycleMeasure::size : CycleMeasure::growth_at_rest;
-  for (const ParameterSensitivity& number : sorted(sensitivity, first)) {
-    rows.push_back({number.name, shown(number.of[CycleMeasure::size]),
-                    shown(number.of[CycleMeasure::frequency]),
-                    shown(number.of[CycleMeasure::multiplier]),
-                    shown(number.of[CycleMeasure::growth_at_rest])});
+  std::vector<std::vector<std::string>> rows = {
+      {"number", "amplitude", "frequency", "multiplier", "growth at rest"}};
+  for (const std::size_t parameter : by_falling_effect(sensitivity)) {
+    rows.push_back({sensitivity.jacobian.paths[parameter], shown(Quantity::amplitude, parameter),
+                    shown(Quantity::frequency, parameter), shown(Quantity::multiplier, parameter),
+                    shown(Quantity::growth_at_rest, parameter)});
   }
   return text + table_text(rows);
 }
@@ -131,14 +140,14 @@ std::string sensitivity_text(const DriveSensitivity& sensitivity) {
 nlohmann::ordered_json margin_json(const ChangeableDrive& drive, const HuntingMargin& margin) {
   Json parameters = Json::array();
   for (const ParameterMargin& one : margin.parameters) {
-    parameters.push_back({{"parameter", name_of(one.parameter)},
-                          {"unit", drive.unit_of(one.parameter)},
+    parameters.push_back({{"parameter", one.parameter},
+                          {"unit", drive.number(one.parameter).unit},
                           {"present", json_number(one.present)},
                           {"below", json_number(one.below)},
                           {"above", json_number(one.above)},
                           {"certified", one.kind == SearchKind::certified}});
   }
-  Json json = {{"parameters", std::move(parameters)}};
+  Json json = {{"parameters", std::move(parameters)}, {"overall", nullptr}};
   const OverallMargin& overall = margin.overall;
   if (overall.outcome == MarginOutcome::found) {
     const LogChange& change = overall.change;
@@ -153,31 +162,19 @@ nlohmann::ordered_json margin_json(const ChangeableDrive& drive, const HuntingMa
 }
 
 nlohmann::ordered_json sensitivity_json(const DriveSensitivity& sensitivity) {
+  const Jacobian& jacobian = sensitivity.jacobian;
   Json numbers = Json::array();
-  for (const ParameterSensitivity& number : sensitivity.parameters) {
-    Json json = {{"name", number.name}, {"present", json_number(number.present)}};
-    for (const CycleMeasure measure : all_cycle_measures) {
-      json[name_of(measure)] = {{"slope", json_number(number.of[measure].slope)},
-                                {"elasticity", json_number(number.of[measure].elasticity)}};
+  for (std::size_t j = 0; j < jacobian.paths.size(); ++j) {
+    Json json = {{"parameter", jacobian.paths[j]}, {"present", json_number(jacobian.present[j])}};
+    for (std::size_t i = 0; i < jacobian.quantities.size(); ++i) {
+      json[std::string(name_of(jacobian.quantities[i]))] = {
+          {"slope", json_optional(jacobian.slope(i, j))},
+          {"elasticity", json_optional(jacobian.elasticity(i, j))}};
     }
     numbers.push_back(std::move(json));
   }
   return {{"available", sensitivity.outcome == SensitivityOutcome::available},
           {"numbers", std::move(numbers)}};
-}
-
-BarChart tornado_of(const DriveSensitivity& sensitivity) {
-  const bool has_size = sensitivity.outcome == SensitivityOutcome::available;
-  const CycleMeasure measure = has_size ? CycleMeasure::size : CycleMeasure::growth_at_rest;
-  BarChart chart{.title = has_size ? "What the size of the limit cycle depends on"
-                                   : "What the growth at rest depends on",
-                 .label = std::string(has_size ? "size" : "growth at rest") +
-                          ", per cent for one per cent more"};
-  for (const ParameterSensitivity& number : sorted(sensitivity, measure)) {
-    const double elasticity = number.of[measure].elasticity;
-    if (std::isfinite(elasticity)) chart.bars.push_back({number.name, elasticity});
-  }
-  return chart;
 }
 
 }  // namespace gearlash

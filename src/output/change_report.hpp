@@ -2,26 +2,32 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "analysis/design/drive_sensitivity.hpp"
 #include "analysis/design/hunting_margin.hpp"
 #include "output/report_units.hpp"
-#include "picture/bar_chart.hpp"
 
 namespace gearlash {
 
 /// A table of how far each parameter may go until hunting stops, or starts, and the least change of
 /// all together.
 std::string margin_text(const ChangeableDrive& drive, const HuntingMargin& margin,
-                        const ReportUnits& units);
-/// Elasticities, the largest of the size first; or why there are none, in a line.
+                        const AngleUnit& angle);
+/// Elasticities, the largest first; or why there are none, in a line.
 std::string sensitivity_text(const DriveSensitivity& sensitivity);
 
 nlohmann::ordered_json margin_json(const ChangeableDrive& drive, const HuntingMargin& margin);
 nlohmann::ordered_json sensitivity_json(const DriveSensitivity& sensitivity);
 
-/// The elasticities of the size as bars, the longest on top.
-BarChart tornado_of(const DriveSensitivity& sensitivity);
+/// That by which effects are compared: the amplitude, or without a limit cycle growth at rest.
+Quantity quantity_of_effect(const DriveSensitivity& sensitivity);
+/// Of one of the Jacobian's quantities by its parameter of that index.
+std::optional<double> elasticity_of(const DriveSensitivity& sensitivity, Quantity quantity,
+                                    std::size_t parameter);
+/// The parameters of the Jacobian by their effect, the largest first.
+std::vector<std::size_t> by_falling_effect(const DriveSensitivity& sensitivity);
 
 }  // namespace gearlash

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "output/columns.hpp"
+#include "output/drive_text.hpp"
 #include "output/json_values.hpp"
 
 namespace gearlash {
@@ -28,12 +30,10 @@ struct ShownUnit {
   double size = 1.0;
 };
 
-ShownUnit shown_unit(const DesignReport& report, DesignParameter parameter) {
-  if (parameter == DesignParameter::backlash) {
-    return {" " + report.units.angle.name, report.units.angle.radians};
-  }
-  const std::string unit = report.drive.unit_of(parameter);
-  return {unit == "1" ? "" : " " + unit, 1.0};
+ShownUnit shown_unit(const DesignReport& report, const std::string& parameter) {
+  const ChangeableNumber& number = report.drive.number(parameter);
+  if (number.is_backlash()) return {" " + report.angle.name, report.angle.radians};
+  return {number.unit == "1" ? "" : " " + number.unit, 1.0};
 }
 
 std::string interval_text(const Bounds& interval, const Bounds& searched, const ShownUnit& unit) {
@@ -57,11 +57,9 @@ std::string performance_text(const Performance& performance, const DesignReport&
   if (performance.verdict == Verdict::cannot_hunt) {
     return "at rest (growth " + significant(performance.growth_at_rest, 3) + ")";
   }
-  if (std::isnan(performance.size)) return name_of(performance.verdict);
-  std::string text = swing_text(performance.size, report.units.angle, 3);
-  if (report.units.natural_frequency) {
-    text += " at " + significant(performance.frequency, 3) + " Hz";
-  }
+  if (std::isnan(performance.amplitude)) return name_of(performance.verdict);
+  std::string text = swing_text(performance.amplitude, report.angle, 3);
+  if (!report.is_normalized) text += " at " + significant(performance.frequency, 3) + " Hz";
   return text;
 }
 
@@ -77,14 +75,14 @@ std::vector<std::string> header() {
 /// The first of a parameter names it, the others are further ways.
 std::vector<std::string> interval_row(const DesignReport& report, const FeasibleValues& values,
                                       std::size_t index) {
-  const DesignParameter parameter = values.parameter;
+  const std::string& parameter = values.parameter;
   const Bounds& interval = values.intervals[index];
   const ShownUnit unit = shown_unit(report, parameter);
   const double value = nearest_in(interval, values.present);
   const Drivetrain& present = report.drive.drivetrain();
   const Drivetrain changed = report.drive.with(parameter, value);
   const bool is_first = index == 0;
-  return {is_first ? name_of(parameter) : "  or",
+  return {is_first ? parameter : "  or",
           is_first ? significant(values.present / unit.size, digits) + unit.name : "",
           interval_text(interval, values.searched, unit),
           change_text(value, values.present),
@@ -100,11 +98,11 @@ std::string reason(const DesignReport& report, const FeasibleValues& values) {
   const auto shown = [&](double value) {
     return significant(value / unit.size, digits) + unit.name;
   };
-  std::string text = std::string(name_of(values.parameter)) + ": ";
+  std::string text = values.parameter + ": ";
   if (values.searched.low == values.searched.high) return text + "is 0, and has no multiples";
-  if (values.parameter == DesignParameter::backlash &&
+  if (report.drive.number(values.parameter).is_backlash() &&
       (report.target.no_hunting || !std::isinf(report.target.growth_at_rest.high))) {
-    return text + "however small, it leaves the hunting; only its size follows";
+    return text + "however small, it leaves the hunting; only its amplitude follows";
   }
   text += fmt::format("no value from {} to {}", shown(values.searched.low),
                       shown(values.searched.high));
@@ -130,7 +128,7 @@ std::string undecided_parts(const DesignReport& report, SearchKind kind) {
   for (const FeasibleValues& answer : report.answers) {
     if (answer.kind != kind || !is_worth_naming(answer)) continue;
     const ShownUnit unit = shown_unit(report, answer.parameter);
-    parts += (parts.empty() ? "" : "; ") + std::string(name_of(answer.parameter));
+    parts += (parts.empty() ? "" : "; ") + answer.parameter;
     constexpr std::size_t most_named = 4;
     const std::size_t named = std::min(most_named, answer.undecided.size());
     for (std::size_t i = 0; i < named; ++i) {
@@ -152,7 +150,7 @@ std::string certainty(const DesignReport& report) {
   std::string scanned;
   for (const FeasibleValues& answer : report.answers) {
     if (answer.kind == SearchKind::certified) continue;
-    scanned += (scanned.empty() ? "" : ", ") + std::string(name_of(answer.parameter));
+    scanned += (scanned.empty() ? "" : ", ") + answer.parameter;
   }
   text += scanned.empty() ? "."
                           : ", except for " + scanned +
@@ -170,15 +168,14 @@ std::string certainty(const DesignReport& report) {
   return text;
 }
 
-Json json_performance(const Performance& performance, bool has_frequency) {
-  Json json = {{"verdict", name_of(performance.verdict)},
-               {"growth_at_rest", json_number(performance.growth_at_rest)},
-               {"size", json_number(performance.size)}};
-  if (has_frequency) json["frequency"] = json_number(performance.frequency);
-  return json;
+Json json_performance(const Performance& performance) {
+  return {{"verdict", name_of(performance.verdict)},
+          {"growth_at_rest", json_number(performance.growth_at_rest)},
+          {"amplitude", json_number(performance.amplitude)},
+          {"frequency", json_number(performance.frequency)}};
 }
 
-Json json_drive(const Drivetrain& drive) {
+Json json_loop(const Drivetrain& drive) {
   return {{"natural_frequency", json_number(natural_frequency(drive))},
           {"damping", json_number(normalize(drive).damping)},
           {"stiffness", json_number(drive.stiffness)}};
@@ -188,38 +185,38 @@ Json json_bounds(const Bounds& bounds) {
   return {{"from", json_number(bounds.low)}, {"to", json_number(bounds.high)}};
 }
 
-Json json_answer(const DesignReport& report, const FeasibleValues& values) {
-  const bool has_frequency = report.units.natural_frequency.has_value();
-  Json intervals = Json::array();
-  for (const Bounds& interval : values.intervals) intervals.push_back(json_bounds(interval));
-  Json undecided = Json::array();
-  for (const Bounds& sliver : values.undecided) undecided.push_back(json_bounds(sliver));
-  Json json = {{"parameter", name_of(values.parameter)},
-               {"description", description_of(values.parameter)},
-               {"unit", report.drive.unit_of(values.parameter)},
-               {"present", json_number(values.present)},
-               {"searched", json_bounds(values.searched)},
-               {"certified", values.kind == SearchKind::certified},
-               {"intervals", std::move(intervals)},
-               {"undecided", std::move(undecided)}};
-  const double nearest = values.nearest();
-  if (std::isnan(nearest)) {
-    const Drivetrain closest = report.drive.with(values.parameter, values.closest->value);
-    json["closest"] = {{"value", json_number(values.closest->value)},
-                       {"performance", json_performance(performance_of(closest), has_frequency)}};
-    return json;
-  }
-  const Drivetrain changed = report.drive.with(values.parameter, nearest);
-  json["nearest"] = {{"value", json_number(nearest)},
-                     {"change_percent", json_number(100.0 * (nearest / values.present - 1.0))},
-                     {"performance", json_performance(performance_of(changed), has_frequency)},
-                     {"drive", json_drive(changed)}};
+Json json_all(const std::vector<Bounds>& parts) {
+  Json json = Json::array();
+  for (const Bounds& part : parts) json.push_back(json_bounds(part));
   return json;
 }
 
-}  // namespace
+/// A value of the parameter and what the drive does with it.
+Json json_value(const DesignReport& report, const FeasibleValues& values, double value) {
+  const Drivetrain changed = report.drive.with(values.parameter, value);
+  const double change = values.present == 0.0 ? std::numeric_limits<double>::quiet_NaN()
+                                              : 100.0 * (value / values.present - 1.0);
+  return {{"value", json_number(value)},
+          {"change_percent", json_number(change)},
+          {"performance", json_performance(performance_of(changed))},
+          {"loop", json_loop(changed)}};
+}
 
-namespace {
+Json json_answer(const DesignReport& report, const FeasibleValues& values) {
+  const ChangeableNumber& number = report.drive.number(values.parameter);
+  const double nearest = values.nearest();
+  const bool is_met = !std::isnan(nearest);
+  return {{"parameter", number.name},
+          {"description", number.description},
+          {"unit", number.unit},
+          {"present", json_number(values.present)},
+          {"searched", json_bounds(values.searched)},
+          {"certified", values.kind == SearchKind::certified},
+          {"intervals", json_all(values.intervals)},
+          {"undecided", json_all(values.undecided)},
+          {"nearest", is_met ? json_value(report, values, nearest) : Json(nullptr)},
+          {"closest", is_met ? Json(nullptr) : json_value(report, values, values.closest->value)}};
+}
 
 /// Whether the target is met at present: with plastic contact as far as that is proved of the data.
 Judgement judge_present(const DesignReport& report, const Performance& present) {
@@ -268,15 +265,18 @@ std::string design_json(const DesignReport& report) {
   Json answers = Json::array();
   for (const FeasibleValues& answer : report.answers)
     answers.push_back(json_answer(report, answer));
-  const Json json = {
-      {"target", report.target_text},
-      {"met", json_of(judge_present(report, present))},
-      {"present",
-       {{"servo", json_servo(normalize(report.drive.drivetrain()))},
-        {"performance", json_performance(present, report.units.natural_frequency.has_value())},
-        {"drive", json_drive(report.drive.drivetrain())}}},
-      {"answers", std::move(answers)},
-      {"provenance", json_provenance(report.provenance)}};
+  const Json json = {{"schema", "gearlash/design/2"},
+                     {"version", report.provenance.version},
+                     {"command", report.provenance.command},
+                     {"units", "SI"},
+                     {"drive", drive_json(report.drive.drive())},
+                     {"defaults", defaults_taken(report.drive.drive())},
+                     {"target", report.target_text},
+                     {"met", json_of(judge_present(report, present))},
+                     {"present",
+                      {{"performance", json_performance(present)},
+                       {"loop", json_loop(report.drive.drivetrain())}}},
+                     {"answers", std::move(answers)}};
   return json.dump(2) + "\n";
 }
 

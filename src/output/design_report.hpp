@@ -14,7 +14,8 @@ struct DesignReport {
   std::string target_text;  ///< as its author wrote it
   Target target;
   std::vector<FeasibleValues> answers;  ///< of the parameters asked for
-  ReportUnits units = {};
+  AngleUnit angle = {};                 ///< of text
+  bool is_normalized = false;           ///< text then has no frequencies
   Provenance provenance = {};
 };
 
@@ -22,7 +23,7 @@ struct DesignReport {
 /// and why others cannot. Limits are rounded towards the side that meets it. Ends with a newline.
 std::string design_text(const DesignReport& report);
 
-/// The contract of docs/command-line.md, ending with a newline; numbers read back exactly.
+/// "gearlash/design/2" (docs/schemas), in SI, ending with a newline; numbers read back exactly.
 std::string design_json(const DesignReport& report);
 
 }  // namespace gearlash

@@ -1,20 +1,16 @@
 #include "output/tolerance_data.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 
 #include "base/range_check.hpp"
+#include "output/csv_table.hpp"
 #include "output/netcdf_file.hpp"
 
 namespace gearlash {
 namespace {
-
-/// Empty where it is not known.
-std::string cell(double value) { return std::isnan(value) ? "" : exact_text(value); }
 
 /// A quantity estimated at several shares, and what it is.
 struct QuantileSeries {
@@ -27,13 +23,12 @@ struct QuantileSeries {
 std::vector<QuantileSeries> quantile_series(const ToleranceReport& report) {
   const ToleranceStudy& study = report.study;
   std::vector<QuantileSeries> series = {
-      {"size", "size of limit cycle, 0 where the piece cannot hunt", "rad", study.size},
-      {"size_of_hunting", "size of limit cycle, of pieces that hunt", "rad",
-       study.size_of_hunting}};
-  if (report.units.natural_frequency) {
-    series.push_back(
-        {"frequency", "frequency of limit cycle, of pieces that hunt", "Hz", study.frequency});
-  }
+      {"amplitude", "amplitude of limit cycle, 0 where the drive cannot hunt", "rad",
+       study.amplitude},
+      {"amplitude_of_hunting", "amplitude of limit cycle, of drives that hunt", "rad",
+       study.amplitude_of_hunting}};
+  series.push_back(
+      {"frequency", "frequency of limit cycle, of drives that hunt", "Hz", study.frequency});
   return series;
 }
 
@@ -46,10 +41,10 @@ struct IndexSeries {
 
 const std::array<IndexSeries, 4>& index_series() {
   static const std::array<IndexSeries, 4> series = {
-      {{"first_order_index_of_size", "first-order Sobol index of the size",
-        [](const NumberSensitivity& number) { return number.of_size.first_order; }},
-       {"total_index_of_size", "total Sobol index of the size",
-        [](const NumberSensitivity& number) { return number.of_size.total; }},
+      {{"first_order_index_of_amplitude", "first-order Sobol index of the amplitude",
+        [](const NumberSensitivity& number) { return number.of_amplitude.first_order; }},
+       {"total_index_of_amplitude", "total Sobol index of the amplitude",
+        [](const NumberSensitivity& number) { return number.of_amplitude.total; }},
        {"first_order_index_of_hunting", "first-order Sobol index of whether it hunts",
         [](const NumberSensitivity& number) { return number.of_hunting.first_order; }},
        {"total_index_of_hunting", "total Sobol index of whether it hunts",
@@ -59,8 +54,8 @@ const std::array<IndexSeries, 4>& index_series() {
 
 /// Single estimates by their names.
 std::vector<std::pair<const char*, Estimate>> single_estimates(const ToleranceReport& report) {
-  std::vector<std::pair<const char*, Estimate>> estimates = {{"hunting", report.study.hunting},
-                                                             {"mean_size", report.study.mean_size}};
+  std::vector<std::pair<const char*, Estimate>> estimates = {
+      {"hunting", report.study.hunting}, {"mean_amplitude", report.study.mean_amplitude}};
   if (!report.target_text.empty()) estimates.emplace_back("yield", report.study.yield);
   return estimates;
 }
@@ -123,9 +118,9 @@ class TwoPassFile {
 
 void add_quantiles(const ToleranceReport& report, TwoPassFile& file) {
   std::vector<double> shares;
-  for (const QuantileEstimate& quantile : report.study.size) shares.push_back(quantile.share);
+  for (const QuantileEstimate& quantile : report.study.amplitude) shares.push_back(quantile.share);
   const NetcdfDimension share = file.file().add_dimension("share", shares.size());
-  file.add("share", {share}, "share of pieces up to the value", "1", shares);
+  file.add("share", {share}, "share of samples up to the value", "1", shares);
   for (const QuantileSeries& series : quantile_series(report)) {
     std::vector<Estimate> estimates;
     for (const QuantileEstimate& quantile : series.quantiles) estimates.push_back(quantile.value);
@@ -140,11 +135,11 @@ void add_indices(const ToleranceReport& report, TwoPassFile& file) {
   std::vector<double> places;
   std::string names;
   for (const NumberSensitivity& one : numbers) {
-    names += (names.empty() ? "" : " ") + std::string(name_of(one.number));
+    names += (names.empty() ? "" : " ") + one.path;
     places.push_back(static_cast<double>(places.size()));
   }
   const NetcdfVariable variable =
-      file.add("number", {number}, "number of the data sheet that varies", "1", places);
+      file.add("number", {number}, "parameter that varies", "1", places);
   file.file().set_attribute(variable, "flag_meanings", names);
   for (const IndexSeries& series : index_series()) {
     std::vector<Estimate> estimates;
@@ -154,30 +149,24 @@ void add_indices(const ToleranceReport& report, TwoPassFile& file) {
 }
 
 void add_histogram(const ToleranceReport& report, TwoPassFile& file) {
-  const SizeHistogram& histogram = report.study.histogram;
+  const AmplitudeHistogram& histogram = report.study.histogram;
   if (histogram.counts.empty()) return;
   const NetcdfDimension bin = file.file().add_dimension("bin", histogram.counts.size());
-  file.add("size_from", {bin}, "least size of the step", "rad",
+  file.add("amplitude_from", {bin}, "least amplitude of the step", "rad",
            {histogram.edges.begin(), histogram.edges.end() - 1});
-  file.add("size_to", {bin}, "largest size of the step", "rad",
+  file.add("amplitude_to", {bin}, "largest amplitude of the step", "rad",
            {histogram.edges.begin() + 1, histogram.edges.end()});
   std::vector<double> counts;
   for (const std::size_t count : histogram.counts) counts.push_back(static_cast<double>(count));
-  file.add("pieces", {bin}, "pieces with such a size", "1", std::move(counts));
+  file.add("samples", {bin}, "samples with such an amplitude", "1", std::move(counts));
 }
 
 }  // namespace
 
 void write_tolerance_csv(const ToleranceReport& report, const TextSink& sink) {
-  const SamplePlan& sampling = report.study.sampling;
-  sink(fmt::format("# gearlash {}: {}\n", report.provenance.version, report.provenance.command));
-  sink(fmt::format("# {} replicates of {} points, seed {}\n", sampling.replicates, sampling.points,
-                   sampling.seed));
-  sink("quantity,of,value,standard_error\n");
-  const auto line = [&](const std::string& quantity, const std::string& of,
-                        const Estimate& estimate) {
-    sink(quantity + "," + of + "," + cell(estimate.value) + "," + cell(estimate.standard_error) +
-         "\n");
+  CsvTable table(sink, {"quantity", "of", "value", "standard_error"});
+  const auto line = [&](std::string_view quantity, std::string_view of, const Estimate& estimate) {
+    table.row(quantity, of, estimate.value, estimate.standard_error);
   };
   for (const auto& [name, estimate] : single_estimates(report)) line(name, "", estimate);
   for (const QuantileSeries& series : quantile_series(report)) {
@@ -187,12 +176,12 @@ void write_tolerance_csv(const ToleranceReport& report, const TextSink& sink) {
   }
   for (const IndexSeries& series : index_series()) {
     for (const NumberSensitivity& number : report.sensitivities.numbers) {
-      line(series.name, name_of(number.number), series.of(number));
+      line(series.name, number.path, series.of(number));
     }
   }
-  const SizeHistogram& histogram = report.study.histogram;
+  const AmplitudeHistogram& histogram = report.study.histogram;
   for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
-    line("pieces", exact_text(histogram.edges[i]) + " to " + exact_text(histogram.edges[i + 1]),
+    line("samples", exact_text(histogram.edges[i]) + " to " + exact_text(histogram.edges[i + 1]),
          {.value = static_cast<double>(histogram.counts[i])});
   }
 }
@@ -208,9 +197,10 @@ void write_tolerance_netcdf(const ToleranceReport& report, const OutputFile& out
     description.set_attribute_of_file("target", report.target_text);
   }
   for (const auto& [name, estimate] : single_estimates(report)) {
-    const bool is_size = std::string(name) == "mean_size";
-    file.add_estimates(name, {}, is_size ? "mean size of all pieces" : "share of all pieces",
-                       is_size ? "rad" : "1", {estimate});
+    const bool is_amplitude = std::string(name) == "mean_amplitude";
+    file.add_estimates(name, {},
+                       is_amplitude ? "mean amplitude of all samples" : "share of all samples",
+                       is_amplitude ? "rad" : "1", {estimate});
   }
   add_quantiles(report, file);
   add_indices(report, file);

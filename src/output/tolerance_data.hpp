@@ -6,9 +6,8 @@
 
 namespace gearlash {
 
-/// A line an estimate: what it is, of what (a share of pieces, a number of the data sheet, a step
-/// of the histogram), its value and its standard error; sizes in rad, frequencies in Hz. Comments
-/// tell the command.
+/// A row an estimate: what it is, of what (a share of samples, a parameter's path, a step of the
+/// histogram), its value and its standard error; amplitudes in rad, frequencies in Hz.
 void write_tolerance_csv(const ToleranceReport& report, const TextSink& sink);
 
 /// NetCDF-4, in place of output.write(): quantiles over `share`, indices over `number` (whose names

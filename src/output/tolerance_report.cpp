@@ -7,6 +7,7 @@
 
 #include "base/overloaded.hpp"
 #include "output/columns.hpp"
+#include "output/drive_text.hpp"
 #include "output/json_values.hpp"
 
 namespace gearlash {
@@ -18,9 +19,8 @@ constexpr double bar = 2.0;
 
 using Row = std::vector<std::string>;
 
-bool has_frequency(const ToleranceReport& report) {
-  return report.units.natural_frequency.has_value();
-}
+/// In text: a normal form without a natural frequency has no time of its own.
+bool has_frequency(const ToleranceReport& report) { return !is_normalized(report.drive.nominal); }
 
 /// "12.3 ± 0.2 %": a probability with two standard errors.
 std::string percent_text(const Estimate& estimate) {
@@ -30,11 +30,11 @@ std::string percent_text(const Estimate& estimate) {
 }
 
 std::string angle_text(double angle, const ToleranceReport& report) {
-  const AngleUnit& unit = report.units.angle;
+  const AngleUnit& unit = report.angle;
   return significant(unit.from_radians(angle), digits) + " " + unit.name;
 }
 
-std::string size_text(const Estimate& estimate, const ToleranceReport& report) {
+std::string amplitude_text(const Estimate& estimate, const ToleranceReport& report) {
   if (std::isnan(estimate.value)) return "none";
   return "±" + angle_text(estimate.value, report);
 }
@@ -49,18 +49,19 @@ std::vector<Row> headline_rows(const ToleranceReport& report) {
   if (!report.target_text.empty()) {
     rows.push_back({"meet \"" + report.target_text + "\"", percent_text(study.yield)});
   }
-  rows.push_back({"size, mean of all", size_text(study.mean_size, report)});
+  rows.push_back({"amplitude, mean of all", amplitude_text(study.mean_amplitude, report)});
   return rows;
 }
 
 std::vector<Row> quantile_rows(const ToleranceReport& report) {
   const ToleranceStudy& study = report.study;
-  std::vector<Row> rows = {{"share of pieces up to it", "size", "size, of those that hunt"}};
+  std::vector<Row> rows = {
+      {"share of samples up to it", "amplitude", "amplitude, of those that hunt"}};
   if (has_frequency(report)) rows.front().emplace_back("frequency");
-  for (std::size_t i = 0; i < study.size.size(); ++i) {
-    Row row = {significant(100.0 * study.size[i].share, digits) + " %",
-               size_text(study.size[i].value, report),
-               size_text(study.size_of_hunting[i].value, report)};
+  for (std::size_t i = 0; i < study.amplitude.size(); ++i) {
+    Row row = {significant(100.0 * study.amplitude[i].share, digits) + " %",
+               amplitude_text(study.amplitude[i].value, report),
+               amplitude_text(study.amplitude_of_hunting[i].value, report)};
     if (has_frequency(report)) row.push_back(frequency_text(study.frequency[i].value));
     rows.push_back(std::move(row));
   }
@@ -73,18 +74,18 @@ std::string index_text(const Estimate& estimate) {
 }
 
 /// Angles in the author's unit, all else in its own.
-std::string number_text(DriveNumber number, double value, const ToleranceReport& report) {
-  const std::string unit = unit_of(number);
+std::string number_text(const std::string& path, double value, const ToleranceReport& report) {
+  const std::string unit(unit_of(report.drive.nominal, path));
   if (unit == "rad") return angle_text(value, report);
   return significant(value, digits) + (unit == "1" ? "" : " " + unit);
 }
 
 /// "± 5 %", "0.05 rad to 0.15 rad", "normal, 3 %", "2 lots".
-std::string spread_text(const VariedNumber& varied, const ToleranceReport& report) {
+std::string spread_text(const ParameterTolerance& varied, const ToleranceReport& report) {
   const auto share = [](double spread, double nominal) {
     return significant(100.0 * spread / std::abs(nominal), digits) + " %";
   };
-  const auto value = [&](double number) { return number_text(varied.number, number, report); };
+  const auto value = [&](double number) { return number_text(varied.path, number, report); };
   return std::visit(
       Overloaded{
           [&](const ExactValue& exact) { return value(exact.value); },
@@ -111,7 +112,7 @@ std::string spread_text(const VariedNumber& varied, const ToleranceReport& repor
 double widest_bar(const SensitivityStudy& study) {
   double widest = 0.0;
   for (const NumberSensitivity& number : study.numbers) {
-    for (const SensitivityIndices& indices : {number.of_size, number.of_hunting}) {
+    for (const SensitivityIndices& indices : {number.of_amplitude, number.of_hunting}) {
       for (const Estimate& estimate : {indices.first_order, indices.total}) {
         widest = std::fmax(widest, bar * estimate.standard_error);
       }
@@ -122,16 +123,16 @@ double widest_bar(const SensitivityStudy& study) {
 
 std::vector<Row> number_rows(const ToleranceReport& report) {
   std::vector<Row> rows = {
-      {"number", "varies", "size", "in all", "hunting", "in all", "worst piece"}};
+      {"parameter", "varies", "amplitude", "in all", "hunting", "in all", "worst sample"}};
   for (std::size_t i = 0; i < report.drive.varied.size(); ++i) {
-    const VariedNumber& varied = report.drive.varied[i];
+    const ParameterTolerance& varied = report.drive.varied[i];
     const NumberSensitivity& indices = report.sensitivities.numbers[i];
     const WorstNumber& worst = report.worst.numbers[i];
-    rows.push_back({name_of(varied.number), spread_text(varied, report),
-                    index_text(indices.of_size.first_order), index_text(indices.of_size.total),
-                    index_text(indices.of_hunting.first_order),
-                    index_text(indices.of_hunting.total),
-                    number_text(worst.number, worst.value, report) + ", " + name_of(worst.place)});
+    rows.push_back(
+        {varied.path, spread_text(varied, report), index_text(indices.of_amplitude.first_order),
+         index_text(indices.of_amplitude.total), index_text(indices.of_hunting.first_order),
+         index_text(indices.of_hunting.total),
+         number_text(worst.path, worst.value, report) + ", " + name_of(worst.place)});
   }
   return rows;
 }
@@ -140,11 +141,11 @@ std::string worst_text(const ToleranceReport& report) {
   const Performance& worst = report.worst.performance;
   std::string text;
   if (worst.verdict == Verdict::cannot_hunt) {
-    text = "The worst piece within the tolerances cannot hunt (growth at rest " +
+    text = "The worst sample within the tolerances cannot hunt (growth at rest " +
            significant(worst.growth_at_rest, digits) + ")";
   } else {
-    text = "The worst piece within the tolerances swings " +
-           swing_text(worst.size, report.units.angle, digits);
+    text = "The worst sample within the tolerances swings " +
+           swing_text(worst.amplitude, report.angle, digits);
     if (has_frequency(report)) text += " at " + significant(worst.frequency, digits) + " Hz";
   }
   return text +
@@ -172,15 +173,15 @@ std::string backlash_text(const ToleranceReport& report) {
 std::string counts_text(const ToleranceReport& report) {
   const ToleranceStudy& study = report.study;
   std::string text = fmt::format(
-      "{} pieces: {} times {} points of Sobol's sequence, shifted at random (seed {}). Error bars "
-      "are "
-      "two standard errors.",
+      "{} samples: {} times {} points of Sobol's sequence, shifted at random (seed {}). Error bars "
+      "are two standard errors.",
       study.sampling.samples(), study.sampling.replicates, study.sampling.points,
       study.sampling.seed);
-  if (study.undecided + study.unknown_sizes + study.refused > 0) {
+  if (study.undecided + study.unknown_amplitudes + study.refused > 0) {
     text += fmt::format(
-        " Not decided: {}; hunting of a size that is not known: {}; draws that were no drive: {}.",
-        study.undecided, study.unknown_sizes, study.refused);
+        " Not decided: {}; hunting of an amplitude that is not known: {}; draws that were no "
+        "drive: {}.",
+        study.undecided, study.unknown_amplitudes, study.refused);
   }
   return wrapped(text);
 }
@@ -205,26 +206,26 @@ Json json_indices(const SensitivityIndices& indices) {
           {"total", json_estimate(indices.total)}};
 }
 
-Json json_numbers(const ToleranceReport& report) {
-  Json numbers = Json::array();
+Json json_parameters(const ToleranceReport& report) {
+  Json parameters = Json::array();
   for (std::size_t i = 0; i < report.drive.varied.size(); ++i) {
-    const VariedNumber& varied = report.drive.varied[i];
+    const ParameterTolerance& varied = report.drive.varied[i];
     const NumberSensitivity& indices = report.sensitivities.numbers[i];
     const WorstNumber& worst = report.worst.numbers[i];
-    numbers.push_back(
-        {{"name", name_of(varied.number)},
-         {"unit", unit_of(varied.number)},
+    parameters.push_back(
+        {{"parameter", varied.path},
+         {"unit", unit_of(report.drive.nominal, varied.path)},
          {"distribution", text_of(varied.distribution)},
          {"mean", json_number(mean_of(varied.distribution))},
          {"standard_deviation", json_number(standard_deviation_of(varied.distribution))},
-         {"indices_of_size", json_indices(indices.of_size)},
+         {"indices_of_amplitude", json_indices(indices.of_amplitude)},
          {"indices_of_hunting", json_indices(indices.of_hunting)},
          {"worst", {{"value", json_number(worst.value)}, {"place", name_of(worst.place)}}}});
   }
-  return numbers;
+  return parameters;
 }
 
-Json json_histogram(const SizeHistogram& histogram) {
+Json json_histogram(const AmplitudeHistogram& histogram) {
   Json edges = Json::array();
   for (const double edge : histogram.edges) edges.push_back(json_number(edge));
   return {{"edges", std::move(edges)},
@@ -236,7 +237,8 @@ Json json_histogram(const SizeHistogram& histogram) {
 Json json_backlash(const ToleranceReport& report) {
   if (!report.backlash) return nullptr;
   const WidestBacklash& widest = *report.backlash;
-  return {{"min", json_number(widest.min)},
+  return {{"demanded_yield", json_number(report.demanded_yield)},
+          {"min", json_number(widest.min)},
           {"max", json_number(widest.max)},
           {"yield", json_estimate(widest.yield)},
           {"uncertainty",
@@ -247,11 +249,11 @@ Json json_backlash(const ToleranceReport& report) {
 }  // namespace
 
 std::string tolerance_text(const ToleranceReport& report) {
-  return "Of all pieces\n" + table_text(headline_rows(report)) + "\n" +
+  return "Of all samples\n" + table_text(headline_rows(report)) + "\n" +
          table_text(quantile_rows(report)) +
          fmt::format(
-             "\nWhat decides: the share of the variance of size and of hunting that goes with "
-             "a number\nalone, and in all, with what it does together with others (Sobol's "
+             "\nWhat decides: the share of the variance of amplitude and of hunting that goes with "
+             "a\nparameter alone, and in all, with what it does together with others (Sobol's "
              "indices, ± {})\n",
              significant(widest_bar(report.sensitivities), 1)) +
          table_text(number_rows(report)) + "\n" + wrapped(worst_text(report)) +
@@ -261,33 +263,35 @@ std::string tolerance_text(const ToleranceReport& report) {
 std::string tolerance_json(const ToleranceReport& report) {
   const ToleranceStudy& study = report.study;
   const Performance& worst = report.worst.performance;
-  Json json = {{"sampling",
-                {{"points", study.sampling.points},
-                 {"replicates", study.sampling.replicates},
-                 {"seed", study.sampling.seed}}},
-               {"hunting", json_estimate(study.hunting)}};
-  if (!report.target_text.empty()) {
-    json["target"] = report.target_text;
-    json["yield"] = json_estimate(study.yield);
-  }
-  json["mean_size"] = json_estimate(study.mean_size);
-  json["size"] = json_quantiles(study.size);
-  json["size_of_hunting"] = json_quantiles(study.size_of_hunting);
-  if (has_frequency(report)) json["frequency"] = json_quantiles(study.frequency);
-  json["histogram"] = json_histogram(study.histogram);
-  json["numbers"] = json_numbers(report);
-  json["worst"] = {{"verdict", name_of(worst.verdict)},
-                   {"growth_at_rest", json_number(worst.growth_at_rest)},
-                   {"size", json_number(worst.size)}};
-  if (has_frequency(report)) json["worst"]["frequency"] = json_number(worst.frequency);
-  if (report.demanded_yield > 0.0) {
-    json["backlash"] = json_backlash(report);
-    json["backlash_for_yield"] = json_number(report.demanded_yield);
-  }
-  json["undecided"] = study.undecided;
-  json["unknown_sizes"] = study.unknown_sizes;
-  json["refused"] = study.refused;
-  json["provenance"] = json_provenance(report.provenance);
+  const bool has_target = !report.target_text.empty();
+  const Json json = {{"schema", "gearlash/tolerance/2"},
+                     {"version", report.provenance.version},
+                     {"command", report.provenance.command},
+                     {"units", "SI"},
+                     {"drive", drive_json(report.drive.nominal)},
+                     {"defaults", defaults_taken(report.drive.nominal)},
+                     {"sampling",
+                      {{"points", study.sampling.points},
+                       {"replicates", study.sampling.replicates},
+                       {"seed", study.sampling.seed}}},
+                     {"hunting", json_estimate(study.hunting)},
+                     {"target", has_target ? Json(report.target_text) : Json(nullptr)},
+                     {"yield", has_target ? json_estimate(study.yield) : Json(nullptr)},
+                     {"mean_amplitude", json_estimate(study.mean_amplitude)},
+                     {"amplitude", json_quantiles(study.amplitude)},
+                     {"amplitude_of_hunting", json_quantiles(study.amplitude_of_hunting)},
+                     {"frequency", json_quantiles(study.frequency)},
+                     {"histogram", json_histogram(study.histogram)},
+                     {"parameters", json_parameters(report)},
+                     {"worst",
+                      {{"verdict", name_of(worst.verdict)},
+                       {"growth_at_rest", json_number(worst.growth_at_rest)},
+                       {"amplitude", json_number(worst.amplitude)},
+                       {"frequency", json_number(worst.frequency)}}},
+                     {"backlash", json_backlash(report)},
+                     {"undecided", study.undecided},
+                     {"unknown_amplitudes", study.unknown_amplitudes},
+                     {"refused", study.refused}};
   return json.dump(2) + "\n";
 }
 

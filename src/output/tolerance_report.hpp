@@ -20,15 +20,15 @@ struct ToleranceReport {
   SensitivityStudy sensitivities = {};
   WorstCorner worst = {};
   std::optional<WidestBacklash> backlash = {};  ///< where a yield was demanded and can be had
-  ReportUnits units = {};
+  AngleUnit angle = {};                         ///< of text
   Provenance provenance = {};
 };
 
-/// Probabilities with their error bars, quantiles, what decides, and the worst piece. Ends with a
+/// Probabilities with their error bars, quantiles, what decides, and the worst sample. Ends with a
 /// newline.
 std::string tolerance_text(const ToleranceReport& report);
 
-/// The contract of docs/command-line.md, ending with a newline; numbers read back exactly.
+/// "gearlash/tolerance/2" (docs/schemas), in SI, ending with a newline; numbers read back exactly.
 std::string tolerance_json(const ToleranceReport& report);
 
 }  // namespace gearlash

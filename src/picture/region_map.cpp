@@ -6,18 +6,18 @@ namespace gearlash {
 namespace {
 
 /// In the author's unit of angles where it is one.
-double unit_of_axis(const RegionMapTask& task, DesignParameter parameter) {
-  return parameter == DesignParameter::backlash ? task.angle.radians : 1.0;
+double unit_of_axis(const RegionMapTask& task, const std::string& parameter) {
+  return task.drive.number(parameter).is_backlash() ? task.angle.radians : 1.0;
 }
 
 ChartAxis chart_axis(const RegionMapTask& task, const ParameterAxis& axis) {
-  const DesignParameter parameter = axis.parameter;
-  const std::string unit =
-      parameter == DesignParameter::backlash ? task.angle.name : task.drive.unit_of(parameter);
-  return {.label = std::string(description_of(parameter)) + (unit == "1" ? "" : " (" + unit + ")"),
+  const ChangeableNumber& number = task.drive.number(axis.parameter);
+  const std::string& unit = number.is_backlash() ? task.angle.name : number.unit;
+  const double size = unit_of_axis(task, axis.parameter);
+  return {.label = number.description + (unit == "1" ? "" : " (" + unit + ")"),
           .logarithmic = axis.values.logarithmic,
-          .low = axis.values.values.front() / unit_of_axis(task, parameter),
-          .high = axis.values.values.back() / unit_of_axis(task, parameter)};
+          .low = axis.values.values.front() / size,
+          .high = axis.values.values.back() / size};
 }
 
 std::string meaning_of(Cost cost) {

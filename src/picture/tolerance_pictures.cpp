@@ -12,24 +12,24 @@ namespace gearlash {
 namespace {
 
 std::string run_in_words(const ToleranceReport& report) {
-  return fmt::format("{} pieces, {} % of them hunt", report.study.sampling.samples(),
+  return fmt::format("{} samples, {} % of them hunt", report.study.sampling.samples(),
                      significant(100.0 * report.study.hunting.value, 3));
 }
 
-ChartAxis size_axis(const ToleranceReport& report) {
-  const AngleUnit& unit = report.units.angle;
-  return {.label = "size of the limit cycle (" + unit.name + ")",
+ChartAxis amplitude_axis(const ToleranceReport& report) {
+  const AngleUnit& unit = report.angle;
+  return {.label = "amplitude of the limit cycle (" + unit.name + ")",
           .low = 0.0,
           .high = unit.from_radians(report.study.histogram.edges.back())};
 }
 
 /// Per cent of all pieces in each bin, of those that hunt.
 LineChart distribution_of(const ToleranceReport& report) {
-  const SizeHistogram& histogram = report.study.histogram;
+  const AmplitudeHistogram& histogram = report.study.histogram;
   const double all = static_cast<double>(report.study.sampling.samples());
   ChartCurve curve;
   const auto add = [&](double edge, double percent) {
-    curve.line.push_back({report.units.angle.from_radians(edge), percent});
+    curve.line.push_back({report.angle.from_radians(edge), percent});
   };
   add(histogram.edges.front(), 0.0);
   for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
@@ -38,45 +38,45 @@ LineChart distribution_of(const ToleranceReport& report) {
     add(histogram.edges[i + 1], percent);
   }
   add(histogram.edges.back(), 0.0);
-  return {.title = "Sizes of a production run",
+  return {.title = "Amplitudes of a production run",
           .subtitle = run_in_words(report),
-          .x = size_axis(report),
-          .y = {.label = fmt::format("pieces in each of {} steps (%)", histogram.counts.size()),
+          .x = amplitude_axis(report),
+          .y = {.label = fmt::format("samples in each of {} steps (%)", histogram.counts.size()),
                 .low = 0.0},
           .curves = {curve}};
 }
 
 LineChart yield_of(const ToleranceReport& report) {
-  const SizeHistogram& histogram = report.study.histogram;
+  const AmplitudeHistogram& histogram = report.study.histogram;
   const double all = static_cast<double>(report.study.sampling.samples());
   ChartCurve curve;
-  double pieces = static_cast<double>(histogram.quiet);
+  double samples = static_cast<double>(histogram.quiet);
   const auto add = [&](double edge) {
-    curve.line.push_back({report.units.angle.from_radians(edge), 100.0 * pieces / all});
+    curve.line.push_back({report.angle.from_radians(edge), 100.0 * samples / all});
   };
   add(0.0);
   add(histogram.edges.front());
   for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
-    pieces += static_cast<double>(histogram.counts[i]);
+    samples += static_cast<double>(histogram.counts[i]);
     add(histogram.edges[i + 1]);
   }
-  return {.title = "Yield against a limit of the size",
+  return {.title = "Yield against a limit of the amplitude",
           .subtitle = run_in_words(report),
-          .x = size_axis(report),
-          .y = {.label = "pieces up to that size (%)", .low = 0.0, .high = 100.0},
+          .x = amplitude_axis(report),
+          .y = {.label = "samples up to that amplitude (%)", .low = 0.0, .high = 100.0},
           .curves = {curve}};
 }
 
 BarChart indices_of(const ToleranceReport& report) {
-  BarChart chart{.title = "What decides the size",
+  BarChart chart{.title = "What decides the amplitude",
                  .subtitle = run_in_words(report),
                  .label = "share of the variance (Sobol's indices)",
                  .value_meaning = "in all",
                  .part_meaning = "alone"};
   for (const NumberSensitivity& number : report.sensitivities.numbers) {
-    const SensitivityIndices& indices = number.of_size;
+    const SensitivityIndices& indices = number.of_amplitude;
     if (std::isnan(indices.total.value)) continue;
-    chart.bars.push_back({name_of(number.number), std::max(0.0, indices.total.value),
+    chart.bars.push_back({number.path, std::max(0.0, indices.total.value),
                           std::max(0.0, indices.first_order.value)});
   }
   std::stable_sort(chart.bars.begin(), chart.bars.end(),
@@ -90,7 +90,7 @@ std::string draw_tolerances(const ToleranceReport& report, TolerancePicture pict
                             PictureFormat format) {
   const BarChart indices = indices_of(report);
   if (report.study.histogram.edges.empty() || indices.bars.empty()) {
-    throw InvalidInput({{"--plot", "", "must be left out: no piece hunts, or all alike", ""}});
+    throw InvalidInput({{"--plot", "", "must be left out: no sample hunts, or all alike", ""}});
   }
   switch (picture) {
     case TolerancePicture::distribution:

@@ -109,7 +109,7 @@ TEST(BadInput, UsageFaultsAreOneLine) {
   EXPECT_THAT(faults({"limit-cycle", "--dampness", "1"}), ElementsAre(HasSubstr("--dampness")));
   EXPECT_THAT(faults({"limit-cycle", "--damping"}), ElementsAre(HasSubstr("--damping")));
   EXPECT_THAT(faults({"limit-cycle", "a.toml", "b.toml"}), ElementsAre(HasSubstr("b.toml")));
-  EXPECT_THAT(faults({"motor"}), ElementsAre(HasSubstr("SERVO.toml")));
+  EXPECT_THAT(faults({"motor"}), ElementsAre(HasSubstr("DRIVE.toml")));
   EXPECT_THAT(faults({"limit-cycle", "--format\nx", "1"}), ElementsAre(HasSubstr("\\n")));
 }
 

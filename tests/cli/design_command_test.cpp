@@ -72,11 +72,11 @@ TEST(DesignCommand, AnswersPutIntoTheDataSheetMeetTheTarget) {
     const char* unit;
   };
   for (const Change& change :
-       {Change{"backlash", "backlash = \"0.1 rad\"", "backlash", "rad"},
-        Change{"error_gain", "error_gain = \"10 V/rad\"", "error_gain", "V/rad"},
-        Change{"load_friction", "friction = \"0.002 ozf in/(rad/s)\"", "friction", "N m s/rad"},
-        Change{"motor_friction", "friction = \"0.00064 ozf in/(rad/s)\"", "friction", "N m s/rad"},
-        Change{"load_inertia", "inertia = \"16.4e-6 slug ft2\"", "inertia", "kg m2"}}) {
+       {Change{"gearbox.backlash", "backlash = \"0.1 rad\"", "backlash", "rad"},
+        Change{"controller.proportional", "error_gain = \"10 V/rad\"", "error_gain", "V/rad"},
+        Change{"load.friction", "friction = \"0.002 ozf in/(rad/s)\"", "friction", "N m s/rad"},
+        Change{"motor.friction", "friction = \"0.00064 ozf in/(rad/s)\"", "friction", "N m s/rad"},
+        Change{"load.inertia", "inertia = \"16.4e-6 slug ft2\"", "inertia", "kg m2"}}) {
     const auto answer = answer_of(change.parameter);
     ASSERT_FALSE(answer["intervals"].empty()) << change.parameter;
     const std::string value = exactly(answer["nearest"]["value"], change.unit);
@@ -85,7 +85,7 @@ TEST(DesignCommand, AnswersPutIntoTheDataSheetMeetTheTarget) {
     ASSERT_FALSE(then["cycles"].empty()) << change.parameter;
     EXPECT_NEAR(then["cycles"][0]["amplitude"], limit, 1e-10 * limit) << change.parameter;
   }
-  const auto ratio = answer_of("gear_ratio");
+  const auto ratio = answer_of("gearbox.ratio");
   for (const auto& interval : ratio["intervals"]) {
     const double end = interval["from"] == ratio["searched"]["from"]
                            ? interval["to"].get<double>()
@@ -103,11 +103,13 @@ TEST(DesignCommand, SaysWhatItCostsAndWhyNot) {
   const auto lines = lines_of(run.out);
   EXPECT_EQ(lines.at(0), "target: no-hunting");
   EXPECT_THAT(lines.at(1), HasSubstr("not met"));
-  EXPECT_THAT(lines, Contains(StartsWith("  gear_ratio ")));
+  EXPECT_THAT(lines, Contains(StartsWith("  gearbox.ratio ")));
   EXPECT_THAT(lines, Contains(StartsWith("    or ")));
-  EXPECT_THAT(lines,
-              Contains("  backlash: however small, it leaves the hunting; only its size follows"));
-  EXPECT_THAT(lines, Contains(StartsWith("  motor_inertia: no value from ")));
+  EXPECT_THAT(
+      lines,
+      Contains("  gearbox.backlash: however small, it leaves the hunting; only its amplitude "
+               "follows"));
+  EXPECT_THAT(lines, Contains(StartsWith("  motor.inertia: no value from ")));
   EXPECT_THAT(run.out, HasSubstr("prove it"));
 }
 
@@ -116,7 +118,7 @@ TEST(DesignCommand, TakesANormalizedServo) {
       run_tool({"design", "--damping", "0.19", "--inertia-ratio", "2", "--friction-ratio", "1/10",
                 "--backlash", "0.3", "--target", "size <= 0.1", "--parameters", "backlash"});
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("  backlash   0.3 rad  at most 0.124166 rad  −58.6 %"));
+  EXPECT_THAT(run.out, HasSubstr("  servo.backlash  0.3 rad  at most 0.124166 rad  −58.6 %"));
 }
 
 TEST(DesignCommand, DrawsWhereTwoParametersMeetTheTarget) {
@@ -126,11 +128,11 @@ TEST(DesignCommand, DrawsWhereTwoParametersMeetTheTarget) {
         run_tool({"design", "examples/elinco-fd162.toml", "--target", "size <= 1 deg", "--vary",
                   "error_gain,load-friction", "--plot", "region=" + (scratch / file).string()});
     EXPECT_EQ(run.status, 0) << run.err;
-    EXPECT_THAT(lines_of(run.out), Contains(StartsWith("  load_friction ")));
-    EXPECT_THAT(lines_of(run.out), Not(Contains(StartsWith("  backlash "))));
+    EXPECT_THAT(lines_of(run.out), Contains(StartsWith("  load.friction ")));
+    EXPECT_THAT(lines_of(run.out), Not(Contains(StartsWith("  gearbox.backlash "))));
   }
   const std::string svg = file_text(scratch / "region.svg");
-  for (const char* text : {"Target: size &lt;= 1 deg", "friction of the load (N m s/rad)",
+  for (const char* text : {"Target: size &lt;= 1 deg", "viscous friction of the load (N m s/rad)",
                            "bandwidth, times now", "not met", ">now<"}) {
     EXPECT_THAT(svg, HasSubstr(text));
   }
@@ -161,14 +163,34 @@ TEST(EdgeDesignCommand, FaultsAreToldAtOnce) {
       run_tool({"design", "examples/elinco-fd162.toml", "--target", "speed <= 1 and size <= 2 kg",
                 "--parameters", "backlash,colour", "--damping", "0.2", "--format", "xml"});
   EXPECT_EQ(run.status, 2);
-  EXPECT_THAT(lines_of(run.err),
-              ElementsAre("gearlash: --format = xml: must be text or json",
-                          StartsWith("gearlash: --damping = 0.2: must be left out"),
-                          StartsWith("gearlash: --target = speed <= 1: must be no-hunting"),
-                          StartsWith("gearlash: --target = 2 kg: must be"),
-                          StartsWith("gearlash: --parameters = colour: must be backlash, ")));
+  EXPECT_THAT(
+      lines_of(run.err),
+      ElementsAre(
+          "gearlash: --format = xml: must be text or json",
+          StartsWith("gearlash: --target = speed <= 1: must be no-hunting"),
+          StartsWith("gearlash: --target = 2 kg: must be"),
+          StartsWith("gearlash: --parameters = colour: must be servo.backlash, gear_ratio, ")));
   const Outcome missing = run_tool({"design", "examples/elinco-fd162.toml"});
   EXPECT_EQ(missing.status, 2);
+}
+
+TEST(DesignCommand, TakesAnyNumberOfTheClosedFormByItsPath) {
+  const Outcome run = run_tool(
+      {"design", "examples/elinco-fd162.toml", "--set", "motor.resistance=300 ohm", "--target",
+       "no-hunting", "--parameters", "motor.resistance,controller.kp", "--format", "json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto design = nlohmann::json::parse(run.out);
+  EXPECT_EQ(design["answers"][0]["parameter"], "motor.resistance");
+  EXPECT_EQ(design["answers"][0]["present"], 300.0);
+  EXPECT_EQ(design["answers"][1]["parameter"], "controller.proportional");
+}
+
+TEST(EdgeDesignCommand, ADriveWithoutAClosedFormIsRefusedInOneLine) {
+  const Outcome run = run_tool({"design", "examples/robot-joint.toml", "--target", "no-hunting"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(lines_of(run.err),
+              ElementsAre(StartsWith("gearlash: examples/robot-joint.toml: drive = without a "
+                                     "closed form: must have a closed-form answer")));
 }
 
 }  // namespace

@@ -202,7 +202,7 @@ TEST_F(DriveCommand, EdgeFaultsOfFileAndOptionsAreToldTogether) {
   EXPECT_EQ(design.status, 2);
   EXPECT_THAT(
       lines_of(design.err),
-      ElementsAre(HasSubstr("drive = not a servo of 1960: must have a closed-form answer")));
+      ElementsAre(HasSubstr("drive = without a closed form: must have a closed-form answer")));
 }
 
 }  // namespace

@@ -214,40 +214,54 @@ TEST(LimitCycleCommand, TextHasNoEscapesWhereItIsNoTerminal) {
               testing::Not(HasSubstr("\x1b")));
 }
 
-TEST(LimitCycleCommand, TellsMarginsUnaskedWhereTheyAreProved) {
-  const auto margin_of = [](const std::string& inertia_ratio, const std::string& restitution) {
-    const Outcome run = run_tool({"limit-cycle", "--damping", "0.3", "--inertia-ratio",
-                                  inertia_ratio, "--friction-ratio", "0.4", "--backlash", "0.3",
-                                  "--restitution", restitution, "--format", "json"});
+TEST(LimitCycleCommand, ReportsMarginsOnRequestAndSaysHow) {
+  const auto answer_of = [](const std::string& inertia_ratio, bool wants_margins) {
+    std::vector<std::string> arguments = {
+        "limit-cycle", "--damping",  "0.3", "--inertia-ratio", inertia_ratio, "--friction-ratio",
+        "0.4",         "--backlash", "0.3", "--restitution",   "0.3",         "--format",
+        "json"};
+    if (wants_margins) arguments.emplace_back("--margins");
+    const Outcome run = run_tool(arguments);
     EXPECT_EQ(run.status, 0) << run.err;
-    return nlohmann::json::parse(run.out)["margin"];
+    return nlohmann::json::parse(run.out);
   };
-  EXPECT_TRUE(margin_of("2", "0.3").is_null());
+  EXPECT_TRUE(answer_of("2", false)["margin"].is_null());
   for (const char* massless : {"0", "inf"}) {
-    const auto margin = margin_of(massless, "0.3");
+    EXPECT_TRUE(answer_of(massless, false)["margin"].is_null());
+    const auto margin = answer_of(massless, true)["margin"];
     EXPECT_EQ(margin["parameters"].size(), 9U);
     for (const auto& one : margin["parameters"]) EXPECT_EQ(one["certified"], true);
-    EXPECT_TRUE(margin.contains("overall"));
+    EXPECT_TRUE(margin["overall"].is_object());
   }
+  const auto offers = [](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"limit-cycle", "examples/elinco-fd162.toml"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const std::string text = run_tool(arguments).out;
+    const std::size_t place = text.find("Not shown: ");
+    return place == std::string::npos ? std::string() : text.substr(place);
+  };
+  EXPECT_THAT(offers({}), AllOf(HasSubstr("--margins"), HasSubstr("--sensitivities")));
+  EXPECT_THAT(offers({"--margins"}), testing::Not(HasSubstr("--margins")));
+  EXPECT_EQ(offers({"--margins", "--sensitivities"}), "");
 }
 
 TEST(LimitCycleCommand, TellsHowFarHuntingIsAndWhatItDependsOn) {
   const test::Scratch scratch;
   const Outcome run =
-      run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--sensitivities", "--format", "json",
-                "--plot", "tornado=" + (scratch / "tornado.svg").string()});
+      run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--sensitivities", "--margins",
+                "--format", "json", "--plot", "tornado=" + (scratch / "tornado.svg").string()});
   ASSERT_EQ(run.status, 0) << run.err;
   const auto answer = nlohmann::json::parse(run.out);
   EXPECT_EQ(answer["margin"]["parameters"].size(), 8U);
   EXPECT_GT(answer["margin"]["overall"]["distance"], 1.0);
   EXPECT_EQ(answer["sensitivities"]["available"], true);
   for (const auto& number : answer["sensitivities"]["numbers"]) {
-    if (number["name"] != "gearbox.backlash") continue;
-    EXPECT_EQ(number["size"]["elasticity"], 1.0);
+    if (number["parameter"] != "gearbox.backlash") continue;
+    EXPECT_EQ(number["amplitude"]["elasticity"], 1.0);
     EXPECT_EQ(number["period"]["elasticity"], 0.0);
   }
   EXPECT_THAT(test::file_text(scratch / "tornado.svg"), testing::HasSubstr("motor.inertia"));
-  const Outcome text = run_tool({"limit-cycle", "examples/elinco-fd162.toml"});
+  const Outcome text = run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--margins"});
   EXPECT_THAT(text.out, testing::HasSubstr("Where hunting ends, one change by itself\n"));
   EXPECT_THAT(text.out, testing::HasSubstr("The least change of all together: "));
 }
@@ -258,7 +272,7 @@ TEST(LimitCycleCommand, AnswersAtTheEndsOfTheRanges) {
         std::pair("0.5", "inf"), std::pair("0.5", "0"), std::pair("0", "1")}) {
     const Outcome run =
         run_tool({"limit-cycle", "--damping", damping, "--inertia-ratio", inertia_ratio,
-                  "--friction-ratio", "0.5", "--backlash", "0.1", "--sensitivities"});
+                  "--friction-ratio", "0.5", "--backlash", "0.1", "--sensitivities", "--margins"});
     EXPECT_EQ(run.status, 0) << damping << " " << inertia_ratio << " " << run.err;
   }
 }

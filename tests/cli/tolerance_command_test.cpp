@@ -41,19 +41,19 @@ TEST(ToleranceCommand, SizesAreDistributedAsTheBacklash) {
   const Scratch scratch;
   const auto study =
       study_of({only_backlash(scratch), "--target", "size <= 0.2", "--yield", "0.5"});
-  constexpr double size_per_backlash = 0.241611108 / 0.3;
+  constexpr double amplitude_per_backlash = 0.241611108 / 0.3;
   EXPECT_EQ(study["hunting"]["value"], 1.0);
-  for (const auto& quantile : study["size"]) {
+  for (const auto& quantile : study["amplitude"]) {
     const double backlash = 0.1 + 0.2 * quantile["share"].get<double>();
-    EXPECT_NEAR(quantile["value"], backlash * size_per_backlash, 1e-4);
+    EXPECT_NEAR(quantile["value"], backlash * amplitude_per_backlash, 1e-4);
   }
-  EXPECT_NEAR(study["yield"]["value"], (0.2 / size_per_backlash - 0.1) / 0.2, 1e-4);
+  EXPECT_NEAR(study["yield"]["value"], (0.2 / amplitude_per_backlash - 0.1) / 0.2, 1e-4);
   // Half of the pieces from 0.1 to max are at most as large as the target permits.
-  EXPECT_NEAR(study["backlash"]["max"], 0.1 + 2.0 * (0.2 / size_per_backlash - 0.1), 1e-3);
-  ASSERT_EQ(study["numbers"].size(), 1U);
-  EXPECT_NEAR(study["numbers"][0]["indices_of_size"]["first_order"]["value"], 1.0, 1e-3);
-  EXPECT_EQ(study["numbers"][0]["worst"]["value"], 0.3);
-  EXPECT_NEAR(study["worst"]["size"], 0.241611108, 1e-9);
+  EXPECT_NEAR(study["backlash"]["max"], 0.1 + 2.0 * (0.2 / amplitude_per_backlash - 0.1), 1e-3);
+  ASSERT_EQ(study["parameters"].size(), 1U);
+  EXPECT_NEAR(study["parameters"][0]["indices_of_amplitude"]["first_order"]["value"], 1.0, 1e-3);
+  EXPECT_EQ(study["parameters"][0]["worst"]["value"], 0.3);
+  EXPECT_NEAR(study["worst"]["amplitude"], 0.241611108, 1e-9);
 }
 
 TEST(ToleranceCommand, TheSameSeedGivesTheSameStudy) {
@@ -62,7 +62,7 @@ TEST(ToleranceCommand, TheSameSeedGivesTheSameStudy) {
   const Outcome once = run_tool(arguments);
   EXPECT_EQ(once.status, 0) << once.err;
   EXPECT_EQ(run_tool(arguments).out, once.out);
-  EXPECT_THAT(once.out, HasSubstr("1024 pieces: 16 times 64 points"));
+  EXPECT_THAT(once.out, HasSubstr("1024 samples: 16 times 64 points"));
   EXPECT_THAT(lines_of(once.out), Contains(StartsWith("  load.friction ")));
 }
 
@@ -73,13 +73,13 @@ TEST(ToleranceCommand, PicturesAreDrawn) {
                                 "--plot", "distribution=" + file("a.svg"), "--plot",
                                 "yield=" + file("b.pdf"), "--plot", "indices=" + file("c.svg")});
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(test::file_text(scratch / "a.svg"), HasSubstr("Sizes of a production run"));
+  EXPECT_THAT(test::file_text(scratch / "a.svg"), HasSubstr("Amplitudes of a production run"));
   EXPECT_THAT(test::file_text(scratch / "b.pdf"), StartsWith("%PDF-"));
   EXPECT_THAT(test::file_text(scratch / "c.svg"), HasSubstr("load.friction"));
   const Outcome bad = run_tool({"tolerance", "examples/toleranced.toml", "--plot", "size=a.svg"});
   EXPECT_EQ(bad.err,
             "gearlash: --plot = size=a.svg: must be distribution=FILE, yield=FILE or "
-            "indices=FILE\n");
+            "indices=FILE (did you mean yield?)\n");
 }
 
 TEST(ToleranceCommand, DataAreThoseOfTheReport) {
@@ -90,16 +90,16 @@ TEST(ToleranceCommand, DataAreThoseOfTheReport) {
   const auto lines = lines_of(test::file_text(scratch / "a.csv"));
   EXPECT_THAT(lines, Contains("quantity,of,value,standard_error"));
   EXPECT_THAT(lines, Contains(StartsWith("hunting,," + study["hunting"]["value"].dump() + ",")));
-  EXPECT_THAT(lines, Contains(StartsWith("size_quantile,0.95,")));
-  EXPECT_THAT(lines, Contains(StartsWith("total_index_of_size,load.friction,")));
+  EXPECT_THAT(lines, Contains(StartsWith("amplitude_quantile,0.95,")));
+  EXPECT_THAT(lines, Contains(StartsWith("total_index_of_amplitude,load.friction,")));
   EXPECT_EQ(run_tool({"tolerance", "examples/toleranced.toml", "--samples", "2000", "--output",
                       file("a.nc")})
                 .status,
             0);
   const Outcome dump = test::run_shell("ncdump " + test::quoted(file("a.nc")));
-  for (const char* text : {"number = 9 ;", "double size_quantile(share) ;", ":units = \"rad\" ;",
-                           ":history = ", "motor.inertia motor.friction", "double pieces(bin) ;",
-                           "total_index_of_hunting"}) {
+  for (const char* text : {"number = 9 ;", "double amplitude_quantile(share) ;",
+                           ":units = \"rad\" ;", ":history = ", "motor.inertia motor.friction",
+                           "double samples(bin) ;", "total_index_of_hunting"}) {
     EXPECT_THAT(dump.out, HasSubstr(text));
   }
   EXPECT_THAT(run_tool({"tolerance", "examples/toleranced.toml", "--output", "a.txt"}).err,

@@ -87,15 +87,16 @@ std::string contents(const std::filesystem::path& path) {
 
 TEST(ServoFile, ReadsTheSampleProblem) {
   const ServoFile file = parse_servo(sample, "s.toml");
-  ASSERT_TRUE(file.datasheet && file.drivetrain && file.natural_frequency);
-  const auto& motor = std::get<ArmatureControlledMotor>(file.datasheet->motor);
+  ASSERT_TRUE(file.drivetrain && file.natural_frequency);
+  const Drive drive = parse_drive(sample, "s.toml", {}).drive;
+  const auto& motor = std::get<ArmatureControl>(drive.motor.kind);
   const double ounce_force = 0.45359237 / 16 * 9.80665;
   EXPECT_NEAR(motor.torque_constant, 28.2 * ounce_force * 0.0254, 8 * epsilon);
   EXPECT_EQ(motor.back_emf_constant, 0.233);
   EXPECT_EQ(motor.resistance, 282.0);
-  EXPECT_EQ(file.datasheet->loop.sensor, ShaftName::load);
-  EXPECT_EQ(file.datasheet->contact.restitution, 0.0);
-  EXPECT_EQ(file.drivetrain, to_drivetrain(*file.datasheet));
+  EXPECT_EQ(drive.sensor.position, SensorPlace::load);
+  EXPECT_EQ(std::get<RigidContact>(drive.contact).restitution, 0.0);
+  EXPECT_EQ(file.drivetrain, proportional_drivetrain(drive));
   EXPECT_EQ(file.servo, normalize(*file.drivetrain));
   EXPECT_EQ(file.backlash_unit, AngleUnit{});
   // Appendix B rounds every step to two or three digits.
@@ -110,7 +111,7 @@ TEST(ServoFile, ReadsTheNormalisedServo) {
   EXPECT_EQ(file.servo,
             (NormalizedServo{
                 .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3}));
-  EXPECT_FALSE(file.datasheet || file.drivetrain || file.natural_frequency);
+  EXPECT_FALSE(file.drivetrain || file.natural_frequency);
 }
 
 TEST(ServoFile, ReadsFractionsInfinityAndContact) {
@@ -131,6 +132,9 @@ contact.restitution = 1
 }
 
 TEST(ServoFile, ReadsTheOtherMotors) {
+  const auto drive_of = [](const std::string& text) {
+    return parse_drive(text, "s.toml", {}).drive;
+  };
   const std::string rest = R"toml([gearbox]
 ratio = "3/2"
 backlash = "1 deg"
@@ -141,21 +145,17 @@ friction = "1 N m s"
 error_gain = "1 V/rad"
 sensor = "load"
 )toml";
-  const ServoFile field = parse_servo(
+  const Drive field = drive_of(
       "[motor]\nkind = 'field-controlled'\ninertia = '1 kg m2'\nfriction = '2 N m s'\n"
       "torque_constant = '3 N m/A'\nresistance = '4 ohm'\n" +
-          rest,
-      "s.toml");
-  EXPECT_EQ(std::get<FieldControlledMotor>(field.datasheet->motor),
-            (FieldControlledMotor{1.0, 2.0, 3.0, 4.0}));
-  EXPECT_EQ(field.datasheet->gearbox.ratio, 1.5);
-  const ServoFile two_phase = parse_servo(
+      rest);
+  EXPECT_EQ(field.motor, (Motor{FieldControl{3.0, 4.0}, 1.0, {.viscous = 2.0}}));
+  EXPECT_EQ(field.gearbox.ratio, 1.5);
+  const Drive two_phase = drive_of(
       "[motor]\nkind = 'two-phase'\ninertia = '1 kg m2'\nfriction = '2 N m s'\n"
       "torque_per_volt = '3 N m/V'\ntorque_per_speed = '4 N m s'\n" +
-          rest,
-      "s.toml");
-  EXPECT_EQ(std::get<TwoPhaseMotor>(two_phase.datasheet->motor),
-            (TwoPhaseMotor{1.0, 2.0, 3.0, 4.0}));
+      rest);
+  EXPECT_EQ(two_phase.motor, (Motor{TwoPhase{3.0, 4.0}, 1.0, {.viscous = 2.0}}));
 }
 
 TEST(ServoFile, ByteOrderMarkAndLineEndingsChangeNothing) {
@@ -359,15 +359,15 @@ TEST(ServoFileRefusal, NumbersAtTheLoadSayWhatTheyAreMadeOf) {
 }
 
 /// The sample with another value in place of its resistance.
-std::vector<VariedNumber> varied_by(const std::string& value) {
-  return parse_servo(replaced(sample, "\"282 ohm\"", value), "s.toml").varied;
+std::vector<ParameterTolerance> varied_by(const std::string& value) {
+  return parse_drive(replaced(sample, "\"282 ohm\"", value), "s.toml", {}).tolerances;
 }
 
 TEST(ServoFileTolerances, AreReadInEveryForm) {
   const auto is = [](const std::string& value, const Distribution& distribution) {
-    const std::vector<VariedNumber> varied = varied_by(value);
+    const std::vector<ParameterTolerance> varied = varied_by(value);
     ASSERT_EQ(varied.size(), 1U) << value;
-    EXPECT_EQ(varied[0].number, DriveNumber::motor_resistance);
+    EXPECT_EQ(varied[0].path, "motor.resistance");
     EXPECT_TRUE(varied[0].distribution == distribution) << value;
   };
   EXPECT_TRUE(varied_by("\"282 ohm\"").empty());

@@ -17,12 +17,13 @@ Target read(std::string_view text) { return read_target("--target", text, TimeSc
 
 TEST(TargetText, IsReadWithItsUnits) {
   Target expected;
-  expected.size.high = degree;
+  expected.amplitude.high = degree;
   EXPECT_EQ(read("size <= 1 deg"), expected);
   EXPECT_EQ(read(" size<=1deg "), expected);
+  EXPECT_EQ(read("amplitude <= 1 deg"), expected);
   EXPECT_EQ(read("size ≤ 1 deg"), expected);
   EXPECT_EQ(read("size < 1 deg"), expected);
-  expected.size.high = 0.25;
+  expected.amplitude.high = 0.25;
   EXPECT_EQ(read("size <= 0.25"), expected);
   EXPECT_EQ(read("size <= 1/4 and size <= 1"), expected);
   expected.frequency.low = 5.0;
@@ -49,9 +50,9 @@ TEST(EdgeTargetText, FaultsAreToldAtOnceEachInALine) {
   using testing::ElementsAre;
   using testing::StartsWith;
   EXPECT_THAT(faults_of("speed <= 3 and size <= 1 kg and size"),
-              ElementsAre(StartsWith("--target = speed <= 3: must be no-hunting, or size"),
+              ElementsAre(StartsWith("--target = speed <= 3: must be no-hunting, or amplitude"),
                           StartsWith("--target = 1 kg: must be"),
-                          StartsWith("--target = size: must be no-hunting, or size")));
+                          StartsWith("--target = size: must be no-hunting, or amplitude")));
   EXPECT_THAT(faults_of(""), ElementsAre(StartsWith("--target = \"\": must be no-hunting")));
   EXPECT_THAT(faults_of("size <="), ElementsAre(StartsWith("--target = size <=: must be")));
   EXPECT_THAT(faults_of("size <= -1"),
@@ -59,9 +60,9 @@ TEST(EdgeTargetText, FaultsAreToldAtOnceEachInALine) {
   EXPECT_THAT(faults_of("period <= 0 s"),
               ElementsAre("--target = period <= 0 s: must have a positive limit"));
   EXPECT_THAT(faults_of("size <= 0.1 and size >= 0.2"),
-              ElementsAre("--target = size >= 0.2 and size <= 0.1: must not contradict itself"));
+              ElementsAre("--target = amplitude >= 0.2 and amplitude <= 0.1: must not contradict itself"));
   EXPECT_THAT(faults_of("no-hunting and size >= 0.2"),
-              ElementsAre("--target = no-hunting and size >= 0.2: must not contradict itself"));
+              ElementsAre("--target = no-hunting and amplitude >= 0.2: must not contradict itself"));
   EXPECT_THAT(faults_of("frequency >= 5 Hz", TimeScale::unknown),
               ElementsAre("--target = frequency >= 5 Hz: must be told of a servo with a "
                           "natural_frequency, or of a data sheet"));

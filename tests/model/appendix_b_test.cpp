@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "model/datasheet.hpp"
+#include "model/reduced_drive.hpp"
 
 namespace gearlash {
 namespace {
@@ -20,16 +20,28 @@ constexpr double slug_square_foot = foot_pound_force;        // kg m²
 constexpr double ounce_inch_force = foot_pound_force / (16.0 * 12.0);
 constexpr double ounce_square_inch = pound / 16.0 * (foot / 12.0) * (foot / 12.0);  // kg m²
 
-Datasheet elinco_fd162() {
-  return {.motor = ArmatureControlledMotor{.inertia = 0.61 * ounce_square_inch,
-                                           .friction = 0.00064 * ounce_inch_force,
-                                           .torque_constant = 28.2 * ounce_inch_force,
-                                           .back_emf_constant = 0.233,
-                                           .resistance = 282.0},
-          .gearbox = {.ratio = 1.0, .backlash = 0.1},
-          .load = {.inertia = 16.4e-6 * slug_square_foot, .friction = 0.002 * ounce_inch_force},
-          .loop = {.error_gain = 10.0},
-          .contact = {}};
+Drive elinco_fd162() {
+  Drive drive;
+  drive.motor = {.kind = ArmatureControl{.torque_constant = 28.2 * ounce_inch_force,
+                                         .back_emf_constant = 0.233,
+                                         .resistance = 282.0},
+                 .inertia = 0.61 * ounce_square_inch,
+                 .friction = {.viscous = 0.00064 * ounce_inch_force}};
+  drive.gearbox = {.ratio = 1.0, .backlash = 0.1};
+  drive.load = {16.4e-6 * slug_square_foot, {.viscous = 0.002 * ounce_inch_force}};
+  drive.controller.law = PID{.proportional = 10.0};
+  return drive;
+}
+
+/// Small whole numbers and powers of two, so that every result is exact.
+Drive geared(const MotorKind& kind) {
+  Drive drive;
+  drive.motor = {.kind = kind, .inertia = 3.0, .friction = {.viscous = 5.0}};
+  drive.gearbox = {.ratio = 4.0, .backlash = 0.25};
+  drive.load = {11.0, {.viscous = 13.0}};
+  drive.contact = RigidContact{.restitution = 0.5};
+  drive.controller.law = PID{.proportional = 10.0};
+  return drive;
 }
 
 /// Within half a unit of the last digit printed; the thesis cut 13.75 to 13.7, so a tie may go
@@ -40,30 +52,30 @@ void expect_as_printed(double value, double printed, double last_digit) {
 }
 
 TEST(OracleAppendixB, Step1Stiffness) {
-  expect_as_printed(refer_to_load(elinco_fd162()).stiffness / foot_pound_force, 0.0052, 1e-4);
+  expect_as_printed(referred_drivetrain(elinco_fd162()).stiffness / foot_pound_force, 0.0052, 1e-4);
 }
 
 TEST(OracleAppendixB, Step2MotorInertia) {
-  expect_as_printed(refer_to_load(elinco_fd162()).inertia / slug_square_foot, 8.2e-6, 1e-7);
+  expect_as_printed(referred_drivetrain(elinco_fd162()).motor_inertia / slug_square_foot, 8.2e-6,
+                    1e-7);
 }
 
 TEST(OracleAppendixB, Step3NaturalFrequency) {
-  expect_as_printed(natural_frequency(to_drivetrain(elinco_fd162())), 14.5, 0.1);
+  expect_as_printed(natural_frequency(referred_drivetrain(elinco_fd162())), 14.5, 0.1);
 }
 
 TEST(OracleAppendixB, Step4MechanicalFriction) {
-  const Datasheet datasheet = elinco_fd162();
-  const double total = refer_to_load(datasheet).mechanical_friction + datasheet.load.friction;
+  const Drive drive = elinco_fd162();  // n = 1
+  const double total = drive.motor.friction.viscous + drive.load.friction.viscous;
   expect_as_printed(total / foot_pound_force, 13.7e-6, 1e-7);
 }
 
 TEST(OracleAppendixB, Step5ElectricalFriction) {
-  expect_as_printed(refer_to_load(elinco_fd162()).electrical_friction / foot_pound_force, 121e-6,
-                    1e-6);
+  expect_as_printed(refer_output(elinco_fd162()).friction / foot_pound_force, 121e-6, 1e-6);
 }
 
 TEST(OracleAppendixB, Steps6To8Ratios) {
-  const NormalizedServo servo = normalize(to_drivetrain(elinco_fd162()));
+  const NormalizedServo servo = closed_form_servo(elinco_fd162())->servo;
   expect_as_printed(servo.damping, 0.19, 0.01);
   expect_as_printed(servo.inertia_ratio, 2.0, 0.1);
   expect_as_printed(servo.friction_ratio, 0.077, 0.001);
@@ -71,80 +83,74 @@ TEST(OracleAppendixB, Steps6To8Ratios) {
   EXPECT_EQ(servo.restitution, 0.0);
 }
 
-// The numbers below are small whole numbers and powers of two, so every result is exact.
 TEST(OracleAppendixA, ArmatureControlledThroughAGearbox) {
-  const Datasheet datasheet{.motor = ArmatureControlledMotor{.inertia = 3.0,
-                                                             .friction = 5.0,
-                                                             .torque_constant = 8.0,
-                                                             .back_emf_constant = 7.0,
-                                                             .resistance = 2.0},
-                            .gearbox = {.ratio = 4.0, .backlash = 0.25},
-                            .load = {.inertia = 11.0, .friction = 13.0},
-                            .loop = {.error_gain = 10.0},
-                            .contact = {.restitution = 0.5}};
-  const ReferredMotor motor = refer_to_load(datasheet);
-  EXPECT_EQ(motor.stiffness, 160.0);            // K₁K₃n/R
-  EXPECT_EQ(motor.inertia, 48.0);               // J_m n²
-  EXPECT_EQ(motor.mechanical_friction, 80.0);   // f_m n²
-  EXPECT_EQ(motor.electrical_friction, 448.0);  // K₁K₂n²/R
-  const Drivetrain drivetrain = to_drivetrain(datasheet);
-  EXPECT_EQ(drivetrain, (Drivetrain{.motor_inertia = 48.0,
-                                    .load_inertia = 11.0,
-                                    .motor_friction = 528.0,
-                                    .load_friction = 13.0,
-                                    .stiffness = 160.0,
-                                    .backlash = 0.25,
-                                    .restitution = 0.5}));
+  const Drive drive =
+      geared(ArmatureControl{.torque_constant = 8.0, .back_emf_constant = 7.0, .resistance = 2.0});
+  EXPECT_EQ(refer_output(drive).friction, 448.0);   // K₁K₂n²/R
+  const Drivetrain expected{.motor_inertia = 48.0,  // J_m n²
+                            .load_inertia = 11.0,
+                            .motor_friction = 528.0,  // f_m n² = 80, and the back-EMF's
+                            .load_friction = 13.0,
+                            .stiffness = 160.0,  // K₁K₃n/R
+                            .backlash = 0.25,
+                            .restitution = 0.5};
+  EXPECT_EQ(referred_drivetrain(drive), expected);
+  EXPECT_EQ(proportional_drivetrain(drive), expected);
 }
 
 TEST(OracleAppendixA, FieldControlledHasNoElectricalFriction) {
-  const Datasheet datasheet{
-      .motor =
-          FieldControlledMotor{
-              .inertia = 3.0, .friction = 5.0, .torque_constant = 8.0, .resistance = 2.0},
-      .gearbox = {.ratio = 4.0, .backlash = 0.25},
-      .load = {.inertia = 11.0, .friction = 13.0},
-      .loop = {.error_gain = 10.0},
-      .contact = {}};
-  const ReferredMotor motor = refer_to_load(datasheet);
-  EXPECT_EQ(motor.stiffness, 160.0);
-  EXPECT_EQ(motor.inertia, 48.0);
-  EXPECT_EQ(motor.mechanical_friction, 80.0);
-  EXPECT_EQ(motor.electrical_friction, 0.0);
+  const Drive drive = geared(FieldControl{.torque_constant = 8.0, .resistance = 2.0});
+  EXPECT_EQ(refer_output(drive).friction, 0.0);
+  EXPECT_EQ(referred_drivetrain(drive).stiffness, 160.0);
+  EXPECT_EQ(referred_drivetrain(drive).motor_friction, 80.0);
 }
 
 TEST(OracleAppendixA, TwoPhaseBySlopes) {
-  const Datasheet datasheet{
-      .motor =
-          TwoPhaseMotor{
-              .inertia = 3.0, .friction = 5.0, .torque_per_volt = 8.0, .torque_per_speed = 2.0},
-      .gearbox = {.ratio = 4.0, .backlash = 0.25},
-      .load = {.inertia = 11.0, .friction = 13.0},
-      .loop = {.error_gain = 10.0},
-      .contact = {}};
-  const ReferredMotor motor = refer_to_load(datasheet);
-  EXPECT_EQ(motor.stiffness, 320.0);  // K_e K₃ n
-  EXPECT_EQ(motor.inertia, 48.0);
-  EXPECT_EQ(motor.mechanical_friction, 80.0);
-  EXPECT_EQ(motor.electrical_friction, 32.0);  // K_N n²
+  const Drive drive = geared(TwoPhase{.torque_per_volt = 8.0, .torque_per_speed = 2.0});
+  EXPECT_EQ(refer_output(drive).friction, 32.0);           // K_N n²
+  EXPECT_EQ(referred_drivetrain(drive).stiffness, 320.0);  // K_e K₃ n
+  EXPECT_EQ(referred_drivetrain(drive).motor_friction, 112.0);
 }
 
 TEST(OracleAppendixA, ThesisFormOfTheTwoPhaseMotor) {
   // The thesis writes K_e and K_N for a direct drive and one volt per radian.
-  const Datasheet datasheet{
-      .motor =
-          TwoPhaseMotor{
-              .inertia = 1.0, .friction = 1.0, .torque_per_volt = 16.0, .torque_per_speed = 2.0},
-      .gearbox = {.ratio = 1.0, .backlash = 0.3},
-      .load = {.inertia = 3.0, .friction = 1.0},
-      .loop = {.error_gain = 1.0},
-      .contact = {}};
-  const Drivetrain drivetrain = to_drivetrain(datasheet);
-  EXPECT_EQ(natural_frequency(drivetrain), 2.0);  // √(16/4)
-  const NormalizedServo servo = normalize(drivetrain);
-  EXPECT_EQ(servo.damping, 0.25);  // (4/4)/(2·2)
-  EXPECT_EQ(servo.inertia_ratio, 3.0);
-  EXPECT_EQ(servo.friction_ratio, 0.25);
+  Drive drive;
+  drive.motor = {.kind = TwoPhase{.torque_per_volt = 16.0, .torque_per_speed = 2.0},
+                 .inertia = 1.0,
+                 .friction = {.viscous = 1.0}};
+  drive.gearbox = {.ratio = 1.0, .backlash = 0.3};
+  drive.load = {3.0, {.viscous = 1.0}};
+  drive.controller.law = PID{.proportional = 1.0};
+  const ClosedFormServo found = *closed_form_servo(drive);
+  EXPECT_EQ(found.natural_frequency, 2.0);  // √(16/4)
+  EXPECT_EQ(found.servo.damping, 0.25);     // (4/4)/(2·2)
+  EXPECT_EQ(found.servo.inertia_ratio, 3.0);
+  EXPECT_EQ(found.servo.friction_ratio, 0.25);
+}
+
+/// Gains per radian of the motor and speed fed back, too: both ways to the drivetrain agree.
+TEST(OracleAppendixA, TheShortWayToTheDrivetrainIsThatOfTheReducedDrive) {
+  Drive drive = geared(TwoPhase{.torque_per_volt = 8.0, .torque_per_speed = 2.0});
+  drive.sensor.speed = ShaftName::motor;
+  for (const ShaftName shaft : {ShaftName::load, ShaftName::motor}) {
+    drive.controller.shaft = shaft;
+    const auto expect_same = [&] {
+      const auto expected = proportional_drivetrain(drive);
+      ASSERT_TRUE(expected.has_value());
+      EXPECT_EQ(referred_drivetrain(drive), *expected);
+    };
+    drive.controller.law = PID{.terms = PIDTerms::PD, .proportional = 4.0, .derivative = 0.5};
+    expect_same();
+    drive.controller.law = CascadeController{.position = 4.0, .speed = 2.0};
+    expect_same();
+    for (const double gain : {4.0, 45.0, 0.3}) {  // with 0.3 rounding left dynamics
+      drive.controller.law = LeadLagController{.gain = gain, .zero = 10.0, .pole = 10.0};
+      expect_same();
+    }
+    drive.controller.law =
+        StateSpaceController{.gain = 2.0, .A = {}, .B = {}, .C = {}, .D = {4.0, -4.0, -0.5}};
+    expect_same();
+  }
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/range_check.hpp"
-#include "model/datasheet.hpp"
+#include "model/reduced_drive.hpp"
 
 namespace gearlash {
 namespace {
@@ -45,16 +45,13 @@ Drivetrain sound_drivetrain() {
           .backlash = 0.1};
 }
 
-Datasheet sound_datasheet() {
-  return {.motor = ArmatureControlledMotor{.inertia = 1.0,
-                                           .friction = 1.0,
-                                           .torque_constant = 1.0,
-                                           .back_emf_constant = 1.0,
-                                           .resistance = 1.0},
-          .gearbox = {.ratio = 2.0, .backlash = 0.1},
-          .load = {.inertia = 3.0, .friction = 0.5},
-          .loop = {.error_gain = 2.0},
-          .contact = {}};
+Drive sound_data_sheet() {
+  Drive drive;
+  drive.motor = {.kind = ArmatureControl{1.0, 1.0, 1.0}, .inertia = 1.0, .friction = {1.0}};
+  drive.gearbox = {.ratio = 2.0, .backlash = 0.1};
+  drive.load = {3.0, {.viscous = 0.5}};
+  drive.controller.law = PID{.proportional = 2.0};
+  return drive;
 }
 
 TEST(EdgeNormalizedServoRanges, EndsArePermitted) {
@@ -133,56 +130,52 @@ TEST(EdgeNormalizedServoRanges, AllFaultsAreListed) {
                                                    "backlash", "restitution", "sensor"));
 }
 
-TEST(EdgeDatasheetRanges, AllFaultsAreListedForEachMotor) {
-  Datasheet datasheet{.motor = ArmatureControlledMotor{-1.0, nan, 0.0, -1.0, 0.0},
-                      .gearbox = {.ratio = 0.0, .backlash = -1.0},
-                      .load = {.inertia = -1.0, .friction = infinity},
-                      .loop = {.error_gain = -2.0, .sensor = ShaftName::motor},
-                      .contact = {.restitution = -0.5}};
-  EXPECT_THAT(fields(validate(datasheet)),
+TEST(EdgeDataSheetRanges, AllFaultsAreListedForEachMotor) {
+  Drive drive = sound_data_sheet();
+  drive.motor = {.kind = ArmatureControl{0.0, -1.0, 0.0}, .inertia = -1.0, .friction = {nan}};
+  drive.gearbox = {.ratio = 0.0, .backlash = -1.0};
+  drive.load = {-1.0, {.viscous = infinity}};
+  drive.contact = RigidContact{-0.5};
+  EXPECT_THAT(fields(faults(drive)),
               UnorderedElementsAre("motor.inertia", "motor.friction", "motor.torque_constant",
                                    "motor.back_emf_constant", "motor.resistance", "gearbox.ratio",
                                    "gearbox.backlash", "load.inertia", "load.friction",
-                                   "loop.error_gain", "loop.sensor", "contact.restitution"));
-  datasheet.motor = FieldControlledMotor{-1.0, -1.0, -1.0, -1.0};
-  EXPECT_THAT(fields(validate(datasheet)),
+                                   "contact.restitution"));
+  drive.motor.kind = FieldControl{-1.0, -1.0};
+  EXPECT_THAT(fields(faults(drive)),
               UnorderedElementsAre("motor.inertia", "motor.friction", "motor.torque_constant",
                                    "motor.resistance", "gearbox.ratio", "gearbox.backlash",
-                                   "load.inertia", "load.friction", "loop.error_gain",
-                                   "loop.sensor", "contact.restitution"));
-  datasheet.motor = TwoPhaseMotor{-1.0, -1.0, 0.0, -1.0};
-  EXPECT_THAT(fields(validate(datasheet)),
+                                   "load.inertia", "load.friction", "contact.restitution"));
+  drive.motor.kind = TwoPhase{0.0, -1.0};
+  EXPECT_THAT(fields(faults(drive)),
               UnorderedElementsAre("motor.inertia", "motor.friction", "motor.torque_per_volt",
                                    "motor.torque_per_speed", "gearbox.ratio", "gearbox.backlash",
-                                   "load.inertia", "load.friction", "loop.error_gain",
-                                   "loop.sensor", "contact.restitution"));
+                                   "load.inertia", "load.friction", "contact.restitution"));
 }
 
-TEST(EdgeDatasheetRanges, ZerosThatArePermitted) {
-  Datasheet datasheet = sound_datasheet();
-  datasheet.gearbox.backlash = 0.0;
-  datasheet.load = {.inertia = 0.0, .friction = 0.5};
-  EXPECT_THAT(validate(datasheet), IsEmpty());
-  datasheet.motor = TwoPhaseMotor{
-      .inertia = 0.0, .friction = 0.0, .torque_per_volt = 1.0, .torque_per_speed = 1.0};
-  datasheet.load = {.inertia = 1.0, .friction = 0.0};
-  EXPECT_THAT(validate(datasheet), IsEmpty());
+TEST(EdgeDataSheetRanges, ZerosThatArePermitted) {
+  Drive drive = sound_data_sheet();
+  drive.gearbox.backlash = 0.0;
+  drive.load = {0.0, {.viscous = 0.5}};
+  EXPECT_THAT(faults(drive), IsEmpty());
+  drive.motor = {.kind = TwoPhase{1.0, 1.0}, .inertia = 0.0, .friction = {0.0}};
+  drive.load = {1.0, {.viscous = 0.0}};
+  EXPECT_THAT(faults(drive), IsEmpty());
 }
 
-TEST(EdgeDatasheetRanges, NoInertiaAnywhereIsRefused) {
-  Datasheet datasheet = sound_datasheet();
-  datasheet.motor = FieldControlledMotor{
-      .inertia = 0.0, .friction = 1.0, .torque_constant = 1.0, .resistance = 1.0};
-  datasheet.load.inertia = 0.0;
-  EXPECT_THAT(validate(datasheet), testing::SizeIs(1));
-  EXPECT_THROW(to_drivetrain(datasheet), InvalidInput);
+TEST(EdgeDataSheetRanges, NoInertiaAnywhereIsRefused) {
+  Drive drive = sound_data_sheet();
+  drive.motor = {.kind = FieldControl{1.0, 1.0}, .inertia = 0.0, .friction = {1.0}};
+  drive.load.inertia = 0.0;
+  EXPECT_THAT(faults(drive), testing::SizeIs(1));
+  EXPECT_EQ(proportional_drivetrain(drive), std::nullopt);
 }
 
-TEST(EdgeDatasheetRanges, OverflowInReferringIsRefusedNotReturned) {
-  Datasheet datasheet = sound_datasheet();
-  datasheet.gearbox.ratio = 1e200;  // its square is no double
-  EXPECT_THAT(validate(datasheet), testing::Not(IsEmpty()));
-  EXPECT_THROW(to_drivetrain(datasheet), InvalidInput);
+TEST(EdgeDataSheetRanges, OverflowInReferringIsRefusedNotReturned) {
+  Drive drive = sound_data_sheet();
+  drive.gearbox.ratio = 1e200;  // its square is no double
+  EXPECT_THAT(faults(drive), testing::Not(IsEmpty()));
+  EXPECT_EQ(proportional_drivetrain(drive), std::nullopt);
 }
 
 TEST(EdgeDrivetrainRanges, AllFaultsAreListed) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/design/drives.hpp"
 #include "analysis/design/feasible_values.hpp"
 #include "closed_form/growth_at_rest.hpp"
 #include "closed_form/limit_cycle.hpp"
@@ -54,12 +55,12 @@ TEST(RegressionProved, BoundsHoldOfStronglyDampedServos) {
 }
 
 TEST(RegressionProved, DesignLeavesOpenWhatTheDataLeaveOpen) {
-  const ChangeableDrive drive(
-      servo_of(662.1907560443809, 1.5655166617629133e-5, .9999994345814354));
+  const ChangeableDrive drive =
+      changeable(servo_of(662.1907560443809, 1.5655166617629133e-5, .9999994345814354));
   const auto values_below = [&](double growth) {
     Target target;
     target.growth_at_rest.high = growth;
-    return feasible_values(drive, DesignParameter::backlash, target);
+    return feasible_values(drive, "backlash", target);
   };
   // Version 0.1 called it proved that no backlash does it. The growth is .0083170867724 of the
   // doubles and .0083170868353 of the decimals: 1 − f has seven digits less than f.
@@ -80,9 +81,8 @@ TEST(RegressionProved, DesignLeavesOpenWhatTheDataLeaveOpen) {
 TEST(RegressionProved, DesignDoesNotContradictItself) {
   const NormalizedServo servo =
       servo_of(67.15170913401705, .07958454908395947, 2.043082623864931e-06);
-  const ChangeableDrive drive(servo);
-  const FeasibleValues values =
-      feasible_values(drive, DesignParameter::backlash, Target{.no_hunting = true});
+  const ChangeableDrive drive = changeable(servo);
+  const FeasibleValues values = feasible_values(drive, "backlash", Target{.no_hunting = true});
   const Judgement at_present =
       judge(Target{.no_hunting = true}, drive.box(), std::numeric_limits<double>::quiet_NaN());
   // Growth at rest has nothing to do with the backlash: the whole range is as the present value is.

@@ -4,233 +4,265 @@
 #include <cmath>
 #include <limits>
 
-#include "base/overloaded.hpp"
+#include "base/range_check.hpp"
+#include "model/reduced_drive.hpp"
 
 namespace gearlash {
 namespace {
 
-struct Naming {
-  const char* name;
-  const char* description;
-  const char* unit;  ///< of a data sheet's
+struct Name {
+  std::string_view path;
+  std::string_view older;  ///< in 0.1
 };
 
-/// By DesignParameter.
-constexpr std::array<Naming, parameter_count> namings = {
-    {{"backlash", "backlash, face to face at the load", "rad"},
-     {"gear_ratio", "gear ratio, motor turns per load turn", "1"},
-     {"error_gain", "gain of the position loop", "V/rad"},
-     {"load_friction", "friction of the load", "N m s/rad"},
-     {"motor_friction", "friction of the motor", "N m s/rad"},
-     {"tachometer", "added tachometer feedback", "V s/rad"},
-     {"load_inertia", "inertia of the load", "kg m2"},
-     {"motor_inertia", "inertia of the motor", "kg m2"},
-     {"restitution", "coefficient of restitution", "1"}}};
+/// What a designer looks at first, of a drive that has it.
+constexpr Name before_feedback[] = {{"servo.backlash", "backlash"},
+                                    {"gearbox.backlash", "backlash"},
+                                    {"gearbox.ratio", "gear_ratio"},
+                                    {"controller.proportional", "error_gain"},
+                                    {"controller.position", ""},
+                                    {"controller.speed", ""},
+                                    {"controller.gain", ""},
+                                    {"load.friction", "load_friction"},
+                                    {"motor.friction", "motor_friction"}};
+constexpr Name after_feedback[] = {{"load.inertia", "load_inertia"},
+                                   {"motor.inertia", "motor_inertia"},
+                                   {"contact.restitution", "restitution"}};
 
-const Naming& naming_of(DesignParameter parameter) {
-  return namings[static_cast<std::size_t>(parameter)];
+std::string_view older_name_of(std::string_view path) {
+  for (const Name& name : before_feedback) {
+    if (name.path == path) return name.older;
+  }
+  for (const Name& name : after_feedback) {
+    if (name.path == path) return name.older;
+  }
+  return "";
 }
 
-double torque_per_volt(const SheetMotor& motor) {
-  return std::visit(Overloaded{[](const TwoPhaseMotor& of) { return of.torque_per_volt; },
-                               [](const auto& of) { return of.torque_constant / of.resistance; }},
-                    motor);
+/// Of a parameter whose slot has a number.
+double& place_of(const Parameter& parameter, Drive& drive) {
+  const Slot slot = parameter.slot(drive);
+  if (auto* const* number = std::get_if<double*>(&slot)) return **number;
+  return std::get<std::optional<double>*>(slot)->emplace();
 }
 
-double friction_of(const SheetMotor& motor) {
-  return std::visit([](const auto& any) { return any.friction; }, motor);
+/// Another name of the same number, not of its reciprocal.
+bool is_alias(const Parameter& parameter, std::string_view name) {
+  return parameter.path == name ||
+         std::any_of(
+             parameter.other_forms.begin(), parameter.other_forms.end(),
+             [&](const OtherForm& form) { return form.path == name && form.dimension == nullptr; });
 }
 
-double inertia_of(const SheetMotor& motor) {
-  return std::visit([](const auto& any) { return any.inertia; }, motor);
-}
-
-/// J_M + J_L = 1 kg m².
-Drivetrain drivetrain_of(const NormalizedServo& servo, double natural_frequency) {
-  require_none(validate(servo));
-  const double ratio = servo.inertia_ratio;
-  const double friction = 2.0 * servo.damping * natural_frequency;
-  return {.motor_inertia = 1.0 / (1.0 + ratio),
-          .load_inertia = std::isinf(ratio) ? 1.0 : ratio / (1.0 + ratio),
-          .motor_friction = friction * (1.0 - servo.friction_ratio),
-          .load_friction = friction * servo.friction_ratio,
-          .stiffness = natural_frequency * natural_frequency,
-          .backlash = servo.backlash,
-          .restitution = servo.restitution,
-          .sensor = servo.sensor};
-}
-
-/// When a parameter is changed among others: feedback adds to the motor's friction as it then is,
-/// and gears carry all of it to the load.
-int turn_of(DesignParameter parameter) {
-  if (parameter == DesignParameter::gear_ratio) return 2;
-  return parameter == DesignParameter::tachometer ? 1 : 0;
-}
+/// A difference of frictions that leaves less than this share of them is taken for unsound: its
+/// rounding could not be bounded closely.
+constexpr double least_left = 0x1p-20;
 
 }  // namespace
 
-const char* name_of(DesignParameter parameter) { return naming_of(parameter).name; }
-const char* description_of(DesignParameter parameter) { return naming_of(parameter).description; }
-
-std::optional<DesignParameter> parameter_named(std::string_view name) {
-  for (const DesignParameter parameter : all_parameters) {
-    if (name == name_of(parameter)) return parameter;
+ChangeableDrive::ChangeableDrive(const Drive& drive) : drive_(drive) {
+  require_none(faults(drive));
+  if (!closed_form_servo(drive)) {
+    throw InvalidInput({{"drive", "without a closed form", permitted_with_closed_form, ""}});
   }
-  return std::nullopt;
-}
-
-ChangeableDrive::ChangeableDrive(const Datasheet& datasheet)
-    : drivetrain_(to_drivetrain(datasheet)) {
-  const double ratio = datasheet.gearbox.ratio;
-  motor_friction_unit_ = ratio * ratio;
-  tachometer_unit_ = ratio * ratio * torque_per_volt(datasheet.motor);
-  motor_inertia_unit_ = ratio * ratio;
-  electrical_friction_ = refer_to_load(datasheet).electrical_friction;
-  present_values_ = {
-      datasheet.gearbox.backlash,   ratio, datasheet.loop.error_gain, datasheet.load.friction,
-      friction_of(datasheet.motor), 0.0,   datasheet.load.inertia,    inertia_of(datasheet.motor),
-      datasheet.contact.restitution};
-}
-
-ChangeableDrive::ChangeableDrive(const NormalizedServo& servo, double natural_frequency)
-    : drivetrain_(drivetrain_of(servo, natural_frequency)), is_normalized_(true) {
-  load_friction_unit_ = 2.0 * natural_frequency;
-  motor_friction_unit_ = load_friction_unit_;
-  tachometer_unit_ = load_friction_unit_;
-  present_values_ = {servo.backlash,
-                     1.0,
-                     1.0,
-                     servo.damping * servo.friction_ratio,
-                     servo.damping * (1.0 - servo.friction_ratio),
-                     0.0,
-                     drivetrain_.load_inertia,
-                     drivetrain_.motor_inertia,
-                     servo.restitution};
-  // 1 − f, of a decimal f.
-  if (servo.friction_ratio < 1.0) {
+  drivetrain_ = referred_drivetrain(drive);
+  for (const Name& name : before_feedback) add_parameter(name.path);
+  if (drive.servo) add_shares();
+  if (!drive.servo) add_feedback(1.0);
+  for (const Name& name : after_feedback) add_parameter(name.path);
+  usual_ = numbers_.size();
+  for (const Parameter& parameter : all_parameters_of_drives()) {
+    if (find(parameter.path) == nullptr) add_parameter(parameter.path);
+  }
+  if (drive.servo && drive.servo->friction_ratio < 1.0) {
+    // 1 − φ, of a decimal φ.
     data_error_.motor_friction +=
-        std::numeric_limits<double>::epsilon() / (1.0 - servo.friction_ratio);
+        std::numeric_limits<double>::epsilon() / (1.0 - drive.servo->friction_ratio);
   }
 }
 
-const char* ChangeableDrive::unit_of(DesignParameter parameter) const {
-  return is_normalized_ && parameter != DesignParameter::backlash ? "1" : naming_of(parameter).unit;
+void ChangeableDrive::add_parameter(std::string_view path) {
+  if (!drivetrain_slopes(drive_, path)) return;
+  const Parameter& parameter = *find_parameter(path, drive_);
+  const Dimension* dimension = parameter.dimension(drive_);
+  numbers_.push_back({.name = std::string(path),
+                      .older_name = std::string(older_name_of(path)),
+                      .description = std::string(parameter.meaning),
+                      .unit = dimension == nullptr ? "1" : std::string(dimension->unit),
+                      .present = *number_in(parameter, drive_),
+                      .parameter = &parameter});
 }
 
-Drivetrain ChangeableDrive::with(DesignParameter parameter, double value) const {
-  Drivetrain drive = drivetrain_;
-  change(drive, parameter, value);
-  return drive;
+void ChangeableDrive::add_feedback(double scale) {
+  numbers_.push_back({.name = "tachometer",
+                      .description = "added tachometer feedback",
+                      .unit = drive_.servo ? "1" : "V s/rad",
+                      .kind = ChangeableNumber::Kind::feedback,
+                      .scale = scale});
+  if (std::holds_alternative<TorqueControl>(drive_.motor.kind) && !drive_.servo) {
+    numbers_.back().unit = "N m s/rad";
+  }
 }
 
-Drivetrain ChangeableDrive::with(DesignParameter parameter, double value, DesignParameter other,
+/// Present values are those of the normal form, to the bit.
+void ChangeableDrive::add_shares() {
+  const Drive physical = physical_form(drive_);
+  const NormalForm& form = *drive_.servo;
+  const double critical = 2.0 * form.natural_frequency.value_or(1.0);
+  const auto add = [&](const char* name, const char* path, double present, double scale) {
+    const Parameter& parameter = *find_parameter(path, physical);
+    numbers_.push_back({.name = name,
+                        .description = std::string(parameter.meaning) + ", as a share",
+                        .unit = "1",
+                        .present = present,
+                        .kind = ChangeableNumber::Kind::share,
+                        .parameter = &parameter,
+                        .scale = scale});
+  };
+  add("gear_ratio", "gearbox.ratio", 1.0, 1.0);
+  add("error_gain", "controller.proportional", 1.0, drivetrain_.stiffness);
+  add("load_friction", "load.friction", form.damping * form.friction_ratio, critical);
+  add("motor_friction", "motor.friction", form.damping * (1.0 - form.friction_ratio), critical);
+  add_feedback(critical);
+  add("load_inertia", "load.inertia", drivetrain_.load_inertia, 1.0);
+  add("motor_inertia", "motor.inertia", drivetrain_.motor_inertia, 1.0);
+}
+
+std::vector<std::string> ChangeableDrive::usual_names() const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < usual_; ++i) names.push_back(numbers_[i].name);
+  return names;
+}
+
+const ChangeableNumber* ChangeableDrive::find(std::string_view name) const {
+  const auto named = [](std::string_view wanted) {
+    return [wanted](const ChangeableNumber& number) {
+      return number.name == wanted || (!number.older_name.empty() && number.older_name == wanted);
+    };
+  };
+  auto found = std::find_if(numbers_.begin(), numbers_.end(), named(name));
+  if (found == numbers_.end()) {
+    const Parameter* parameter = find_parameter(name);
+    if (parameter != nullptr && is_alias(*parameter, name)) {
+      found = std::find_if(numbers_.begin(), numbers_.end(), named(parameter->path));
+    }
+  }
+  return found == numbers_.end() ? nullptr : &*found;
+}
+
+const ChangeableNumber& ChangeableDrive::number(std::string_view name) const {
+  if (const ChangeableNumber* found = find(name)) return *found;
+  std::string permitted = "must be one of";
+  for (const ChangeableNumber& number : numbers_) {
+    permitted += (&number == numbers_.data() ? " " : ", ") + number.name;
+  }
+  throw InvalidInput({{std::string(name), "", permitted, ""}});
+}
+
+ChangeableDrive::Changed ChangeableDrive::changed(std::initializer_list<Change> changes) const {
+  using Kind = ChangeableNumber::Kind;
+  Drive drive = drive_;
+  bool has_shares = false;
+  for (const auto& [number, value] : changes) {
+    if (number.kind == Kind::parameter) place_of(*number.parameter, drive) = value;
+    has_shares = has_shares || number.kind != Kind::parameter;
+  }
+  if (has_shares) drive = physical_form(drive);
+  for (const auto& [number, value] : changes) {
+    if (number.kind == Kind::share) place_of(*number.parameter, drive) = number.scale * value;
+  }
+  Changed result{referred_drivetrain(drive)};
+  double& friction = result.drivetrain.motor_friction;
+  const ReferredOutput output = refer_output(drive);
+  const double ratio = drive.gearbox.ratio;
+  // Where feedback is negative, the friction is a difference.
+  const double viscous = drive.motor.friction.viscous * (ratio * ratio) + output.friction;
+  result.friction_terms = drive.servo ? friction : std::max(friction, 2.0 * viscous - friction);
+  for (const auto& [number, value] : changes) {
+    if (number.kind != Kind::feedback) continue;
+    const double added = output.torque * ratio * (number.scale * value);
+    friction += added;
+    result.friction_terms += added;
+  }
+  return result;
+}
+
+bool ChangeableDrive::is_sound(const Changed& changed) const {
+  const double friction = changed.drivetrain.motor_friction;
+  const bool is_known =
+      friction == changed.friction_terms || friction > least_left * changed.friction_terms;
+  return is_known && validate(changed.drivetrain).empty();
+}
+
+Drivetrain ChangeableDrive::with(std::string_view name, double value) const {
+  return changed({{number(name), value}}).drivetrain;
+}
+
+Drivetrain ChangeableDrive::with(std::string_view name, double value, std::string_view other,
                                  double other_value) const {
-  Drivetrain drive = drivetrain_;
-  const bool comes_first = turn_of(parameter) <= turn_of(other);
-  if (comes_first) change(drive, parameter, value);
-  change(drive, other, other_value);
-  if (!comes_first) change(drive, parameter, value);
-  return drive;
+  return changed({{number(name), value}, {number(other), other_value}}).drivetrain;
 }
 
-void ChangeableDrive::change(Drivetrain& drive, DesignParameter parameter, double value) const {
-  const double factor = value / present_value(parameter);
-  switch (parameter) {
-    case DesignParameter::backlash:
-      drive.backlash = value;
-      break;
-    case DesignParameter::gear_ratio:
-      drive.motor_inertia *= factor * factor;
-      drive.motor_friction *= factor * factor;
-      drive.stiffness *= factor;
-      break;
-    case DesignParameter::error_gain:
-      drive.stiffness *= factor;
-      break;
-    case DesignParameter::load_friction:
-      drive.load_friction = load_friction_unit_ * value;
-      break;
-    case DesignParameter::motor_friction:
-      drive.motor_friction = motor_friction_unit_ * value + electrical_friction_;
-      break;
-    case DesignParameter::tachometer:
-      drive.motor_friction += tachometer_unit_ * value;
-      break;
-    case DesignParameter::load_inertia:
-      drive.load_inertia = value;
-      break;
-    case DesignParameter::motor_inertia:
-      drive.motor_inertia = motor_inertia_unit_ * value;
-      break;
-    case DesignParameter::restitution:
-      drive.restitution = value;
-      break;
+DrivetrainSlopes ChangeableDrive::slopes(std::string_view name) const {
+  const ChangeableNumber& of = number(name);
+  if (of.kind == ChangeableNumber::Kind::parameter) return *drivetrain_slopes(drive_, of.name);
+  const Drive physical = physical_form(drive_);
+  if (of.kind == ChangeableNumber::Kind::feedback) {
+    return {.motor_friction = refer_output(physical).torque * physical.gearbox.ratio * of.scale};
   }
-}
-
-DrivetrainSlopes ChangeableDrive::slopes(DesignParameter parameter) const {
-  const double present = present_value(parameter);
-  switch (parameter) {
-    case DesignParameter::backlash:
-      return {.backlash = 1.0};
-    case DesignParameter::gear_ratio:
-      return {.motor_inertia = 2.0 * drivetrain_.motor_inertia / present,
-              .motor_friction = 2.0 * drivetrain_.motor_friction / present,
-              .stiffness = drivetrain_.stiffness / present};
-    case DesignParameter::error_gain:
-      return {.stiffness = drivetrain_.stiffness / present};
-    case DesignParameter::load_friction:
-      return {.load_friction = load_friction_unit_};
-    case DesignParameter::motor_friction:
-      return {.motor_friction = motor_friction_unit_};
-    case DesignParameter::tachometer:
-      return {.motor_friction = tachometer_unit_};
-    case DesignParameter::load_inertia:
-      return {.load_inertia = 1.0};
-    case DesignParameter::motor_inertia:
-      return {.motor_inertia = motor_inertia_unit_};
-    case DesignParameter::restitution:
-      return {.restitution = 1.0};
+  DrivetrainSlopes slopes = *drivetrain_slopes(physical, of.parameter->path);
+  for (double* slope : {&slopes.motor_inertia, &slopes.load_inertia, &slopes.motor_friction,
+                        &slopes.load_friction, &slopes.stiffness}) {
+    *slope *= of.scale;
   }
-  return {};
+  return slopes;
 }
 
-Bounds ChangeableDrive::range(DesignParameter parameter) const {
+Bounds ChangeableDrive::range(std::string_view name) const {
   constexpr double factor = 1e3;
   constexpr double times_critical = 10.0;
-  const double critical = 2.0 * std::sqrt(drivetrain_.stiffness) *
-                          std::sqrt(drivetrain_.motor_inertia + drivetrain_.load_inertia);
-  const double present = present_value(parameter);
-  const auto is_sound = [&](double value) { return validate(with(parameter, value)).empty(); };
+  const ChangeableNumber& of = number(name);
+  const double present = of.present;
   // From a value that is sound as far towards the other as is permitted.
-  const auto reach = [&](double sound, double wanted) {
+  const auto reach = [&](double wanted) {
     constexpr int halvings = 200;
-    for (int i = 0; i < halvings && !is_sound(wanted); ++i) wanted = 0.5 * (sound + wanted);
+    for (int i = 0; i < halvings && !is_sound(changed({{of, wanted}})); ++i) {
+      wanted = 0.5 * (present + wanted);
+    }
     return wanted;
   };
-  switch (parameter) {
-    case DesignParameter::restitution:
-      return {0.0, 1.0};
-    case DesignParameter::load_friction:
-      return {reach(present, 0.0), reach(present, times_critical * critical / load_friction_unit_)};
-    case DesignParameter::motor_friction:
-      return {reach(present, 0.0),
-              reach(present, times_critical * critical / motor_friction_unit_)};
-    case DesignParameter::tachometer:
-      return {0.0, reach(present, times_critical * critical / tachometer_unit_)};
-    case DesignParameter::backlash:
-    case DesignParameter::gear_ratio:
-    case DesignParameter::error_gain:
-    case DesignParameter::load_inertia:
-    case DesignParameter::motor_inertia:
-      break;
+  const bool is_share = of.is_restitution() || of.name == "servo.friction_ratio";
+  if (is_share) return {reach(0.0), reach(1.0)};
+  const DrivetrainSlopes by = slopes(name);
+  const double friction = by.motor_friction + by.load_friction;
+  if (by.stiffness == 0.0 && by.motor_inertia == 0.0 && by.load_inertia == 0.0 && friction > 0.0) {
+    const double critical = 2.0 * std::sqrt(drivetrain_.stiffness) *
+                            std::sqrt(drivetrain_.motor_inertia + drivetrain_.load_inertia);
+    return {reach(0.0), reach(times_critical * critical / friction)};
   }
-  if (present == 0.0) return {0.0, 0.0};  // nothing to be a multiple of
-  return {reach(present, present / factor), reach(present, present * factor)};
+  if (present == 0.0 || std::isinf(present)) return {present, present};  // without multiples
+  const double low = reach(present / factor);
+  const double high = reach(present * factor);
+  return {std::min(low, high), std::max(low, high)};
 }
 
-DriveBox ChangeableDrive::box(DesignParameter parameter, const Bounds& values) const {
-  return box_between(with(parameter, values.low), with(parameter, values.high), data_error_);
+/// Between two sound drives that differ in one number every number of the drivetrain is monotone in
+/// it (drivetrain_slopes() has the formulas), so that box_between() holds them all: each is linear
+/// in one of them or in its reciprocal, or goes as its square, but for the friction (f + E) n² +
+/// T n d of a ratio and feedback d < 0, which rises wherever it is not negative, and for 1/(1 + r).
+DriveBox ChangeableDrive::box(std::string_view name, const Bounds& values) const {
+  const ChangeableNumber& of = number(name);
+  const Changed low = changed({{of, values.low}});
+  const Changed high = changed({{of, values.high}});
+  DataError error = data_error_;
+  for (const Changed* end : {&low, &high}) {
+    const double friction = end->drivetrain.motor_friction;
+    if (end->friction_terms > friction) {
+      error.motor_friction =
+          std::max(error.motor_friction, data_error_.each * (end->friction_terms / friction));
+    }
+  }
+  return box_between(low.drivetrain, high.drivetrain, error);
 }
 
 }  // namespace gearlash

@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "analysis/design/drive_per_backlash.hpp"
 
 namespace gearlash::detail {
 namespace {
@@ -11,27 +10,22 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 void write_refused(DrawnCycles& cycles, std::size_t row) {
   cycles.verdict[row] = Verdict::undecided;
-  cycles.size_per_backlash[row] = nothing;
+  cycles.amplitude_per_backlash[row] = nothing;
   cycles.growth_at_rest[row] = nothing;
   cycles.frequency[row] = nothing;
 }
 
-double known_size(Verdict verdict, double size) {
+double known_amplitude(Verdict verdict, double amplitude) {
   if (verdict == Verdict::cannot_hunt) return 0.0;
   if (verdict == Verdict::grows_without_bound) return std::numeric_limits<double>::infinity();
-  return size;
+  return amplitude;
 }
 
 double highest_restitution(const TolerancedDrive& drive) {
-  for (const VariedNumber& varied : drive.varied) {
-    if (varied.number == DriveNumber::contact_restitution ||
-        varied.number == DriveNumber::servo_restitution) {
-      return drawn_range_of(varied.distribution).high;
-    }
+  for (const ParameterTolerance& varied : drive.varied) {
+    if (varied.path == "contact.restitution") return drawn_range_of(varied.distribution).high;
   }
-  const Datasheet* datasheet = std::get_if<Datasheet>(&drive.nominal);
-  return datasheet != nullptr ? datasheet->contact.restitution
-                              : std::get<NormalizedServo>(drive.nominal).restitution;
+  return get(drive.nominal, "contact.restitution");
 }
 
 }  // namespace
@@ -39,7 +33,7 @@ double highest_restitution(const TolerancedDrive& drive) {
 Performance DrawnCycles::performance(std::size_t row) const {
   return {.verdict = verdict[row],
           .growth_at_rest = growth_at_rest[row],
-          .size = size(row),
+          .amplitude = amplitude(row),
           .frequency = frequency[row]};
 }
 
@@ -52,8 +46,9 @@ DrawnCycles solve(const TolerancedDrive& drive, std::size_t rows, std::span<cons
   std::vector<double> natural_frequency(rows, 1.0);
   std::vector<std::size_t> refused;
   const std::size_t width = drive.varied.size();
+  DrawnDrive drawn_drive(drive);
   for (std::size_t row = 0; row < rows; ++row) {
-    const auto drawn = sound_drive_per_backlash(drive, values.subspan(row * width, width));
+    const auto drawn = drawn_drive.per_backlash(values.subspan(row * width, width));
     if (!drawn) {
       servos[row] = stand_in;
       refused.push_back(row);
@@ -63,19 +58,19 @@ DrawnCycles solve(const TolerancedDrive& drive, std::size_t rows, std::span<cons
     natural_frequency[row] = drawn->drive.natural_frequency;
     cycles.backlash[row] = drawn->backlash;
   }
-  std::vector<double> size(rows);
+  std::vector<double> amplitude(rows);
   std::vector<double> period(rows);
   cycles.verdict.resize(rows);
   cycles.growth_at_rest.resize(rows);
   CycleColumns columns{.verdict = cycles.verdict};
   columns[Quantity::growth_at_rest] = cycles.growth_at_rest;
-  columns[Quantity::amplitude] = size;
+  columns[Quantity::amplitude] = amplitude;
   columns[Quantity::period] = period;
   cycles.solved = find_limit_cycles(servos, columns, unit);
-  cycles.size_per_backlash.resize(rows);
+  cycles.amplitude_per_backlash.resize(rows);
   cycles.frequency.resize(rows);
   for (std::size_t row = 0; row < rows; ++row) {
-    cycles.size_per_backlash[row] = known_size(cycles.verdict[row], size[row]);
+    cycles.amplitude_per_backlash[row] = known_amplitude(cycles.verdict[row], amplitude[row]);
     cycles.frequency[row] = natural_frequency[row] / period[row];
   }
   for (const std::size_t row : refused) write_refused(cycles, row);

@@ -13,19 +13,19 @@ namespace gearlash::detail {
 
 /// One row a drive.
 struct DrawnCycles {
-  /// rad of size for each rad of backlash; 0 where the drive cannot hunt (with any backlash at all,
-  /// where it has any), infinite where it grows without bound, NaN where that is not known.
-  std::vector<double> size_per_backlash;
+  /// rad of amplitude for each rad of backlash; 0 where the drive cannot hunt (with any backlash at
+  /// all, where it has any), infinite where it grows without bound, NaN where that is not known.
+  std::vector<double> amplitude_per_backlash;
   std::vector<double> backlash;        ///< rad
   std::vector<double> growth_at_rest;  ///< NaN where the values make no drive
   std::vector<double> frequency;       ///< Hz; NaN where there is no cycle
   std::vector<Verdict> verdict;
   BatchCount solved;
-  std::size_t refused = 0;  ///< values that make no drive: verdict undecided, sizes NaN
+  std::size_t refused = 0;  ///< values that make no drive: verdict undecided, amplitudes NaN
 
   std::size_t rows() const { return verdict.size(); }
-  double size(std::size_t row) const {
-    return verdict[row] == Verdict::cannot_hunt ? 0.0 : size_per_backlash[row] * backlash[row];
+  double amplitude(std::size_t row) const {
+    return verdict[row] == Verdict::cannot_hunt ? 0.0 : amplitude_per_backlash[row] * backlash[row];
   }
   bool hunts(std::size_t row) const {
     return verdict[row] != Verdict::cannot_hunt && verdict[row] != Verdict::undecided;

@@ -15,7 +15,8 @@ class DrawnValues {
   /// `sets` independent sets of values at each point.
   DrawnValues(const TolerancedDrive& drive, const SamplePlan& sampling, std::size_t sets)
       : points_(drive.varied.size() * sets, sampling), width_(drive.varied.size() * sets) {
-    for (const VariedNumber& varied : drive.varied) quantiles_.emplace_back(varied.distribution);
+    for (const ParameterTolerance& varied : drive.varied)
+      quantiles_.emplace_back(varied.distribution);
   }
 
   /// Point by point, at each all values of the first set, then of the next.

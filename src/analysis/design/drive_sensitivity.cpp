@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "base/range_check.hpp"
 
 namespace gearlash {
 namespace {
-
-constexpr std::array<const char*, cycle_measure_count> quantity_names = {
-    "size", "period", "frequency", "multiplier", "growth_at_rest"};
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -68,158 +69,121 @@ class Normalization {
   DrivetrainSlopes log_frequency_, damping_, load_share_, friction_ratio_;
 };
 
-const DrivetrainSlopes no_slopes = {nan, nan, nan, nan, nan, nan, nan};
-
-DriveSensitivity empty_sensitivity(const DrivetrainSensitivity& drive) {
-  return {.outcome = drive.outcome, .values = drive.values, .parameters = {}};
-}
-
-/// Adds a parameter with which the drive's numbers change so.
-void add(DriveSensitivity& sensitivity, const DrivetrainSensitivity& drive, const std::string& name,
-         double present, const DrivetrainSlopes& numbers) {
-  ParameterSensitivity parameter{.name = name, .present = present, .of = {}};
-  for (const CycleMeasure quantity : all_cycle_measures) {
-    const double slope = chained(numbers, drive.slopes[quantity]);
-    parameter.of[quantity] = {slope, present * slope / drive.values[quantity]};
-  }
-  sensitivity.parameters.push_back(parameter);
-}
-
-/// A number of the data sheet, and how the drivetrain changes with it.
-struct SheetNumber {
-  const char* name;
-  double present;
-  DrivetrainSlopes slopes;
-};
-
-/// See refer_to_load(): the numbers of one motor that others have not.
-std::vector<SheetNumber> electrical_numbers(const ArmatureControlledMotor& motor,
-                                            const ReferredMotor& referred, double ratio) {
-  const double stiffness = referred.stiffness;
-  const double friction = referred.electrical_friction;
-  return {{"motor.torque_constant",
-           motor.torque_constant,
-           {.motor_friction = friction / motor.torque_constant,
-            .stiffness = stiffness / motor.torque_constant}},
-          {"motor.back_emf_constant",
-           motor.back_emf_constant,
-           {.motor_friction = motor.torque_constant / motor.resistance * ratio * ratio}},
-          {"motor.resistance",
-           motor.resistance,
-           {.motor_friction = -friction / motor.resistance,
-            .stiffness = -stiffness / motor.resistance}}};
-}
-
-std::vector<SheetNumber> electrical_numbers(const FieldControlledMotor& motor,
-                                            const ReferredMotor& referred, double) {
-  const double stiffness = referred.stiffness;
-  return {{"motor.torque_constant",
-           motor.torque_constant,
-           {.stiffness = stiffness / motor.torque_constant}},
-          {"motor.resistance", motor.resistance, {.stiffness = -stiffness / motor.resistance}}};
-}
-
-std::vector<SheetNumber> electrical_numbers(const TwoPhaseMotor& motor,
-                                            const ReferredMotor& referred, double ratio) {
-  return {{"motor.torque_per_volt",
-           motor.torque_per_volt,
-           {.stiffness = referred.stiffness / motor.torque_per_volt}},
-          {"motor.torque_per_speed", motor.torque_per_speed, {.motor_friction = ratio * ratio}}};
-}
-
-std::vector<SheetNumber> numbers_of(const Datasheet& sheet) {
-  const ReferredMotor referred = refer_to_load(sheet);
-  const double ratio = sheet.gearbox.ratio;
-  const double friction = referred.mechanical_friction + referred.electrical_friction;
-  std::vector<SheetNumber> numbers;
-  std::visit(
-      [&](const auto& motor) {
-        numbers = {{"motor.inertia", motor.inertia, {.motor_inertia = ratio * ratio}},
-                   {"motor.friction", motor.friction, {.motor_friction = ratio * ratio}}};
-        for (const SheetNumber& number : electrical_numbers(motor, referred, ratio)) {
-          numbers.push_back(number);
-        }
-      },
-      sheet.motor);
-  numbers.push_back({"gearbox.ratio",
-                     ratio,
-                     {.motor_inertia = 2.0 * referred.inertia / ratio,
-                      .motor_friction = 2.0 * friction / ratio,
-                      .stiffness = referred.stiffness / ratio}});
-  numbers.push_back({"gearbox.backlash", sheet.gearbox.backlash, {.backlash = 1.0}});
-  numbers.push_back({"load.inertia", sheet.load.inertia, {.load_inertia = 1.0}});
-  numbers.push_back({"load.friction", sheet.load.friction, {.load_friction = 1.0}});
-  numbers.push_back({"loop.error_gain",
-                     sheet.loop.error_gain,
-                     {.stiffness = referred.stiffness / sheet.loop.error_gain}});
-  numbers.push_back({"contact.restitution", sheet.contact.restitution, {.restitution = 1.0}});
-  return numbers;
-}
-
 }  // namespace
 
-const char* name_of(CycleMeasure quantity) {
-  return quantity_names[static_cast<std::size_t>(quantity)];
+const QuantitySlopes* DrivetrainSensitivity::find(Quantity quantity) const {
+  const auto found = std::find_if(quantities.begin(), quantities.end(),
+                                  [&](const auto& one) { return one.quantity == quantity; });
+  return found == quantities.end() ? nullptr : &*found;
 }
 
-DrivetrainGrowth drivetrain_growth(const Drivetrain& drive) {
+QuantitySlopes drivetrain_growth(const Drivetrain& drive) {
   const NormalizedServo servo = normalize(drive);
   const SensitiveValue growth = growth_sensitivity(servo);
-  return {growth.value, Normalization(drive, servo).slopes_of(growth.slope)};
+  return {Quantity::growth_at_rest, growth.value,
+          Normalization(drive, servo).slopes_of(growth.slope)};
 }
 
 DrivetrainSensitivity drivetrain_sensitivity(const Drivetrain& drive) {
   const NormalizedServo servo = normalize(drive);
   const CycleSensitivity cycle = cycle_sensitivity(servo);
-  DrivetrainSensitivity sensitivity{.outcome = cycle.outcome, .values = {}, .slopes = {}};
-  sensitivity.values.values.fill(nan);
-  sensitivity.slopes.values.fill(no_slopes);
+  DrivetrainSensitivity sensitivity{.outcome = cycle.outcome};
   const Normalization normalization(drive, servo);
-  const auto set = [&](CycleMeasure quantity, const SensitiveValue& value) {
+  const auto add = [&](Quantity quantity, const SensitiveValue& value) {
     if (std::isnan(value.value)) return;
-    sensitivity.values[quantity] = value.value;
-    sensitivity.slopes[quantity] = normalization.slopes_of(value.slope);
+    sensitivity.quantities.push_back({quantity, value.value, normalization.slopes_of(value.slope)});
   };
-  set(CycleMeasure::growth_at_rest, cycle.growth_at_rest);
-  set(CycleMeasure::size, cycle.size);
-  set(CycleMeasure::multiplier, cycle.multiplier);
-  set(CycleMeasure::period, cycle.period);
+  add(Quantity::growth_at_rest, cycle.growth_at_rest);
+  add(Quantity::amplitude, cycle.size);
+  add(Quantity::multiplier, cycle.multiplier);
   if (!cycle.available()) return sensitivity;
   // In seconds: T = T′/ω_n, dT = (dT′ − T′ d ln ω_n)/ω_n; and f = 1/T.
   const double unit = 1.0 / natural_frequency(drive);
-  double& period = sensitivity.values[CycleMeasure::period];
-  DrivetrainSlopes& slopes = sensitivity.slopes[CycleMeasure::period];
-  slopes = scaled(unit, sum(slopes, scaled(-period, normalization.log_frequency())));
-  period *= unit;
-  sensitivity.values[CycleMeasure::frequency] = 1.0 / period;
-  sensitivity.slopes[CycleMeasure::frequency] = scaled(-1.0 / (period * period), slopes);
+  const double period = cycle.period.value * unit;
+  const DrivetrainSlopes slopes = sum(scaled(unit, normalization.slopes_of(cycle.period.slope)),
+                                      scaled(-period, normalization.log_frequency()));
+  sensitivity.quantities.push_back({Quantity::period, period, slopes});
+  sensitivity.quantities.push_back(
+      {Quantity::frequency, 1.0 / period, scaled(-1.0 / (period * period), slopes)});
   return sensitivity;
 }
 
-const ParameterSensitivity* DriveSensitivity::find(const std::string& name) const {
-  const auto found =
-      std::find_if(parameters.begin(), parameters.end(),
-                   [&](const ParameterSensitivity& parameter) { return parameter.name == name; });
-  return found == parameters.end() ? nullptr : &*found;
+namespace {
+
+/// By numbers of the drive, of which each moves the drivetrain so.
+Jacobian jacobian_of(const DrivetrainSensitivity& found, std::span<const Quantity> quantities,
+                     const ChangeableDrive& drive, const std::vector<std::string>& names) {
+  Jacobian jacobian;
+  jacobian.quantities.assign(quantities.begin(), quantities.end());
+  std::vector<DrivetrainSlopes> by_name;
+  for (const std::string& name : names) {
+    const ChangeableNumber& number = drive.number(name);
+    jacobian.paths.push_back(number.name);
+    jacobian.present.push_back(number.present);
+    by_name.push_back(drive.slopes(number.name));
+  }
+  for (const Quantity quantity : quantities) {
+    const QuantitySlopes* of = found.find(quantity);
+    jacobian.values.push_back(of == nullptr ? std::nullopt : std::optional(of->value));
+    for (const DrivetrainSlopes& by : by_name) {
+      const double slope = of == nullptr ? nan : chained(by, of->slopes);
+      jacobian.slopes.push_back(std::isnan(slope) ? std::nullopt : std::optional(slope));
+    }
+  }
+  return jacobian;
+}
+
+}  // namespace
+
+DriveSensitivity drive_sensitivity(const ChangeableDrive& drive,
+                                   const std::vector<std::string>& names) {
+  const DrivetrainSensitivity found = drivetrain_sensitivity(drive.drivetrain());
+  return {found.outcome, jacobian_of(found, differentiable, drive, names)};
 }
 
 DriveSensitivity drive_sensitivity(const ChangeableDrive& drive) {
-  const DrivetrainSensitivity of_numbers = drivetrain_sensitivity(drive.drivetrain());
-  DriveSensitivity sensitivity = empty_sensitivity(of_numbers);
-  for (const DesignParameter parameter : all_parameters) {
-    add(sensitivity, of_numbers, name_of(parameter), drive.present_value(parameter),
-        drive.slopes(parameter));
+  if (drive.drive().servo) return drive_sensitivity(drive, drive.usual_names());
+  std::vector<std::string> names;
+  for (const Parameter& parameter : all_parameters_of_drives()) {
+    const ChangeableNumber* number = drive.find(parameter.path);
+    if (number != nullptr && number->parameter == &parameter) names.push_back(number->name);
   }
-  return sensitivity;
+  return drive_sensitivity(drive, names);
 }
 
-DriveSensitivity datasheet_sensitivity(const Datasheet& datasheet) {
-  const DrivetrainSensitivity of_numbers = drivetrain_sensitivity(to_drivetrain(datasheet));
-  DriveSensitivity sensitivity = empty_sensitivity(of_numbers);
-  for (const SheetNumber& number : numbers_of(datasheet)) {
-    add(sensitivity, of_numbers, number.name, number.present, number.slopes);
+std::optional<double> Jacobian::slope(std::size_t quantity, std::size_t parameter) const {
+  if (parameter >= paths.size()) throw std::out_of_range("no such parameter of the Jacobian");
+  return slopes.at(quantity * paths.size() + parameter);
+}
+
+std::optional<double> Jacobian::elasticity(std::size_t quantity, std::size_t parameter) const {
+  const std::optional<double> by = slope(quantity, parameter);
+  if (!by || !values[quantity]) return std::nullopt;
+  const double ratio = present[parameter] * *by / *values[quantity];
+  return std::isnan(ratio) ? std::nullopt : std::optional(ratio);
+}
+
+Jacobian derivatives(const Drive& drive, std::span<const Quantity> quantities,
+                     std::span<const std::string_view> paths) {
+  RangeCheck check;
+  for (const Quantity quantity : quantities) {
+    const bool has_derivatives =
+        std::find(differentiable.begin(), differentiable.end(), quantity) != differentiable.end();
+    if (!has_derivatives) {
+      check.refuse("quantities", std::string(name_of(quantity)),
+                   "must be amplitude, period, frequency, multiplier or growth_at_rest");
+    }
   }
-  return sensitivity;
+  require_none(check.faults());
+  const ChangeableDrive changeable(drive);
+  return jacobian_of(drivetrain_sensitivity(changeable.drivetrain()), quantities, changeable,
+                     {paths.begin(), paths.end()});
+}
+
+Jacobian derivatives(const Drive& drive, std::initializer_list<Quantity> quantities,
+                     std::initializer_list<std::string_view> paths) {
+  return derivatives(drive, std::span(quantities.begin(), quantities.size()),
+                     std::span(paths.begin(), paths.size()));
 }
 
 }  // namespace gearlash

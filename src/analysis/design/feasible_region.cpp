@@ -79,23 +79,24 @@ const char* name_of(Cost cost) {
   return "stiffness";
 }
 
-ParameterAxis parameter_axis(DesignParameter parameter, const Bounds& range, std::size_t count) {
-  return {parameter, spaced_axis(name_of(parameter), "", range.low, range.high, count,
-                                 range.low > 0.0 ? Spacing::logarithmic : Spacing::linear)};
+ParameterAxis parameter_axis(std::string_view parameter, const Bounds& range, std::size_t count) {
+  return {std::string(parameter),
+          spaced_axis(std::string(parameter), "", range.low, range.high, count,
+                      range.low > 0.0 ? Spacing::logarithmic : Spacing::linear)};
 }
 
-std::size_t values_to_draw(const ChangeableDrive& drive, DesignParameter x, DesignParameter y) {
+std::size_t values_to_draw(const ChangeableDrive& drive, std::string_view x, std::string_view y) {
   const bool may_bounce = drive.drivetrain().restitution > 0.0 ||
-                          x == DesignParameter::restitution || y == DesignParameter::restitution;
+                          drive.number(x).is_restitution() || drive.number(y).is_restitution();
   return may_bounce ? 40 : 400;
 }
 
-Bounds range_to_draw(const ChangeableDrive& drive, DesignParameter parameter) {
+Bounds range_to_draw(const ChangeableDrive& drive, std::string_view parameter) {
   constexpr double factor = 30.0;
   constexpr double of_ten_times_critical = 0.1;
   const Bounds whole = drive.range(parameter);
   const double present = drive.present_value(parameter);
-  if (parameter == DesignParameter::restitution) return whole;
+  if (drive.number(parameter).is_restitution()) return whole;
   if (present == 0.0) return {whole.low, of_ten_times_critical * whole.high};
   return {std::max(whole.low, present / factor), std::min(whole.high, present * factor)};
 }

@@ -1,6 +1,8 @@
 // Where two parameters together meet a target, and what that costs.
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/design/changeable_drive.hpp"
@@ -22,18 +24,18 @@ const char* name_of(Cost cost);
 
 /// A parameter on an axis of a picture, in the parameter's own unit.
 struct ParameterAxis {
-  DesignParameter parameter = DesignParameter::backlash;
-  Axis values;  ///< its `input` says nothing
+  std::string parameter;  ///< ChangeableNumber::name
+  Axis values;            ///< its `input` says nothing
 };
 
 /// `count` values of the range, by ratio where low > 0.
-ParameterAxis parameter_axis(DesignParameter parameter, const Bounds& range, std::size_t count);
+ParameterAxis parameter_axis(std::string_view parameter, const Bounds& range, std::size_t count);
 
 /// How many values an axis takes in a fraction of a second, or, with bounces, of a minute.
-std::size_t values_to_draw(const ChangeableDrive& drive, DesignParameter x, DesignParameter y);
+std::size_t values_to_draw(const ChangeableDrive& drive, std::string_view x, std::string_view y);
 
 /// A thirtieth to thirty times the present value; what may be 0, from 0 to critical damping.
-Bounds range_to_draw(const ChangeableDrive& drive, DesignParameter parameter);
+Bounds range_to_draw(const ChangeableDrive& drive, std::string_view parameter);
 
 struct FeasibleRegion {
   ParameterAxis x;

@@ -47,16 +47,15 @@ bool has_two_masses(const ChangeableDrive& drive) {
   return drive.drivetrain().motor_inertia > 0.0 && drive.drivetrain().load_inertia > 0.0;
 }
 
-bool has_bounces(const ChangeableDrive& drive, DesignParameter parameter) {
-  return has_two_masses(drive) &&
-         (parameter == DesignParameter::restitution || drive.drivetrain().restitution > 0.0);
+bool has_bounces(const ChangeableDrive& drive, const ChangeableNumber& number) {
+  return has_two_masses(drive) && (number.is_restitution() || drive.drivetrain().restitution > 0.0);
 }
 
 class Search {
  public:
-  Search(const ChangeableDrive& drive, DesignParameter parameter, const Target& target)
-      : drive_(drive), parameter_(parameter), target_(target) {
-    if (parameter == DesignParameter::backlash && has_bounces(drive, parameter)) {
+  Search(const ChangeableDrive& drive, const ChangeableNumber& number, const Target& target)
+      : drive_(drive), number_(number), target_(target) {
+    if (number.is_backlash() && has_bounces(drive, number)) {
       at_present_ = performance_of(drive.drivetrain());
     }
   }
@@ -120,7 +119,7 @@ class Search {
   };
   LastMet last_met(double met, double unmet) {
     bool met_unknown = false;
-    const bool bounces = has_bounces(drive_, parameter_);
+    const bool bounces = has_bounces(drive_, number_);
     if (bounces) {
       // Growth at rest is soon worked out, and what it does not rule out is met as a rule.
       const double allowed = last_allowed_by_growth(met, unmet);
@@ -163,7 +162,7 @@ class Search {
   /// The value that comes closest to the target.
   TriedValue closest(const Bounds& range) {
     std::vector<TriedValue> tried = tried_values(range);
-    tried.push_back(at(drive_.present_value(parameter_)));
+    tried.push_back(at(number_.present));
     const auto beyond = [&](const TriedValue& one) { return excess(target_, one.performance); };
     return *std::min_element(tried.begin(), tried.end(),
                              [&](const auto& a, const auto& b) { return beyond(a) < beyond(b); });
@@ -185,10 +184,10 @@ class Search {
   Performance performance_at(double value) const {
     if (at_present_) {
       Performance scaled = *at_present_;
-      scaled.size *= value / drive_.drivetrain().backlash;
+      scaled.amplitude *= value / drive_.drivetrain().backlash;
       return scaled;
     }
-    const Drivetrain drive = drive_.with(parameter_, value);
+    const Drivetrain drive = drive_.with(number_.name, value);
     return validate(drive).empty() ? performance_for(target_, drive) : Performance{};
   }
 
@@ -220,8 +219,8 @@ class Search {
   }
 
   std::vector<double> first_values(const Bounds& range) {
-    const bool bounces = has_bounces(drive_, parameter_);
-    const bool evenly = parameter_ == DesignParameter::restitution;
+    const bool bounces = has_bounces(drive_, number_);
+    const bool evenly = number_.is_restitution();
     std::vector<double> values = spread_over(range, bounces ? coarse : fine, evenly);
     if (!bounces) return values;
     // Growth at rest is soon worked out: between these values it passes 1, or a limit.
@@ -243,7 +242,7 @@ class Search {
 
   /// NaN where there is no such drive.
   double growth_at(double value) const {
-    const Drivetrain drive = drive_.with(parameter_, value);
+    const Drivetrain drive = drive_.with(number_.name, value);
     if (!validate(drive).empty()) return std::numeric_limits<double>::quiet_NaN();
     return growth_at_rest(servo_dynamics(normalize(drive)));
   }
@@ -268,7 +267,7 @@ class Search {
   /// of them and the next, are from each other; and beside motion of which no cycle is known, or
   /// everywhere that it hunts: beside irregular motion there are windows of others.
   std::vector<double> middles_to_try(bool everywhere) const {
-    const Target of_cycles{.size = target_.size, .frequency = target_.frequency};
+    const Target of_cycles{.amplitude = target_.amplitude, .frequency = target_.frequency};
     std::vector<double> beyond;
     for (const TriedValue& one : tried_) beyond.push_back(excess(of_cycles, one.performance));
     const auto change = [&](std::size_t i) {
@@ -296,7 +295,7 @@ class Search {
 
   Judgement judge_part(const Bounds& values) {
     ++evaluations_;
-    return judge(target_, drive_.box(parameter_, values), guessed_flight_time(values));
+    return judge(target_, drive_.box(number_.name, values), guessed_flight_time(values));
   }
 
   /// Of a servo in the middle, or at an end.
@@ -318,7 +317,7 @@ class Search {
   static constexpr std::size_t fine = 1024;
 
   const ChangeableDrive& drive_;
-  DesignParameter parameter_;
+  const ChangeableNumber& number_;
   const Target& target_;
   std::optional<Performance> at_present_;  ///< of backlash, to which sizes are in proportion
   std::vector<TriedValue> tried_;
@@ -359,14 +358,15 @@ double FeasibleValues::nearest() const {
   return nearest;
 }
 
-FeasibleValues feasible_values(const ChangeableDrive& drive, DesignParameter parameter,
+FeasibleValues feasible_values(const ChangeableDrive& drive, std::string_view parameter,
                                const Target& target) {
+  const ChangeableNumber& number = drive.number(parameter);
   FeasibleValues found;
-  found.parameter = parameter;
-  found.present = drive.present_value(parameter);
+  found.parameter = number.name;
+  found.present = number.present;
   found.searched = drive.range(parameter);
-  found.kind = has_bounces(drive, parameter) ? SearchKind::scanned : SearchKind::certified;
-  Search search(drive, parameter, target);
+  found.kind = has_bounces(drive, number) ? SearchKind::scanned : SearchKind::certified;
+  Search search(drive, number, target);
   const std::vector<Part> parts = found.kind == SearchKind::certified
                                       ? joined(search.certified(found.searched))
                                       : search.scanned(found.searched);

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/design/changeable_drive.hpp"
@@ -23,7 +25,7 @@ struct TriedValue {
 };
 
 struct FeasibleValues {
-  DesignParameter parameter = DesignParameter::backlash;
+  std::string parameter;  ///< ChangeableNumber::name
   double present = 0.0;
   Bounds searched;
   SearchKind kind = SearchKind::certified;
@@ -58,8 +60,9 @@ struct FeasibleValues {
 /// narrower than the first of these steps; and it knows those cycles that analyse_limit_cycles()
 /// finds. Backlash is not scanned: sizes are in proportion to it, and nothing else depends on it.
 ///
-/// Precondition: validate(target) is empty.
-FeasibleValues feasible_values(const ChangeableDrive& drive, DesignParameter parameter,
+/// Precondition: validate(target) is empty. Throws InvalidInput for a number that the drive has
+/// not.
+FeasibleValues feasible_values(const ChangeableDrive& drive, std::string_view parameter,
                                const Target& target);
 
 }  // namespace gearlash

@@ -45,7 +45,7 @@ class LogGrowth {
   ValueAndGradient with_gradient(const Change& change) const {
     const Drivetrain here = changed(drive_, change);
     if (!validate(here).empty()) return {};
-    const auto [growth, slopes] = drivetrain_growth(here);
+    const auto [quantity, growth, slopes] = drivetrain_growth(here);
     Change gradient;
     gradient << slopes.motor_inertia * here.motor_inertia, slopes.load_inertia * here.load_inertia,
         slopes.motor_friction * here.motor_friction, slopes.load_friction * here.load_friction,
@@ -269,9 +269,9 @@ OverallMargin overall_margin(const Drivetrain& drive) {
   return margin;
 }
 
-ParameterMargin parameter_margin(const ChangeableDrive& drive, DesignParameter parameter) {
+ParameterMargin parameter_margin(const ChangeableDrive& drive, std::string_view parameter) {
   const FeasibleValues quiet = feasible_values(drive, parameter, Target{.no_hunting = true});
-  ParameterMargin margin{.parameter = parameter,
+  ParameterMargin margin{.parameter = quiet.parameter,
                          .present = quiet.present,
                          .searched = quiet.searched,
                          .kind = quiet.kind,
@@ -289,11 +289,14 @@ ParameterMargin parameter_margin(const ChangeableDrive& drive, DesignParameter p
 HuntingMargin hunting_margin(const ChangeableDrive& drive, Progress& progress) {
   HuntingMargin margin;
   margin.growth_at_rest = growth_at_rest(servo_dynamics(normalize(drive.drivetrain())));
-  for (const DesignParameter parameter : all_parameters) {
-    if (parameter == DesignParameter::restitution && drive.drivetrain().restitution == 0.0)
-      continue;
-    margin.parameters.push_back(parameter_margin(drive, parameter));
-    progress.go_on(static_cast<double>(margin.parameters.size()) / (parameter_count + 1));
+  std::vector<std::string> names = drive.usual_names();
+  std::erase_if(names, [&](const std::string& name) {
+    return drive.number(name).is_restitution() && drive.drivetrain().restitution == 0.0;
+  });
+  for (const std::string& name : names) {
+    margin.parameters.push_back(parameter_margin(drive, name));
+    progress.go_on(static_cast<double>(margin.parameters.size()) /
+                   static_cast<double>(names.size() + 1));
   }
   margin.overall = overall_margin(drive.drivetrain());
   return margin;

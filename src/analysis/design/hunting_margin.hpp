@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <limits>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/design/changeable_drive.hpp"
@@ -14,7 +16,7 @@ namespace gearlash {
 /// The nearest values below and above the present one at which hunting starts, or stops where the
 /// drive hunts at present; NaN where there is none in the range searched.
 struct ParameterMargin {
-  DesignParameter parameter = DesignParameter::backlash;
+  std::string parameter;  ///< ChangeableNumber::name
   double present = 0.0;
   Bounds searched;
   SearchKind kind = SearchKind::certified;  ///< certified: there is no nearer one (feasible_values)
@@ -30,7 +32,7 @@ struct ParameterMargin {
 
 /// By feasible_values() for a target of no hunting, whose ends they are: the last value without
 /// hunting, to some 1e-15 of itself.
-ParameterMargin parameter_margin(const ChangeableDrive& drive, DesignParameter parameter);
+ParameterMargin parameter_margin(const ChangeableDrive& drive, std::string_view parameter);
 
 enum class MarginOutcome {
   found,
@@ -78,13 +80,13 @@ OverallMargin overall_margin(const Drivetrain& drive);
 
 struct HuntingMargin {
   double growth_at_rest = std::numeric_limits<double>::quiet_NaN();
-  std::vector<ParameterMargin> parameters;  ///< in the order of all_parameters
+  std::vector<ParameterMargin> parameters;  ///< of drive.usual_names(), in their order
   OverallMargin overall;
 };
 
-/// Of all parameters; of restitution where there is any. With plastic contact it takes some 30 ms;
-/// with bounces, where every value tried is a search for cycles of its own, seconds to minutes.
-/// Throws InvalidInput.
+/// Of what a design looks at first (ChangeableDrive::usual_names()); of restitution where there is
+/// any. With plastic contact it takes some 30 ms; with bounces, where every value tried is a search
+/// for cycles of its own, seconds to minutes. Throws InvalidInput.
 HuntingMargin hunting_margin(const ChangeableDrive& drive, Progress& progress = no_progress());
 
 }  // namespace gearlash

@@ -52,13 +52,13 @@ struct Sums {
 };
 
 struct BlockSums {
-  Sums size;
+  Sums amplitude;
   Sums hunting;
   std::size_t left_out = 0;
   std::size_t refused = 0;
 
   void add(const BlockSums& others) {
-    size.add(others.size);
+    amplitude.add(others.amplitude);
     hunting.add(others.hunting);
     left_out += others.left_out;
     refused += others.refused;
@@ -82,11 +82,13 @@ std::vector<double> mixed_values(const std::vector<double>& both_sets, std::size
   return values;
 }
 
-/// Of the drives of mixed_values(); `usual_size` is subtracted from sizes.
-BlockSums sums_of(const detail::DrawnCycles& cycles, std::size_t numbers, double usual_size) {
+/// Of the drives of mixed_values(); `usual_amplitude` is subtracted from amplitudes.
+BlockSums sums_of(const detail::DrawnCycles& cycles, std::size_t numbers, double usual_amplitude) {
   BlockSums sums{Sums(numbers), Sums(numbers), 0, cycles.refused};
   for (std::size_t point = 0; point < cycles.rows(); point += numbers + 2) {
-    const auto size = [&](std::size_t of) { return cycles.size(point + of) - usual_size; };
+    const auto size = [&](std::size_t of) {
+      return cycles.amplitude(point + of) - usual_amplitude;
+    };
     const auto hunts = [&](std::size_t of) { return cycles.hunts(point + of) ? 1.0 : 0.0; };
     bool all_known = true;
     for (std::size_t i = 0; i < numbers + 2; ++i) all_known = all_known && std::isfinite(size(i));
@@ -94,21 +96,23 @@ BlockSums sums_of(const detail::DrawnCycles& cycles, std::size_t numbers, double
       ++sums.left_out;
       continue;
     }
-    sums.size.add_point(size(0), size(1));
+    sums.amplitude.add_point(size(0), size(1));
     sums.hunting.add_point(hunts(0), hunts(1));
     for (std::size_t i = 0; i < numbers; ++i) {
-      sums.size.add_number(i, size(0), size(1), size(i + 2));
+      sums.amplitude.add_number(i, size(0), size(1), size(i + 2));
       sums.hunting.add_number(i, hunts(0), hunts(1), hunts(i + 2));
     }
   }
   return sums;
 }
 
-/// Nearer to the mean size than 0, so that a small variance is not a difference of large numbers.
-double size_of_mean_drive(const TolerancedDrive& drive, VectorUnit unit) {
+/// Nearer to the mean amplitude than 0, so that a small variance is not a difference of large
+/// numbers.
+double amplitude_of_mean_drive(const TolerancedDrive& drive, VectorUnit unit) {
   std::vector<double> values;
-  for (const VariedNumber& varied : drive.varied) values.push_back(mean_of(varied.distribution));
-  const double size = detail::solve(drive, 1, values, unit).size(0);
+  for (const ParameterTolerance& varied : drive.varied)
+    values.push_back(mean_of(varied.distribution));
+  const double size = detail::solve(drive, 1, values, unit).amplitude(0);
   return std::isfinite(size) ? size : 0.0;
 }
 
@@ -149,7 +153,7 @@ class Indices {
 };
 
 SensitivityStudy study_of(const TolerancedDrive& drive, const SamplePlan& sampling,
-                          const std::vector<BlockSums>& blocks, double usual_size) {
+                          const std::vector<BlockSums>& blocks, double usual_amplitude) {
   const std::size_t numbers = drive.varied.size();
   std::vector<BlockSums> replicates(sampling.replicates, {Sums(numbers), Sums(numbers)});
   for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -160,17 +164,17 @@ SensitivityStudy study_of(const TolerancedDrive& drive, const SamplePlan& sampli
   std::vector<const Sums*> sizes;
   std::vector<const Sums*> hunting;
   for (const BlockSums& replicate : replicates) {
-    sizes.push_back(&replicate.size);
+    sizes.push_back(&replicate.amplitude);
     hunting.push_back(&replicate.hunting);
     study.left_out += replicate.left_out;
     study.refused += replicate.refused;
   }
-  const Indices of_size(sizes, usual_size);
+  const Indices of_amplitude(sizes, usual_amplitude);
   const Indices of_hunting(hunting, 0.0);
-  study.size_variance = of_size.variance();
+  study.amplitude_variance = of_amplitude.variance();
   study.hunting_variance = of_hunting.variance();
   for (std::size_t i = 0; i < numbers; ++i) {
-    study.numbers.push_back({drive.varied[i].number, of_size.of(i), of_hunting.of(i)});
+    study.numbers.push_back({drive.varied[i].path, of_amplitude.of(i), of_hunting.of(i)});
   }
   return study;
 }
@@ -190,16 +194,16 @@ SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SampleP
   const detail::DrawnValues values(drive, sampling, 2);
   // A quarter of the usual number: each point is numbers + 2 drives, each block a set of sums.
   const std::size_t at_a_time = detail::drives_at_a_time(drive) / 4;
-  const double usual_size = size_of_mean_drive(drive, how.unit);
+  const double usual_amplitude = amplitude_of_mean_drive(drive, how.unit);
   std::vector<BlockSums> blocks(detail::block_count(sampling, at_a_time),
                                 {Sums(numbers), Sums(numbers)});
   const auto work = [&](const detail::SampleBlock& block) {
     const detail::DrawnCycles cycles = detail::solve(
         drive, block.count * (numbers + 2), mixed_values(values.of(block), numbers), how.unit);
-    blocks[block.index] = sums_of(cycles, numbers, usual_size);
+    blocks[block.index] = sums_of(cycles, numbers, usual_amplitude);
   };
   const bool all_done = detail::for_all_blocks(sampling, at_a_time, how, work);
-  SensitivityStudy study = study_of(drive, sampling, blocks, usual_size);
+  SensitivityStudy study = study_of(drive, sampling, blocks, usual_amplitude);
   study.stopped = !all_done;
   return study;
 }

@@ -38,23 +38,38 @@ Judgement either(Judgement a, Judgement b) { return a == b ? a : Judgement::some
 /// Drives that hunt, if there are any.
 Judgement judge_hunting(const Target& target, const DriveBox& box, const CycleBounds& cycles) {
   if (target.no_hunting) return Judgement::none;
-  const Interval size = Interval(box.backlash) * Interval(cycles.size);
+  const Interval amplitude = Interval(box.backlash) * Interval(cycles.size);
   const Interval frequency = 1.0 / (Interval(cycles.period) * Interval(box.time_unit));
-  return both(judge(target.size, size.bounds()), judge(target.frequency, frequency.bounds()));
+  return both(judge(target.amplitude, amplitude.bounds()),
+              judge(target.frequency, frequency.bounds()));
 }
 
 Judgement judge_quiet(const Target& target) {
-  return target.size.contains(0.0) ? Judgement::all : Judgement::none;
+  return target.amplitude.contains(0.0) ? Judgement::all : Judgement::none;
 }
 
 }  // namespace
 
+Bounds* Target::limits_of(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::amplitude:
+      return &amplitude;
+    case Quantity::frequency:
+    case Quantity::period:
+      return &frequency;
+    case Quantity::growth_at_rest:
+      return &growth_at_rest;
+    default:
+      return nullptr;
+  }
+}
+
 Performance performance_of(const Drivetrain& drive) {
   const LimitCycleAnalysis analysis = analyse_limit_cycles(normalize(drive));
   Performance performance{.verdict = analysis.verdict, .growth_at_rest = analysis.growth_at_rest};
-  if (analysis.verdict == Verdict::cannot_hunt) performance.size = 0.0;
+  if (analysis.verdict == Verdict::cannot_hunt) performance.amplitude = 0.0;
   if (const LimitCycle* cycle = largest_stable(analysis)) {
-    performance.size = cycle->size;
+    performance.amplitude = cycle->size;
     performance.frequency = natural_frequency(drive) / cycle->period;
     performance.flight_time = 0.5 * cycle->separated_time;
   }
@@ -78,14 +93,14 @@ bool is_met(const Target& target, const Performance& performance) {
   const bool is_quiet = performance.verdict == Verdict::cannot_hunt;
   if (target.no_hunting && !is_quiet) return false;
   return keeps_growth(target, performance.growth_at_rest) &&
-         target.size.contains(performance.size) &&
+         target.amplitude.contains(performance.amplitude) &&
          (is_quiet || target.frequency.contains(performance.frequency));
 }
 
 bool is_known(const Target& target, const Performance& performance) {
   if (is_ruled_out(target, performance.growth_at_rest)) return true;
   const bool asks_for_cycles =
-      target.size != Target{}.size || target.frequency != Target{}.frequency;
+      target.amplitude != Target{}.amplitude || target.frequency != Target{}.frequency;
   switch (performance.verdict) {
     case Verdict::undecided:
       return !target.no_hunting && !asks_for_cycles;
@@ -105,7 +120,7 @@ double excess(const Target& target, const Performance& performance) {
     const bool is_disturbed = !is_quiet && !(growth > 0.0);
     worst = std::max(worst, is_disturbed ? 1.0 : growth);
   }
-  worst = std::max(worst, excess_of(target.size, performance.size));
+  worst = std::max(worst, excess_of(target.amplitude, performance.amplitude));
   if (!is_quiet) worst = std::max(worst, excess_of(target.frequency, performance.frequency));
   return worst;
 }
@@ -129,11 +144,11 @@ std::vector<Fault> validate(const Target& target) {
                      " <= " + exact_text(limits.high),
                  "must not contradict itself");
   };
-  require_room("size", target.size);
+  require_room("amplitude", target.amplitude);
   require_room("frequency", target.frequency);
   require_room("growth-at-rest", target.growth_at_rest);
-  if (target.no_hunting && target.size.low > 0.0) {
-    check.refuse("target", "no-hunting and size >= " + exact_text(target.size.low),
+  if (target.no_hunting && target.amplitude.low > 0.0) {
+    check.refuse("target", "no-hunting and amplitude >= " + exact_text(target.amplitude.low),
                  "must not contradict itself");
   }
   if (target.no_hunting && target.growth_at_rest.low > 1.0) {

@@ -7,15 +7,20 @@
 #include "analysis/design/changeable_drive.hpp"
 #include "base/fault.hpp"
 #include "closed_form/limit_cycle.hpp"
+#include "gearlash/quantity.hpp"
 
 namespace gearlash {
 
-/// Limits that a servo has to keep all together. One that cannot hunt has size 0 and no frequency.
+/// Limits that a servo has to keep all together. One that cannot hunt has amplitude 0 and no
+/// frequency.
 struct Target {
-  bool no_hunting = false;               ///< it comes to rest from everywhere: Verdict::cannot_hunt
-  Bounds size{0.0, infinity};            ///< rad at the load's shaft, half peak-to-peak
-  Bounds frequency{0.0, infinity};       ///< Hz, of a servo that hunts
+  bool no_hunting = false;          ///< it comes to rest from everywhere: Verdict::cannot_hunt
+  Bounds amplitude{0.0, infinity};  ///< rad, half peak-to-peak of the load; Quantity::amplitude
+  Bounds frequency{0.0, infinity};  ///< Hz, of a servo that hunts
   Bounds growth_at_rest{0.0, infinity};  ///< below 1 it is a margin to hunting
+
+  /// The limits of a quantity; nullptr where a target has none. A period is a frequency.
+  Bounds* limits_of(Quantity quantity);
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   bool operator==(const Target&) const = default;
@@ -25,7 +30,7 @@ struct Target {
 struct Performance {
   Verdict verdict = Verdict::undecided;
   double growth_at_rest = std::numeric_limits<double>::quiet_NaN();
-  double size = std::numeric_limits<double>::quiet_NaN();       ///< rad; 0 where it cannot hunt
+  double amplitude = std::numeric_limits<double>::quiet_NaN();  ///< rad; 0 where it cannot hunt
   double frequency = std::numeric_limits<double>::quiet_NaN();  ///< Hz; NaN where it cannot hunt
   double flight_time =
       std::numeric_limits<double>::quiet_NaN();  ///< of half a plastic cycle, ω_n t
@@ -61,8 +66,8 @@ enum class Judgement { none, some, all };
 /// By bound_cycles(): proved. The guess is as there.
 Judgement judge(const Target& target, const DriveBox& box, double guessed_flight_time);
 
-/// Limits that contradict each other ("size <= 1 deg and size >= 2 deg"), or that nothing can keep,
-/// each as a fault of the field `target`.
+/// Limits that contradict each other ("amplitude <= 1 deg and amplitude >= 2 deg"), or that nothing
+/// can keep, each as a fault of the field `target`.
 std::vector<Fault> validate(const Target& target);
 
 }  // namespace gearlash

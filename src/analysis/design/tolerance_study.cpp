@@ -16,33 +16,33 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double no_cycle = -1.0;  // in the column of frequencies, to be sorted first
 
-/// What is counted; counts of blocks add up the same in any order, the sum of sizes in theirs.
+/// What is counted; counts of blocks add up the same in any order, the sum of amplitudes in theirs.
 struct Counts {
   std::size_t hunting = 0;
   std::size_t meeting = 0;
   std::size_t undecided = 0;
-  std::size_t unknown_sizes = 0;
-  std::size_t finite_sizes = 0;
+  std::size_t unknown_amplitudes = 0;
+  std::size_t finite_amplitudes = 0;
   std::size_t refused = 0;
   BatchCount solved;
-  double sum_of_sizes = 0.0;
+  double sum_of_amplitudes = 0.0;
 
   void add(const Counts& others) {
     hunting += others.hunting;
     meeting += others.meeting;
     undecided += others.undecided;
-    unknown_sizes += others.unknown_sizes;
-    finite_sizes += others.finite_sizes;
+    unknown_amplitudes += others.unknown_amplitudes;
+    finite_amplitudes += others.finite_amplitudes;
     refused += others.refused;
     solved.side_by_side += others.solved.side_by_side;
     solved.one_by_one += others.solved.one_by_one;
-    sum_of_sizes += others.sum_of_sizes;
+    sum_of_amplitudes += others.sum_of_amplitudes;
   }
 };
 
 /// Replicate by replicate.
 struct Columns {
-  std::vector<double> size;       ///< infinite where not known
+  std::vector<double> amplitude;  ///< infinite where not known
   std::vector<double> frequency;  ///< no_cycle where there is none
 };
 
@@ -50,17 +50,17 @@ Counts count_block(const detail::DrawnCycles& cycles, const Target& target, std:
                    Columns& columns) {
   Counts counts{.refused = cycles.refused, .solved = cycles.solved};
   for (std::size_t row = 0; row < cycles.rows(); ++row) {
-    const double size = cycles.size(row);
+    const double size = cycles.amplitude(row);
     const double frequency = cycles.frequency[row];
     if (cycles.hunts(row)) ++counts.hunting;
     if (is_met(target, cycles.performance(row))) ++counts.meeting;
     if (cycles.verdict[row] == Verdict::undecided) ++counts.undecided;
-    if (std::isnan(size)) ++counts.unknown_sizes;
+    if (std::isnan(size)) ++counts.unknown_amplitudes;
     if (std::isfinite(size)) {
-      ++counts.finite_sizes;
-      counts.sum_of_sizes += size;
+      ++counts.finite_amplitudes;
+      counts.sum_of_amplitudes += size;
     }
-    columns.size[place + row] = std::isnan(size) ? infinity : size;
+    columns.amplitude[place + row] = std::isnan(size) ? infinity : size;
     columns.frequency[place + row] = std::isnan(frequency) ? no_cycle : frequency;
   }
   return counts;
@@ -88,10 +88,10 @@ std::vector<QuantileEstimate> quantiles_of(const detail::SortedReplicates& numbe
   return quantiles;
 }
 
-SizeHistogram histogram_of(const detail::SortedReplicates& sizes, std::size_t bins) {
+AmplitudeHistogram histogram_of(const detail::SortedReplicates& sizes, std::size_t bins) {
   const detail::SortedReplicates hunting = sizes.above(0.0).finite();
   const std::size_t count = hunting.size();
-  SizeHistogram histogram;
+  AmplitudeHistogram histogram;
   histogram.quiet = sizes.count_between(0.0, std::numeric_limits<double>::denorm_min());
   histogram.unknown = sizes.size() - histogram.quiet - count;
   if (count == 0 || bins == 0) return histogram;
@@ -137,11 +137,11 @@ ToleranceStudy counted(const SamplePlan& sampling, const std::vector<Counts>& bl
       replicates, [](const Counts& c) { return c.hunting; }, points);
   study.yield = share_of(
       replicates, [](const Counts& c) { return c.meeting; }, points);
-  study.mean_size = share_of(
-      replicates, [](const Counts& c) { return c.sum_of_sizes; },
-      [](const Counts& c) { return c.finite_sizes; });
+  study.mean_amplitude = share_of(
+      replicates, [](const Counts& c) { return c.sum_of_amplitudes; },
+      [](const Counts& c) { return c.finite_amplitudes; });
   study.undecided = total.undecided;
-  study.unknown_sizes = total.unknown_sizes;
+  study.unknown_amplitudes = total.unknown_amplitudes;
   study.refused = total.refused;
   study.solved = total.solved;
   return study;
@@ -185,9 +185,9 @@ ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& 
   ToleranceStudy study = counted(sampling, blocks);
   study.stopped = !all_done;
   if (study.stopped) return study;
-  const detail::SortedReplicates sizes = sorted(columns.size, sampling, how.threads);
-  study.size = quantiles_of(sizes, questions.shares);
-  study.size_of_hunting = quantiles_of(sizes.above(0.0), questions.shares);
+  const detail::SortedReplicates sizes = sorted(columns.amplitude, sampling, how.threads);
+  study.amplitude = quantiles_of(sizes, questions.shares);
+  study.amplitude_of_hunting = quantiles_of(sizes.above(0.0), questions.shares);
   study.histogram = histogram_of(sizes, questions.bins);
   const detail::SortedReplicates frequencies = sorted(columns.frequency, sampling, how.threads);
   study.frequency = quantiles_of(frequencies.above(no_cycle), questions.shares);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "analysis/design/sampling.hpp"
@@ -27,37 +28,38 @@ struct QuantileEstimate {
   Estimate value;
 };
 
-/// How many have a size from edges[i] to edges[i + 1], the last edge included; edges are equally
-/// far apart, from the smallest size above 0 to the largest that is finite.
-struct SizeHistogram {
+/// How many have an amplitude from edges[i] to edges[i + 1], the last edge included; edges are
+/// equally far apart, from the smallest amplitude above 0 to the largest that is finite.
+struct AmplitudeHistogram {
   std::vector<double> edges;  ///< rad; one more than counts, or none
   std::vector<std::size_t> counts;
-  std::size_t quiet = 0;    ///< size 0
-  std::size_t unknown = 0;  ///< size not known or without bound
+  std::size_t quiet = 0;    ///< amplitude 0
+  std::size_t unknown = 0;  ///< amplitude not known or without bound
 };
 
 /// A drive hunts when it can go on oscillating, by itself or after a disturbance (any verdict but
-/// cannot_hunt and undecided). Where a size is not known (irregular hunting, undecided) it counts
-/// as infinite in quantiles; such a drive meets no target. The mean is that of finite sizes.
+/// cannot_hunt and undecided). Where an amplitude is not known (irregular hunting, undecided) it
+/// counts as infinite in quantiles; such a drive meets no target. The mean is that of finite
+/// amplitudes.
 struct ToleranceStudy {
   SamplePlan sampling;
-  Estimate hunting = {};                          ///< probability
-  Estimate yield;                                 ///< probability of meeting the target
-  Estimate mean_size;                             ///< rad, 0 where quiet
-  std::vector<QuantileEstimate> size;             ///< rad, of all, 0 where quiet
-  std::vector<QuantileEstimate> size_of_hunting;  ///< rad, of those that hunt
-  std::vector<QuantileEstimate> frequency;        ///< Hz, of those with a cycle
-  SizeHistogram histogram;
+  Estimate hunting = {};                               ///< probability
+  Estimate yield;                                      ///< probability of meeting the target
+  Estimate mean_amplitude;                             ///< rad, 0 where quiet
+  std::vector<QuantileEstimate> amplitude;             ///< rad, of all, 0 where quiet
+  std::vector<QuantileEstimate> amplitude_of_hunting;  ///< rad, of those that hunt
+  std::vector<QuantileEstimate> frequency;             ///< Hz, of those with a cycle
+  AmplitudeHistogram histogram;
   std::size_t undecided = 0;
-  std::size_t unknown_sizes = 0;
+  std::size_t unknown_amplitudes = 0;
   std::size_t refused = 0;  ///< draws that were no drive; none after validate(TolerancedDrive)
   BatchCount solved;
   bool stopped = false;  ///< by how.going_on(): then nothing but the counts holds
 };
 
 /// By quasi-Monte-Carlo over all varied numbers. The same bits for any number of threads; 16 bytes
-/// a sample are kept (size and frequency, for the quantiles). Drives that bounce (restitution above
-/// 0) are followed one by one, some milliseconds each: ask for few samples of these. Throws
+/// a sample are kept (amplitude and frequency, for the quantiles). Drives that bounce (restitution
+/// above 0) are followed one by one, some milliseconds each: ask for few samples of these. Throws
 /// InvalidInput with every fault of the drive, the sampling and the questions.
 ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& sampling = {},
                                 const StudyQuestions& questions = {},
@@ -71,17 +73,17 @@ struct SensitivityIndices {
 };
 
 struct NumberSensitivity {
-  DriveNumber number = DriveNumber::gearbox_backlash;
-  SensitivityIndices of_size;     ///< 0 where quiet; NaN where the size does not vary
-  SensitivityIndices of_hunting;  ///< of the indicator, 0 or 1; NaN where all hunt, or none
+  std::string path;
+  SensitivityIndices of_amplitude;  ///< 0 where quiet; NaN where the amplitude does not vary
+  SensitivityIndices of_hunting;    ///< of the indicator, 0 or 1; NaN where all hunt, or none
 };
 
 struct SensitivityStudy {
   SamplePlan sampling;
   std::vector<NumberSensitivity> numbers;  ///< in the order of drive.varied
-  Estimate size_variance;                  ///< rad²
+  Estimate amplitude_variance;             ///< rad²
   Estimate hunting_variance;               ///< p(1 − p)
-  std::size_t left_out = 0;                ///< points with a size that is not known or unbounded
+  std::size_t left_out = 0;  ///< points with an amplitude that is not known or unbounded
   std::size_t refused = 0;
   bool stopped = false;
 };

@@ -9,6 +9,7 @@
 #include "analysis/design/replicates.hpp"
 #include "base/on_threads.hpp"
 #include "base/range_check.hpp"
+#include "gearlash/parameter.hpp"
 
 namespace gearlash {
 namespace {
@@ -19,7 +20,7 @@ constexpr double never = -1.0;  // met: in the column of the largest max
 double lowest_backlash(const TolerancedDrive& drive, const BacklashDemand& demand) {
   if (demand.min) return *demand.min;
   const auto place = place_of_backlash(drive);
-  if (!place) return nominal_backlash_of(drive);
+  if (!place) return get(drive.nominal, path_of_backlash(drive.nominal));
   const Distribution& distribution = drive.varied[*place].distribution;
   const double support = support_of(distribution).low;
   return std::isinf(support) ? drawn_range_of(distribution).low : support;
@@ -29,9 +30,7 @@ double lowest_backlash(const TolerancedDrive& drive, const BacklashDemand& deman
 TolerancedDrive with_unit_backlash(TolerancedDrive drive) {
   const auto place = place_of_backlash(drive);
   if (!place) {
-    const bool is_datasheet = std::holds_alternative<Datasheet>(drive.nominal);
-    drive.varied.push_back(
-        {is_datasheet ? DriveNumber::gearbox_backlash : DriveNumber::servo_backlash, {}});
+    drive.varied.push_back({std::string(path_of_backlash(drive.nominal)), {}});
   }
   drive.varied[place.value_or(drive.varied.size() - 1)].distribution = UniformBetween{0.0, 1.0};
   return drive;
@@ -45,16 +44,16 @@ double largest_max(const Target& target, const detail::DrawnCycles& cycles, std:
   if (performance.verdict == Verdict::cannot_hunt) {
     return is_met(target, performance) ? infinity : never;
   }
-  const double size = cycles.size_per_backlash[row];
-  performance.size = min * size;
-  if (is_met(target, performance) && !std::isnan(performance.size)) {
-    return min + std::max(0.0, target.size.high / size - min) / cycles.backlash[row];
+  const double size = cycles.amplitude_per_backlash[row];
+  performance.amplitude = min * size;
+  if (is_met(target, performance) && !std::isnan(performance.amplitude)) {
+    return min + std::max(0.0, target.amplitude.high / size - min) / cycles.backlash[row];
   }
   if (min > 0.0 || performance.verdict == Verdict::undamped) return never;
   // A piece without any backlash does not hunt.
   return is_met(target, {.verdict = Verdict::cannot_hunt,
                          .growth_at_rest = performance.growth_at_rest,
-                         .size = 0.0})
+                         .amplitude = 0.0})
              ? 0.0
              : never;
 }
@@ -108,9 +107,9 @@ class LargestMaxima {
 std::vector<Fault> validate(const BacklashDemand& demand) {
   RangeCheck check;
   check.include(validate(demand.target));
-  if (demand.target.size.low > 0.0) {
-    check.refuse("target", "size >= " + exact_text(demand.target.size.low),
-                 "must have no lower limit of size: more backlash then would be better");
+  if (demand.target.amplitude.low > 0.0) {
+    check.refuse("target", "amplitude >= " + exact_text(demand.target.amplitude.low),
+                 "must have no lower limit of amplitude: more backlash then would be better");
   }
   if (!(demand.yield > 0.0 && demand.yield <= 1.0)) {
     check.refuse("yield", exact_text(demand.yield), "must be above 0, to 1");

@@ -11,7 +11,7 @@
 namespace gearlash {
 
 struct BacklashDemand {
-  Target target;        ///< without a lower limit of size
+  Target target;        ///< without a lower limit of amplitude
   double yield = 0.95;  ///< share of pieces that are to meet the target, above 0 to 1
   /// The lower limit of the backlash's tolerance, rad, ≥ 0. Without it: the lowest value of the
   /// backlash where it varies (drawn_range_of()), its nominal value where it does not.
@@ -32,8 +32,8 @@ struct WidestBacklash {
 };
 
 /// The largest max with which at least the demanded share of the sample's pieces meet the target,
-/// their backlash being uniform from min to max and all else as it varies. Sizes being in
-/// proportion to backlash, the piece with coordinate u of the backlash and size S per backlash
+/// their backlash being uniform from min to max and all else as it varies. Amplitudes being in
+/// proportion to backlash, the piece with coordinate u of the backlash and amplitude S per backlash
 /// keeps S (min + u (max − min)) ≤ limit for every max up to min + (limit/S − min)/u: max is an
 /// order statistic of these, which is where bisection over the same sample points would end.
 /// Nothing where not even max = min gives the yield. Throws InvalidInput.

@@ -17,26 +17,26 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 using Values = std::vector<double>;
 
-/// How bad a drive is: by its size where it hunts, which is worse than any that does not, and by
-/// its growth at rest.
+/// How bad a drive is: by its amplitude where it hunts, which is worse than any that does not, and
+/// by its growth at rest.
 struct Badness {
-  double size = -1.0;    ///< −1 where it does not hunt, −2 where that is not known
-  double growth = -1.0;  ///< of one that does not hunt
+  double amplitude = -1.0;  ///< −1 where it does not hunt, −2 where that is not known
+  double growth = -1.0;     ///< of one that does not hunt
 
   bool operator<(const Badness& other) const {
-    return size != other.size ? size < other.size : growth < other.growth;
+    return amplitude != other.amplitude ? amplitude < other.amplitude : growth < other.growth;
   }
 };
 
 bool is_notably_worse(const Badness& a, const Badness& b) {
   constexpr double notable = 1e-12;
-  const double size = b.size > 0.0 ? b.size * (1.0 + notable) : b.size;
-  if (a.size > size) return true;
-  return a.size == b.size && a.size <= 0.0 && a.growth > b.growth * (1.0 + notable);
+  const double size = b.amplitude > 0.0 ? b.amplitude * (1.0 + notable) : b.amplitude;
+  if (a.amplitude > size) return true;
+  return a.amplitude == b.amplitude && a.amplitude <= 0.0 && a.growth > b.growth * (1.0 + notable);
 }
 
 Badness badness_of(const detail::DrawnCycles& cycles, std::size_t row) {
-  const double size = cycles.size(row);
+  const double size = cycles.amplitude(row);
   const double growth = cycles.growth_at_rest[row];
   if (cycles.verdict[row] == Verdict::cannot_hunt)
     return {-1.0, std::isnan(growth) ? -1.0 : growth};
@@ -69,7 +69,7 @@ class Climb {
  public:
   Climb(const TolerancedDrive& drive, const WorstSearch& search, const GridEvaluation& how)
       : drive_(drive), search_(search), how_(how) {
-    for (const VariedNumber& varied : drive.varied) {
+    for (const ParameterTolerance& varied : drive.varied) {
       coordinates_.push_back(coordinate_of(varied.distribution));
     }
   }
@@ -140,7 +140,7 @@ class Climb {
       const detail::DrawnCycles cycles = detail::solve(drive_, count, values, how_.unit);
       for (std::size_t row = 0; row < count; ++row) {
         badness[first + row] = badness_of(cycles, row);
-        if (badness[first + row].size == -2.0) ++unknown;
+        if (badness[first + row].amplitude == -2.0) ++unknown;
       }
     };
     const std::size_t blocks = (all.size() + at_a_time - 1) / at_a_time;
@@ -226,7 +226,8 @@ class Climb {
     for (std::size_t i = 0; i < width; ++i) {
       const Badness& low = badness[2 * i];
       const Badness& high = badness[2 * i + 1];
-      const double rise = low.size == high.size ? high.growth - low.growth : high.size - low.size;
+      const double rise = low.amplitude == high.amplitude ? high.growth - low.growth
+                                                          : high.amplitude - low.amplitude;
       if (!std::isfinite(rise)) continue;
       const bool leads_out = rise > 0.0 ? top.values[i] >= coordinates_[i].range.high
                                         : top.values[i] <= coordinates_[i].range.low;
@@ -334,7 +335,7 @@ WorstCorner worst_corner(const TolerancedDrive& drive, const WorstSearch& search
   for (std::size_t i = 0; i < top.values.size(); ++i) {
     const Bounds range = climb.coordinates()[i].range;
     const Bounds support = support_of(drive.varied[i].distribution);
-    worst.numbers.push_back({drive.varied[i].number, top.values[i], place_of(top.values[i], range),
+    worst.numbers.push_back({drive.varied[i].path, top.values[i], place_of(top.values[i], range),
                              range, std::isinf(support.low), std::isinf(support.high)});
   }
   worst.performance = detail::solve(drive, 1, top.values, how.unit).performance(0);

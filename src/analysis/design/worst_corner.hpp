@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "analysis/design/target.hpp"
@@ -27,7 +28,7 @@ enum class PlaceInRange {
 const char* name_of(PlaceInRange place);
 
 struct WorstNumber {
-  DriveNumber number = DriveNumber::gearbox_backlash;
+  std::string path;
   double value = 0.0;
   PlaceInRange place = PlaceInRange::fixed;
   Bounds range;                     ///< searched: three_sigma_range_of()
@@ -39,18 +40,18 @@ struct WorstCorner {
   std::vector<WorstNumber> numbers;  ///< in the order of drive.varied
   Performance performance;
   std::size_t evaluations = 0;
-  std::size_t unknown = 0;  ///< evaluations of drives whose size is not known: not compared
+  std::size_t unknown = 0;  ///< evaluations of drives whose amplitude is not known: not compared
 };
 
-/// The largest size (infinite where a drive grows without bound) over the box of supports, which
-/// where a distribution has no end is cut off at its mean ± 3 standard deviations; where no drive
-/// of the box hunts, the largest growth at rest. All corners are evaluated and some Sobol points;
-/// from the best of both the search climbs, along one number after another, the slope and the way
-/// last gone, each line looked at along its whole length within the box and refined about its best
-/// point, until the value rises by less than 1e-12 of itself. Of lots only their values are tried.
-/// No proof that there is none worse: a narrow peak inside can be missed. The same bits for any
-/// number of threads. how.going_on is told how many of the climbs, 2·starts at most, are done, and
-/// is not asked. Throws InvalidInput.
+/// The largest amplitude (infinite where a drive grows without bound) over the box of supports,
+/// which where a distribution has no end is cut off at its mean ± 3 standard deviations; where no
+/// drive of the box hunts, the largest growth at rest. All corners are evaluated and some Sobol
+/// points; from the best of both the search climbs, along one number after another, the slope and
+/// the way last gone, each line looked at along its whole length within the box and refined about
+/// its best point, until the value rises by less than 1e-12 of itself. Of lots only their values
+/// are tried. No proof that there is none worse: a narrow peak inside can be missed. The same bits
+/// for any number of threads. how.going_on is told how many of the climbs, 2·starts at most, are
+/// done, and is not asked. Throws InvalidInput.
 WorstCorner worst_corner(const TolerancedDrive& drive, const WorstSearch& search = {},
                          const GridEvaluation& how = {});
 

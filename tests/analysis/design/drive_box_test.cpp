@@ -10,18 +10,20 @@
 #include <string>
 #include <vector>
 
-#include "analysis/design/changeable_drive.hpp"
+#include "analysis/design/drives.hpp"
 #include "analysis/design/target.hpp"
 #include "base/seeded_draws.hpp"
 #include "closed_form/exact_half_cycle.hpp"
+#include "model/reduced_drive.hpp"
 
 namespace gearlash {
 namespace {
 
-constexpr DesignParameter parameters[] = {
-    DesignParameter::backlash,      DesignParameter::gear_ratio,     DesignParameter::error_gain,
-    DesignParameter::load_friction, DesignParameter::motor_friction, DesignParameter::tachometer,
-    DesignParameter::load_inertia,  DesignParameter::motor_inertia};
+/// All but restitution, and the normal form's own.
+constexpr std::string_view parameters[] = {
+    "backlash",       "gear_ratio",           "error_gain",         "load_friction",
+    "motor_friction", "tachometer",           "load_inertia",       "motor_inertia",
+    "servo.damping",  "servo.friction_ratio", "servo.inertia_ratio"};
 
 NormalizedServo drawn_servo(SeededDraws& draws) {
   const double share = draws.log_uniform(1e-6, 0.5);
@@ -59,14 +61,14 @@ TEST_P(OracleDriveBox, HoldsEveryDriveWithin) {
   int hunting = 0;
   std::vector<double> widths;  // of points, in epsilons
   for (std::size_t i = 0; i < 3000 && !HasFailure(); ++i) {
-    const ChangeableDrive drive(drawn_servo(draws), draws.log_uniform(0.1, 100.0));
-    const DesignParameter parameter = parameters[i % std::size(parameters)];
+    const NormalizedServo servo = drawn_servo(draws);
+    const ChangeableDrive drive = changeable(servo, draws.log_uniform(0.1, 100.0));
+    const std::string_view parameter = parameters[i % std::size(parameters)];
     const Bounds range = drive.range(parameter);
-    const double low = parameter == DesignParameter::tachometer
-                           ? range.high * draws.log_uniform(1e-6, 0.3)
-                           : drive.present_value(parameter);
+    const double low = parameter == "tachometer" ? range.high * draws.log_uniform(1e-6, 0.3)
+                                                 : drive.present_value(parameter);
     const Bounds values{low, std::min(range.high, low * (1.0 + drawn_width(draws, i)))};
-    SCOPED_TRACE(testing::Message() << "case " << i << ", " << name_of(parameter));
+    SCOPED_TRACE(testing::Message() << "case " << i << ", " << parameter);
     const double inside = values.low + draws.uniform(0.0, 1.0) * (values.high - values.low);
     const double value = std::min(inside, values.high);
     const Drivetrain drawn = drive.with(parameter, value);
@@ -100,6 +102,64 @@ TEST_P(OracleDriveBox, HoldsEveryDriveWithin) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, OracleDriveBox, testing::Values(1841, 1842));
+
+// ---- data sheets --------------------------------------------------------------------------------
+
+/// One of four kinds of motor, half of them with speed fed back, some of it negative.
+Drive drawn_data_sheet(SeededDraws& draws) {
+  const MotorKind kinds[] = {
+      ArmatureControl{draws.log_uniform(0.01, 1.0), draws.log_uniform(0.01, 1.0),
+                      draws.log_uniform(0.5, 50.0)},
+      FieldControl{draws.log_uniform(0.01, 1.0), draws.log_uniform(0.5, 50.0)},
+      TwoPhase{draws.log_uniform(1e-3, 0.1), draws.log_uniform(1e-5, 1e-3)}, TorqueControl{}};
+  Drive drive = drive_of(kinds[static_cast<std::size_t>(draws.uniform(0.0, 4.0))],
+                         {.motor_inertia = draws.log_uniform(1e-6, 1e-4),
+                          .motor_friction = draws.log_uniform(1e-5, 1e-3),
+                          .ratio = draws.log_uniform(1.0, 100.0),
+                          .backlash = draws.log_uniform(1e-4, 1.0),
+                          .load_inertia = draws.log_uniform(1e-4, 1e-1),
+                          .load_friction = draws.log_uniform(1e-4, 1e-1),
+                          .error_gain = draws.log_uniform(1.0, 1000.0)});
+  if (draws.happens(0.5)) {
+    const double feedback = draws.log_uniform(1e-5, 1e-2);
+    drive.controller.law = PID{.terms = PIDTerms::PD,
+                               .proportional = std::get<PID>(drive.controller.law).proportional,
+                               .derivative = draws.happens(0.5) ? feedback : -feedback};
+    drive.sensor.speed = ShaftName::motor;
+    drive.controller.shaft = draws.happens(0.5) ? ShaftName::load : ShaftName::motor;
+  }
+  return drive;
+}
+
+/// Every number of the box of two ends holds those of every drive between, and so does its growth.
+TEST(PropertyDriveBox, HoldsEveryDataSheetBetweenItsEnds) {
+  constexpr std::uint64_t seed = 1843;
+  SCOPED_TRACE(seed);
+  SeededDraws draws(seed);
+  int compared = 0;
+  for (std::size_t i = 0; i < 4000 && !HasFailure(); ++i) {
+    const Drive sheet = drawn_data_sheet(draws);
+    if (!faults(sheet).empty() || !closed_form_servo(sheet)) continue;  // feedback beyond friction
+    const ChangeableDrive drive(sheet);
+    const ChangeableNumber& number = drive.numbers()[i % drive.numbers().size()];
+    const Bounds range = drive.range(number.name);
+    if (number.is_restitution() || !(range.high > range.low)) continue;
+    SCOPED_TRACE(testing::Message() << "case " << i << ", " << number.name);
+    const double low = range.low + draws.uniform(0.0, 0.5) * (range.high - range.low);
+    const Bounds values{low, std::min(range.high, low * (1.0 + drawn_width(draws, i)))};
+    const CycleBounds bounds = bound_cycles(drive.box(number.name, values).servo,
+                                            std::numeric_limits<double>::quiet_NaN());
+    for (int k = 0; k < 4; ++k) {
+      const double value =
+          std::min(values.high, values.low + draws.uniform(0.0, 1.0) * (values.high - values.low));
+      const Drivetrain drawn = drive.with(number.name, value);
+      ASSERT_TRUE(validate(drawn).empty());
+      expect_holds(bounds.growth_at_rest, exact_of(drawn).growth_at_rest());
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 8000);
+}
 
 }  // namespace
 }  // namespace gearlash

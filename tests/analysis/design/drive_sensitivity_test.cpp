@@ -1,11 +1,13 @@
 // Derivatives of drives: against differences of performance_of(), and by identities of scale.
 #include "analysis/design/drive_sensitivity.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 
+#include "analysis/design/drives.hpp"
 #include "analysis/design/target.hpp"
 #include "base/range_check.hpp"
 #include "base/seeded_draws.hpp"
@@ -14,45 +16,64 @@
 namespace gearlash {
 namespace {
 
-Datasheet armature_sheet() {
-  return {.motor = ArmatureControlledMotor{.inertia = 1e-5,
-                                           .friction = 2e-5,
-                                           .torque_constant = 0.05,
-                                           .back_emf_constant = 0.05,
-                                           .resistance = 8.0},
-          .gearbox = {.ratio = 20.0, .backlash = 0.01},
-          .load = {.inertia = 8e-3, .friction = 4e-3},
-          .loop = {.error_gain = 60.0},
-          .contact = {}};
+constexpr Sheet sheet{.motor_inertia = 1e-5,
+                      .motor_friction = 2e-5,
+                      .ratio = 20.0,
+                      .backlash = 0.01,
+                      .load_inertia = 8e-3,
+                      .load_friction = 4e-3,
+                      .error_gain = 60.0};
+
+Drive armature_drive() {
+  return drive_of(
+      ArmatureControl{.torque_constant = 0.05, .back_emf_constant = 0.05, .resistance = 8.0},
+      sheet);
 }
 
-Datasheet field_sheet() {
-  Datasheet sheet = armature_sheet();
-  sheet.motor = FieldControlledMotor{
-      .inertia = 1e-5, .friction = 1e-4, .torque_constant = 0.05, .resistance = 8.0};
-  return sheet;
+Drive field_drive() {
+  Drive drive = drive_of(FieldControl{.torque_constant = 0.05, .resistance = 8.0}, sheet);
+  drive.motor.friction.viscous = 1e-4;
+  return drive;
 }
 
-Datasheet two_phase_sheet() {
-  Datasheet sheet = armature_sheet();
-  sheet.motor = TwoPhaseMotor{
-      .inertia = 1e-5, .friction = 2e-5, .torque_per_volt = 6e-3, .torque_per_speed = 2e-4};
-  return sheet;
+Drive two_phase_drive() {
+  return drive_of(TwoPhase{.torque_per_volt = 6e-3, .torque_per_speed = 2e-4}, sheet);
 }
 
-/// The quantities of a drive, without derivatives.
-ByCycleMeasure<double> quantities_of(const Drivetrain& drive) {
+/// With speed fed back from the motor, gains per radian of the motor.
+Drive fed_back(Drive drive, double derivative) {
+  drive.controller = {.law = PID{.terms = PIDTerms::PD,
+                                 .proportional = 3.0,
+                                 .derivative = derivative,
+                                 .derivative_of_speed = true},
+                      .shaft = ShaftName::motor};
+  drive.sensor.speed = ShaftName::motor;
+  return drive;
+}
+
+Drive cascade_drive() {
+  Drive drive = armature_drive();
+  drive.controller.law = CascadeController{.position = 300.0, .speed = 0.2};
+  drive.sensor.speed = ShaftName::motor;
+  return drive;
+}
+
+Drive lead_lag_drive() {
+  Drive drive = two_phase_drive();
+  drive.controller.law = LeadLagController{.gain = 60.0, .zero = 10.0, .pole = 10.0};
+  return drive;
+}
+
+/// A quantity of a drive, without derivatives; NaN where there is none.
+double value_of(Quantity quantity, const Drivetrain& drive) {
   const LimitCycleAnalysis analysis = analyse_limit_cycles(normalize(drive));
-  ByCycleMeasure<double> values;
-  values.values.fill(std::numeric_limits<double>::quiet_NaN());
-  values[CycleMeasure::growth_at_rest] = analysis.growth_at_rest;
-  if (const LimitCycle* cycle = largest_stable(analysis)) {
-    values[CycleMeasure::size] = cycle->size;
-    values[CycleMeasure::period] = cycle->period / natural_frequency(drive);
-    values[CycleMeasure::frequency] = performance_of(drive).frequency;
-    values[CycleMeasure::multiplier] = cycle->multiplier;
-  }
-  return values;
+  if (quantity == Quantity::growth_at_rest) return analysis.growth_at_rest;
+  const LimitCycle* cycle = largest_stable(analysis);
+  if (cycle == nullptr) return std::numeric_limits<double>::quiet_NaN();
+  if (quantity == Quantity::amplitude) return cycle->size;
+  if (quantity == Quantity::multiplier) return cycle->multiplier;
+  const double period = cycle->period / natural_frequency(drive);
+  return quantity == Quantity::period ? period : 1.0 / period;
 }
 
 /// Central differences with a step of 1e-3, twice extrapolated (error step⁶ and rounding/step):
@@ -70,43 +91,55 @@ double difference(const std::function<double(double)>& value_at, double present,
   return (16.0 * second - first) / 15.0;
 }
 
-using WithNumber = std::function<Drivetrain(double)>;
-
-void expect_slopes(const DriveSensitivity& found, const ParameterSensitivity& parameter,
-                   const WithNumber& with, double scale, double tolerance) {
-  for (const CycleMeasure quantity : all_cycle_measures) {
+/// Every slope of one column against differences.
+void expect_slopes(const Jacobian& found, const ChangeableDrive& drive, std::size_t column,
+                   double scale, double tolerance) {
+  const std::string& name = found.paths[column];
+  for (std::size_t row = 0; row < found.quantities.size(); ++row) {
+    const Quantity quantity = found.quantities[row];
     const double exact =
-        difference([&](double value) { return quantities_of(with(value))[quantity]; },
-                   parameter.present, scale);
-    const Sensitivity& sensitivity = parameter.of[quantity];
-    const double value = found.values[quantity];
-    EXPECT_NEAR(sensitivity.slope, exact, tolerance * (std::abs(exact) + std::abs(value) / scale))
-        << parameter.name << ": " << name_of(quantity);
-    EXPECT_DOUBLE_EQ(sensitivity.elasticity * value, sensitivity.slope * parameter.present);
+        difference([&](double value) { return value_of(quantity, drive.with(name, value)); },
+                   found.present[column], scale);
+    ASSERT_TRUE(found.slope(row, column) && found.values[row]) << name;
+    const double slope = *found.slope(row, column);
+    const double value = *found.values[row];
+    EXPECT_NEAR(slope, exact, tolerance * (std::abs(exact) + std::abs(value) / scale))
+        << name << ": " << name_of(quantity);
+    EXPECT_DOUBLE_EQ(*found.elasticity(row, column) * value, slope * found.present[column]);
   }
 }
 
-void expect_slopes(const ChangeableDrive& drive, double tolerance) {
-  const DriveSensitivity found = drive_sensitivity(drive);
+void expect_slopes(const ChangeableDrive& drive, const std::vector<std::string>& names,
+                   double tolerance) {
+  const DriveSensitivity found = drive_sensitivity(drive, names);
   ASSERT_EQ(found.outcome, SensitivityOutcome::available);
-  ASSERT_EQ(found.parameters.size(), parameter_count);
-  for (const DesignParameter parameter : all_parameters) {
-    if (parameter == DesignParameter::restitution) continue;
+  for (std::size_t column = 0; column < names.size(); ++column) {
+    const ChangeableNumber& number = drive.number(names[column]);
+    if (number.is_restitution()) continue;
     // Feedback that is 0 at present has the scale of one that would damp like the motor itself.
-    const double friction = drive.slopes(parameter).motor_friction;
-    const double scale = parameter == DesignParameter::tachometer
-                             ? drive.drivetrain().motor_friction / friction
-                             : drive.present_value(parameter);
-    expect_slopes(
-        found, *found.find(name_of(parameter)),
-        [&](double value) { return drive.with(parameter, value); }, scale, tolerance);
+    const double scale = number.present == 0.0 ? drive.drivetrain().motor_friction /
+                                                     drive.slopes(number.name).motor_friction
+                                               : std::abs(number.present);
+    expect_slopes(found.jacobian, drive, column, scale, tolerance);
   }
 }
 
-TEST(DriveSensitivity, OfEachMotorAgreesWithDifferences) {
-  for (const Datasheet& sheet : {armature_sheet(), field_sheet(), two_phase_sheet()}) {
-    expect_slopes(ChangeableDrive(sheet), 1e-9);
+std::vector<std::string> all_names(const ChangeableDrive& drive) {
+  std::vector<std::string> names;
+  for (const ChangeableNumber& number : drive.numbers()) names.push_back(number.name);
+  return names;
+}
+
+TEST(DriveSensitivity, OfEachNumberAgreesWithDifferences) {
+  std::size_t numbers = 0;
+  for (const Drive& drive :
+       {armature_drive(), field_drive(), two_phase_drive(), fed_back(armature_drive(), 1e-3),
+        fed_back(two_phase_drive(), -1e-3), cascade_drive(), lead_lag_drive()}) {
+    const ChangeableDrive changeable(drive);
+    numbers += changeable.numbers().size();
+    expect_slopes(changeable, all_names(changeable), 1e-9);
   }
+  EXPECT_EQ(numbers, 12U + 11U + 11U + 13U + 12U + 13U + 11U);
 }
 
 TEST(PropertyDriveSensitivity, OfRandomServosAgreesWithDifferences) {
@@ -120,78 +153,21 @@ TEST(PropertyDriveSensitivity, OfRandomServosAgreesWithDifferences) {
                                 .backlash = draws.log_uniform(1e-3, 1.0)};
     if (growth_at_rest(servo_dynamics(servo)) < 1.2) continue;  // where it is steep
     ++compared;
-    expect_slopes(ChangeableDrive(servo, draws.log_uniform(1.0, 100.0)), 1e-8);
+    const ChangeableDrive drive = changeable(servo, draws.log_uniform(1.0, 100.0));
+    expect_slopes(drive, all_names(drive), 1e-8);
   }
 }
 
-// ---- every number of a data sheet ---------------------------------------------------------------
-
-/// A data sheet's number by its dotted name.
-double& number_of(Datasheet& sheet, const std::string& name) {
-  if (name == "gearbox.ratio") return sheet.gearbox.ratio;
-  if (name == "gearbox.backlash") return sheet.gearbox.backlash;
-  if (name == "load.inertia") return sheet.load.inertia;
-  if (name == "load.friction") return sheet.load.friction;
-  if (name == "loop.error_gain") return sheet.loop.error_gain;
-  if (name == "contact.restitution") return sheet.contact.restitution;
-  if (name == "motor.inertia") {
-    return std::visit([](auto& any) -> double& { return any.inertia; }, sheet.motor);
-  }
-  if (name == "motor.friction") {
-    return std::visit([](auto& any) -> double& { return any.friction; }, sheet.motor);
-  }
-  if (auto* two_phase = std::get_if<TwoPhaseMotor>(&sheet.motor)) {
-    return name == "motor.torque_per_volt" ? two_phase->torque_per_volt
-                                           : two_phase->torque_per_speed;
-  }
-  if (auto* field = std::get_if<FieldControlledMotor>(&sheet.motor)) {
-    return name == "motor.torque_constant" ? field->torque_constant : field->resistance;
-  }
-  auto& armature = std::get<ArmatureControlledMotor>(sheet.motor);
-  if (name == "motor.torque_constant") return armature.torque_constant;
-  if (name == "motor.back_emf_constant") return armature.back_emf_constant;
-  return armature.resistance;
-}
-
-TEST(DriveSensitivity, OfEachNumberOfADataSheetAgreesWithDifferences) {
-  std::size_t numbers = 0;
-  for (const Datasheet& sheet : {armature_sheet(), field_sheet(), two_phase_sheet()}) {
-    const DriveSensitivity found = datasheet_sensitivity(sheet);
-    ASSERT_EQ(found.outcome, SensitivityOutcome::available);
-    for (const ParameterSensitivity& parameter : found.parameters) {
-      ++numbers;
-      Datasheet changed = sheet;
-      EXPECT_EQ(number_of(changed, parameter.name), parameter.present) << parameter.name;
-      if (parameter.name == "contact.restitution") {
-        EXPECT_EQ(parameter.of[CycleMeasure::size].slope, 0.0);
-        continue;
-      }
-      const auto with = [&](double value) {
-        number_of(changed, parameter.name) = value;
-        return to_drivetrain(changed);
-      };
-      expect_slopes(found, parameter, with, parameter.present, 1e-9);
-    }
-  }
-  EXPECT_EQ(numbers, 11U + 10U + 10U);
-  EXPECT_EQ(datasheet_sensitivity(field_sheet()).find("motor.back_emf_constant"), nullptr);
-}
-
-TEST(DriveSensitivity, OfADataSheetAndOfItsChangeableDriveAgree) {
-  const DriveSensitivity sheet = datasheet_sensitivity(armature_sheet());
-  const DriveSensitivity drive = drive_sensitivity(ChangeableDrive(armature_sheet()));
-  const std::pair<const char*, const char*> names[] = {
-      {"gearbox.ratio", "gear_ratio"},      {"gearbox.backlash", "backlash"},
-      {"loop.error_gain", "error_gain"},    {"load.friction", "load_friction"},
-      {"motor.friction", "motor_friction"}, {"load.inertia", "load_inertia"},
-      {"motor.inertia", "motor_inertia"},   {"contact.restitution", "restitution"}};
-  for (const auto& [dotted, plain] : names) {
-    for (const CycleMeasure quantity : all_cycle_measures) {
-      EXPECT_DOUBLE_EQ(sheet.find(dotted)->of[quantity].slope,
-                       drive.find(plain)->of[quantity].slope)
-          << dotted;
-    }
-  }
+TEST(DriveSensitivity, NamesTheNumbersOfADataSheetByTheirPaths) {
+  const auto paths = [](const Drive& drive) {
+    return drive_sensitivity(ChangeableDrive(drive)).jacobian.paths;
+  };
+  EXPECT_THAT(paths(armature_drive()),
+              testing::ElementsAre("motor.inertia", "motor.friction", "motor.torque_constant",
+                                   "motor.back_emf_constant", "motor.resistance", "gearbox.ratio",
+                                   "gearbox.backlash", "load.inertia", "load.friction",
+                                   "contact.restitution", "controller.proportional"));
+  EXPECT_THAT(paths(field_drive()), testing::Not(testing::Contains("motor.back_emf_constant")));
 }
 
 // ---- identities of scale ------------------------------------------------------------------------
@@ -220,10 +196,8 @@ TEST(PropertyDriveSensitivity, KnowsTheScalesOfTorqueTimeAndAngle) {
     if (growth_at_rest(servo_dynamics(normalize(drive))) < 1.01) continue;
     ++compared;
     const DrivetrainSensitivity found = drivetrain_sensitivity(drive);
-    ASSERT_EQ(found.outcome, SensitivityOutcome::available);
-    for (const CycleMeasure quantity : all_cycle_measures) {
-      const DrivetrainSlopes& slopes = found.slopes[quantity];
-      const double value = found.values[quantity];
+    ASSERT_EQ(found.quantities.size(), differentiable.size());
+    for (const auto& [quantity, value, slopes] : found.quantities) {
       const double parts = std::abs(slopes.motor_inertia * drive.motor_inertia) +
                            std::abs(slopes.load_inertia * drive.load_inertia) +
                            std::abs(slopes.motor_friction * drive.motor_friction) +
@@ -233,24 +207,27 @@ TEST(PropertyDriveSensitivity, KnowsTheScalesOfTorqueTimeAndAngle) {
       // The unit of torque.
       EXPECT_NEAR(directional(slopes, drive, 1.0, 1.0, 1.0), 0.0, rounding) << name_of(quantity);
       // The unit of time: inertia as its square, friction with it.
-      const double power = quantity == CycleMeasure::period      ? 1.0
-                           : quantity == CycleMeasure::frequency ? -1.0
-                                                                 : 0.0;
+      const double power = quantity == Quantity::period      ? 1.0
+                           : quantity == Quantity::frequency ? -1.0
+                                                             : 0.0;
       EXPECT_NEAR(directional(slopes, drive, 2.0, 1.0, 0.0), power * value, rounding)
           << name_of(quantity);
       // The unit of angle.
-      const double by_size = quantity == CycleMeasure::size ? 1.0 : 0.0;
-      EXPECT_NEAR(slopes.backlash * drive.backlash, by_size * value, rounding) << name_of(quantity);
+      const double by_amplitude = quantity == Quantity::amplitude ? 1.0 : 0.0;
+      EXPECT_NEAR(slopes.backlash * drive.backlash, by_amplitude * value, rounding)
+          << name_of(quantity);
     }
   }
 }
 
-TEST(DriveSensitivity, OfSizeByBacklashIsOneForOne) {
-  const DriveSensitivity found = datasheet_sensitivity(armature_sheet());
-  EXPECT_DOUBLE_EQ(found.find("gearbox.backlash")->of[CycleMeasure::size].elasticity, 1.0);
-  EXPECT_EQ(found.find("gearbox.backlash")->of[CycleMeasure::frequency].elasticity, 0.0);
-  EXPECT_EQ(found.find("gearbox.backlash")->of[CycleMeasure::growth_at_rest].elasticity, 0.0);
-  EXPECT_EQ(found.find("contact.restitution")->of[CycleMeasure::size].elasticity, 0.0);
+TEST(DriveSensitivity, OfAmplitudeByBacklashIsOneForOne) {
+  const Jacobian found = derivatives(
+      armature_drive(), {Quantity::amplitude, Quantity::frequency, Quantity::growth_at_rest},
+      {"gearbox.backlash", "contact.restitution"});
+  EXPECT_DOUBLE_EQ(*found.elasticity(0, 0), 1.0);
+  EXPECT_EQ(*found.elasticity(1, 0), 0.0);
+  EXPECT_EQ(*found.elasticity(2, 0), 0.0);
+  EXPECT_EQ(*found.elasticity(0, 1), 0.0);
 }
 
 // ---- edges --------------------------------------------------------------------------------------
@@ -258,29 +235,41 @@ TEST(DriveSensitivity, OfSizeByBacklashIsOneForOne) {
 TEST(EdgeDriveSensitivity, WithoutACycleSaysSo) {
   const NormalizedServo servo{
       .damping = 0.9, .inertia_ratio = 2.0, .friction_ratio = 0.5, .backlash = 0.1};
-  const DriveSensitivity found = drive_sensitivity(ChangeableDrive(servo));
-  EXPECT_EQ(found.outcome, SensitivityOutcome::no_cycle);
-  EXPECT_TRUE(std::isnan(found.values[CycleMeasure::size]));
-  EXPECT_TRUE(std::isnan(found.find("gear_ratio")->of[CycleMeasure::period].slope));
-  EXPECT_TRUE(std::isfinite(found.find("gear_ratio")->of[CycleMeasure::growth_at_rest].elasticity));
+  EXPECT_EQ(drive_sensitivity(changeable(servo)).outcome, SensitivityOutcome::no_cycle);
+  const Jacobian found =
+      derivatives(drive_of(servo), {Quantity::period, Quantity::growth_at_rest}, {"servo.damping"});
+  EXPECT_FALSE(found.values[0] || found.slope(0, 0) || found.elasticity(0, 0));
+  EXPECT_TRUE(found.values[1] && found.slope(1, 0) && found.elasticity(1, 0));
+}
+
+TEST(EdgeDriveSensitivity, RefusesWhatHasNoDerivatives) {
+  const Drive drive = armature_drive();
+  EXPECT_THROW(static_cast<void>(derivatives(drive, {Quantity::verdict}, {"load.inertia"})),
+               InvalidInput);
+  EXPECT_THROW(static_cast<void>(derivatives(drive, {Quantity::amplitude}, {"load.coulomb"})),
+               InvalidInput);
+  Drive dry = drive;
+  dry.load.friction.coulomb = 1e-3;
+  EXPECT_THROW(static_cast<void>(derivatives(dry, {Quantity::amplitude}, {"load.inertia"})),
+               InvalidInput);
+  const Jacobian found = derivatives(drive, {Quantity::amplitude}, {"load.inertia"});
+  EXPECT_THROW(static_cast<void>(found.slope(1, 0)), std::out_of_range);
+  EXPECT_THROW(static_cast<void>(found.slope(0, 1)), std::out_of_range);
 }
 
 TEST(DriveSensitivity, WithBouncesAgreesWithDifferencesToo) {
-  const ChangeableDrive drive(NormalizedServo{.damping = 0.3,
-                                              .inertia_ratio = 2.0,
-                                              .friction_ratio = 0.2,
-                                              .backlash = 0.1,
-                                              .restitution = 0.4});
-  expect_slopes(drive, 1e-8);
-  const Sensitivity by_restitution =
-      drive_sensitivity(drive).find("restitution")->of[CycleMeasure::size];
+  const ChangeableDrive drive = changeable(NormalizedServo{.damping = 0.3,
+                                                           .inertia_ratio = 2.0,
+                                                           .friction_ratio = 0.2,
+                                                           .backlash = 0.1,
+                                                           .restitution = 0.4});
+  expect_slopes(drive, drive.usual_names(), 1e-8);
+  const Jacobian found = derivatives(drive.drive(), {Quantity::amplitude}, {"contact.restitution"});
   const double exact = difference(
-      [&](double value) {
-        return performance_of(drive.with(DesignParameter::restitution, value)).size;
-      },
-      0.4, 0.4);
-  EXPECT_NEAR(by_restitution.slope, exact, 1e-8);
-  EXPECT_NE(by_restitution.slope, 0.0);
+      [&](double value) { return performance_of(drive.with("restitution", value)).amplitude; }, 0.4,
+      0.4);
+  EXPECT_NEAR(*found.slope(0, 0), exact, 1e-8);
+  EXPECT_NE(*found.slope(0, 0), 0.0);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "analysis/design/drives.hpp"
 #include "base/range_check.hpp"
 #include "base/seeded_draws.hpp"
 
@@ -14,13 +15,13 @@ namespace {
 
 /// The servo of the thesis's sample problem, about.
 ChangeableDrive sample_drive() {
-  return ChangeableDrive(NormalizedServo{
+  return changeable(NormalizedServo{
       .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3});
 }
 
 Target at_most(double size) {
   Target target;
-  target.size.high = size;
+  target.amplitude.high = size;
   return target;
 }
 Target no_hunting() {
@@ -35,64 +36,57 @@ Target at_least_as_fast_as(double frequency) {
 }
 
 TEST(FeasibleValues, OfBacklashAreInProportionToTheSize) {
-  const FeasibleValues found =
-      feasible_values(sample_drive(), DesignParameter::backlash, at_most(0.1));
+  const FeasibleValues found = feasible_values(sample_drive(), "backlash", at_most(0.1));
   ASSERT_EQ(found.intervals.size(), 1U);
-  const double size = performance_of(sample_drive().drivetrain()).size;
+  const double size = performance_of(sample_drive().drivetrain()).amplitude;
   EXPECT_NEAR(found.intervals[0].high, 0.3 * 0.1 / size, 1e-15);
   EXPECT_EQ(found.nearest(), found.intervals[0].high);
   EXPECT_FALSE(found.contains(0.3));
 }
 
 TEST(FeasibleValues, NoBacklashEndsHunting) {
-  const FeasibleValues found =
-      feasible_values(sample_drive(), DesignParameter::backlash, no_hunting());
+  const FeasibleValues found = feasible_values(sample_drive(), "backlash", no_hunting());
   EXPECT_TRUE(found.intervals.empty());
   EXPECT_TRUE(std::isnan(found.nearest()));
   EXPECT_EQ(found.kind, SearchKind::certified);
 }
 
 TEST(FeasibleValues, MayBeSeveralIntervals) {
-  const FeasibleValues ratio =
-      feasible_values(sample_drive(), DesignParameter::gear_ratio, no_hunting());
+  const FeasibleValues ratio = feasible_values(sample_drive(), "gear_ratio", no_hunting());
   EXPECT_EQ(ratio.intervals.size(), 2U);  // a very small one, and a very large one
   const FeasibleValues inertia =
-      feasible_values(sample_drive(), DesignParameter::load_inertia, at_least_as_fast_as(0.16));
+      feasible_values(sample_drive(), "load_inertia", at_least_as_fast_as(0.16));
   EXPECT_EQ(inertia.intervals.size(), 2U);  // no hunting at all, and hunting fast
 }
 
 TEST(FeasibleValues, AMetTargetHasThePresentValue) {
-  const FeasibleValues found =
-      feasible_values(sample_drive(), DesignParameter::error_gain, at_most(1.0));
+  const FeasibleValues found = feasible_values(sample_drive(), "error_gain", at_most(1.0));
   EXPECT_TRUE(found.contains(1.0));
   EXPECT_EQ(found.nearest(), 1.0);
 }
 
 ChangeableDrive bouncing_drive() {
-  return ChangeableDrive(NormalizedServo{.damping = 0.3,
-                                         .inertia_ratio = 2.0,
-                                         .friction_ratio = 0.3,
-                                         .backlash = 0.3,
-                                         .restitution = 0.1});
+  return changeable(NormalizedServo{.damping = 0.3,
+                                    .inertia_ratio = 2.0,
+                                    .friction_ratio = 0.3,
+                                    .backlash = 0.3,
+                                    .restitution = 0.1});
 }
 
 TEST(FeasibleValues, OfBacklashWithBouncesAreInProportionToTheSizeToo) {
-  const double size = performance_of(bouncing_drive().drivetrain()).size;
-  const FeasibleValues found =
-      feasible_values(bouncing_drive(), DesignParameter::backlash, at_most(0.5 * size));
+  const double size = performance_of(bouncing_drive().drivetrain()).amplitude;
+  const FeasibleValues found = feasible_values(bouncing_drive(), "backlash", at_most(0.5 * size));
   EXPECT_EQ(found.kind, SearchKind::scanned);
   ASSERT_EQ(found.intervals.size(), 1U);
   EXPECT_NEAR(found.intervals[0].high, 0.15, 1e-14);
 }
 
 TEST(FeasibleValues, WithBouncesEndWhereGrowthAtRestPassesOne) {
-  const FeasibleValues found =
-      feasible_values(bouncing_drive(), DesignParameter::load_friction, no_hunting());
+  const FeasibleValues found = feasible_values(bouncing_drive(), "load_friction", no_hunting());
   ASSERT_FALSE(found.intervals.empty());
   const double end = found.intervals[0].low;
   const auto growth_at = [](double value) {
-    return performance_of(bouncing_drive().with(DesignParameter::load_friction, value))
-        .growth_at_rest;
+    return performance_of(bouncing_drive().with("load_friction", value)).growth_at_rest;
   };
   EXPECT_LT(growth_at(end), 1.0);
   EXPECT_GT(growth_at(end), 1.0 - 2e-6);
@@ -101,24 +95,23 @@ TEST(FeasibleValues, WithBouncesEndWhereGrowthAtRestPassesOne) {
 
 TEST(FeasibleValues, ThatDoNotExistHaveAClosestOne) {
   Target enormous;
-  enormous.size.low = 100.0;
-  const FeasibleValues found =
-      feasible_values(sample_drive(), DesignParameter::load_inertia, enormous);
+  enormous.amplitude.low = 100.0;
+  const FeasibleValues found = feasible_values(sample_drive(), "load_inertia", enormous);
   EXPECT_TRUE(found.intervals.empty());
   ASSERT_TRUE(found.closest.has_value());
   const auto size_at = [](double value) {
-    return performance_of(sample_drive().with(DesignParameter::load_inertia, value)).size;
+    return performance_of(sample_drive().with("load_inertia", value)).amplitude;
   };
-  EXPECT_EQ(found.closest->performance.size, size_at(found.closest->value));
+  EXPECT_EQ(found.closest->performance.amplitude, size_at(found.closest->value));
   for (const double value : {found.searched.low, 0.01, 0.1, 1.0, 10.0, found.searched.high}) {
-    EXPECT_GE(found.closest->performance.size, size_at(value)) << value;
+    EXPECT_GE(found.closest->performance.amplitude, size_at(value)) << value;
   }
 }
 
 /// A drive, a parameter and a target, all at random.
 struct Task {
   NormalizedServo servo;
-  DesignParameter parameter;
+  std::string_view parameter;
   Target target;
 };
 
@@ -134,24 +127,24 @@ Task drawn_task(SeededDraws& draws) {
       task.target.no_hunting = true;
       break;
     case 1:
-      task.target.size.high = task.servo.backlash * draws.log_uniform(0.01, 3.0);
+      task.target.amplitude.high = task.servo.backlash * draws.log_uniform(0.01, 3.0);
       break;
     case 2:
       task.target.frequency.low = draws.uniform(0.02, 0.2);
       break;
     default:
       task.target.frequency.low = draws.uniform(0.02, 0.15);
-      task.target.size.high = task.servo.backlash * draws.log_uniform(0.03, 3.0);
+      task.target.amplitude.high = task.servo.backlash * draws.log_uniform(0.03, 3.0);
   }
   return task;
 }
 
 std::string describe(const Task& task) {
   const NormalizedServo& servo = task.servo;
-  return std::string(name_of(task.parameter)) + " of damping " + exact_text(servo.damping) +
+  return std::string(task.parameter) + " of damping " + exact_text(servo.damping) +
          " inertia_ratio " + exact_text(servo.inertia_ratio) + " friction_ratio " +
          exact_text(servo.friction_ratio) + " backlash " + exact_text(servo.backlash) +
-         " for size <= " + exact_text(task.target.size.high) +
+         " for size <= " + exact_text(task.target.amplitude.high) +
          ", frequency >= " + exact_text(task.target.frequency.low) +
          (task.target.no_hunting ? ", no hunting" : "");
 }
@@ -165,7 +158,7 @@ struct Scan {
 /// range those are feasible that meet it.
 void scan(const Task& task, int values, Scan& found_so_far) {
   SCOPED_TRACE(describe(task));
-  const ChangeableDrive drive(task.servo);
+  const ChangeableDrive drive = changeable(task.servo);
   const FeasibleValues found = feasible_values(drive, task.parameter, task.target);
   EXPECT_EQ(found.kind, SearchKind::certified);
   for (const Bounds& sliver : found.undecided) {
@@ -191,7 +184,7 @@ void scan(const Task& task, int values, Scan& found_so_far) {
   for (int k = 0; k <= values; ++k) {
     const double value = low * std::pow(found.searched.high / low, static_cast<double>(k) / values);
     if (value > found.searched.high) continue;
-    ASSERT_EQ(found.contains(value), is_met_at(value)) << name_of(task.parameter) << value;
+    ASSERT_EQ(found.contains(value), is_met_at(value)) << task.parameter << value;
     found_so_far.met += found.contains(value) ? 1 : 0;
   }
 }
@@ -244,7 +237,7 @@ TEST(PropertyFeasibleValues, AScanFindsNoOthersWithBounces) {
     task.servo.inertia_ratio = draws.log_uniform(0.3, 3.0);
     task.servo.restitution = draws.uniform(0.05, 0.3);
     task.parameter = all_parameters[2 * static_cast<std::size_t>(i)];
-    const ChangeableDrive drive(task.servo);
+    const ChangeableDrive drive = changeable(task.servo);
     const FeasibleValues found = feasible_values(drive, task.parameter, task.target);
     EXPECT_TRUE(found.undecided.empty());
     const auto is_met_at = [&](double value) {
@@ -259,7 +252,7 @@ TEST(PropertyFeasibleValues, AScanFindsNoOthersWithBounces) {
     const double high = std::min(found.searched.high, 10.0 * found.present + 0.5);
     for (int k = 0; k <= scanned; ++k) {
       const double value = low + (high - low) * k / scanned;
-      ASSERT_EQ(found.contains(value), is_met_at(value)) << name_of(task.parameter) << value;
+      ASSERT_EQ(found.contains(value), is_met_at(value)) << task.parameter << value;
       met += found.contains(value) ? 1 : 0;
     }
   }
@@ -268,23 +261,23 @@ TEST(PropertyFeasibleValues, AScanFindsNoOthersWithBounces) {
 }
 
 TEST(EdgeFeasibleValues, BesideAShaftWithoutFrictionAreFound) {
-  const ChangeableDrive drive(NormalizedServo{
+  const ChangeableDrive drive = changeable(NormalizedServo{
       .damping = 0.2, .inertia_ratio = 2.0, .friction_ratio = 0.0, .backlash = 0.3});
-  for (const DesignParameter parameter : all_parameters) {
-    if (parameter == DesignParameter::restitution) continue;
+  for (const std::string_view parameter : all_parameters) {
+    if (parameter == "restitution") continue;
     const FeasibleValues found = feasible_values(drive, parameter, no_hunting());
-    EXPECT_EQ(found.intervals.empty(), parameter != DesignParameter::load_friction)
-        << name_of(parameter);  // without friction at the load nothing else ends it
+    EXPECT_EQ(found.intervals.empty(), parameter != "load_friction")
+        << parameter;  // without friction at the load nothing else ends it
   }
 }
 
 TEST(EdgeTarget, ContradictionsAreFaults) {
   Target target = at_most(0.1);
-  target.size.low = 0.2;
+  target.amplitude.low = 0.2;
   target.frequency = {5.0, 4.0};
   EXPECT_EQ(validate(target).size(), 2U);
   target = no_hunting();
-  target.size.low = 0.1;
+  target.amplitude.low = 0.1;
   EXPECT_EQ(validate(target).size(), 1U);
   EXPECT_TRUE(validate(no_hunting()).empty());
 }

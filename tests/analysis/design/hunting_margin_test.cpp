@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "analysis/design/drives.hpp"
 #include "base/range_check.hpp"
 #include "base/seeded_draws.hpp"
 #include "closed_form/growth_at_rest.hpp"
@@ -39,7 +40,7 @@ std::string describe(const NormalizedServo& s) {
 
 /// The first value from the present one towards `end` at which hunting starts or stops, in 4,000
 /// steps that grow by ratio, or evenly from 0; NaN if there is none.
-double first_change(const ChangeableDrive& drive, DesignParameter parameter, double end) {
+double first_change(const ChangeableDrive& drive, std::string_view parameter, double end) {
   const double present = drive.present_value(parameter);
   const bool now = hunts(drive.drivetrain());
   constexpr int steps = 4000;
@@ -74,18 +75,17 @@ TEST(PropertyHuntingMargin, OfEachParameterIsWhereBisectionEnds) {
   for (int i = 0; i < 20; ++i) {
     const NormalizedServo servo = drawn_servo(draws);
     SCOPED_TRACE(describe(servo));
-    const ChangeableDrive drive(servo);
-    for (const DesignParameter parameter :
-         {DesignParameter::gear_ratio, DesignParameter::error_gain, DesignParameter::load_friction,
-          DesignParameter::motor_friction, DesignParameter::tachometer,
-          DesignParameter::load_inertia, DesignParameter::motor_inertia}) {
-      SCOPED_TRACE(name_of(parameter));
+    const ChangeableDrive drive = changeable(servo);
+    for (const std::string_view parameter :
+         {"gear_ratio", "error_gain", "load_friction", "motor_friction", "tachometer",
+          "load_inertia", "motor_inertia"}) {
+      SCOPED_TRACE(parameter);
       const ParameterMargin margin = parameter_margin(drive, parameter);
       EXPECT_EQ(margin.kind, SearchKind::certified);
       EXPECT_EQ(margin.hunts, hunts(drive.drivetrain()));
       expect_same(margin.above, first_change(drive, parameter, margin.searched.high));
       found += !std::isnan(margin.above) + !std::isnan(margin.below);
-      if (parameter == DesignParameter::tachometer) {
+      if (parameter == "tachometer") {
         EXPECT_TRUE(std::isnan(margin.below));
         continue;
       }
@@ -97,16 +97,16 @@ TEST(PropertyHuntingMargin, OfEachParameterIsWhereBisectionEnds) {
 }
 
 TEST(HuntingMargin, InPerCentOfThePresentValue) {
-  const ChangeableDrive drive(NormalizedServo{
+  const ChangeableDrive drive = changeable(NormalizedServo{
       .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3});
-  const ParameterMargin gain = parameter_margin(drive, DesignParameter::error_gain);
+  const ParameterMargin gain = parameter_margin(drive, "error_gain");
   EXPECT_TRUE(gain.hunts);
   EXPECT_TRUE(std::isnan(gain.above));  // stiffer loops hunt
   EXPECT_LT(gain.per_cent_below(), 0.0);
-  EXPECT_FALSE(hunts(drive.with(DesignParameter::error_gain, gain.below)));
-  EXPECT_TRUE(hunts(drive.with(DesignParameter::error_gain, gain.below * (1.0 + 1e-12))));
+  EXPECT_FALSE(hunts(drive.with("error_gain", gain.below)));
+  EXPECT_TRUE(hunts(drive.with("error_gain", gain.below * (1.0 + 1e-12))));
   EXPECT_DOUBLE_EQ(gain.per_cent_below(), 100.0 * (gain.below - 1.0));
-  const ParameterMargin backlash = parameter_margin(drive, DesignParameter::backlash);
+  const ParameterMargin backlash = parameter_margin(drive, "backlash");
   EXPECT_TRUE(std::isnan(backlash.below) && std::isnan(backlash.above));
 }
 
@@ -162,7 +162,7 @@ TEST(PropertyHuntingMargin, NoRandomDirectionIsShorter) {
   for (int i = 0; i < 40; ++i) {
     const NormalizedServo servo = drawn_servo(draws);
     SCOPED_TRACE(describe(servo));
-    const Drivetrain drive = ChangeableDrive(servo, draws.log_uniform(1.0, 100.0)).drivetrain();
+    const Drivetrain drive = changeable(servo, draws.log_uniform(1.0, 100.0)).drivetrain();
     const OverallMargin margin = overall_margin(drive);
     ASSERT_EQ(margin.outcome, MarginOutcome::found);
     EXPECT_GE(margin.converged, 1U);
@@ -191,7 +191,7 @@ TEST(PropertyHuntingMargin, ChangesNoUnit) {
   for (int i = 0; i < 50; ++i) {
     const NormalizedServo servo = drawn_servo(draws);
     SCOPED_TRACE(describe(servo));
-    const OverallMargin margin = overall_margin(ChangeableDrive(servo).drivetrain());
+    const OverallMargin margin = overall_margin(changeable(servo).drivetrain());
     ASSERT_EQ(margin.outcome, MarginOutcome::found);
     const LogChange& x = margin.change;
     const double inertias = x.motor_inertia + x.load_inertia;
@@ -209,14 +209,12 @@ TEST(PropertyHuntingMargin, OfAllTogetherIsShorterThanOfOne) {
   for (int i = 0; i < 10; ++i) {
     const NormalizedServo servo = drawn_servo(draws);
     SCOPED_TRACE(describe(servo));
-    const HuntingMargin margin = hunting_margin(ChangeableDrive(servo));
-    ASSERT_EQ(margin.parameters.size(), parameter_count - 1);  // all but restitution
+    const HuntingMargin margin = hunting_margin(changeable(servo));
+    ASSERT_EQ(margin.parameters.size(), all_parameters.size() - 1);  // all but restitution
     for (const ParameterMargin& one : margin.parameters) {
-      const bool is_number = one.parameter == DesignParameter::load_friction ||
-                             one.parameter == DesignParameter::motor_friction ||
-                             one.parameter == DesignParameter::load_inertia ||
-                             one.parameter == DesignParameter::motor_inertia ||
-                             one.parameter == DesignParameter::error_gain;
+      const bool is_number = one.parameter == "load_friction" ||
+                             one.parameter == "motor_friction" || one.parameter == "load_inertia" ||
+                             one.parameter == "motor_inertia" || one.parameter == "error_gain";
       if (!is_number) continue;
       for (const double end : {one.below, one.above}) {
         if (std::isnan(end)) continue;
@@ -227,11 +225,11 @@ TEST(PropertyHuntingMargin, OfAllTogetherIsShorterThanOfOne) {
 }
 
 ChangeableDrive bouncing_drive() {
-  return ChangeableDrive(NormalizedServo{.damping = 0.3,
-                                         .inertia_ratio = 2.0,
-                                         .friction_ratio = 0.3,
-                                         .backlash = 0.3,
-                                         .restitution = 0.2});
+  return changeable(NormalizedServo{.damping = 0.3,
+                                    .inertia_ratio = 2.0,
+                                    .friction_ratio = 0.3,
+                                    .backlash = 0.3,
+                                    .restitution = 0.2});
 }
 
 TEST(HuntingMargin, WithBouncesOfAllTogetherIsWhereRestTurnsStable) {
@@ -253,12 +251,12 @@ TEST(HuntingMargin, WithBouncesOfAllTogetherIsWhereRestTurnsStable) {
 }
 
 TEST(HuntingMargin, WithBouncesOfOneIsWhereTheVerdictChanges) {
-  const ParameterMargin margin = parameter_margin(bouncing_drive(), DesignParameter::load_friction);
+  const ParameterMargin margin = parameter_margin(bouncing_drive(), "load_friction");
   EXPECT_EQ(margin.kind, SearchKind::scanned);
   EXPECT_TRUE(margin.hunts);
   EXPECT_TRUE(std::isnan(margin.below));
   const auto verdict_at = [](double value) {
-    return performance_of(bouncing_drive().with(DesignParameter::load_friction, value)).verdict;
+    return performance_of(bouncing_drive().with("load_friction", value)).verdict;
   };
   EXPECT_EQ(verdict_at(margin.above), Verdict::cannot_hunt);
   EXPECT_EQ(verdict_at(margin.above * (1.0 - 1e-4)), Verdict::hunts);
@@ -266,7 +264,7 @@ TEST(HuntingMargin, WithBouncesOfOneIsWhereTheVerdictChanges) {
 
 TEST(EdgeHuntingMargin, SaysWhatItIsNotWorkedOutFor) {
   const auto outcome_of = [](NormalizedServo servo) {
-    return overall_margin(ChangeableDrive(servo).drivetrain()).outcome;
+    return overall_margin(changeable(servo).drivetrain()).outcome;
   };
   const NormalizedServo sample{
       .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3};
@@ -284,7 +282,7 @@ TEST(EdgeHuntingMargin, SaysWhatItIsNotWorkedOutFor) {
 TEST(EdgeHuntingMargin, IsFoundWhereGrowthAtRestIsNought) {
   const NormalizedServo servo{
       .damping = 3.0, .inertia_ratio = 1.0, .friction_ratio = 0.5, .backlash = 0.1};
-  const Drivetrain drive = ChangeableDrive(servo).drivetrain();
+  const Drivetrain drive = changeable(servo).drivetrain();
   ASSERT_EQ(growth_of(drive), 0.0);
   const OverallMargin margin = overall_margin(drive);
   ASSERT_EQ(margin.outcome, MarginOutcome::found);

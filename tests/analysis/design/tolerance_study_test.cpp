@@ -16,7 +16,7 @@ namespace {
 
 Target at_most(double size) {
   Target target;
-  target.size.high = size;
+  target.amplitude.high = size;
   return target;
 }
 Target no_hunting() {
@@ -27,10 +27,10 @@ Target no_hunting() {
 
 /// Of the sample with one rad of backlash.
 double size_per_backlash(double load_friction) {
-  Datasheet datasheet = sample_datasheet();
-  datasheet.gearbox.backlash = 1.0;
-  datasheet.load.friction = load_friction;
-  return performance_of(to_drivetrain(datasheet)).size;
+  Drive drive = sample_data_sheet();
+  drive.gearbox.backlash = 1.0;
+  drive.load.friction.viscous = load_friction;
+  return performance_of(referred_drivetrain(drive)).amplitude;
 }
 
 constexpr SamplePlan fixed_sampling{.points = 4096, .replicates = 16, .seed = 41};
@@ -43,29 +43,29 @@ TEST_P(OracleToleranceOfBacklash, SizesAreThoseOfTheBacklashScaled) {
   SCOPED_TRACE(text_of(backlash));
   const double scale = size_per_backlash(0.038);
   const StudyQuestions questions{.target = at_most(scale * quantile(backlash, 0.8))};
-  const ToleranceStudy study = study_tolerances(
-      toleranced({{DriveNumber::gearbox_backlash, backlash}}), fixed_sampling, questions);
+  const ToleranceStudy study =
+      study_tolerances(toleranced({{"gearbox.backlash", backlash}}), fixed_sampling, questions);
   EXPECT_EQ(study.hunting.value, 1.0);
   EXPECT_EQ(study.refused, 0U);
-  EXPECT_EQ(study.unknown_sizes, 0U);
+  EXPECT_EQ(study.unknown_amplitudes, 0U);
   const double one = 1.0 / static_cast<double>(fixed_sampling.points);
   EXPECT_NEAR(study.yield.value, 0.8, one);
   // Each replicate has one point in each of `points` equal parts of the cube of one dimension, so
   // that its share below any value is true to one point.
-  for (const QuantileEstimate& found : study.size) {
+  for (const QuantileEstimate& found : study.amplitude) {
     EXPECT_GE(found.value.value, scale * quantile(backlash, found.share - one));
     EXPECT_LE(found.value.value, scale * quantile(backlash, found.share + one));
     EXPECT_NEAR(found.value.value, scale * quantile(backlash, found.share),
                 6.0 * found.value.standard_error);
   }
-  EXPECT_NEAR(study.mean_size.value, scale * mean_of(backlash),
+  EXPECT_NEAR(study.mean_amplitude.value, scale * mean_of(backlash),
               one * scale * standard_deviation_of(backlash));
   const SensitivityStudy indices =
-      study_sensitivities(toleranced({{DriveNumber::gearbox_backlash, backlash}}), fixed_sampling);
+      study_sensitivities(toleranced({{"gearbox.backlash", backlash}}), fixed_sampling);
   const double variance = std::pow(scale * standard_deviation_of(backlash), 2);
-  EXPECT_NEAR(indices.size_variance.value, variance, 1e-2 * variance);
-  EXPECT_NEAR(indices.numbers[0].of_size.first_order.value, 1.0, 0.02);
-  EXPECT_NEAR(indices.numbers[0].of_size.total.value, 1.0, 0.02);
+  EXPECT_NEAR(indices.amplitude_variance.value, variance, 1e-2 * variance);
+  EXPECT_NEAR(indices.numbers[0].of_amplitude.first_order.value, 1.0, 0.02);
+  EXPECT_NEAR(indices.numbers[0].of_amplitude.total.value, 1.0, 0.02);
   EXPECT_TRUE(std::isnan(indices.numbers[0].of_hunting.total.value));
 }
 
@@ -77,8 +77,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, OracleToleranceOfBacklash,
                                          Distribution(Normal{0.3, 0.2, 0.0, 0.7})));
 
 TEST(OracleToleranceStudy, OneThresholdDecidesHowManyHunt) {
-  const ChangeableDrive drive(sample_datasheet());
-  const FeasibleValues quiet = feasible_values(drive, DesignParameter::load_friction, no_hunting());
+  const ChangeableDrive drive(sample_data_sheet());
+  const FeasibleValues quiet = feasible_values(drive, "load_friction", no_hunting());
   ASSERT_FALSE(quiet.intervals.empty());
   const double threshold = quiet.intervals.front().low;
   ASSERT_GT(threshold, 0.038);
@@ -87,7 +87,7 @@ TEST(OracleToleranceStudy, OneThresholdDecidesHowManyHunt) {
     const double width = 0.5 * threshold;
     const UniformBetween friction{threshold - share * width, threshold + (1.0 - share) * width};
     ASSERT_GE(quiet.intervals.front().high, friction.max);
-    const TolerancedDrive varied = toleranced({{DriveNumber::load_friction, friction}});
+    const TolerancedDrive varied = toleranced({{"load.friction", friction}});
     const ToleranceStudy study = study_tolerances(
         varied, fixed_sampling, {.target = no_hunting(), .shares = {0.5 * share, 0.99}});
     const double one = 1.0 / static_cast<double>(fixed_sampling.points);
@@ -112,8 +112,7 @@ struct ProductCase {
   UniformBetween friction{0.01, 0.06};
 
   TolerancedDrive drive() const {
-    return toleranced(
-        {{DriveNumber::gearbox_backlash, backlash}, {DriveNumber::load_friction, friction}});
+    return toleranced({{"gearbox.backlash", backlash}, {"load.friction", friction}});
   }
   double moment(int power) const {
     using boost::math::quadrature::gauss;
@@ -141,11 +140,11 @@ TEST(OracleToleranceStudy, IndicesOfAProductAreThoseOfItsFactors) {
     EXPECT_NEAR(estimate.value, value, 6.0 * estimate.standard_error + 1e-9);
     EXPECT_LT(estimate.standard_error, 2e-3);
   };
-  expect(found.size_variance, all);
-  expect(found.numbers[0].of_size.first_order, of_b / all);
-  expect(found.numbers[1].of_size.first_order, of_s / all);
-  expect(found.numbers[0].of_size.total, (of_b + of_both) / all);
-  expect(found.numbers[1].of_size.total, (of_s + of_both) / all);
+  expect(found.amplitude_variance, all);
+  expect(found.numbers[0].of_amplitude.first_order, of_b / all);
+  expect(found.numbers[1].of_amplitude.first_order, of_s / all);
+  expect(found.numbers[0].of_amplitude.total, (of_b + of_both) / all);
+  expect(found.numbers[1].of_amplitude.total, (of_s + of_both) / all);
 }
 
 /// Slope of the straight line through points, by least squares.
@@ -177,7 +176,7 @@ TEST(OracleToleranceStudy, TheErrorFallsFasterThanAtRandom) {
     double stated_squares = 0.0;
     for (std::uint64_t seed = 100; seed < 100 + seeds; ++seed) {
       const SamplePlan sampling{.points = points, .replicates = 16, .seed = seed};
-      const Estimate mean = study_tolerances(product.drive(), sampling).mean_size;
+      const Estimate mean = study_tolerances(product.drive(), sampling).mean_amplitude;
       EXPECT_NEAR(mean.value, exact, 6.0 * mean.standard_error) << points << " " << seed;
       squares += std::pow(mean.value - exact, 2);
       stated_squares += std::pow(mean.standard_error, 2);
@@ -215,15 +214,16 @@ TEST(PropertyToleranceStudy, AnyNumberOfThreadsGivesTheSameBits) {
     const ToleranceStudy other = study_tolerances(drive, sampling, questions, {.threads = threads});
     expect_same(one.hunting, other.hunting);
     expect_same(one.yield, other.yield);
-    expect_same(one.mean_size, other.mean_size);
-    expect_same(one.size, other.size);
-    expect_same(one.size_of_hunting, other.size_of_hunting);
+    expect_same(one.mean_amplitude, other.mean_amplitude);
+    expect_same(one.amplitude, other.amplitude);
+    expect_same(one.amplitude_of_hunting, other.amplitude_of_hunting);
     expect_same(one.frequency, other.frequency);
     EXPECT_EQ(one.histogram.edges, other.histogram.edges);
     EXPECT_EQ(one.histogram.counts, other.histogram.counts);
     const SensitivityStudy index = study_sensitivities(drive, sampling, {.threads = threads});
     for (std::size_t i = 0; i < drive.varied.size(); ++i) {
-      expect_same(one_index.numbers[i].of_size.first_order, index.numbers[i].of_size.first_order);
+      expect_same(one_index.numbers[i].of_amplitude.first_order,
+                  index.numbers[i].of_amplitude.first_order);
       expect_same(one_index.numbers[i].of_hunting.total, index.numbers[i].of_hunting.total);
     }
   }
@@ -243,10 +243,10 @@ TEST(PropertyToleranceStudy, APlainCountOfDrivesAgrees) {
   std::vector<double> sizes;
   for (std::size_t i = 0; i < draws; ++i) {
     std::vector<double> values;
-    for (const VariedNumber& varied : drive.varied) {
+    for (const ParameterTolerance& varied : drive.varied) {
       values.push_back(quantile(varied.distribution, random.uniform(0x1p-53, 1.0)));
     }
-    const TimedServo drawn = drive_with(drive, values);
+    const ClosedFormServo drawn = drive_with(drive, values);
     const LimitCycleAnalysis analysis = analyse_limit_cycles(drawn.servo);
     const LimitCycle* cycle = largest_stable(analysis);
     sizes.push_back(cycle != nullptr ? cycle->size : 0.0);
@@ -265,7 +265,7 @@ TEST(PropertyToleranceStudy, APlainCountOfDrivesAgrees) {
     return static_cast<double>(std::upper_bound(sizes.begin(), sizes.end(), size) - sizes.begin()) /
            draws;
   };
-  for (const QuantileEstimate& found : study.size) {
+  for (const QuantileEstimate& found : study.amplitude) {
     if (found.value.value == 0.0) continue;
     EXPECT_NEAR(share_below(found.value.value), found.share, 6.0 * spread(found.share) + 1e-3);
   }
@@ -280,13 +280,13 @@ TEST(PropertyToleranceStudy, IndicesAreSharesOfOneWhole) {
   const SensitivityStudy study = study_sensitivities(widely_toleranced(), sampling);
   double first_orders = 0.0;
   for (const NumberSensitivity& number : study.numbers) {
-    for (const SensitivityIndices& indices : {number.of_size, number.of_hunting}) {
+    for (const SensitivityIndices& indices : {number.of_amplitude, number.of_hunting}) {
       const double doubt =
           6.0 * (indices.first_order.standard_error + indices.total.standard_error);
       EXPECT_GE(indices.first_order.value, -doubt);
-      EXPECT_LE(indices.first_order.value, indices.total.value + doubt) << name_of(number.number);
+      EXPECT_LE(indices.first_order.value, indices.total.value + doubt) << number.path;
     }
-    first_orders += number.of_size.first_order.value;
+    first_orders += number.of_amplitude.first_order.value;
   }
   EXPECT_GT(first_orders, 0.2);
   EXPECT_LT(first_orders, 1.05);
@@ -294,56 +294,54 @@ TEST(PropertyToleranceStudy, IndicesAreSharesOfOneWhole) {
 }
 
 TEST(EdgeToleranceStudy, AnExactNumberHasNoInfluence) {
-  const SensitivityStudy study =
-      study_sensitivities(toleranced({{DriveNumber::gearbox_backlash, within_share(0.3, 0.1)},
-                                      {DriveNumber::load_inertia, ExactValue{0.6}}}),
-                          fixed_sampling);
-  EXPECT_EQ(study.numbers[1].of_size.first_order.value, 0.0);
-  EXPECT_EQ(study.numbers[1].of_size.total.value, 0.0);
+  const SensitivityStudy study = study_sensitivities(
+      toleranced({{"gearbox.backlash", within_share(0.3, 0.1)}, {"load.inertia", ExactValue{0.6}}}),
+      fixed_sampling);
+  EXPECT_EQ(study.numbers[1].of_amplitude.first_order.value, 0.0);
+  EXPECT_EQ(study.numbers[1].of_amplitude.total.value, 0.0);
 }
 
 TEST(EdgeToleranceStudy, WithoutVariedNumbersAllPiecesAreAlike) {
   const ToleranceStudy study = study_tolerances(toleranced({}), {.points = 4, .replicates = 2});
-  const Performance nominal = performance_of(to_drivetrain(sample_datasheet()));
+  const Performance nominal = performance_of(referred_drivetrain(sample_data_sheet()));
   EXPECT_EQ(study.hunting.value, 1.0);
-  EXPECT_NEAR(study.size.front().value.value, nominal.size, 1e-13);
+  EXPECT_NEAR(study.amplitude.front().value.value, nominal.amplitude, 1e-13);
   EXPECT_NEAR(study.frequency.back().value.value, nominal.frequency, 1e-13);
-  EXPECT_EQ(study.size.front().value.standard_error, 0.0);
+  EXPECT_EQ(study.amplitude.front().value.standard_error, 0.0);
   EXPECT_EQ(study.histogram.counts.back(), 8U);
 }
 
 TEST(EdgeToleranceStudy, QuietDrivesHaveNoFrequency) {
-  const ToleranceStudy study = study_tolerances(
-      normalised_toleranced({{DriveNumber::servo_damping, UniformBetween{1.5, 2.0}}}),
-      {.points = 64, .replicates = 2});
+  const ToleranceStudy study =
+      study_tolerances(normalised_toleranced({{"servo.damping", UniformBetween{1.5, 2.0}}}),
+                       {.points = 64, .replicates = 2});
   EXPECT_EQ(study.hunting.value, 0.0);
-  EXPECT_EQ(study.size.back().value.value, 0.0);
-  EXPECT_TRUE(std::isnan(study.size_of_hunting.back().value.value));
+  EXPECT_EQ(study.amplitude.back().value.value, 0.0);
+  EXPECT_TRUE(std::isnan(study.amplitude_of_hunting.back().value.value));
   EXPECT_TRUE(std::isnan(study.frequency.back().value.value));
   EXPECT_TRUE(study.histogram.edges.empty());
 }
 
 TEST(EdgeToleranceStudy, NoFrictionGrowsWithoutBound) {
-  TolerancedDrive drive =
-      normalised_toleranced({{DriveNumber::servo_backlash, UniformBetween{0.1, 0.2}}});
-  std::get<NormalizedServo>(drive.nominal).damping = 0.0;
+  TolerancedDrive drive = normalised_toleranced({{"servo.backlash", UniformBetween{0.1, 0.2}}});
+  drive.nominal.servo->damping = 0.0;
   const ToleranceStudy study =
       study_tolerances(drive, {.points = 4, .replicates = 2}, {.target = at_most(1.0)});
   EXPECT_EQ(study.hunting.value, 1.0);
   EXPECT_EQ(study.yield.value, 0.0);
-  EXPECT_TRUE(std::isinf(study.size.front().value.value));
+  EXPECT_TRUE(std::isinf(study.amplitude.front().value.value));
   EXPECT_EQ(study.histogram.unknown, 8U);
-  EXPECT_TRUE(std::isnan(study.mean_size.value));
+  EXPECT_TRUE(std::isnan(study.mean_amplitude.value));
 }
 
 TEST(EdgeToleranceStudy, BouncesAreFollowed) {
-  const ToleranceStudy study = study_tolerances(
-      normalised_toleranced({{DriveNumber::servo_restitution, UniformBetween{0.1, 0.5}},
-                             {DriveNumber::servo_backlash, within_share(0.3, 0.1)}}),
-      {.points = 16, .replicates = 2});
+  const ToleranceStudy study =
+      study_tolerances(normalised_toleranced({{"contact.restitution", UniformBetween{0.1, 0.5}},
+                                              {"servo.backlash", within_share(0.3, 0.1)}}),
+                       {.points = 16, .replicates = 2});
   EXPECT_EQ(study.hunting.value, 1.0);
   EXPECT_EQ(study.solved.one_by_one, 32U);
-  EXPECT_NEAR(study.size[2].value.value, 0.235, 0.02);
+  EXPECT_NEAR(study.amplitude[2].value.value, 0.235, 0.02);
 }
 
 TEST(EdgeToleranceStudy, CanBeStopped) {
@@ -367,15 +365,14 @@ std::vector<std::string> faults_of(const Call& call) {
 TEST(EdgeToleranceStudy, EveryFaultIsNamed) {
   using testing::ElementsAre;
   StudyQuestions questions{.target = at_most(-1.0), .shares = {1.5}, .bins = 2'000'000};
-  const TolerancedDrive drive =
-      toleranced({{DriveNumber::motor_friction, UniformBetween{-1.0, 1.0}}});
+  const TolerancedDrive drive = toleranced({{"motor.friction", UniformBetween{-1.0, 1.0}}});
   EXPECT_THAT(
       faults_of([&] { study_tolerances(drive, {.points = 0, .replicates = 1}, questions); }),
       ElementsAre("motor.friction = uniform from -1 to 1: must not fall below zero",
                   "sampling.points = 0: must be at least 1",
                   "sampling.replicates = 1: must be at least 2: their scatter tells the "
                   "error",
-                  "target = size >= 0 and size <= -1: must not contradict itself",
+                  "target = amplitude >= 0 and amplitude <= -1: must not contradict itself",
                   "quantile = 1.5: must be from 0 to 1",
                   "bins = 2000000: must be at most 1000000"));
   EXPECT_THAT(faults_of([&] {

@@ -14,14 +14,16 @@ namespace {
 
 Target at_most(double size) {
   Target target;
-  target.size.high = size;
+  target.amplitude.high = size;
   return target;
 }
 
 constexpr SamplePlan sampling{.points = 2048, .replicates = 16, .seed = 51};
 
 /// Size of the sample for one rad of backlash.
-double size_per_backlash() { return performance_of(to_drivetrain(sample_datasheet())).size / 0.3; }
+double size_per_backlash() {
+  return performance_of(referred_drivetrain(sample_data_sheet())).amplitude / 0.3;
+}
 
 TEST(OracleWidestBacklash, OfBacklashAloneIsALine) {
   SCOPED_TRACE(sampling.seed);
@@ -113,16 +115,15 @@ TEST(EdgeWidestBacklash, HasNoLimitWhereBacklashDoesNotMatter) {
 }
 
 TEST(EdgeWidestBacklash, TheLowestValueIsThatOfItsDistribution) {
-  const auto found =
-      widest_backlash(toleranced({{DriveNumber::gearbox_backlash, within_share(0.3, 0.5)}}),
-                      {at_most(0.2), 0.9, {}}, sampling);
+  const auto found = widest_backlash(toleranced({{"gearbox.backlash", within_share(0.3, 0.5)}}),
+                                     {at_most(0.2), 0.9, {}}, sampling);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->min, 0.15);
 }
 
 TEST(EdgeWidestBacklash, EveryFaultIsNamed) {
   BacklashDemand demand{.target = at_most(1.0), .yield = 0.0, .min = -1.0};
-  demand.target.size.low = 0.5;
+  demand.target.amplitude.low = 0.5;
   std::vector<std::string> lines;
   for (const Fault& fault : validate(demand)) lines.push_back(to_string(fault));
   EXPECT_THAT(lines, testing::ElementsAre(

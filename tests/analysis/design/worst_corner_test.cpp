@@ -22,7 +22,7 @@ std::vector<double> values_of(const WorstCorner& worst) {
 /// The box that was searched, at random; of lots their values.
 std::vector<double> drawn_values(const TolerancedDrive& drive, SeededDraws& draws) {
   std::vector<double> values;
-  for (const VariedNumber& varied : drive.varied) {
+  for (const ParameterTolerance& varied : drive.varied) {
     const Bounds range = three_sigma_range_of(varied.distribution);
     const bool is_lots = std::holds_alternative<DiscreteLots>(varied.distribution);
     values.push_back(is_lots ? quantile(varied.distribution, draws.uniform(1e-9, 1.0))
@@ -51,7 +51,7 @@ void expect_unbeaten(const TolerancedDrive& drive, std::uint64_t seed) {
     const CycleQuantity of = hunts ? CycleQuantity::size : CycleQuantity::growth_at_rest;
     if (here || !hunts) largest = std::max(largest, table[of][i]);
   }
-  const double found = hunts ? worst.performance.size : worst.performance.growth_at_rest;
+  const double found = hunts ? worst.performance.amplitude : worst.performance.growth_at_rest;
   EXPECT_GT(found, largest);
   // It is what its values make.
   const NormalizedServo servo = drive_with(drive, values_of(worst)).servo;
@@ -69,23 +69,20 @@ void expect_unbeaten(const TolerancedDrive& drive, std::uint64_t seed) {
 
 TEST(PropertyWorstCorner, IsNotBeatenAtRandom) {
   expect_unbeaten(widely_toleranced(), 61);
-  expect_unbeaten(
-      normalised_toleranced({{DriveNumber::servo_damping, UniformBetween{0.05, 0.4}},
-                             {DriveNumber::servo_inertia_ratio, UniformBetween{0.1, 10.0}},
-                             {DriveNumber::servo_friction_ratio, UniformBetween{0.1, 0.9}}}),
-      62);
-  expect_unbeaten(
-      normalised_toleranced({{DriveNumber::servo_inertia_ratio, UniformBetween{0.1, 10.0}},
-                             {DriveNumber::servo_backlash, Normal{0.3, 0.03}}}),
-      63);
+  expect_unbeaten(normalised_toleranced({{"servo.damping", UniformBetween{0.05, 0.4}},
+                                         {"servo.inertia_ratio", UniformBetween{0.1, 10.0}},
+                                         {"servo.friction_ratio", UniformBetween{0.1, 0.9}}}),
+                  62);
+  expect_unbeaten(normalised_toleranced({{"servo.inertia_ratio", UniformBetween{0.1, 10.0}},
+                                         {"servo.backlash", Normal{0.3, 0.03}}}),
+                  63);
 }
 
 TEST(PropertyWorstCorner, WithoutHuntingIsTheLargestGrowth) {
-  expect_unbeaten(
-      normalised_toleranced({{DriveNumber::servo_damping, UniformBetween{0.6, 0.9}},
-                             {DriveNumber::servo_inertia_ratio, UniformBetween{0.2, 8.0}},
-                             {DriveNumber::servo_friction_ratio, UniformBetween{0.4, 0.6}}}),
-      64);
+  expect_unbeaten(normalised_toleranced({{"servo.damping", UniformBetween{0.6, 0.9}},
+                                         {"servo.inertia_ratio", UniformBetween{0.2, 8.0}},
+                                         {"servo.friction_ratio", UniformBetween{0.4, 0.6}}}),
+                  64);
 }
 
 TEST(PropertyWorstCorner, OfRandomBoxesIsNotBeatenByTheirCornersAndMiddles) {
@@ -98,16 +95,16 @@ TEST(PropertyWorstCorner, OfRandomBoxesIsNotBeatenByTheirCornersAndMiddles) {
     const double ratio = draws.log_uniform(0.1, 10.0);
     const double share = draws.uniform(0.1, 0.8);
     const TolerancedDrive drive = normalised_toleranced(
-        {{DriveNumber::servo_damping, within_share(damping, draws.uniform(0.0, 0.6))},
-         {DriveNumber::servo_inertia_ratio, within_share(ratio, draws.uniform(0.0, 0.9))},
-         {DriveNumber::servo_friction_ratio, within_share(share, draws.uniform(0.0, 0.2))}});
+        {{"servo.damping", within_share(damping, draws.uniform(0.0, 0.6))},
+         {"servo.inertia_ratio", within_share(ratio, draws.uniform(0.0, 0.9))},
+         {"servo.friction_ratio", within_share(share, draws.uniform(0.0, 0.2))}});
     const WorstCorner worst = worst_corner(drive, {.samples = 64, .starts = 2});
     for (int k = 0; k < 2000; ++k) {
       const NormalizedServo servo = drive_with(drive, drawn_values(drive, draws)).servo;
       const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
       const LimitCycle* cycle = largest_stable(analysis);
       if (cycle != nullptr) {
-        ASSERT_LE(cycle->size, worst.performance.size * (1.0 + 1e-9));
+        ASSERT_LE(cycle->size, worst.performance.amplitude * (1.0 + 1e-9));
       } else if (worst.performance.verdict == Verdict::cannot_hunt) {
         ASSERT_LE(analysis.growth_at_rest, worst.performance.growth_at_rest * (1.0 + 1e-9));
       }
@@ -117,21 +114,21 @@ TEST(PropertyWorstCorner, OfRandomBoxesIsNotBeatenByTheirCornersAndMiddles) {
 
 TEST(OracleWorstCorner, OfBacklashIsTheWidest) {
   const WorstCorner worst =
-      worst_corner(toleranced({{DriveNumber::gearbox_backlash, Normal{0.3, 0.01, 0.2, {}}}}));
-  const double nominal = performance_of(to_drivetrain(sample_datasheet())).size;
+      worst_corner(toleranced({{"gearbox.backlash", Normal{0.3, 0.01, 0.2, {}}}}));
+  const double nominal = performance_of(referred_drivetrain(sample_data_sheet())).amplitude;
   ASSERT_EQ(worst.numbers.size(), 1U);
   EXPECT_EQ(worst.numbers[0].value, 0.3 + 3.0 * 0.01);
   EXPECT_EQ(worst.numbers[0].place, PlaceInRange::at_high);
   EXPECT_TRUE(worst.numbers[0].high_is_at_3_sigma);
   EXPECT_FALSE(worst.numbers[0].low_is_at_3_sigma);
-  EXPECT_NEAR(worst.performance.size, nominal * 1.1, 1e-13);
+  EXPECT_NEAR(worst.performance.amplitude, nominal * 1.1, 1e-13);
 }
 
 TEST(OracleWorstCorner, MayLieInside) {
   // The growth at rest does not change when the shafts change places, so that along the inertia
   // ratio with equal friction it has its extreme at 1, and so along its logarithm.
-  const WorstCorner worst = worst_corner(
-      normalised_toleranced({{DriveNumber::servo_inertia_ratio, UniformBetween{0.1, 8.0}}}));
+  const WorstCorner worst =
+      worst_corner(normalised_toleranced({{"servo.inertia_ratio", UniformBetween{0.1, 8.0}}}));
   double largest = 0.0;
   for (int i = 0; i <= 10'000; ++i) {
     const double ratio = 0.1 + 7.9 * i / 10'000;
@@ -142,14 +139,14 @@ TEST(OracleWorstCorner, MayLieInside) {
       largest = std::max(largest, cycle->size);
     }
   }
-  EXPECT_GE(worst.performance.size, largest);
-  EXPECT_LT(worst.performance.size, largest * (1.0 + 1e-6));
+  EXPECT_GE(worst.performance.amplitude, largest);
+  EXPECT_LT(worst.performance.amplitude, largest * (1.0 + 1e-6));
 }
 
 TEST(EdgeWorstCorner, OfLotsIsOneOfThem) {
-  const WorstCorner worst = worst_corner(toleranced(
-      {{DriveNumber::gearbox_backlash, DiscreteLots{{{0.2, 1.0}, {0.4, 1.0}, {0.1, 1.0}}}},
-       {DriveNumber::load_inertia, ExactValue{0.5}}}));
+  const WorstCorner worst = worst_corner(
+      toleranced({{"gearbox.backlash", DiscreteLots{{{0.2, 1.0}, {0.4, 1.0}, {0.1, 1.0}}}},
+                  {"load.inertia", ExactValue{0.5}}}));
   EXPECT_EQ(worst.numbers[0].value, 0.4);
   EXPECT_EQ(worst.numbers[1].place, PlaceInRange::fixed);
 }
@@ -157,15 +154,15 @@ TEST(EdgeWorstCorner, OfLotsIsOneOfThem) {
 TEST(EdgeWorstCorner, NothingVariedIsTheNominalDrive) {
   const WorstCorner worst = worst_corner(toleranced({}));
   EXPECT_TRUE(worst.numbers.empty());
-  EXPECT_NEAR(worst.performance.size, performance_of(to_drivetrain(sample_datasheet())).size,
-              1e-13);
+  EXPECT_NEAR(worst.performance.amplitude,
+              performance_of(referred_drivetrain(sample_data_sheet())).amplitude, 1e-13);
 }
 
 TEST(EdgeWorstCorner, AnyNumberOfThreadsGivesTheSameBits) {
   const WorstCorner one = worst_corner(widely_toleranced(), {}, {.threads = 1});
   const WorstCorner three = worst_corner(widely_toleranced(), {}, {.threads = 3});
   EXPECT_EQ(values_of(one), values_of(three));
-  EXPECT_EQ(one.performance.size, three.performance.size);
+  EXPECT_EQ(one.performance.amplitude, three.performance.amplitude);
   EXPECT_EQ(one.evaluations, three.evaluations);
 }
 
@@ -175,14 +172,14 @@ TEST(WorstCorner, TellsHowManyClimbsAreDone) {
     heard.push_back(done);
     return true;
   };
-  worst_corner(toleranced({{DriveNumber::gearbox_backlash, within_share(0.3, 0.5)}}),
+  worst_corner(toleranced({{"gearbox.backlash", within_share(0.3, 0.5)}}),
                {.samples = 16, .starts = 2}, {.going_on = hear});
   EXPECT_THAT(heard, testing::ElementsAre(0, 1, 2, 3));
 }
 
 TEST(EdgeWorstCorner, EveryFaultIsNamed) {
   try {
-    worst_corner(toleranced({{DriveNumber::load_friction, Normal{0.0, 1.0}}}), {.starts = 0});
+    worst_corner(toleranced({{"load.friction", Normal{0.0, 1.0}}}), {.starts = 0});
     FAIL();
   } catch (const InvalidInput& error) {
     EXPECT_STREQ(error.what(),

@@ -18,10 +18,6 @@ void require(bool condition) {
 
 void require_sound(const gearlash::ServoFile& file) {
   require(gearlash::validate(file.servo).empty());
-  if (file.datasheet) {
-    require(file.drivetrain.has_value());
-    require(gearlash::validate(*file.datasheet).empty());
-  }
   if (file.drivetrain) {
     require(gearlash::validate(*file.drivetrain).empty());
     require(file.natural_frequency.has_value());

@@ -11,5 +11,5 @@ int main(int argument_count, char** arguments) {
   const gearlash::ServoFile file = gearlash::read_servo_file(arguments[1]);
   std::printf("damping %.6f, inertia ratio %.6f, friction ratio %.6f\n", file.servo.damping,
               file.servo.inertia_ratio, file.servo.friction_ratio);
-  return file.datasheet.has_value() && file.servo.damping > 0 ? 0 : 1;
+  return file.drivetrain.has_value() && file.servo.damping > 0 ? 0 : 1;
 }

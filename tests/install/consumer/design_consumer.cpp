@@ -10,9 +10,9 @@ int main() {
   const NormalizedServo servo{
       .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3};
   Target target;
-  target.size.high = 0.1;  // rad
+  target.amplitude.high = 0.1;  // rad
   const FeasibleValues backlash =
-      feasible_values(ChangeableDrive(servo), DesignParameter::backlash, target);
+      feasible_values(ChangeableDrive(normal_form(0.19, 2.0, 0.1, 0.3)), "backlash", target);
   const CycleSensitivity sensitivity = cycle_sensitivity(servo);
   std::printf("backlash at most %.6f rad; size %.6f rad, %.4f more for 1 more damping\n",
               backlash.nearest(), sensitivity.size.value, sensitivity.size.slope.damping);
