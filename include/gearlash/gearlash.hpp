@@ -6,6 +6,7 @@
 #include "gearlash/controller.hpp"
 #include "gearlash/drive.hpp"
 #include "gearlash/fault.hpp"
+#include "gearlash/hybrid.hpp"
 #include "gearlash/input.hpp"
 #include "gearlash/output.hpp"
 #include "gearlash/parameter.hpp"

@@ -50,7 +50,7 @@ void for_each_sample(const DriveMotionReport& report, const ProgressSink& progre
 // ---- events -------------------------------------------------------------------------------------
 
 const std::string& name_of_event(const DriveMotionReport& report, const hybrid::Event& event) {
-  const hybrid::Mode& mode = report.system.system.mode(event.mode);
+  const hybrid::AffineMode& mode = report.system.system.mode(event.mode);
   return event.kind == hybrid::EventKind::timed ? mode.timed[event.transition].name
                                                 : mode.transitions[event.transition].name;
 }
