@@ -1,7 +1,7 @@
 # What `cmake --install` lays down, so that another project can say
 #   find_package(gearlash 0.1 CONFIG REQUIRED)                  # the numerics
 #   find_package(gearlash 0.1 CONFIG REQUIRED COMPONENTS files) # also readers, reports, pictures
-#   target_link_libraries(... gearlash::gearlash)               # or gearlash::picture with them
+#   target_link_libraries(... gearlash::gearlash)               # or gearlash::files with them
 # or compile with `pkg-config --cflags --libs gearlash`, or gearlash-files.
 
 include(CMakePackageConfigHelpers)
@@ -21,7 +21,7 @@ function(gearlash_install_pkgconfig name)
 endfunction()
 
 if(GEARLASH_THREADS)
-  set(threads_of_pc ", tbb >= 2021")
+  set(threads_of_pc "tbb >= 2021")
 endif()
 set(numerics gearlash_base gearlash_numeric gearlash_model gearlash_hybrid gearlash_closed_form
              gearlash_general gearlash_analysis)
@@ -33,7 +33,7 @@ install(EXPORT gearlash_numerics NAMESPACE gearlash:: FILE gearlashTargets.cmake
 # A set of their own: users of the numerics alone need not have the packages that these link.
 if(GEARLASH_BUILD_IO)
   set(files gearlash_input gearlash_output gearlash_picture)
-  install(TARGETS ${files} EXPORT gearlash_files)
+  install(TARGETS gearlash_files ${files} EXPORT gearlash_files)
   gearlash_install_pkgconfig(gearlash-files ${files})
   install(EXPORT gearlash_files NAMESPACE gearlash:: FILE gearlashFilesTargets.cmake
           DESTINATION "${gearlash_package_dir}")
@@ -45,9 +45,6 @@ if(TARGET gearlash_tool)
   install(TARGETS gearlash_tool COMPONENT tool)
 endif()
 
-# The headers of the rooms, until the public interface stands in include/gearlash.
-install(DIRECTORY src/ DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/gearlash/rooms"
-        FILES_MATCHING PATTERN "*.hpp" PATTERN thesis EXCLUDE)  # only the tool uses it
 install(FILES "${PROJECT_BINARY_DIR}/include/gearlash/version.hpp"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/gearlash")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT license)

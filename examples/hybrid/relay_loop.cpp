@@ -26,13 +26,13 @@ HybridSystem relay_loop() {
                       .direction = Direction::either,
                       .target = mode};
   };
-  const Mode pushes_forward{
+  const AffineMode pushes_forward{
       .name = "forward",
       .flow = {plant, Vector{{0.0, 0.0, 9.0}}},
       .transitions = {
           {.name = "switch", .guard = output, .direction = Direction::rising, .target = backward},
           turning_in(forward)}};
-  const Mode pushes_backward{
+  const AffineMode pushes_backward{
       .name = "backward",
       .flow = {plant, Vector{{0.0, 0.0, -9.0}}},
       .transitions = {

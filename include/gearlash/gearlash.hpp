@@ -7,6 +7,7 @@
 #include "gearlash/drive.hpp"
 #include "gearlash/fault.hpp"
 #include "gearlash/grid.hpp"
+#include "gearlash/hybrid.hpp"
 #include "gearlash/input.hpp"
 #include "gearlash/motion.hpp"
 #include "gearlash/output.hpp"

@@ -35,7 +35,7 @@ void consider_guards_passed_by(const HybridSystem& system, const Trajectory& mot
   std::size_t mode = motion.at(begin).mode;
   for (const Event& event : events) {
     constexpr int samples = 400;
-    const Mode& here = system.mode(mode);
+    const AffineMode& here = system.mode(mode);
     for (std::size_t k = 0; k < here.transitions.size(); ++k) {
       if (event.kind == EventKind::transition && event.mode == mode && event.transition == k) {
         continue;
@@ -59,7 +59,7 @@ void consider_guards_passed_by(const HybridSystem& system, const Trajectory& mot
 void consider_guards_met(const HybridSystem& system, const std::vector<Event>& events,
                          Clearance& clearance) {
   const auto speed_of = [&](const Event& event) {
-    const Mode& mode = system.mode(event.mode);
+    const AffineMode& mode = system.mode(event.mode);
     return std::abs(mode.transitions[event.transition].guard.normal.dot(
         mode.flow.matrix * event.before + mode.flow.offset));
   };
@@ -69,7 +69,7 @@ void consider_guards_met(const HybridSystem& system, const std::vector<Event>& e
   }
   for (const Event& event : events) {
     if (event.kind != EventKind::transition) continue;
-    const Mode& mode = system.mode(event.mode);
+    const AffineMode& mode = system.mode(event.mode);
     clearance.consider(speed_of(event) / highest, mode.name,
                        mode.transitions[event.transition].name);
   }

@@ -6,7 +6,7 @@
 
 namespace gearlash::hybrid {
 
-void GuardWatch::enter(const Mode& mode) {
+void GuardWatch::enter(const AffineMode& mode) {
   signs_.resize(mode.transitions.size());
   zero_at_start_.clear();
   zero_at_end_.clear();

@@ -35,7 +35,7 @@ struct StepEnd {
 class GuardWatch {
  public:
   /// Each guard is to leave the side that its direction says, or the one that it is on first.
-  void enter(const Mode& mode);
+  void enter(const AffineMode& mode);
 
   /// The first exit of all in the next step of the mode. One that is known roughly is enough where
   /// there is no other beside it.

@@ -23,7 +23,7 @@ class Inspection {
       note("exogenous", counted(told, "number"), must_be_numbers());
     }
     for (const Clock& clock : system_.clocks) inspect(clock);
-    for (const Mode& mode : system_.modes) inspect(mode);
+    for (const AffineMode& mode : system_.modes) inspect(mode);
     return std::move(faults_);
   }
 
@@ -84,7 +84,7 @@ class Inspection {
     }
   }
 
-  void inspect(const std::string& where, const Reset& reset) {
+  void inspect(const std::string& where, const AffineReset& reset) {
     expect_matrix(where + ".matrix", reset.matrix, true);
     expect_vector(where + ".offset", reset.offset, true);
     for (const Quantizer& quantizer : reset.quantizers) {
@@ -144,7 +144,7 @@ class Inspection {
          "must be one of " + counted(system_.clocks.size(), "clock") + ", from 0 on");
   }
 
-  void inspect(const Mode& mode) {
+  void inspect(const AffineMode& mode) {
     const std::string where = "mode \"" + mode.name + "\"";
     expect_matrix(where + ".flow.matrix", mode.flow.matrix, false);
     expect_vector(where + ".flow.offset", mode.flow.offset, false);
@@ -167,14 +167,14 @@ double Quantizer::reading(const Vector& state) const {
   return step * std::round(measured.at(state) / step);
 }
 
-Vector Reset::after(const Vector& state) const {
+Vector AffineReset::after(const Vector& state) const {
   Vector result = matrix.size() == 0 ? state : Vector(matrix * state);
   if (offset.size() != 0) result += offset;
   for (const Quantizer& quantizer : quantizers) result += quantizer.gain * quantizer.reading(state);
   return result;
 }
 
-Matrix Reset::slope(Eigen::Index size) const {
+Matrix AffineReset::slope(Eigen::Index size) const {
   return matrix.size() == 0 ? Matrix(Matrix::Identity(size, size)) : matrix;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/fault.hpp"
+#include "gearlash/hybrid.hpp"
 #include "hybrid/mode_source.hpp"
 
 namespace gearlash::hybrid {
@@ -40,7 +41,7 @@ struct Quantizer {
 
 /// x⁺ = matrix x + offset + Σ gain · reading(x). An empty matrix stands for the identity, an empty
 /// offset for 0.
-struct Reset {
+struct AffineReset {
   Matrix matrix{};
   Vector offset{};
   std::vector<Quantizer> quantizers{};
@@ -48,12 +49,6 @@ struct Reset {
   Vector after(const Vector& state) const;
   /// ∂x⁺/∂x, of `size` numbers; between two steps of a quantizer its reading is constant.
   Matrix slope(Eigen::Index size) const;
-};
-
-enum class Direction {
-  falling,  ///< g ≥ 0 in the mode; leaving that fires
-  rising,   ///< g ≤ 0 in the mode; leaving that fires
-  either    ///< every change of sign fires
 };
 
 /// Another target, where all of the forms are positive after the reset.
@@ -66,7 +61,7 @@ struct Alternative {
 /// infinitely many in a finite time, as of a ball that bounces to rest).
 struct Settling {
   std::size_t target = 0;                   ///< mode
-  Reset reset{};                            ///< onto the limit, from a state just after a firing
+  AffineReset reset{};                      ///< onto the limit, from a state just after a firing
   std::vector<Alternative> alternatives{};  ///< as of a transition
 };
 
@@ -76,7 +71,7 @@ struct Transition {
   std::string name{};
   AffineForm guard{};
   Direction direction = Direction::falling;
-  Reset reset{};
+  AffineReset reset{};
   std::size_t target = 0;  ///< index of a mode
   std::optional<Settling> settling{};
   std::vector<Alternative> alternatives{};
@@ -86,12 +81,12 @@ struct Transition {
 struct TimedTransition {
   std::string name{};
   std::size_t clock = 0;  ///< index of a clock
-  Reset reset{};
+  AffineReset reset{};
   std::size_t target = 0;
   std::vector<Alternative> alternatives{};  ///< as of a transition
 };
 
-struct Mode {
+struct AffineMode {
   std::string name{};
   AffineFlow flow{};
   std::vector<Transition> transitions{};
@@ -122,7 +117,7 @@ struct Clock {
 /// Modes are a list, or are made by a source when a motion first enters them.
 struct HybridSystem {
   std::vector<std::string> state_names{};
-  std::vector<Mode> modes{};  ///< none where there is a source
+  std::vector<AffineMode> modes{};  ///< none where there is a source
   std::vector<Clock> clocks{};
   ModeSource source{};
   /// With a source: which numbers follow their own flow alone, the same in every mode, and are
@@ -132,7 +127,9 @@ struct HybridSystem {
   Eigen::Index size() const { return static_cast<Eigen::Index>(state_names.size()); }
   std::size_t mode_count() const { return source ? source.count() : modes.size(); }
   /// Precondition: index < mode_count().
-  const Mode& mode(std::size_t index) const { return source ? source.mode(index) : modes[index]; }
+  const AffineMode& mode(std::size_t index) const {
+    return source ? source.mode(index) : modes[index];
+  }
 };
 
 /// Every fault: shapes that do not agree, indices out of range, numbers that are not finite, clocks

@@ -12,7 +12,7 @@ namespace gearlash::hybrid {
 struct ModeSource::Store {
   struct Slot {
     std::once_flag once;
-    std::unique_ptr<const Mode> mode;
+    std::unique_ptr<const AffineMode> mode;
   };
 
   Store(std::size_t count, Make made_by) : make(std::move(made_by)), slots(count) {}
@@ -29,10 +29,10 @@ std::size_t ModeSource::count() const { return store_ ? store_->slots.size() : 0
 
 std::size_t ModeSource::made() const { return store_ ? store_->made.load() : 0; }
 
-const Mode& ModeSource::mode(std::size_t index) const {
+const AffineMode& ModeSource::mode(std::size_t index) const {
   Store::Slot& slot = store_->slots[index];
   std::call_once(slot.once, [&] {
-    slot.mode = std::make_unique<const Mode>(store_->make(index));
+    slot.mode = std::make_unique<const AffineMode>(store_->make(index));
     ++store_->made;
   });
   return *slot.mode;

@@ -9,11 +9,11 @@
 namespace gearlash::hybrid {
 namespace {
 
-Vector velocity(const Mode& mode, const Vector& state) {
+Vector velocity(const AffineMode& mode, const Vector& state) {
   return mode.flow.matrix * state + mode.flow.offset;
 }
 
-const Reset& reset_of(const Mode& mode, const Event& event) {
+const AffineReset& reset_of(const AffineMode& mode, const Event& event) {
   switch (event.kind) {
     case EventKind::timed:
       return mode.timed[event.transition].reset;
@@ -45,7 +45,7 @@ class Disturbances {
     const bool is_chained = event.time == last_event_;
     last_event_ = event.time;
     flow_to(event.time);
-    const Mode& before = system_.mode(mode_);
+    const AffineMode& before = system_.mode(mode_);
     const Matrix reset = reset_of(system_.mode(event.mode), event).slope(system_.size());
     const Vector flow_before = velocity(before, event.before);
     mode_ = event.mode_after;
@@ -78,7 +78,7 @@ class Disturbances {
 };
 
 /// The time near a guess at which the motion crosses a plane; nothing where it does not.
-std::optional<double> crossing_time(const Mode& mode, const State& start, double from,
+std::optional<double> crossing_time(const AffineMode& mode, const State& start, double from,
                                     const AffineForm& plane, double guess) {
   const Eigen::Index size = start.numbers.size();
   Matrix augmented = Matrix::Zero(size + 1, size + 1);  // (x, 1)′

@@ -6,14 +6,14 @@
 namespace gearlash::hybrid {
 namespace {
 
-std::vector<SparseForm> guards_of(const Mode& mode) {
+std::vector<SparseForm> guards_of(const AffineMode& mode) {
   std::vector<SparseForm> guards;
   guards.reserve(mode.transitions.size());
   for (const Transition& transition : mode.transitions) guards.emplace_back(transition.guard);
   return guards;
 }
 
-bool is_untouched(const Reset& reset, Eigen::Index number, Eigen::Index size) {
+bool is_untouched(const AffineReset& reset, Eigen::Index number, Eigen::Index size) {
   const bool by_matrix = reset.matrix.size() != 0 &&
                          reset.matrix.row(number) != Vector::Unit(size, number).transpose();
   const bool by_offset = reset.offset.size() != 0 && reset.offset[number] != 0.0;
@@ -22,7 +22,7 @@ bool is_untouched(const Reset& reset, Eigen::Index number, Eigen::Index size) {
                      [&](const Quantizer& quantizer) { return quantizer.gain[number] == 0.0; });
 }
 
-bool is_untouched(const Mode& mode, Eigen::Index number, Eigen::Index size) {
+bool is_untouched(const AffineMode& mode, Eigen::Index number, Eigen::Index size) {
   return std::all_of(mode.transitions.begin(), mode.transitions.end(),
                      [&](const Transition& transition) {
                        return is_untouched(transition.reset, number, size) &&
@@ -44,7 +44,7 @@ std::vector<bool> exogenous_numbers(const HybridSystem& system) {
   std::vector<bool> is(size, true);
   for (std::size_t n = 0; n < size; ++n) {
     const auto i = static_cast<Eigen::Index>(n);
-    is[n] = std::all_of(system.modes.begin(), system.modes.end(), [&](const Mode& mode) {
+    is[n] = std::all_of(system.modes.begin(), system.modes.end(), [&](const AffineMode& mode) {
       return mode.flow.matrix.row(i) == first.matrix.row(i) &&
              mode.flow.offset[i] == first.offset[i] && is_untouched(mode, i, system.size());
     });
@@ -65,7 +65,7 @@ std::vector<bool> exogenous_numbers(const HybridSystem& system) {
 
 }  // namespace
 
-PreparedReset::PreparedReset(const Reset& reset, Eigen::Index size) {
+PreparedReset::PreparedReset(const AffineReset& reset, Eigen::Index size) {
   for (Eigen::Index i = 0; i < size; ++i) {
     AffineForm row{reset.matrix.size() == 0 ? Vector(Vector::Unit(size, i))
                                             : Vector(reset.matrix.row(i).transpose()),
@@ -75,8 +75,8 @@ PreparedReset::PreparedReset(const Reset& reset, Eigen::Index size) {
   }
 }
 
-void PreparedReset::apply(const Reset& reset, const Vector& before, Vector& after, Vector& noise,
-                          Vector& scratch) const {
+void PreparedReset::apply(const AffineReset& reset, const Vector& before, Vector& after,
+                          Vector& noise, Vector& scratch) const {
   scratch = noise;
   for (const auto& [number, form] : rows) {
     after[number] = form.at(before.data());
@@ -96,7 +96,7 @@ PreparedFlow::PreparedFlow(const AffineFlow& affine, const std::vector<SparseFor
   if (flow.count() > 0 && flow.polynomial_order() == 0) longest.emplace(flow, flow.longest_step());
 }
 
-PreparedJump::PreparedJump(const Reset& all, const std::vector<Alternative>& others,
+PreparedJump::PreparedJump(const AffineReset& all, const std::vector<Alternative>& others,
                            Eigen::Index size)
     : reset(all, size) {
   for (const Alternative& other : others) {
@@ -107,7 +107,7 @@ PreparedJump::PreparedJump(const Reset& all, const std::vector<Alternative>& oth
   }
 }
 
-PreparedMode::PreparedMode(const Mode& mode, Eigen::Index size)
+PreparedMode::PreparedMode(const AffineMode& mode, Eigen::Index size)
     : guards(guards_of(mode)), whole(mode.flow, guards), mode_(&mode), affine_(mode.flow) {
   transitions.reserve(mode.transitions.size());
   settlings.reserve(mode.transitions.size());

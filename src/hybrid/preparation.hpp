@@ -19,9 +19,9 @@ struct PreparedReset {
   };
   std::vector<Row> rows;
 
-  PreparedReset(const Reset& reset, Eigen::Index size);
+  PreparedReset(const AffineReset& reset, Eigen::Index size);
   /// Of numbers, and how well each is known, before; what rounding adds is not in `noise`.
-  void apply(const Reset& reset, const Vector& before, Vector& after, Vector& noise,
+  void apply(const AffineReset& reset, const Vector& before, Vector& after, Vector& noise,
              Vector& scratch) const;
 };
 
@@ -44,15 +44,16 @@ struct PreparedJump {
   PreparedReset reset;
   std::vector<PreparedAlternative> alternatives;
 
-  PreparedJump(const Reset& reset, const std::vector<Alternative>& alternatives, Eigen::Index size);
+  PreparedJump(const AffineReset& reset, const std::vector<Alternative>& alternatives,
+               Eigen::Index size);
 };
 
 class PreparedMode {
  public:
   /// The mode must live for as long as motions enter it.
-  PreparedMode(const Mode& mode, Eigen::Index size);
+  PreparedMode(const AffineMode& mode, Eigen::Index size);
 
-  const Mode& mode() const { return *mode_; }
+  const AffineMode& mode() const { return *mode_; }
 
   struct Slow {
     FastDecays decays;
@@ -68,7 +69,7 @@ class PreparedMode {
   std::vector<PreparedJump> timed;
 
  private:
-  const Mode* mode_;
+  const AffineMode* mode_;
   AffineFlow affine_;
   mutable std::once_flag once_;
   mutable std::optional<Slow> slow_;

@@ -226,8 +226,8 @@ class Simulation {
     if (!stopped_) follow_sequence();
   }
 
-  void change(EventKind kind, std::size_t transition, const Reset& reset, const PreparedJump& jump,
-              std::size_t otherwise, const Vector* addition = nullptr) {
+  void change(EventKind kind, std::size_t transition, const AffineReset& reset,
+              const PreparedJump& jump, std::size_t otherwise, const Vector* addition = nullptr) {
     std::vector<Event>& events = trajectory_.events_;
     Event& event = events.emplace_back(
         Event{time_, kind, state_.mode, transition, otherwise, state_.numbers, state_.numbers});
@@ -331,7 +331,7 @@ class Simulation {
     const std::vector<Event>& events = trajectory_.events_;
     if (events.empty() || reason == StopReason::diverged) return;
     const Event& last = events.back();
-    const Mode& mode = preparation_.mode(last.mode).mode();
+    const AffineMode& mode = preparation_.mode(last.mode).mode();
     trajectory_.culprit_ = mode.name + ": " +
                            (last.kind == EventKind::timed ? mode.timed[last.transition].name
                                                           : mode.transitions[last.transition].name);

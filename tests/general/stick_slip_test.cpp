@@ -43,14 +43,14 @@ hybrid::HybridSystem belt_system(const Belt& belt) {
   using hybrid::Direction;
   const double v = belt.speed;
   const double square = belt.spring / belt.mass;
-  const hybrid::Mode held{
+  const hybrid::AffineMode held{
       .name = "held",
       .flow = {hybrid::Matrix::Zero(2, 2), hybrid::Vector{{v, 0.0}}},
       .transitions = {{.name = "breaks away",
                        .guard = {hybrid::Vector{{belt.spring, 0.0}}, -belt.breakaway},
                        .direction = Direction::rising,
                        .target = 1}}};
-  const hybrid::Mode slides{
+  const hybrid::AffineMode slides{
       .name = "slides",
       .flow = {hybrid::Matrix{{0.0, 1.0}, {-square, 0.0}},
                hybrid::Vector{{0.0, belt.sliding / belt.mass}}},

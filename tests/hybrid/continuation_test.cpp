@@ -22,7 +22,7 @@ HybridSystem driven_towards_stop(double amplitude) {
   flow(3, 2) = -1.0;
   Matrix bounce = Matrix::Identity(4, 4);
   bounce(1, 1) = -0.8;
-  Mode free{.name = "free", .flow = {flow, Vector::Zero(4)}};
+  AffineMode free{.name = "free", .flow = {flow, Vector::Zero(4)}};
   free.transitions = {
       {.name = "stop",
        .guard = {Vector::Unit(4, 0), -1.0},
@@ -60,9 +60,9 @@ HybridSystem loop_with_play(double gain) {
   const auto held = [&](double side) {
     Matrix after = Matrix::Identity(3, 3);
     after.row(2) << 1.0, 0.0, 0.0;
-    return Reset{after, (Vector(3) << 0.0, 0.0, -side).finished(), {}};
+    return AffineReset{after, (Vector(3) << 0.0, 0.0, -side).finished(), {}};
   };
-  Mode apart{.name = "crossing", .flow = {flow, Vector::Zero(3)}};
+  AffineMode apart{.name = "crossing", .flow = {flow, Vector::Zero(3)}};
   apart.transitions = {{.name = "takes up forward",
                         .guard = {offset, -1.0},
                         .direction = Direction::rising,
@@ -73,10 +73,10 @@ HybridSystem loop_with_play(double gain) {
                         .direction = Direction::falling,
                         .reset = held(-1.0),
                         .target = falling}};
-  Mode up{.name = "carried forward", .flow = {carried, Vector::Zero(3)}};
+  AffineMode up{.name = "carried forward", .flow = {carried, Vector::Zero(3)}};
   up.transitions = {
       {.name = "turns back", .guard = {speed, 0.0}, .reset = held(1.0), .target = crossing}};
-  Mode down{.name = "carried backward", .flow = {carried, Vector::Zero(3)}};
+  AffineMode down{.name = "carried backward", .flow = {carried, Vector::Zero(3)}};
   down.transitions = {{.name = "turns forward",
                        .guard = {speed, 0.0},
                        .direction = Direction::rising,

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t bounces = 1000;
 constexpr double gravity = 9.80665;
 
-Mode flight_after(std::size_t index) {
+AffineMode flight_after(std::size_t index) {
   const Matrix fall{{0.0, 1.0}, {0.0, 0.0}};
   const Matrix turned{{1.0, 0.0}, {0.0, -0.9}};
   return {.name = "after " + std::to_string(index) + " bounces",

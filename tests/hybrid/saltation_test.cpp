@@ -131,7 +131,7 @@ TEST(PropertySaltation, DerivativesOnAPlaneAreFiniteDifferences) {
 HybridSystem made_not_met(bool by_clock) {
   const Matrix first{{0.0, 1.0, 0.0}, {-1.0, -0.2, 1.0}, {0.0, 0.0, 0.0}};
   const Matrix second{{0.0, 1.0, 0.3}, {-4.0, -0.1, 0.5}, {0.0, 0.0, -1.0}};
-  const Reset setting{
+  const AffineReset setting{
       Matrix{{1.0, 0.0, 0.0}, {0.0, 0.9, 0.0}, {-1.0, -0.5, 0.0}}, Vector{{0.0, 0.0, -0.4}}, {}};
   const Transition below{
       .name = "u is below 0",
@@ -142,7 +142,7 @@ HybridSystem made_not_met(bool by_clock) {
   HybridSystem system;
   system.state_names = {"position", "speed", "u"};
   system.modes.resize(3);
-  for (Mode& mode : system.modes) mode.flow = {first, Vector::Zero(3)};
+  for (AffineMode& mode : system.modes) mode.flow = {first, Vector::Zero(3)};
   system.modes[1].flow.matrix = second;
   system.modes[2].transitions = {below};
   if (by_clock) {

@@ -53,18 +53,18 @@ inline hybrid::HybridSystem servo_system(const NormalizedServo& servo) {
     Matrix after = Matrix::Identity(4, 4);
     after.row(0) << 0.0, 0.0, 1.0, 0.0;
     after.row(1) << 0.0, 0.0, 0.0, 1.0;
-    return hybrid::Reset{
+    return hybrid::AffineReset{
         after, (Vector(4) << 0.5 * face * servo.backlash, 0.0, 0.0, 0.0).finished(), {}};
   };
   const auto engaged = [&](const char* name, double face) {
-    return hybrid::Mode{.name = name,
-                        .flow = {together, Vector::Zero(4)},
-                        .transitions = {{.name = "separation",
-                                         .guard = {torque, 0.0},
-                                         .direction = face > 0.0 ? hybrid::Direction::falling
-                                                                 : hybrid::Direction::rising,
-                                         .reset = part(face),
-                                         .target = separated}}};
+    return hybrid::AffineMode{.name = name,
+                              .flow = {together, Vector::Zero(4)},
+                              .transitions = {{.name = "separation",
+                                               .guard = {torque, 0.0},
+                                               .direction = face > 0.0 ? hybrid::Direction::falling
+                                                                       : hybrid::Direction::rising,
+                                               .reset = part(face),
+                                               .target = separated}}};
   };
   return {.state_names = {"motor position", "motor speed", "load position", "load speed"},
           .modes = {{.name = "separated",

@@ -115,12 +115,12 @@ TEST(EdgeSimulate, ATouchIsListedAndIsNoEvent) {
 
 TEST(EdgeSimulate, TwoModesThatSendEachOtherBackChatter) {
   const auto mode = [](const char* name, double speed, Direction direction, std::size_t other) {
-    return Mode{.name = name,
-                .flow = {Matrix::Zero(1, 1), vector_of({speed})},
-                .transitions = {{.name = "switch",
-                                 .guard = {vector_of({1.0}), 0.0},
-                                 .direction = direction,
-                                 .target = other}}};
+    return AffineMode{.name = name,
+                      .flow = {Matrix::Zero(1, 1), vector_of({speed})},
+                      .transitions = {{.name = "switch",
+                                       .guard = {vector_of({1.0}), 0.0},
+                                       .direction = direction,
+                                       .target = other}}};
   };
   const HybridSystem system{
       .state_names = {"x"},
@@ -132,7 +132,7 @@ TEST(EdgeSimulate, TwoModesThatSendEachOtherBackChatter) {
 }
 
 TEST(Simulate, ClocksTickInOrder) {
-  const auto adds = [](double amount) { return Reset{{}, vector_of({amount}), {}}; };
+  const auto adds = [](double amount) { return AffineReset{{}, vector_of({amount}), {}}; };
   const HybridSystem system{
       .state_names = {"x"},
       .modes = {{.name = "waits",
@@ -236,7 +236,7 @@ TEST(EdgeSimulate, AFastDecayToZeroIsLeftBehindToo) {
 
 /// The ball with time in units of so many seconds.
 HybridSystem in_units_of_time(HybridSystem system, double unit) {
-  for (Mode& mode : system.modes) {
+  for (AffineMode& mode : system.modes) {
     mode.flow.matrix *= unit;
     mode.flow.offset *= unit;
   }

@@ -22,9 +22,28 @@ execute_process(
   COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND "${CMAKE_COMMAND}" --build "${WORK}/build" COMMAND_ERROR_IS_FATAL ANY)
 
-foreach(program IN ITEMS consumer hybrid_consumer batch_consumer design_chart_consumer
-                         design_consumer)
-  execute_process(COMMAND "${WORK}/build/${program}" COMMAND_ERROR_IS_FATAL ANY)
+# Nothing but the public headers is installed.
+file(GLOB_RECURSE installed RELATIVE "${WORK}/prefix/include" "${WORK}/prefix/include/*")
+file(GLOB public RELATIVE "${PROGRAMS}/../../include" "${PROGRAMS}/../../include/gearlash/*.hpp")
+list(APPEND public gearlash/version.hpp)
+list(SORT installed)
+list(SORT public)
+if(NOT installed STREQUAL public)
+  message(FATAL_ERROR "installed headers: ${installed}\nnot: ${public}")
+endif()
+
+# Each program prints what another vector unit makes it print, too.
+file(STRINGS "${WORK}/build/programs" programs)
+foreach(program IN LISTS programs)
+  foreach(build IN ITEMS ${program} ${program}_native)
+    execute_process(COMMAND "${WORK}/build/${build}" "${DATA_SHEET}" WORKING_DIRECTORY "${WORK}"
+                    OUTPUT_VARIABLE ${build}_output COMMAND_ECHO STDOUT
+                    COMMAND_ERROR_IS_FATAL ANY)
+  endforeach()
+  message("${${program}_output}")
+  if(NOT ${program}_output STREQUAL ${program}_native_output)
+    message(FATAL_ERROR "with -march=native:\n${${program}_native_output}")
+  endif()
 endforeach()
 
 # The same without CMake, as a Makefile would.
@@ -33,7 +52,7 @@ file(GLOB_RECURSE found "${WORK}/prefix/gearlash.pc")
 cmake_path(GET found PARENT_PATH folder)
 set(consumers gearlash/consumer)
 if("files" IN_LIST COMPONENTS)
-  list(APPEND consumers gearlash-files/data_sheet_consumer)
+  list(APPEND consumers gearlash-files/file_consumer)
 endif()
 foreach(consumer IN LISTS consumers)
   cmake_path(GET consumer PARENT_PATH package)
@@ -51,12 +70,6 @@ foreach(consumer IN LISTS consumers)
 endforeach()
 
 if("files" IN_LIST COMPONENTS)
-  execute_process(COMMAND "${WORK}/build/data_sheet_consumer" "${DATA_SHEET}"
-                  COMMAND_ERROR_IS_FATAL ANY)
-  execute_process(COMMAND "${WORK}/build/sensor_place" COMMAND_ERROR_IS_FATAL ANY)
-  execute_process(COMMAND "${WORK}/build/sweep" COMMAND_ERROR_IS_FATAL ANY)
-  execute_process(COMMAND "${WORK}/build/change_file" "${DATA_SHEET}"
-                  WORKING_DIRECTORY "${WORK}" COMMAND_ERROR_IS_FATAL ANY)
   # What the program has written reads back.
   execute_process(COMMAND "${WORK}/prefix/bin/gearlash" limit-cycle "${WORK}/changed.toml" --brief
                   COMMAND_ERROR_IS_FATAL ANY)

@@ -52,10 +52,10 @@ compile() {
 }
 check 'a program by pkg-config gearlash' compile consumer gearlash
 check 'it runs' ./consumer.out
-check 'a program by pkg-config gearlash-files' compile data_sheet_consumer gearlash-files
-check 'it runs' ./data_sheet_consumer.out "$examples/elinco-fd162.toml"
+check 'a program by pkg-config gearlash-files' compile file_consumer gearlash-files
+check 'it runs' ./file_consumer.out "$examples/elinco-fd162.toml"
 check 'CMake finds the library' cmake -S consumer -B build -D GEARLASH_COMPONENTS_ASKED=files
-check 'programs by CMake' cmake --build build --target consumer data_sheet_consumer
+check 'programs by CMake' cmake --build build --target consumer file_consumer
 check 'one of them runs' build/consumer
 
 apt-get purge --quiet=2 --yes gearlash libgearlash-dev >purge.log 2>&1

@@ -5,7 +5,7 @@
 
 namespace gearlash::drive {
 
-void add_torque_limit(const DriveForms& forms, const DriveMode& mode, hybrid::Mode& built) {
+void add_torque_limit(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built) {
   const double limit = forms.drive().torque_limit;
   if (!std::isfinite(limit)) return;
   const hybrid::AffineForm asked = forms.asked_torque();

@@ -24,39 +24,40 @@ inline hybrid::Direction rising_on(double way) {
 }
 
 /// Speeds put to exactly 0.
-hybrid::Reset stopped(const DriveForms& forms, std::initializer_list<Eigen::Index> speeds);
+hybrid::AffineReset stopped(const DriveForms& forms, std::initializer_list<Eigen::Index> speeds);
 
 // ---- contact ------------------------------------------------------------------------------------
 
 /// Rigid faces that are apart: impacts, and the end of endless bounces.
-void add_impacts(const DriveForms& forms, const DriveMode& mode, hybrid::Mode& built);
+void add_impacts(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built);
 /// Rigid faces together: parting, and stopping and breaking away as one.
-void add_engaged(const DriveForms& forms, const DriveMode& mode, hybrid::Mode& built);
+void add_engaged(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built);
 /// Compliant faces: meeting, parting, and the limits of their damping.
-void add_compliance(const DriveForms& forms, const DriveMode& mode, hybrid::Mode& built);
+void add_compliance(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built);
 
 // ---- friction -----------------------------------------------------------------------------------
 
 /// Of a shaft that moves by itself: stopping, and breaking away.
-void add_friction(const DriveForms& forms, const DriveMode& mode, Side side, hybrid::Mode& built);
+void add_friction(const DriveForms& forms, const DriveMode& mode, Side side,
+                  hybrid::AffineMode& built);
 
 // ---- actuator -----------------------------------------------------------------------------------
 
 /// Of a continuous controller; a sampled one meets the limit at its ticks.
-void add_torque_limit(const DriveForms& forms, const DriveMode& mode, hybrid::Mode& built);
+void add_torque_limit(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built);
 
 // ---- sensor -------------------------------------------------------------------------------------
 
 /// Adds a multiple of a reading to numbers of the state after a tick; the reading is exact where
 /// `step` is 0.
-void add_reading(hybrid::Reset& reset, const hybrid::AffineForm& measured, double step,
+void add_reading(hybrid::AffineReset& reset, const hybrid::AffineForm& measured, double step,
                  const hybrid::Vector& gain);
 
 /// An encoder under a continuous controller.
-void add_counting(const DriveForms& forms, const DriveMode& mode, hybrid::Mode& built);
+void add_counting(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built);
 
 /// What encoders read at the start, as if the speeds had been the same before.
-hybrid::Reset first_readings(const DriveForms& forms);
+hybrid::AffineReset first_readings(const DriveForms& forms);
 
 // ---- clocks -------------------------------------------------------------------------------------
 
@@ -77,11 +78,11 @@ struct DriveClocks {
 DriveClocks drive_clocks(const DriveForms& forms);
 
 void add_settings(const DriveForms& forms, const DriveClocks& clocks, const DriveMode& mode,
-                  hybrid::Mode& built);
+                  hybrid::AffineMode& built);
 
 /// A sampled controller's ticks.
 void add_sampling(const DriveForms& forms, const DriveClocks& clocks, const DriveMode& mode,
-                  hybrid::Mode& built);
+                  hybrid::AffineMode& built);
 
 /// Whether the output of a sampled controller takes force at ticks of its own.
 bool gives_out_between_samples(const Sampling& sampling);

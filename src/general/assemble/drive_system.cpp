@@ -15,8 +15,9 @@ using hybrid::Vector;
 
 /// What each automaton adds to one mode. Of transitions at one instant the first is taken, so that
 /// their order is part of the physics.
-hybrid::Mode built_mode(const DriveForms& forms, const DriveClocks& clocks, const DriveMode& mode) {
-  hybrid::Mode built;
+hybrid::AffineMode built_mode(const DriveForms& forms, const DriveClocks& clocks,
+                              const DriveMode& mode) {
+  hybrid::AffineMode built;
   built.name = text_of(mode);
   built.flow = forms.flow(mode);
   if (forms.drive().sampling) {

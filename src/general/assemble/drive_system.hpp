@@ -14,8 +14,8 @@ struct DriveSystem {
   hybrid::HybridSystem system;  ///< its modes are made when they are first entered
   DriveModes modes;             ///< what they are
   StateIndices at;
-  hybrid::Vector start;          ///< of all numbers at time 0, but for the shafts' 0
-  hybrid::Reset first_readings;  ///< of encoders, once the shafts are where they start
+  hybrid::Vector start;                ///< of all numbers at time 0, but for the shafts' 0
+  hybrid::AffineReset first_readings;  ///< of encoders, once the shafts are where they start
   hybrid::AffineForm reference;
   hybrid::AffineForm load_torque;
   std::array<hybrid::AffineForm, 3> motor_torques;  ///< by TorqueState

@@ -3,7 +3,8 @@
 
 namespace gearlash::drive {
 
-void add_friction(const DriveForms& forms, const DriveMode& mode, Side side, hybrid::Mode& built) {
+void add_friction(const DriveForms& forms, const DriveMode& mode, Side side,
+                  hybrid::AffineMode& built) {
   const bool is_motor = side == Side::motor;
   const FrictionState state = is_motor ? mode.motor : mode.load;
   if (state == FrictionState::viscous) return;

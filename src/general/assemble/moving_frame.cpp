@@ -8,7 +8,7 @@ namespace gearlash::drive {
 namespace {
 
 using hybrid::AffineForm;
-using hybrid::Reset;
+using hybrid::AffineReset;
 using hybrid::Vector;
 
 class Rewriter {
@@ -19,7 +19,7 @@ class Rewriter {
     for (Vector& addition : clock.additions) addition = divided(addition);
   }
 
-  void rewrite(hybrid::Mode& mode) const {
+  void rewrite(hybrid::AffineMode& mode) const {
     hybrid::AffineFlow& flow = mode.flow;
     flow.offset = divided(flow.matrix * frame_.shift + flow.offset - frame_.drift);
     flow.matrix = similar(flow.matrix);
@@ -55,7 +55,7 @@ class Rewriter {
     }
   }
 
-  void rewrite(Reset& reset) const {
+  void rewrite(AffineReset& reset) const {
     Vector offset =
         reset.offset.size() == 0 ? Vector(Vector::Zero(frame_.shift.size())) : reset.offset;
     if (reset.matrix.size() != 0) {
@@ -91,14 +91,14 @@ bool is_unseen(const std::vector<hybrid::Alternative>& alternatives, const Vecto
   });
 }
 
-bool is_kept(const Reset& reset, const Vector& way) {
+bool is_kept(const AffineReset& reset, const Vector& way) {
   if (!reset.quantizers.empty()) return false;
   if (reset.matrix.size() == 0) return true;
   const Vector terms = reset.matrix.cwiseAbs() * way.cwiseAbs() + way.cwiseAbs();
   return ((reset.matrix * way - way).array().abs() <= rounding * terms.array()).all();
 }
 
-bool is_carried_along(const hybrid::Mode& mode, const Vector& way) {
+bool is_carried_along(const hybrid::AffineMode& mode, const Vector& way) {
   return is_nothing(mode.flow.matrix, way) &&
          std::all_of(
              mode.transitions.begin(), mode.transitions.end(),
@@ -134,11 +134,11 @@ hybrid::HybridSystem seen_in(const hybrid::HybridSystem& system, const MovingFra
   const Rewriter rewriter(frame);
   hybrid::HybridSystem result = system;
   for (hybrid::Clock& clock : result.clocks) rewriter.rewrite(clock);
-  for (hybrid::Mode& mode : result.modes) rewriter.rewrite(mode);
+  for (hybrid::AffineMode& mode : result.modes) rewriter.rewrite(mode);
   if (!system.source) return result;
   result.source =
       hybrid::ModeSource(system.mode_count(), [from = system.source, rewriter](std::size_t index) {
-        hybrid::Mode mode = from.mode(index);
+        hybrid::AffineMode mode = from.mode(index);
         rewriter.rewrite(mode);
         return mode;
       });

@@ -8,7 +8,7 @@ namespace gearlash::drive {
 namespace {
 
 using hybrid::AffineForm;
-using hybrid::Reset;
+using hybrid::AffineReset;
 
 FrictionState moving(FrictionState state, double way) {
   if (state == FrictionState::viscous) return state;
@@ -24,11 +24,11 @@ DriveMode moving_as_one(const DriveMode& mode, double way) {
 }
 
 /// Momentum is kept, relative speed turned into −e of itself.
-Reset impact(const DriveForms& forms, double restitution) {
+AffineReset impact(const DriveForms& forms, double restitution) {
   const double sum = forms.drive().motor.inertia + forms.drive().load.inertia;
   const double motor = forms.drive().motor.inertia / sum;
   const double load = forms.drive().load.inertia / sum;
-  Reset reset;
+  AffineReset reset;
   reset.matrix = forms.identity();
   reset.matrix(motor_speed, motor_speed) = motor - restitution * load;
   reset.matrix(motor_speed, load_speed) = load * (1.0 + restitution);
@@ -63,7 +63,8 @@ std::vector<hybrid::Alternative> ways_after(const DriveForms& forms, const Drive
   return alternatives;
 }
 
-void add_impact(const DriveForms& forms, const DriveMode& mode, double face, hybrid::Mode& built) {
+void add_impact(const DriveForms& forms, const DriveMode& mode, double face,
+                hybrid::AffineMode& built) {
   const double restitution = std::get<RigidContact>(forms.drive().contact).restitution;
   DriveMode engaged = mode;
   engaged.contact = face > 0.0 ? ContactState::forward : ContactState::backward;
@@ -88,8 +89,8 @@ void add_impact(const DriveForms& forms, const DriveMode& mode, double face, hyb
 }
 
 /// Where engaged faces part: one speed, and the gap as wide as it is.
-Reset parting(const DriveForms& forms, double face) {
-  Reset reset;
+AffineReset parting(const DriveForms& forms, double face) {
+  AffineReset reset;
   reset.matrix = forms.identity();
   reset.matrix.row(motor_position) = forms.unit(load_position).transpose();
   reset.matrix.row(motor_speed) = forms.unit(load_speed).transpose();
@@ -100,7 +101,8 @@ Reset parting(const DriveForms& forms, double face) {
 
 /// Both at rest, faces together: both move where all friction is overcome; one alone, away from
 /// the other, where its own is.
-void add_engaged_breakaway(const DriveForms& forms, const DriveMode& mode, hybrid::Mode& built) {
+void add_engaged_breakaway(const DriveForms& forms, const DriveMode& mode,
+                           hybrid::AffineMode& built) {
   const AffineForm motor_torque = forms.motor_torque(mode.torque);
   const AffineForm applied = motor_torque + forms.load_torque();
   for (const double way : {1.0, -1.0}) {
@@ -130,12 +132,12 @@ void add_engaged_breakaway(const DriveForms& forms, const DriveMode& mode, hybri
 
 }  // namespace
 
-void add_impacts(const DriveForms& forms, const DriveMode& mode, hybrid::Mode& built) {
+void add_impacts(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built) {
   add_impact(forms, mode, 1.0, built);
   add_impact(forms, mode, -1.0, built);
 }
 
-void add_engaged(const DriveForms& forms, const DriveMode& mode, hybrid::Mode& built) {
+void add_engaged(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built) {
   if (forms.sticks_as_one(mode)) {
     add_engaged_breakaway(forms, mode, built);
     return;

@@ -8,12 +8,12 @@ namespace gearlash::drive {
 namespace {
 
 using hybrid::AffineForm;
-using hybrid::Reset;
+using hybrid::AffineReset;
 using hybrid::Vector;
 
 /// A tick of the controller's clocks; where it gives torque out, the limit is met or left.
 hybrid::TimedTransition tick(const DriveForms& forms, const char* name, std::size_t clock,
-                             Reset reset, DriveMode mode, bool gives_out) {
+                             AffineReset reset, DriveMode mode, bool gives_out) {
   hybrid::TimedTransition result;
   result.name = name;
   result.clock = clock;
@@ -34,10 +34,10 @@ hybrid::TimedTransition tick(const DriveForms& forms, const char* name, std::siz
 
 /// The controller's next states and torque by its states alone, and what is handed on from tick to
 /// tick; inputs are yet to be added.
-Reset without_inputs(const DriveForms& forms, const DriveMode& mode, Eigen::Index result) {
+AffineReset without_inputs(const DriveForms& forms, const DriveMode& mode, Eigen::Index result) {
   const StateIndices& at = forms.at();
   const LinearController& controller = forms.controller();
-  Reset reset{forms.identity(), Vector::Zero(at.size), {}};
+  AffineReset reset{forms.identity(), Vector::Zero(at.size), {}};
   const auto set = [&](Eigen::Index row, const AffineForm& form) {
     reset.matrix.row(row) = form.normal.transpose();
     reset.offset[row] = form.offset;
@@ -61,7 +61,7 @@ Reset without_inputs(const DriveForms& forms, const DriveMode& mode, Eigen::Inde
 }
 
 /// What the inputs r, y and v add.
-void add_inputs(const DriveForms& forms, Eigen::Index result, Reset& reset) {
+void add_inputs(const DriveForms& forms, Eigen::Index result, AffineReset& reset) {
   const LinearController& controller = forms.controller();
   const Sensing& sensing = forms.drive().sensing;
   const Eigen::Index last_reading = forms.at().last_reading;
@@ -94,16 +94,16 @@ bool gives_out_between_samples(const Sampling& sampling) {
 }
 
 void add_sampling(const DriveForms& forms, const DriveClocks& clocks, const DriveMode& mode,
-                  hybrid::Mode& built) {
+                  hybrid::AffineMode& built) {
   const Sampling& sampling = *forms.drive().sampling;
   const StateIndices& at = forms.at();
   const Eigen::Index result = sampling.delay > 0.0 ? at.last_worked_out : at.held;
-  Reset reset = without_inputs(forms, mode, result);
+  AffineReset reset = without_inputs(forms, mode, result);
   add_inputs(forms, result, reset);
   const bool gives_out = !gives_out_between_samples(sampling);
   built.timed.push_back(tick(forms, "sample", clocks.sample, std::move(reset), mode, gives_out));
   if (gives_out) return;
-  Reset output{forms.identity(), Vector::Zero(at.size), {}};
+  AffineReset output{forms.identity(), Vector::Zero(at.size), {}};
   output.matrix.row(at.held) = forms.unit(at.worked_out).transpose();
   built.timed.push_back(tick(forms, "output", clocks.sample + 1, std::move(output), mode, true));
 }

@@ -6,7 +6,7 @@ namespace gearlash::drive {
 using hybrid::AffineForm;
 using hybrid::Vector;
 
-void add_reading(hybrid::Reset& reset, const AffineForm& measured, double step,
+void add_reading(hybrid::AffineReset& reset, const AffineForm& measured, double step,
                  const Vector& gain) {
   if (step > 0.0) {
     reset.quantizers.push_back({measured, step, gain});
@@ -16,7 +16,7 @@ void add_reading(hybrid::Reset& reset, const AffineForm& measured, double step,
   }
 }
 
-void add_counting(const DriveForms& forms, const DriveMode& mode, hybrid::Mode& built) {
+void add_counting(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built) {
   const Eigen::Index encoder = forms.at().encoder;
   if (encoder == StateIndices::none) return;
   const double step = forms.drive().sensing.resolution;
@@ -30,8 +30,8 @@ void add_counting(const DriveForms& forms, const DriveMode& mode, hybrid::Mode& 
   }
 }
 
-hybrid::Reset first_readings(const DriveForms& forms) {
-  hybrid::Reset reset{forms.identity(), Vector::Zero(forms.at().size), {}};
+hybrid::AffineReset first_readings(const DriveForms& forms) {
+  hybrid::AffineReset reset{forms.identity(), Vector::Zero(forms.at().size), {}};
   const Sensing& sensing = forms.drive().sensing;
   const Eigen::Index encoder = forms.at().encoder;
   if (encoder != StateIndices::none) {

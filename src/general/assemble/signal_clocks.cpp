@@ -32,7 +32,7 @@ DriveClocks drive_clocks(const DriveForms& forms) {
 }
 
 void add_settings(const DriveForms& forms, const DriveClocks& clocks, const DriveMode& mode,
-                  hybrid::Mode& built) {
+                  hybrid::AffineMode& built) {
   for (const Setting& setting : clocks.settings) {
     hybrid::TimedTransition timed;
     timed.name = setting.name;

@@ -12,8 +12,8 @@ hybrid::Transition transition(const char* name, const hybrid::AffineForm& guard,
   return result;
 }
 
-hybrid::Reset stopped(const DriveForms& forms, std::initializer_list<Eigen::Index> speeds) {
-  hybrid::Reset reset;
+hybrid::AffineReset stopped(const DriveForms& forms, std::initializer_list<Eigen::Index> speeds) {
+  hybrid::AffineReset reset;
   reset.matrix = forms.identity();
   for (const Eigen::Index speed : speeds) reset.matrix(speed, speed) = 0.0;
   return reset;

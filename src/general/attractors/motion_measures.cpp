@@ -22,7 +22,7 @@ HybridSystem turning_system(const HybridSystem& system, const hybrid::AffineForm
   HybridSystem result;
   result.state_names = system.state_names;
   result.source = hybrid::ModeSource(system.mode_count(), [system, speed](std::size_t index) {
-    hybrid::Mode alone;
+    hybrid::AffineMode alone;
     alone.flow = system.mode(index).flow;
     alone.transitions.push_back({});
     alone.transitions.back().guard = speed;
@@ -60,7 +60,7 @@ Vector velocity(const HybridSystem& system, std::size_t mode, const Vector& numb
   return system.mode(mode).flow.matrix * numbers + system.mode(mode).flow.offset;
 }
 
-const hybrid::Reset& reset_of(const hybrid::Mode& mode, const Event& event) {
+const hybrid::AffineReset& reset_of(const hybrid::AffineMode& mode, const Event& event) {
   if (event.kind == hybrid::EventKind::timed) return mode.timed[event.transition].reset;
   const hybrid::Transition& transition = mode.transitions[event.transition];
   return event.kind == hybrid::EventKind::settling ? transition.settling->reset : transition.reset;
@@ -76,7 +76,7 @@ struct Disturbance {
 /// guard is met at no speed there is no derivative; the delay is then left as it was.
 void carry_over(const HybridSystem& system, const Event& event, bool is_chained,
                 Disturbance& disturbance) {
-  const hybrid::Mode& mode = system.mode(event.mode);
+  const hybrid::AffineMode& mode = system.mode(event.mode);
   const Matrix reset = reset_of(mode, event).slope(system.size());
   const Vector before = velocity(system, event.mode, event.before);
   const Vector after = velocity(system, event.mode_after, event.after);

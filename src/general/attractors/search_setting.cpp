@@ -69,7 +69,7 @@ hybrid::HybridSystem turning(const hybrid::HybridSystem& system, const AffineFor
   hybrid::HybridSystem result = system;
   result.source =
       hybrid::ModeSource(system.mode_count(), [from = system.source, speed](std::size_t index) {
-        hybrid::Mode mode = from.mode(index);
+        hybrid::AffineMode mode = from.mode(index);
         hybrid::Transition turns;
         turns.name = "load turns";
         turns.guard = speed;
