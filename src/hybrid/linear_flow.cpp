@@ -303,6 +303,7 @@ void LinearFlow::add_sizes(const Velocity& velocity, double length, double* size
 
 std::vector<std::size_t> LinearFlow::acting() const {
   std::vector<std::size_t> all;
+  all.reserve(entries_.size());
   for (const Entry& entry : entries_) all.push_back(at(entry.column));
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());

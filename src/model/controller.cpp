@@ -262,7 +262,7 @@ std::vector<double> numbers_of(const Vector& vector) {
 /// With d/dt ↦ (z − 1)/(T (share z + 1 − share)), S = (I − share T A)⁻¹:
 ///   z⁺ = S (I + (1 − share) T A) z + S B T u,  output C S z + (D + share T C S B) u.
 LinearController sampled_controller(const Controller& controller, const Sampling& sampling) {
-  const LinearController given = linear_controller(controller);
+  LinearController given = linear_controller(controller);
   const std::size_t order = given.order();
   if (std::holds_alternative<SampledTransfer>(controller) || order == 0) return given;
   const double share = sampling.method == Discretization::tustin     ? 0.5

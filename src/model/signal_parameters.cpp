@@ -91,12 +91,13 @@ struct Paths {
 
 /// Of both.
 template <class Which>
-std::vector<Parameter> shared_parameters(const Paths& paths, std::vector<std::string_view> kinds) {
+std::vector<Parameter> shared_parameters(const Paths& paths,
+                                         const std::vector<std::string_view>& kinds) {
   return {{.path = paths.kind,
            .slot = &kind_slot<Which>,
            .meaning = "how it goes over time",
            .is_required = true,
-           .choices = std::move(kinds)},
+           .choices = kinds},
           {.path = paths.value,
            .slot = &constant_slot<Which>,
            .dimension = &value_dimension<Which>,

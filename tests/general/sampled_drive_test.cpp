@@ -5,6 +5,10 @@
 #include <cmath>
 #include <complex>
 #include <deque>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "general/assemble/drive_system.hpp"
 
@@ -85,6 +89,56 @@ TEST(OracleSampledDrive, IsARecursionFromSampleToSample) {
       ASSERT_NEAR(numbers[motor_speed], motor.speed, 2e-12) << delay << ' ' << sample;
     }
   }
+}
+
+/// By hand: u = z + (P + s T I) e − D (y − y_last)/T, z⁺ = z + T I e + (T/T_t)(τ − u) with what the
+/// sample before asked for and was given; s is 0 by forward, ½ by Tustin's and 1 by backward
+/// differences.
+TEST(OracleSampledDrive, AntiWindupIsARecursionFromSampleToSample) {
+  constexpr double period = 0.1;
+  constexpr double limit = 0.5;
+  constexpr double tracking_time = 0.4;
+  const std::array methods = {std::pair{Discretization::forward, 0.0},
+                              std::pair{Discretization::tustin, 0.5},
+                              std::pair{Discretization::backward, 1.0}};
+  for (const auto& [method, share] : methods) {
+    ReducedDrive drive = lone_motor();
+    drive.controller = ProportionalIntegralDerivative{
+        .proportional = 4.0, .integral = 1.5, .derivative = 3.0, .tracking_time = tracking_time};
+    drive.sampling = Sampling{.period = period, .method = method};
+    drive.torque_limit = limit;
+    Motor motor{0.2, 0.3};
+    const auto motion = run(drive, {.motor_position = 0.2, .motor_speed = 0.3}, 20.0);
+    double last = 0.2 - period * 0.3;
+    double integral = 0.0;
+    double beyond = 0.0;  // of what was asked for last
+    for (int sample = 0; sample < 190; ++sample) {
+      const double error = 1.0 - motor.position;
+      const double asked =
+          integral + (4.0 + share * period * 1.5) * error - 3.0 * (motor.position - last) / period;
+      integral += period * 1.5 * error - period / tracking_time * beyond;
+      last = motor.position;
+      const double given = std::clamp(asked, -limit, limit);
+      beyond = asked - given;
+      motor.coast(given, period);
+      const hybrid::Vector numbers = motion.at(period * (sample + 1)).numbers;
+      ASSERT_NEAR(numbers[motor_position], motor.position, 2e-12) << sample;
+      ASSERT_NEAR(numbers[motor_speed], motor.speed, 2e-12) << sample;
+    }
+  }
+}
+
+TEST(SampledDrive, EveryNumberOfItsStateHasAName) {
+  ReducedDrive drive = lone_motor();
+  drive.controller =
+      ProportionalIntegralDerivative{.integral = 1.0, .derivative = 1.0, .filter = 0.1};
+  drive.sampling = Sampling{.period = 0.1, .delay = 0.05};
+  const std::vector<std::string> names = drive_system(drive).system.state_names;
+  EXPECT_EQ(std::vector(names.begin(), names.begin() + 9),
+            (std::vector<std::string>{"motor position", "motor speed", "load position",
+                                      "load speed", "controller 1", "controller 2", "torque held",
+                                      "torque worked out", "last reading"}));
+  EXPECT_EQ(std::set(names.begin(), names.end()).size(), names.size());
 }
 
 /// A continuous controller with an encoder: between counts the torque is constant.

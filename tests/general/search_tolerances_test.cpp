@@ -45,6 +45,8 @@ TEST(SearchTolerances, Rest) {
   AttractorOptions options = few_starts();
   options.tolerances.rest.still = 1e3;
   EXPECT_EQ(find_attractors(hunting, options).count(MotionEnd::rest), 2U);
+  options.tolerances.rest.still = 1e-3;  // it swings by more than that of all that it has moved
+  EXPECT_EQ(find_attractors(hunting, options).count(MotionEnd::cycle), 2U);
   for (double RestTolerances::*limit :
        {&RestTolerances::vanishing_limit, &RestTolerances::small_swing,
         &RestTolerances::small_motion}) {
@@ -74,6 +76,11 @@ TEST(SearchTolerances, StabilityAndSymmetry) {
   ASSERT_EQ(found.cycles.size(), 1U);
   EXPECT_EQ(found.cycles[0].stability, Stability::neutral);
   EXPECT_FALSE(found.cycles[0].is_symmetric);
+  const double beside = std::abs(found.cycles[0].multiplier - 1.0);
+  options.tolerances.cycle.neutral_band = 0.99 * beside;
+  EXPECT_EQ(find_attractors(hunting, options).cycles.at(0).stability, Stability::stable);
+  options.tolerances.cycle.neutral_band = 1.01 * beside;
+  EXPECT_EQ(find_attractors(hunting, options).cycles.at(0).stability, Stability::neutral);
 }
 
 TEST(SearchTolerances, IrregularMotion) {
@@ -88,6 +95,17 @@ TEST(SearchTolerances, IrregularMotion) {
   strict = open;
   strict.tolerances.irregular.least_turns = 1000;
   EXPECT_EQ(find_attractors(hunting, strict).count(MotionEnd::undecided), 2U);
+}
+
+TEST(SearchTolerances, SwingsThatShrinkAreNotSteady) {
+  AttractorOptions options = few_starts();
+  options.tolerances.cycle.residual = 0.0;  // nothing closes
+  options.starts = {{100.0, 0.0, 100.0, 0.0}};
+  const ReducedDrive slow = servo(1e-3, 1.0, 0.5);
+  options.tolerances.irregular.steadiness = 0.1;
+  EXPECT_EQ(find_attractors(slow, options).count(MotionEnd::undecided), 1U);
+  options.tolerances.irregular.steadiness = 0.3;
+  EXPECT_EQ(find_attractors(slow, options).count(MotionEnd::irregular), 1U);
 }
 
 TEST(SearchTolerances, ChosenStarts) {

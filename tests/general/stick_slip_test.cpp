@@ -75,6 +75,24 @@ ReducedDrive belt_drive(const Belt& belt) {
   return drive;
 }
 
+/// Each half swing takes 2 F/K off the amplitude; the shaft stays where the spring's torque is
+/// below the breakaway as it stops, though above what friction is while it slides.
+TEST(OracleStickSlip, AShaftThatStopsWithinItsBreakawayStaysThere) {
+  ReducedDrive drive;
+  drive.motor = {2.0, {.coulomb = 0.3, .breakaway = 0.5}};
+  drive.load.inertia = 1.0;
+  drive.backlash = 1e6;  // the motor is by itself
+  drive.sensing.load_share_of_position = 0.0;
+  drive.controller = ProportionalDerivative{1.0, 0.0};
+  const DriveSystem built = drive_system(drive);
+  for (const auto& [start, end] : {std::pair{1.0, -0.4}, std::pair{1.3, 0.1}, {-1.0, 0.4}}) {
+    const auto motion = simulate(built.system, drive_start(drive, built, {.motor_position = start}),
+                                 {.until = 99.0});
+    EXPECT_NEAR(motion.end().numbers[motor_position], end, 1e-14) << start;
+    EXPECT_EQ(motion.end().numbers[motor_speed], 0.0) << start;
+  }
+}
+
 std::vector<Belt> random_belts() {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> share(0.0, 1.0);

@@ -147,6 +147,10 @@ TEST(OracleContinuation, TheImpactingOrbitTurnsBackJustBelowGrazing) {
   ASSERT_EQ(branch.folds.size(), 1U);
   EXPECT_NEAR(branch.folds[0].parameter, amplitude_of_fold(), 1e-12);
   EXPECT_NEAR(std::abs(branch.folds[0].orbit.multipliers.at(0)), 1.0, 1e-6);
+  for (const double below : {1e-5, 1e-6, 1e-7}) {  // where none is, but one is nearly
+    const HybridSystem none = driven_towards_stop((1.0 - below) * amplitude_of_fold());
+    EXPECT_FALSE(neighbouring_orbit(none, branch.folds[0].orbit)) << below;
+  }
   // Beyond it the orbit is unstable, and ends as its impact comes to graze, at A = 0.1 again.
   EXPECT_EQ(branch.end, BranchEnd::grazing);
   EXPECT_EQ(branch.culprit, "free: stop");

@@ -161,5 +161,29 @@ TEST(EdgeRoughExit, LeadingTermsDoNotTellWhatTheRestMayHide) {
   EXPECT_FALSE(rough_exit(thrice, 1e-9, 20));
 }
 
+/// p(τ) = c − s τ: with the slope 16 E M ≤ D² just holds or just fails, D = s − E last and
+/// M = E last (last − 1).
+TEST(EdgeRoughExit, TellsNothingWhereTheRestMayBendTheCurveBack) {
+  constexpr double rest = 0.01;
+  constexpr int last = 20;
+  const double steepest = 4.0 * rest * std::sqrt(last * (last - 1.0)) + rest * last;
+  const auto falling = [](double slope) {
+    return std::vector{slope * 5.5 / (most_leading - 1.0), -slope};  // between two coefficients
+  };
+  EXPECT_TRUE(rough_exit(falling(1.01 * steepest), rest, last));
+  EXPECT_FALSE(rough_exit(falling(0.99 * steepest), rest, last));
+}
+
+/// Below −uncertainty without its last term, above it with that.
+TEST(EdgeFirstExit, LastTermsThatAreLeftOutMayHoldItUp) {
+  constexpr double uncertainty = 1e-6;
+  constexpr double touching = 0.75;
+  const double least = -uncertainty * (1.0 + 0.25 * negligible_share);
+  std::vector<double> p = {1.0 + least, -2.0 / touching, 1.0 / (touching * touching)};
+  EXPECT_TRUE(first_exit(p, uncertainty).at);
+  p.push_back(0.99 * negligible_share * uncertainty);
+  EXPECT_FALSE(first_exit(p, uncertainty).at);
+}
+
 }  // namespace
 }  // namespace gearlash::hybrid

@@ -252,6 +252,8 @@ TEST_F(DriveFileTable, IsReadWithItsUnits) {
 TEST_F(DriveFileTable, EdgeFaultsNameTheLine) {
   EXPECT_THAT(refusals_of("time (s),position (deg)\n0,0\n2,1\n1,1\n"),
               ElementsAre(HasSubstr("move.csv:4: time = 1: must be later than the row before")));
+  EXPECT_THAT(refusals_of("time (s),position (deg)\n0,0\n0,1\n"),
+              ElementsAre(HasSubstr("move.csv:3: time = 0: must be later than the row before")));
   EXPECT_THAT(refusals_of("time (s),position (kg)\n0,0\n"),
               ElementsAre(HasSubstr("second column")));
   EXPECT_THAT(refusals_of("time,position\n0,0\n"), ElementsAre(HasSubstr("first column = time")));

@@ -1,0 +1,91 @@
+// Servos with bounces that have several cycles at once: none is missed, none is listed as another.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "closed_form/limit_cycle.hpp"
+
+namespace gearlash {
+namespace {
+
+struct Expected {
+  CycleKind kind;
+  double size;
+  double period;
+  bool stable;
+};
+
+constexpr auto symmetric = CycleKind::symmetric;
+constexpr auto asymmetric = CycleKind::asymmetric;
+constexpr auto subharmonic = CycleKind::subharmonic;
+
+/// To the six digits that are given; each cycle returns to itself, which is tested elsewhere.
+void expect_cycles(const NormalizedServo& servo, const std::vector<Expected>& expected) {
+  const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
+  ASSERT_EQ(analysis.cycles.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const LimitCycle& cycle = analysis.cycles[i];
+    constexpr double printed = 5e-6;
+    EXPECT_EQ(cycle.kind, expected[i].kind) << i;
+    EXPECT_NEAR(cycle.size, expected[i].size, printed * expected[i].size) << i;
+    EXPECT_NEAR(cycle.period, expected[i].period, printed * expected[i].period) << i;
+    EXPECT_EQ(cycle.stable, expected[i].stable) << i;
+  }
+}
+
+/// The largest is between amplitudes of a scan four times as coarse.
+TEST(CoexistingCycles, TheScanIsFineEnough) {
+  expect_cycles({.damping = 0.12958038746223441,
+                 .inertia_ratio = 3.7427216142860131,
+                 .friction_ratio = 0.30865510795801154,
+                 .backlash = 0.3,
+                 .restitution = 0.92472818955456493},
+                {{symmetric, 0.140915, 6.63259, false},
+                 {symmetric, 0.140304, 6.08952, true},
+                 {symmetric, 0.120543, 6.51219, false}});
+}
+
+/// Four of them differ by some 1e-5 … 1e-4: Newton's method on the way to one passes by another.
+TEST(CoexistingCycles, NeighboursAreToldApart) {
+  expect_cycles({.damping = 0.048970436296528357,
+                 .inertia_ratio = 0.31095601338847551,
+                 .friction_ratio = 0.41058147176417631,
+                 .backlash = 0.3,
+                 .restitution = 0.62171935005586854},
+                {{subharmonic, 1.2163, 18.3924, false},
+                 {symmetric, 1.21622, 6.131, false},
+                 {subharmonic, 1.21608, 12.2615, false},
+                 {subharmonic, 1.21602, 18.392, false},
+                 {symmetric, 1.21008, 6.12807, false},
+                 {symmetric, 1.19815, 6.12284, true}});
+}
+
+/// The first is found by three of its periods.
+TEST(CoexistingCycles, OneGoneRoundSeveralTimesIsItself) {
+  expect_cycles({.damping = 0.091062287546922679,
+                 .inertia_ratio = 2.9163421631616244,
+                 .friction_ratio = 0.44677188367358722,
+                 .backlash = 0.3,
+                 .restitution = 0.79268403616092142},
+                {{asymmetric, 0.183249, 6.03087, true},
+                 {symmetric, 0.178473, 5.95531, false},
+                 {symmetric, 0.16661, 6.34564, false}});
+}
+
+TEST(CoexistingCycles, OfThreeTraversals) {
+  expect_cycles({.damping = 0.15162290609739482,
+                 .inertia_ratio = 0.32060342957060811,
+                 .friction_ratio = 0.84808193673730847,
+                 .backlash = 0.3,
+                 .restitution = 0.69707352914265508},
+                {{symmetric, 0.41531, 6.39705, true},
+                 {symmetric, 0.400449, 6.50192, false},
+                 {subharmonic, 0.397496, 19.5445, false},
+                 {subharmonic, 0.387818, 19.5998, false},
+                 {subharmonic, 0.377803, 13.0834, false},
+                 {symmetric, 0.371911, 6.5406, false}});
+}
+
+}  // namespace
+}  // namespace gearlash
