@@ -37,7 +37,7 @@ const char* text_of(const Event& event) {
   if (event.kind == EventKind::impact) {
     return is_forward ? "impact forward" : "impact backward";
   }
-  return is_forward ? "impact forward, settled" : "impact backward, settled";
+  return is_forward ? "impact forward (settled)" : "impact backward (settled)";
 }
 
 /// In units of 1/ω_n inside.
@@ -206,7 +206,7 @@ class GeneralMotion : public Motion::Source {
     const hybrid::AffineMode& mode = system_.system.mode(event.mode);
     if (event.kind == hybrid::EventKind::timed) return mode.timed[event.transition].name;
     const std::string& name = mode.transitions[event.transition].name;
-    return event.kind == hybrid::EventKind::settling ? name + ", settled" : name;
+    return event.kind == hybrid::EventKind::settling ? name + " (settled)" : name;
   }
 
   std::string_view kept(std::string text) { return *texts_.insert(std::move(text)).first; }

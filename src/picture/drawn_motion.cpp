@@ -91,7 +91,7 @@ bool is_impact(const MotionEvent& event) {
 
 /// What happens, without whether that was the last of infinitely many.
 std::string_view kind_of(const MotionEvent& event) {
-  return event.what.substr(0, event.what.find(','));
+  return event.what.substr(0, event.what.find(" ("));
 }
 
 /// What parts the curve, and where.

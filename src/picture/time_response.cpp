@@ -229,8 +229,14 @@ std::string end_line(const MotionPicture& picture, const Response& response) {
 
 /// In pixels, from the top.
 constexpr double heading_height = 118.0;
-constexpr double legend_height = 165.0;
 constexpr double gap_between = 12.0;
+
+/// With the axis above it, for so many names in two columns.
+double legend_height(std::size_t names) {
+  constexpr double axis = 72.0;
+  constexpr double row = 27.0;
+  return axis + row * static_cast<double>((names + 1) / 2);
+}
 
 std::string heading(const MotionPicture& picture, const Response& response, double height) {
   const auto label = [&](int number, const std::string& text, const char* style, double from_top) {
@@ -259,13 +265,13 @@ std::string draw_time_response(const MotionPicture& picture, PictureFormat forma
   panels.push_back(torque_panel(picture, response));
   const std::vector<std::string> more = more_in_legend(picture, response);
   panels.front().layers.insert(panels.front().layers.end(), more.begin(), more.end());
-  double height = heading_height + legend_height;
+  double height = heading_height + legend_height(panels.front().layers.size());
   for (const Panel& panel : panels) height += panel.height + gap_between;
 
   std::string script = terminal(format, height) + "set encoding utf8\n" + response.curve.text() +
                        response.impacts + "set multiplot\n" + response.apart +
                        fmt::format("set xrange [0:{:.7g}]\n", std::max(response.end_time, 1e-9)) +
-                       "set lmargin screen 0.115\nset rmargin screen 0.97\n"
+                       "set lmargin screen 0.135\nset rmargin screen 0.97\n"
                        "set grid linewidth 0.5 linecolor rgb '#c4c4c4'\n"
                        "set tics nomirror out\nset border linewidth 0.8\nset format x ''\n"
                        "set key at screen 0.54, screen 0.004 bottom center horizontal maxcols 3 "

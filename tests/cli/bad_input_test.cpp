@@ -42,7 +42,7 @@ TEST(BadInput, EveryFaultOfTheOptionsIsListed) {
                   "gearlash: --damping = -1: must be 0 or from 1e-15 to 1000",
                   "gearlash: --friction-ratio = 3/2: must be from 0 to 1",
                   "gearlash: --initial-speed = inf: must be finite",
-                  "gearlash: --until = 0: must be positive, in 1/ω_n"));
+                  "gearlash: --until = 0: must be positive, in s"));
 }
 
 TEST(BadInput, WhatIsTypedIsNeverReadAsAFile) {
@@ -129,7 +129,7 @@ TEST(BadInput, PictureEndings) {
 TEST(BadInput, TooManySamplesAndTooLongPicturesAreRefused) {
   EXPECT_THAT(faults({"simulate", "examples/elinco-fd162.toml", "--until", "1", "--every", "1e-8"}),
               ElementsAre("gearlash: --every = 1e-08: must be more than 1e-07 s: 1e+07 samples at "
-                          "most up to 1"));
+                          "most up to 1 s"));
   EXPECT_THAT(faults({"simulate", "examples/normalized.toml", "--until", "1e4", "--plot",
                       "time=never-drawn.svg"}),
               ElementsAre(StartsWith("gearlash: --until = ")));

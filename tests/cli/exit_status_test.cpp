@@ -33,8 +33,8 @@ TEST(ExitStatus, ThreeForAPictureThatFailsWhoseAnswerIsPrinted) {
                   "hunts irregularly"),
         std::pair("describe" + sheet + " --plot nyquist=" + plot, "exact: hunts"),
         std::pair("compare" + sheet + " --sensor load --plot time=" + plot, "  sensor on"),
-        std::pair("simulate" + sheet + " --plot phase=" + plot, "# gearlash "),
-        std::pair("simulate examples/robot-joint.toml --plot time=" + plot, "# gearlash "),
+        std::pair("simulate" + sheet + " --plot phase=" + plot, "time_s,"),
+        std::pair("simulate examples/robot-joint.toml --plot time=" + plot, "time_s,"),
         std::pair("design" + sheet +
                       " --target no-hunting --vary error_gain,load_friction --plot region=" + plot,
                   "target: ")}) {

@@ -240,6 +240,25 @@ TEST(SimulateCommand, TimesMayCarryTheirUnitInTheNormalFormToo) {
   EXPECT_DOUBLE_EQ(number(table.rows.back()[0]), 0.05);
 }
 
+/// That of the file, or of the option where the file has radians.
+TEST(SimulateCommand, PicturesAreInTheUnitOfTheAuthor) {
+  const test::Scratch scratch;
+  const std::string picture = (scratch / "step.svg").string();
+  const auto drawn = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"simulate", "--plot", "time=" + picture, "--output",
+                                      "/dev/null"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome run = run_tool(words);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return test::file_text(picture);
+  };
+  EXPECT_THAT(drawn(with_sample_servo({})), HasSubstr("position (rad)"));
+  EXPECT_THAT(drawn(with_sample_servo({"--reference", "30 deg"})), HasSubstr("position (deg)"));
+  EXPECT_THAT(drawn({"examples/telescope-axis.toml", "--until", "1"}),
+              HasSubstr("position (arcmin)"));
+  EXPECT_THAT(drawn({"examples/elinco-fd162.toml", "--until", "1"}), HasSubstr("hunts: ±"));
+}
+
 TEST(SimulateCommand, ShaftsMayStartApart) {
   const Table table = table_of(run_tool(
       with_sample_servo({"simulate", "--until", "1", "--initial-position", "0.5", "--initial-speed",

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "model/reduced_drive.hpp"
+#include "picture/attractor_picture.hpp"
 #include "picture/drawn_motion.hpp"
 #include "picture/line_chart.hpp"
 #include "picture/motion_picture.hpp"
@@ -184,6 +186,25 @@ TEST(Picture, ALeapOfTheReferenceIsVertical) {
   }
   EXPECT_EQ(points.front().reference, 0.0);
   EXPECT_EQ(points.back().reference, 1.0);
+}
+
+TEST(Picture, TheLegendTellsTwoCyclesApart) {
+  Drive drive = general_drive();
+  drive.motor.friction.coulomb = 0.0;
+  drive.reference.reset();
+  const drive::ReducedDrive reduced = reduce(drive);
+  drive::AttractorSearch search = drive::find_attractors(reduced);
+  ASSERT_EQ(search.cycles.size(), 1U);
+  search.cycles.push_back(search.cycles.front());
+  search.cycles.back().size *= 2.0;
+  const MotionPicture picture = attractor_picture("title", drive, reduced, search, {});
+  ASSERT_EQ(picture.motions.size(), 2U);
+  EXPECT_NE(picture.motions[0].name, picture.motions[1].name);
+  EXPECT_THAT(picture.motions[0].name, testing::MatchesRegex("stable cycle ±.* rad, .* s"));
+  EXPECT_THAT(
+      visible_text(draw_phase_plane(picture, PictureFormat::svg)),
+      testing::AllOf(HasSubstr("motor, " + picture.motions[0].name),
+                     HasSubstr("motor, " + picture.motions[1].name), HasSubstr("faces apart")));
 }
 
 TEST(Picture, AnSvgIsNamedByItsTitle) {
