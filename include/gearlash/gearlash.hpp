@@ -14,5 +14,6 @@
 #include "gearlash/parameter.hpp"
 #include "gearlash/progress.hpp"
 #include "gearlash/quantity.hpp"
+#include "gearlash/sensitivity.hpp"
 #include "gearlash/signal.hpp"
 #include "gearlash/version.hpp"

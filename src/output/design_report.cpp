@@ -265,18 +265,12 @@ std::string design_json(const DesignReport& report) {
   Json answers = Json::array();
   for (const FeasibleValues& answer : report.answers)
     answers.push_back(json_answer(report, answer));
-  const Json json = {{"schema", "gearlash/design/2"},
-                     {"version", report.provenance.version},
-                     {"command", report.provenance.command},
-                     {"units", "SI"},
-                     {"drive", drive_json(report.drive.drive())},
-                     {"defaults", defaults_taken(report.drive.drive())},
-                     {"target", report.target_text},
-                     {"met", json_of(judge_present(report, present))},
-                     {"present",
-                      {{"performance", json_performance(present)},
-                       {"loop", json_loop(report.drive.drivetrain())}}},
-                     {"answers", std::move(answers)}};
+  Json json = json_head("design", report.drive.drive(), report.provenance);
+  json["target"] = report.target_text;
+  json["met"] = json_of(judge_present(report, present));
+  json["present"] = {{"performance", json_performance(present)},
+                     {"loop", json_loop(report.drive.drivetrain())}};
+  json["answers"] = std::move(answers);
   return json.dump(2) + "\n";
 }
 

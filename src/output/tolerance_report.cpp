@@ -264,34 +264,27 @@ std::string tolerance_json(const ToleranceReport& report) {
   const ToleranceStudy& study = report.study;
   const Performance& worst = report.worst.performance;
   const bool has_target = !report.target_text.empty();
-  const Json json = {{"schema", "gearlash/tolerance/2"},
-                     {"version", report.provenance.version},
-                     {"command", report.provenance.command},
-                     {"units", "SI"},
-                     {"drive", drive_json(report.drive.nominal)},
-                     {"defaults", defaults_taken(report.drive.nominal)},
-                     {"sampling",
-                      {{"points", study.sampling.points},
-                       {"replicates", study.sampling.replicates},
-                       {"seed", study.sampling.seed}}},
-                     {"hunting", json_estimate(study.hunting)},
-                     {"target", has_target ? Json(report.target_text) : Json(nullptr)},
-                     {"yield", has_target ? json_estimate(study.yield) : Json(nullptr)},
-                     {"mean_amplitude", json_estimate(study.mean_amplitude)},
-                     {"amplitude", json_quantiles(study.amplitude)},
-                     {"amplitude_of_hunting", json_quantiles(study.amplitude_of_hunting)},
-                     {"frequency", json_quantiles(study.frequency)},
-                     {"histogram", json_histogram(study.histogram)},
-                     {"parameters", json_parameters(report)},
-                     {"worst",
-                      {{"verdict", name_of(worst.verdict)},
-                       {"growth_at_rest", json_number(worst.growth_at_rest)},
-                       {"amplitude", json_number(worst.amplitude)},
-                       {"frequency", json_number(worst.frequency)}}},
-                     {"backlash", json_backlash(report)},
-                     {"undecided", study.undecided},
-                     {"unknown_amplitudes", study.unknown_amplitudes},
-                     {"refused", study.refused}};
+  Json json = json_head("tolerance", report.drive.nominal, report.provenance);
+  json["sampling"] = {{"points", study.sampling.points},
+                      {"replicates", study.sampling.replicates},
+                      {"seed", study.sampling.seed}};
+  json["hunting"] = json_estimate(study.hunting);
+  json["target"] = has_target ? Json(report.target_text) : Json(nullptr);
+  json["yield"] = has_target ? json_estimate(study.yield) : Json(nullptr);
+  json["mean_amplitude"] = json_estimate(study.mean_amplitude);
+  json["amplitude"] = json_quantiles(study.amplitude);
+  json["amplitude_of_hunting"] = json_quantiles(study.amplitude_of_hunting);
+  json["frequency"] = json_quantiles(study.frequency);
+  json["histogram"] = json_histogram(study.histogram);
+  json["parameters"] = json_parameters(report);
+  json["worst"] = {{"verdict", name_of(worst.verdict)},
+                   {"growth_at_rest", json_number(worst.growth_at_rest)},
+                   {"amplitude", json_number(worst.amplitude)},
+                   {"frequency", json_number(worst.frequency)}};
+  json["backlash"] = json_backlash(report);
+  json["undecided"] = study.undecided;
+  json["unknown_amplitudes"] = study.unknown_amplitudes;
+  json["refused"] = study.refused;
   return json.dump(2) + "\n";
 }
 
