@@ -232,19 +232,18 @@ TEST(EdgeGrazing, APassageDeeperThanTheBandFires) {
   EXPECT_TRUE(motion.touches().empty());
 }
 
-/// A swing of 1 about a place so far away that its numbers are known to 2⁻²² only.
+/// A throw of ½ at a height of which a double has digits to 2⁻²² only.
 TEST(EdgeGrazing, WhatIsUnknownOfTheStartMayHideAPassage) {
-  constexpr double place = 0x1p30;
+  constexpr double height = 0x1p30;
   constexpr double digit = 0x1p-22;
-  HybridSystem system{.state_names = {"position", "speed"},
-                      .modes = {{.name = "swings",
-                                 .flow = {Matrix{{0.0, 1.0}, {-1.0, 0.0}}, Vector{{0.0, place}}}}}};
+  HybridSystem system{
+      .state_names = {"position", "speed"},
+      .modes = {{.name = "flies", .flow = {Matrix{{0.0, 1.0}, {0.0, 0.0}}, Vector{{0.0, -1.0}}}}}};
   for (int digits = -4; digits <= 4; ++digits) {
     system.modes[0].transitions = {{.name = "passes",
-                                    .guard = {Vector::Unit(2, 0), -(place + 1.0 + digits * digit)},
+                                    .guard = {Vector::Unit(2, 0), -(height + 0.5 + digits * digit)},
                                     .direction = Direction::rising}};
-    const Trajectory motion =
-        simulate(system, {0, Vector{{place + std::cos(1.0), std::sin(1.0)}}}, {.until = 2.0});
+    const Trajectory motion = simulate(system, {0, Vector{{height, 1.0}}}, {.until = 2.0});
     EXPECT_TRUE(motion.events().empty()) << digits;
     ASSERT_EQ(motion.touches().size(), 1U) << digits;
     EXPECT_GE(motion.touches()[0].within, 4.0 * digit) << digits;
