@@ -47,10 +47,10 @@ InvalidInput wrong_row(const std::string& name, int line, const std::string& fou
                         "must have two columns, separated by a comma: times and values", ""}});
 }
 
-/// Comma-separated, the first row telling names and units; lines that begin with # are remarks.
-TableSignal read_table(const std::filesystem::path& path, const Dimension& values) {
-  const std::string text = read_text_file(path, largest_table);
-  const std::string name = path.string();
+}  // namespace
+
+TableSignal parse_signal_table(std::string_view text, const std::string& name,
+                               const Dimension& values) {
   using Reader = io::CSVReader<2, io::trim_chars<' ', '\t'>, io::no_quote_escape<','>,
                                io::throw_on_overflow, io::single_line_comment<'#'>>;
   TableSignal table;
@@ -91,10 +91,8 @@ TableSignal read_table(const std::filesystem::path& path, const Dimension& value
   return table;
 }
 
-}  // namespace
-
 TableSignal read_signal_table(const std::filesystem::path& path, const Dimension& values) {
-  return read_table(path, values);
+  return parse_signal_table(read_text_file(path, largest_table), path.string(), values);
 }
 
 }  // namespace gearlash

@@ -1,11 +1,11 @@
 #include "input/unit_expression.hpp"
 
 #include <array>
-#include <charconv>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "base/decimal.hpp"
 #include "input/units.hpp"
 #include "input/utf8.hpp"
 
@@ -111,12 +111,11 @@ class UnitReader {
 
   Unit number() {
     const std::size_t length = number_length(rest_);
-    Unit result;
-    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + length, result.factor);
-    if (error != std::errc() || !(result.factor > 0.0)) {
-      throw NotAUnit("a divisor has to be positive and finite");
-    }
+    const std::optional<double> value = nearest_double(rest_.substr(0, length));
+    if (!value || !(*value > 0.0)) throw NotAUnit("a divisor has to be positive and finite");
     rest_.remove_prefix(length);
+    Unit result;
+    result.factor = *value;
     return result;
   }
 

@@ -1,11 +1,11 @@
 #include "input/units.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "base/decimal.hpp"
 #include "input/unit_expression.hpp"
 #include "input/utf8.hpp"
 
@@ -27,11 +27,8 @@ std::string_view trimmed(std::string_view text) {
 /// A number that is the whole of `text`. Empty where it is none, NaN where no double holds it.
 std::optional<double> decimal(std::string_view text) {
   if (text.empty() || number_length(text) != text.size()) return std::nullopt;
-  if (text[0] == '+') text.remove_prefix(1);  // from_chars knows no plus
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc()) return std::numeric_limits<double>::quiet_NaN();
-  return value;
+  if (text[0] == '+') text.remove_prefix(1);
+  return nearest_double(text).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 std::string expectation(const Dimension& expected) {

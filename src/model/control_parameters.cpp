@@ -98,6 +98,14 @@ const Dimension* speed_gain_dimension(const Drive& drive) {
 
 constexpr std::size_t cascade = 4;  // in the list of kinds, after P, PD, PI, PID
 
+/// The alternative of that index, with its defaults.
+template <class... Laws>
+void become(std::variant<Laws...>& law, std::size_t which) {
+  const std::variant<Laws...> all[] = {Laws{}...};
+  law = all[which];
+}
+
+/// The laws after the PID ones are in the order of Controller::law.
 Parameter controller_kind() {
   return {.path = "controller.kind",
           .slot =
@@ -111,12 +119,11 @@ Parameter controller_kind() {
                                    },
                                    [](Drive& drive, std::size_t choice) {
                                      auto& law = drive.controller.law;
-                                     if (choice < cascade)
+                                     if (choice < cascade) {
                                        law = PID{.terms = static_cast<PIDTerms>(choice)};
-                                     if (choice == cascade) law = CascadeController{};
-                                     if (choice == cascade + 1) law = LeadLagController{};
-                                     if (choice == cascade + 2) law = TransferFunctionController{};
-                                     if (choice == cascade + 3) law = StateSpaceController{};
+                                     } else {
+                                       become(law, choice - cascade + 1);
+                                     }
                                    }}};
               },
           .meaning = "the law that makes the output of the error",
@@ -234,14 +241,15 @@ std::vector<Parameter> other_laws() {
            .slot =
                [](Drive& d) {
                  if (d.servo) return Slot{};
-                 if (auto* law = std::get_if<LeadLagController>(&d.controller.law)) {
-                   return Slot{&law->gain};
-                 }
-                 if (auto* law = std::get_if<TransferFunctionController>(&d.controller.law)) {
-                   return Slot{&law->gain};
-                 }
-                 auto* law = std::get_if<StateSpaceController>(&d.controller.law);
-                 return law == nullptr ? Slot{} : Slot{&law->gain};
+                 return std::visit(
+                     [](auto& law) {
+                       if constexpr (requires { law.gain; }) {
+                         return Slot{&law.gain};
+                       } else {
+                         return Slot{};
+                       }
+                     },
+                     d.controller.law);
                },
            .dimension = &gain_dimension,
            .meaning = "output per error, before the controller's dynamics",

@@ -1,14 +1,19 @@
-// Whatever the bytes: parse_servo either throws InvalidInput, one line a fault, or returns a
-// sound servo; parse_sweep a sound grid; and parse_servo_or_drive a sound servo or drive.
+// Whatever the bytes, every reader either throws InvalidInput, one line a fault, or returns what is
+// sound: a servo, a drive with its tolerances, a sweep, a table of a signal, a target, an axis.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
 #include "general/assemble/drive_system.hpp"
+#include "input/axis_text.hpp"
 #include "input/drive_file.hpp"
 #include "input/servo_file.hpp"
+#include "input/signal_reader.hpp"
 #include "input/sweep_file.hpp"
+#include "input/target_text.hpp"
+#include "model/signal.hpp"
 
 namespace {
 
@@ -53,26 +58,32 @@ void require_one_line_each(const gearlash::InvalidInput& refusal) {
   }
 }
 
+/// What `read` makes of the bytes has to be sound, or refused.
+template <class Read>
+void accept_or_refuse(const Read& read) {
+  try {
+    read();
+  } catch (const gearlash::InvalidInput& refusal) {
+    require_one_line_each(refusal);
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  try {
-    require_sound(gearlash::parse_servo(text, "fuzz.toml"));
-  } catch (const gearlash::InvalidInput& refusal) {
-    require_one_line_each(refusal);
-  }
-  try {
-    require_sound(gearlash::parse_sweep(text, "fuzz.toml"));
-  } catch (const gearlash::InvalidInput& refusal) {
-    require_one_line_each(refusal);
-  }
+  const std::string name = "fuzz.toml:";
+  accept_or_refuse([&] { require_sound(gearlash::parse_servo(text, "fuzz.toml")); });
+  accept_or_refuse([&] { require_sound(gearlash::parse_sweep(text, "fuzz.toml")); });
+  accept_or_refuse([&] { gearlash::read_axis(name, text); });
+  accept_or_refuse([&] { gearlash::read_target(name, text, gearlash::TimeScale::unknown); });
+  accept_or_refuse([&] {
+    const gearlash::Signal table =
+        gearlash::parse_signal_table(text, name, gearlash::dimensions::angle);
+    require(gearlash::drive::validate(table, name).empty());
+  });
   // A table could be a file that is without end.
   if (text.find("file") != std::string_view::npos) return 0;
-  try {
-    require_sound(gearlash::parse_servo_or_drive(text, "fuzz.toml", "."));
-  } catch (const gearlash::InvalidInput& refusal) {
-    require_one_line_each(refusal);
-  }
+  accept_or_refuse([&] { require_sound(gearlash::parse_servo_or_drive(text, "fuzz.toml", ".")); });
   return 0;
 }
