@@ -62,7 +62,8 @@ struct FixedNumber {
 
 std::vector<FixedNumber> fixed_numbers(const Grid& grid) {
   std::vector<FixedNumber> fixed;
-  for (const auto& [path, value] : fixed_parameters(grid).items()) {
+  const Json parameters = fixed_parameters(grid);  // which items() only refers to
+  for (const auto& [path, value] : parameters.items()) {
     if (!value.is_number() && value != "inf") continue;
     const Axis axis{.path = path};
     fixed.push_back({column_name(path), std::string(parameter_of(axis, grid.drive)->meaning),

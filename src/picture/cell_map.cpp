@@ -42,6 +42,7 @@ Cells cells_of(const CellPanel& panel, const std::string& name) {
 
 std::string draw_cell_map(const CellMap& map, PictureFormat format) {
   const std::size_t panels_a_line = std::min<std::size_t>(3, map.panels.size());
+  const bool is_one = map.panels.size() == 1;  // with room for longer numbers
   std::string data;
   std::string plots;
   for (std::size_t i = 0; i < map.panels.size(); ++i) {
@@ -56,14 +57,16 @@ std::string draw_cell_map(const CellMap& map, PictureFormat format) {
     if (!cells.numbers.is_empty()) {
       layers.push_back(fmt::format(
           "${0} using 1:2:(0.48):(0.48):3 with boxxyerror fill solid noborder linecolor palette "
-          "notitle, ${0} using 1:2:(sprintf('{{/*0.7 {1}}}',$3)) with labels notitle",
-          name, map.number_format));
+          "notitle, ${0} using 1:2:(sprintf('{{/*{2} {1}}}',$3)) with labels notitle",
+          name, map.number_format, is_one ? "1.0" : "0.7"));
     }
     if (!cells.dots.is_empty()) {
-      layers.push_back(fmt::format("${}_dots using 1:2:('·') with labels notitle", name));
+      layers.push_back(fmt::format("${0}_dots using 1:2:('{{/*{1} ·}}') with labels notitle", name,
+                                   is_one ? "2.5" : "1.0"));
     }
     if (layers.empty()) layers.push_back("1/0 notitle");  // keeps the axes
     plots += plot_command(layers);
+    if (i == 0) plots += "unset label 1\nunset label 2\n";
   }
   std::string script = terminal(format) + "unset bmargin\nset encoding utf8\n";
   script += fmt::format(
@@ -75,14 +78,12 @@ std::string draw_cell_map(const CellMap& map, PictureFormat format) {
                         static_cast<double>(map.columns.size()) - 0.5,
                         static_cast<double>(map.rows.size()) - 0.5);
   script += data;
-  script += fmt::format("set multiplot layout {},{} margins 0.09,0.97,0.1,0.84 spacing 0.06,0.12\n",
-                        (map.panels.size() + panels_a_line - 1) / panels_a_line, panels_a_line);
+  script += fmt::format("set multiplot layout {},{} margins {},0.97,0.1,0.84 spacing 0.06,0.12\n",
+                        (map.panels.size() + panels_a_line - 1) / panels_a_line, panels_a_line,
+                        is_one ? 0.17 : 0.09);
   script += "set label 1 " + quoted(map.title, "/:Bold") + " at screen 0.5, 0.96 center\n";
   script += "set label 2 " + quoted(map.subtitle, "/*0.87") + " at screen 0.5, 0.915 center\n";
-  const std::size_t first_end = plots.find("plot ");
-  const std::size_t after_first = plots.find('\n', first_end) + 1;
-  script += plots.substr(0, after_first) + "unset label 1\nunset label 2\n" +
-            plots.substr(after_first) + "unset multiplot\n";
+  script += plots + "unset multiplot\n";
   return run_gnuplot(script, map.title);
 }
 

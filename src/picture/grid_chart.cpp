@@ -52,16 +52,15 @@ std::string word_for_nothing(const GridTable& table, std::size_t first, std::siz
   return all_rest ? "rests" : "not known";
 }
 
-/// A line of one point does not show.
-void mark_lone_points(ChartCurve& curve, bool are_all_lone) {
+/// A line of one point does not show, and between searched ones it is a guess.
+void mark_points(ChartCurve& curve, bool are_all_marked) {
   const auto is_drawn = [&](std::size_t i) {
     return i < curve.line.size() && std::isfinite(curve.line[i].y);
   };
   for (std::size_t i = 0; i < curve.line.size(); ++i) {
-    const bool has_neighbour = !are_all_lone && (is_drawn(i + 1) || (i > 0 && is_drawn(i - 1)));
+    const bool has_neighbour = !are_all_marked && (is_drawn(i + 1) || (i > 0 && is_drawn(i - 1)));
     if (is_drawn(i) && !has_neighbour) curve.marks.push_back(curve.line[i]);
   }
-  if (are_all_lone) curve.line.clear();
 }
 
 }  // namespace
@@ -83,7 +82,8 @@ LineChart chart_of(const GridTable& table, Quantity quantity) {
                                       [](const auto& point) { return std::isfinite(point.y); });
     if (grid.axes.size() > 1) {
       const Axis& family = grid.axes.front();
-      curve.name = in_words(family.path) + " " + short_text(family, grid.drive, family.values[i]);
+      curve.name =
+          in_words(family.path) + " " + text_with_unit(family, grid.drive, family.values[i]);
       if (!is_drawn) curve.name += ": " + word_for_nothing(table, first, x.values.size(), quantity);
     }
     for (const ChartPoint& point : curve.line) {
@@ -91,7 +91,8 @@ LineChart chart_of(const GridTable& table, Quantity quantity) {
     }
     if (!is_drawn) curve.line.clear();
     nothing_drawn = nothing_drawn && !is_drawn;
-    mark_lone_points(curve, has_words(x, grid.drive));
+    mark_points(curve, has_words(x, grid.drive) || points.engines().search);
+    if (has_words(x, grid.drive)) curve.line.clear();
     if (!curve.ends.empty()) chart.end_meaning = "hunting ends";
     chart.curves.push_back(std::move(curve));
   }

@@ -101,6 +101,11 @@ std::string short_text(const Axis& axis, const Drive& drive, double value) {
   return has_words(axis, drive) ? text_of(axis, drive, value) : fmt::format("{:.4g}", value);
 }
 
+std::string text_with_unit(const Axis& axis, const Drive& drive, double value) {
+  const std::string unit = unit_of(axis, drive);
+  return short_text(axis, drive, value) + (unit.empty() || unit == "1" ? "" : " " + unit);
+}
+
 ChartAxis chart_axis(const Axis& axis, const Drive& drive) {
   const std::string unit = unit_of(axis, drive);
   ChartAxis drawn{

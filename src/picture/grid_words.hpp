@@ -30,6 +30,8 @@ bool has_words(const Axis& axis, const Drive& drive);
 
 /// A value for a person to read: "0.1", "load".
 std::string short_text(const Axis& axis, const Drive& drive, double value);
+/// "5e-05 kg m2".
+std::string text_with_unit(const Axis& axis, const Drive& drive, double value);
 
 /// The axis as it is drawn; one value in the middle.
 ChartAxis chart_axis(const Axis& axis, const Drive& drive);

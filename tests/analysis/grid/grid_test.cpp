@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "analysis/grid/servo_grid.hpp"
 #include "analysis/grid/servo_grids.hpp"
@@ -274,9 +275,9 @@ TEST(Grid, WordsStandOnAxesAndSearchedDrivesBesideServos) {
 }
 
 TEST(Grid, OptionalPartsAndInverseFormsStandOnAxes) {
-  const Grid grid{.drive = joint(), .axes = {{"sampling.frequency", {500.0, 1000.0}}}};
+  const Grid grid{.drive = joint(), .axes = {{"sampling.frequency", {3000.0, 4000.0}}}};
   EXPECT_TRUE(faults(grid).empty());
-  EXPECT_EQ(grid.at(1).sampling->period, 1e-3);
+  EXPECT_DOUBLE_EQ(grid.at(1).sampling->period, 2.0 * std::numbers::pi / 4000.0);
   const auto fault = [](const char* path, std::vector<double> values) {
     return to_string(faults(Grid{joint(), {{path, std::move(values)}}}, {"--x"}).at(0));
   };
