@@ -1,12 +1,18 @@
 #include "analysis/design/shifted_sobol.hpp"
 
 #include <algorithm>
+#include <boost/random/sobol.hpp>
 #include <random>
 
 namespace gearlash::detail {
 
+struct ShiftedSobol::Sequence : boost::random::sobol {
+  using boost::random::sobol::sobol;
+};
+
 ShiftedSobol::ShiftedSobol(std::size_t dimensions, const SamplePlan& sampling)
-    : dimensions_(dimensions), sequence_(std::max<std::size_t>(dimensions, 1)) {
+    : dimensions_(dimensions),
+      sequence_(std::make_shared<const Sequence>(std::max<std::size_t>(dimensions, 1))) {
   static_assert(boost::random::sobol::max() == ~std::uint64_t{0});
   std::mt19937_64 bits(sampling.seed);
   shifts_.resize(sampling.replicates * dimensions);
@@ -21,7 +27,7 @@ void ShiftedSobol::fill(std::size_t replicate, std::size_t first,
     return (static_cast<double>(bits >> 12U) + 0.5) * 0x1p-52;
   };
   std::size_t place = 0;
-  boost::random::sobol sequence = sequence_;
+  boost::random::sobol sequence = *sequence_;
   if (first == 0) {  // Boost begins after the origin
     for (; place < std::min(dimensions_, coordinates.size()); ++place) {
       coordinates[place] = coordinate(shifts[place]);

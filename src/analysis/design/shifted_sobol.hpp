@@ -1,9 +1,9 @@
 // Sobol's points, shifted at random, from any index on.
 #pragma once
 
-#include <boost/random/sobol.hpp>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -21,8 +21,9 @@ class ShiftedSobol {
 
  private:
   std::size_t dimensions_;
-  boost::random::sobol sequence_;      ///< at its start: copied and sought
-  std::vector<std::uint64_t> shifts_;  ///< by replicate and dimension
+  struct Sequence;                            // Boost's
+  std::shared_ptr<const Sequence> sequence_;  ///< at its start: copied and sought
+  std::vector<std::uint64_t> shifts_;         ///< by replicate and dimension
 };
 
 }  // namespace gearlash::detail

@@ -1,0 +1,24 @@
+// A chart is built once, and many servos are looked up in it.
+#include "analysis/grid/design_chart.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+int main() {
+  using namespace gearlash;
+  const DesignChart chart(
+      {.servo = {.damping = 0.1, .backlash = 0.3},
+       .axes = {spaced_axis("x", Input::inertia_ratio, 1.0 / 9.0, 9.0, 100, Spacing::logarithmic),
+                spaced_axis("y", Input::friction_ratio, 0.05, 0.95, 100, Spacing::linear)}},
+      CycleQuantity::size, {.tolerance = 1e-3});
+
+  const ChartAnswer answer = chart.look_up({0.25, 0.2});  // inertia ratio, friction ratio
+  std::printf("%s: size %.6f rad, relative error at most %.1e, %s\n", name_of(answer.verdict),
+              answer.value, answer.error, name_of(answer.source));
+
+  const ChartAccuracy& accuracy = chart.accuracy();
+  std::printf("%zu points checked: error at most %.1e; %.1f %% of the cells left to be solved\n",
+              accuracy.checked_points, accuracy.largest_error, 100.0 * accuracy.solved_share);
+  constexpr double exact = 0.791450654824;
+  return std::abs(answer.value / exact - 1.0) <= answer.error ? 0 : 1;
+}
