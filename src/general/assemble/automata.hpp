@@ -1,4 +1,4 @@
-// The automata of a drive, each of which adds its own transitions to a mode.
+// The automata of a drive. Each adds its own transitions to a mode.
 #pragma once
 
 #include <cstddef>
@@ -14,40 +14,40 @@ namespace gearlash::drive {
 hybrid::Transition transition(const char* name, const hybrid::AffineForm& guard,
                               hybrid::Direction direction, std::size_t target);
 
-/// Where a form that is positive (`way` +1), or negative (−1), loses its sign.
+/// Fires where a form that is positive (`way` +1), or negative (−1), loses its sign.
 inline hybrid::Direction falling_on(double way) {
   return way > 0.0 ? hybrid::Direction::falling : hybrid::Direction::rising;
 }
-/// Where it gains it.
+/// Fires where it gains that sign.
 inline hybrid::Direction rising_on(double way) {
   return way > 0.0 ? hybrid::Direction::rising : hybrid::Direction::falling;
 }
 
-/// Speeds put to exactly 0.
+/// Sets speeds to exactly 0.
 hybrid::Reset stopped(const DriveForms& forms, std::initializer_list<Eigen::Index> speeds);
 
 // ---- contact ------------------------------------------------------------------------------------
 
-/// Rigid faces that are apart: impacts, and the end of endless bounces.
+/// Separated rigid faces: impacts, and the end of endless bounces.
 void add_impacts(const DriveForms& forms, const DriveMode& mode, hybrid::Mode& built);
-/// Rigid faces together: parting, and stopping and breaking away as one.
+/// Engaged rigid faces: parting, and stopping and breaking away as one.
 void add_engaged(const DriveForms& forms, const DriveMode& mode, hybrid::Mode& built);
 /// Compliant faces: meeting, parting, and the limits of their damping.
 void add_compliance(const DriveForms& forms, const DriveMode& mode, hybrid::Mode& built);
 
 // ---- friction -----------------------------------------------------------------------------------
 
-/// Of a shaft that moves by itself: stopping, and breaking away.
+/// For a shaft that moves by itself: stopping and breaking away.
 void add_friction(const DriveForms& forms, const DriveMode& mode, Side side, hybrid::Mode& built);
 
 // ---- actuator -----------------------------------------------------------------------------------
 
-/// Of a continuous controller; a sampled one meets the limit at its ticks.
+/// For a continuous controller. A sampled one meets the limit at its ticks.
 void add_torque_limit(const DriveForms& forms, const DriveMode& mode, hybrid::Mode& built);
 
 // ---- sensor -------------------------------------------------------------------------------------
 
-/// Adds a multiple of a reading to numbers of the state after a tick; the reading is exact where
+/// Adds a multiple of a reading to numbers of the state after a tick. The reading is exact if
 /// `step` is 0.
 void add_reading(hybrid::Reset& reset, const hybrid::AffineForm& measured, double step,
                  const hybrid::Vector& gain);
@@ -55,7 +55,7 @@ void add_reading(hybrid::Reset& reset, const hybrid::AffineForm& measured, doubl
 /// An encoder under a continuous controller.
 void add_counting(const DriveForms& forms, const DriveMode& mode, hybrid::Mode& built);
 
-/// What encoders read at the start, as if the speeds had been the same before.
+/// The encoders' readings at the start, as if the speeds had been the same before.
 hybrid::Reset first_readings(const DriveForms& forms);
 
 // ---- clocks -------------------------------------------------------------------------------------
