@@ -1,4 +1,4 @@
-// Which guard of a mode is the first to leave its side within a step.
+// Finds the guard of a mode that first leaves its side within a step.
 #pragma once
 
 #include <limits>
@@ -11,12 +11,12 @@
 
 namespace gearlash::hybrid {
 
-/// A step of the motion: where it starts, how well that is known, and its series.
+/// A step of the motion: its start, the uncertainty of that, and its series.
 struct StepSeries {
   const PreparedMode& mode;
   const PreparedFlow& flow;
   const State& state;
-  const Vector& noise;       ///< what rounding has left unknown of each number
+  const Vector& noise;       ///< uncertainty of each number by rounding
   const Velocity& velocity;  ///< at the start
   double time;               ///< of the start
   double length;
@@ -26,19 +26,19 @@ struct StepSeries {
 };
 
 struct StepEnd {
-  /// Of the step, where a guard leaves its side; beyond 1 where none does.
+  /// Share of the step at which a guard leaves its side; beyond 1 if none does.
   double share = std::numeric_limits<double>::infinity();
   std::size_t guard = 0;
-  double within = 0.0;  ///< how far from `share` it may be
+  double within = 0.0;  ///< bound of the error of `share`
 };
 
 class GuardWatch {
  public:
-  /// Each guard is to leave the side that its direction says, or the one that it is on first.
+  /// Each guard is to leave the side that its direction names, or the side on which it is first.
   void enter(const Mode& mode);
 
-  /// The first exit of all in the next step of the mode. One that is known roughly is enough where
-  /// there is no other beside it.
+  /// The first exit of all guards in the next step of the mode. A rough one is enough if there is
+  /// no other near it.
   StepEnd next_exit(const StepSeries& step);
 
   /// Within the step, or beyond its end.
@@ -47,7 +47,7 @@ class GuardWatch {
  private:
   /// As a share of the step.
   struct StepExit : FirstExit {
-    double within = 0.0;  ///< how far from `at` it may be
+    double within = 0.0;  ///< bound of the error of `at`
   };
   StepExit exit_of(const StepSeries& step, std::size_t guard, bool roughly);
   std::optional<StepExit> exit_by(const StepSeries& step, const GuardTable& table, double value,
@@ -58,7 +58,7 @@ class GuardWatch {
 
   std::vector<double> signs_;  ///< of the sides that guards are to leave, 0 while unknown
   std::vector<double> coefficients_;
-  double touch_within_ = 0.0;  ///< how well the guard is known of which the last terms were asked
+  double touch_within_ = 0.0;               ///< uncertainty of the guard whose last terms were used
   std::vector<std::size_t> zero_at_start_;  ///< guards that the step before brought down to 0
   std::vector<std::size_t> zero_at_end_;    ///< and those that this one does
   std::vector<Touch> touches_;

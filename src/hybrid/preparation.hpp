@@ -1,4 +1,4 @@
-// A system's modes made ready for simulation, each when it is first entered.
+// Prepares a system's modes for simulation, each when it is first entered.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@
 
 namespace gearlash::hybrid {
 
-/// A reset as those rows in which it is not the identity.
+/// A reset by those rows in which it is not the identity.
 struct PreparedReset {
   struct Row {
     int number;
@@ -20,16 +20,16 @@ struct PreparedReset {
   std::vector<Row> rows;
 
   PreparedReset(const Reset& reset, Eigen::Index size);
-  /// Of numbers, and how well each is known, before; what rounding adds is not in `noise`.
+  /// Takes numbers and their uncertainty before. `noise` does not include rounding added here.
   void apply(const Reset& reset, const Vector& before, Vector& after, Vector& noise,
              Vector& scratch) const;
 };
 
-/// A flow with what the guards are on it.
+/// A flow with its guards as polynomials.
 struct PreparedFlow {
   LinearFlow flow;
   std::vector<GuardTable> guards;
-  std::optional<Stride> longest;  ///< where steps have a longest length
+  std::optional<Stride> longest;  ///< if steps have a longest length
 
   PreparedFlow(const AffineFlow& affine, const std::vector<SparseForm>& guards);
 };
@@ -58,7 +58,7 @@ class PreparedMode {
     FastDecays decays;
     PreparedFlow flow;
   };
-  /// Without its fast decays; null where there are none. Worked out when it is first asked for.
+  /// Without its fast decays; null if there are none. Computed when first requested.
   const Slow* slow() const;
 
   std::vector<SparseForm> guards;
@@ -74,7 +74,7 @@ class PreparedMode {
   mutable std::optional<Slow> slow_;
 };
 
-/// May be used by several threads.
+/// Several threads may use it.
 class Preparation {
  public:
   /// The system must live for as long as modes are entered.
@@ -89,7 +89,7 @@ class Preparation {
   const HybridSystem& system() const { return *system_; }
   /// Throws InvalidInput with all faults of a mode that a source has made.
   const PreparedMode& mode(std::size_t index) const;
-  /// Which numbers follow their own flow alone in every mode, and are changed by no event.
+  /// The numbers that follow their own flow alone in every mode, and that no event changes.
   const std::vector<bool>& exogenous() const;
 
  private:
