@@ -1,4 +1,4 @@
-// The question: what does this drive end in?
+// The question: does this drive hunt, and where do its motions end?
 #pragma once
 
 #include "gearlash/answer.hpp"
@@ -8,14 +8,15 @@
 namespace gearlash {
 
 struct Wanted {
-  /// Proofs by interval arithmetic where the closed form answers; else its verdict is computed
-  /// only.
+  /// Proofs by interval arithmetic where the closed form answers. Without them the verdict is only
+  /// computed.
   bool proofs = true;
 };
 
-/// In closed form where the drive is the servo of 1960 by its physics; else by simulation from
-/// several starts and shooting. Of references and load torques only the final value, ramp or sine
-/// matters. A search that is stopped says so. Throws InvalidInput for a drive that is not sound.
+/// Uses the closed form if the drive is the servo of 1960 by its physics. Otherwise it simulates
+/// from several starts and closes cycles by shooting. Only the final value, ramp or sine of a
+/// reference or load torque matters. A search that was stopped reports it. Throws InvalidInput for
+/// a faulty drive.
 [[nodiscard]] Answer analyse(const Drive& drive, const Wanted& wanted = {},
                              Progress& progress = no_progress());
 

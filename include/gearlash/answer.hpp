@@ -1,4 +1,4 @@
-// What a drive does: whether it hunts, how big and how fast, and how sure that is. SI units.
+// What a drive does: whether it hunts, how large and fast, and how certain that is.
 #pragma once
 
 #include <cstddef>
@@ -21,12 +21,12 @@ enum class Verdict : std::uint8_t {
   grows_without_bound,     ///< no friction at all: the oscillation has no bound
   runs_away,               ///< no start stays bounded
   runs_away_if_disturbed,  ///< some starts do not stay bounded
-  forced,                  ///< it swings as a sine reference or load torque drives it
+  forced,                  ///< a sine reference or load torque drives the oscillation
   undamped,                ///< neither friction nor backlash: any amplitude persists
   undecided
 };
 
-/// How sure a statement is, from the least to the most.
+/// How certain a statement is, from the least to the most.
 enum class Certainty : std::uint8_t {
   searched,  ///< found by a search, which may have missed something
   computed,  ///< decided by a formula in floating point, whose rounding is not bounded
@@ -36,11 +36,11 @@ enum class Certainty : std::uint8_t {
 
 enum class CycleKind : std::uint8_t {
   symmetric,   ///< mirrors itself every half period
-  asymmetric,  ///< it and its mirror image are two cycles
+  asymmetric,  ///< its mirror image is a second cycle
   subharmonic  ///< closes after several turns of the basic kind
 };
 
-/// By the multipliers: of all disturbances that can be.
+/// By the multipliers, for all possible disturbances.
 enum class Stability : std::uint8_t {
   stable,
   neutral,  ///< one is on the unit circle to within 1e-6: one of a family, or at a fold
@@ -56,7 +56,7 @@ struct Range {
   double highest = 0.0;
 };
 
-/// Energy lost in a period, J: as much as the loop feeds in.
+/// Energy lost in a period, J. The loop feeds in the same amount.
 struct EnergyLost {
   double motor_friction = 0.0;
   double load_friction = 0.0;
@@ -68,48 +68,48 @@ struct EnergyLost {
 struct Cycle {
   CycleKind kind = CycleKind::symmetric;
   Stability stability = Stability::stable;
-  Certainty certainty = Certainty::computed;  ///< that it is there, and how stable it is
+  Certainty certainty = Certainty::computed;  ///< that it exists, and how stable it is
   double amplitude = 0.0;                     ///< rad, half the peak-to-peak of the load
-  double motor_amplitude = 0.0;               ///< rad, of the motor, at the load's shaft
-  double center = 0.0;                ///< rad, mean of the load's extremes, from the reference
-  double period = 0.0;                ///< s
-  double multiplier = 0.0;            ///< Floquet's, the largest modulus over a period
-  double residual = 0.0;              ///< mismatch of the state after one period, as a share
-  double impact_speed = 0.0;          ///< rad/s, |ω_M − ω_L| before the hardest impact; 0: none
+  double motor_amplitude = 0.0;               ///< rad, of the motor, referred to the load's shaft
+  double center = 0.0;        ///< rad, mean of the load's extremes, from the reference
+  double period = 0.0;        ///< s
+  double multiplier = 0.0;    ///< Floquet's, the largest modulus over a period
+  double residual = 0.0;      ///< mismatch of the state after one period, as a share
+  double impact_speed = 0.0;  ///< rad/s, |ω_M − ω_L| before the hardest impact; 0 without impacts
   double engaged_time = 0.0;          ///< s of a period, faces together
   double separated_time = 0.0;        ///< s of a period, faces apart
-  std::size_t events_per_period = 0;  ///< of the closed form: impacts
-  bool has_mirror_image = false;      ///< which counts as this one
-  bool settles = false;               ///< bounces settle before each separation, or are plastic
-  std::size_t starts = 0;             ///< of a search, that led here
+  std::size_t events_per_period = 0;  ///< closed form: impacts
+  bool has_mirror_image = false;      ///< the mirror image counts as this cycle
+  bool settles = false;    ///< bounces settle before each separation, or contact is plastic
+  std::size_t starts = 0;  ///< starts of a search that led here
   std::optional<EnergyLost> energy{};
 
   [[nodiscard]] double frequency() const { return 1.0 / period; }  ///< Hz
 };
 
-/// Equilibria found: with dry friction, or in the gap, they are a set.
+/// Equilibria found. With dry friction, or in the gap, they are a set.
 struct Rest {
   Range load{};   ///< rad, from the reference
   Range motor{};  ///< rad, from the reference, at the load's shaft
   Range error{};  ///< rad, reference − load
   std::size_t starts = 0;
-  /// Of rest that is approached by ever smaller and slower swings: the largest ratio of two.
+  /// For rest approached by ever smaller and slower swings: the largest ratio of two.
   std::optional<double> swing_ratio{};
 };
 
-/// Bounded motion that was not seen to repeat. What was not measured is not there.
+/// Bounded motion that was not seen to repeat. An empty member was not measured.
 struct IrregularMotion {
   double amplitude = 0.0;                   ///< rad, half the peak-to-peak of the load
   std::optional<double> motor_amplitude{};  ///< rad
   double center = 0.0;                      ///< rad, of the load, from the reference
-  bool is_motor_alone = false;              ///< within the gap, while the load hardly moves
-  std::optional<double> mean_amplitude{};   ///< rad, half of extreme to extreme
+  bool is_motor_alone = false;  ///< the motor moves within the gap, the load hardly moves
+  std::optional<double> mean_amplitude{};  ///< rad, half of extreme to extreme
   std::optional<double> amplitude_deviation{};
   std::optional<double> mean_period{};  ///< s
   std::optional<double> period_deviation{};
   std::optional<double> mismatch{};  ///< least mean difference of swings some swings apart, a share
   std::optional<double> exponent{};  ///< 1/s, the largest Lyapunov exponent
-  std::optional<double> watched{};   ///< s, over which this was measured
+  std::optional<double> watched{};   ///< s, duration of the measurement
   std::size_t starts = 0;
 };
 
@@ -117,16 +117,16 @@ struct IrregularMotion {
 struct StartOutcome {
   double load_position = 0.0, load_speed = 0.0, motor_position = 0.0, motor_speed = 0.0;
   std::string end{};                   ///< "rest", "cycle", "irregular", "diverges", "undecided"
-  std::optional<std::size_t> which{};  ///< of the cycles, or of the irregular motions
+  std::optional<std::size_t> which{};  ///< index into the cycles, or into the irregular motions
   double watched = 0.0;                ///< s
-  std::string reason{};                ///< of an undecided one
+  std::string reason{};                ///< why it is undecided
 };
 
 /// What a search looked at.
 struct SearchRecord {
   double watch_time = 0.0;  ///< s, the longest that a start is watched
   bool is_complete = true;  ///< not stopped
-  std::size_t borders = 0;  ///< searched between starts that led elsewhere
+  std::size_t borders = 0;  ///< searched between starts with different outcomes
   std::vector<StartOutcome> starts{};
 
   [[nodiscard]] std::size_t count(const std::string& end) const;
@@ -135,21 +135,21 @@ struct SearchRecord {
 /// Proved bounds.
 struct ProvedBounds {
   Range growth_at_rest{};
-  bool has_cycle = false;  ///< and the following are its own
+  bool has_cycle = false;  ///< if so, the following are its bounds
   Range amplitude{};       ///< rad
   Range period{};          ///< s
   Range multiplier{};
 };
 
-/// The servo of 1960 that a drive is.
+/// The servo of 1960 that a drive is equivalent to.
 struct NormalFormNumbers {
   double damping = 0.0, inertia_ratio = 0.0, friction_ratio = 0.0, backlash = 0.0;
   double restitution = 0.0;
   double natural_frequency = 1.0;     ///< rad/s
-  std::optional<double> stiffness{};  ///< N m/rad; not known of a normal form with a frequency
+  std::optional<double> stiffness{};  ///< N m/rad; unknown for a normal form with a frequency
 };
 
-/// Something a reader should know; `code` is for programs.
+/// Something a reader should know. `code` is for programs.
 struct Note {
   std::string code{};
   std::string text{};
@@ -161,7 +161,7 @@ struct Answer {
   Certainty completeness = Certainty::searched;  ///< of the list of cycles
   Engine engine = Engine::general;
   std::optional<NormalFormNumbers> normal_form{};
-  std::optional<double> growth_at_rest{};  ///< of small motion in the gap, in half a cycle
+  std::optional<double> growth_at_rest{};  ///< of a small motion in the gap, in half a cycle
   std::optional<ProvedBounds> bounds{};
   bool is_dissipative = false;  ///< no restitution can make it hunt
   bool rests_engaged = false;   ///< large motions may end at rest, with the faces together
@@ -172,11 +172,11 @@ struct Answer {
   std::optional<SearchRecord> search{};
   std::vector<Note> notes{};
 
-  /// The cycle that is seen in practice: the largest that is not unstable; nullptr: none.
+  /// The cycle that is seen in practice: the largest that is not unstable, or nullptr.
   [[nodiscard]] const Cycle* largest_stable() const noexcept;
 
-  /// In SI; nothing where it does not exist, or is not known. Amplitudes are 0 where the drive
-  /// comes to rest. A choice gives its number.
+  /// In SI. Empty if it does not exist or is not known. Amplitudes are 0 if the drive comes to
+  /// rest. A choice gives its number.
   [[nodiscard]] std::optional<double> value(Quantity quantity) const;
 };
 

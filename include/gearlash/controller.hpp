@@ -1,4 +1,4 @@
-// Controllers as engineers name them, with their gains as engineers give them.
+// Controllers by the names and gains that engineers use.
 #pragma once
 
 #include <cstdint>
@@ -10,23 +10,24 @@ namespace gearlash {
 /// A shaft of the drive.
 enum class ShaftName : std::uint8_t { load, motor };
 
-// The controller's output is a voltage, or the torque at the motor's shaft where the motor is
-// torque-controlled; "output" is V or N m below. e = r − y is the error of the position sensed, v
-// the speed sensed. Angles are those of Controller::shaft.
+// The controller's output is a voltage. For a torque-controlled motor it is the torque at the
+// motor's shaft. "output" is V or N m below. e = r − y is the error of the measured position, v the
+// measured speed. Angles are those of Controller::shaft.
 
 /// Which terms a PID controller has.
 enum class PIDTerms : std::uint8_t { P, PD, PI, PID };
 
-/// proportional e + integral ∫e dt + derivative · s/(filter s + 1) e. Without a filter, or where
-/// the derivative is of the speed, it acts on −v: − derivative · 1/(filter s + 1) v.
+/// proportional e + integral ∫e dt + derivative · s/(filter s + 1) e. Without a filter, or if the
+/// derivative is of the speed, it acts on −v: − derivative · 1/(filter s + 1) v.
 struct PID {
   PIDTerms terms = PIDTerms::P;
   double proportional = 0.0;  ///< output/rad
   double integral = 0.0;      ///< output/(rad s); PI and PID
   double derivative = 0.0;    ///< output s/rad; PD and PID
   double filter = 0.0;        ///< s, ≥ 0; PD and PID
-  /// While the output is at its limit the integral is drawn back to what would ask for the limit,
-  /// with this time constant (back-calculation; Åström & Hägglund 2006, ch. 3.5). 0: it winds up.
+  /// While the output is at its limit the integral is drawn back, with this time constant, to the
+  /// value that would ask for the limit (back-calculation; Åström & Hägglund 2006, ch. 3.5). 0: it
+  /// winds up.
   double tracking_time = 0.0;  ///< s, ≥ 0; PI and PID
   bool derivative_of_speed = false;
 
@@ -54,7 +55,7 @@ struct LeadLagController {
 };
 
 /// gain · numerator/denominator e, coefficients by descending powers of s, or of z from sample to
-/// sample. Proper; of z, without a pole outside the unit circle.
+/// sample. Proper; in z, without a pole outside the unit circle.
 struct TransferFunctionController {
   double gain = 0.0;  ///< output/rad
   std::vector<double> numerator{};
@@ -64,7 +65,7 @@ struct TransferFunctionController {
   bool operator==(const TransferFunctionController&) const = default;
 };
 
-/// x′ = A x + B u, gain (C x + D u); u is e where B and D have one column, else (r, y, v).
+/// x′ = A x + B u, gain (C x + D u). u is e if B and D have one column, else (r, y, v).
 struct StateSpaceController {
   double gain = 0.0;                     ///< output/rad
   std::vector<std::vector<double>> A{};  ///< n rows of n
@@ -79,7 +80,7 @@ struct Controller {
   std::variant<PID, CascadeController, LeadLagController, TransferFunctionController,
                StateSpaceController>
       law{};
-  /// The shaft whose angles the gains are per. The output is the motor's in either case.
+  /// The gains are per angle of this shaft. The output is the motor's in either case.
   ShaftName shaft = ShaftName::load;
 
   bool operator==(const Controller&) const = default;
@@ -92,13 +93,13 @@ enum class Discretization : std::uint8_t {
   forward    ///< (z − 1)/T
 };
 
-/// How a computer runs a controller: it reads at 0, period, 2 period, …, and holds what it has
-/// worked out from `delay` later on.
+/// How a computer runs a controller: it reads at 0, period, 2 period, … and outputs each result
+/// `delay` later. It holds it until the next.
 struct Sampling {
   double period = 0.0;  ///< s, > 0
   double delay = 0.0;   ///< s, 0 … 100 periods
   Discretization method = Discretization::tustin;
-  /// The speed sensed is the difference of two positions divided by the period; else a
+  /// The measured speed is the difference of two positions divided by the period; else a
   /// tachometer's.
   bool speed_by_differences = true;
 

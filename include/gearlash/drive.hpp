@@ -30,7 +30,7 @@ struct FieldControl {
   bool operator==(const FieldControl&) const = default;
 };
 
-/// Two-phase induction servo motor, by the slopes of its characteristic curves.
+/// Two-phase induction servo motor, described by the slopes of its characteristic curves.
 struct TwoPhase {
   double torque_per_volt = 0.0;   ///< K_e = ∂T/∂e, N m/V, > 0
   double torque_per_speed = 0.0;  ///< K_N = −∂T/∂n, N m s/rad, ≥ 0
@@ -38,7 +38,7 @@ struct TwoPhase {
   bool operator==(const TwoPhase&) const = default;
 };
 
-/// An amplifier that controls the current: the controller's output is the torque.
+/// An amplifier controls the current: the controller's output is the torque.
 struct TorqueControl {
   bool operator==(const TorqueControl&) const = default;
 };
@@ -49,7 +49,7 @@ using MotorKind = std::variant<TorqueControl, ArmatureControl, FieldControl, Two
 struct Friction {
   double viscous = 0.0;               ///< N m s/rad, ≥ 0
   double coulomb = 0.0;               ///< N m, ≥ 0
-  std::optional<double> breakaway{};  ///< N m, ≥ coulomb; coulomb where not given
+  std::optional<double> breakaway{};  ///< N m, ≥ coulomb; coulomb if not given
 
   bool operator==(const Friction&) const = default;
 };
@@ -58,7 +58,8 @@ struct Motor {
   MotorKind kind{};
   double inertia = 0.0;  ///< kg m², ≥ 0
   Friction friction{};
-  /// Of the controller's output: N m of a torque-controlled motor, else V; > 0. None: no limit.
+  /// Limit of the controller's output, > 0: N m for a torque-controlled motor, else V. None: no
+  /// limit.
   std::optional<double> limit{};
 
   bool operator==(const Motor&) const = default;
@@ -87,14 +88,14 @@ struct RigidContact {
 
 /// How the damping of compliant faces acts. Neither law ever pulls.
 enum class ContactDamping : std::uint8_t {
-  /// Modelica's ElastoBacklash: while the faces close, at most the spring's own torque, so that the
+  /// Modelica's ElastoBacklash: at most the spring's own torque while the faces close, so that the
   /// torque does not jump as they meet.
   limited,
   /// Modelica's ElastoBacklash2: from the first touch on.
   full
 };
 
-/// Compliant faces: torque stiffness · δ + damping · δ̇, δ how far they are pressed in.
+/// Compliant faces: torque stiffness · δ + damping · δ̇, where δ is the compression.
 struct CompliantContact {
   double stiffness = 0.0;  ///< N m/rad at the load's shaft, > 0
   double damping = 0.0;    ///< N m s/rad at the load's shaft, ≥ 0
@@ -105,7 +106,7 @@ struct CompliantContact {
 
 using Contact = std::variant<RigidContact, CompliantContact>;
 
-/// An encoder: counts a turn of its own shaft, or the angle of one count; exact where neither is
+/// An encoder: its counts per turn of its own shaft, or the angle of one count. Exact if neither is
 /// given. Positions are read to the nearest count, halves away from 0.
 struct Encoder {
   std::optional<double> counts_per_turn{};  ///< > 0
@@ -123,43 +124,43 @@ enum class SensorPlace : std::uint8_t {
 
 struct Sensor {
   SensorPlace position = SensorPlace::load;
-  std::optional<ShaftName> speed{};  ///< that of the position where not given; motor with `both`
+  std::optional<ShaftName> speed{};  ///< the position's shaft if not given; the motor with `both`
   Encoder encoder{};
-  Encoder speed_encoder{};  ///< whose differences are the speed; `encoder` where on the same shaft
+  Encoder speed_encoder{};  ///< its differences are the speed; `encoder` if on the same shaft
 
   bool operator==(const Sensor&) const = default;
 };
 
-/// The servo reduced to the numbers on which its hunting depends: proportional control of the
-/// load's position. It stands for motor, gearbox, load and controller, with J_M + J_L = 1 kg m².
+/// The servo reduced to the numbers that decide whether it hunts: proportional control of the
+/// load's position. It replaces motor, gearbox, load and controller, with J_M + J_L = 1 kg m².
 struct NormalForm {
   double damping = 0.0;         ///< ζ, 0 or 1e-15 … 1000
   double inertia_ratio = 1.0;   ///< J_L/J_M; 0, 1e-9 … 1e9, or infinity (a massless motor)
   double friction_ratio = 0.5;  ///< F_L/(F_M + F_L), 0 … 1
   double backlash = 0.0;        ///< rad at the load's shaft, face to face, 0 or 1e-15 … 1e6
-  std::optional<double> natural_frequency{};  ///< ω_n, rad/s, > 0; 1 rad/s where not given
+  std::optional<double> natural_frequency{};  ///< ω_n, rad/s, > 0; 1 rad/s if not given
 
   bool operator==(const NormalForm&) const = default;
 };
 
 /// One drive. The same type is read from files, set by path, varied, analysed and written.
 struct Drive {
-  std::optional<NormalForm> servo{};  ///< where given: in place of motor, gearbox, load, controller
+  std::optional<NormalForm> servo{};  ///< if given, it replaces motor, gearbox, load and controller
   Motor motor{};
   Gearbox gearbox{};
   Load load{};
   Contact contact{};
   Sensor sensor{};
   Controller controller{};
-  std::optional<Sampling> sampling{};   ///< else the controller is continuous
-  std::optional<Signal> reference{};    ///< rad; 0 where not given
-  std::optional<Signal> load_torque{};  ///< N m, on the load, forward; 0 where not given
+  std::optional<Sampling> sampling{};   ///< without it the controller is continuous
+  std::optional<Signal> reference{};    ///< rad; 0 if not given
+  std::optional<Signal> load_torque{};  ///< N m, on the load, forward; 0 if not given
 
   bool operator==(const Drive&) const = default;
 };
 
-/// Every value outside its permitted range, every rule between values that does not hold. Empty for
-/// a sound drive.
+/// Every value outside its permitted range, and every violated rule between values. Empty for a
+/// sound drive.
 [[nodiscard]] std::vector<Fault> faults(const Drive& drive);
 
 /// The servo with ω_n = 1 rad/s, K = 1 N m/rad and J_M + J_L = 1 kg m²; see NormalForm.

@@ -1,4 +1,4 @@
-// What is wrong with an input, said so that its author can mend it.
+// What is wrong with an input, in terms that let its author correct it.
 #pragma once
 
 #include <stdexcept>
@@ -7,12 +7,12 @@
 
 namespace gearlash {
 
-/// One field at fault. Every reader and every validate() reports in these terms.
+/// One value at fault. Every reader and every validate() reports in these terms.
 struct Fault {
-  std::string path;       ///< dotted name as the author wrote it, for example "motor.inertia"
-  std::string value;      ///< the value found, as written; empty when the field is missing
-  std::string permitted;  ///< what would have been accepted, with its unit
-  std::string where;      ///< "file:line:column" when the input came from a file, else empty
+  std::string path;       ///< dotted path as the author wrote it, for example "motor.inertia"
+  std::string value;      ///< the value found, as written; empty if it is missing
+  std::string permitted;  ///< what is permitted, with its unit
+  std::string where;      ///< "file:line:column" if the input came from a file, else empty
 
   bool operator==(const Fault&) const = default;
 };
@@ -20,8 +20,8 @@ struct Fault {
 /// One line: "servo.toml:3:11: motor.inertia = -1 kg m2: must be positive".
 std::string to_string(const Fault& fault);
 
-/// Thrown for bad input, never for a numerical outcome. Carries every fault found, not the
-/// first alone; what() is one line a fault.
+/// Thrown for bad input, never for a numerical outcome. Carries every fault found; what() has one
+/// line for each.
 class InvalidInput : public std::invalid_argument {
  public:
   explicit InvalidInput(std::vector<Fault> faults);

@@ -1,4 +1,4 @@
-// All of Gearlash.
+// All of Gearlash in one header.
 #pragma once
 
 #include "gearlash/analyse.hpp"

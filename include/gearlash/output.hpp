@@ -1,4 +1,4 @@
-// Drives and answers as text.
+// Writes drives and answers as text.
 #pragma once
 
 #include <filesystem>
@@ -11,10 +11,10 @@
 
 namespace gearlash {
 
-/// A file of the drive with all defaults taken, in SI units. Numbers read back exactly.
+/// A file of the drive with all defaults filled in, in SI units. Numbers read back exactly.
 [[nodiscard]] std::string to_toml(const Drive& drive);
 
-/// As `gearlash limit-cycle --format json` prints it.
+/// The output of `gearlash limit-cycle --format json`.
 [[nodiscard]] std::string to_json(const Drive& drive, const Answer& answer);
 
 /// The answer in one line: "hunts: ±0.0819 rad (4.69°) at 2.26 Hz".
@@ -26,7 +26,7 @@ namespace gearlash {
 /// The answer in one line, in s.
 std::ostream& operator<<(std::ostream& stream, const Answer& answer);
 
-/// Writes a file that appears whole or not at all. Throws std::runtime_error where it cannot.
+/// Writes a file that appears whole or not at all. Throws std::runtime_error if it cannot.
 void save(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace gearlash

@@ -19,7 +19,7 @@ enum class ParameterKind : std::uint8_t {
   file     ///< the name of one
 };
 
-/// What is known of one parameter. Texts are of static storage.
+/// Facts about one parameter. Texts are of static storage.
 struct ParameterInfo {
   std::string_view path{};
   ParameterKind kind = ParameterKind::number;
@@ -28,26 +28,25 @@ struct ParameterInfo {
   std::vector<std::string_view> choices{};  ///< of a word
   std::vector<std::string_view> aliases{};  ///< other paths, inverse forms among them
   bool is_required = false;                 ///< a file must give it
-  double usual_low = 0.0;       ///< of a number: a range worth looking at, where nothing else is
-  double usual_high = 0.0;      ///< known; both 0 where there is none
+  double usual_low = 0.0;       ///< for a number: a range worth studying if nothing else
+  double usual_high = 0.0;      ///< is known; both 0 if there is none
   bool is_logarithmic = false;  ///< of that range
 };
 
 /// The parameters that this drive has, in the order of files.
 [[nodiscard]] std::vector<ParameterInfo> parameters_of(const Drive& drive);
 
-/// A number in SI, its default where it was not given. Throws InvalidInput for a path that the
-/// drive does not have, for one that is no number, and for one that is not given and has no
-/// default.
+/// A number in SI, or its default if it is not given. Throws InvalidInput for a path that the drive
+/// does not have, for one that is no number, and for one without value and default.
 [[nodiscard]] double get(const Drive& drive, std::string_view path);
 
-/// Sets a number in SI, also by an alias or an inverse form. An optional part of the drive
-/// (sampling, say) is added. The drive need not be sound afterwards: see faults(). Throws
+/// Sets a number in SI, also by an alias or an inverse form. Adds the optional part of the drive
+/// (sampling, for example) if needed. The drive need not be sound afterwards: see faults(). Throws
 /// InvalidInput as get() does.
 void set(Drive& drive, std::string_view path, double value);
 
-/// Sets a number with its unit, "30 arcmin", a word, or a list, "[1, 2.5]". Throws InvalidInput for
-/// text that cannot be read as such, too.
+/// Sets a number with its unit, "30 arcmin", a word, or a list, "[1, 2.5]". Also throws
+/// InvalidInput for text that it cannot read.
 void set(Drive& drive, std::string_view path, std::string_view text);
 
 }  // namespace gearlash

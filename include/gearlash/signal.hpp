@@ -7,8 +7,8 @@
 
 namespace gearlash {
 
-// Times in s; values in rad (a reference) or N m (a load torque). Before the first time that a
-// signal names it has the value it has there.
+// Times in s; values in rad (a reference) or N m (a load torque). Before its first named time a
+// signal is constant.
 
 struct StepSignal {
   double before = 0.0;
@@ -43,21 +43,21 @@ struct TrapezoidSignal {
   double to = 0.0;
   double speed = 0.0;         ///< per s, > 0
   double acceleration = 0.0;  ///< per s², > 0
-  double time = 0.0;          ///< of its start
+  double time = 0.0;          ///< of the start
 
   bool operator==(const TrapezoidSignal&) const = default;
 };
 
-/// Straight from point to point; constant after the last.
+/// Straight lines from point to point; constant after the last.
 struct TableSignal {
   std::vector<double> times{};  ///< rising, at least one
   std::vector<double> values{};
-  std::string file{};  ///< the CSV file that the points were read from, as its author named it
+  std::string file{};  ///< the CSV file of the points, as its author named it
 
   bool operator==(const TableSignal&) const = default;
 };
 
-/// A number is a constant.
+/// A plain number is a constant signal.
 using Signal =
     std::variant<double, StepSignal, RampSignal, SineSignal, TrapezoidSignal, TableSignal>;
 

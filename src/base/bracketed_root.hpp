@@ -14,8 +14,8 @@ struct BasicValueAndSlope {
 };
 using ValueAndSlope = BasicValueAndSlope<double>;
 
-/// Towards the zero: Newton's step, or Halley's where the curvature is known. Halley's tends to 0
-/// at an extremum too, so that how short it is says nothing: is_near_zero() does.
+/// Step towards the zero: Newton's, or Halley's if the curvature is known. Halley's step tends to 0
+/// at an extremum too, so a short step proves nothing; use is_near_zero().
 template <class Real>
 Real newton_step(const BasicValueAndSlope<Real>& at) {
   const Real newton = -at.value / at.slope;
@@ -31,15 +31,15 @@ auto is_near_zero(const BasicValueAndSlope<Real>& at, const Real& distance) {
 
 namespace detail {
 
-/// Halley's step, but not where it is much shorter than Newton's, as next to an extremum.
+/// Halley's step, except where it is much shorter than Newton's, as next to an extremum.
 inline double trusted_step(const ValueAndSlope& at) {
   const double newton = -at.value / at.slope;
   const double step = newton_step(at);
   return std::abs(step) < 0.25 * std::abs(newton) ? newton : step;
 }
 
-/// A point strictly inside the bracket that halves it, or halves its exponents where it spans more
-/// than a factor of four: a root at 1e-80 is then as near as one at 1.
+/// A point strictly inside the bracket. It halves the bracket, or its exponents if the bracket
+/// spans more than a factor of four. So a root at 1e-80 is as near as one at 1.
 inline double middle_of(double low, double high) {
   if (std::isinf(high)) return 2.0 * low + 1.0;
   if (low > 0.0 && high > 4.0 * low) return std::sqrt(low) * std::sqrt(high);
@@ -51,15 +51,16 @@ inline double middle_of(double low, double high) {
 
 /// Root of a continuous function in [low, high], by default to the last bits of a double.
 ///
-/// `high` may be infinite when f takes the sign `sign_at_high` somewhere above: until it is seen,
-/// steps go by Newton's method while they are not too wild, and by doubling. Precondition: f(high)
-/// has the sign `sign_at_high` (+1 or −1) or is zero, f(low) the opposite sign or zero, 0 ≤ low.
-/// The bracket shrinks at every evaluation; a step that would leave it, or that does not halve the
-/// one before, is replaced by bisection, so the loop ends whatever f does. It ends when
-///   |step| ≤ tolerance · |x|, or when the step that would follow is below an eighth of that (it is
-///   |step|³/|last step|² for a method of second order, |step|⁴/|last step|³ for one of third,
-///   where both are within the root's own size); or at an exact zero; or when the bracket is down
-///   to neighbouring numbers.
+/// `high` may be infinite if f takes the sign `sign_at_high` somewhere above. Until that sign is
+/// seen, steps are Newton's if they are not too wild, else doublings. Precondition: f(high) has the
+/// sign `sign_at_high` (+1 or −1) or is zero, f(low) the opposite sign or zero, 0 ≤ low. The
+/// bracket shrinks at every evaluation. Bisection replaces a step that would leave it or that does
+/// not halve the one before, so the loop ends for any f. It ends when
+///   |step| ≤ tolerance · |x|,
+/// or when the next step would be below an eighth of that. (The next step is |step|³/|last step|²
+/// for a method of second order and |step|⁴/|last step|³ for third order, if both are within the
+/// root's own size.) It also ends at an exact zero, or when the bracket is down to neighbouring
+/// numbers.
 template <class Function>
 double bracketed_root(const Function& f, double low, double high, double guess, double sign_at_high,
                       double tolerance = std::numeric_limits<double>::epsilon()) {

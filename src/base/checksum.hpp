@@ -1,4 +1,4 @@
-// A checksum that keeps pace with memory: by it a file is known to be what was written.
+// A checksum at memory speed: shows that a file is what was written.
 #pragma once
 
 #include <algorithm>
@@ -9,9 +9,9 @@
 
 namespace gearlash {
 
-/// Of words of 64 bits, one after the other, by the round of xxHash (Collet, 2012). Each step is
-/// one to one in the word and in what was added before, so that a change within one word is always
-/// seen; other changes are missed once in 2⁶⁴. No protection against intent.
+/// For 64-bit words, one after the other, by the round of xxHash (Collet, 2012). Each step is one
+/// to one in the word and in the sum before it. So a change within one word is always detected;
+/// other changes are missed once in 2⁶⁴. It does not protect against intent.
 class Checksum {
  public:
   void add(std::uint64_t word) {

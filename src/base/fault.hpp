@@ -1,4 +1,4 @@
-// Faults, and what is done with several of them.
+// Throws collected faults as one InvalidInput.
 #pragma once
 
 #include "gearlash/fault.hpp"

@@ -1,21 +1,21 @@
 // Interval arithmetic: results that hold for every number within the operands, rounding included.
 //
-// Method (Moore, Interval Analysis, 1966, chapter 3). Each operation works out its ends with
+// Method (Moore, Interval Analysis, 1966, chapter 3). Each operation computes its ends with
 // rounding to nearest and moves them outward to the neighbouring double, or one beyond. The
 // rounding mode is never changed: WebAssembly has none, and compilers move code across its changes.
 //
-//   +, −, ×, ÷, √   rounded to nearest by IEEE 754, half a unit in the last place off at most; one
+//   +, −, ×, ÷, √   rounded to nearest by IEEE 754, off by at most half a unit in the last place;
+//   one
 //                   neighbour is enough. Neighbours as in Rump, Zimmermann, Boldo & Melquiond,
 //                   "Computing predecessor and successor in rounding to nearest", BIT 49 (2009).
-//   exp, log, …     of the C library, which states errors of at most 1 unit in the last place for
-//                   them on every platform that Gearlash knows (GNU C Library manual, "Known
+//   exp, log, …     from the C library, which states errors of at most 1 unit in the last place for
+//                   them on every platform that Gearlash supports (GNU C Library manual, "Known
 //                   Maximum Errors in Math Functions"; musl: below 1; fdlibm's atan2: below 2).
 //                   They are widened by `library_error` units, four times that. tests/base measures
 //                   them.
 //
 // A not-a-number (0·∞ within infinite bounds, a division by an interval around 0) becomes the whole
-// line, so that nothing is ever proved by it. Compile without -ffast-math and with
-// -ffp-contract=off.
+// line, so that it never proves anything. Compile without -ffast-math and with -ffp-contract=off.
 #pragma once
 
 #include <algorithm>
@@ -32,23 +32,23 @@ namespace gearlash {
 
 namespace outward {
 
-/// Units in the last place by which results of the C library are widened.
+/// Results of the C library are widened by this many units in the last place.
 inline constexpr double library_error = 4.0;
 
-/// A little more than half a unit in the last place of 1, of a number between 1 and 2.
+/// Slightly more than half a unit in the last place of a number between 1 and 2.
 inline constexpr double half_unit = 0x1p-53 * (1.0 + 0x1p-52);
 
-/// A neighbour of x below it, or the next: of results that are not 0 but by being exact.
+/// The neighbour of x below it, or the next. For results that are 0 only if exact.
 inline double below(double x) {
   if (x == 0.0) return x;
   const double lower = x - (half_unit * std::abs(x) + std::numeric_limits<double>::denorm_min());
-  // An overflow: all that is known is that the number is large.
+  // An overflow: only a large lower bound is known.
   return x == std::numeric_limits<double>::infinity() ? std::numeric_limits<double>::max() : lower;
 }
 inline double above(double x) { return -below(-x); }
 
-/// The same of positive products and quotients, which may be rounded to 0, or to infinity: then the
-/// lower is 0 (std::max drops the not-a-number).
+/// The same for positive products and quotients, which may be rounded to 0 or to infinity. The
+/// lower end is then 0 (std::max drops the not-a-number).
 inline double positive_below(double x) {
   return std::max(0.0, x - (half_unit * x + std::numeric_limits<double>::denorm_min()));
 }
@@ -56,14 +56,14 @@ inline double positive_above(double x) {
   return x + (half_unit * x + std::numeric_limits<double>::denorm_min());
 }
 
-/// Of a product or quotient, which may be rounded to 0.
+/// For a product or quotient, which may be rounded to 0.
 inline double product_below(double x, bool is_exact) {
   return x == 0.0 && !is_exact ? -std::numeric_limits<double>::denorm_min() : below(x);
 }
 inline double product_above(double x, bool is_exact) { return -product_below(-x, is_exact); }
 
-/// Further below x ≥ 0, which the C library returned; what it returns of such functions is never
-/// below 0.
+/// Further below x ≥ 0, a result of the C library. The true value of such a function is never below
+/// 0.
 inline double well_below(double x) { return std::max(0.0, below(x - library_error * 0x1p-52 * x)); }
 inline double well_above(double x) {
   return above(x + library_error * 0x1p-52 * x) + std::numeric_limits<double>::denorm_min();
@@ -90,7 +90,7 @@ struct Interval {
   double width() const { return outward::above(high - low); }
 };
 
-/// The same, or the whole line where an end is not a number.
+/// The same, or the whole line if an end is not a number.
 inline Interval settled(double low, double high) {
   return low <= high ? Interval(low, high) : Interval::whole_line();
 }
@@ -103,7 +103,7 @@ inline Interval operator+(const Interval& x, const Interval& y) {
 
 inline Interval operator-(const Interval& x, const Interval& y) { return x + -y; }
 
-/// Of any signs. A call of its own, so that the other case is small enough to be inlined: certified
+/// For any signs. A separate call, so that the other case is small enough to be inlined: certified
 /// searches take a fifteenth less time.
 [[gnu::noinline]] inline Interval product_of_any_signs(const Interval& x, const Interval& y) {
   // 0 times no bound is 0.
@@ -121,14 +121,14 @@ inline Interval operator-(const Interval& x, const Interval& y) { return x + -y;
 }
 
 inline Interval operator*(const Interval& x, const Interval& y) {
-  // The most frequent: both positive and bounded.
+  // The most frequent case: both positive and bounded.
   if (x.low > 0.0 && y.low > 0.0) {
     return {outward::positive_below(x.low * y.low), outward::positive_above(x.high * y.high)};
   }
   return product_of_any_signs(x, y);
 }
 
-/// The whole line where y contains 0, but [x.low/y.high, ∞) where both are not negative.
+/// The whole line if y contains 0, but [x.low/y.high, ∞) if both are not negative.
 inline Interval operator/(const Interval& x, const Interval& y) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if (x.low > 0.0 && y.low > 0.0 && y.low < infinity) {
@@ -153,13 +153,13 @@ inline Interval hull(const Interval& x, const Interval& y) {
   return {std::min(x.low, y.low), std::max(x.high, y.high)};
 }
 
-/// What is in both, which each are known to hold the same number.
+/// The intersection of two intervals that contain the same number.
 inline Interval common_part(const Interval& x, const Interval& y) {
   const Interval part{std::max(x.low, y.low), std::min(x.high, y.high)};
   return part.low <= part.high ? part : hull(x, y);
 }
 
-/// Of a number that is known not to be negative.
+/// For a number that is known not to be negative.
 inline Interval not_negative(const Interval& x) {
   return {std::max(0.0, x.low), std::max(0.0, x.high)};
 }
@@ -178,7 +178,7 @@ inline Interval square(const Interval& x) {
   return size * size;
 }
 
-/// Of a number that is known not to be negative.
+/// For a number that is known not to be negative.
 inline Interval sqrt(const Interval& x) {
   const Interval known = not_negative(x);
   return settled(std::max(0.0, outward::below(std::sqrt(known.low))),
@@ -191,13 +191,13 @@ inline Interval exp(const Interval& x) {
 
 namespace outward {
 
-/// The C library's result x, of either sign.
+/// For the C library's result x, of either sign.
 inline double library_below(double x) { return x < 0.0 ? -well_above(-x) : well_below(x); }
 inline double library_above(double x) { return -library_below(-x); }
 
 }  // namespace outward
 
-/// −∞ for what is not positive.
+/// −∞ for arguments that are not positive.
 inline Interval log(const Interval& x) {
   constexpr double nothing = -std::numeric_limits<double>::infinity();
   return settled(x.low > 0.0 ? outward::library_below(std::log(x.low)) : nothing,

@@ -1,4 +1,4 @@
-// One visitor of a variant from several lambdas.
+// Makes one visitor of a variant from several lambdas.
 #pragma once
 
 namespace gearlash {

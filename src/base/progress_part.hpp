@@ -1,11 +1,11 @@
-// One part of longer work, told as a share of the whole.
+// Reports one part of longer work as a share of the whole.
 #pragma once
 
 #include "gearlash/progress.hpp"
 
 namespace gearlash {
 
-/// Tells `whole` of work that takes it from the share `from` to the share `to`.
+/// Reports to `whole` the part of the work between the shares `from` and `to`.
 class ProgressPart : public Progress {
  public:
   ProgressPart(Progress& whole, double from, double to) : whole_(whole), from_(from), to_(to) {}

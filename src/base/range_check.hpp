@@ -12,7 +12,7 @@ namespace gearlash {
 /// Shortest decimal text that reads back as exactly the same double; "inf", "-inf", "nan".
 std::string exact_text(double value);
 
-/// Gathers faults of one struct's fields; `prefix` is put before each field's name.
+/// Collects faults of one struct's fields; `prefix` precedes each field's name.
 class RangeCheck {
  public:
   explicit RangeCheck(std::string_view prefix = {}) : prefix_(prefix) {}

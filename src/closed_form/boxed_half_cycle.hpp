@@ -1,4 +1,4 @@
-// The servos of a box, and a half cycle of all of them at once, in interval arithmetic.
+// A half cycle of all servos of a box at once, in interval arithmetic.
 #pragma once
 
 #include "base/interval.hpp"
@@ -6,29 +6,29 @@
 
 namespace gearlash::detail {
 
-/// What a half cycle ends in after flights of some times.
+/// The end of a half cycle after flights of given times.
 struct BoxedEnd {
   Interval moved;       ///< y at impact less y at parting
   Interval position;    ///< y at impact
   Interval speed;       ///< P, the common speed just after impact
   Interval kick;        ///< J_M |u̇| just before impact
-  Interval crossed;     ///< J_M |u − u₀|; of a massless motor J_M stands for F_M
+  Interval crossed;     ///< J_M |u − u₀|; for a massless motor F_M replaces J_M
   Interval gap;         ///< |u − u₀|
   Interval form;        ///< Q(y, P) just after impact, not below 0
   Interval engaged;     ///< t₁, from the impact to the next parting
   Interval log_growth;  ///< ln ρ, −∞ where the faces do not part again
 };
 
-/// Half cycles that part at the speed 1; those of a massless load, which parts at rest, at the
-/// position 1. Formulas: docs/mathematics.md, "One cycle or none" and "Bounds over boxes".
+/// Half cycles that part at the speed 1. Those of a massless load part at rest, at the position 1.
+/// Formulas: docs/mathematics.md, "One cycle or none" and "Bounds over boxes".
 class BoxedHalfCycle {
  public:
   explicit BoxedHalfCycle(const ServoBox& box);
 
-  /// Q at parting, (λ₁ − D)(λ₂ − D); nobody hunts where it is not positive.
+  /// Q at parting, (λ₁ − D)(λ₂ − D). No servo hunts if it is not positive.
   const Interval& form_at_parting() const { return form_at_parting_; }
 
-  /// μ₀: 0 where the faces never part again, ∞ for a shaft without friction.
+  /// μ₀: 0 if the faces never part again, ∞ for a shaft without friction.
   Interval growth_at_rest() const;
 
   /// After a flight of this time. Precondition: form_at_parting() > 0, time > 0.
@@ -38,8 +38,8 @@ class BoxedHalfCycle {
   /// engaged.
   Interval size(const BoxedEnd& end) const;
 
-  /// J_M U (y + cP) after a flight of this time, U = |u − u₀|: what Q exceeds where a longer flight
-  /// makes the amplitude at parting, measured in gaps crossed, smaller.
+  /// J_M U (y + cP) after a flight of this time, U = |u − u₀|. Where Q exceeds it, a longer flight
+  /// lowers the amplitude at parting, measured in gaps crossed.
   Interval thrust(const Interval& time, const BoxedEnd& end) const;
 
   const Interval& motor_rate() const { return motor_rate_; }
@@ -76,8 +76,8 @@ class BoxedHalfCycle {
   Interval form_at_parting_;
 };
 
-/// The flight times of the cycles of all servos of a box: the growth is below 1 for all of them
-/// after the shortest, and above 1 after the longest. 0 or infinity where none is found.
+/// Bounds of the flight times of the cycles of all servos of a box. The growth is below 1 for all
+/// of them after the shortest, and above 1 after the longest. 0 or infinity if none is found.
 struct FlightTimes {
   double shortest;
   double longest;

@@ -1,4 +1,4 @@
-// What happens when faces meet: momentum, restitution, and the limit of accumulating bounces.
+// The law of contact: momentum, restitution, and the limit of accumulating bounces.
 #pragma once
 
 #include "closed_form/gap_flight.hpp"
@@ -19,46 +19,47 @@ struct ImpactOutcome {
 /// a massless side, see ServoDynamics::plastic_contact): u̇₊ = 0.
 ImpactOutcome impact(const ServoDynamics& dynamics, double load_speed, double gap_speed);
 
-/// Faces that touch with no relative speed stay engaged when the mesh torque pushes (s N > 0), or
-/// is zero and about to push (s Ṅ > 0), or vanishes for good (N = Ṅ = 0); else they part at once.
-/// This rule also settles two events at one instant: the impact first, then this question.
+/// Faces that touch with no relative speed stay engaged if the mesh torque pushes (s N > 0), if it
+/// is zero and about to push (s Ṅ > 0), or if it vanishes for good (N = Ṅ = 0). Otherwise they part
+/// at once. This rule also orders two events at one instant: the impact first, then this question.
 bool stays_engaged(const ServoDynamics& dynamics, FaceSign face, double load_position,
                    double load_speed);
 
-/// The rest of a run of bounces on one face, summed up.
+/// The sum of the remaining bounces on one face.
 struct SettlingBounces {
-  bool imminent = false;             ///< the closed form holds; the rest may be taken at once
-  double duration = 0.0;             ///< time until the remaining bounces are over
-  double energy_lost = 0.0;          ///< what the impacts of them lose, units of K rad²
-  double motor_friction_lost = 0.0;  ///< what the bouncing itself rubs away at the motor and at
-  double load_friction_lost = 0.0;   ///< the load, beside the friction of the common motion
+  bool imminent = false;     ///< the closed form holds; the rest may be taken at once
+  double duration = 0.0;     ///< time until the remaining bounces are over
+  double energy_lost = 0.0;  ///< loss in their impacts, units of K rad²
+  /// Loss by the bouncing itself in the friction of each shaft, beside that of the common motion.
+  double motor_friction_lost = 0.0;
+  double load_friction_lost = 0.0;
 };
 
-/// Zeno limit in closed form, for a run that has become so short that the pressing torque is linear
-/// in time over it. With a = s N/(J_M J_L) the pressing acceleration, a′ its rate, κ =
-/// c J_L + D J_M the drag on the gap's motion and s₀ = |u̇|/a, the bounces still to come take
+/// The Zeno limit in closed form, for bounces so short that the pressing torque is linear in time
+/// over them. With a = s N/(J_M J_L) the pressing acceleration, a′ its rate, κ = c J_L + D J_M the
+/// drag on the gap's motion and s₀ = |u̇|/a, the remaining bounces take
 ///   T = T₀ (1 − T₀ (κ + 2a′/a)/6),   T₀ = 2 s₀/(1 − e),
-/// to third order in T₀ (docs/mathematics.md derives it); at their end the faces are engaged in the
-/// state that the engaged flow would have reached over T, to the same order. `imminent` is set when
-/// T₀ times the rates involved is below 1e-5, so that what is left out, of the third order, is
-/// some 1e-15: an estimate, for its factor is not bounded.
-/// Precondition: just after an impact on `face`, gap_speed pointing away from it, 0 < e < 1.
+/// to third order in T₀ (derivation: docs/mathematics.md). At their end the faces are engaged in
+/// the state that the engaged flow would have reached over T, to the same order. `imminent` is set
+/// if T₀ times the rates involved is below 1e-5. The third order, which is left out, is then some
+/// 1e-15. This is an estimate, because its factor is not bounded. Precondition: just after an
+/// impact on `face`, gap_speed pointing away from it, 0 < e < 1.
 SettlingBounces settling_bounces(const ServoDynamics& dynamics, FaceSign face, double load_position,
                                  double load_speed, double gap_speed);
 
-/// The rest of a run of nearly elastic bounces (1 − e ≤ 1e-3), which shrink so slowly that they
-/// cannot all be followed. While they are pressed together their action p³/a falls as e^{−κt}, and
-/// no faster where e = 1 (adiabatic invariance; docs/mathematics.md). `imminent` is set, with
-/// duration 0, when more than 1e4 bounces are to come before the faces part, and
+/// The remaining nearly elastic bounces (1 − e ≤ 1e-3), which shrink too slowly to be followed one
+/// by one. While the faces are pressed together their action p³/a falls as e^{−κt}, and no faster
+/// if e = 1 (adiabatic invariance; docs/mathematics.md). `imminent` is set, with duration 0, if
+/// more than 1e4 bounces are to come before the faces part, and
 ///   the height p²/(2a) is below 1e-8 of the motion (and below 1e-4 of the backlash),
 ///   the common motion is displaced by less than 1e-9 of itself or of the backlash,
 ///   the relative speed left at the parting, (⅔ p³/a · e^{−κT})^{2/5} |ȧ|^{1/5}, is below 1e-6 of
 ///   the motion then, or, the more bounces n there would be to follow, below 1e-10 n ≤ 1e-3.
-/// Where they never part, the first two hold of backlash + motion and of the backlash.
-/// So the faces are called engaged where they rattle still. The numbers above estimate the errors
-/// made, to leading order of an adiabatic invariant: they are not bounds.
-/// tests/closed_form/rattle_test.cpp compares them with motions of which every bounce is followed.
-/// Precondition: as for settling_bounces(), e ≤ 1.
+/// If they never part, the first two hold for backlash + motion and for the backlash. So the faces
+/// count as engaged although they still rattle. The numbers above estimate the errors, to leading
+/// order of an adiabatic invariant; they are not bounds. tests/closed_form/rattle_test.cpp compares
+/// them with motions in which every bounce is followed. Precondition: as for settling_bounces(), e
+/// ≤ 1.
 SettlingBounces fading_rattle(const ServoDynamics& dynamics, FaceSign face, double load_position,
                               double load_speed, double gap_speed);
 

@@ -1,5 +1,5 @@
-// φ-functions of decaying exponentials and their two-rate forms, without loss of digits where
-// rates coincide or vanish.
+// φ-functions of decaying exponentials in one and two rates, accurate where rates coincide or
+// vanish.
 //
 // Every closed form of the gap is a sum of these. They are divided differences of exp at the
 // points 0, −x and −y, where x and y are rate times time:
@@ -9,10 +9,10 @@
 //   exp[0, −x, −y], exp[0, 0, −x, −y]                 its integral and double integral
 // For small arguments the last of each row is a power series and the others follow downwards,
 //   exp[−x] = 1 − x exp[0, −x],  exp[0, −x] = 1 − x exp[0, 0, −x], and so on,
-// which loses nothing; for large ones the same equations are solved upwards.
-// Permitted: x, y ≥ 0 and finite. All are positive and decreasing. Relative error: at most 16
-// epsilons over the whole quadrant (tests/motion, against 50 digits).
-// Source: divided differences of the exponential, McCurdy, Ng & Parlett, Math. Comp. 43 (1984).
+// without loss of digits. For large ones the same equations are solved upwards. Permitted: x, y ≥ 0
+// and finite. All are positive and decreasing. Relative error: at most 16 epsilons over the whole
+// quadrant (tests/closed_form, against 50 digits). Source: divided differences of the exponential,
+// McCurdy, Ng & Parlett, Math. Comp. 43 (1984).
 #pragma once
 
 #include <algorithm>
@@ -33,13 +33,13 @@ inline constexpr auto inverse_factorials = [] {
   return table;
 }();
 
-/// Below this argument the power series loses fewer digits than the difference quotient does; this
-/// many terms reach a double's last bit there.
+/// Below this argument the power series loses fewer digits than the difference quotient. This many
+/// terms reach a double's last bit there.
 inline constexpr double series_limit = 1.0;
 inline constexpr std::size_t series_terms = 20;
 
-/// Two neighbouring terms of a series, worked out side by side (an extension of gcc and clang; left
-/// to themselves they do not find it).
+/// Two neighbouring terms of a series, computed side by side (an extension of gcc and clang, which
+/// do not find this by themselves).
 using Pair [[gnu::vector_size(2 * sizeof(double))]] = double;
 
 inline Pair inverse_factorial_pair(std::size_t k) {
@@ -108,7 +108,7 @@ inline Decay decay(double exponent) {
   return {exponent, factor, integral, (1.0 - integral) * inverse};
 }
 
-/// Two decays, the one feeding the other, with its integrals.
+/// Two decays, one feeding the other, with its integrals.
 template <class Real>
 struct BasicConvolution {
   Real value;            ///< exp[−x, −y]

@@ -1,13 +1,13 @@
-// Derivatives of decays and convolutions by their exponents, as exact as those are themselves.
+// Derivatives of decays and convolutions by their exponents, as exact as the functions.
 //
-// A divided difference of exp has, by a node, the divided difference with that node twice as its
-// derivative:
+// The derivative of a divided difference of exp by a node is the divided difference with that node
+// twice:
 //   d exp[0, −x]/dx = −exp[0, −x, −x],   ∂ exp[−x, −y]/∂x = −exp[−x, −x, −y],   and so on.
 // For small exponents the longest difference is a power series and the others follow downwards; for
 // large ones the same equations are solved upwards, from
 //   exp[−x, −x, −y] = e^{−x} exp[0, 0, −(y − x)]   (x ≤ y),   e^{−y} exp[0, −(x − y), −(x − y)].
 // Permitted: exponents ≥ 0 and finite. All are negative. Relative error: at most 128 epsilons
-// (tests/motion, against 50 digits). Source: as decay_integral.hpp.
+// (tests/closed_form, against 50 digits). Source: as decay_integral.hpp.
 #pragma once
 
 #include "closed_form/decay_integral.hpp"

@@ -1,4 +1,4 @@
-// Small disturbances of a motion with impacts, carried along with it: the slope of the return map.
+// Carries small disturbances through a motion with impacts: the slope of the return map.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,7 @@
 
 namespace gearlash {
 
-/// Newton's law, momentum kept (J_M + J_L = 1): linear, so of a state or of a disturbance.
+/// Newton's law, momentum kept (J_M + J_L = 1). It is linear, so it serves states and disturbances.
 template <class Real>
 BasicGapState<Real> after_impact(const BasicServoDynamics<Real>& dynamics,
                                  const BasicGapState<Real>& before) {
@@ -52,11 +52,11 @@ class BasicDisturbances {
     }
   }
 
-  /// Through any settling and the engaged motion, both from the state just after an impact, to the
-  /// parting on the torque-free line: its amplitude A, of which A² Q(line) = Q(y, P) e^{−2ζt}, has
+  /// From the state just after an impact, through any settling and the engaged motion, to the
+  /// parting on the torque-free line. Its amplitude A, with A² Q(line) = Q(y, P) e^{−2ζt}, has
   ///   dA/A = ((y + 2ζP) dy + P dP)/Q(y, P).
-  /// The bounces hand on y + J_M u and, as Ṗ = −2ζP − y + (F_L J_M − F_M J_L) u̇ while the faces are
-  /// apart, P − (F_L J_M − F_M J_L) u.
+  /// The bounces pass on y + J_M u. They also pass on P − (F_L J_M − F_M J_L) u, because Ṗ = −2ζP −
+  /// y + (F_L J_M − F_M J_L) u̇ while the faces are apart.
   void part(const State& after_impact, const State& parting) {
     const Real& y = after_impact.load_position;
     const Real momentum = momentum_of(after_impact);

@@ -1,5 +1,4 @@
-// Numbers with their derivatives (forward automatic differentiation), and those functions of the
-// motion that are not plain algebra.
+// Numbers with derivatives (forward automatic differentiation), and the motion's functions of them.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,8 +16,8 @@ namespace gearlash {
 template <int count>
 using BasicDual = Eigen::AutoDiffScalar<Eigen::Matrix<double, count, 1>>;
 
-/// Places of the servo's own numbers among the derivatives; any others follow. The inertia ratio
-/// stands as the load's share of the inertia, r/(1 + r).
+/// Places of the servo's own numbers among the derivatives; any others follow. The load's share of
+/// the inertia, r/(1 + r), represents the inertia ratio.
 enum ServoNumber : int { by_damping, by_load_share, by_friction_ratio, servo_numbers };
 
 template <class Dual>

@@ -1,13 +1,13 @@
-// The divided differences of decay_integral.hpp at given exponents, enclosed.
+// Encloses the divided differences of decay_integral.hpp at given exponents.
 //
-// Only the two power series are bounded by hand; everything else is interval arithmetic. With
-// u = 2⁻⁵³ and arguments below 1 (series_limit):
+// Only the two power series are bounded by hand; everything else is interval arithmetic. With u =
+// 2⁻⁵³ and arguments below 1 (series_limit):
 //   exp[0,0,−x] = S₀ − x S₁, both sums positive and by Horner's rule in x⁴, in which a tail is at
 //   most 1/360 of the whole: each is off by at most 3.3u of itself. S₀ ≤ 0.5432, x S₁ ≤ 0.1753 and
-//   the result is at least e⁻¹, so that it is off by (3.3·0.5432 + 4.3·0.1753)u/0.3678 + u < 8u.
+//   the result is at least e⁻¹, so it is off by (3.3·0.5432 + 4.3·0.1753)u/0.3678 + u < 8u.
 //   exp[0,0,−x,−y] = S₀ − S₁ with S₀ ≤ 0.1929 (off by 9u of itself), S₁ ≤ 0.0891 (9.3u) and a
 //   result of at least 0.1036: 9·0.1929/0.1036 + 9.3·0.0891/0.1036 + 1 < 26u.
-// What is left out after 20 terms is below 10⁻⁴u. The bounds taken are 10u and 32u; tests/cycle
+// The remainder after 20 terms is below 10⁻⁴u. The bounds used are 10u and 32u; tests/closed_form
 // measures the errors.
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace gearlash::detail {
 
-/// x > 0, known to so many units of 2⁻⁵³ of itself.
+/// x > 0, known to this many units of 2⁻⁵³ of itself.
 inline Interval known_to(double x, double units) {
   return {outward::below(x - units * 0x1p-53 * x), outward::above(x + units * 0x1p-53 * x)};
 }
@@ -44,7 +44,7 @@ inline BasicConvolution<Interval> enclosed_convolution(const BasicDecay<Interval
     return {slow.integral - exponent * integral, integral, double_integral};
   }
   const Interval difference = fast.exponent - slow.exponent;
-  // Where the exponents are close their difference is exact (Sterbenz's lemma).
+  // The difference of close exponents is exact (Sterbenz's lemma).
   const Interval value = difference.low > 0.5
                              ? (slow.factor - fast.factor) / difference
                              : slow.factor * enclosed_decay(exponent - slow.exponent.low).integral;

@@ -1,4 +1,4 @@
-// Both shafts as one: ÿ + 2ζẏ + y = 0, its closed form and its zeros.
+// Both shafts as one: the closed form of ÿ + 2ζẏ + y = 0 and its zeros.
 #pragma once
 
 #include <cmath>
@@ -6,8 +6,8 @@
 
 namespace gearlash {
 
-/// A damped oscillation given by its state at time 0. Closed form, for every ζ ≥ 0 and continuous
-/// through ζ = 1:
+/// A damped oscillation given by its state at time 0. The closed form holds for every ζ ≥ 0 and is
+/// continuous through ζ = 1:
 ///   y(t) = y₀ (C + ζS) + ẏ₀ S,   ẏ(t) = ẏ₀ (C − ζS) − y₀ S,
 ///   C = e^{−ζt} cos wt, S = e^{−ζt} sin(wt)/w, w = √(1−ζ²)   (cosh, sinh beyond ζ = 1).
 struct EngagedFlow {
@@ -32,13 +32,12 @@ Real decaying_form(Real damping, Real position, Real speed) {
 /// if there is none. A zero at t = 0 itself is not counted.
 ///
 /// Guarantee: x is one damped sinusoid (ζ < 1) or a sum of two decaying exponentials (ζ ≥ 1), so
-/// its zeros are known in closed form: for ζ < 1 the first is at angle wt ∈ (0, π] given by
-/// atan2(|x₀| w, ∓(ẋ₀ + ζx₀)), for ζ ≥ 1 there is at most one, where
-/// (e^{2ωt} − 1)/(2ω) = −x₀/(ẋ₀ + λ₂x₀), ω = √(ζ²−1), λ₂ = ζ + ω. Nothing is searched, so in exact
-/// arithmetic none is missed; a double zero exists only where x vanishes identically. In doubles
-/// rounding decides, for ζ ≥ 1, where ẋ₀ + λ₂x₀ is a difference of nearly equal terms: the slow
-/// decay is then not there to rounding, and a zero that it would have comes when x has all but died
-/// out.
+/// its zeros have a closed form. For ζ < 1 the first is at angle wt ∈ (0, π] given by atan2(|x₀| w,
+/// ∓(ẋ₀ + ζx₀)). For ζ ≥ 1 there is at most one, where (e^{2ωt} − 1)/(2ω) = −x₀/(ẋ₀ + λ₂x₀), ω =
+/// √(ζ²−1), λ₂ = ζ + ω. There is no search, so in exact arithmetic none is missed. A double zero
+/// exists only where x vanishes identically. In doubles rounding decides, for ζ ≥ 1, where ẋ₀ +
+/// λ₂x₀ is a difference of nearly equal terms. The slow decay is then absent to rounding, and its
+/// zero would come when x has nearly died out.
 template <class Real>
 Real first_zero(Real damping, Real value, Real slope) {
   using std::abs;

@@ -1,5 +1,4 @@
-// The largest and smallest positions over a stretch of a trajectory, at turning points found
-// exactly, not at samples.
+// Extreme positions over a part of a trajectory, at exact turning points instead of samples.
 #pragma once
 
 #include "closed_form/trajectory.hpp"
@@ -17,11 +16,11 @@ struct Extremes {
 };
 
 /// Extremes over [from, to], clamped to the trajectory, from ≤ to; positions as in at(). Turning
-/// points: engaged, zeros of a damped oscillation, of which the first two after `from` are the
-/// largest; in the gap the load has none and the motor at most two, e^{ct} v_M having the slope
-/// −y e^{ct}/J_M, where y changes sign at most once. Within a settling phase, in which a shaft may
-/// well turn, each bounce counts as a flight, for as long as its height is above a double's
-/// resolution of the positions, and the common motion from there on.
+/// points are: engaged, zeros of a damped oscillation, of which the first two after `from` are the
+/// largest; in the gap, none of the load and at most two of the motor, because e^{ct} v_M has the
+/// slope −y e^{ct}/J_M, where y changes sign at most once. Within a settling phase a shaft may
+/// turn. There each bounce counts as a flight while its height is above a double's resolution of
+/// the positions, and the common motion counts from there on.
 Extremes extremes(const Trajectory& trajectory, double from, double to);
 
 }  // namespace gearlash

@@ -1,4 +1,4 @@
-// Faces apart: the load coasts, the motor runs under the loop; closed form of both.
+// The closed form of a flight: the load coasts, the motor runs under the loop.
 #pragma once
 
 #include "closed_form/decay_integral.hpp"
@@ -10,10 +10,10 @@ namespace gearlash {
 ///   load   y(t) = y₀ + v₀ t φ(Dt),  v(t) = v₀ e^{−Dt},           φ = decay_integral
 ///   gap    u(t) = u₀ + u̇₀ t + A t² exp[0,0,−ct] + B t² exp[0,0,−Dt] + C t³ exp[0,0,−Dt,−ct]
 ///   with   A = v̇_M(0) = −c v_M − y₀/J_M,  B = −v̇_L(0) = D v₀,  C = −v₀/J_M.
-/// (From v̈_M + c v̇_M = −v_L/J_M and v̇_L = −D v_L.) u is written in its own coordinates, not as a
-/// difference of two shafts, so that it keeps its relative accuracy however short the flight. A
-/// massless load stands still (B = C = 0); for a massless motor v_M = −y/F_M leaves
-/// B = (D − 1/F_M) v₀ alone; after a clean parting u̇₀ = ü₀ = 0 leaves C = G alone.
+/// (From v̈_M + c v̇_M = −v_L/J_M and v̇_L = −D v_L.) u has its own coordinates instead of a
+/// difference of two shafts, so it keeps its relative accuracy however short the flight. A massless
+/// load stands still (B = C = 0). For a massless motor v_M = −y/F_M leaves B = (D − 1/F_M) v₀
+/// alone. After a clean parting u̇₀ = ü₀ = 0 leaves C = G alone.
 template <class Real>
 struct BasicGapFlight {
   Real load_position = 0.0;       ///< y₀, from the reference
@@ -31,7 +31,7 @@ struct BasicGapFlight {
 };
 using GapFlight = BasicGapFlight<double>;
 
-/// A flight at one time, but for the gap's displacement, which costs a second integral.
+/// A flight at one time, without the gap's displacement, which costs a second integral.
 template <class Real>
 struct BasicFlightMotion {
   Real load_moved;        ///< y − y₀
@@ -42,7 +42,7 @@ struct BasicFlightMotion {
 };
 using FlightMotion = BasicFlightMotion<double>;
 
-/// A flight at one time, whole.
+/// A flight at one time, complete.
 template <class Real>
 struct BasicFlightPoint {
   BasicFlightMotion<Real> motion;
@@ -50,7 +50,7 @@ struct BasicFlightPoint {
 };
 using FlightPoint = BasicFlightPoint<double>;
 
-/// The decays that every quantity of a flight is made of, at one time.
+/// The decays that make up every quantity of a flight, at one time.
 template <class Real>
 struct BasicFlightDecays {
   BasicDecay<Real> load;
@@ -115,8 +115,8 @@ BasicGapState<Real> state_after(const BasicGapFlight<Real>& flight, const Real& 
           flight.gap + displacement_after(flight, time, decays), motion.gap_speed};
 }
 
-/// Flight of two masses from any state in the gap. The shafts' own accelerations are not taken from
-/// the gap's: of a light load that would lose digits.
+/// Flight of two masses from any state in the gap. The shafts' own accelerations do not come from
+/// the gap's, which would lose digits for a light load.
 template <class Real>
 BasicGapFlight<Real> flight_of_two_masses(const BasicServoDynamics<Real>& dynamics,
                                           const BasicGapState<Real>& state) {
@@ -136,8 +136,8 @@ BasicGapFlight<Real> flight_of_two_masses(const BasicServoDynamics<Real>& dynami
           .gap_drive = gap_drive(dynamics, state.load_speed)};
 }
 
-/// Flight from any state in the gap. A massless load stops at once (its speed is ignored), a
-/// massless motor takes at once the speed −y/F_M that the loop drives it at.
+/// Flight from any state in the gap. A massless load stops at once (its speed is ignored). A
+/// massless motor takes the loop's speed −y/F_M at once.
 GapFlight flight_from(const ServoDynamics& dynamics, const GapState& state);
 
 /// Flight from the instant when the mesh torque of engaged faces reaches zero: there u̇ = ü = 0
@@ -160,8 +160,8 @@ BasicGapFlight<Real> clean_parting(const BasicServoDynamics<Real>& dynamics, Rea
           .gap_drive = drive};
 }
 
-/// Flight from faces that touch with no relative speed but with a mesh torque that would have to
-/// pull: u̇ = 0, ü = N/(J_M J_L).
+/// Flight from faces that touch with no relative speed, where the mesh torque would have to pull:
+/// u̇ = 0, ü = N/(J_M J_L).
 GapFlight flight_from_pull(const ServoDynamics& dynamics, double load_position, double load_speed,
                            double gap);
 

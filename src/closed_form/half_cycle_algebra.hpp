@@ -1,6 +1,7 @@
-// The half cycle's formulas that hold for every servo alike: no branch, no library call but √. Two
-// solvers are written with them: of one servo (Real = double), and of several side by side, whose
-// Real is a vector of doubles (layer chart).
+// The half cycle's branch-free formulas, for one servo or several side by side.
+//
+// They hold for every servo alike and call no library function but √. Real is double for one servo,
+// or a vector of doubles for several (src/closed_form/lanes).
 #pragma once
 
 #include <algorithm>
@@ -15,11 +16,11 @@
 namespace gearlash {
 
 /// Half a cycle that starts with the faces parting forward at unit amplitude on the torque-free
-/// line, as a function of the flight time t: everything scales with the amplitude (design 3.1).
+/// line, as a function of the flight time t. Everything scales with the amplitude.
 template <class Real>
 struct BasicUnitHalfCycle {
   Real flight_time;       ///< t₂
-  Real engaged_time;      ///< t₁, infinite when the faces do not part again
+  Real engaged_time;      ///< t₁, infinite if the faces do not part again
   Real load_moved;        ///< y at impact less y at parting
   Real load_position;     ///< y at impact
   Real load_speed;        ///< v_L just before impact
@@ -30,7 +31,7 @@ struct BasicUnitHalfCycle {
   Real square_change;     ///< (y² + P²) just after impact less (y² + v²) at parting
   Real form_change;       ///< Q just after impact less Q at parting
   Real form;              ///< Q(y, P) = y² + 2ζyP + P² just after impact
-  Real log_growth;  ///< ln ρ, ρ the amplitude at the next parting; −∞ when there is none
+  Real log_growth;        ///< ln ρ, ρ the amplitude at the next parting; −∞ if there is none
   Real log_growth_slope;  ///< d ln ρ/dt₂ = |u̇| (J_M y + F_M P)/(y² + 2ζyP + P²), > 0
 };
 using UnitHalfCycle = BasicUnitHalfCycle<double>;
@@ -48,7 +49,7 @@ Real start_form(const BasicServoDynamics<Real>& dynamics, const BasicGapFlight<R
   return decaying_form(dynamics.damping, flight.load_position, flight.load_speed);
 }
 
-/// All that the state at the impact says; the engaged time and the growth are left to be set.
+/// All that follows from the state at the impact. The engaged time and the growth are set later.
 template <class Real>
 BasicUnitHalfCycle<Real> impact_at(const BasicServoDynamics<Real>& dynamics,
                                    const BasicGapFlight<Real>& flight, Real time,
@@ -64,8 +65,8 @@ BasicUnitHalfCycle<Real> impact_at(const BasicServoDynamics<Real>& dynamics,
   half.gap_acceleration = motion.gap_acceleration;
   half.common_speed = motion.load_speed + dynamics.motor_inertia * motion.gap_speed;
 
-  // Q(impact) − Q(start) from the differences of position and speed: for light damping it is far
-  // smaller than either.
+  // Q(impact) − Q(start) comes from the differences of position and speed: for light damping it is
+  // far smaller than either.
   const Real moved = motion.load_moved;
   const Real speeded = -flight.load_rate * moved + dynamics.motor_inertia * motion.gap_speed;
   half.square_change =
@@ -82,7 +83,7 @@ BasicUnitHalfCycle<Real> impact_at(const BasicServoDynamics<Real>& dynamics,
 }
 
 /// The amplitude at the next parting of faces that engage with the load at rest at −1 and the motor
-/// arriving at contact_speed, and the place at which the load then comes to rest: μ₀.
+/// arriving at contact_speed, and the position at which the load then comes to rest: μ₀.
 template <class Real>
 Real growth_after_contact(const BasicServoDynamics<Real>& dynamics, const Real& contact_speed,
                           const Real& engaged_time) {
@@ -109,7 +110,7 @@ Real rising_at_rest(const Real& damping, const Real& motor_inertia, const Real& 
          (motor_inertia * motor_time + load_inertia * load_time);
 }
 
-/// How the state at the impact changes with the flight time.
+/// Change of the state at the impact with the flight time.
 template <class Real>
 struct BasicArrivalRates {
   Real motor_acceleration;  ///< v̇_M before the impact
@@ -197,12 +198,12 @@ BasicUnitHalfCycle<Real> stepped(const BasicServoDynamics<Real>& dynamics,
   return next;
 }
 
-/// A flight time near the root of ln ρ(t) = 0, within 2 % as a rule.
+/// A flight time near the root of ln ρ(t) = 0, usually within 2 %.
 ///
 /// Near t = 0, ln ρ = −δ + κ t³/6 + t⁴/8 with δ = ζπ/w, κ = c J_L + D J_M the drag on the gap's
-/// motion; in the end it tends to ln μ₀. One step of Newton's method gives the first root, a factor
-/// √(1 + δ/ln μ₀) the second, and a polynomial fitted to the thesis's range and beyond (damping
-/// 0.05 to 0.6, inertia ratio 1/9 to 9, friction ratio 0.04 to 0.99) what both leave over.
+/// motion. In the end it tends to ln μ₀. One step of Newton's method gives the first root, and a
+/// factor √(1 + δ/ln μ₀) the second. A polynomial corrects both; it is fitted to the thesis's range
+/// and beyond (damping 0.05 to 0.6, inertia ratio 1/9 to 9, friction ratio 0.04 to 0.99).
 template <class Real>
 Real guessed_flight_time(const BasicServoDynamics<Real>& dynamics, Real log_growth_at_rest) {
   using std::max;
@@ -231,8 +232,8 @@ Real guessed_flight_time(const BasicServoDynamics<Real>& dynamics, Real log_grow
   return min(longest, guess);
 }
 
-/// Steps this short, in units of the fastest of the flight's rates, end the search: what second
-/// order leaves out of them is below rounding.
+/// Steps this short, in units of the fastest of the flight's rates, end the search: what
+/// second order omits is then below rounding.
 inline constexpr double short_step = 1e-5;
 
 /// The motor's speed at one time of the flight and its derivatives: v̈ = −c v̇ − a, ȧ = −D a, where
@@ -283,8 +284,8 @@ Real quintic_root(const BasicValueAndSlope<Real>& at_start, const BasicValueAndS
   return (x + newton_step(at_x)) * end;
 }
 
-/// So near the motor's turn that position_at_turn() may start there, as a share of a flight of this
-/// length: the term of Taylor's series that it leaves out is below rounding.
+/// This near the motor's turn position_at_turn() may start, as a share of a flight of this length:
+/// the omitted term of Taylor's series is below rounding.
 template <class Real>
 Real nearness_of_turn(const BasicGapFlight<Real>& flight, const Real& time) {
   return 0.006 / (1.0 + (flight.motor_rate + flight.load_rate) * time);
@@ -302,7 +303,7 @@ Real position_at_turn(const BasicFlightPoint<Real>& point, const BasicMotorSpeed
                                  step * (here.third / 24.0 + step * here.fourth / 120.0))));
 }
 
-/// F_L ∫ v_L² dt over the flight, in which v_L falls in proportion to the way.
+/// F_L ∫ v_L² dt over the flight, in which v_L falls in proportion to the distance.
 template <class Real>
 Real load_friction_in_flight(const BasicServoDynamics<Real>& dynamics,
                              const BasicGapFlight<Real>& flight,
@@ -318,8 +319,8 @@ struct BasicCycleLosses {
   Real impacts;
 };
 
-/// motor_in_flight is F_M ∫ v_M² dt over the flight. What the engaged motion loses, the flight and
-/// the impact have added; the shafts share it as they share the friction.
+/// motor_in_flight is F_M ∫ v_M² dt over the flight. The engaged motion loses what the flight and
+/// the impact have added. The shafts share this loss as they share the friction.
 template <class Real>
 BasicCycleLosses<Real> cycle_losses(const BasicServoDynamics<Real>& dynamics,
                                     const BasicGapFlight<Real>& flight,

@@ -1,4 +1,4 @@
-// Whether the servo hunts, how big and how fast: its limit cycles and the verdict on them.
+// Finds the servo's limit cycles and decides whether it hunts.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,8 @@
 
 namespace gearlash {
 
-/// Energy fed in by the loop equals the sum of the losses. Units of K rad², over a whole period.
+/// The energy that the loop feeds in equals the sum of the losses. Units of K rad², over a whole
+/// period.
 struct CycleEnergy {
   double motor_friction = std::numeric_limits<double>::quiet_NaN();
   double load_friction = std::numeric_limits<double>::quiet_NaN();
@@ -46,47 +47,46 @@ struct LimitCycle {
 
 struct LimitCycleAnalysis {
   Verdict verdict = Verdict::cannot_hunt;
-  /// Of the verdict, and of the number of limit cycles that mirror themselves.
+  /// For the verdict, and for the number of limit cycles that mirror themselves.
   Certainty certainty = Certainty::searched;
   double growth_at_rest = std::numeric_limits<double>::quiet_NaN();  ///< μ₀, see growth_at_rest()
-  /// Whether no restitution whatever can make it hunt: 1/c + 1/D ≤ 2ζ, decided exactly of the
-  /// numbers given (docs/mathematics.md, Absence by energy).
+  /// Whether no restitution at all can make it hunt: 1/c + 1/D ≤ 2ζ, decided exactly for the given
+  /// numbers (docs/mathematics.md, Absence by energy).
   bool is_dissipative = false;
   /// Whether some motions end at rest with the faces together, on either: ζ ≥ 1. Such a servo has
-  /// rest beside its limit cycle: small motion in the gap grows, a large one ends with the faces
-  /// together (docs/mathematics.md, One cycle or none).
+  /// rest beside its limit cycle: small motion in the gap grows, and a large one ends with the
+  /// faces together (docs/mathematics.md, One cycle or none).
   bool rests_engaged = false;
-  /// Whether cycles were met that could not be told from their neighbours, their multiplier being 1
-  /// to within rounding (on a boundary in the parameters, or ζ below 1e-9). They are not listed.
+  /// Whether some cycles could not be separated from their neighbours, because their multiplier is
+  /// 1 to within rounding (on a boundary in the parameters, or ζ below 1e-9). They are not listed.
   bool neutral_swings = false;
-  std::vector<LimitCycle> cycles;  ///< by decreasing size
-  /// Half the peak-to-peak of bounded motion that was not seen to repeat, which may exist beside a
-  /// stable cycle; NaN where every start ended in a cycle or at rest.
+  std::vector<LimitCycle> cycles;  ///< by decreasing amplitude
+  /// Half the peak-to-peak of bounded motion that was not seen to repeat. It may exist beside a
+  /// stable cycle. NaN if every start ended in a cycle or at rest.
   double irregular_size = std::numeric_limits<double>::quiet_NaN();
-  std::optional<CycleBounds> bounds;  ///< proved; where that was asked for and contact is plastic
+  std::optional<CycleBounds> bounds;  ///< proved; set on request if contact is plastic
 
   bool is_proved() const { return certainty >= Certainty::enclosed; }
 };
 
 /// All limit cycles that can be found, and the verdict.
 ///
-/// e = 0 (or a massless side): the return map is one-dimensional, and there is exactly one cycle
-/// that mirrors itself when growth_at_rest > 1 and none otherwise (proof: docs/mathematics.md); it
-/// is the root of one scalar equation and always found. The verdict is `computed`, and a `theorem`
-/// where growth at rest is not needed (a shaft, or both, without friction; no backlash; 1/c + 1/D ≤
-/// 2ζ). 0 < e ≤ 1: nothing can hunt where 1/c + 1/D ≤ 2ζ, a `theorem`. Else fixed points of the
-/// return map by Newton's method (return_map.hpp), from a scan over amplitudes and from the motions
-/// that small, middle and large starts end in. Complete as far as the scan is fine, hence
-/// `searched`; every cycle reported is one, to its residual. Throws InvalidInput.
+/// e = 0 (or a massless side): the return map is one-dimensional. There is exactly one cycle that
+/// mirrors itself when growth_at_rest > 1 and none otherwise (proof: docs/mathematics.md). It is
+/// the root of one scalar equation and always found. The verdict is `computed`, or a `theorem` if
+/// growth at rest is not needed (a shaft, or both, without friction; no backlash; 1/c + 1/D ≤ 2ζ).
+/// 0 < e ≤ 1: if 1/c + 1/D ≤ 2ζ nothing can hunt, a `theorem`. Otherwise Newton's method finds
+/// fixed points of the return map (return_map.hpp), from a scan over amplitudes and from the
+/// motions in which small, middle and large starts end. The list is as complete as the scan is
+/// fine, hence `searched`. Every cycle reported is one, to its residual. Throws InvalidInput.
 LimitCycleAnalysis analyse_limit_cycles(const NormalizedServo& servo);
 
 /// The same, proved: with plastic contact the growth at rest, the cycle and its multiplier are
-/// enclosed for every servo of `box`, which holds the data that `servo` was rounded from. The
-/// verdict is `enclosed` where all of the box agree with it, and else undecided; then
-/// bounds->growth_at_rest says how wide it is about 1.
-/// Throws InvalidInput.
+/// enclosed for every servo of `box`, which holds the data from which `servo` was rounded. The
+/// verdict is `enclosed` if all of the box agree with it. Otherwise it is undecided, and
+/// bounds->growth_at_rest gives the width about 1. Throws InvalidInput.
 LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, const ServoBox& box);
-/// Of the servo itself, or of the decimals that its numbers stand for.
+/// For the servo itself, or for the decimals that its numbers represent.
 LimitCycleAnalysis enclose_limit_cycles(const NormalizedServo& servo, Reading reading);
 
 /// The cycle that is seen in practice: the largest stable one, or nullptr.

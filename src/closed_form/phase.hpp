@@ -1,4 +1,4 @@
-// One mode of motion with its closed form, and the event that ends it.
+// One mode of motion in closed form, and the event that ends it.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ enum class Mode {
   engaged_forward,   ///< both move as one, u = +b/2
   engaged_backward,  ///< both move as one, u = −b/2
   separated,         ///< the load coasts, the motor runs alone
-  settling,          ///< the last bounces, summed up: infinitely many, or too many to follow
+  settling,          ///< the sum of the last bounces: infinitely many, or too many to follow
   no_gap             ///< backlash 0: both move as one, pushing and pulling
 };
 
@@ -51,8 +51,8 @@ struct PhaseEnd {
   GapTouch touch{};  ///< of a flight, see first_contact()
 };
 
-/// The phase that a state begins: contact is resolved at once where the state is on a face and
-/// moves into it (an impact at time 0, told by `event_at_start`) or touches it at rest.
+/// The phase that a state begins. Contact is resolved at once if the state is on a face and moves
+/// into it (an impact at time 0, reported by `event_at_start`) or touches it at rest.
 struct PhaseStart {
   bool impact_at_start = false;
   PhaseEnd impact;  ///< meaningful when impact_at_start; duration 0
@@ -63,12 +63,12 @@ PhaseStart begin_phase(const ServoDynamics& dynamics, const GapState& state);
 /// The event that ends the phase, if it comes within `horizon` (which may be infinite).
 ///
 /// Rules, in order. Engaged: ends where s N falls through zero (first_zero, closed form).
-/// Separated: ends at the first contact with either face (first_contact); the impact
-/// law is applied; if the relative speed after it is zero, stays_engaged() decides between
-/// engagement and parting at once; else, if the bounces to come are settling_bounces().imminent,
-/// or, after a hundred of them, fading_rattle().imminent, the settling phase begins; else the next
-/// flight does. Settling: ends after its closed-form duration, engaged. An impact and a separation
-/// at one instant are thus taken in that order.
+/// Separated: ends at the first contact with either face (first_contact), where the impact law is
+/// applied. If the relative speed after it is zero, stays_engaged() decides between engagement and
+/// parting at once. Otherwise the settling phase begins if the remaining bounces are
+/// settling_bounces().imminent or, after a hundred of them, fading_rattle().imminent. Otherwise the
+/// next flight begins. Settling: ends after its closed-form duration, engaged. So an impact and a
+/// separation at one instant come in that order.
 PhaseEnd end_of_phase(const ServoDynamics& dynamics, const Phase& phase, double horizon);
 
 /// State at `time` within the phase. Within a settling phase the bounces are followed one by one.

@@ -1,4 +1,4 @@
-// The one symmetric limit cycle of a servo with plastic contact, with all its properties.
+// The one symmetric limit cycle of a servo with plastic contact, with its properties.
 #pragma once
 
 #include "closed_form/limit_cycle.hpp"

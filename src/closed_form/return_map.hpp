@@ -1,5 +1,4 @@
-// From one arrival at a face to the next arrival at the other: the map whose fixed points are the
-// limit cycles of a servo with bounces.
+// The map from one arrival to the next; its fixed points are bouncing limit cycles.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,9 +8,9 @@
 
 namespace gearlash {
 
-/// The instant before an impact on the forward face by faces that crossed the gap from the other
-/// one: (y, P, u̇) with P = J_M v_M + J_L v_L, the speed of the common momentum, and u̇ > 0.
-/// Arrivals at the backward face are mirrored (all signs reversed) into this form.
+/// The instant before an impact on the forward face, after crossing the gap from the other one: (y,
+/// P, u̇) with P = J_M v_M + J_L v_L, the speed of the common momentum, and u̇ > 0. Arrivals at the
+/// backward face are mirrored (all signs reversed) into this form.
 using Arrival = Eigen::Vector3d;
 
 struct Traversal {
@@ -33,14 +32,14 @@ struct Traversal {
 };
 
 /// Follows the motion from one arrival through its bounces, engagement and parting to the arrival
-/// at the other face, with its derivative. Each flow being linear, a disturbance is carried by the
-/// flow itself; across an impact at a disturbed time by the saltation matrix
+/// at the other face, with its derivative. Each flow is linear, so it carries a disturbance as it
+/// carries a state. An impact at a disturbed time carries it by the saltation matrix
 ///   δ⁺ = R δ⁻ + (R ẋ⁻ − ẋ⁺) δt,  δt = −δu/u̇,
-/// across a separation by the identity (u̇ = ü = 0 there), across a settling by centre of mass and
-/// momentum, less what friction takes of it until the gap is closed. Source: Müller, Chaos,
-/// Solitons & Fractals 5 (1995) 1671; Leine & Nijmeijer, Dynamics and Bifurcations of Non-Smooth
-/// Mechanical Systems (2004), ch. 7. Precondition: two masses (0 < J_M < 1) and b > 0. `slope` is
-/// computed only where it is wanted.
+/// a separation by the identity (u̇ = ü = 0 there), and a settling by centre of mass and momentum,
+/// less what friction takes of it until the gap is closed. Source: Müller, Chaos, Solitons &
+/// Fractals 5 (1995) 1671; Leine & Nijmeijer, Dynamics and Bifurcations of Non-Smooth Mechanical
+/// Systems (2004), ch. 7. Precondition: two masses (0 < J_M < 1) and b > 0. `slope` is computed
+/// only on request.
 enum class Derivative { wanted, not_wanted };
 inline constexpr std::size_t traversal_event_limit = 200'000;
 Traversal traverse(const ServoDynamics& dynamics, const Arrival& arrival,

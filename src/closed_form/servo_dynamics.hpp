@@ -17,7 +17,7 @@ struct BasicTorqueFreeLine {
 using TorqueFreeLine = BasicTorqueFreeLine<double>;
 
 /// Normalised so that J_M + J_L = 1, K = 1 and F_M + F_L = 2ζ. Real is double, or a vector of
-/// doubles that stands for several servos side by side (layer chart).
+/// doubles for several servos side by side (src/closed_form/lanes).
 template <class Real>
 struct BasicServoDynamics {
   Real damping = 0.0;           ///< ζ
@@ -35,8 +35,8 @@ struct BasicServoDynamics {
   bool massless_motor() const { return motor_inertia == 0.0; }
   bool massless_load() const { return load_inertia == 0.0; }
 
-  /// A massless side meets no inertia in an impact and its rebound dies within no time: contact
-  /// engages at once whatever the restitution.
+  /// A massless side has no inertia in an impact, and its rebound dies at once: contact engages
+  /// whatever the restitution.
   bool plastic_contact() const { return restitution == 0.0 || massless_motor() || massless_load(); }
 };
 using ServoDynamics = BasicServoDynamics<double>;
@@ -66,8 +66,8 @@ BasicServoDynamics<Real> dynamics_of_shafts(const Real& damping, const Real& mot
 /// Precondition: validate(servo) is empty.
 ServoDynamics servo_dynamics(const NormalizedServo& servo);
 
-/// N = J_L ÿ + F_L ẏ = (F_L J_M − F_M J_L) ẏ − J_L y: the torque that engaged faces pass on to the
-/// load. The form holds for a massless shaft on either side.
+/// N = J_L ÿ + F_L ẏ = (F_L J_M − F_M J_L) ẏ − J_L y: the torque from engaged faces on the load.
+/// The form holds for a massless shaft on either side.
 template <class Real>
 Real mesh_torque(const BasicServoDynamics<Real>& dynamics, Real position, Real speed) {
   return dynamics.torque_per_speed * speed - dynamics.load_inertia * position;

@@ -1,4 +1,4 @@
-// The motion of the servo, exact between events: what happened, when, and where everything was.
+// The servo's motion, exact between events: what happened, when, and all positions.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,15 @@
 namespace gearlash {
 
 /// Positions (rad) and speeds (rad per unit of normalised time, 1/ω_n) of both shafts at the load.
-/// motor_position − load_position is the gap coordinate u ∈ [−b/2, +b/2]. It is known to the
-/// rounding of the two positions; its rate u̇ is known by itself.
+/// motor_position − load_position is the gap coordinate u ∈ [−b/2, +b/2], known to the rounding of
+/// the two positions. Its rate u̇ is known separately.
 struct ServoState {
   double motor_position = 0.0;
   double motor_speed = 0.0;
   double load_position = 0.0;
   double load_speed = 0.0;
-  /// What motor_speed, a sum v_L + u̇, leaves out of it: up to half a unit of its last place, which
-  /// may be much beside u̇. States of a trajectory have it; 0 where the two speeds are given.
+  /// The rounding error of motor_speed, a sum v_L + u̇: up to half a unit of its last place, which
+  /// may be large compared with u̇. States of a trajectory have it; 0 if the two speeds are given.
   double motor_speed_remainder = 0.0;
 
   /// u̇, with all its digits.
@@ -43,16 +43,16 @@ struct Event {
   double energy_lost = 0.0;  ///< at an impact or a settling, in units of K rad²
 };
 
-/// The gap turned so near a face that rounding decides whether the faces meet there; events() has
-/// one of the two answers (first_contact.hpp says how near that is, and what depends on it).
+/// The gap turned so near a face that rounding decides whether the faces meet there. events() has
+/// one of the two answers (first_contact.hpp gives the band and its consequences).
 struct Touch {
   double time = 0.0;
   Face face = Face::forward;
 };
 
 enum class StopReason {
-  reached_end,  ///< the time asked for
-  event_limit   ///< options.event_limit events were recorded; end_time() tells how far
+  reached_end,  ///< the requested time
+  event_limit   ///< options.event_limit events were recorded; end_time() has the time reached
 };
 
 /// Energies in units of K rad² (multiply by the stiffness K for joules), accumulated from the
@@ -68,7 +68,7 @@ struct EnergyAccount {
   double stored() const { return kinetic + elastic; }
 };
 
-/// Normalised times go so far.
+/// The longest normalised time.
 inline constexpr double longest_simulation = 1e9;
 
 struct SimulationOptions {
@@ -77,7 +77,7 @@ struct SimulationOptions {
   std::size_t event_limit = 1'000'000;
 };
 
-/// A piece of motion between two events: `phase` holds its closed form, in time from `start`.
+/// A segment of motion between two events: `phase` holds its closed form, in time from `start`.
 struct Segment {
   double start = 0.0;
   double end = 0.0;
@@ -95,12 +95,13 @@ class Trajectory {
   const std::vector<Touch>& touches() const { return touches_; }
   const std::vector<Segment>& segments() const { return segments_; }
 
-  /// State at any time within [start_time, end_time] (clamped to it); at an event, the state after.
+  /// State at any time within [start_time, end_time] (clamped to it). At an event: the state after
+  /// it.
   ServoState at(double time) const;
   Mode mode_at(double time) const;
 
-  /// The books from the start to `time`. Every entry is computed from its own definition, so the
-  /// balance is a check, not an identity.
+  /// The energy balance from the start to `time`. Every entry is computed from its own definition,
+  /// so the balance is a check, not an identity.
   EnergyAccount energy_at(double time) const;
 
  private:
@@ -120,12 +121,12 @@ class Trajectory {
 ServoState engaged_start(const NormalizedServo& servo, double load_position, double load_speed,
                          double reference);
 
-/// The exact motion from `initial` under a step reference. No step size: every mode has a closed
-/// form. In exact arithmetic every event time is a first crossing and none is missed
-/// (first_contact.hpp, engaged_flow.hpp); where rounding decides touches() says so.
-/// Permitted: positions, speeds and reference from −1e100 to 1e100, the gap from −b/2 to b/2 (to
-/// rounding), options.until from 0 to longest_simulation. Throws InvalidInput that lists every
-/// fault, those of the servo included.
+/// The exact motion from `initial` under a step reference. There is no step size: every mode has a
+/// closed form. In exact arithmetic every event time is a first crossing and none is missed
+/// (first_contact.hpp, engaged_flow.hpp). touches() lists where rounding decides. Permitted:
+/// positions, speeds and reference from −1e100 to 1e100, the gap from −b/2 to b/2 (to rounding),
+/// options.until from 0 to longest_simulation. Throws InvalidInput that lists every fault, those of
+/// the servo included.
 Trajectory simulate(const NormalizedServo& servo, const ServoState& initial,
                     const SimulationOptions& options);
 

@@ -1,4 +1,4 @@
-// Half a cycle with plastic contact, and the scalar equation that makes it a limit cycle.
+// Half a cycle with plastic contact, and the scalar equation that closes it.
 #pragma once
 
 #include <optional>
@@ -17,8 +17,8 @@ GapFlight unit_flight(const ServoDynamics& dynamics);
 /// Precondition: plastic contact, flight_time > 0.
 UnitHalfCycle unit_half_cycle(const ServoDynamics& dynamics, double flight_time);
 
-/// The half cycle that ends as it began, mirrored: the root t₂ of ln ρ(t₂) = 0, which exists
-/// exactly when growth at rest > 1 and is unique. Nothing only where ln ρ cannot be told from zero
+/// The half cycle that ends as it began, mirrored: the root t₂ of ln ρ(t₂) = 0. It exists exactly
+/// when growth at rest > 1 and is unique. Empty only if ln ρ cannot be distinguished from zero
 /// (growth at rest 1 + rounding). Precondition: plastic contact, ζ > 0, growth_at_rest =
 /// growth_at_rest(dynamics) > 1.
 std::optional<UnitHalfCycle> balanced_half_cycle(const ServoDynamics& dynamics,

@@ -1,4 +1,4 @@
-// When the clocks of a system tick next.
+// The next ticks of a system's clocks.
 #pragma once
 
 #include <algorithm>
@@ -9,15 +9,15 @@
 
 namespace gearlash::hybrid {
 
-/// Inline, as every step asks.
+/// Inline, because every step asks.
 class ClockTicks {
  public:
-  /// From the first ticks on that are not before a time. The clocks must live as long.
+  /// Starts with the first ticks that are not before a time. The clocks must live as long.
   ClockTicks(const std::vector<Clock>& clocks, double from) : clocks_(clocks) {
     for (const Clock& clock : clocks) ticks_.push_back(first_tick(clock, from));
   }
 
-  /// When the next one comes; infinity where there is none.
+  /// Time of the next tick; infinity if there is none.
   double next() const {
     double next = infinity;
     for (const Tick& tick : ticks_) next = std::min(next, tick.time);
@@ -27,7 +27,7 @@ class ClockTicks {
   std::size_t count() const { return ticks_.size(); }
   bool is_due(std::size_t clock, double time) const { return ticks_[clock].time <= time; }
 
-  /// Past the tick that is next; what it adds to the state, or null.
+  /// Moves past the next tick. Returns what it adds to the state, or null.
   const Vector* pass(std::size_t index) {
     const Clock& clock = clocks_[index];
     const std::size_t count = ticks_[index].count;

@@ -1,4 +1,4 @@
-// A linear flow, made ready for Taylor steps.
+// A linear flow, prepared for Taylor steps.
 #pragma once
 
 #include <cstddef>
@@ -9,30 +9,30 @@
 
 namespace gearlash::hybrid {
 
-/// Of a sum of some products, as a share of the largest of them.
+/// For a sum of some products, as a share of the largest of them.
 inline constexpr double product_rounding = 4.0 * std::numeric_limits<double>::epsilon();
-/// Rounding of a sum of products, as a share of the sum of their sizes.
+/// Rounding of a sum of products, as a share of the sum of their magnitudes.
 inline constexpr double sum_rounding = 16.0 * std::numeric_limits<double>::epsilon();
 
-/// The order at which a series with so many rates (length times rate) is broken off:
+/// The order at which a series with this rate (length times rate) is truncated:
 ///   Σ_{j>k} |x₍ⱼ₎| ≤ |x₍₁₎| rates^k/(k + 1)! / (1 − rates/(k + 2)) ≤ left_out |x₍₁₎|.
 /// Precondition: rates ≤ longest_in_rates.
 int order_for(double rates);
 inline constexpr double left_out = 0x1p-62;
-/// A step times the rate. What terms of either sign take from each other is then below e².
+/// A step times the rate. Cancellation between terms is then below e².
 inline constexpr double longest_in_rates = 2.0;
 
-/// How the moving numbers move at a state.
+/// The velocity of the moving numbers at a state.
 struct Velocity {
   std::vector<double> values;
-  std::vector<double> noise;  ///< what rounding has left unknown of each
-  std::vector<double> sizes;  ///< an upper bound: |value| and all that rounding may ever add
+  std::vector<double> noise;  ///< uncertainty of each by rounding
+  std::vector<double> sizes;  ///< an upper bound: |value| and all possible rounding
 };
 
-/// x′ = A x + b, of which only the numbers that move are followed. Weights w_i (powers of 2) make
-/// the rate, max_i Σ_j |A_ij| w_j/w_i, small: numbers of unlike units count alike (Osborne 1960);
-/// and what only follows from other numbers, as a position from a speed, counts by how far those
-/// take it in their own time.
+/// x′ = A x + b, which follows only the numbers that move. Weights w_i (powers of 2) make the rate,
+/// max_i Σ_j |A_ij| w_j/w_i, small: numbers of unlike units count alike (Osborne 1960). A number
+/// that only follows from others, as a position from a speed, counts by how far those take it in
+/// their own time.
 class LinearFlow {
  public:
   explicit LinearFlow(const AffineFlow& flow);
@@ -41,38 +41,38 @@ class LinearFlow {
   int number(int moving) const { return numbers_[static_cast<std::size_t>(moving)]; }
   double rate() const { return rate_; }
   double longest_step() const { return longest_step_; }
-  /// Where no number acts on itself, even through others, motion is a polynomial of time: its
-  /// order; else 0. The rate is then 0, and a step as long as one likes.
+  /// If no number acts on itself, even through others, the motion is a polynomial of time: its
+  /// order; else 0. The rate is then 0, and a step may be arbitrarily long.
   int polynomial_order() const { return polynomial_order_; }
-  /// Of a series over a time.
+  /// Order of a series over a time.
   int order(double length) const {
     return polynomial_order_ > 0 ? polynomial_order_ : order_for(length * rate_);
   }
-  /// What |x₍₁₎| ≤ `length` · weighted_norm(velocity) leaves out of numbers: this times their
-  /// weights.
+  /// If |x₍₁₎| ≤ `length` · weighted_norm(velocity), this times the weights bounds what is left
+  /// out.
   double remainder(const Velocity& velocity, double length) const;
   double weight(int moving) const { return weights_[static_cast<std::size_t>(moving)]; }
 
   void velocity_at(const double* state, const double* noise, Velocity& velocity) const;
-  /// The same of `values` alone.
+  /// The same for `values` alone.
   void velocity_at(const double* state, Velocity& velocity) const;
 
-  /// How long a step to make from a state where the motion is a polynomial: four times as long as
-  /// it takes until any two of its terms are alike, so that it suits the motion whatever the units.
+  /// Length of a step from a state where the motion is a polynomial: four times the time until any
+  /// two of its terms are equal, so that it suits the motion whatever the units.
   double natural_step(const double* state, const Velocity& velocity,
                       std::vector<double>& scratch) const;
 
-  /// By x₍ₖ₊₁₎ = h/(k+1) A x₍ₖ₎, which is added to the state, of all numbers. `scratch` is used.
-  /// Precondition: |length| ≤ longest_step().
+  /// Adds the series to the state of all numbers, by x₍ₖ₊₁₎ = h/(k+1) A x₍ₖ₎. `scratch` is
+  /// overwritten. Precondition: |length| ≤ longest_step().
   void advance(const Velocity& velocity, double length, double* state,
                std::vector<double>& scratch) const;
   /// Adds Σ|x₍ₖ₎| to each number.
   void add_sizes(const Velocity& velocity, double length, double* sizes,
                  std::vector<double>& scratch) const;
 
-  /// The moving numbers that act on a number, themselves or others.
+  /// The moving numbers that act on a number, directly or through others.
   std::vector<std::size_t> acting() const;
-  /// result = factor Aᵀ row, of moving numbers; with |A| where `sizes`.
+  /// result = factor Aᵀ row, for moving numbers; with |A| if `sizes`.
   void times_transposed(const double* row, double factor, bool sizes, double* result) const;
 
  private:
@@ -102,9 +102,9 @@ class LinearFlow {
   int polynomial_order_ = 0;
 };
 
-/// Where a step takes a state, from a table made once for the longest one, h:
+/// The state after a step, from a table made once for the longest one, h:
 ///   x(s h) − x(0) = s h v + Σ_{k≥2} s^k Tₖ v,   Tₖ = A^{k−1} h^k/k!,
-/// with v the velocity, by Horner's scheme. Worth its table where the numbers that move are few.
+/// with v the velocity, by Horner's scheme. The table pays if few numbers move.
 class Stride {
  public:
   Stride(const LinearFlow& flow, double longest);
@@ -112,7 +112,7 @@ class Stride {
   /// As those of LinearFlow.
   void advance(const LinearFlow& flow, const Velocity& velocity, double length,
                double* state) const;
-  /// Over the longest step, and no less where sizes are upper bounds.
+  /// Over the longest step, and no less if sizes are upper bounds.
   void add_sizes(const LinearFlow& flow, const Velocity& velocity, double* sizes) const;
 
  private:

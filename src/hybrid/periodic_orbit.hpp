@@ -1,4 +1,4 @@
-// Periodic motions of hybrid systems: found by shooting, with their Floquet multipliers.
+// Finds periodic motions of hybrid systems by shooting, with their Floquet multipliers.
 #pragma once
 
 #include <complex>
@@ -12,12 +12,12 @@ namespace gearlash::hybrid {
 
 struct PeriodicOrbit {
   State start;              ///< between the event that closes the period and the next one
-  double start_time = 0.0;  ///< of a system with clocks
+  double start_time = 0.0;  ///< for a system with clocks
   double period = 0.0;
   std::vector<Event> events;  ///< of one period, from the start on; the last one closes it
-  /// Floquet's, by falling size: by what disturbances are multiplied over a period. Without that of
-  /// a shift in time, where the system moves by itself, and without those of numbers that nothing
-  /// acts on (references).
+  /// Floquet's, by falling modulus: the factors by which disturbances are multiplied over a period.
+  /// For an autonomous system without the one of a shift in time, and without those of numbers that
+  /// nothing acts on (references).
   std::vector<std::complex<double>> multipliers;
   /// The largest mismatch of a phase's end and the next one's start, as a share of the state.
   double residual = 0.0;
@@ -27,28 +27,28 @@ struct PeriodicOrbit {
 
 struct ShootingOptions {
   std::size_t most_events = 200;  ///< in a period
-  std::size_t phases = 4;         ///< at most so many pieces are shot at once
+  std::size_t phases = 4;         ///< at most this many phases are shot at once
   double nearness =
       1e-2;             ///< two passings this near each other, as a share of the state, may be one
   int most_steps = 30;  ///< of Newton's method
 };
 
-/// The orbit that the end of a trajectory is near: where the last event has recurred, with the same
-/// events between, the nearest to the end first, Newton's method closes
-///   Fᵢ(xᵢ) = xᵢ₊₁,  i = 1 … phases, the last on the first,
-/// Fᵢ the motion over some of the events, with saltation, from one plane across it to the next,
+/// The orbit that the end of a trajectory is near. Newton's method closes the recurrences of the
+/// last event, with the same events between, the nearest to the end first:
+///   Fᵢ(xᵢ) = xᵢ₊₁,  i = 1 … phases, the last on the first.
+/// Fᵢ is the motion over some of the events, with saltation, from one plane across it to the next,
 /// midway between events where there is most time. Numbers that follow their own flow alone in
-/// every mode (references) stay as the trajectory has them, and the period is then theirs; with
-/// periodic clocks it is a multiple of theirs. What repeats within the period found is told of
-/// once. Nothing where no passing recurs or Newton's method does not converge.
+/// every mode (references) stay as the trajectory has them, and the period is then theirs. With
+/// periodic clocks it is a multiple of theirs. A motion that repeats within the period found is
+/// reported once. Empty if nothing recurs or Newton's method does not converge.
 std::optional<PeriodicOrbit> closing_orbit(const PreparedSystem& system, const Trajectory& motion,
                                            const ShootingOptions& options = {});
 /// The same. Throws InvalidInput with all faults of the system.
 std::optional<PeriodicOrbit> closing_orbit(const HybridSystem& system, const Trajectory& motion,
                                            const ShootingOptions& options = {});
 
-/// The orbit near another one's start, with the same number of events: of a system that has changed
-/// a little.
+/// The orbit near another one's start, with the same number of events, for a system that has
+/// changed slightly.
 std::optional<PeriodicOrbit> neighbouring_orbit(const PreparedSystem& system,
                                                 const PeriodicOrbit& near,
                                                 const ShootingOptions& options = {});

@@ -1,4 +1,4 @@
-// Turns of events that recur: which, how often, and how long each took.
+// Turns of recurring events: which, how often, and the duration of each.
 #pragma once
 
 #include <array>
@@ -8,13 +8,13 @@
 
 namespace gearlash::hybrid {
 
-/// A turn is up to four events; it recurs where each of them is that of so many events before.
+/// A turn is up to four events. It recurs if each of them equals the one a turn earlier.
 class RecurringEvents {
  public:
   /// The events must live as long.
   explicit RecurringEvents(const std::vector<Event>& events) : events_(events) {}
 
-  /// Takes note of the last event.
+  /// Records the last event.
   void note() {
     for (std::size_t turn = 1; turn <= longest_turn; ++turn) {
       std::size_t& count = recurrences_[turn - 1];
@@ -24,13 +24,13 @@ class RecurringEvents {
     }
   }
 
-  /// How long the turn took that ended so many turns ago.
+  /// Duration of the turn that ended this many turns ago.
   double duration(std::size_t turn, std::size_t ago) const {
     const std::size_t last = events_.size() - 1 - ago * turn;
     return events_[last].time - events_[last - turn].time;
   }
 
-  /// How many whole turns of the sequence the last one follows. Precondition: it has recurred.
+  /// Number of whole turns of the sequence before the last event. Precondition: it has recurred.
   std::size_t turns_before(std::size_t turn) const { return (recurrences_[turn - 1] - 1) / turn; }
 
   /// The shortest turn of events that has recurred often enough, or 0.
@@ -41,8 +41,8 @@ class RecurringEvents {
     return 0;
   }
 
-  /// Whether the turns before this instant, where there is no end of events, were each shorter than
-  /// the one before.
+  /// Whether the turns before this instant, at which events do not end, were each shorter than the
+  /// one before.
   bool have_come_ever_faster() const {
     const std::size_t turn = recurring_turn(4);
     if (turn == 0) return false;

@@ -9,27 +9,27 @@
 
 namespace gearlash::hybrid {
 
-/// Unknown are the starts of all phases, midway between two events each, and, where something moves
-/// by itself (references), how long after the anchor, where it was first seen, the first phase
-/// starts:
+/// Unknown are the starts of all phases, each midway between two events. If something moves by
+/// itself (references), another unknown is the time of the first phase's start after the anchor,
+/// its first sighting:
 ///   Fᵢ(xᵢ) − xᵢ₊₁ = 0,  the last on the first.
-/// A phase ends on a plane across the motion that was guessed; with periodic clocks at a time. Of
-/// the last phase's end what moves by itself is left out; instead it is said where it starts, on
-/// its own way from the anchor, and how long all phases take.
+/// A phase ends on a guessed plane across the motion, or with periodic clocks at a time. The last
+/// phase's end leaves out what moves by itself. Its start on its own way from the anchor is
+/// prescribed instead, and the duration of all phases.
 class Shooting {
  public:
-  /// Of `events` events within the period from `start` on, which is midway between two of them; so
-  /// many phases at most. Nothing where the motion has other events.
+  /// For `events` events within the period from `start` on, which is midway between two of them,
+  /// with at most this many phases. Empty if the motion has other events.
   static std::optional<Shooting> about(const PreparedSystem& system, const State& start,
                                        double start_time, double period, std::size_t events,
                                        std::size_t phases);
 
-  /// The same phases and planes, of a system that is a little different.
+  /// The same phases and planes, for a slightly different system.
   Shooting of(const PreparedSystem& system) const;
 
   const Vector& unknowns() const { return unknowns_; }
   void assign(const Vector& unknowns) { unknowns_ = unknowns; }
-  /// The largest number of the starts, which mismatches are shares of.
+  /// The largest number of the starts. Mismatches are shares of it.
   double scale() const;
 
   struct Equations {
@@ -37,7 +37,7 @@ class Shooting {
     Vector residual;
     Matrix slope;  ///< by the unknowns
   };
-  /// Nothing where a phase does not end as it should.
+  /// Empty if a phase does not end as it should.
   std::optional<Equations> evaluate() const;
 
   PeriodicOrbit orbit(const Equations& solved) const;
@@ -45,7 +45,8 @@ class Shooting {
  private:
   Shooting(const PreparedSystem& system, const State& start, double start_time, double period);
 
-  /// A phase's start: when, in which mode, the plane, and how many events follow in the phase.
+  /// A phase's start (when, in which mode, the plane), and the number of events that follow in the
+  /// phase.
   struct Phase {
     double time = 0.0;  ///< from the first phase's start on
     std::size_t mode = 0;
@@ -76,7 +77,7 @@ class Shooting {
   Vector unknowns_;
 };
 
-/// Newton's method to rounding; nothing where it does not converge.
+/// Newton's method to rounding. Empty if it does not converge.
 std::optional<PeriodicOrbit> solved_by_newton(Shooting& shooting, int most_steps);
 
 bool has_periodic_clocks(const HybridSystem& system);

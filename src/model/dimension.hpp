@@ -5,14 +5,15 @@
 
 namespace gearlash {
 
-/// What the radian means in a dimension. SI calls it 1, so only this rule tells rad/s from 1/s.
+/// The meaning of the radian in a dimension. SI defines it as 1; this rule separates rad/s from
+/// 1/s.
 enum class AngleRule {
-  absent,    ///< there is no angle in it: "kg m2/rad" is no moment of inertia
+  absent,    ///< contains no angle: "kg m2/rad" is no moment of inertia
   required,  ///< rad, deg, rev, … must be written, at the power `radian`
-  optional   ///< written at the power `radian`, or left out: "N m s" means "N m s/rad"
+  optional   ///< written at the power `radian`, or omitted: "N m s" means "N m s/rad"
 };
 
-/// A physical dimension: the powers of the base units, and the words errors say it with.
+/// A physical dimension: the powers of the base units, and its words in messages.
 struct Dimension {
   std::string_view name;  ///< "torque per current"
   std::string_view unit;  ///< its SI unit, "N m/A"

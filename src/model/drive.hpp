@@ -1,5 +1,4 @@
-// A geared drive as an engineer describes it: two shafts with a gap between them, friction, a
-// sensor, a controller, and what is asked of it. SI units, all referred to the load's shaft.
+// A drive at the load's shaft, in SI units: shafts, gap, friction, sensor, controller, signals.
 #pragma once
 
 #include <limits>
@@ -13,8 +12,8 @@
 
 namespace gearlash::drive {
 
-/// Torque against the motion: viscous ω + coulomb sign ω. At rest whatever is applied, up to
-/// `breakaway`.
+/// Torque against the motion: viscous ω + coulomb sign ω. At rest it balances the applied torque,
+/// up to `breakaway`.
 struct ShaftFriction {
   double viscous = 0.0;    ///< N m s/rad, ≥ 0
   double coulomb = 0.0;    ///< N m, ≥ 0
@@ -28,21 +27,21 @@ struct Shaft {
   ShaftFriction friction{};
 };
 
-/// Faces that do not give: impacts.
+/// Rigid faces: impacts.
 struct RigidContact {
   double restitution = 0.0;  ///< 0 … 1
 };
 
-/// How the damping of faces that give acts. Neither law ever pulls.
+/// How the damping of compliant faces acts. Neither law ever pulls.
 enum class ContactDamping {
-  /// Modelica's ElastoBacklash: at most the spring's own torque while faces close, so that torque
-  /// does not jump as they meet.
+  /// Modelica's ElastoBacklash: at most the spring's own torque while the faces close, so that the
+  /// torque does not jump as they meet.
   limited,
   /// Modelica's ElastoBacklash2: from the first touch on.
   full
 };
 
-/// Faces that give: torque stiffness · δ + damping · δ̇, δ how far they are pressed in.
+/// Compliant faces: torque stiffness · δ + damping · δ̇, where δ is the compression.
 struct CompliantContact {
   double stiffness = 0.0;  ///< N m/rad, > 0
   double damping = 0.0;    ///< N m s/rad, ≥ 0
@@ -51,17 +50,17 @@ struct CompliantContact {
 
 using Contact = std::variant<RigidContact, CompliantContact>;
 
-/// What the controller is told of the position: load_share θ_L + (1 − load_share) θ_M; likewise of
-/// the speed.
+/// The position that the controller receives: load_share θ_L + (1 − load_share) θ_M. Likewise the
+/// speed.
 struct Sensing {
   double load_share_of_position = 1.0;  ///< 0 … 1
   double load_share_of_speed = 0.0;     ///< 0 … 1
-  /// Positions are read to whole multiples of these (encoders), halves away from 0.
+  /// Encoders read positions to whole multiples of these, halves away from 0.
   double resolution = 0.0;           ///< rad, ≥ 0
-  double resolution_of_speed = 0.0;  ///< rad, ≥ 0; of that whose differences are the speed
+  double resolution_of_speed = 0.0;  ///< rad, ≥ 0; for the position whose differences are the speed
 };
 
-/// What is simulated and searched, made of a gearlash::Drive by reduce().
+/// The input of simulation and search, made from a gearlash::Drive by reduce().
 struct ReducedDrive {
   Shaft motor{};
   Shaft load{};
@@ -70,12 +69,12 @@ struct ReducedDrive {
   Sensing sensing{};
   Controller controller{};
   double torque_limit = std::numeric_limits<double>::infinity();  ///< N m, > 0
-  std::optional<Sampling> sampling{};  ///< else the controller is continuous
+  std::optional<Sampling> sampling{};  ///< without it the controller is continuous
   Signal reference{};                  ///< rad
   Signal load_torque{};                ///< N m, on the load, forward
 };
 
-/// Every fault of the ranges above.
+/// Every fault in the ranges above.
 std::vector<Fault> validate(const ReducedDrive& drive);
 
 }  // namespace gearlash::drive

@@ -5,7 +5,7 @@
 
 namespace gearlash {
 
-/// DESIGN's table of conventions in SI: what remains of any motor once it is referred to the load.
+/// What remains of any motor once it is referred to the load's shaft. SI units.
 struct Drivetrain {
   double motor_inertia = 0.0;   ///< J_M, kg m², ≥ 0
   double load_inertia = 0.0;    ///< J_L, kg m², ≥ 0; not both zero
@@ -19,14 +19,14 @@ struct Drivetrain {
   bool operator==(const Drivetrain&) const = default;
 };
 
-/// Every fault of the ranges above and of those of the servo it normalises to.
+/// Every fault in the ranges above and in those of the normalised servo.
 std::vector<Fault> validate(const Drivetrain& drivetrain);
 
 /// ω_n = √(K/(J_M+J_L)), rad/s.
 double natural_frequency(const Drivetrain& drivetrain);
 
 /// ζ, J_L/J_M, F_L/(F_M+F_L) and b (thesis Appendix A, steps 6 to 8). The friction ratio of a
-/// drivetrain without friction is reported as 0. Throws InvalidInput.
+/// drivetrain without friction is 0. Throws InvalidInput.
 NormalizedServo normalize(const Drivetrain& drivetrain);
 
 /// normalize() without its checks, for a drivetrain that is known to be sound.

@@ -1,4 +1,4 @@
-// The servo reduced to the numbers on which its hunting depends: ω_n = 1, J_M + J_L = 1, K = 1.
+// The servo reduced to the numbers that decide hunting: ω_n = 1, J_M + J_L = 1, K = 1.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace gearlash {
 
 /// The six inputs of every chart of the 1960 thesis (restitution and sensor were fixed there).
 ///
-/// With J_M + J_L = 1 and K = 1 the equations are, y being the load's position from the reference,
+/// With J_M + J_L = 1, K = 1 and y the load's position from the reference, the equations are
 ///   engaged    ÿ + 2ζẏ + y = 0,
 ///   separated  J_L ÿ_L + F_L ẏ_L = 0,   J_M ÿ_M + F_M ẏ_M + y_L = 0.
 struct NormalizedServo {
@@ -26,14 +26,14 @@ struct NormalizedServo {
   bool operator==(const NormalizedServo&) const = default;
 };
 
-/// What a field may be, as an error says it after "must be": permitted_values("friction_ratio") is
-/// "from 0 to 1". Empty for another name.
+/// The permitted values of a field, in the words that follow "must be" in a fault:
+/// permitted_values("friction_ratio") is "from 0 to 1". Empty for another name.
 std::string permitted_values(std::string_view field);
 
-/// Every fault of the ranges above, and of two rules that join fields: a massless load
-/// (inertia_ratio 0) needs load friction and a massless motor (infinity) needs motor friction,
+/// Every fault in the ranges above, and in two rules that join fields. A massless load
+/// (inertia_ratio 0) needs load friction, and a massless motor (infinity) needs motor friction,
 /// because a shaft with neither inertia nor friction has no law of motion in the gap.
-/// ShaftName::motor is refused until drives are built. Empty when the servo is sound.
+/// ShaftName::motor is refused. Empty for a sound servo.
 std::vector<Fault> validate(const NormalizedServo& servo);
 
 }  // namespace gearlash

@@ -17,14 +17,14 @@ const Dimension* always(const Drive&) {
   return &dimension;
 }
 
-/// A member of one alternative of a variant: its slot where the variant holds that.
+/// A member of one alternative of a variant: its slot if the variant holds that alternative.
 template <class Alternative, class Variant, class Member>
 Slot slot_of(Variant& variant, Member Alternative::*member) {
   auto* held = std::get_if<Alternative>(&variant);
   return held == nullptr ? Slot{} : Slot{&(held->*member)};
 }
 
-/// A member of an optional part: its slot where there is that part.
+/// A member of an optional part: its slot if that part exists.
 template <class Part, class Member>
 Slot slot_of(std::optional<Part>& part, Member Part::*member) {
   return part ? Slot{&((*part).*member)} : Slot{};

@@ -1,4 +1,4 @@
-// The one list of everything in a drive: where each number stands and what it may be.
+// The one list of everything in a drive: its path, place and permitted values.
 #pragma once
 
 #include <cstddef>
@@ -24,29 +24,29 @@ struct Choice {
   void (*choose)(Drive& drive, std::size_t choice);
 };
 
-/// Where a parameter stands in one drive; std::monostate where that drive does not have it.
+/// The place of a parameter in one drive; std::monostate if that drive does not have it.
 using Slot = std::variant<std::monostate, double*, std::optional<double>*, std::vector<double>*,
                           Rows*, Choice, std::string*>;
 
-/// What values a number may have.
+/// The values that a number may have.
 enum class Permitted : unsigned char {
   anything,      ///< finite
   positive,      ///< and finite
   not_negative,  ///< and finite
   share,         ///< 0 … 1
-  /// As permitted_values() of model/normalized_servo.hpp says of the key.
+  /// As permitted_values() of model/normalized_servo.hpp states for the key.
   of_normal_form
 };
 
-/// Another way to give a parameter.
+/// Another form of a parameter.
 struct OtherForm {
   std::string_view path;  ///< "controller.kp"
-  /// Where it is given by its reciprocal, in this dimension: parameter = inverse/number.
+  /// If this form is the reciprocal, its dimension: parameter = inverse/number.
   const Dimension* dimension = nullptr;
   double inverse = 1.0;
 };
 
-/// What a design may look at, and a slider show, where nothing else is known.
+/// The range for designs and sliders if nothing else is known.
 struct UsualRange {
   double low = 0.0;
   double high = 0.0;
@@ -56,19 +56,19 @@ struct UsualRange {
 struct Parameter {
   std::string_view path;  ///< "motor.inertia"; sections and keys of a file
   Slot (*slot)(Drive& drive) = nullptr;
-  /// Of a number: nullptr where it has no unit. It may depend on the motor: gains are per volt or
-  /// per newton metre.
+  /// For a number: nullptr if it has no unit. It may depend on the motor: gains are per volt or per
+  /// newton metre.
   const Dimension* (*dimension)(const Drive& drive) = [](const Drive&) -> const Dimension* {
     return nullptr;
   };
   std::string_view meaning{};  ///< one sentence, without a full stop
   Permitted permitted = Permitted::anything;
-  bool is_required = false;  ///< a file must give it where it exists; else it has its default
-  /// What the default is, where it is not what a Drive{} has: "motor.coulomb".
+  bool is_required = false;  ///< a file must give it if the drive has it; else it has its default
+  /// The default, if it differs from that of a Drive{}: "motor.coulomb".
   std::string_view otherwise{};
-  /// What a file must give, where a number without a unit is missing.
+  /// The text for a fault if a number without a unit is missing.
   std::string_view wanted{};
-  std::vector<std::string_view> choices{};  ///< of a choice, in the order of Choice::chosen
+  std::vector<std::string_view> choices{};  ///< for a choice, in the order of Choice::chosen
   std::vector<OtherForm> other_forms{};
   UsualRange usual{};
 
@@ -76,22 +76,21 @@ struct Parameter {
   std::string_view key() const { return path.substr(path.find('.') + 1); }
 };
 
-/// All of them, section by section in the order of files; a choice stands before what depends on
-/// it.
+/// All parameters, section by section in the order of files. A choice stands before its dependents.
 const std::vector<Parameter>& all_parameters_of_drives();
 
-/// The parameter of that path or of one of its other forms; nullptr where there is none.
+/// The parameter of that path or of one of its other forms; nullptr if there is none.
 const Parameter* find_parameter(std::string_view path);
 
-/// The one of that name which the drive has; nullptr where it has none.
+/// The parameter of that name which the drive has; nullptr if it has none.
 const Parameter* find_parameter(std::string_view path, const Drive& drive);
 
 /// A section of a file.
 struct Section {
   std::string_view name;
-  std::string_view contents;  ///< what belongs into it: "with inertia and friction"
+  std::string_view contents;  ///< for messages: "with inertia and friction"
   bool (*is_present)(const Drive& drive);
-  void (*add)(Drive& drive);  ///< makes an optional one
+  void (*add)(Drive& drive);  ///< makes an optional section
 };
 const std::vector<Section>& all_sections();
 
@@ -102,8 +101,8 @@ bool exists(const Parameter& parameter, const Drive& drive);
 void check_number(RangeCheck& check, const Parameter& parameter, double value,
                   std::string_view unit);
 
-/// The value of a number, its default where it was not given; nothing where that is "none".
-/// Precondition: exists(), and its slot is one of a number.
+/// The value of a number, or its default if it is not given; empty if that is "none". Precondition:
+/// exists(), and its slot is that of a number.
 std::optional<double> number_in(const Parameter& parameter, const Drive& drive);
 
 }  // namespace gearlash

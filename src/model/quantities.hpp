@@ -1,4 +1,4 @@
-// How each quantity is read from an answer, and in which dimension it is written.
+// Reads each quantity from an answer, and gives its dimension.
 #pragma once
 
 #include <optional>
@@ -12,11 +12,11 @@ namespace gearlash {
 /// One entry of the list of quantities.
 struct QuantityEntry {
   QuantityInfo info{};
-  /// In which it may be written with a unit; nullptr of a bare number or a choice.
+  /// The dimension of its unit; nullptr for a bare number or a choice.
   const Dimension* dimension = nullptr;
-  /// Its value; nothing where it does not exist, or is not known. A choice gives its number.
+  /// Its value; empty if it does not exist or is not known. A choice gives its number.
   std::optional<double> (*value)(const Answer& answer) = nullptr;
-  std::string_view older_name{};  ///< that is read, too
+  std::string_view older_name{};  ///< also accepted
 };
 
 const QuantityEntry& entry_of(Quantity quantity) noexcept;

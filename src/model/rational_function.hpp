@@ -1,4 +1,4 @@
-// Quotients of polynomials in s that are not rounded before they are asked for as numbers.
+// Exact quotients of polynomials in s, rounded only when converted to numbers.
 #pragma once
 
 #include <boost/math/tools/polynomial.hpp>
@@ -13,8 +13,8 @@ namespace gearlash::drive {
 using Rational = boost::multiprecision::cpp_rational;
 using Polynomial = boost::math::tools::polynomial<Rational>;
 
-/// Without common factors, the denominator's leading coefficient 1: two equal functions are the
-/// same. Every double is a rational number.
+/// Without common factors, and with a leading coefficient 1 in the denominator: two equal functions
+/// have the same representation. Every double is a rational number.
 class RationalFunction {
  public:
   RationalFunction(const Rational& constant = 0);  // NOLINT(google-explicit-constructor)
@@ -43,15 +43,15 @@ RationalFunction variable();
 /// function(argument(s)). Precondition: the denominator does not become 0.
 RationalFunction composed(const RationalFunction& function, const RationalFunction& argument);
 
-/// e^{−s delay} to its eighth order in s: p(−s)/p(s), of modulus 1 on the imaginary axis, the phase
-/// off by 7.9e-8 (ω delay)⁹ where that is small (Padé).
+/// e^{−s delay} to its eighth order in s: p(−s)/p(s), of modulus 1 on the imaginary axis. The phase
+/// is off by 7.9e-8 (ω delay)⁹ if that is small (Padé).
 RationalFunction delay_approximation(double delay);
 
 /// Each coefficient is rounded once.
 TransferFunction rounded(const RationalFunction& function, double delay = 0.0);
 
-/// What the torque asked for is, by the reference, by the position and speed sensed, and by the
-/// torque given: exact.
+/// The requested torque as a function of the reference, the measured position and speed, and the
+/// delivered torque. Exact.
 struct ExactControllerTransfer {
   RationalFunction reference;
   RationalFunction position;
@@ -60,8 +60,8 @@ struct ExactControllerTransfer {
 };
 
 enum class TorqueGiven {
-  as_asked,  ///< the motor gives what is asked for, `given` is 0
-  limited    ///< it may give something else, of which the anti-windup knows
+  as_asked,  ///< the motor delivers the requested torque, `given` is 0
+  limited    ///< the motor may deliver another torque, which the anti-windup knows
 };
 
 ExactControllerTransfer exact_transfer(const LinearController& controller, TorqueGiven torque);

@@ -1,4 +1,4 @@
-// What is asked of a drive, or acts on it, over time: references and load torques.
+// References and load torques over time.
 #pragma once
 
 #include <optional>
@@ -18,20 +18,20 @@ using Trapezoid = TrapezoidSignal;
 using Table = TableSignal;
 using gearlash::Signal;
 
-/// Every fault of the ranges of gearlash/signal.hpp; `field` is what the signal is called.
+/// Every fault in the ranges of gearlash/signal.hpp; `field` is the signal's name.
 std::vector<Fault> validate(const Signal& signal, const std::string& field);
 
-/// Precondition of the rest: validate(signal) is empty.
+/// The other functions require that validate(signal) is empty.
 double value_at(const Signal& signal, double time);
 
-/// What the signal does for ever in the end: itself, for a sine; a ramp from time 0 on; else the
-/// value that it stays at.
+/// The signal's behaviour in the end: itself, for a sine; a ramp from time 0 on; else its final
+/// value.
 Signal settled(const Signal& signal);
 
-/// When settled(signal) begins to be so.
+/// The time from which the signal equals settled(signal).
 double settling_time(const Signal& signal);
 
-/// A stretch of a signal with one second derivative.
+/// A part of a signal with one second derivative.
 struct SignalStretch {
   double start = 0.0;
   double value = 0.0;         ///< at its start
@@ -39,7 +39,7 @@ struct SignalStretch {
   double acceleration = 0.0;  ///< per s²
 };
 
-/// All from time 0 on, the last without end; not for a sine, which has none.
+/// All from time 0 on, the last without end. Not for a sine, which has none.
 std::vector<SignalStretch> stretches(const Signal& signal);
 
 }  // namespace gearlash::drive

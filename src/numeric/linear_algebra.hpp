@@ -1,4 +1,4 @@
-// Dense linear algebra behind plain functions: Eigen's heavy templates are compiled once, here.
+// Dense linear algebra behind plain functions, so that Eigen's heavy templates are compiled once.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,13 +19,13 @@ struct Eigensystem {
 };
 Eigensystem eigensystem(const Eigen::MatrixXd& matrix);
 
-/// x of matrix x = right, by elimination with partial pivoting. Precondition: not singular.
+/// Solves matrix x = right by elimination with partial pivoting. Precondition: not singular.
 Eigen::VectorXd solved(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 Eigen::MatrixXcd solved(const Eigen::MatrixXcd& matrix, const Eigen::MatrixXcd& right);
 Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix);
 
-/// The same by full pivoting, which a nearly singular matrix needs: where it is singular to
-/// rounding the component that it leaves open is 0.
+/// The same by full pivoting, which a nearly singular matrix needs. If the matrix is singular to
+/// rounding, the undetermined component is 0.
 Eigen::VectorXd solved_with_full_pivoting(const Eigen::MatrixXd& matrix,
                                           const Eigen::VectorXd& right);
 
@@ -38,7 +38,7 @@ Eigen::Vector3d solved_with_full_pivoting(const Eigen::Matrix3d& matrix,
                                           const Eigen::Vector3d& right);
 using FourColumns = Eigen::Matrix<double, 3, 4>;
 FourColumns solved_with_full_pivoting(const Eigen::Matrix3d& matrix, const FourColumns& right);
-/// Of the elimination with full pivoting, by modulus.
+/// Pivots of the elimination with full pivoting, by modulus.
 double least_pivot(const Eigen::Matrix3d& matrix);
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;

@@ -1,4 +1,4 @@
-// The linear part of a loop: its frequency response, and bounds of that over whole ranges.
+// The linear part of a loop: its frequency response, and bounds of it over whole ranges.
 #pragma once
 
 #include <complex>
@@ -19,7 +19,7 @@ struct TransferFunction {
   bool operator==(const TransferFunction&) const = default;
 };
 
-/// Coefficients that are not finite, polynomials without a coefficient other than 0, a delay that
+/// Faults: coefficients that are not finite, polynomials whose coefficients are all 0, a delay that
 /// is negative or not finite.
 std::vector<Fault> validate(const TransferFunction& transfer);
 
@@ -38,23 +38,23 @@ struct FactoredTransferFunction {
   std::vector<std::complex<double>> poles;
   double delay = 0.0;
 };
-/// Roots are the eigenvalues of balanced companion matrices. A real part below 1e-9 of a root is
-/// taken for 0, an undamped mode: the rounding of coefficients may have put it there. Throws
-/// InvalidInput.
+/// The roots are eigenvalues of balanced companion matrices. A real part below 1e-9 of a root
+/// counts as 0, an undamped mode, because rounding of the coefficients may have put it there.
+/// Throws InvalidInput.
 FactoredTransferFunction factored(const TransferFunction& transfer);
 
-/// What ln|G|, the phase and their slopes by the frequency can be for low ≤ ω ≤ high. The phase is
-/// the sum of those of the factors, each continuous in ω but for factors with roots on the
-/// imaginary axis, which it jumps at: for Re root < 0 from −π/2 … π/2 upwards, for Re root > 0 from
-/// 3π/2 … π/2 downwards; so it is not reduced to one turn.
+/// Ranges of ln|G|, the phase and their slopes by frequency for low ≤ ω ≤ high. The phase is the
+/// sum of those of the factors. Each is continuous in ω, except for factors with roots on the
+/// imaginary axis, where it jumps. For Re root < 0 it goes from −π/2 … π/2 upwards, for Re root > 0
+/// from 3π/2 … π/2 downwards. So it is not reduced to one turn.
 struct ResponseBounds {
   Bounds log_gain;
   Bounds phase;
   Bounds log_gain_slope;
   Bounds phase_slope;
 };
-/// Each factor jω − root is bounded exactly; the sums close in on the values in proportion to the
-/// width of the range. True but for the rounding of the sums. Precondition: 0 < low ≤ high.
+/// Each factor jω − root is bounded exactly. The sums tighten in proportion to the width of the
+/// range. The bounds hold except for the rounding of the sums. Precondition: 0 < low ≤ high.
 ResponseBounds response_bounds(const FactoredTransferFunction& transfer, double low, double high);
 
 }  // namespace gearlash

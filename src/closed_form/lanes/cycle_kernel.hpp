@@ -1,12 +1,14 @@
-// What passes between the batch and its kernels: plain arrays, because the kernels' files are
-// compiled for other processors than the rest and may share no inline function with it.
+// The plain arrays between the batch and its kernels.
+//
+// The kernels' files are compiled for other processors than the rest and may share no inline
+// function with it.
 #pragma once
 
 #include <cstddef>
 
 namespace gearlash::detail {
 
-/// A block of servos, a column a quantity; a multiple of every vector's length.
+/// A block of servos, one column for each quantity; a multiple of every vector's length.
 struct CycleBlock {
   static constexpr std::size_t rows = 64;
   static constexpr std::size_t most_lanes = 16;  ///< of any kernel: two vectors of eight
@@ -19,8 +21,9 @@ struct CycleBlock {
 
   alignas(64) Column outcome;  ///< of the values below
   alignas(64) Column growth_at_rest;
-  /// Size, motor's size, period, multiplier, impact speed, engaged and separated time, the losses
-  /// in the motor's friction, the load's and at impacts, and residual; NaN where there is no cycle.
+  /// Amplitude, motor's amplitude, period, multiplier, impact speed, engaged and separated time,
+  /// the losses in the motor's friction, the load's and at impacts, and residual; NaN if there is
+  /// no cycle.
   static constexpr std::size_t property_count = 11;
   alignas(64) Column properties[property_count];
 
@@ -29,13 +32,13 @@ struct CycleBlock {
   static constexpr double hunts = 2.0;
 };
 
-/// Solves the first rows of the block (and those that fill up the last vectors). Plastic contact is
-/// taken for granted.
+/// Solves the first rows of the block (and those that fill up the last vectors). Assumes plastic
+/// contact.
 using CycleKernel = void (*)(CycleBlock& block, std::size_t rows);
 
-/// All that a kernel calls becomes one function with it: what functions pass to one another in
-/// memory, dozens of vectors, is felt. Not in debug builds: with sanitizers such a function takes
-/// minutes to compile.
+/// Makes everything that a kernel calls one function with it: passing dozens of vectors through
+/// memory costs time. Not in debug builds: with sanitizers such a function takes minutes to
+/// compile.
 #ifdef NDEBUG
 #define GEARLASH_INLINED_WHOLE [[gnu::flatten]]
 #else

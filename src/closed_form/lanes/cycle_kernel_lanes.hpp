@@ -1,9 +1,8 @@
-// The limit cycles of as many servos as there are lanes, lane by lane the algebra of
-// half_cycle_algebra.
+// The limit cycles of several servos, lane by lane with the algebra of half_cycle_algebra.
 //
-// Included by one file for each vector unit, compiled with that unit's instructions. So that no
-// code of theirs is called on a processor that lacks them, everything here is a template of the
-// unit, and no inline function of others that works on plain doubles is called.
+// One file for each vector unit includes this header and is compiled with that unit's instructions.
+// A processor that lacks them must not call such code. So everything here is a template of the
+// unit, and nothing calls an inline function on plain doubles that others share.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +22,7 @@ bool none(const Mask<Unit>& mask) {
   return !any(mask);
 }
 
-/// Where a lane is finished or hopeless its value stays.
+/// A lane that is finished or hopeless keeps its value.
 template <class Unit>
 void assign_where(const Mask<Unit>& mask, Lanes<Unit>& to, const Lanes<Unit>& from) {
   to = select(mask, from, to);
@@ -158,7 +157,7 @@ class CycleLanes {
     const Real friction_ratio = Real::load_aligned(block.friction_ratio + row);
     const Real damping = Real::load_aligned(block.damping + row);
     const Real backlash = Real::load_aligned(block.backlash + row);
-    // Where nothing of what follows over- or underflows; cycle_batch.hpp tells the first three.
+    // The range in which nothing below over- or underflows; cycle_batch.hpp names the first three.
     permitted_ = is_within(damping, 1e-4, 0.99) && is_within(inertia_ratio, 1e-4, 1e4) &&
                  is_within(friction_ratio, 1e-4, 1.0 - 1e-4) && is_within(backlash, 1e-15, 1e6);
     servo_ = dynamics_of_shafts<Real>(damping, 1.0 / (1.0 + inertia_ratio),
@@ -209,7 +208,7 @@ class CycleLanes {
   }
 
   /// The root of ln ρ = 0, which rises. A lane that has found it keeps its time, and so its bits,
-  /// while others go on.
+  /// while others continue.
   void balance() {
     constexpr int most_steps = 6;
     found_ = sought_ && !sought_;

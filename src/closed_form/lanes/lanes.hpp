@@ -1,5 +1,4 @@
-// The numbers that a kernel works on: a vector of doubles, a lane a servo; by the vector unit's
-// name.
+// A kernel's numbers: a vector of doubles, one lane for each servo, by vector unit.
 #pragma once
 
 #include <xsimd/xsimd.hpp>

@@ -1,5 +1,7 @@
-// Two vectors that are worked on together: what depends on one another in each is a long chain, in
-// which the processor mostly waits, and two chains wait at the same time.
+// Two vectors processed together.
+//
+// Dependent operations within each are a long chain, in which the processor mostly waits. Two
+// chains wait at the same time.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +10,7 @@
 
 namespace gearlash::detail {
 
-/// As a vector unit: one with twice the lanes.
+/// A vector unit with twice the lanes.
 template <class Unit>
 struct Twin {};
 

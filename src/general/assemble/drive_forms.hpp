@@ -1,5 +1,4 @@
-// What a drive's automata are made of: its torques, positions and accelerations as affine forms of
-// the state, in each mode.
+// A drive's torques, positions and accelerations as affine forms of the state, in each mode.
 #pragma once
 
 #include <vector>
@@ -28,7 +27,7 @@ class DriveForms {
   const DriveModes& modes() const { return modes_; }
 
   bool is_rigid() const { return is_rigid_; }
-  /// Rigid faces together.
+  /// For engaged rigid faces.
   bool is_engaged(const DriveMode& mode) const;
   bool sticks_as_one(const DriveMode& mode) const;
   const CompliantContact& compliant() const { return std::get<CompliantContact>(drive_.contact); }
@@ -47,7 +46,7 @@ class DriveForms {
   hybrid::AffineForm load_torque() const { return of(load_generator_, at_.load_torque); }
 
   hybrid::AffineForm sensed_position() const;
-  /// Whose differences are the speed.
+  /// The position whose differences are the speed.
   hybrid::AffineForm counted_position() const;
   hybrid::AffineForm sensed_speed() const;
 
@@ -60,10 +59,10 @@ class DriveForms {
   /// Anti-windup, of one of the controller's states.
   hybrid::AffineForm withdrawal(const DriveMode& mode, std::size_t state) const;
 
-  /// Of compliant faces.
+  /// For compliant faces.
   hybrid::AffineForm spring_torque(double face) const;
   hybrid::AffineForm damping_torque() const;
-  /// On the load; of compliant faces, or apart.
+  /// On the load, for compliant or separated faces.
   hybrid::AffineForm mesh_torque(const DriveMode& mode) const;
 
   /// Without friction.

@@ -1,4 +1,4 @@
-// In which mode a drive is: the state of each of its automata (contact, frictions, torque limit).
+// The mode of a drive: the state of its contact, frictions and torque limit.
 #pragma once
 
 #include <cstddef>
@@ -34,22 +34,22 @@ struct DriveMode {
 /// +1 on the forward face, −1 on the backward one, 0 apart.
 double face_of(ContactState contact);
 
-/// Which way a shaft moves; 0 where it sticks, or friction does not ask.
+/// Direction of a shaft's motion; 0 if it sticks, or if friction does not depend on it.
 double way_of(FrictionState friction);
 
 /// As reports name it.
 std::string text_of(const DriveMode& mode);
 
-/// The modes of a drive, numbered without being listed: a number is the place of the contact's
-/// state, of the pair of frictions and of the torque's state in turn. Rigid faces together permit
-/// only frictions of shafts that move as one.
+/// The modes of a drive, numbered without a list. A number encodes the contact's state, the pair of
+/// frictions and the torque's state in turn. Engaged rigid faces permit only frictions of shafts
+/// that move as one.
 class DriveModes {
  public:
   DriveModes() = default;
   explicit DriveModes(const ReducedDrive& drive);
 
   std::size_t count() const;
-  /// count() where a drive has no such mode.
+  /// count() if a drive has no such mode.
   std::size_t index_of(const DriveMode& mode) const;
   bool has(const DriveMode& mode) const { return index_of(mode) < count(); }
   /// Precondition: index < count().

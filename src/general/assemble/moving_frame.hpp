@@ -1,12 +1,12 @@
-// A hybrid system written in other numbers: scaled, shifted, and carried along.
+// A hybrid system in a scaled, shifted and moving frame.
 #pragma once
 
 #include "hybrid/periodic_orbit.hpp"
 
 namespace gearlash::drive {
 
-/// x = scale ∘ x′ + shift + drift t, x′ the numbers in the frame. Scales are powers of 2, so that
-/// they round nothing.
+/// x = scale ∘ x′ + shift + drift t, with x′ the numbers in the frame. Scales are powers of 2, so
+/// they cause no rounding.
 struct MovingFrame {
   hybrid::Vector scale;
   hybrid::Vector shift;
@@ -16,8 +16,8 @@ struct MovingFrame {
   hybrid::Vector outside(const hybrid::Vector& numbers, double time) const;
 };
 
-/// Whether a system does not notice that its numbers are all moved along `way`, at any time:
-/// A way = 0, no guard and no alternative sees it, resets keep it, no quantizer reads it.
+/// Whether moving all numbers along `way`, at any time, leaves the system unchanged: A way = 0, no
+/// guard and no alternative depends on it, resets keep it, no quantizer reads it.
 bool is_carried_along(const hybrid::HybridSystem& system, const hybrid::Vector& way);
 
 /// Precondition: is_carried_along(system, frame.drift).

@@ -8,7 +8,7 @@
 
 namespace gearlash::drive {
 
-/// s′ = flow s, the signal being output · s + offset; at the times s becomes the setting.
+/// s′ = flow s, with the signal output · s + offset. At the listed times s is set anew.
 struct Generator {
   hybrid::Matrix flow;
   hybrid::Vector output;
@@ -20,7 +20,7 @@ struct Generator {
   Eigen::Index size() const { return start.size(); }
 };
 
-/// With as many derivatives as the signal has; of a sine an oscillator. Precondition: sound.
+/// With as many derivatives as the signal has; an oscillator for a sine. Precondition: sound.
 Generator generator_of(const Signal& signal);
 
 }  // namespace gearlash::drive

@@ -1,17 +1,16 @@
-// How fast a drive is.
+// Time scales of a drive.
 #pragma once
 
 #include "model/drive.hpp"
 
 namespace gearlash::drive {
 
-/// Scales for times, no more: of the linear loop with the faces together, without dry friction and
-/// limits.
+/// Rough time scales of the linear loop with the faces together, without dry friction and limits.
 struct TimeScales {
-  /// s: 2π/|λ|, λ the slowest eigenvalue that swings, else the slowest; at least the period of a
-  /// reference or load torque that is a sine, and ten sampling periods. 1 where nothing moves.
+  /// s: 2π/|λ|, with λ the slowest eigenvalue that oscillates, else the slowest. At least the
+  /// period of a sine reference or load torque, and ten sampling periods. 1 if nothing moves.
   double swing = 1.0;
-  double settling = 0.0;  ///< s: in which the slowest decay falls to 1/e; 0 where there is none
+  double settling = 0.0;  ///< s: time in which the slowest decay falls to 1/e; 0 if there is none
 };
 
 /// Precondition: sound.

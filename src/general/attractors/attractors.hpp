@@ -1,4 +1,4 @@
-// What a drive ends in: cycles, rest, motion that does not repeat; as far as a search finds them.
+// Finds where a drive's motions end: cycles, rest, or motion that does not repeat.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@
 
 namespace gearlash::drive {
 
-/// In which coordinates the search was done. Positions are told from the reference in all of them:
-/// from its mean where it is a sine.
+/// The coordinates of the search. Positions are relative to the reference in all of them; for a
+/// sine, to its mean.
 enum class Coordinates {
   fixed,
   co_moving,  ///< with a reference that is a ramp
@@ -47,47 +47,46 @@ struct FoundCycle {
   Extent centers;
   Extent sizes;               ///< rad, likewise
   double frequency = 0.0;     ///< rad/s, 2π/period
-  double impact_speed = 0.0;  ///< rad/s, |ω_M − ω_L| as faces meet hardest; 0 where none do
+  double impact_speed = 0.0;  ///< rad/s, |ω_M − ω_L| at the hardest impact; 0 without impacts
   double multiplier = 0.0;    ///< the largest modulus of the orbit's
-  /// Half a period later the drive is its mirror image about the reference.
+  /// After half a period the drive is its mirror image about the reference.
   bool is_symmetric = false;
-  /// Not symmetric, and its mirror image was found too; both count as this one.
+  /// Not symmetric, and its mirror image was found too. Both count as this one.
   bool has_mirror_image = false;
-  std::size_t starts = 0;  ///< that led here; 0 where Newton's method alone did
+  std::size_t starts = 0;  ///< that led here; 0 if Newton's method alone found it
 
   double period() const { return orbit.period; }
 };
 
-/// All rest there is: with dry friction, or in the gap, it is a set.
+/// All rest found. With dry friction, or in the gap, it is a set.
 struct RestFound {
   Extent load;   ///< rad, from the reference, over the starts that led here
   Extent motor;  ///< rad
   Extent error;  ///< rad, reference − load
   std::size_t starts = 0;
-  /// Rest that is neared by ever smaller and longer swings across the gap is never reached; it was
-  /// told from their ratio, of which this is the largest. NaN where all came to rest.
+  /// Rest approached by ever smaller and longer swings across the gap is never reached. Their ratio
+  /// identifies it, of which this is the largest. NaN if all came to rest.
   double swing_ratio = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Motion that is bounded and was not seen to close, measured over the last part of what was seen:
-/// a cycle that is locked to nothing, quasi-periodic motion, chaos, or a slow transient.
+/// Bounded motion that was not seen to close, measured over its last part: a cycle that is locked
+/// to nothing, quasi-periodic motion, chaos, or a slow transient.
 struct IrregularFound {
   double size = 0.0;        ///< rad, half the peak-to-peak of the load
   double motor_size = 0.0;  ///< rad, of the motor
   double center = 0.0;      ///< rad, of the load, from the reference
-  /// Within the gap, while the load hardly moves: swings and periods are then the motor's.
+  /// Within the gap, while the load hardly moves. Swings and periods are then the motor's.
   bool is_motor_alone = false;
   double period = 0.0;  ///< s, mean, from one passing of the center upwards to the next
   double period_deviation = 0.0;
   double half_swing = 0.0;  ///< rad, mean, half of extreme to extreme
   double half_swing_deviation = 0.0;
-  /// The least mean difference of swings and those some swings later, as a share: 0 where they
-  /// repeat.
+  /// The least mean difference of swings and those some swings later, as a share: 0 if they repeat.
   double mismatch = 0.0;
   /// 1/s, mean rate at which neighbours part (largest Lyapunov exponent), by the variational
   /// equations with saltation: above 0 for chaos, about 0 for quasi-periodic motion.
   double exponent = 0.0;
-  double watched = 0.0;  ///< s, over which all this was measured
+  double watched = 0.0;  ///< s, duration of the measurement
   std::size_t starts = 0;
 };
 
@@ -97,30 +96,30 @@ enum class MotionEnd { rest, cycle, irregular, diverges, undecided };
 struct Outcome {
   ShaftStates start;
   MotionEnd end = MotionEnd::undecided;
-  std::size_t which = 0;  ///< of the cycles, or of the irregular motions
+  std::size_t which = 0;  ///< index into the cycles, or into the irregular motions
   double watched = 0.0;   ///< s
-  std::string reason;     ///< of an undecided one
+  std::string reason;     ///< why it is undecided
 };
 
-/// Between two starts that led elsewhere motion was sought that goes to neither.
+/// Between two starts with different outcomes, motion was sought that goes to neither.
 struct Edge {
   std::size_t first = 0;   ///< of the outcomes
   std::size_t second = 0;  ///< of the outcomes
-  /// The unstable cycle that separates them, of the cycles; nothing where none was closed: the
-  /// border may be through a grazing, a sticking or an irregular motion.
+  /// Index of the unstable cycle that separates them. Empty if none was closed: a grazing, a
+  /// sticking or an irregular motion may form the border.
   std::optional<std::size_t> cycle;
 };
 
 struct AttractorSearch {
   Coordinates coordinates = Coordinates::fixed;
-  hybrid::HybridSystem system;     ///< of the settled signals, positions from the reference
+  hybrid::HybridSystem system;     ///< with settled signals, positions from the reference
   std::vector<FoundCycle> cycles;  ///< stable ones first, by falling size
   std::optional<RestFound> rest;
   std::vector<IrregularFound> irregular;
   std::vector<Outcome> outcomes;  ///< of every start, in order
   std::vector<Edge> edges;
-  /// s, of the linear loop with faces together: 2π/|slowest eigenvalue that oscillates|, or of all
-  /// where none does; at least a sine's period and ten samples.
+  /// s, of the linear loop with faces together: 2π/|slowest eigenvalue that oscillates|, or the
+  /// slowest of all if none does. At least a sine's period and ten samples.
   double swing_time = 0.0;
   double settling_time = 0.0;  ///< s, of that loop: 1/slowest decay
   double watch_time = 0.0;     ///< s, the longest that a start is watched; twenty times that where
@@ -131,26 +130,27 @@ struct AttractorSearch {
 };
 
 struct AttractorOptions {
-  /// Instead of the search's own: at rest at 0.01 to 100 times the backlash (or less and more:
-  /// encoder steps, and what friction, load torque, torque limit and a sine reference amount to as
-  /// positions), on either face, and passing the reference at some speed. Absolute positions.
+  /// Replaces the search's own starts, which are these: at rest at 0.01 to 100 times the backlash,
+  /// on either face, and passing the reference at some speed. (Encoder steps, and the positions
+  /// equivalent to friction, load torque, torque limit and a sine reference, widen that range.)
+  /// Absolute positions.
   std::vector<ShaftStates> starts{};
   double swing_times = 200.0;         ///< that a start is watched; and the budget's settling
                                       ///< times, but twice as long at most
-  std::size_t most_events = 100'000;  ///< of a start; and ten times as many ticks of a clock
-  std::size_t most_edges = 3;         ///< sought between starts that led elsewhere; 0: none
+  std::size_t most_events = 100'000;  ///< of a start; ten times as many ticks of a clock
+  std::size_t most_edges = 3;         ///< sought between starts with different outcomes; 0: none
   hybrid::ShootingOptions shooting{.most_events = 2000};
   SearchTolerances tolerances{};
   SearchBudget budget{};
-  StartTolerances chosen_starts{};  ///< where `starts` is empty
+  StartTolerances chosen_starts{};  ///< used if `starts` is empty
 };
 
-/// Each start is watched until it comes to rest, runs away, or Newton's method (closing_orbit())
-/// closes a cycle that it is on; unstable cycles passed by are kept. Between starts that led to
-/// different ends bisection finds motion on the border, and Newton's method the unstable cycle that
-/// it hovers at. Of the signals settled() counts. Complete it cannot be: what was searched is told.
-/// The same from run to run. A search that is stopped says so (is_complete). Throws InvalidInput,
-/// also where the load torque is a ramp in the end.
+/// Watches each start until it comes to rest, runs away, or Newton's method (closing_orbit())
+/// closes a cycle that it is on. Unstable cycles passed by are kept. Between starts with different
+/// outcomes bisection finds motion on the border, and Newton's method the unstable cycle near which
+/// it hovers. Signals are those of settled(). The search cannot be complete; the result lists what
+/// was searched. Repeated runs give the same result. A stopped search reports it (is_complete).
+/// Throws InvalidInput, also for a load torque that ends as a ramp.
 AttractorSearch find_attractors(const ReducedDrive& drive, const AttractorOptions& options = {},
                                 Progress& progress = no_progress());
 

@@ -1,4 +1,4 @@
-// From a motion that comes back to the cycle that it is on.
+// Finds the cycle that a recurring motion is on.
 #pragma once
 
 #include <optional>
@@ -14,15 +14,16 @@ class CycleClosing {
   CycleClosing(const SearchSetting& setting, const AttractorOptions& options)
       : setting_(setting), options_(options), tolerances_(options.tolerances.cycle) {}
 
-  /// The cycle that the end of a motion is on: it is not left again, and as large as what was seen.
+  /// The cycle at the end of a motion. The motion does not leave it again, and its amplitude
+  /// agrees.
   std::optional<FoundCycle> closed_cycle(const hybrid::Trajectory& motion, double nearness) const;
 
-  /// Of those that are known a stable one that has the motion's last event, in nearly the same
+  /// Among the known ones, a stable cycle that has the motion's last event in nearly the same
   /// state.
   std::optional<std::size_t> known_cycle_of(const hybrid::Trajectory& motion,
                                             const std::vector<FoundCycle>& known) const;
 
-  /// Over a little more than the last period of a motion.
+  /// Covers slightly more than the last period of a motion.
   Range lately(const hybrid::Trajectory& motion, const Watched& watched, double period) const;
 
  private:

@@ -1,4 +1,4 @@
-// What is measured of a motion: where it turns, how its swings shrink, how fast neighbours part.
+// Measures a motion: its turns, the decay of its swings, the divergence of neighbours.
 #pragma once
 
 #include <limits>
@@ -8,7 +8,7 @@
 
 namespace gearlash::drive {
 
-/// A number that is looked at, and its derivative by time.
+/// A watched number and its time derivative.
 struct Watched {
   hybrid::AffineForm value;
   hybrid::AffineForm speed;
@@ -24,13 +24,13 @@ struct Sample {
   double value = 0.0;
 };
 
-/// The value at start, end, events and wherever it turns between them. Between events that are
-/// within `short_time` of each other a turning is found only where the speed has changed its sign;
-/// at 0 none is missed.
+/// The value at start, end, events and every turn between them. Between events that are within
+/// `short_time` of each other, only a change of sign of the speed reveals a turn. With 0 none is
+/// missed.
 std::vector<Sample> samples(const hybrid::Trajectory& motion, const Watched& watched,
                             double short_time);
 
-/// Highs and lows in turn.
+/// Highs and lows, alternating.
 std::vector<Sample> extremes(const std::vector<Sample>& samples);
 
 struct Range {
@@ -54,16 +54,16 @@ struct Spread {
 
 Spread spread_of(const std::vector<double>& values);
 
-/// Times at which the value passes a level upwards, after a time.
+/// Times at which the value passes a level upwards, after a given time.
 std::vector<double> upward_passings(const hybrid::Trajectory& motion, const Watched& watched,
                                     const std::vector<Sample>& samples, double level, double after);
 
-/// Swings from one extreme to the next, compared with those some swings later: the least mean
-/// difference there is, as a share of the mean swing; 0 for what repeats.
+/// Compares swings from one extreme to the next with those some swings later. Returns the least
+/// mean difference as a share of the mean swing; 0 for a repeating motion.
 double least_mismatch(const std::vector<Sample>& extremes);
 
-/// The largest exponent λ by which a small disturbance grows as exp(λt), mean over the motion: of a
-/// disturbance of the first `own` numbers, carried through flows and events (saltation). 1/time.
+/// The largest exponent λ by which a small disturbance grows as exp(λt), mean over the motion. The
+/// disturbance is of the first `own` numbers, carried through flows and events (saltation). 1/time.
 double largest_exponent(const hybrid::HybridSystem& system, const hybrid::Trajectory& motion,
                         Eigen::Index own);
 

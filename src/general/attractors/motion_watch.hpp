@@ -1,4 +1,4 @@
-// What is known of a motion while it is watched: its swings, whether it rests, where its swings go.
+// Observations of a motion while it is watched: its swings, whether it rests.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace gearlash::drive {
 
-/// What is known of a motion while it is watched.
+/// Observations of a motion while it is watched.
 struct Watch {
   hybrid::State here;
   double time = 0.0;
@@ -22,16 +22,16 @@ struct Watch {
 /// Adds the next stretch to the ranges of all numbers.
 void include_ranges(Watch& watch, const hybrid::Trajectory& stretch);
 
-/// Adds where load and motor turn on the next stretch.
+/// Adds the turns of load and motor on the next stretch.
 void include_turns(Watch& watch, const hybrid::Trajectory& stretch, const SearchSetting& setting,
                    double short_time);
 
-/// Whether no number has moved in the last half of a stretch by more than a share of all that it
-/// has.
+/// Whether no number has moved in the last half of a stretch by more than a share of its total
+/// movement.
 bool is_at_rest(const Watch& watch, const hybrid::Trajectory& stretch, const SearchSetting& setting,
                 const RestTolerances& tolerances);
 
-/// After a time, but for those that are next to nothing.
+/// Swings after a time, without negligible ones.
 std::size_t count_of_swings(const std::vector<Sample>& turns, double from,
                             const SearchSetting& setting, const RestTolerances& tolerances);
 
@@ -42,11 +42,11 @@ double swing(const std::vector<Sample>& turns, std::size_t from_last);
 bool is_small(const std::vector<Sample>& turns, const SearchSetting& setting,
               const RestTolerances& tolerances);
 
-/// Where the load turned, with the start from rest, and the end where it stands.
+/// The load's turns, with the start from rest, and the end if it stands.
 std::vector<Sample> turns_of(const Watch& watch, const SearchSetting& setting,
                              const RestTolerances& tolerances);
 
-/// Of small swings whose limit is 0, by Aitken's extrapolation of any three: many, or some that
+/// For small swings whose limit is 0, by Aitken's extrapolation of any three: many, or some that
 /// shrink fast.
 std::optional<double> ratio_of_vanishing(const std::vector<Sample>& turns,
                                          const SearchSetting& setting,

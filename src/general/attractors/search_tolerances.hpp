@@ -1,5 +1,4 @@
-// What decides whether a search calls a motion rest, cycle, irregular or run away, and how much it
-// spends on it.
+// Tolerances and budget of a search: what it calls rest, cycle, irregular or runaway.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +7,8 @@ namespace gearlash::drive {
 
 /// What counts as rest. The small length is the smallest of backlash and encoder steps.
 struct RestTolerances {
-  /// A number that has moved in the last half by no more than this share of all that it has moved
-  /// stands still; a motion whose numbers all stand still is at rest.
+  /// A number stands still if in the last half it moved by at most this share of its total
+  /// movement. A motion whose numbers all stand still is at rest.
   double still = 1e-9;
   /// Swings below this share of the small length are small: they may vanish.
   double small_swing = 0.05;
@@ -17,13 +16,13 @@ struct RestTolerances {
   double small_motion = 0.1;
   /// Swings below this share of the small length are not counted.
   double negligible_swing = 1e-6;
-  /// A speed that in a swing time moves less than this share of the last swing is a standstill,
-  /// which ends that swing.
+  /// A speed that moves less than this share of the last swing within a swing time is a standstill.
+  /// It ends that swing.
   double standing_speed = 1e-6;
-  /// Swings vanish whose limit, extrapolated from any three of them (Aitken), is below this share
-  /// of the last.
+  /// Swings vanish if their limit, extrapolated from any three of them (Aitken), is below this
+  /// share of the last.
   double vanishing_limit = 0.03;
-  /// So many shrinking swings are enough to say so ...
+  /// This many shrinking swings are enough ...
   std::size_t vanishing_swings = 7;
   /// ... or fewer, where the last is below this share of the first.
   double vanishing_fast = 0.1;
@@ -31,49 +30,49 @@ struct RestTolerances {
 
 /// What counts as a cycle, and as the same cycle.
 struct CycleTolerances {
-  /// Passings this near each other, as a share of the state, may be a cycle: what a watched motion
-  /// is closed from, the nearest first.
+  /// Passings this near each other, as a share of the state, may be a cycle. A watched motion is
+  /// closed from them, the nearest first.
   double nearness = 1e-6;
   double wide_nearness = 1e-3;
-  /// Likewise for a motion that is slow to come onto its cycle, or that hovers at an unstable one.
+  /// The same for a motion that approaches its cycle slowly, or hovers at an unstable one.
   double widest_nearness = 1e-2;
-  /// A closed orbit must fit itself this well, as a share of the state.
+  /// A closed orbit must close this well, as a share of the state.
   double residual = 1e-9;
-  /// What is below this share of the small length is rest.
+  /// Anything below this share of the small length is rest.
   double least_size = 1e-9;
-  /// A motion is on a cycle whose sizes and centre agree with it to this share of its size.
+  /// A motion is on a cycle if amplitudes and centre agree to this share of its amplitude.
   double agreement = 0.02;
-  /// Motion is compared with a cycle over so many of its periods.
+  /// Motion is compared with a cycle over this many of its periods.
   double compared_periods = 1.01;
-  /// The modulus of a multiplier this near 1 is neutral.
+  /// A multiplier whose modulus is this near 1 is neutral.
   double neutral_band = 1e-6;
   /// States this near each other, as a share, are one: half a period later (symmetry), or after a
   /// part of it (a cycle gone round several times).
   double recurrence = 1e-7;
   /// Rounds sought within an orbit: primes below this number.
   int most_rounds = 100;
-  /// An orbit is closed again from so many of its periods ...
+  /// An orbit is closed again from this many of its periods ...
   double closing_periods = 2.5;
-  /// ... and is shorter where its period is below this share of the former.
+  /// ... and replaced if the new period is below this share of the former.
   double shorter_period = 0.75;
-  /// Whole multiples of the sampling period are known to this share of it.
+  /// Whole multiples of the sampling period are recognised to this share of it.
   double whole_ticks = 1e-6;
-  /// Periods, sizes and centres of one cycle agree to this share.
+  /// Periods, amplitudes and centres of one cycle agree to this share.
   double same_cycle = 1e-8;
   /// Neutral cycles whose periods agree to this share are one family.
   double same_family = 1e-6;
-  /// A motion whose last event is this near one of a known stable cycle, as a share of the state,
-  /// is on it.
+  /// A motion is on a known stable cycle if its last event is this near one of the cycle's, as a
+  /// share of the state.
   double known_event = 1e-4;
 };
 
 /// What counts as motion that does not repeat.
 struct IrregularTolerances {
-  /// Extremes of the last part that there must be.
+  /// The last part must have this many extremes.
   std::size_t least_turns = 8;
-  /// Both halves of what was seen must go equally far, to this share.
+  /// Both halves of the watched motion must extend equally far, to this share.
   double steadiness = 0.2;
-  /// Motions whose sizes, swings and centres agree to this share of their size are one.
+  /// Motions whose amplitudes, swings and centres agree to this share of their amplitude are one.
   double same_motion = 0.1;
 };
 
@@ -81,49 +80,49 @@ struct SearchTolerances {
   RestTolerances rest{};
   CycleTolerances cycle{};
   IrregularTolerances irregular{};
-  /// A load beyond so many of the drive's largest lengths has run away.
+  /// A load beyond this many of the drive's largest lengths has run away.
   double far_away = 1e6;
 };
 
-/// How long is searched. Swing and settling times are those of the linear loop (TimeScales).
+/// Duration of the search. Swing and settling times are those of the linear loop (TimeScales).
 struct SearchBudget {
-  /// Settling times that count: e⁻³⁰ is some 1e-13.
+  /// Decays are negligible after this many settling times: e⁻³⁰ is some 1e-13.
   double settling_times = 30.0;
-  /// Swings of the first stretch that is looked at; each next one is twice as long.
+  /// Swings of the first stretch. Each next one is twice as long.
   double first_stretch = 10.0;
-  /// A motion in which hardly anything happens is watched so many times as long ...
+  /// A motion in which hardly anything happens is watched this many times as long ...
   double patience = 20.0;
-  /// ... or so many times, between two starts that lead elsewhere.
+  /// ... or this many times, between two starts with different outcomes.
   double patience_at_edges = 2.0;
-  /// Hardly anything happens where a stretch has fewer swings than this ...
+  /// Hardly anything happens if a stretch has fewer swings than this ...
   std::size_t hardly_any_swings = 12;
-  /// ... or where the last swing is below this share of the stretch's first.
+  /// ... or if the last swing is below this share of the stretch's first.
   double still_shrinking = 0.8;
-  /// Turnings are sought between events that are farther apart than this share of a swing time.
+  /// Turns are sought between events that are farther apart than this share of a swing time.
   double short_stretch = 0.05;
-  /// Ticks of a clock that do not count as events: at most so many times the events.
+  /// Ticks of a clock do not count as events, up to this many times the events.
   double most_ticks = 10.0;
-  /// Swings and events of the first glance, which shows how large the numbers become.
+  /// Swings and events of the first glance, which shows the magnitude of the numbers.
   double glance_swings = 5.0;
   std::size_t glance_events = 5000;
   /// Bisections between two starts; a double has 52 bits.
   int bisections = 52;
-  /// After so many of them each time it is tried whether the motion hovers at a cycle ...
+  /// After this many of them each time a test shows whether the motion hovers at a cycle ...
   int bisections_between_tries = 13;
-  /// ... after one swing, two, and so on up to so many.
+  /// ... after one swing, two, and so on up to this many.
   double most_hovering_swings = 40.0;
 };
 
-/// Where motions start that a search chooses by itself.
+/// Starts that a search chooses by itself.
 struct StartTolerances {
   /// Steps from the reference, from this share of the small length ...
   double least_step = 1e-2;
-  /// ... to so many of the large length.
+  /// ... to this many of the large length.
   double largest_step = 1e2;
   double steps_per_decade = 2.0;
   int most_steps = 16;
-  /// Lengths of friction, load torque and torque limit count up to so many backlashes: beyond, the
-  /// gap does not matter.
+  /// Lengths of friction, load torque and torque limit count up to this many backlashes. Beyond,
+  /// the gap does not matter.
   double longest_length = 1e4;
 };
 
