@@ -61,7 +61,7 @@ TEST(OracleSampledDrive, IsARecursionFromSampleToSample) {
                             Sampled{period, 0.0, infinite}, Sampled{0.0, 0.01, infinite},
                             Sampled{0.03, 0.02, 2.0},       Sampled{period, 0.02, 1.5},
                             Sampled{0.13, 0.0, infinite},   Sampled{3.0 * period, 0.0, infinite},
-                            Sampled{0.25, 0.02, 2.0},       Sampled{2.0 * period, 0.02, 1.5}};
+                            Sampled{0.25, 0.023, 2.0},      Sampled{2.0 * period, 0.02, 1.5}};
   for (const auto& [delay, resolution, limit] : cases) {
     ReducedDrive drive = lone_motor();
     drive.controller = ProportionalDerivative{4.0, 3.0};
