@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "gearlash/parameter.hpp"
+
 
 namespace gearlash::detail {
 namespace {
