@@ -6,14 +6,13 @@
 
 int main() {
   using namespace gearlash;
-  const DesignChart chart(
-      {.servo = {.damping = 0.1, .backlash = 0.3},
-       .axes = {spaced_axis("x", Input::inertia_ratio, 1.0 / 9.0, 9.0, 100, Spacing::logarithmic),
-                spaced_axis("y", Input::friction_ratio, 0.05, 0.95, 100, Spacing::linear)}},
-      CycleQuantity::size, {.tolerance = 1e-3});
+  const DesignChart chart({.drive = normal_form(0.1, 1.0, 0.5, 0.3),
+                           .axes = {logarithmic("servo.inertia_ratio", 1.0 / 9.0, 9.0, 100),
+                                    linear("servo.friction_ratio", 0.05, 0.95, 100)}},
+                          Quantity::amplitude, {.tolerance = 1e-3});
 
   const ChartAnswer answer = chart.look_up({0.25, 0.2});  // inertia ratio, friction ratio
-  std::printf("%s: size %.6f rad, relative error at most %.1e, %s\n", name_of(answer.verdict),
+  std::printf("%s: amplitude %.6f rad, relative error at most %.1e, %s\n", name_of(answer.verdict),
               answer.value, answer.error, name_of(answer.source));
 
   const ChartAccuracy& accuracy = chart.accuracy();
