@@ -79,7 +79,7 @@ TEST(ToleranceCommand, PicturesAreDrawn) {
   const Outcome bad = run_tool({"tolerance", "examples/toleranced.toml", "--plot", "size=a.svg"});
   EXPECT_EQ(bad.err,
             "gearlash: --plot = size=a.svg: must be distribution=FILE, yield=FILE or "
-            "indices=FILE (did you mean yield?)\n");
+            "indices=FILE\n");
 }
 
 TEST(ToleranceCommand, DataAreThoseOfTheReport) {
