@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "base/seeded_draws.hpp"
-#include "closed_form/lanes/cycle_table.hpp"
+#include "closed_form/lanes/cycle_batch.hpp"
 #include "toleranced_samples.hpp"
 
 namespace gearlash {
@@ -41,15 +41,20 @@ void expect_unbeaten(const TolerancedDrive& drive, std::uint64_t seed) {
   for (std::size_t i = 0; i < count; ++i) {
     servos.push_back(drive_with(drive, drawn_values(drive, draws)).servo);
   }
-  CycleTable table(count);
-  find_limit_cycles(servos, table.columns());
+  std::vector<Verdict> verdict(count);
+  std::vector<double> amplitude(count);
+  std::vector<double> growth_at_rest(count);
+  CycleColumns columns{.verdict = verdict};
+  columns[Quantity::amplitude] = amplitude;
+  columns[Quantity::growth_at_rest] = growth_at_rest;
+  find_limit_cycles(servos, columns);
   const bool hunts = worst.performance.verdict != Verdict::cannot_hunt;
   double largest = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
-    const bool here = table.verdict[i] != Verdict::cannot_hunt;
+    const bool here = verdict[i] != Verdict::cannot_hunt;
     ASSERT_TRUE(hunts || !here);
-    const CycleQuantity of = hunts ? CycleQuantity::size : CycleQuantity::growth_at_rest;
-    if (here || !hunts) largest = std::max(largest, table[of][i]);
+    const std::vector<double>& of = hunts ? amplitude : growth_at_rest;
+    if (here || !hunts) largest = std::max(largest, of[i]);
   }
   const double found = hunts ? worst.performance.amplitude : worst.performance.growth_at_rest;
   EXPECT_GT(found, largest);
