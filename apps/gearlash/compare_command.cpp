@@ -68,13 +68,8 @@ Step read_step(const CompareOptions& options, const WrittenDrive& written, Fault
     }
   }
   if (options.until) {
-    const ReportUnits units{.natural_frequency =
-                                is_normalized(written.drive) ? std::nullopt : std::optional(1.0)};
-    step.until = faults.collect(
-        [&] {
-          return read_scaled("--until", *options.until, dimensions::time, units, units.time_unit());
-        },
-        1.0);
+    step.until =
+        faults.collect([&] { return read_si("--until", *options.until, dimensions::time); }, 1.0);
     if (!(step.until > 0.0)) {
       faults.add({"--until", shown(*options.until), "must be positive", ""});
     }

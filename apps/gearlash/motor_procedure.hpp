@@ -5,7 +5,7 @@
 #include <string>
 
 #include "gearlash/drive.hpp"
-#include "input/servo_file.hpp"
+#include "input/units.hpp"
 
 namespace gearlash::cli {
 

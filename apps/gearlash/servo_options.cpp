@@ -9,7 +9,6 @@
 #include "input/named_files.hpp"
 #include "input/text_file.hpp"
 #include "input/units.hpp"
-#include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash::cli {
@@ -17,68 +16,21 @@ namespace {
 
 constexpr char servo_group[] = "Servo";
 
-/// The options that can describe a servo without a file, and where each goes.
+/// The options that can describe a servo without a file.
 struct NumberOption {
   const char* name;
   std::optional<std::string> ServoOptions::*typed;
-  double NormalizedServo::*number;
-  bool required_without_file;
 };
 constexpr NumberOption number_options[] = {
-    {"damping", &ServoOptions::damping, &NormalizedServo::damping, true},
-    {"inertia_ratio", &ServoOptions::inertia_ratio, &NormalizedServo::inertia_ratio, true},
-    {"friction_ratio", &ServoOptions::friction_ratio, &NormalizedServo::friction_ratio, true},
-    {"backlash", &ServoOptions::backlash, &NormalizedServo::backlash, true},
-    {"restitution", &ServoOptions::restitution, &NormalizedServo::restitution, false}};
+    {"damping", &ServoOptions::damping},
+    {"inertia_ratio", &ServoOptions::inertia_ratio},
+    {"friction_ratio", &ServoOptions::friction_ratio},
+    {"backlash", &ServoOptions::backlash},
+    {"restitution", &ServoOptions::restitution}};
 
 std::string permitted_without_file(std::string_view field) {
   if (field == "backlash") return "must be an angle such as 0.1 (rad) or \"12 arcmin\"";
   return "must be " + permitted_values(field);
-}
-
-void apply(const ServoOptions& options, const NumberOption& option, ServoFile& file,
-           Faults& faults) {
-  const std::optional<std::string>& typed = options.*option.typed;
-  const std::string name = option_name(option.name);
-  if (!typed) {
-    if (options.file.empty() && option.required_without_file) {
-      faults.add({name, "", permitted_without_file(option.name) + "; or give SERVO.toml", ""});
-    }
-    return;
-  }
-  double& number = file.servo.*option.number;
-  if (option.typed == &ServoOptions::backlash) {
-    const Measured angle = faults.collect([&] { return read_angle(name, *typed); }, Measured{});
-    number = angle.si;
-    file.backlash_unit = {.name = angle.unit, .radians = angle.unit_in_si};
-  } else {
-    number = faults.collect([&] { return read_number(name, *typed); }, number);
-  }
-}
-
-/// A fault of a number that was typed is named as it was typed.
-std::vector<Fault> faults_of_servo(const NormalizedServo& servo, const ServoOptions& options) {
-  std::vector<Fault> faults = validate(servo);
-  for (Fault& fault : faults) {
-    for (const NumberOption& option : number_options) {
-      if (fault.path == option.name && options.*option.typed) {
-        fault.path = option_name(option.name);
-        fault.value = shown(*(options.*option.typed));
-        break;
-      }
-    }
-    if (fault.path == "sensor" && options.sensor) fault.path = "--sensor";
-  }
-  return faults;
-}
-
-/// A sound servo in the place of the file, so that the options can be checked. Of a file that
-/// cannot be read nobody knows whether it has a time scale: options may have units of time.
-ServoFile stand_in_for(const std::string& file) {
-  ServoFile stand_in;
-  stand_in.servo.damping = 1.0;
-  if (!file.empty()) stand_in.natural_frequency = 1.0;
-  return stand_in;
 }
 
 std::optional<double> read_bare_number(std::string_view field, std::string_view text) {
@@ -98,10 +50,10 @@ struct Source {
 
 /// Of the normal form that options describe, or of a file.
 Source source_of(const ServoOptions& options) {
-  if (options.file == "-") return {read_standard_input(largest_servo_file), "standard input", {}};
+  if (options.file == "-") return {read_standard_input(largest_drive_file), "standard input", {}};
   if (!options.file.empty()) {
     const std::filesystem::path path = options.file;
-    return {read_text_file(path, largest_servo_file), path.string(), path.parent_path()};
+    return {read_text_file(path, largest_drive_file), path.string(), path.parent_path()};
   }
   return {"[servo]\n", "the command line", {}};
 }
@@ -125,18 +77,6 @@ std::vector<Setting> settings_of(const ServoOptions& options, Faults& faults) {
     faults.collect([&] { return settings.push_back(read_setting(text)), 0; }, 0);
   }
   return settings;
-}
-
-ServoFile read_file(const ServoOptions& options, Faults& faults) {
-  const ServoFile stand_in = stand_in_for(options.file);
-  const std::vector<Setting> settings = settings_of(options, faults);
-  if (options.file.empty() && options.settings.empty()) return stand_in;
-  return faults.collect(
-      [&] {
-        const Source source = source_of(options);
-        return parse_servo(source.text, source.name, source.folder, settings);
-      },
-      stand_in);
 }
 
 }  // namespace
@@ -256,33 +196,12 @@ void Faults::require_distinct(const FileUse& input, const std::vector<FileUse>& 
   }
 }
 
-double read_scaled(std::string_view field, std::string_view text, const Dimension& dimension,
-                   const ReportUnits& units, std::string_view unit) {
-  if (const std::optional<double> number = read_bare_number(field, text)) {
-    require_finite(field, text, *number);
-    return *number;
-  }
-  if (units.natural_frequency) return to_si(field, text, dimension);
-  throw InvalidInput({{std::string(field), shown(text),
-                       "must be a number, in " + std::string(unit) +
-                           ": the servo has no natural_frequency to go by",
-                       ""}});
+double read_si(std::string_view field, std::string_view text, const Dimension& dimension) {
+  const std::optional<double> number = read_bare_number(field, text);
+  if (!number) return to_si(field, text, dimension);
+  require_finite(field, text, *number);
+  return *number;
 }
-
-namespace {
-
-/// The servo with what options say of it; their faults, and what comes of both, go to `faults`.
-ServoFile with_options(ServoFile file, const ServoOptions& options, Faults& faults) {
-  for (const NumberOption& option : number_options) apply(options, option, file, faults);
-  if (options.sensor) {
-    faults.require_choice("--sensor", *options.sensor, {"load", "motor"});
-    file.servo.sensor = *options.sensor == "motor" ? ShaftName::motor : ShaftName::load;
-  }
-  faults.add(faults_of_servo(file.servo, options));
-  return file;
-}
-
-}  // namespace
 
 namespace {
 
@@ -381,10 +300,6 @@ Drive closed_form_drive(const WrittenDrive& written, const ServoOptions& options
   if (auto drive = gearlash::closed_form_drive(written.drive)) return *std::move(drive);
   throw InvalidInput(
       {{"drive", "without a closed form", permitted_with_closed_form, shown(options.file)}});
-}
-
-ServoFile resolve_servo(const ServoOptions& options, Faults& faults) {
-  return with_options(read_file(options, faults), options, faults);
 }
 
 }  // namespace gearlash::cli

@@ -8,9 +8,7 @@
 
 #include "command_line.hpp"
 #include "input/drive_file.hpp"
-#include "input/servo_file.hpp"
 #include "input/units.hpp"
-#include "output/report_units.hpp"
 
 namespace gearlash::cli {
 
@@ -73,19 +71,12 @@ class Faults {
   std::vector<Fault> faults_;
 };
 
-/// A finite number in the unit of a report, SI with a natural frequency and normalised without; or
-/// one with its unit ("50 ms"), which only a natural frequency gives a meaning.
-double read_scaled(std::string_view field, std::string_view text, const Dimension& dimension,
-                   const ReportUnits& units, std::string_view unit);
+/// A number in SI, or one with its unit ("50 ms"). Throws InvalidInput; "inf" is none.
+double read_si(std::string_view field, std::string_view text, const Dimension& dimension);
 
 /// The drive as its user has it: the file, or the normal form of the options, with the settings of
 /// --set. Faults go to `faults`; there is a result, and it is sound, if there are none.
 std::optional<WrittenDrive> resolve_drive(const ServoOptions& options, Faults& faults);
-
-/// The servo, its file read and its options applied: an option changes the normalised number and
-/// leaves the natural frequency and the stiffness of a data sheet as they are. Faults of the file
-/// and of the options go to `faults`; the result is sound if there are none.
-ServoFile resolve_servo(const ServoOptions& options, Faults& faults);
 
 /// The drive without its signals, on which hunting does not depend. Throws InvalidInput, located at
 /// the file, where it has no closed form.

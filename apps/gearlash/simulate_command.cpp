@@ -58,10 +58,6 @@ struct Task {
   double every = 0.0;
 };
 
-double read_si(const char* field, const std::string& text, const Dimension& dimension) {
-  return read_scaled(field, text, dimension, {.natural_frequency = 1.0}, dimension.unit);
-}
-
 Start read_start(const SimulateOptions& options, Faults& faults) {
   const auto angle = [&](const char* field, const std::string& text) {
     return faults.collect([&] { return read_angle(field, text).si; }, 0.0);

@@ -1,39 +1,15 @@
 #include "input/drive_file.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "gearlash/input.hpp"
 #include "input/drive_reader.hpp"
 #include "input/text_file.hpp"
 #include "input/toml_document.hpp"
 #include "model/parameters.hpp"
-#include "model/proportional_servo.hpp"
-#include "model/reduced_drive.hpp"
 
 namespace gearlash {
 namespace {
-
-/// The drivetrain of a data sheet, but for what options have changed of the servo: that is in its
-/// normalised numbers. Without one of total inertia 1.
-Drivetrain drivetrain_of(const ServoFile& file) {
-  const NormalizedServo& servo = file.servo;
-  if (file.drivetrain && normalize(*file.drivetrain) == servo) return *file.drivetrain;
-  const double frequency = file.natural_frequency.value_or(1.0);
-  Drivetrain drivetrain;
-  drivetrain.stiffness = file.drivetrain ? file.drivetrain->stiffness : frequency * frequency;
-  const double inertia = drivetrain.stiffness / (frequency * frequency);
-  const double friction = 2.0 * servo.damping * frequency * inertia;
-  drivetrain.motor_inertia = inertia / (1.0 + servo.inertia_ratio);
-  const double ratio = servo.inertia_ratio;
-  drivetrain.load_inertia = std::isinf(ratio) ? inertia : inertia * (ratio / (1.0 + ratio));
-  drivetrain.motor_friction = friction * (1.0 - servo.friction_ratio);
-  drivetrain.load_friction = friction * servo.friction_ratio;
-  drivetrain.backlash = servo.backlash;
-  drivetrain.restitution = servo.restitution;
-  drivetrain.sensor = servo.sensor;
-  return drivetrain;
-}
 
 /// A TOML list, "[1, 2]"; all else is text, which the reader of the key takes: "30 arcmin", "0.25".
 toml::table value_of(const std::string& text) {
@@ -87,7 +63,7 @@ void apply(TomlDocument& document, const Setting& setting) {
 
 TomlDocument document_with(std::string_view toml, std::string_view source_name,
                            const std::vector<Setting>& settings) {
-  TomlDocument document(toml, source_name, largest_servo_file);
+  TomlDocument document(toml, source_name, largest_drive_file);
   for (const Setting& setting : settings) apply(document, setting);
   return document;
 }
@@ -122,66 +98,6 @@ Setting read_setting(const std::string& text) {
   return setting;
 }
 
-std::optional<ServoFile> servo_file_of(const WrittenDrive& written) {
-  const Drive& drive = written.drive;
-  const std::optional<ClosedFormServo> closed = closed_form_servo(drive);
-  if (!closed) return std::nullopt;
-  ServoFile file{.servo = closed->servo, .backlash_unit = written.angle};
-  if (drive.servo) {
-    file.natural_frequency = drive.servo->natural_frequency;
-  } else {
-    file.natural_frequency = closed->natural_frequency;
-    file.drivetrain = referred_drivetrain(drive);
-  }
-  return file;
-}
-
-ServoOrDriveFile parse_servo_or_drive(std::string_view toml, std::string_view source_name,
-                                      const std::filesystem::path& folder,
-                                      const std::vector<Setting>& settings) {
-  const WrittenDrive written = parse_drive(toml, source_name, folder, settings);
-  const Drive& drive = written.drive;
-  // A side without inertia, or no gap, is the closed form's alone.
-  const bool has_signals = drive.reference || drive.load_torque;
-  if (!has_signals || !drive::validate(reduce(drive)).empty()) {
-    if (std::optional<ServoFile> servo = servo_file_of(written)) return *std::move(servo);
-  }
-  return DriveFile{.drive = reduce(drive),
-                   .gear_ratio = drive.gearbox.ratio,
-                   .backlash_unit = written.angle,
-                   .has_reference = drive.reference.has_value(),
-                   .is_normalized = drive.servo && !drive.servo->natural_frequency};
-}
-
-ServoOrDriveFile read_servo_or_drive_file(const std::filesystem::path& path,
-                                          const std::vector<Setting>& settings) {
-  return parse_servo_or_drive(read_text_file(path, largest_servo_file), path.string(),
-                              path.parent_path(), settings);
-}
-
-DriveFile drive_file_of(const ServoFile& servo) {
-  DriveFile file;
-  file.drive = drive::drive_of(drivetrain_of(servo));
-  file.backlash_unit = servo.backlash_unit;
-  file.is_normalized = !servo.natural_frequency;
-  require_none(drive::validate(file.drive));
-  return file;
-}
-
-DriveFile with_sensor(DriveFile file, SensorPlace place) {
-  const auto put = [&](double& share, double& resolution, double new_share) {
-    // A turn of the motor is less at the load.
-    if (share != new_share)
-      resolution *= new_share == 1.0 ? file.gear_ratio : 1.0 / file.gear_ratio;
-    share = new_share;
-  };
-  drive::Sensing& sensing = file.drive.sensing;
-  put(sensing.load_share_of_position, sensing.resolution, place == SensorPlace::motor ? 0.0 : 1.0);
-  put(sensing.load_share_of_speed, sensing.resolution_of_speed,
-      place == SensorPlace::load ? 1.0 : 0.0);
-  return file;
-}
-
 const char* name_of(SensorPlace place) {
   switch (place) {
     case SensorPlace::load:
@@ -202,7 +118,7 @@ std::optional<SensorPlace> sensor_named(std::string_view name) {
 }
 
 Drive read_drive(const std::filesystem::path& toml) {
-  return parse_drive(read_text_file(toml, largest_servo_file), toml.string(), toml.parent_path(),
+  return parse_drive(read_text_file(toml, largest_drive_file), toml.string(), toml.parent_path(),
                      {})
       .drive;
 }

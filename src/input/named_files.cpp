@@ -4,7 +4,7 @@
 #include <system_error>
 
 #include "base/fault.hpp"
-#include "input/servo_file.hpp"
+#include "input/drive_file.hpp"
 #include "input/text_file.hpp"
 #include "input/toml_document.hpp"
 
@@ -15,8 +15,8 @@ std::vector<NamedFile> files_named_in(const std::filesystem::path& toml) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(toml, error)) return files;
   try {
-    const TomlDocument document(read_text_file(toml, largest_servo_file), toml.string(),
-                                largest_servo_file);
+    const TomlDocument document(read_text_file(toml, largest_drive_file), toml.string(),
+                                largest_drive_file);
     for (const auto& [section, node] : document.root()) {
       const toml::table* table = node.as_table();
       if (table == nullptr) continue;

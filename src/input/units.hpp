@@ -43,4 +43,15 @@ Measured read_angle(std::string_view field, std::string_view text);
 /// an empty or blank text quoted, at most `limit` characters and then "…".
 std::string shown(std::string_view text, std::size_t limit = 60);
 
+/// The unit in which an author thinks of angles.
+struct AngleUnit {
+  std::string name = "rad";  ///< as written: "arcmin", "deg", "mrad", …
+  double radians = 1.0;      ///< one of it, > 0
+
+  /// `angle` (rad) in this unit.
+  double from_radians(double angle) const { return angle / radians; }
+
+  bool operator==(const AngleUnit&) const = default;
+};
+
 }  // namespace gearlash

@@ -9,7 +9,7 @@
 #include "analysis/design/hunting_margin.hpp"
 #include "gearlash/answer.hpp"
 #include "gearlash/drive.hpp"
-#include "input/servo_file.hpp"
+#include "input/units.hpp"
 #include "output/report_units.hpp"
 
 namespace gearlash {

@@ -7,12 +7,6 @@
 
 namespace gearlash {
 
-ReportUnits report_units(const ServoFile& file) {
-  ReportUnits units{.natural_frequency = file.natural_frequency, .angle = file.backlash_unit};
-  if (file.drivetrain) units.stiffness = file.drivetrain->stiffness;
-  return units;
-}
-
 std::string significant(double value, int digits) { return fmt::format("{:.{}g}", value, digits); }
 
 std::string change_text(double ratio) {

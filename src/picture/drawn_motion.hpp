@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "gearlash/motion.hpp"
-#include "input/servo_file.hpp"
+#include "input/units.hpp"
 
 namespace gearlash {
 

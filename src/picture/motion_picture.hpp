@@ -7,7 +7,7 @@
 
 #include "gearlash/drive.hpp"
 #include "gearlash/motion.hpp"
-#include "input/servo_file.hpp"
+#include "input/units.hpp"
 #include "picture/picture.hpp"
 
 namespace gearlash {

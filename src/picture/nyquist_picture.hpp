@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "analysis/describing/describing.hpp"
-#include "input/servo_file.hpp"
+#include "input/units.hpp"
 #include "picture/picture.hpp"
 
 namespace gearlash {

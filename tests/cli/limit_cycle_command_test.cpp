@@ -8,7 +8,7 @@
 #include "closed_form/growth_at_rest.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "gearlash/version.hpp"
-#include "input/servo_file.hpp"
+#include "input/servo_of_file.hpp"
 #include "tool.hpp"
 
 namespace gearlash {
@@ -138,8 +138,8 @@ TEST(LimitCycleCommand, BouncingContactHasItsCyclesInJsonToo) {
 TEST(LimitCycleCommand, PhysicalNumbersAreThoseOfTheDataSheet) {
   const json printed =
       parsed(run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--format", "json"}));
-  const ServoFile file =
-      read_servo_file(std::string(GEARLASH_SOURCE_DIRECTORY) + "/examples/elinco-fd162.toml");
+  const ServoOfFile file =
+      read_servo(std::string(GEARLASH_SOURCE_DIRECTORY) + "/examples/elinco-fd162.toml");
   const LimitCycle cycle = analyse_limit_cycles(file.servo).cycles.at(0);
   const json& physical = printed["cycles"][0];
   const json& form = printed["normal_form"];

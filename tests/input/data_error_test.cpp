@@ -8,7 +8,7 @@
 
 #include "base/fifty_digits.hpp"
 #include "closed_form/cycle_bounds.hpp"
-#include "input/servo_file.hpp"
+#include "input/servo_of_file.hpp"
 
 namespace gearlash {
 namespace {
@@ -27,8 +27,8 @@ void expect_near(double actual, const Wide& exact) {
   EXPECT_LE(std::abs(epsilons_off(actual, exact)), error.each / epsilon / 2) << exact;
 }
 
-ServoFile example(const char* name) {
-  return read_servo_file(std::string(GEARLASH_SOURCE_DIRECTORY) + "/examples/" + name);
+ServoOfFile example(const char* name) {
+  return read_servo(std::string(GEARLASH_SOURCE_DIRECTORY) + "/examples/" + name);
 }
 
 TEST(OracleDataError, ArmatureControlledMotor) {

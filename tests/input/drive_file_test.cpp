@@ -9,6 +9,7 @@
 #include <numbers>
 #include <string>
 
+#include "input/servo_of_file.hpp"
 #include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 
@@ -79,15 +80,23 @@ inertia = "1e-3 kg m2"
 friction = "1e-3 N m s/rad"
 )toml";
 
-DriveFile drive_of(const std::string& text, const std::filesystem::path& folder = ".") {
-  return std::get<DriveFile>(parse_servo_or_drive(text, "drive.toml", folder));
+/// A drive at the load's shaft.
+struct ReadDrive {
+  drive::ReducedDrive drive;
+  double gear_ratio;
+  AngleUnit backlash_unit;
+};
+
+ReadDrive drive_of(const std::string& text, const std::filesystem::path& folder = ".") {
+  const WrittenDrive written = parse_drive(text, "drive.toml", folder, {});
+  return {reduce(written.drive), written.drive.gearbox.ratio, written.angle};
 }
 
 /// "place: field = value: permitted" of every fault.
 std::vector<std::string> refusals(const std::string& text,
                                   const std::filesystem::path& folder = ".") {
   try {
-    parse_servo_or_drive(text, "drive.toml", folder);
+    parse_drive(text, "drive.toml", folder, {});
     return {};
   } catch (const InvalidInput& refusal) {
     std::vector<std::string> lines;
@@ -103,7 +112,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 TEST(DriveFile, EveryBlockIsReadAndReferredToTheLoad) {
-  const DriveFile file = drive_of(joint);
+  const ReadDrive file = drive_of(joint);
   const drive::ReducedDrive& drive = file.drive;
   EXPECT_DOUBLE_EQ(drive.motor.inertia, 2e-4 * 2500.0);
   EXPECT_DOUBLE_EQ(drive.motor.friction.viscous, 1e-4 * 2500.0);
@@ -135,14 +144,14 @@ TEST(DriveFile, EveryBlockIsReadAndReferredToTheLoad) {
 
 /// Per angle of the motor a gain is as many times as much per angle of the load.
 TEST(DriveFile, GainsMayBePerAngleOfTheMotor) {
-  const DriveFile file =
+  const ReadDrive file =
       drive_of(replaced(joint, "kind = \"PID\"", "kind = \"PID\"\nshaft = \"motor\""));
   const auto pid = std::get<drive::ProportionalIntegralDerivative>(file.drive.controller);
   EXPECT_DOUBLE_EQ(pid.proportional, 1250.0);
 }
 
 TEST(DriveFile, VoltsComeThroughTheArmature) {
-  const DriveFile file =
+  const ReadDrive file =
       drive_of(replaced(plain, "resistance", "voltage_limit = \"12 V\"\nresistance") +
                "[controller]\nkind = \"P\"\nproportional = \"3 V/rad\"\n");
   // K₁ n / R = 0.1 N m at the load per volt.
@@ -153,16 +162,11 @@ TEST(DriveFile, VoltsComeThroughTheArmature) {
 }
 
 TEST(OracleDriveFile, AProportionalControllerIsTheServoOfALoop) {
-  const auto file =
-      std::get<ServoFile>(parse_servo_or_drive(plain + std::string("[controller]\nkind = \"P\"\n"
-                                                                   "proportional = \"3 V/rad\"\n"),
-                                               "drive.toml", "."));
-  const auto servo =
-      std::get<ServoFile>(parse_servo_or_drive(plain + std::string("[loop]\nerror_gain = "
-                                                                   "\"3 V/rad\"\n"),
-                                               "servo.toml", "."));
+  const auto file = parse_servo(plain + std::string("[controller]\nkind = \"P\"\n"
+                                                    "proportional = \"3 V/rad\"\n"));
+  const auto servo = parse_servo(plain + std::string("[loop]\nerror_gain = \"3 V/rad\"\n"));
   EXPECT_EQ(file, servo);
-  EXPECT_EQ(drive::proportional_servo(drive_file_of(servo).drive), servo.drivetrain);
+  EXPECT_EQ(drive::proportional_servo(drive::drive_of(servo.drivetrain.value())), servo.drivetrain);
   // Whatever it has besides has no closed form.
   const auto with = [&](const std::string& more) {
     return closed_form_servo(
@@ -350,7 +354,7 @@ TEST(EdgeDriveFile, ASideWithoutInertiaIsTheClosedFormsAlone) {
   const std::string massless = replaced(plain, "1e-3 kg m2", "0 kg m2") +
                                "[loop]\nerror_gain = \"3 V/rad\"\n"
                                "[reference]\nkind = \"constant\"\nvalue = \"1 rad\"\n";
-  EXPECT_TRUE(std::holds_alternative<ServoFile>(parse_servo_or_drive(massless, "drive.toml", ".")));
+  EXPECT_TRUE(servo_of(parse_drive(massless, "drive.toml", ".", {})));
 }
 
 TEST(EdgeDriveFile, WhatExcludesEachOtherIsTold) {

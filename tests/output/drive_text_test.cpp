@@ -28,7 +28,7 @@ Drive read(const std::string& text, const std::vector<Setting>& settings = {}) {
 TEST(DriveText, EveryExampleReadsBackAsTheSameDrive) {
   for (const auto& entry : std::filesystem::directory_iterator(examples)) {
     if (entry.path().extension() != ".toml" || entry.path().stem() == "sweep") continue;
-    const Drive drive = read(read_text_file(entry.path(), largest_servo_file));
+    const Drive drive = read(read_text_file(entry.path(), largest_drive_file));
     const std::string text = to_toml(drive);
     const Drive again = read(text);
     EXPECT_EQ(to_toml(again), text) << entry.path();
@@ -66,7 +66,7 @@ TEST(DriveText, EveryKindOfControllerAndSignalReadsBack) {
 }
 
 TEST(DriveText, DefaultsAreNamed) {
-  const Drive drive = read(read_text_file(examples / "elinco-fd162.toml", largest_servo_file));
+  const Drive drive = read(read_text_file(examples / "elinco-fd162.toml", largest_drive_file));
   const std::vector<std::string> defaults = defaults_taken(drive);
   EXPECT_THAT(defaults, Contains("motor.coulomb"));
   EXPECT_THAT(defaults, Contains("sensor.position"));

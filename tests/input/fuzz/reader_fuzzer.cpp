@@ -1,5 +1,5 @@
 // Whatever the bytes, every reader either throws InvalidInput, one line a fault, or returns what is
-// sound: a servo, a drive with its tolerances, a sweep, a table of a signal, a target, an axis.
+// sound: a drive with its tolerances, a sweep, a table of a signal, a target, an axis.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -9,10 +9,10 @@
 #include "general/assemble/drive_system.hpp"
 #include "input/axis_text.hpp"
 #include "input/drive_file.hpp"
-#include "input/servo_file.hpp"
 #include "input/signal_reader.hpp"
 #include "input/sweep_file.hpp"
 #include "input/target_text.hpp"
+#include "model/reduced_drive.hpp"
 #include "model/signal.hpp"
 
 namespace {
@@ -21,28 +21,22 @@ void require(bool condition) {
   if (!condition) std::abort();
 }
 
-void require_sound(const gearlash::ServoFile& file) {
-  require(gearlash::validate(file.servo).empty());
-  if (file.drivetrain) {
-    require(gearlash::validate(*file.drivetrain).empty());
-    require(file.natural_frequency.has_value());
-  }
-  require(!file.natural_frequency || *file.natural_frequency > 0.0);
-  require(file.backlash_unit.radians > 0.0 && !file.backlash_unit.name.empty());
-}
-
 void require_sound(const gearlash::SweepFile& file) {
   const std::vector<std::string> fields(file.grid.axes.size(), "axis");
   require(!fields.empty() && fields.size() <= gearlash::most_axes_of_a_sweep);
-  require(gearlash::validate(file.grid, fields).empty());
+  require(gearlash::faults(file.grid, fields).empty());
   require(!file.quantities.empty());
 }
 
-void require_sound(const gearlash::ServoOrDriveFile& file) {
-  if (const auto* servo = std::get_if<gearlash::ServoFile>(&file)) return require_sound(*servo);
-  const auto& drive = std::get<gearlash::DriveFile>(file);
-  require(gearlash::drive::validate(drive.drive).empty());
-  const gearlash::hybrid::HybridSystem system = gearlash::drive::drive_system(drive.drive).system;
+void require_sound(const gearlash::WrittenDrive& written) {
+  require(written.angle.radians > 0.0 && !written.angle.name.empty());
+  require(gearlash::faults(written.drive).empty());
+  if (const auto servo = gearlash::closed_form_servo(written.drive)) {
+    return require(gearlash::validate(servo->servo).empty() && servo->natural_frequency > 0.0);
+  }
+  const gearlash::drive::ReducedDrive reduced = gearlash::reduce(written.drive);
+  require(gearlash::drive::validate(reduced).empty());
+  const gearlash::hybrid::HybridSystem system = gearlash::drive::drive_system(reduced).system;
   require(gearlash::hybrid::faults(system).empty());
   for (std::size_t mode = 0; mode < system.mode_count(); ++mode) {
     require(gearlash::hybrid::faults_of_mode(system, mode).empty());
@@ -73,9 +67,10 @@ void accept_or_refuse(const Read& read) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   const std::string name = "fuzz.toml:";
-  accept_or_refuse([&] { require_sound(gearlash::parse_servo(text, "fuzz.toml")); });
   accept_or_refuse([&] { require_sound(gearlash::parse_sweep(text, "fuzz.toml")); });
-  accept_or_refuse([&] { gearlash::read_axis(name, text); });
+  accept_or_refuse([&] {
+    gearlash::read_axis(gearlash::split_axis(name, text), gearlash::normal_form(0.2, 1.0, 0.2));
+  });
   accept_or_refuse([&] { gearlash::read_target(name, text, gearlash::TimeScale::unknown); });
   accept_or_refuse([&] {
     const gearlash::Signal table =
@@ -84,6 +79,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   // A table could be a file that is without end.
   if (text.find("file") != std::string_view::npos) return 0;
-  accept_or_refuse([&] { require_sound(gearlash::parse_servo_or_drive(text, "fuzz.toml", ".")); });
+  accept_or_refuse([&] { require_sound(gearlash::parse_drive(text, "fuzz.toml", ".", {})); });
   return 0;
 }

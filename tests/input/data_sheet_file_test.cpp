@@ -1,6 +1,4 @@
 // Data sheets and normalised servos from TOML: what is read, and every way it can be refused.
-#include "input/servo_file.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,6 +14,7 @@
 #include <vector>
 
 #include "input/drive_file.hpp"
+#include "input/servo_of_file.hpp"
 
 namespace gearlash {
 namespace {
@@ -72,7 +71,7 @@ std::vector<std::string> refusals(std::string_view text) {
 std::vector<std::string> file_refusals(const std::filesystem::path& path) {
   std::vector<std::string> lines;
   try {
-    read_servo_file(path);
+    read_servo(path);
   } catch (const InvalidInput& problem) {
     for (const Fault& fault : problem.faults()) lines.push_back(to_string(fault));
   }
@@ -86,7 +85,7 @@ std::string contents(const std::filesystem::path& path) {
 }
 
 TEST(ServoFile, ReadsTheSampleProblem) {
-  const ServoFile file = parse_servo(sample, "s.toml");
+  const ServoOfFile file = parse_servo(sample, "s.toml");
   ASSERT_TRUE(file.drivetrain && file.natural_frequency);
   const Drive drive = parse_drive(sample, "s.toml", {}).drive;
   const auto& motor = std::get<ArmatureControl>(drive.motor.kind);
@@ -107,7 +106,7 @@ TEST(ServoFile, ReadsTheSampleProblem) {
 }
 
 TEST(ServoFile, ReadsTheNormalisedServo) {
-  const ServoFile file = parse_servo(normalized, "s.toml");
+  const ServoOfFile file = parse_servo(normalized, "s.toml");
   EXPECT_EQ(file.servo,
             (NormalizedServo{
                 .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3}));
@@ -115,14 +114,14 @@ TEST(ServoFile, ReadsTheNormalisedServo) {
 }
 
 TEST(ServoFile, ReadsFractionsInfinityAndContact) {
-  const ServoFile file = parse_servo(R"toml(servo.damping = "1/5"
+  const ServoOfFile file = parse_servo(R"toml(servo.damping = "1/5"
 servo.inertia_ratio = inf
 servo.friction_ratio = "1/4"
 servo.backlash = "12 arcmin"
 servo.natural_frequency = "2 Hz"
 contact.restitution = 1
 )toml",
-                                     "s.toml");
+                                       "s.toml");
   EXPECT_EQ(file.servo.damping, 0.2);
   EXPECT_EQ(file.servo.inertia_ratio, std::numeric_limits<double>::infinity());
   EXPECT_EQ(file.servo.restitution, 1.0);
@@ -159,7 +158,7 @@ sensor = "load"
 }
 
 TEST(ServoFile, ByteOrderMarkAndLineEndingsChangeNothing) {
-  const ServoFile expected = parse_servo(sample, "s.toml");
+  const ServoOfFile expected = parse_servo(sample, "s.toml");
   std::string crlf;
   for (const char c : std::string(sample))
     crlf += c == '\n' ? std::string("\r\n") : std::string(1, c);
@@ -176,14 +175,13 @@ TEST(ServoFile, EveryExampleIsRead) {
   for (const auto& entry : std::filesystem::directory_iterator(source_directory / "examples")) {
     if (entry.path().extension() != ".toml" || entry.path().stem() == "sweep") continue;
     ++count;
-    const ServoOrDriveFile either = read_servo_or_drive_file(entry.path());
-    const auto* file = std::get_if<ServoFile>(&either);
-    if (file == nullptr) continue;
+    const std::optional<ServoOfFile> file = servo_of(read_written_drive(entry.path()));
+    if (!file) continue;
     EXPECT_TRUE(validate(file->servo).empty()) << entry.path();
     EXPECT_TRUE(file->natural_frequency.has_value()) << entry.path();
   }
   EXPECT_GE(count, 6U);
-  EXPECT_EQ(read_servo_file(source_directory / "examples/elinco-fd162.toml"),
+  EXPECT_EQ(read_servo(source_directory / "examples/elinco-fd162.toml"),
             parse_servo(sample, "s.toml"));
 }
 
@@ -435,7 +433,7 @@ TEST(ServoFileRefusal, OfAnotherType) {
 }
 
 TEST(ServoFile, NormalizedAnglesMayBeBareRadians) {
-  const ServoFile bare = parse_servo(replaced(normalized, "\"0.3 rad\"", "0.3"), "s.toml");
+  const ServoOfFile bare = parse_servo(replaced(normalized, "\"0.3 rad\"", "0.3"), "s.toml");
   EXPECT_EQ(bare.servo, parse_servo(normalized, "s.toml").servo);
   EXPECT_EQ(bare.backlash_unit.name, "rad");
 }
@@ -525,8 +523,8 @@ TEST(ServoFileRefusal, BinaryAndHugeFilesAreNotParsed) {
               ElementsAre("s.toml:1:1: file = over 1048576 bytes: must be a data sheet of at most "
                           "1048576 bytes"));
   const std::string full = std::string(sample) + "#";
-  EXPECT_TRUE(refusals(full + std::string(largest_servo_file - full.size(), 'x')).empty());
-  EXPECT_EQ(refusals(full + std::string(largest_servo_file - full.size() + 1, 'x')).size(), 1U);
+  EXPECT_TRUE(refusals(full + std::string(largest_drive_file - full.size(), 'x')).empty());
+  EXPECT_EQ(refusals(full + std::string(largest_drive_file - full.size() + 1, 'x')).size(), 1U);
 }
 
 TEST(ServoFileRefusal, FilesThatCannotBeRead) {
@@ -547,7 +545,7 @@ TEST(ServoFileCorpus, EveryInputIsReadOrRefusedInWholeLines) {
   for (const auto& entry :
        std::filesystem::directory_iterator(source_directory / "tests/input/fuzz/corpus")) {
     try {
-      const ServoFile file = parse_servo(contents(entry.path()), "s.toml");
+      const ServoOfFile file = parse_servo(contents(entry.path()), "s.toml");
       EXPECT_TRUE(validate(file.servo).empty()) << entry.path();
       ++read;
     } catch (const InvalidInput& problem) {
