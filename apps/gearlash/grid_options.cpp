@@ -263,7 +263,7 @@ ExitStatus make_grid_files(const GridTask& task, const Provenance& provenance,
   std::vector<std::unique_ptr<OutputFile>> pictures;
   for (const Plot& plot : task.plots) pictures.push_back(opened(plot.file));
   std::optional<TerminalProgress> progress;
-  progress.emplace("Working out", task.grid.size(), "drives");
+  progress.emplace(task.verb == "map" ? "Map" : "Chart", task.grid.size(), "points");
   GridTable table{.grid = task.grid, .provenance = provenance};
   GridCount count;
   std::string made;

@@ -21,12 +21,11 @@ struct NumberOption {
   const char* name;
   std::optional<std::string> ServoOptions::*typed;
 };
-constexpr NumberOption number_options[] = {
-    {"damping", &ServoOptions::damping},
-    {"inertia_ratio", &ServoOptions::inertia_ratio},
-    {"friction_ratio", &ServoOptions::friction_ratio},
-    {"backlash", &ServoOptions::backlash},
-    {"restitution", &ServoOptions::restitution}};
+constexpr NumberOption number_options[] = {{"damping", &ServoOptions::damping},
+                                           {"inertia_ratio", &ServoOptions::inertia_ratio},
+                                           {"friction_ratio", &ServoOptions::friction_ratio},
+                                           {"backlash", &ServoOptions::backlash},
+                                           {"restitution", &ServoOptions::restitution}};
 
 std::string permitted_without_file(std::string_view field) {
   if (field == "backlash") return "must be an angle such as 0.1 (rad) or \"12 arcmin\"";

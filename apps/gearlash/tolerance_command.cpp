@@ -172,13 +172,10 @@ Task read_task(const ToleranceOptions& options) {
 ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
   const Task task = read_task(options);
   std::optional<TerminalProgress> progress;
-  const auto begin = [&](const char* what, std::size_t count, const char* name = "drives") {
+  const auto begin = [&](const char* what, std::size_t count,
+                         const char* name = "drives") -> Progress& {
     progress.reset();
-    progress.emplace(what, count, name);
-    return GridEvaluation{.going_on = [&](std::size_t done) {
-      progress->show_done(done);
-      return true;
-    }};
+    return progress.emplace(what, count, name);
   };
   ToleranceReport report{.drive = task.drive,
                          .target_text = options.target,
@@ -187,15 +184,15 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
                          .provenance = provenance};
   const std::size_t samples = task.sampling.samples();
   report.study =
-      study_tolerances(task.drive, task.sampling, task.questions, begin("Study", samples));
+      study_tolerances(task.drive, task.sampling, task.questions, {}, begin("Study", samples));
   report.sensitivities = study_sensitivities(
-      task.drive, task.sampling, begin("Indices", samples * (task.drive.varied.size() + 2)));
+      task.drive, task.sampling, {}, begin("Indices", samples * (task.drive.varied.size() + 2)));
   if (task.yield > 0.0) {
     report.backlash =
         widest_backlash(task.drive, {.target = task.questions.target, .yield = task.yield},
-                        task.sampling, begin("Backlash", samples));
+                        task.sampling, {}, begin("Backlash", samples));
   }
-  report.worst = worst_corner(task.drive, task.worst_search,
+  report.worst = worst_corner(task.drive, task.worst_search, {},
                               begin("Worst sample", 2 * task.worst_search.starts, "climbs"));
   progress.reset();
   Extras extras;

@@ -173,9 +173,10 @@ std::string analysis_text(const DescribingAnalysis& analysis, const DescribeRepo
 }
 
 std::string exact_text(const DescribeReport& report) {
-  std::string text = std::string("exact: ") + name_of(report.answer.verdict);
+  std::string text = std::string("exact: ") + (is_forced(report) ? "swings as it is driven"
+                                                                 : name_of(report.answer.verdict));
   for (const Cycle& cycle : report.answer.cycles) {
-    if (cycle.stability != Stability::stable || is_forced(report)) continue;
+    if (cycle.stability != Stability::stable) continue;
     text += fmt::format(", {}, {}", swing_text(cycle.amplitude, report.angle, digits),
                         frequency_text(cycle.period, report.time_unit, digits));
   }

@@ -28,8 +28,7 @@ PERMITTED_ROOMS = {
     "general": MODEL | {"hybrid"},
     "analysis": MODEL | {"hybrid", "closed_form", "general"},
     "input": set(NUMERICS),
-    # Some reports still draw their own pictures; these move to picture with the one report.
-    "output": set(NUMERICS) | {"input", "picture"},
+    "output": set(NUMERICS) | {"input"},
     "picture": set(NUMERICS) | {"input", "output"},
     "thesis": set(NUMERICS) | {"input", "output", "picture"},
 }

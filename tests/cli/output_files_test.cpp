@@ -147,7 +147,7 @@ TEST(OutputFiles, LongWorkTellsATerminalHowFarItIsAndEndsWithControlC) {
                 " && break; sleep 0.05; done; printf '\\003'; } | script -qfec \"bash " +
                 (scratch / "work").string() + "\" " + terminal + " >&2");
   EXPECT_THAT(file_text(scratch / "terminal"),
-              testing::ContainsRegex("\rMap: +[0-9]+ %, [0-9]+ servos/s, [0-9]+ (s|min|h) left"));
+              testing::ContainsRegex("\rMap: +[0-9]+ %, [0-9]+ points/s, [0-9]+ (s|min|h) left"));
   EXPECT_EQ(run.status, 130) << run.err;
   EXPECT_EQ(scratch.file_count(), 2U);  // those of this test
 }

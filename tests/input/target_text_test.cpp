@@ -59,13 +59,15 @@ TEST(EdgeTargetText, FaultsAreToldAtOnceEachInALine) {
               ElementsAre("--target = size <= -1: must have a limit of 0 or more"));
   EXPECT_THAT(faults_of("period <= 0 s"),
               ElementsAre("--target = period <= 0 s: must have a positive limit"));
-  EXPECT_THAT(faults_of("size <= 0.1 and size >= 0.2"),
-              ElementsAre("--target = amplitude >= 0.2 and amplitude <= 0.1: must not contradict itself"));
-  EXPECT_THAT(faults_of("no-hunting and size >= 0.2"),
-              ElementsAre("--target = no-hunting and amplitude >= 0.2: must not contradict itself"));
+  EXPECT_THAT(
+      faults_of("size <= 0.1 and size >= 0.2"),
+      ElementsAre("--target = amplitude >= 0.2 and amplitude <= 0.1: must not contradict itself"));
+  EXPECT_THAT(
+      faults_of("no-hunting and size >= 0.2"),
+      ElementsAre("--target = no-hunting and amplitude >= 0.2: must not contradict itself"));
   EXPECT_THAT(faults_of("frequency >= 5 Hz", TimeScale::unknown),
-              ElementsAre("--target = frequency >= 5 Hz: must be told of a servo with a "
-                          "natural_frequency, or of a data sheet"));
+              ElementsAre("--target = frequency >= 5 Hz: needs a time scale: a servo with a "
+                          "natural_frequency, or a data sheet"));
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include "gearlash/parameter.hpp"
 
-
 namespace gearlash::detail {
 namespace {
 

@@ -140,21 +140,22 @@ std::size_t block_count(const SamplePlan& sampling, std::size_t points_at_a_time
 }
 
 bool for_all_blocks(const SamplePlan& sampling, std::size_t points_at_a_time,
-                    const GridEvaluation& how,
+                    const Workers& workers, Progress& progress,
                     const std::function<void(const SampleBlock&)>& work) {
   const std::size_t blocks = block_count(sampling, points_at_a_time);
   const std::size_t of_replicate = blocks / sampling.replicates;
   std::mutex telling;
   std::size_t done = 0;
   std::atomic<bool> stopped = false;
-  on_threads(how.threads, blocks, [&](std::size_t index) {
+  on_threads(workers.threads, blocks, [&](std::size_t index) {
     if (stopped) return;
     const std::size_t first = index % of_replicate * points_at_a_time;
     const std::size_t count = std::min(points_at_a_time, sampling.points - first);
     work({index, index / of_replicate, first, count});
     const std::scoped_lock lock(telling);
     done += count;
-    if (how.going_on && !stopped && !how.going_on(done)) stopped = true;
+    const double share = static_cast<double>(done) / static_cast<double>(sampling.samples());
+    if (!stopped && !progress.go_on(share)) stopped = true;
   });
   return !stopped || done == sampling.samples();
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/design/sampling.hpp"
-#include "analysis/grid/servo_grid.hpp"
+#include "analysis/grid/grid_evaluation.hpp"
 
 namespace gearlash::detail {
 
@@ -43,10 +43,11 @@ struct SampleBlock {
   std::size_t count = 0;
 };
 
-/// All blocks of a sampling on all cores; false where how.going_on() has stopped it. What a block's
+/// All blocks of a sampling on all cores; false where progress has stopped it. What a block's
 /// work is does not depend on the number of threads.
 bool for_all_blocks(const SamplePlan& sampling, std::size_t points_at_a_time,
-                    const GridEvaluation& how, const std::function<void(const SampleBlock&)>& work);
+                    const Workers& workers, Progress& progress,
+                    const std::function<void(const SampleBlock&)>& work);
 std::size_t block_count(const SamplePlan& sampling, std::size_t points_at_a_time);
 
 }  // namespace gearlash::detail

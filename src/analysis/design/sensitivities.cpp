@@ -182,7 +182,7 @@ SensitivityStudy study_of(const TolerancedDrive& drive, const SamplePlan& sampli
 }  // namespace
 
 SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SamplePlan& sampling,
-                                     const GridEvaluation& how) {
+                                     const Workers& workers, Progress& progress) {
   RangeCheck check;
   require_none(check.include(validate(drive)).include(validate(sampling)).faults());
   const std::size_t numbers = drive.varied.size();
@@ -194,15 +194,15 @@ SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SampleP
   const detail::DrawnValues values(drive, sampling, 2);
   // A quarter of the usual number: each point is numbers + 2 drives, each block a set of sums.
   const std::size_t at_a_time = detail::drives_at_a_time(drive) / 4;
-  const double usual_amplitude = amplitude_of_mean_drive(drive, how.unit);
+  const double usual_amplitude = amplitude_of_mean_drive(drive, workers.unit);
   std::vector<BlockSums> blocks(detail::block_count(sampling, at_a_time),
                                 {Sums(numbers), Sums(numbers)});
   const auto work = [&](const detail::SampleBlock& block) {
     const detail::DrawnCycles cycles = detail::solve(
-        drive, block.count * (numbers + 2), mixed_values(values.of(block), numbers), how.unit);
+        drive, block.count * (numbers + 2), mixed_values(values.of(block), numbers), workers.unit);
     blocks[block.index] = sums_of(cycles, numbers, usual_amplitude);
   };
-  const bool all_done = detail::for_all_blocks(sampling, at_a_time, how, work);
+  const bool all_done = detail::for_all_blocks(sampling, at_a_time, workers, progress, work);
   SensitivityStudy study = study_of(drive, sampling, blocks, usual_amplitude);
   study.stopped = !all_done;
   return study;

@@ -169,7 +169,8 @@ std::vector<Fault> validate(const StudyQuestions& questions) {
 }
 
 ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& sampling,
-                                const StudyQuestions& questions, const GridEvaluation& how) {
+                                const StudyQuestions& questions, const Workers& workers,
+                                Progress& progress) {
   require_sound(drive, sampling, questions);
   const detail::DrawnValues values(drive, sampling, 1);
   const std::size_t at_a_time = detail::drives_at_a_time(drive);
@@ -177,19 +178,19 @@ ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& 
   std::vector<Counts> blocks(detail::block_count(sampling, at_a_time));
   const auto work = [&](const detail::SampleBlock& block) {
     const detail::DrawnCycles cycles =
-        detail::solve(drive, block.count, values.of(block), how.unit);
+        detail::solve(drive, block.count, values.of(block), workers.unit);
     blocks[block.index] = count_block(cycles, questions.target,
                                       block.replicate * sampling.points + block.first, columns);
   };
-  const bool all_done = detail::for_all_blocks(sampling, at_a_time, how, work);
+  const bool all_done = detail::for_all_blocks(sampling, at_a_time, workers, progress, work);
   ToleranceStudy study = counted(sampling, blocks);
   study.stopped = !all_done;
   if (study.stopped) return study;
-  const detail::SortedReplicates sizes = sorted(columns.amplitude, sampling, how.threads);
+  const detail::SortedReplicates sizes = sorted(columns.amplitude, sampling, workers.threads);
   study.amplitude = quantiles_of(sizes, questions.shares);
   study.amplitude_of_hunting = quantiles_of(sizes.above(0.0), questions.shares);
   study.histogram = histogram_of(sizes, questions.bins);
-  const detail::SortedReplicates frequencies = sorted(columns.frequency, sampling, how.threads);
+  const detail::SortedReplicates frequencies = sorted(columns.frequency, sampling, workers.threads);
   study.frequency = quantiles_of(frequencies.above(no_cycle), questions.shares);
   return study;
 }

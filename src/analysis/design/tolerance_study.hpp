@@ -9,7 +9,7 @@
 #include "analysis/design/sampling.hpp"
 #include "analysis/design/target.hpp"
 #include "analysis/design/toleranced_drive.hpp"
-#include "analysis/grid/servo_grid.hpp"
+#include "analysis/grid/grid_evaluation.hpp"
 
 namespace gearlash {
 
@@ -54,7 +54,7 @@ struct ToleranceStudy {
   std::size_t unknown_amplitudes = 0;
   std::size_t refused = 0;  ///< draws that were no drive; none after validate(TolerancedDrive)
   BatchCount solved;
-  bool stopped = false;  ///< by how.going_on(): then nothing but the counts holds
+  bool stopped = false;  ///< by progress: then nothing but the counts holds
 };
 
 /// By quasi-Monte-Carlo over all varied numbers. The same bits for any number of threads; 16 bytes
@@ -62,8 +62,8 @@ struct ToleranceStudy {
 /// above 0) are followed one by one, some milliseconds each: ask for few samples of these. Throws
 /// InvalidInput with every fault of the drive, the sampling and the questions.
 ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& sampling = {},
-                                const StudyQuestions& questions = {},
-                                const GridEvaluation& how = {});
+                                const StudyQuestions& questions = {}, const Workers& workers = {},
+                                Progress& progress = no_progress());
 
 /// Sobol's indices of one varied number: what share of a variance goes if this number is made exact
 /// (first order), and what share stays if all others are (total).
@@ -95,6 +95,7 @@ struct SensitivityStudy {
 ///   total        T_i = Σ (f(A) − f(AB_i))²/(2 N V) (Jansen, Comput. Phys. Commun. 117, 1999),
 /// V being the variance of f(A) and f(B) together. Throws InvalidInput, as above.
 SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SamplePlan& sampling = {},
-                                     const GridEvaluation& how = {});
+                                     const Workers& workers = {},
+                                     Progress& progress = no_progress());
 
 }  // namespace gearlash

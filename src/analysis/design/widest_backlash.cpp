@@ -120,8 +120,8 @@ std::vector<Fault> validate(const BacklashDemand& demand) {
 
 std::optional<WidestBacklash> widest_backlash(const TolerancedDrive& drive,
                                               const BacklashDemand& demand,
-                                              const SamplePlan& sampling,
-                                              const GridEvaluation& how) {
+                                              const SamplePlan& sampling, const Workers& workers,
+                                              Progress& progress) {
   RangeCheck check;
   check.include(validate(drive)).include(validate(sampling)).include(validate(demand));
   require_none(check.faults());
@@ -131,7 +131,7 @@ std::optional<WidestBacklash> widest_backlash(const TolerancedDrive& drive,
   std::vector<double> column(sampling.samples());
   const auto work = [&](const detail::SampleBlock& block) {
     const detail::DrawnCycles cycles =
-        detail::solve(unit_drive, block.count, values.of(block), how.unit);
+        detail::solve(unit_drive, block.count, values.of(block), workers.unit);
     const std::size_t place = block.replicate * sampling.points + block.first;
     for (std::size_t row = 0; row < cycles.rows(); ++row) {
       column[place + row] = largest_max(demand.target, cycles, row, min);
@@ -139,9 +139,10 @@ std::optional<WidestBacklash> widest_backlash(const TolerancedDrive& drive,
   };
   WidestBacklash widest;
   widest.min = min;
-  widest.stopped = !detail::for_all_blocks(sampling, detail::drives_at_a_time(drive), how, work);
+  widest.stopped =
+      !detail::for_all_blocks(sampling, detail::drives_at_a_time(drive), workers, progress, work);
   if (widest.stopped) return widest;
-  const LargestMaxima maxima(std::move(column), sampling, how.threads);
+  const LargestMaxima maxima(std::move(column), sampling, workers.threads);
   const auto max = maxima.with_yield(demand.yield);
   if (!max) return std::nullopt;
   widest.max = *max;

@@ -6,7 +6,7 @@
 #include "analysis/design/sampling.hpp"
 #include "analysis/design/target.hpp"
 #include "analysis/design/toleranced_drive.hpp"
-#include "analysis/grid/servo_grid.hpp"
+#include "analysis/grid/grid_evaluation.hpp"
 
 namespace gearlash {
 
@@ -28,7 +28,7 @@ struct WidestBacklash {
   /// The limits with which the estimated yield would be the demanded one plus its standard error,
   /// and less it.
   Bounds uncertainty;
-  bool stopped = false;  ///< by how.going_on(): nothing holds
+  bool stopped = false;  ///< by progress: nothing holds
 };
 
 /// The largest max with which at least the demanded share of the sample's pieces meet the target,
@@ -40,6 +40,7 @@ struct WidestBacklash {
 std::optional<WidestBacklash> widest_backlash(const TolerancedDrive& drive,
                                               const BacklashDemand& demand,
                                               const SamplePlan& sampling = {},
-                                              const GridEvaluation& how = {});
+                                              const Workers& workers = {},
+                                              Progress& progress = no_progress());
 
 }  // namespace gearlash

@@ -67,8 +67,9 @@ struct Candidate {
 
 class Climb {
  public:
-  Climb(const TolerancedDrive& drive, const WorstSearch& search, const GridEvaluation& how)
-      : drive_(drive), search_(search), how_(how) {
+  Climb(const TolerancedDrive& drive, const WorstSearch& search, const Workers& workers,
+        Progress& progress)
+      : drive_(drive), search_(search), workers_(workers), progress_(progress) {
     for (const ParameterTolerance& varied : drive.varied) {
       coordinates_.push_back(coordinate_of(varied.distribution));
     }
@@ -79,7 +80,7 @@ class Climb {
     for (Candidate& sample : worst_of(samples())) starts.push_back(std::move(sample));
     Candidate worst = starts.front();
     for (std::size_t i = 0; i < starts.size(); ++i) {
-      if (how_.going_on) how_.going_on(i);
+      progress_.go_on(static_cast<double>(i) / static_cast<double>(starts.size()));
       Candidate top = climbed(starts[i]);
       if (worst.badness < top.badness) worst = std::move(top);
     }
@@ -137,7 +138,7 @@ class Climb {
       for (std::size_t i = first; i < first + count; ++i) {
         values.insert(values.end(), all[i].begin(), all[i].end());
       }
-      const detail::DrawnCycles cycles = detail::solve(drive_, count, values, how_.unit);
+      const detail::DrawnCycles cycles = detail::solve(drive_, count, values, workers_.unit);
       for (std::size_t row = 0; row < count; ++row) {
         badness[first + row] = badness_of(cycles, row);
         if (badness[first + row].amplitude == -2.0) ++unknown;
@@ -147,7 +148,7 @@ class Climb {
     if (blocks == 1) {
       work(0);
     } else {
-      on_threads(how_.threads, blocks, work);
+      on_threads(workers_.threads, blocks, work);
     }
     evaluations_ += all.size();
     unknown_ += unknown;
@@ -295,7 +296,8 @@ class Climb {
 
   const TolerancedDrive& drive_;
   const WorstSearch& search_;
-  const GridEvaluation& how_;
+  const Workers& workers_;
+  Progress& progress_;
   std::vector<Coordinate> coordinates_;
   std::size_t evaluations_ = 0;
   std::size_t unknown_ = 0;
@@ -324,12 +326,12 @@ const char* name_of(PlaceInRange place) {
 }
 
 WorstCorner worst_corner(const TolerancedDrive& drive, const WorstSearch& search,
-                         const GridEvaluation& how) {
+                         const Workers& workers, Progress& progress) {
   RangeCheck check;
   check.include(validate(drive));
   if (search.starts < 1) check.refuse("starts", "0", "must be at least 1");
   require_none(check.faults());
-  Climb climb(drive, search, how);
+  Climb climb(drive, search, workers, progress);
   const Candidate top = climb.worst();
   WorstCorner worst;
   for (std::size_t i = 0; i < top.values.size(); ++i) {
@@ -338,7 +340,7 @@ WorstCorner worst_corner(const TolerancedDrive& drive, const WorstSearch& search
     worst.numbers.push_back({drive.varied[i].path, top.values[i], place_of(top.values[i], range),
                              range, std::isinf(support.low), std::isinf(support.high)});
   }
-  worst.performance = detail::solve(drive, 1, top.values, how.unit).performance(0);
+  worst.performance = detail::solve(drive, 1, top.values, workers.unit).performance(0);
   worst.evaluations = climb.evaluations();
   worst.unknown = climb.unknown();
   return worst;

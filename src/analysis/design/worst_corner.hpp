@@ -7,7 +7,7 @@
 
 #include "analysis/design/target.hpp"
 #include "analysis/design/toleranced_drive.hpp"
-#include "analysis/grid/servo_grid.hpp"
+#include "analysis/grid/grid_evaluation.hpp"
 
 namespace gearlash {
 
@@ -50,9 +50,9 @@ struct WorstCorner {
 /// the way last gone, each line looked at along its whole length within the box and refined about
 /// its best point, until the value rises by less than 1e-12 of itself. Of lots only their values
 /// are tried. No proof that there is none worse: a narrow peak inside can be missed. The same bits
-/// for any number of threads. how.going_on is told how many of the climbs, 2·starts at most, are
+/// for any number of threads. `progress` hears the share of the climbs, 2·starts at most, that is
 /// done, and is not asked. Throws InvalidInput.
 WorstCorner worst_corner(const TolerancedDrive& drive, const WorstSearch& search = {},
-                         const GridEvaluation& how = {});
+                         const Workers& workers = {}, Progress& progress = no_progress());
 
 }  // namespace gearlash

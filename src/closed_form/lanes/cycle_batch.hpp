@@ -64,8 +64,8 @@ struct BatchCount {
   std::size_t one_by_one = 0;    ///< by analyse_limit_cycles()
 };
 
-/// The verdict on each servo and the cycle seen in practice (largest_stable()), else the amplitude of
-/// its irregular motion.
+/// The verdict on each servo and the cycle seen in practice (largest_stable()), else the amplitude
+/// of its irregular motion.
 ///
 /// Side by side are solved servos with two masses and plastic contact, with damping in [1e-4,
 /// 0.99], inertia ratio in [1e-4, 1e4] and friction ratio in [1e-4, 1 − 1e-4]; each lane by itself,

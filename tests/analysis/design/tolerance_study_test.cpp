@@ -346,9 +346,13 @@ TEST(EdgeToleranceStudy, BouncesAreFollowed) {
 
 TEST(EdgeToleranceStudy, CanBeStopped) {
   const SamplePlan sampling{.points = 4096, .replicates = 4};
-  const GridEvaluation how{.threads = 1, .going_on = [](std::size_t) { return false; }};
-  EXPECT_TRUE(study_tolerances(widely_toleranced(), sampling, {}, how).stopped);
-  EXPECT_TRUE(study_sensitivities(widely_toleranced(), sampling, how).stopped);
+  class Stop : public Progress {
+   public:
+    bool go_on(double /*share*/, std::size_t /*bytes*/) override { return false; }
+  };
+  Stop stop;
+  EXPECT_TRUE(study_tolerances(widely_toleranced(), sampling, {}, {.threads = 1}, stop).stopped);
+  EXPECT_TRUE(study_sensitivities(widely_toleranced(), sampling, {.threads = 1}, stop).stopped);
 }
 
 template <class Call>

@@ -126,11 +126,12 @@ TEST(EdgeWidestBacklash, EveryFaultIsNamed) {
   demand.target.amplitude.low = 0.5;
   std::vector<std::string> lines;
   for (const Fault& fault : validate(demand)) lines.push_back(to_string(fault));
-  EXPECT_THAT(lines, testing::ElementsAre(
-                         "target = size >= 0.5: must have no lower limit of size: more backlash "
-                         "then would be better",
-                         "yield = 0: must be above 0, to 1",
-                         "min = -1 rad: must be zero or positive, and finite"));
+  EXPECT_THAT(lines,
+              testing::ElementsAre(
+                  "target = amplitude >= 0.5: must have no lower limit of amplitude: more backlash "
+                  "then would be better",
+                  "yield = 0: must be above 0, to 1",
+                  "min = -1 rad: must be zero or positive, and finite"));
   EXPECT_THROW(widest_backlash(toleranced({}), demand, sampling), InvalidInput);
 }
 

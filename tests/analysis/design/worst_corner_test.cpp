@@ -171,15 +171,19 @@ TEST(EdgeWorstCorner, AnyNumberOfThreadsGivesTheSameBits) {
   EXPECT_EQ(one.evaluations, three.evaluations);
 }
 
-TEST(WorstCorner, TellsHowManyClimbsAreDone) {
-  std::vector<std::size_t> heard;
-  const auto hear = [&](std::size_t done) {
-    heard.push_back(done);
-    return true;
+TEST(WorstCorner, TellsWhatShareOfTheClimbsIsDone) {
+  class Heard : public Progress {
+   public:
+    bool go_on(double share, std::size_t /*bytes*/) override {
+      shares.push_back(share);
+      return true;
+    }
+    std::vector<double> shares;
   };
+  Heard heard;
   worst_corner(toleranced({{"gearbox.backlash", within_share(0.3, 0.5)}}),
-               {.samples = 16, .starts = 2}, {.going_on = hear});
-  EXPECT_THAT(heard, testing::ElementsAre(0, 1, 2, 3));
+               {.samples = 16, .starts = 2}, {}, heard);
+  EXPECT_THAT(heard.shares, testing::ElementsAre(0.0, 0.25, 0.5, 0.75));
 }
 
 TEST(EdgeWorstCorner, EveryFaultIsNamed) {

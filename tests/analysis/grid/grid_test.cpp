@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "analysis/grid/servo_grid.hpp"
+#include "analysis/grid/grid_evaluation.hpp"
 #include "analysis/grid/servo_grids.hpp"
 #include "base/same_bits.hpp"
 #include "gearlash/analyse.hpp"
