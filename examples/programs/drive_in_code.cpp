@@ -6,15 +6,14 @@
 
 int main() {
   using namespace gearlash;
-  const Drive drive{
-      .motor = {.inertia = 2e-4, .friction = {.viscous = 1e-4}, .limit = 0.2},
-      .gearbox = {.ratio = 50.0, .backlash = 0.2 * std::numbers::pi / 180.0},
-      .load = {.inertia = 0.02, .friction = {.viscous = 0.01}},
-      .sensor = {.position = SensorPlace::motor, .encoder = {.counts_per_turn = 2048}},
-      .controller =
-          {.law = PID{.proportional = 0.5, .integral = 1.0, .derivative = 20e-3, .filter = 5e-3}},
-      .sampling = Sampling{.period = 1e-3, .delay = 0.5e-3},
-      .reference = StepSignal{.after = 0.1}};
+  const Drive drive{.motor = {.inertia = 2e-4, .friction = {.viscous = 1e-4}},
+                    .gearbox = {.ratio = 50.0, .backlash = 0.2 * std::numbers::pi / 180.0},
+                    .load = {.inertia = 0.02, .friction = {.viscous = 0.01}},
+                    .controller = {.law = PID{.terms = PIDTerms::PD,
+                                              .proportional = 0.5,
+                                              .derivative = 20e-3,
+                                              .filter = 5e-3}},
+                    .reference = StepSignal{.after = 0.1}};
   const Motion motion = simulate(drive, {.until = 3.0});
   const Samples samples = motion.sampled(1e-3);
   std::printf("%zu samples, %zu events; at last motor %.4f, load %.4f rad\n", samples.time.size(),

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "analysis/design/changeable_drive.hpp"
 #include "base/interval.hpp"
 #include "base/range_check.hpp"
 #include "model/proportional_servo.hpp"
@@ -77,11 +78,11 @@ ProvedBounds bounds_of(const CycleBounds& bounds, const Scales& scales) {
 }
 
 /// The data that the servo's numbers stand for decide what is proved of it.
-LimitCycleAnalysis closed_analysis(const ClosedFormServo& servo, const Drivetrain& drivetrain,
+LimitCycleAnalysis closed_analysis(const ClosedFormServo& servo, const DriveBox& box,
                                    const Wanted& wanted) {
   if (!wanted.proofs) return analyse_limit_cycles(servo.servo);
   if (servo.is_as_given) return enclose_limit_cycles(servo.servo, Reading::decimal);
-  return enclose_limit_cycles(servo.servo, box_between(drivetrain, drivetrain).servo);
+  return enclose_limit_cycles(servo.servo, box.servo);
 }
 
 // ---- search -------------------------------------------------------------------------------------
@@ -318,11 +319,12 @@ Analysis analyse_in_full(const Drive& drive, const Wanted& wanted, Progress& pro
   analysis.reduced = settled(reduce(drive));
   if (const std::optional<FinalServo> found = final_servo(drive)) {
     const Drivetrain& drivetrain = found->drivetrain;
+    const DriveBox box = box_between(drivetrain, drivetrain, data_error_of(drive, drivetrain));
     analysis.servo = found->closed_form;
-    analysis.closed = closed_analysis(*analysis.servo, drivetrain, wanted);
+    analysis.closed = closed_analysis(*analysis.servo, box, wanted);
     analysis.answer = answer_of(*analysis.closed, *analysis.servo, found->stiffness);
     if (analysis.closed->bounds) {
-      const Scales scales = scales_of(*analysis.servo, box_between(drivetrain, drivetrain));
+      const Scales scales = scales_of(*analysis.servo, box);
       analysis.answer.bounds = bounds_of(*analysis.closed->bounds, scales);
     }
     return analysis;

@@ -545,8 +545,8 @@ TEST(ServoFileCorpus, EveryInputIsReadOrRefusedInWholeLines) {
   for (const auto& entry :
        std::filesystem::directory_iterator(source_directory / "tests/input/fuzz/corpus")) {
     try {
-      const ServoOfFile file = parse_servo(contents(entry.path()), "s.toml");
-      EXPECT_TRUE(validate(file.servo).empty()) << entry.path();
+      const WrittenDrive written = parse_drive(contents(entry.path()), "s.toml", ".", {});
+      EXPECT_TRUE(faults(written.drive).empty()) << entry.path();
       ++read;
     } catch (const InvalidInput& problem) {
       ASSERT_FALSE(problem.faults().empty()) << entry.path();

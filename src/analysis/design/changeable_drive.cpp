@@ -58,7 +58,32 @@ bool is_alias(const Parameter& parameter, std::string_view name) {
 /// rounding could not be bounded closely.
 constexpr double least_left = 0x1p-20;
 
+/// The sum of the sizes of what the motor's friction is made of: feedback may be negative, and the
+/// friction a difference.
+double friction_terms(const Drive& drive, double friction) {
+  if (drive.servo) return friction;
+  const double ratio = drive.gearbox.ratio;
+  const double viscous =
+      drive.motor.friction.viscous * (ratio * ratio) + refer_output(drive).friction;
+  return std::max(friction, 2.0 * viscous - friction);
+}
+
 }  // namespace
+
+DataError data_error_of(const Drive& drive, const Drivetrain& drivetrain) {
+  DataError error;
+  if (drive.servo && drive.servo->friction_ratio < 1.0) {
+    // 1 − φ, of a decimal φ.
+    error.motor_friction +=
+        std::numeric_limits<double>::epsilon() / (1.0 - drive.servo->friction_ratio);
+  }
+  const double friction = drivetrain.motor_friction;
+  const double terms = friction_terms(drive, friction);
+  if (terms > friction) {
+    error.motor_friction = std::max(error.motor_friction, error.each * (terms / friction));
+  }
+  return error;
+}
 
 ChangeableDrive::ChangeableDrive(const Drive& drive) : drive_(drive) {
   require_none(faults(drive));
@@ -74,11 +99,7 @@ ChangeableDrive::ChangeableDrive(const Drive& drive) : drive_(drive) {
   for (const Parameter& parameter : all_parameters_of_drives()) {
     if (find(parameter.path) == nullptr) add_parameter(parameter.path);
   }
-  if (drive.servo && drive.servo->friction_ratio < 1.0) {
-    // 1 − φ, of a decimal φ.
-    data_error_.motor_friction +=
-        std::numeric_limits<double>::epsilon() / (1.0 - drive.servo->friction_ratio);
-  }
+  data_error_ = data_error_of(drive, drivetrain_);
 }
 
 void ChangeableDrive::add_parameter(std::string_view path) {
@@ -173,11 +194,9 @@ ChangeableDrive::Changed ChangeableDrive::changed(std::initializer_list<Change> 
   }
   Changed result{referred_drivetrain(drive)};
   double& friction = result.drivetrain.motor_friction;
+  result.friction_terms = friction_terms(drive, friction);
   const ReferredOutput output = refer_output(drive);
   const double ratio = drive.gearbox.ratio;
-  // Where feedback is negative, the friction is a difference.
-  const double viscous = drive.motor.friction.viscous * (ratio * ratio) + output.friction;
-  result.friction_terms = drive.servo ? friction : std::max(friction, 2.0 * viscous - friction);
   for (const auto& [number, value] : changes) {
     if (number.kind != Kind::feedback) continue;
     const double added = output.torque * ratio * (number.scale * value);

@@ -94,4 +94,8 @@ class ChangeableDrive {
   DataError data_error_;
 };
 
+/// How far the drivetrain may be from what the drive's data say. Precondition: the drive has a
+/// closed form, and this drivetrain.
+DataError data_error_of(const Drive& drive, const Drivetrain& drivetrain);
+
 }  // namespace gearlash

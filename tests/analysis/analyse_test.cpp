@@ -1,0 +1,41 @@
+// The one answer: what is proved of a drive covers its data as written.
+#include "gearlash/analyse.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gearlash {
+namespace {
+
+/// Speed fed back from the motor takes away all but `left` of its friction, 1 N m s/rad at the
+/// load.
+Drive almost_undamped_motor(double left) {
+  Drive drive;
+  drive.motor.inertia = 1e-3;
+  drive.motor.friction.viscous = 1e-2;
+  drive.gearbox = {.ratio = 10.0, .backlash = 0.01};
+  drive.load = {.inertia = 0.2, .friction = {.viscous = 0.5}};
+  drive.sensor.position = SensorPlace::both;
+  drive.controller.law =
+      PID{.terms = PIDTerms::PD, .proportional = 2.0, .derivative = -0.1 * (1.0 - left)};
+  return drive;
+}
+
+TEST(EdgeAnalyse, BoundsCoverTheDataWhereTheFrictionIsADifference) {
+  const Drive drive = almost_undamped_motor(1e-7);
+  const Answer answer = analyse(drive);
+  ASSERT_EQ(answer.engine, Engine::closed_form);
+  ASSERT_TRUE(answer.bounds);
+  for (const double change : {1.0 - 0x1p-51, 1.0 + 0x1p-51}) {
+    Drive other = drive;
+    other.motor.friction.viscous *= change;
+    const double growth = analyse(other).growth_at_rest.value();
+    EXPECT_NE(growth, answer.growth_at_rest.value());
+    EXPECT_LE(answer.bounds->growth_at_rest.lowest, growth);
+    EXPECT_GE(answer.bounds->growth_at_rest.highest, growth);
+  }
+}
+
+}  // namespace
+}  // namespace gearlash
