@@ -21,10 +21,10 @@
 #include <system_error>
 #include <vector>
 
+#include "analysis/grid/grid_pieces.hpp"
 #include "analysis/grid/hunting_boundary.hpp"
 #include "gearlash/version.hpp"
 #include "output/grid_netcdf.hpp"
-#include "output/grid_pieces.hpp"
 
 namespace gearlash::benchmarks {
 namespace {
@@ -108,7 +108,7 @@ Spent spent_on(const Work& work, int whose = RUSAGE_SELF) {
 struct MapTimes {
   Spent servos;    ///< all pieces, which nobody writes
   Spent boundary;  ///< hunting_boundary() of them
-  Spent file;      ///< make_grid_netcdf(): both and writing
+  Spent file;      ///< both and writing
   Spent commit;    ///< to the disk, and renaming
   Spent command;   ///< the tool itself, from its start to its end
   std::uintmax_t bytes = 0;
@@ -129,8 +129,9 @@ void keep_faster(Spent& fastest, const Spent& other) {
   if (other.clock < fastest.clock) fastest = other;
 }
 
+constexpr std::size_t points_at_a_time = std::size_t{1} << 15U;  // as `gearlash map` does
+
 void compute_only(const Grid& grid, MapTimes& fastest) {
-  constexpr std::size_t points_at_a_time = std::size_t{1} << 15U;  // as make_grid_netcdf() does
   give_memory_back();
   std::vector<double> growth;
   growth.reserve(grid.size());
@@ -150,7 +151,20 @@ void make_file(const Grid& grid, MapTimes& fastest) {
   const TemporaryFolder folder;
   OutputFile output(folder.path() / file_name);
   const Spent file = spent_on([&] {
-    make_grid_netcdf(grid, GridBoundary::hunting, {command_text, version}, output);
+    const std::vector<Quantity> quantities(closed_form_quantities.begin(),
+                                           closed_form_quantities.end());
+    GridNetcdf netcdf = GridNetcdf::create(
+        output.hidden_file(), output.shown_name(),
+        {.grid = grid, .quantities = quantities, .provenance = {command_text, version}});
+    std::vector<double> growth;
+    growth.reserve(grid.size());
+    evaluate_in_pieces(grid, quantities, 0, points_at_a_time, [&](const GridPiece& piece) {
+      netcdf.write(piece);
+      const auto& column = piece.table[Quantity::growth_at_rest];
+      growth.insert(growth.end(), column.begin(), column.end());
+    });
+    netcdf.write_boundary(hunting_boundary(grid, growth));
+    netcdf.close();
   });
   const Spent commit = spent_on([&] { output.commit(); });
   if ((file + commit).clock < fastest.whole().clock) {
@@ -189,7 +203,7 @@ void print(const MapTimes& map) {
   line("the servos, evaluate_in_pieces()", map.servos);
   line("the boundary, hunting_boundary()", map.boundary);
   line("**computing**, both", map.computing());
-  line("the same while it is written, make_grid_netcdf()", map.file);
+  line("the same while it is written", map.file);
   line("to the disk and renaming, OutputFile::commit()", map.commit);
   line("**the whole map**, both", map.whole());
   line("**writing**: what it takes longer than computing", map.whole() - map.computing());

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "analysis/grid/grid_evaluation.hpp"
+#include "analysis/grid/grid_pieces.hpp"
 #include "analysis/grid/hunting_boundary.hpp"
 #include "base/range_check.hpp"
 #include "input/axis_text.hpp"
@@ -257,6 +258,37 @@ std::string solved_text(const GridCount& count) {
   return text;
 }
 
+namespace {
+
+/// In place of output.write(): while one piece is written, the next is worked out.
+GridCount write_netcdf(const GridTask& task, const Provenance& provenance, const OutputFile& output,
+                       Progress& progress) {
+  constexpr std::size_t points_at_a_time = std::size_t{1} << 15U;  // 3 MB, which caches hold
+  const std::span<const Quantity> known = quantities_known(GridPoints(task.grid).engines());
+  const std::vector<Quantity> quantities(known.begin(), known.end());
+  GridNetcdf file =
+      GridNetcdf::create(output.hidden_file(), output.shown_name(),
+                         {.grid = task.grid, .quantities = quantities, .provenance = provenance});
+  std::vector<double> growth_at_rest;
+  if (task.has_boundary) growth_at_rest.reserve(task.grid.size());
+  const GridCount count = evaluate_in_pieces(
+      task.grid, quantities, 0, points_at_a_time,
+      [&](const GridPiece& piece) {
+        file.write(piece);
+        if (!task.has_boundary) return;
+        const std::span<const double> growth = piece.table[Quantity::growth_at_rest];
+        growth_at_rest.insert(growth_at_rest.end(), growth.begin(), growth.end());
+      },
+      progress, steady_seconds);
+  if (task.has_boundary && !count.stopped) {
+    file.write_boundary(hunting_boundary(task.grid, growth_at_rest));
+  }
+  file.close();
+  return count;
+}
+
+}  // namespace
+
 ExitStatus make_grid_files(const GridTask& task, const Provenance& provenance,
                            const GridPicture& draw) {
   const std::unique_ptr<OutputFile> output = opened(task.table);
@@ -272,12 +304,12 @@ ExitStatus make_grid_files(const GridTask& task, const Provenance& provenance,
     made += (made.empty() ? "" : ", ") + file.shown_name();
   };
   if (task.plots.empty() && ending_of(task.table) == ".nc") {
-    count = make_grid_netcdf(task.grid, task.boundary, provenance, *output, *progress);
+    count = write_netcdf(task, provenance, *output, *progress);
   } else {
     table.table = Table(task.grid.size(), quantities_of(task));
     count = evaluate(task.grid, GridPoints(task.grid), 0, task.grid.size(), columns_of(table.table),
                      *progress);
-    if (task.boundary == GridBoundary::hunting) {
+    if (task.has_boundary) {
       table.hunting_boundary = hunting_boundary(task.grid, table.table[Quantity::growth_at_rest]);
       table.dissipative_boundary = dissipative_boundary(task.grid);
     }

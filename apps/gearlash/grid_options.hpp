@@ -42,7 +42,7 @@ struct GridTask {
   std::string verb;  ///< "chart", "map"
   Grid grid;
   Quantity quantity = Quantity::amplitude;
-  GridBoundary boundary = GridBoundary::none;
+  bool has_boundary = false;  ///< with where hunting ends
   std::string table;  ///< file in .csv, .json or .nc; empty: none
   std::vector<Plot> plots;
 };

@@ -8,11 +8,12 @@
 #include <system_error>
 #include <vector>
 
+#include "analysis/grid/grid_pieces.hpp"
 #include "base/checksum.hpp"
 #include "output/grid_netcdf.hpp"
-#include "output/grid_pieces.hpp"
 #include "output/output_file.hpp"
 #include "sweep_part.hpp"
+#include "terminal.hpp"
 
 namespace gearlash {
 namespace {
@@ -87,7 +88,7 @@ class Sweeping {
           file_.flush();  // first, so that a record never speaks of what is not on the disk
           record(run);
         },
-        progress);
+        progress, cli::steady_seconds);
     if (!count.stopped) file_.close();
     return recorded_;
   }

@@ -48,6 +48,10 @@ std::string progress_text(double share, double seconds, double things, const std
   return text + fmt::format(", {:.0f} h left", std::ceil(left / 3600.0));
 }
 
+double steady_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
 TerminalProgress::TerminalProgress(std::string what) : TerminalProgress(std::move(what), 0, "") {}
 
 TerminalProgress::TerminalProgress(std::string what, std::size_t count, std::string name)

@@ -17,6 +17,9 @@ std::string emphasized(const std::string& text);
 std::string progress_text(double share, double seconds, double things, const std::string& name,
                           double begun = 0.0);
 
+/// s, of a clock that never goes back.
+double steady_seconds();
+
 /// A line on standard error that tells how far long work has come. Shown only on a terminal, and
 /// only when the work takes longer than a second; wiped at the end.
 class TerminalProgress : public Progress {

@@ -20,9 +20,6 @@ namespace {
 
 constexpr char verdict_name[] = "verdict";
 
-/// Two pieces of 3 MB, which caches hold.
-constexpr std::size_t points_at_a_time = std::size_t{1} << 15U;
-
 /// "cannot_hunt", "hunts", …: by the number of each verdict.
 std::vector<std::string> verdict_words() {
   std::vector<std::string> words;
@@ -324,31 +321,6 @@ void GridNetcdf::close() { layout_->file().close(); }
 
 std::size_t netcdf_bytes(const GridContents& contents) {
   return contents.grid.size() * (1 + sizeof(double) * contents.quantities.size());
-}
-
-GridCount make_grid_netcdf(const Grid& grid, GridBoundary boundary, const Provenance& provenance,
-                           const OutputFile& output, Progress& progress) {
-  const std::span<const Quantity> known = quantities_known(GridPoints(grid).engines());
-  const std::vector<Quantity> quantities(known.begin(), known.end());
-  GridNetcdf file =
-      GridNetcdf::create(output.hidden_file(), output.shown_name(),
-                         {.grid = grid, .quantities = quantities, .provenance = provenance});
-  std::vector<double> growth_at_rest;
-  if (boundary == GridBoundary::hunting) growth_at_rest.reserve(grid.size());
-  const GridCount count = evaluate_in_pieces(
-      grid, quantities, 0, points_at_a_time,
-      [&](const GridPiece& piece) {
-        file.write(piece);
-        if (boundary == GridBoundary::none) return;
-        const std::span<const double> growth = piece.table[Quantity::growth_at_rest];
-        growth_at_rest.insert(growth_at_rest.end(), growth.begin(), growth.end());
-      },
-      progress);
-  if (boundary == GridBoundary::hunting && !count.stopped) {
-    file.write_boundary(hunting_boundary(grid, growth_at_rest));
-  }
-  file.close();
-  return count;
 }
 
 }  // namespace gearlash

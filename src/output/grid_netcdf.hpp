@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/grid/region_boundary.hpp"
-#include "output/grid_pieces.hpp"
+#include "analysis/grid/grid_pieces.hpp"
 #include "output/output_file.hpp"
 #include "output/report_units.hpp"
 
@@ -61,15 +61,5 @@ class GridNetcdf {
 
 /// Bytes that the values of such a file take.
 std::size_t netcdf_bytes(const GridContents& contents);
-
-/// What a file of a grid says besides: where hunting ends, which a map tells.
-enum class GridBoundary { none, hunting };
-
-/// Works out the grid with every quantity and writes it, in place of output.write(): while one
-/// piece is written, the next is worked out. `progress` as in evaluate_in_pieces(); where it stops,
-/// the file is not whole. Throws OutputError where it cannot be written, and for "-" and devices,
-/// into which NetCDF cannot write.
-GridCount make_grid_netcdf(const Grid& grid, GridBoundary boundary, const Provenance& provenance,
-                           const OutputFile& output, Progress& progress = no_progress());
 
 }  // namespace gearlash

@@ -1,8 +1,7 @@
-#include "output/grid_pieces.hpp"
+#include "analysis/grid/grid_pieces.hpp"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <future>
 #include <mutex>
 #include <thread>
@@ -12,28 +11,26 @@
 namespace gearlash {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// How many points are worked out and handed on at a time.
 class PieceLength {
  public:
-  PieceLength(const EnginesNeeded& engines, std::size_t longest)
+  PieceLength(const EnginesNeeded& engines, std::size_t longest, const Stopwatch& seconds)
       : longest_(longest),
         shortest_(std::min<std::size_t>(
             longest,
             (engines.search ? 1U : 8U) * std::max(1U, std::thread::hardware_concurrency()))),
         points_(longest),
-        may_change_(engines.bounces || engines.search) {
-    if (may_change_) points_ = shortest_;
+        may_change_(seconds && (engines.bounces || engines.search)) {
+    if (engines.bounces || engines.search) points_ = shortest_;
   }
 
   std::size_t points() const { return points_; }
 
-  void heed(Clock::duration of_a_piece) {
-    constexpr auto aim = std::chrono::seconds(1);
+  void heed(double seconds_of_a_piece) {
+    constexpr double aim = 1.0;
     if (!may_change_) return;
-    if (of_a_piece < aim / 2) points_ = std::min(2 * points_, longest_);
-    if (of_a_piece > 2 * aim) points_ = std::max(shortest_, points_ / 2);
+    if (seconds_of_a_piece < 0.5 * aim) points_ = std::min(2 * points_, longest_);
+    if (seconds_of_a_piece > 2.0 * aim) points_ = std::max(shortest_, points_ / 2);
   }
 
  private:
@@ -59,14 +56,14 @@ class OneAtATime : public Progress {
 
 struct WorkedOut {
   GridCount count;
-  Clock::duration duration;
+  double seconds;
 };
 
 }  // namespace
 
 GridCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantities,
                              std::size_t first, std::size_t longest, const GridSink& take,
-                             Progress& progress) {
+                             Progress& progress, const Stopwatch& seconds) {
   const GridPoints grid_points(grid);
   const std::size_t points = grid.size();
   const auto share_of = [&](std::size_t done) {
@@ -79,17 +76,18 @@ GridCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantit
     total.stopped = true;
     return total;
   }
-  PieceLength length(grid_points.engines(), longest);
+  PieceLength length(grid_points.engines(), longest, seconds);
+  const auto now = [&] { return seconds ? seconds() : 0.0; };
   // Into a table of as many rows as the piece has points.
   const auto work_out = [&](std::size_t begin, Table& table) {
     const std::size_t count = box_length(grid, begin, length.points());
     if (table.rows() != count) table = Table(count, quantities);
     // Where no thread can be had, the piece is worked out when it is asked for.
     return std::async(std::launch::async | std::launch::deferred, [&, begin, count] {
-      const Clock::time_point start = Clock::now();
+      const double start = now();
       ProgressPart part(heard, share_of(begin), share_of(begin + count));
       const GridCount solved = evaluate(grid, grid_points, begin, count, columns_of(table), part);
-      return WorkedOut{solved, Clock::now() - start};
+      return WorkedOut{solved, now() - start};
     });
   };
   std::array<Table, 2> tables;
@@ -99,7 +97,7 @@ GridCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantit
     const WorkedOut piece = working.get();
     total.stopped = piece.count.stopped;
     if (total.stopped) break;
-    length.heed(piece.duration);
+    length.heed(piece.seconds);
     const Table& table = tables[index];
     const std::size_t next = first + table.rows();
     if (next < points) working = work_out(next, tables[1 - index]);

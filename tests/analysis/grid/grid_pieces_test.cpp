@@ -1,5 +1,5 @@
 // A grid in pieces is the grid at once, and its work ends when it should.
-#include "output/grid_pieces.hpp"
+#include "analysis/grid/grid_pieces.hpp"
 
 #include <gtest/gtest.h>
 
