@@ -325,7 +325,7 @@ AnswerReport report_of(const Drive& drive, const Answer& answer) {
 
 std::string headline(const AnswerReport& report) {
   const Answer& answer = report.answer;
-  const std::string verdict = name_of(answer.verdict);
+  std::string verdict = name_of(answer.verdict);
   switch (answer.verdict) {
     case Verdict::hunts:
     case Verdict::hunts_irregularly:
