@@ -43,7 +43,7 @@ struct GridTask {
   Grid grid;
   Quantity quantity = Quantity::amplitude;
   bool has_boundary = false;  ///< with where hunting ends
-  std::string table;  ///< file in .csv, .json or .nc; empty: none
+  std::string table;          ///< file in .csv, .json or .nc; empty: none
   std::vector<Plot> plots;
 };
 

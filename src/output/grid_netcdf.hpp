@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/grid/region_boundary.hpp"
 #include "analysis/grid/grid_pieces.hpp"
+#include "analysis/grid/region_boundary.hpp"
 #include "output/output_file.hpp"
 #include "output/report_units.hpp"
 
