@@ -15,9 +15,9 @@ struct DescribeReport {
   std::vector<drive::DescribingAnalysis> analyses = {};
   Drive drive = {};
   Answer answer = {};     ///< what is exact; of a drive that a sine drives nothing predicts it
-  double backlash = 0.0;  ///< rad; predictions that are too small beside it are not told
+  double backlash = 0.0;  ///< rad; predictions that are too small beside it are left out
   AngleUnit angle = {};   ///< in which the author gave the backlash
-  std::string time_unit = "s";  ///< of the drive; else periods are told in it, and ω as angles
+  std::string time_unit = "s";  ///< of the drive; else periods are given in it, and ω as angles
   Provenance provenance = {};
 };
 

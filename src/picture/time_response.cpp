@@ -53,7 +53,7 @@ void add_point(const DrawnPoint& point, Response& response) {
   response.last_motor.include(motor_error);
 }
 
-/// Intervals with the faces apart; those too near to be told apart are one.
+/// Intervals with the faces apart; those too near to tell apart are one.
 void add_apart(const std::vector<DrawnPiece>& pieces, Response& response) {
   const double smallest = response.end_time / 2000.0;
   double from = -1.0;

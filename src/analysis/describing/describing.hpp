@@ -110,7 +110,7 @@ struct PredictionError {
 };
 
 /// A cycle predicted of a part other than the gap is that of the whole drive where amplitude and
-/// period are within this factor; else it is another motion, and there is no error to be told.
+/// period are within this factor; else it is another motion, and there is no error to report.
 inline constexpr double same_cycle_factor = 2.0;
 
 /// Against the exact cycle that is stable where the predicted one is and not where it is not, and

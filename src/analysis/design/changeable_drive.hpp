@@ -44,7 +44,7 @@ class ChangeableDrive {
 
   /// All of them: what a design looks at first, then the others.
   const std::vector<ChangeableNumber>& numbers() const { return numbers_; }
-  /// The names that a design looks at unless it is told others.
+  /// The names that a design looks at unless others are given.
   std::vector<std::string> usual_names() const;
   /// By its name, an alias of it (model/parameters.hpp) or its name of 0.1; nullptr: there is none.
   const ChangeableNumber* find(std::string_view name) const;

@@ -80,7 +80,7 @@ bool is_taken_apart(double backlash) {
   return backlash > 0.0 && backlash <= most_backlash;
 }
 
-/// Corner `corner` of the box of `ranges`; bit i tells which end of parameter i.
+/// Corner `corner` of the box of `ranges`; bit i selects the end of parameter i.
 std::vector<double> corner_of(std::span<const Bounds> ranges, std::size_t corner) {
   std::vector<double> values;
   for (const Bounds& range : ranges) {

@@ -104,7 +104,7 @@ class GridWalk {
   std::vector<double> values_;
 };
 
-/// Goes into searches, several at a time: they are told whether the whole goes on.
+/// Goes into searches, several at a time: they learn whether the whole goes on.
 class ProgressOfSearches : public Progress {
  public:
   ProgressOfSearches(Progress& whole, std::size_t points)
