@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "analysis/analyse.hpp"
+#include "analysis/final_servo.hpp"
 #include "command.hpp"
 #include "gearlash/motion.hpp"
 #include "input/units.hpp"

@@ -1,3 +1,4 @@
+#include "analysis/final_servo.hpp"
 #include "servo_options.hpp"
 
 #include <algorithm>
@@ -262,7 +263,7 @@ WrittenDrive read_drive_as_typed(const ServoOptions& options, std::vector<Settin
   if (options.file.empty()) {
     return parse_drive(source.text, source.name, source.folder, settings);
   }
-  const bool is_normal_form = document_with(source.text, source.name, {}).root().contains("servo");
+  const bool is_normal_form = has_normal_form(source.text, source.name);
   const auto add = [&](const NumberOption& option) {
     const std::optional<std::string>& typed = options.*option.typed;
     if (!typed) return;

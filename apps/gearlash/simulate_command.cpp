@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "analysis/analyse.hpp"
+#include "analysis/final_servo.hpp"
 #include "base/range_check.hpp"
 #include "command.hpp"
 #include "gearlash/motion.hpp"

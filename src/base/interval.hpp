@@ -23,6 +23,7 @@
 #include <limits>
 
 #include "base/bounds.hpp"
+#include "base/special_numbers.hpp"
 
 #ifdef __FAST_MATH__
 #error "interval arithmetic needs IEEE 754: compile without -ffast-math"
@@ -130,7 +131,6 @@ inline Interval operator*(const Interval& x, const Interval& y) {
 
 /// The whole line if y contains 0, but [x.low/y.high, ∞) if both are not negative.
 inline Interval operator/(const Interval& x, const Interval& y) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   if (x.low > 0.0 && y.low > 0.0 && y.low < infinity) {
     return {outward::positive_below(x.low / y.high), outward::positive_above(x.high / y.low)};
   }

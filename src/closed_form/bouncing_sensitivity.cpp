@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
 
+#include "base/special_numbers.hpp"
 #include "closed_form/disturbances.hpp"
 #include "closed_form/dual_numbers.hpp"
 #include "closed_form/half_cycle_algebra.hpp"
@@ -14,9 +14,6 @@
 
 namespace gearlash {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// Derivatives by damping, inertia ratio, friction ratio, restitution, and the arrival's y, P, u̇.
 enum : int { by_restitution = servo_numbers, by_arrival, numbers = by_arrival + 3 };
@@ -270,7 +267,7 @@ Dual largest_eigenvalue(const DualSlope& dual) {
   const std::complex<double> direction = is_real ? 1.0 : std::conj(value) / modulus;
   const Eigen::Matrix3d by_entry = (direction * adjugate.transpose() / adjugate.trace()).real();
   constexpr double told_apart = 1e-6;  // rounding parts a double one by 1e-8
-  Gradient gradient = Gradient::Constant(nan);
+  Gradient gradient = Gradient::Constant(not_a_number);
   if (std::abs(adjugate.trace()) > told_apart * modulus * modulus) {
     gradient.setZero();
     for (Eigen::Index i = 0; i < slope.size(); ++i) gradient += by_entry(i) * dual(i).derivatives();

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/special_numbers.hpp"
 #include "closed_form/enclosed_decays.hpp"
 #include "closed_form/half_cycle_algebra.hpp"
 
 namespace gearlash::detail {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // ---- flights ------------------------------------------------------------------------------------
 

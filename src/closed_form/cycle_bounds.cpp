@@ -2,12 +2,11 @@
 
 #include <cmath>
 
+#include "base/special_numbers.hpp"
 #include "closed_form/boxed_half_cycle.hpp"
 
 namespace gearlash {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Whether a double is itself a decimal of at most fifteen digits after the point.
 bool is_short_decimal(double value) {

@@ -1,9 +1,8 @@
 // Proved bounds of the limit cycles of all servos in a box.
 #pragma once
 
-#include <limits>
-
 #include "base/bounds.hpp"
+#include "base/special_numbers.hpp"
 #include "model/drivetrain.hpp"
 #include "model/normalized_servo.hpp"
 
@@ -51,8 +50,6 @@ DriveBox box_between(const Drivetrain& low, const Drivetrain& high, const DataEr
 
 /// Bounds that hold for every servo of a box.
 struct CycleBounds {
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-
   Bounds growth_at_rest{0.0, infinity};
   /// For the cycle, if there is one: half peak-to-peak of the load over the backlash.
   Bounds size{0.0, infinity};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/bracketed_root.hpp"
+#include "base/special_numbers.hpp"
 #include "closed_form/phase.hpp"
 
 namespace gearlash {
@@ -102,7 +103,6 @@ void include_settling(Range& range, const ServoDynamics& dynamics, const Phase& 
 }  // namespace
 
 Extremes extremes(const Trajectory& trajectory, double from, double to) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const double first = std::clamp(from, trajectory.start_time(), trajectory.end_time());
   const double last = std::clamp(to, first, trajectory.end_time());
   const ServoDynamics& dynamics = trajectory.dynamics_;

@@ -6,11 +6,10 @@
 #include <limits>
 
 #include "base/bracketed_root.hpp"
+#include "base/special_numbers.hpp"
 
 namespace gearlash {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double sign_of(double value) { return static_cast<double>((value > 0.0) - (value < 0.0)); }
 

@@ -3,14 +3,13 @@
 #include <cmath>
 #include <limits>
 
+#include "base/special_numbers.hpp"
 #include "closed_form/engaged_flow.hpp"
 #include "closed_form/half_cycle_algebra.hpp"
 #include "closed_form/phase.hpp"
 
 namespace gearlash {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A gap that motion of order one cannot cross.
 constexpr double wide_gap = 1e6;

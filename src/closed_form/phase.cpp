@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "base/special_numbers.hpp"
+
 namespace gearlash {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Face face_of(FaceSign sign) { return sign > 0.0 ? Face::forward : Face::backward; }
 

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "base/special_numbers.hpp"
 #include "closed_form/disturbances.hpp"
 
 namespace gearlash {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Arrival mirrored_arrival(const ServoDynamics& dynamics, const GapState& state, double face) {
   return face * Arrival{state.load_position,

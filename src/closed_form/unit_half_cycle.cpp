@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/bracketed_root.hpp"
+#include "base/special_numbers.hpp"
 #include "closed_form/engaged_flow.hpp"
 
 namespace gearlash {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 UnitHalfCycle half_cycle(const ServoDynamics& dynamics, const GapFlight& flight, double time) {
   UnitHalfCycle half = impact_at(dynamics, flight, time, point_in_flight(flight, time));

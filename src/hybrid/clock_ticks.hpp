@@ -2,9 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
+#include "base/special_numbers.hpp"
 #include "hybrid/hybrid_system.hpp"
 
 namespace gearlash::hybrid {
@@ -36,8 +36,6 @@ class ClockTicks {
   }
 
  private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-
   struct Tick {
     double time;
     std::size_t count = 0;

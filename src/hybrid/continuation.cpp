@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/range_check.hpp"
+#include "base/special_numbers.hpp"
 #include "hybrid/shooting.hpp"
 #include "numeric/linear_algebra.hpp"
 
@@ -11,8 +12,6 @@ namespace gearlash::hybrid {
 namespace {
 
 using Index = Eigen::Index;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // ---- why a branch ends --------------------------------------------------------------------------
 

@@ -34,23 +34,23 @@ class Coefficients {
   std::vector<double> many_;
 };
 
-constexpr std::size_t lanes = 4;
+constexpr std::size_t sums_at_once = 4;
 
 /// In four sums, of every fourth coefficient each, so that one need not wait for the other.
 /// Precondition: a multiple of four coefficients.
 double value_at(std::span<const double> coefficients, double x) {
   const double square = x * x;
   const double fourth = square * square;
-  std::array<double, lanes> sums{};
-  for (std::size_t k = coefficients.size(); k >= lanes; k -= lanes) {
-    const double* here = coefficients.data() + k - lanes;
-    for (std::size_t i = 0; i < lanes; ++i) sums[i] = sums[i] * fourth + here[i];
+  std::array<double, sums_at_once> sums{};
+  for (std::size_t k = coefficients.size(); k >= sums_at_once; k -= sums_at_once) {
+    const double* here = coefficients.data() + k - sums_at_once;
+    for (std::size_t i = 0; i < sums_at_once; ++i) sums[i] = sums[i] * fourth + here[i];
   }
   return (sums[0] + x * sums[1]) + square * (sums[2] + x * sums[3]);
 }
 
 Coefficients in_fours(std::span<const double> coefficients) {
-  Coefficients padded((coefficients.size() + lanes - 1) / lanes * lanes);
+  Coefficients padded((coefficients.size() + sums_at_once - 1) / sums_at_once * sums_at_once);
   const auto end = std::copy(coefficients.begin(), coefficients.end(), padded.begin());
   std::fill(end, padded.end(), 0.0);
   return padded;
@@ -124,12 +124,12 @@ using Leading = std::array<double, most_leading>;
 
 /// The same by products, which need not wait for one another.
 Leading bernstein_of(const Leading& power) {
-  using Lanes = Eigen::Array<double, lanes, 1>;
-  static_assert(most_leading % lanes == 0);
+  using Lanes = Eigen::Array<double, sums_at_once, 1>;
+  static_assert(most_leading % sums_at_once == 0);
   Leading values;
-  for (std::size_t first = 0; first < most_leading; first += lanes) {
+  for (std::size_t first = 0; first < most_leading; first += sums_at_once) {
     Lanes sum = Lanes::Zero();
-    for (std::size_t i = 0; i < first + lanes; ++i) {
+    for (std::size_t i = 0; i < first + sums_at_once; ++i) {
       sum += power[i] * Eigen::Map<const Lanes>(leading_weights[i].data() + first);
     }
     Eigen::Map<Lanes>(values.data() + first) = sum;

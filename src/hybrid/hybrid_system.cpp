@@ -163,6 +163,10 @@ class Inspection {
 
 }  // namespace
 
+double largest_entry(const Vector& vector) {
+  return vector.size() == 0 ? 0.0 : vector.cwiseAbs().maxCoeff();
+}
+
 double Quantizer::reading(const Vector& state) const {
   return step * std::round(measured.at(state) / step);
 }

@@ -16,6 +16,9 @@ namespace gearlash::hybrid {
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
+/// max |vᵢ|; 0 of no numbers.
+double largest_entry(const Vector& vector);
+
 /// x′ = matrix x + offset.
 struct AffineFlow {
   Matrix matrix{};

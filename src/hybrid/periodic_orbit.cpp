@@ -13,8 +13,6 @@ bool is_same_event(const Event& a, const Event& b) {
          a.mode_after == b.mode_after;
 }
 
-double size_of(const Vector& vector) { return vector.cwiseAbs().maxCoeff(); }
-
 /// Of the intervals from one event to the next, first to last.
 double middle_of_longest(const std::vector<Event>& events, std::size_t first, std::size_t last) {
   double longest = 0.0;
@@ -35,13 +33,13 @@ bool repeats_after(const PeriodicOrbit& orbit, std::size_t count) {
   const double turn =
       orbit.period * static_cast<double>(count) / static_cast<double>(events.size());
   double scale = 0.0;
-  for (const Event& event : events) scale = std::max(scale, size_of(event.after));
+  for (const Event& event : events) scale = std::max(scale, largest_entry(event.after));
   for (std::size_t i = 0; i + count < events.size(); ++i) {
     const Event& now = events[i];
     const Event& later = events[i + count];
     const bool is_alike = is_same_event(now, later) &&
                           std::abs(later.time - now.time - turn) <= alike * orbit.period &&
-                          size_of(later.after - now.after) <= alike * scale;
+                          largest_entry(later.after - now.after) <= alike * scale;
     if (!is_alike) return false;
   }
   return true;
@@ -81,16 +79,17 @@ std::optional<PeriodicOrbit> closing_orbit(const PreparedSystem& system, const T
   const Event& end = events[last];
   double scale = 0.0;
   const std::size_t first = last > options.most_events ? last - options.most_events : 0;
-  for (std::size_t i = first; i <= last; ++i) scale = std::max(scale, size_of(events[i].after));
-  double farthest = size_of(end.before - end.after);
+  for (std::size_t i = first; i <= last; ++i)
+    scale = std::max(scale, largest_entry(events[i].after));
+  double farthest = largest_entry(end.before - end.after);
   constexpr int most_tries_at_rest = 3;
   int tries_at_rest = 0;
   for (std::size_t back = 1; back <= std::min(last, options.most_events); ++back) {
     const Event& begin = events[last - back];
-    const double distance = size_of(begin.after - end.after);
+    const double distance = largest_entry(begin.after - end.after);
     constexpr double returned = 0.1;
     const bool has_returned = distance <= returned * farthest;
-    farthest = std::max({farthest, distance, size_of(begin.before - end.after)});
+    farthest = std::max({farthest, distance, largest_entry(begin.before - end.after)});
     if (distance > options.nearness * scale) continue;
     if (!is_same_event(begin, end) || !(begin.time < end.time)) continue;
     // What has hardly moved creeps, unless it is at rest from tick to tick.

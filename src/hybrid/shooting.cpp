@@ -4,18 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "base/special_numbers.hpp"
 #include "numeric/linear_algebra.hpp"
 
 namespace gearlash::hybrid {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 using Index = Eigen::Index;
-
-double size_of(const Vector& vector) {
-  return vector.size() == 0 ? 0.0 : vector.cwiseAbs().maxCoeff();
-}
 
 Vector velocity(const AffineFlow& flow, const Vector& numbers) {
   return flow.matrix * numbers + flow.offset;
@@ -178,7 +173,7 @@ State Shooting::start_of(std::size_t phase) const {
 }
 
 double Shooting::scale() const {
-  return size_of(unknowns_.head(static_cast<Index>(phases_.size()) * size()));
+  return largest_entry(unknowns_.head(static_cast<Index>(phases_.size()) * size()));
 }
 
 std::optional<Passage> Shooting::pass_from(std::size_t phase) const {
@@ -253,7 +248,7 @@ PeriodicOrbit Shooting::orbit(const Equations& solved) const {
   PeriodicOrbit orbit;
   orbit.start = start_of(0);
   orbit.start_time = start_time_;
-  orbit.residual = size_of(solved.residual) / scale();
+  orbit.residual = largest_entry(solved.residual) / scale();
   const bool is_forced = moves_by_itself_ || has_clocks_;
   Matrix product = Matrix::Identity(size(), size());
   for (const Passage& passage : solved.passages) {
@@ -289,7 +284,7 @@ std::optional<PeriodicOrbit> solved_by_newton(Shooting& shooting, int most_steps
   for (int step = 0; step < most_steps; ++step) {
     const auto equations = shooting.evaluate();
     if (!equations) return std::nullopt;
-    const double size = size_of(equations->residual) / shooting.scale();
+    const double size = largest_entry(equations->residual) / shooting.scale();
     const bool is_stuck = size > 0.25 * last;
     if (size < good || (is_stuck && size < acceptable)) return shooting.orbit(*equations);
     since_least = size < 0.5 * least ? 0 : since_least + 1;

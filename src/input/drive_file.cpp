@@ -59,13 +59,18 @@ void apply(TomlDocument& document, const Setting& setting) {
   document.set(place, *value_of(setting.text).get("value"));
 }
 
-}  // namespace
-
+/// The text with its settings applied.
 TomlDocument document_with(std::string_view toml, std::string_view source_name,
                            const std::vector<Setting>& settings) {
   TomlDocument document(toml, source_name, largest_drive_file);
   for (const Setting& setting : settings) apply(document, setting);
   return document;
+}
+
+}  // namespace
+
+bool has_normal_form(std::string_view toml, std::string_view source_name) {
+  return document_with(toml, source_name, {}).root().contains("servo");
 }
 
 WrittenDrive parse_drive(std::string_view toml, std::string_view source_name,

@@ -9,7 +9,6 @@
 
 #include "analysis/design/toleranced_drive.hpp"
 #include "gearlash/drive.hpp"
-#include "input/toml_document.hpp"
 #include "input/units.hpp"
 
 namespace gearlash {
@@ -44,9 +43,9 @@ WrittenDrive parse_drive(std::string_view toml, std::string_view source_name,
                          const std::filesystem::path& folder,
                          const std::vector<Setting>& settings = {});
 
-/// The text with its settings applied, as parse_drive() reads it.
-TomlDocument document_with(std::string_view toml, std::string_view source_name,
-                           const std::vector<Setting>& settings);
+/// Whether the text gives the servo in its normal form: it has the section [servo]. Throws
+/// InvalidInput for text that is not TOML.
+bool has_normal_form(std::string_view toml, std::string_view source_name);
 
 /// "PATH=VALUE"; "PATH=none" takes a key, or "SECTION=none" a section, out of the file. Throws
 /// InvalidInput for text without "=" and for a path of no parameter, with the nearest one.

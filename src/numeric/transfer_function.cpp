@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string_view>
 
 #include "base/range_check.hpp"
+#include "base/special_numbers.hpp"
 #include "numeric/linear_algebra.hpp"
 
 namespace gearlash {
@@ -14,7 +14,6 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double pi = 3.14159265358979323846;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void check_polynomial(RangeCheck& check, std::string_view field,
                       const std::vector<double>& coefficients) {

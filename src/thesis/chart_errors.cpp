@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/special_numbers.hpp"
 #include "thesis/exact_curve.hpp"
 
 namespace gearlash::thesis {
@@ -51,7 +52,6 @@ std::vector<ChartError> chart_errors(
 }
 
 CellMap error_map(const std::vector<ChartError>& errors) {
-  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   constexpr double rests = std::numeric_limits<double>::infinity();
   constexpr double largest = 4.0;
   CellMap map{.title = "The charts of 1960 against the exact sizes",
@@ -65,7 +65,7 @@ CellMap error_map(const std::vector<ChartError>& errors) {
   for (int tenth = 1; tenth <= dampings; ++tenth) map.rows.push_back(fmt::format("0.{}", tenth));
   for (const double friction_ratio : friction_ratios) {
     CellPanel panel{fmt::format("friction ratio {}", friction_ratio),
-                    std::vector(dampings, std::vector(inertia_ratios.size(), nothing))};
+                    std::vector(dampings, std::vector(inertia_ratios.size(), not_a_number))};
     for (const ChartError& error : errors) {
       if (error.servo.friction_ratio != friction_ratio) continue;
       const auto row = static_cast<std::size_t>(std::lround(10.0 * error.servo.damping) - 1);

@@ -1,14 +1,11 @@
 #include "thesis/exact_curve.hpp"
 
-#include <limits>
-
+#include "base/special_numbers.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "picture/hunting_curve.hpp"
 
 namespace gearlash::thesis {
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 bool has_gap(const NormalizedServo& servo) {
   return validate(servo).empty() && servo.backlash > 0.0;
@@ -30,9 +27,9 @@ ExactCurve exact_curve(const std::vector<double>& places,
     const NormalizedServo servo = servo_at(place);
     if (has_gap(servo)) {
       const std::optional<double> size = exact_size(servo);
-      servos.push_back({place, size.value_or(nothing), size.has_value()});
+      servos.push_back({place, size.value_or(not_a_number), size.has_value()});
     } else {
-      servos.push_back({place, servo.backlash == 0.0 ? 0.0 : nothing});
+      servos.push_back({place, servo.backlash == 0.0 ? 0.0 : not_a_number});
     }
   }
   ChartCurve curve = curve_to_hunting_ends(servos, servo_at, 0.0);

@@ -4,9 +4,9 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
+#include "base/special_numbers.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "thesis/exact_curve.hpp"
 
@@ -14,8 +14,6 @@ namespace gearlash::thesis {
 namespace {
 
 constexpr double charted_backlash = 0.3;
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 ChartCurve curve(std::string name, const std::vector<double>& places,
                  const std::function<NormalizedServo(double)>& servo_at) {
@@ -29,12 +27,12 @@ ChartCurve bouncing_curve(std::string name, const std::vector<double>& places,
                           const std::function<NormalizedServo(double)>& servo_at) {
   constexpr double leap = 0.08;
   ChartCurve result{.name = std::move(name)};
-  double before = nothing;
+  double before = not_a_number;
   for (const double place : places) {
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servo_at(place));
     const LimitCycle* cycle = largest_stable(analysis);
-    const double size = cycle != nullptr ? cycle->size : nothing;
-    if (std::abs(size / before - 1.0) > leap) result.line.push_back({place, nothing});
+    const double size = cycle != nullptr ? cycle->size : not_a_number;
+    if (std::abs(size / before - 1.0) > leap) result.line.push_back({place, not_a_number});
     result.line.push_back({place, size});
     (cycle != nullptr ? result.marks : result.ends)
         .push_back({place, cycle != nullptr ? size : analysis.irregular_size});

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
+#include "base/special_numbers.hpp"
 #include "closed_form/trajectory.hpp"
 #include "thesis/exact_curve.hpp"
 #include "thesis/settled_cycle.hpp"
@@ -151,7 +151,6 @@ void add_exact(const PhaseFigure& figure, PhaseCurves& curves) {
   const double half_gap = 0.5 * figure.servo.backlash;
   const Trajectory motion = simulate(figure.servo, engaged_start(figure.servo, 0.0, 0.0, 1.0),
                                      {.until = figure.until, .reference = 1.0});
-  constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   for (const Segment& segment : motion.segments()) {
     const bool apart = segment.phase.mode == Mode::separated;
     const int points = std::max(1, static_cast<int>((segment.end - segment.start) / spacing));
@@ -166,7 +165,7 @@ void add_exact(const PhaseFigure& figure, PhaseCurves& curves) {
       const double motor = state.motor_position - segment.phase.face * half_gap;
       curves.motor.line.push_back({motor, state.motor_speed});
     }
-    curves.motor.line.push_back({nothing, nothing});
+    curves.motor.line.push_back({not_a_number, not_a_number});
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/bracketed_root.hpp"
 #include "base/range_check.hpp"
+#include "base/special_numbers.hpp"
 
 namespace gearlash {
 namespace {
@@ -13,7 +14,6 @@ using Complex = std::complex<double>;
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double half_pi = 0.5 * pi;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 template <class... Cases>
 struct Overloaded : Cases... {
@@ -138,12 +138,12 @@ Complex coasting_gain(double angle) {
 /// NaN where the other face is not met within half a period.
 double coasting_angle(const InertiaControlledBacklash& backlash, double amplitude) {
   const double crossing = backlash.gap / amplitude;
-  return crossing <= pi ? angle_of_sine_deficit(crossing) : nan;
+  return crossing <= pi ? angle_of_sine_deficit(crossing) : not_a_number;
 }
 
 Complex gain(const InertiaControlledBacklash& backlash, double amplitude) {
   const double angle = coasting_angle(backlash, amplitude);
-  return std::isnan(angle) ? Complex{nan, nan} : coasting_gain(angle);
+  return std::isnan(angle) ? Complex{not_a_number, not_a_number} : coasting_gain(angle);
 }
 
 /// dN/dA = −(4h/πA²) e^{−jc}.
@@ -323,15 +323,16 @@ bool has_lag(const Nonlinearity& nonlinearity) {
 }
 
 GainPoint gain_in_direction(const Nonlinearity& nonlinearity, std::complex<double> direction) {
-  return std::visit(Overloaded{
-                        [&](const FrictionControlledBacklash& n) { return point_in(n, direction); },
-                        [&](const InertiaControlledBacklash& n) { return point_in(n, direction); },
-                        [&](const RelayWithHysteresis& n) { return point_in(n, direction); },
-                        [](const auto&) {
-                          return GainPoint{nan, {nan, nan}, nan};
-                        },
-                    },
-                    nonlinearity);
+  return std::visit(
+      Overloaded{
+          [&](const FrictionControlledBacklash& n) { return point_in(n, direction); },
+          [&](const InertiaControlledBacklash& n) { return point_in(n, direction); },
+          [&](const RelayWithHysteresis& n) { return point_in(n, direction); },
+          [](const auto&) {
+            return GainPoint{not_a_number, {not_a_number, not_a_number}, not_a_number};
+          },
+      },
+      nonlinearity);
 }
 
 std::optional<double> amplitude_of_gain(const Nonlinearity& nonlinearity, double gain) {

@@ -7,11 +7,11 @@
 
 #include "base/overloaded.hpp"
 #include "base/range_check.hpp"
+#include "base/special_numbers.hpp"
 
 namespace gearlash {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least_share = 0x1p-53;
 constexpr double sigmas = 3.0;  // that a range is cut off at where it has no end
 

@@ -2,18 +2,17 @@
 
 #include <limits>
 
+#include "base/special_numbers.hpp"
 #include "gearlash/parameter.hpp"
 
 namespace gearlash::detail {
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
 void write_refused(DrawnCycles& cycles, std::size_t row) {
   cycles.verdict[row] = Verdict::undecided;
-  cycles.amplitude_per_backlash[row] = nothing;
-  cycles.growth_at_rest[row] = nothing;
-  cycles.frequency[row] = nothing;
+  cycles.amplitude_per_backlash[row] = not_a_number;
+  cycles.growth_at_rest[row] = not_a_number;
+  cycles.frequency[row] = not_a_number;
 }
 
 double known_amplitude(Verdict verdict, double amplitude) {

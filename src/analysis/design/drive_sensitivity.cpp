@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "base/range_check.hpp"
+#include "base/special_numbers.hpp"
 
 namespace gearlash {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// One number's share of another's change.
 double chained(const DrivetrainSlopes& by, const DrivetrainSlopes& of) {
@@ -126,7 +124,7 @@ Jacobian jacobian_of(const DrivetrainSensitivity& found, std::span<const Quantit
     const QuantitySlopes* of = found.find(quantity);
     jacobian.values.push_back(of == nullptr ? std::nullopt : std::optional(of->value));
     for (const DrivetrainSlopes& by : by_name) {
-      const double slope = of == nullptr ? nan : chained(by, of->slopes);
+      const double slope = of == nullptr ? not_a_number : chained(by, of->slopes);
       jacobian.slopes.push_back(std::isnan(slope) ? std::nullopt : std::optional(slope));
     }
   }

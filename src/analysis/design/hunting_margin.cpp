@@ -7,13 +7,12 @@
 
 #include "analysis/design/drive_sensitivity.hpp"
 #include "analysis/design/target.hpp"
+#include "base/special_numbers.hpp"
 #include "closed_form/growth_at_rest.hpp"
 #include "numeric/linear_algebra.hpp"
 
 namespace gearlash {
 namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 using Change = Eigen::Matrix<double, 5, 1>;  // logarithms, in the order of LogChange
 
@@ -34,13 +33,13 @@ class LogGrowth {
 
   double value(const Change& change) const {
     const Drivetrain here = changed(drive_, change);
-    if (!validate(here).empty()) return nan;
+    if (!validate(here).empty()) return not_a_number;
     return std::log(growth_at_rest(servo_dynamics(normalize(here))));
   }
 
   struct ValueAndGradient {
-    double value = nan;
-    Change gradient = Change::Constant(nan);
+    double value = not_a_number;
+    Change gradient = Change::Constant(not_a_number);
   };
   ValueAndGradient with_gradient(const Change& change) const {
     const Drivetrain here = changed(drive_, change);
@@ -179,7 +178,7 @@ Eigen::Matrix<double, 5, 5> curvature(const LogGrowth& growth, const Change& at)
 /// Newton's method on x = λg, ln μ₀ = 0, from near a solution: where the boundary bends as much as
 /// the sphere about the present drive, the steps above go to and fro.
 std::optional<Change> stationary_change(const LogGrowth& growth, Change at) {
-  double multiplier = nan;
+  double multiplier = not_a_number;
   for (int i = 0; i < 30; ++i) {
     const auto here = growth.with_gradient(at);
     if (!std::isfinite(here.value) || !(here.gradient.squaredNorm() > 0.0)) return std::nullopt;

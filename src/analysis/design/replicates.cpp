@@ -9,11 +9,10 @@
 #include <mutex>
 
 #include "base/on_threads.hpp"
+#include "base/special_numbers.hpp"
 
 namespace gearlash::detail {
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// The bits of a double ≥ 0 rise with it.
 std::uint64_t bits_of(double value) {
@@ -37,7 +36,7 @@ Estimate estimate_of(double value, std::span<const double> of_replicates) {
     sum += one;
     count += 1.0;
   }
-  if (count < 2.0) return {value, nothing};
+  if (count < 2.0) return {value, not_a_number};
   double squares = 0.0;
   for (const double one : of_replicates) {
     if (!std::isnan(one)) squares += (one - sum / count) * (one - sum / count);
@@ -90,7 +89,7 @@ double SortedReplicates::smallest(std::size_t k) const {
 
 double SortedReplicates::quantile(double p) const {
   const std::size_t count = size();
-  if (count == 0) return nothing;
+  if (count == 0) return not_a_number;
   const double last = static_cast<double>(count - 1);
   const double rank = std::clamp(p * static_cast<double>(count) - 0.5, 0.0, last);
   const double whole = std::floor(rank);

@@ -26,9 +26,9 @@ bool keeps_growth(const Target& target, double growth_at_rest) {
 double excess_of(const Bounds& limits, double value) {
   const bool has_low = limits.low > 0.0;
   const bool has_high = !std::isinf(limits.high);
-  if ((has_low || has_high) && std::isnan(value)) return Target::infinity;
-  const double above = has_high ? std::log(value / limits.high) : -Target::infinity;
-  const double below = has_low ? std::log(limits.low / value) : -Target::infinity;
+  if ((has_low || has_high) && std::isnan(value)) return infinity;
+  const double above = has_high ? std::log(value / limits.high) : -infinity;
+  const double below = has_low ? std::log(limits.low / value) : -infinity;
   return std::max(above, below);
 }
 

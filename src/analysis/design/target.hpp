@@ -6,6 +6,7 @@
 
 #include "analysis/design/changeable_drive.hpp"
 #include "base/fault.hpp"
+#include "base/special_numbers.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "gearlash/quantity.hpp"
 
@@ -22,7 +23,6 @@ struct Target {
   /// The limits of a quantity; nullptr where a target has none. A period is a frequency.
   Bounds* limits_of(Quantity quantity);
 
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
   bool operator==(const Target&) const = default;
 };
 

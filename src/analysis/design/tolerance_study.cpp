@@ -9,11 +9,11 @@
 #include "analysis/design/replicates.hpp"
 #include "base/on_threads.hpp"
 #include "base/range_check.hpp"
+#include "base/special_numbers.hpp"
 
 namespace gearlash {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double no_cycle = -1.0;  // in the column of frequencies, to be sorted first
 
 /// What is counted; counts of blocks add up the same in any order, the sum of amplitudes in theirs.

@@ -2,19 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "analysis/design/drawn_cycles.hpp"
 #include "analysis/design/drawn_values.hpp"
 #include "analysis/design/replicates.hpp"
 #include "base/on_threads.hpp"
 #include "base/range_check.hpp"
+#include "base/special_numbers.hpp"
 #include "gearlash/parameter.hpp"
 
 namespace gearlash {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double never = -1.0;  // met: in the column of the largest max
 
 double lowest_backlash(const TolerancedDrive& drive, const BacklashDemand& demand) {

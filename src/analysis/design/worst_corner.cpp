@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "analysis/design/drawn_cycles.hpp"
 #include "analysis/design/shifted_sobol.hpp"
 #include "base/on_threads.hpp"
 #include "base/range_check.hpp"
+#include "base/special_numbers.hpp"
 
 namespace gearlash {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 using Values = std::vector<double>;
 
 /// How bad a drive is: by its amplitude where it hunts, which is worse than any that does not, and

@@ -7,11 +7,10 @@
 
 #include "analysis/grid/grid_evaluation.hpp"
 #include "base/on_threads.hpp"
+#include "base/special_numbers.hpp"
 
 namespace gearlash::detail {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using Position = std::array<std::size_t, CubicTable::most_axes>;
 

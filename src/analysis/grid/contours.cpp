@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "analysis/grid/grid_evaluation.hpp"
 #include "analysis/grid/hunting_boundary.hpp"
 #include "analysis/grid/hunting_end.hpp"
+#include "base/special_numbers.hpp"
 
 namespace gearlash {
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// For a picture: 2⁻²⁴ of the plane.
 constexpr CurveAccuracy picture_accuracy{
@@ -50,7 +48,7 @@ double interpolated(const Grid& grid, const std::vector<double>& values, const M
 }
 
 double limit_beside(const NormalizedServo& servo, Quantity quantity) {
-  return limit_where_hunting_ends(quantity, servo.backlash).value_or(nothing);
+  return limit_where_hunting_ends(quantity, servo.backlash).value_or(not_a_number);
 }
 
 /// The quantity at a place with plastic contact, or its limit where the servo does not hunt.

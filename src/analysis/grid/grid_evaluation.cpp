@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <limits>
 #include <mutex>
 
 #include "base/on_threads.hpp"
+#include "base/special_numbers.hpp"
+#include "gearlash/analyse.hpp"
 
 namespace gearlash {
 namespace {
-
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 /// Points that a thread works out at a time: some tenths of a millisecond where nothing bounces,
 /// some tens of milliseconds where it does, and one search.
@@ -37,7 +36,7 @@ void write(const CycleColumns& columns, std::size_t row, const Answer& answer) {
   columns.verdict[row] = answer.verdict;
   for (std::size_t i = 0; i < quantity_count; ++i) {
     if (columns.numbers[i].empty()) continue;
-    columns.numbers[i][row] = answer.value(static_cast<Quantity>(i)).value_or(nothing);
+    columns.numbers[i][row] = answer.value(static_cast<Quantity>(i)).value_or(not_a_number);
   }
 }
 
@@ -60,7 +59,7 @@ void scale(const CycleColumns& columns, std::size_t row, double natural_frequenc
 }
 
 void scale(const CycleColumns& columns, std::size_t row, const FinalServo& servo) {
-  scale(columns, row, servo.closed_form.natural_frequency, servo.stiffness.value_or(nothing));
+  scale(columns, row, servo.closed_form.natural_frequency, servo.stiffness.value_or(not_a_number));
 }
 
 /// What Answer::value() says of drives that come to rest, and of the verdict.
@@ -182,7 +181,7 @@ class Part {
     } else if (const std::optional<FinalServo> servo = final_servo(drive)) {
       servos_[row] = servo->closed_form.servo;
       scales_.push_back(
-          {row, servo->closed_form.natural_frequency, servo->stiffness.value_or(nothing)});
+          {row, servo->closed_form.natural_frequency, servo->stiffness.value_or(not_a_number)});
     } else {
       searched_.push_back({row, std::move(drive)});
     }
@@ -258,7 +257,7 @@ PointAnswer answer_at(const GridPoints& points, std::span<const double> place, Q
 }
 
 double of_motion(Quantity quantity, Verdict verdict, double value) {
-  return is_at_rest(verdict) && quantity != Quantity::growth_at_rest ? nothing : value;
+  return is_at_rest(verdict) && quantity != Quantity::growth_at_rest ? not_a_number : value;
 }
 
 double of_motion(const Table& table, Quantity quantity, std::size_t row) {

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "analysis/analyse.hpp"
+#include "analysis/final_servo.hpp"
 #include "analysis/grid/axis.hpp"
 
 namespace gearlash {

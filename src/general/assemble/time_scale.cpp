@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "base/special_numbers.hpp"
 #include "general/assemble/drive_system.hpp"
 #include "numeric/linear_algebra.hpp"
 
@@ -87,7 +88,6 @@ std::vector<std::complex<double>> without_free_numbers(std::vector<std::complex<
 }  // namespace
 
 TimeScales time_scales(const ReducedDrive& drive) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   double slowest = infinity;
   double slowest_swing = infinity;
   double slowest_decay = infinity;

@@ -1,0 +1,36 @@
+#include "analysis/final_servo.hpp"
+
+#include <utility>
+#include <variant>
+
+#include "model/reduced_drive.hpp"
+
+namespace gearlash {
+
+std::optional<Drive> closed_form_drive(Drive drive) {
+  if (drive.reference) {
+    const Signal end = drive::settled(*drive.reference);
+    if (!std::holds_alternative<double>(end)) return std::nullopt;
+    drive.reference.reset();
+  }
+  if (drive.load_torque) {
+    drive.load_torque = drive::settled(*drive.load_torque);
+    const auto* constant = std::get_if<double>(&*drive.load_torque);
+    if (constant == nullptr || *constant != 0.0) return std::nullopt;
+    drive.load_torque.reset();
+  }
+  return closed_form_servo(drive) ? std::optional(std::move(drive)) : std::nullopt;
+}
+
+std::optional<FinalServo> final_servo(const Drive& drive) {
+  const std::optional<Drive> at_rest = closed_form_drive(drive);
+  if (!at_rest) return std::nullopt;
+  FinalServo found{*closed_form_servo(*at_rest), *drive::proportional_drivetrain(reduce(*at_rest)),
+                   std::nullopt};
+  // A normal form with a natural frequency has no inertia, hence no stiffness.
+  const bool is_known = !drive.servo || !drive.servo->natural_frequency;
+  if (is_known) found.stiffness = found.drivetrain.stiffness;
+  return found;
+}
+
+}  // namespace gearlash
