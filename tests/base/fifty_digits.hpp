@@ -7,12 +7,13 @@
 #include <cstddef>
 #include <limits>
 
+#include "base/special_numbers.hpp"
+
 namespace gearlash {
 
 using Wide = boost::multiprecision::cpp_bin_float_50;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// |actual − exact|/|exact| in epsilons of a double.
 inline double epsilons_off(double actual, const Wide& exact) {
