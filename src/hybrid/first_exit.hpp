@@ -16,7 +16,8 @@ struct FirstExit {
 
 /// For p(τ) = Σ coefficients[k] τᵏ on [0, 1], which represents a function to within `uncertainty`.
 /// p is not below −uncertainty at 0. An exit is a place after which the function is certain to turn
-/// negative soon: p falls below −uncertainty. There are three stages, each for what the one before
+/// negative soon: p falls below −uncertainty, or comes so near to it that rounding and
+/// negligible_share hide the difference. There are three stages, each for what the one before
 /// leaves open:
 ///   exclusion    p is a mean of partial sums of the coefficients; all are above `uncertainty`;
 ///   isolation    Bernstein's coefficients enclose p, and their changes of sign are at least the
