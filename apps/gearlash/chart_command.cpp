@@ -38,13 +38,13 @@ ExitStatus run(const ChartOptions& options, const Provenance& provenance) {
 void add_chart_command(Command& app, Action& action) {
   const auto options = std::make_shared<ChartOptions>();
   Command* command =
-      app.add_subcommand("chart", "a family of curves over any parameters of the drive");
+      app.add_subcommand("chart", "Draw a family of curves over any parameters of a drive");
   command->add_option("--x", options->x, axis_help)->type_name("AXIS")->required();
-  command->add_option("--curves", options->curves, "a curve for each value of this axis")
+  command->add_option("--curves", options->curves, "Draw one curve for each value of this axis")
       ->type_name("AXIS");
-  add_grid_options(*command, options->grid, "curves: the quantity over --x; ");
+  add_grid_options(*command, options->grid, "Draw curves=FILE, the quantity over --x;");
   command->footer(
-      "Without --backlash amplitudes are in backlashes, to which they are proportional.\n\n" +
+      "Without --backlash, amplitudes are in backlashes, because they are proportional to it.\n\n" +
       help_footer(examples));
   command->callback([options, &action] {
     action = [options](const Provenance& provenance) { return run(*options, provenance); };

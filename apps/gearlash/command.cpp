@@ -28,14 +28,15 @@ std::string shell_quoted(const std::string& argument) {
 }  // namespace
 
 std::string help_footer(const std::string& examples) {
-  return "Examples:\n" + examples +
-         "\nExit status:\n"
-         "  0  done, whether the servo hunts or not\n"
-         "  1  undecided, or stopped by a limit; what is known has been printed\n"
-         "  2  bad input, one line a fault\n"
-         "  3  the machine could not: output, memory, threads or gnuplot; the answer\n"
-         "     is printed all the same where there is one\n"
-         "  130, 143  ended by Ctrl-C, by SIGTERM";
+  return "Exit status:\n"
+         "  0  done, whether the drive hunts or not\n"
+         "  1  undecided, or stopped by a limit; the results so far are printed\n"
+         "  2  bad input; standard error has one line per fault\n"
+         "  3  the machine failed: output, memory, threads or gnuplot; an answer that\n"
+         "     exists is still printed\n"
+         "  130, 143  ended by Ctrl-C or SIGTERM\n\n"
+         "Examples:\n" +
+         examples.substr(0, examples.find_last_not_of('\n') + 1);
 }
 
 std::string typed_command(int argument_count, const char* const* arguments) {

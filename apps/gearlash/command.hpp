@@ -1,4 +1,4 @@
-// What the subcommands share: how they are registered, what they know and how they end.
+// What the subcommands share: registration, action and exit status.
 #pragma once
 
 #include <functional>
@@ -12,8 +12,8 @@ namespace gearlash::cli {
 /// Exit statuses, as --help lists them.
 enum class ExitStatus {
   done = 0,
-  undecided = 1,    ///< or stopped by a limit; what is known has been printed
-  bad_input = 2,    ///< one line a fault
+  undecided = 1,    ///< or stopped by a limit; the results so far are printed
+  bad_input = 2,    ///< one line per fault
   beyond_means = 3  ///< of the machine: output, memory, threads, the plotter
 };
 

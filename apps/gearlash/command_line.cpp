@@ -27,13 +27,13 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-/// What was typed where a subcommand of `app`, itself typed as `typed`, belongs.
+/// Throws InvalidInput unless `words` begins with a subcommand of `app`. `typed`: the words before.
 void require_known_subcommand(const CLI::App& app, const std::string& typed,
                               const std::vector<std::string>& words) {
   const std::vector<std::string> names = names_of_subcommands(app);
   if (names.empty()) return;
   const std::string first = words.empty() ? "" : words.front();
-  if (first.starts_with("-")) return;  // an option: CLI11 knows it or says that it does not
+  if (first.starts_with("-")) return;  // an option, which CLI11 checks
   if (std::find(names.begin(), names.end(), first) == names.end()) {
     throw InvalidInput(
         {{"subcommand", first.empty() ? "" : shown(first),
@@ -43,7 +43,7 @@ void require_known_subcommand(const CLI::App& app, const std::string& typed,
                            {words.begin() + 1, words.end()});
 }
 
-/// CLI11's own words, on one line, and where to find what is permitted.
+/// CLI11's message on one line, with a pointer to --help.
 std::string usage_fault(const CLI::App& app, const CLI::ParseError& error) {
   std::string name = app.get_name();
   for (auto chosen = app.get_subcommands(); !chosen.empty();
@@ -51,7 +51,7 @@ std::string usage_fault(const CLI::App& app, const CLI::ParseError& error) {
     name += " " + chosen.front()->get_name();
   }
   std::string fault = error.what();
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {  // CLI11 turns their order round
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {  // CLI11 reverses them
     fault = "not expected:";
     for (const std::string& word : app.remaining(true)) fault += " " + word;
   }
@@ -114,7 +114,7 @@ Command::Command(const std::string& name, const std::string& description,
 }
 
 Command* Command::add_subcommand(const std::string& name, const std::string& description) {
-  // Shares the tool's ownership, points at its own.
+  // Shares ownership of the tool's App, and points at the subcommand's.
   subcommands_.push_back(
       Command(std::shared_ptr<CLI::App>(app_, app_->add_subcommand(name, description))));
   return &subcommands_.back();
@@ -162,7 +162,7 @@ std::optional<Command::Message> Command::parse(std::vector<std::string> words) {
   }
   require_known_subcommand(*app_, app_->get_name(), words);
   try {
-    std::reverse(words.begin(), words.end());  // as CLI11 takes them
+    std::reverse(words.begin(), words.end());  // CLI11 takes them in reverse
     app_->parse(std::move(words));
   } catch (const CLI::CallForHelp&) {
     return Message{app_->help()};

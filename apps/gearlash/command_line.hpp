@@ -22,14 +22,14 @@ class Option {
 
   /// What the help shows in place of its value; "" shows nothing.
   Option* type_name(const std::string& name);
-  /// The heading of the help under which it stands.
+  /// The heading under which the help lists it.
   Option* group(const std::string& heading);
   Option* required();
-  /// One word may hold many values, parted by this character.
+  /// One word may hold several values, separated by this character.
   Option* delimiter(char character);
   /// Whether further words after the first are values of this option too.
   Option* allow_extra_args(bool allowed);
-  /// Of a repeated option, all values are kept.
+  /// Keeps all values of a repeated option.
   Option* take_all();
   Option* expected(int count);
   /// May not be given together with the other one.
@@ -41,7 +41,7 @@ class Option {
   CLI::Option* option_;
 };
 
-/// A command with its options and subcommands. What options are bound to must outlive parse().
+/// A command with its options and subcommands. Variables bound to options must outlive parse().
 class Command {
  public:
   /// The tool itself: --help, --version, and one of its subcommands.
@@ -55,16 +55,16 @@ class Command {
   Option* add_option(const std::string& name, std::vector<std::string>& values,
                      const std::string& help);
   Option* add_flag(const std::string& name, bool& value, const std::string& help);
-  /// Those added so far.
+  /// The options added so far.
   std::vector<Option*> options();
-  /// The end of its help.
+  /// Text at the end of its help.
   void footer(const std::string& text);
   /// Called once this command has been parsed without fault.
   void callback(std::function<void()> done);
   /// One of its subcommands must be given.
   void require_subcommand();
 
-  /// What is printed in place of running a command.
+  /// A text to print instead of running a command.
   struct Message {
     std::string text;
     bool is_fault = false;  ///< one line; else the help or the version
@@ -79,7 +79,7 @@ class Command {
   Option* bind(const std::string& name, Value& value, const std::string& help);
 
   std::shared_ptr<CLI::App> app_;    // owned by the tool's
-  std::deque<Command> subcommands_;  // a deque: what it holds stays where it is
+  std::deque<Command> subcommands_;  // a deque, so that pointers to elements stay valid
   std::deque<Option> options_;
 };
 

@@ -64,7 +64,7 @@ Step read_step(const CompareOptions& options, const WrittenDrive& written, Fault
   if (options.step) {
     step.size = faults.collect([&] { return read_angle("--step", *options.step).si; }, step.size);
     if (step.size == 0.0) {
-      faults.add({"--step", shown(*options.step), "must not be 0, an angle", ""});
+      faults.add({"--step", shown(*options.step), "must be an angle other than 0", ""});
     }
   }
   if (options.until) {
@@ -79,7 +79,7 @@ Step read_step(const CompareOptions& options, const WrittenDrive& written, Fault
   return step;
 }
 
-/// An encoder keeps its counts a turn wherever it stands.
+/// An encoder keeps its counts per turn on either shaft.
 Drive with_sensor(Drive drive, SensorPlace place) {
   drive.sensor.position = place;
   drive.sensor.speed.reset();
@@ -138,28 +138,31 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
 void add_compare_command(Command& app, Action& action) {
   const auto options = std::make_shared<CompareOptions>();
   Command* command = app.add_subcommand(
-      "compare", "the same drive with its sensor before and after the gap, side by side");
+      "compare", "Compare a drive with its sensor before and after the gap, side by side");
   command
       ->add_option("DRIVE.toml", options->servo.file,
-                   "drive (docs/drives.md), data sheet or normalised servo")
+                   "Read the drive from this file: a data sheet or normalised servo\n"
+                   "(docs/data-sheets.md), or any drive (docs/drives.md)")
       ->type_name("")
       ->required();
   add_set_option(*command, options->servo);
   command
       ->add_option("--sensor", options->sensors,
-                   "shafts that are measured, by turns: load, motor, both (position of the\n"
-                   "load, speed of the motor); default load,motor,both")
+                   "Compare these places of the sensor: load, motor, both (position of\n"
+                   "the load, speed of the motor); default load,motor,both")
       ->type_name("LIST");
   command
       ->add_option("--step", options->step,
-                   "of the reference; rad, or with its unit; default ten times the backlash")
+                   "Set the step of the reference, in rad or with a unit; default ten\n"
+                   "times the backlash")
       ->type_name("ANGLE");
   command
       ->add_option("--until", options->until,
-                   "how long the step response is watched; default twenty periods of the loop")
+                   "Set the end of the step response; default twenty periods of the loop")
       ->type_name("TIME");
-  command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");
-  add_plot_option(*command, options->plots, "time: the step responses; ");
+  command->add_option("--format", options->format, "Choose the format: text (default) or json")
+      ->type_name("FORMAT");
+  add_plot_option(*command, options->plots, "Draw time=FILE, the step responses;");
   command->footer(help_footer(examples));
   command->callback([options, &action] {
     action = [options](const Provenance& provenance) { return run(*options, provenance); };

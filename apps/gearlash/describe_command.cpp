@@ -22,8 +22,8 @@ constexpr char examples[] =
     "  gearlash describe examples/normalized.toml --format json | jq .analyses[].cycles\n";
 
 constexpr char explanation[] =
-    "A cycle is predicted where the loop's gain meets -1/N(A), N being how much of a sine of\n"
-    "amplitude A the nonlinearity passes on. Each is described by itself, all others left out.\n\n";
+    "A cycle is predicted where the loop's gain meets -1/N(A). N is the gain of a nonlinearity\n"
+    "for a sine of amplitude A. Each nonlinearity is described by itself, without the others.\n\n";
 
 struct DescribeOptions {
   ServoOptions servo;
@@ -59,11 +59,12 @@ void check_part(const DescribeOptions& options, Faults& faults) {
   faults.require_choice("--part", options.part,
                         {"gap", "elastic-gap", "torque-limit", "coulomb-friction"});
   if (options.plots.empty()) {
-    faults.add({"--part", shown(options.part), "must come with --plot: it says what is drawn", ""});
+    faults.add(
+        {"--part", shown(options.part), "must come with --plot: it chooses what to draw", ""});
   }
 }
 
-/// The analyses to draw: of the part asked for, else of the first that is in a loop.
+/// The analyses to draw: those of --part, else those of the first part in a loop.
 std::vector<drive::DescribingAnalysis> analyses_to_draw(
     const std::vector<drive::DescribingAnalysis>& analyses, const DescribeOptions& options) {
   if (!options.part.empty()) return of_one_loop(analyses, part_of(options.part));
@@ -91,9 +92,9 @@ std::string draw(const DescribeReport& report, const DescribeOptions& options,
   if (drawn.empty()) {
     throw InvalidInput(
         {options.part.empty()
-             ? Fault{"--plot", "nyquist", "must be left out: nothing is fed back", ""}
+             ? Fault{"--plot", "nyquist", "must be left out: this drive feeds nothing back", ""}
              : Fault{"--part", shown(options.part),
-                     "must be a part that the drive has within its loop", ""}});
+                     "must be a part that the drive has inside its loop", ""}});
   }
   return draw_nyquist({.title = title_of(drawn.front().part),
                        .analyses = drawn,
@@ -133,7 +134,7 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
   }
   write_file("-", options.format == "json" ? describe_json(report) : text_for_terminal(report));
   if (answer.verdict != Verdict::undecided) return extras.status(ExitStatus::done);
-  report_lines("what is exact could not be decided");
+  report_lines("the exact answer is undecided");
   return extras.status(ExitStatus::undecided);
 }
 
@@ -141,16 +142,17 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
 
 void add_describe_command(Command& app, Action& action) {
   const auto options = std::make_shared<DescribeOptions>();
-  Command* command =
-      app.add_subcommand("describe", "what describing functions predict, beside the exact cycle");
+  Command* command = app.add_subcommand(
+      "describe", "Compare what describing functions predict with the exact cycle");
   add_servo_or_drive_options(*command, options->servo);
-  command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");
+  command->add_option("--format", options->format, "Choose the format: text (default) or json")
+      ->type_name("FORMAT");
   add_plot_option(*command, options->plots,
-                  "nyquist: the loop's gain against -1/N, with the exact\ncycle; ");
+                  "Draw nyquist=FILE, the loop's gain against -1/N, with the exact\ncycle;");
   command
       ->add_option("--part", options->part,
-                   "what is drawn: gap, elastic-gap, torque-limit or\n"
-                   "coulomb-friction; else the first that is in the loop")
+                   "Draw this part: gap, elastic-gap, torque-limit or\n"
+                   "coulomb-friction; default the first part in the loop")
       ->type_name("PART");
   command->footer(explanation + help_footer(examples));
   command->callback([options, &action] {

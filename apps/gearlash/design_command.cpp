@@ -1,4 +1,4 @@
-// gearlash design: what must change so that the servo does what it should?
+// gearlash design: the changes of a drive that meet a target.
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -38,7 +38,7 @@ struct DesignOptions {
   std::string format = "text";
 };
 
-/// "gear-ratio" is as good as "gear_ratio".
+/// Reads hyphens as underscores: "gear-ratio" is "gear_ratio".
 std::vector<std::string> read_parameters(const std::string& field,
                                          const std::vector<std::string>& names,
                                          const ChangeableDrive& drive, Faults& faults) {
@@ -57,7 +57,7 @@ std::vector<std::string> read_parameters(const std::string& field,
   return parameters;
 }
 
-/// What is drawn: the two parameters of --vary, y over x.
+/// The picture: the two parameters of --vary, y over x.
 struct Region {
   std::vector<std::string> axes;
   Cost cost = Cost::bandwidth;
@@ -71,24 +71,27 @@ Region read_region(const DesignOptions& options, const ChangeableDrive& drive, F
   for (const std::string& parameter : region.axes) {
     const Bounds range = range_to_draw(drive, parameter);
     if (range.low < range.high) continue;
-    faults.add({"--vary", parameter, "must not be 0, of which there are no multiples", ""});
+    faults.add({"--vary", parameter,
+                "must not be 0: the picture varies it by multiples of its present value", ""});
   }
   return region;
 }
 
-/// What can be said of the options without the drive.
+/// Checks that do not need the drive.
 void check_options(const DesignOptions& options, Faults& faults) {
   faults.require_choice("--format", options.format, {"text", "json"});
   faults.require_choice("--cost", options.cost, {"bandwidth", "damping", "stiffness"});
   if (options.plots.empty() != options.vary.empty()) {
     faults.add(options.plots.empty()
-                   ? Fault{"--plot", "", "must name a picture of what --vary varies", ""}
-                   : Fault{"--vary", "", "must name two parameters, over which --plot draws", ""});
+                   ? Fault{"--plot", "",
+                           "must name the picture that --vary asks for, such as region=region.svg",
+                           ""}
+                   : Fault{"--vary", "", "must name the two parameters of the picture", ""});
   }
   const bool are_two = options.vary.size() == 2 && options.vary[0] != options.vary[1];
   if (!options.vary.empty() && !are_two) {
     faults.add({"--vary", std::to_string(options.vary.size()) + " names",
-                "must be two different parameters, with a comma between", ""});
+                "must be two different parameters, separated by a comma", ""});
   }
 }
 
@@ -157,34 +160,38 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
 
 void add_design_command(Command& app, Action& action) {
   const auto options = std::make_shared<DesignOptions>();
-  Command* command = app.add_subcommand(
-      "design", "what must change so that it does not hunt, or less, or faster?");
+  Command* command =
+      app.add_subcommand("design", "Find the changes that stop the hunting or meet another target");
   add_servo_or_drive_options(*command, options->servo);
   command
       ->add_option("--target", options->target,
-                   "no-hunting; or amplitude, frequency, period or growth-at-rest,\n"
-                   "<= or >=, and a limit; several joined by \"and\"")
+                   "Set the target: no-hunting; or amplitude, frequency, period or\n"
+                   "growth-at-rest, then <= or >=, then a limit; \"and\" joins several")
       ->type_name("TARGET")
       ->required();
   command
       ->add_option("--parameters", options->parameters,
-                   "which may change, by their paths, with commas between: gearbox.ratio,\n"
-                   "load.friction, ...; also tachometer, feedback that is added; of the normal\n"
-                   "form shares of what it has: gear_ratio, error_gain, load_friction,\n"
-                   "motor_friction, load_inertia, motor_inertia. When left out: those of\n"
-                   "--vary, or what is changed most easily")
+                   "List the parameters that may change, by path, separated by commas:\n"
+                   "gearbox.ratio, load.friction, ...; tachometer is added speed feedback;\n"
+                   "the normal form has shares instead: gear_ratio, error_gain,\n"
+                   "load_friction, motor_friction, load_inertia, motor_inertia; default\n"
+                   "those of --vary, else those that are easiest to change")
       ->type_name("NAMES")
       ->delimiter(',');
   command
       ->add_option("--vary", options->vary,
-                   "two of them, with a comma between: --plot draws where both together\n"
-                   "meet the target, over lines of equal cost")
+                   "Choose two parameters, separated by a comma; --plot draws where both\n"
+                   "together meet the target, with lines of equal cost")
       ->type_name("X,Y")
       ->delimiter(',');
-  command->add_option("--cost", options->cost, "bandwidth (default), damping or stiffness")
+  command
+      ->add_option("--cost", options->cost,
+                   "Choose the cost: bandwidth (default), damping or stiffness")
       ->type_name("COST");
-  add_plot_option(*command, options->plots, "region: where the two of --vary meet the target; ");
-  command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");
+  add_plot_option(*command, options->plots,
+                  "Draw region=FILE, where the parameters of --vary meet the\ntarget;");
+  command->add_option("--format", options->format, "Choose the format: text (default) or json")
+      ->type_name("FORMAT");
   command->footer(help_footer(examples));
   command->callback([options, &action] {
     action = [options](const Provenance& provenance) { return run(*options, provenance); };

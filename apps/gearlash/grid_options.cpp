@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t most_points = 10'000'000;  // a gigabyte
 
-/// The options that give what an axis may vary.
+/// Options for parameters that an axis may vary.
 struct RivalOption {
   std::string_view path;
   const char* name;
@@ -37,7 +37,7 @@ constexpr std::array<RivalOption, 7> rivals = {
      {"contact.restitution", "--restitution", &ServoOptions::restitution},
      {"sensor.position", "--sensor", &ServoOptions::sensor}}};
 
-/// Without a file, what no option needs to give.
+/// A value for a parameter on an axis, which no option gives without a file.
 void put_in_stand_in(ServoOptions& options, const RivalOption& rival) {
   const bool is_number = rival.typed != &ServoOptions::sensor;
   if (options.file.empty() && is_number && !(options.*rival.typed)) options.*rival.typed = "0.5";
@@ -53,7 +53,7 @@ std::vector<AxisText> split_axes(const std::vector<AxisOption>& options, Faults&
   return texts;
 }
 
-/// Of options and settings that give what an axis varies.
+/// Refuses options and settings for a parameter on an axis.
 void refuse_given(const ServoOptions& options, const AxisText& axis, const std::string& path,
                   Faults& faults) {
   const std::string permitted = "must be left out: " + axis.field + " varies it";
@@ -67,9 +67,9 @@ void refuse_given(const ServoOptions& options, const AxisText& axis, const std::
   }
 }
 
-/// The drive but for what stands on the axes, which no option may give besides. Amplitudes are in
-/// backlashes where none is given. Where an axis cannot be read it may be the one that gives what
-/// else is missing.
+/// The drive without the parameters on the axes, which no option may give. Without a backlash,
+/// amplitudes are in backlashes. An axis that cannot be read may be the one for a missing
+/// parameter, so nothing is then reported as missing.
 std::optional<WrittenDrive> read_fixed_drive(const ServoOptions& options,
                                              const std::vector<AxisText>& axes, bool are_all_there,
                                              Faults& faults) {
@@ -111,14 +111,14 @@ Quantity read_quantity(const std::string& text, Faults& faults) {
   return Quantity::amplitude;
 }
 
-/// In small letters.
+/// The extension in lower case.
 std::string ending_of(const std::string& file) {
   std::string ending = std::filesystem::path(file).extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return ending;
 }
 
-/// --plot, and --output where it names a picture or a table.
+/// Reads --plot, and --output by its extension.
 void read_outputs(const GridOptions& options, const std::string& kind, GridTask& task,
                   Faults& faults) {
   task.plots = read_plots(options.plots, {kind}, faults);
@@ -135,8 +135,7 @@ void read_outputs(const GridOptions& options, const std::string& kind, GridTask&
   }
 }
 
-/// No picture has room for infinity, for very many curves, or for the digits that tell the ends of
-/// a very narrow axis apart.
+/// A picture has no room for infinity, for many curves, or for the digits of a very narrow axis.
 void require_drawable(const Grid& grid, const std::vector<AxisText>& texts, Faults& faults) {
   constexpr std::size_t most_curves = 16;  // a longer legend leaves no room for them
   constexpr double narrowest_share =
@@ -172,7 +171,7 @@ void require_room(const Grid& grid) {
                        ""}});
 }
 
-/// What tables have, or what a picture needs.
+/// All quantities for a table; only the needed ones for pictures alone.
 std::vector<Quantity> quantities_of(const GridTask& task) {
   if (task.table.empty()) return {Quantity::growth_at_rest, task.quantity};
   const auto known = quantities_known(GridPoints(task.grid).engines());
@@ -181,7 +180,7 @@ std::vector<Quantity> quantities_of(const GridTask& task) {
   return all;
 }
 
-/// A file made before the work, which it may not be permitted to write.
+/// Opens a file before the work, so that a file which cannot be written fails at once.
 std::unique_ptr<OutputFile> opened(const std::string& file) {
   return file.empty() ? nullptr : std::make_unique<OutputFile>(file);
 }
@@ -205,16 +204,16 @@ void write_table(const GridTask& task, const GridTable& table, const GridCount& 
 void add_grid_options(Command& command, GridOptions& options, const std::string& drawing) {
   command
       .add_option("--quantity", options.quantity,
-                  "what is drawn: amplitude (default), period, growth_at_rest, …")
+                  "Draw this quantity: amplitude (default), period, growth_at_rest, …")
       ->type_name("NAME");
   command
       .add_option("--output", options.output,
-                  "table (.csv, .json, .nc), or picture (.svg, .png, .pdf)")
+                  "Write this table (.csv, .json, .nc) or picture (.svg, .png, .pdf)")
       ->type_name("FILE");
   add_plot_option(command, options.plots, drawing);
   command.add_flag("--proved", options.proved,
-                   "prove each verdict of the closed form with plastic contact by\n"
-                   "interval arithmetic; what this leaves open is undecided");
+                   "Prove each verdict of the closed form with plastic contact by\n"
+                   "interval arithmetic; verdicts that it cannot prove are undecided");
   add_servo_or_drive_options(command, options.servo);
 }
 
@@ -260,7 +259,7 @@ std::string solved_text(const GridCount& count) {
 
 namespace {
 
-/// In place of output.write(): while one piece is written, the next is worked out.
+/// Writes each block while the next one is computed, instead of output.write().
 GridCount write_netcdf(const GridTask& task, const Provenance& provenance, const OutputFile& output,
                        Progress& progress) {
   constexpr std::size_t points_at_a_time = std::size_t{1} << 15U;  // 3 MB, which caches hold
@@ -316,7 +315,7 @@ ExitStatus make_grid_files(const GridTask& task, const Provenance& provenance,
     if (output) write_table(task, table, count, *output);
   }
   if (output) commit(*output);
-  progress.reset();  // wiped before anything is said
+  progress.reset();  // wiped before anything is printed
   Extras extras;
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     extras.make([&] {

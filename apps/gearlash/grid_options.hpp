@@ -1,4 +1,4 @@
-// What the commands that work out a grid of drives share: axes, drive, quantity and outputs.
+// Axes, drive, quantity and outputs of the commands that evaluate a grid: chart and map.
 #pragma once
 
 #include <functional>
@@ -29,10 +29,10 @@ struct AxisOption {
   std::string text;
 };
 
-/// What an AXIS is, for --help.
+/// Help of an option that takes an AXIS.
 inline constexpr char axis_help[] =
-    "axis: PATH=FROM:TO:COUNT, PATH=FROM:TO:COUNT:log or\n"
-    "PATH=A,B,C, with units; any number or word of the drive,\n"
+    "Set the axis: PATH=FROM:TO:COUNT, PATH=FROM:TO:COUNT:log or\n"
+    "PATH=A,B,C, with units; PATH is any number or choice of the drive,\n"
     "or damping, inertia-ratio, … of the normal form";
 
 /// --quantity, --output, --plot (whose kind draws `drawing`) and the options of the drive.
@@ -42,14 +42,14 @@ struct GridTask {
   std::string verb;  ///< "chart", "map"
   Grid grid;
   Quantity quantity = Quantity::amplitude;
-  bool has_boundary = false;  ///< with where hunting ends
+  bool has_boundary = false;  ///< computes where hunting ends
   std::string table;          ///< file in .csv, .json or .nc; empty: none
   std::vector<Plot> plots;
 };
 
-/// What is to be worked out; a normal form without a backlash has amplitudes in backlashes. `kind`:
-/// of its pictures. Throws InvalidInput with all that is wrong, more points than memory has room
-/// for included.
+/// The task that the options describe. A normal form without a backlash has amplitudes in
+/// backlashes. `kind` is that of its pictures. Throws InvalidInput with all faults, among them too
+/// many points for the memory.
 GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption>& axes,
                         const std::string& verb, const std::string& kind);
 
@@ -58,8 +58,8 @@ std::string solved_text(const GridCount& count);
 
 using GridPicture = std::function<std::string(const GridTable&, PictureFormat)>;
 
-/// Works the grid out, writes its table and draws its pictures with `draw`, and says so. A picture
-/// that fails withholds nothing else.
+/// Evaluates the grid, writes its table, draws its pictures with `draw` and prints a summary. A
+/// picture that fails does not withhold the rest.
 ExitStatus make_grid_files(const GridTask& task, const Provenance& provenance,
                            const GridPicture& draw);
 

@@ -1,4 +1,4 @@
-// gearlash limit-cycle: does it hunt, how big and how fast?
+// gearlash limit-cycle: whether a drive hunts, with the amplitude and frequency.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -40,13 +40,13 @@ struct LimitCycleOptions {
   bool sensitivities = false;
 };
 
-/// An answer and all that is reported and drawn of it.
+/// An answer with its report.
 struct Work {
   Analysis analysis{};
   AnswerReport report{};
 };
 
-/// A number that is easily said, not far above `value`.
+/// A round number not far above `value`.
 double round_up(double value) {
   const double power = std::pow(10.0, std::floor(std::log10(value)));
   for (const double factor : {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
@@ -55,8 +55,8 @@ double round_up(double value) {
   return 10.0 * power;
 }
 
-/// A step from rest, large enough that the way to the cycle is seen and small enough that the cycle
-/// is too. Its size is free: everything scales with the backlash.
+/// A step from rest that shows both the approach and the cycle. Its height is free, because
+/// everything scales with the backlash.
 struct Step {
   double size;   ///< rad
   double until;  ///< normalised
@@ -70,8 +70,8 @@ Step step_to_draw(const Work& work) {
   };
   constexpr double turn = 2.0 * std::numbers::pi;
   if (const LimitCycle* cycle = largest_stable(*work.analysis.closed)) {
-    // Until a disturbance has died to a hundredth, which the lines of the cycle hide; but of a
-    // cycle that is approached slowly no more than can be seen apart.
+    // Until a disturbance is down to a hundredth, which the cycle's line hides, but at most eight
+    // periods, because more lines cannot be told apart.
     const double periods = std::log(0.01) / std::log(std::abs(cycle->multiplier));
     return {rounded(1.8 * std::max(cycle->size, cycle->motor_size)),
             cycle->period * std::clamp(std::ceil(periods), 4.0, 8.0)};
@@ -82,8 +82,8 @@ Step step_to_draw(const Work& work) {
           servo.damping < 1.0 ? std::clamp(settling_time, 2.0 * turn, 20.0 * turn) : settling_time};
 }
 
-/// From rest on a face; but where the faces may come to rest together after such a step, small
-/// motion in the gap, which grows into the cycle.
+/// At rest on a face. If such a step may end at rest, a small motion in the gap instead, which
+/// grows into the cycle.
 ServoState start_to_draw(const Work& work, const Step& step) {
   const LimitCycle* cycle = largest_stable(*work.analysis.closed);
   if (cycle == nullptr || !work.analysis.closed->rests_engaged) {
@@ -96,7 +96,7 @@ ServoState start_to_draw(const Work& work, const Step& step) {
           load_position, share * start.load_speed};
 }
 
-/// From a state in the normal form, and until a time there.
+/// The motion from `state` until `until`, both in the normal form.
 Motion motion_from(const Work& work, const ServoState& state, double reference, double until) {
   Drive drive = work.report.drive;
   drive.reference = reference;
@@ -132,7 +132,7 @@ std::string draw_tornado(const Work& work, PictureFormat format) {
   const BarChart chart = tornado_of(*work.report.sensitivity);
   if (chart.bars.empty()) {
     throw InvalidInput(
-        {{"--plot", "tornado", "must be left out: there are no sensitivities of this servo", ""}});
+        {{"--plot", "tornado", "must be left out: this servo has no sensitivities", ""}});
   }
   return draw_bar_chart(chart, format);
 }
@@ -152,7 +152,7 @@ std::string text_for_terminal(const std::string& text) {
   return emphasized(text.substr(0, end_of_headline)) + text.substr(end_of_headline);
 }
 
-/// Verdicts that need a number which the search did not find are no answer.
+/// A verdict of hunting is undecided if the search found no amplitude.
 bool is_decided(const Answer& answer) {
   switch (answer.verdict) {
     case Verdict::hunts:
@@ -166,10 +166,10 @@ bool is_decided(const Answer& answer) {
   }
 }
 
-/// Margins and sensitivities, by the numbers of a drive with a closed form.
+/// Adds margins and sensitivities of a drive with a closed form.
 void add_changes(Work& work, const Drive& drive, bool wants_margins, bool wants_sensitivities) {
   const ChangeableDrive changeable(drive);
-  // At the very ends of the ranges rounding may put the drive's ratios beyond them.
+  // At the very ends of the ranges, rounding may put the ratios outside them.
   const bool is_sound = validate(changeable.drivetrain()).empty();
   if (wants_margins && is_sound) {
     TerminalProgress progress("Margins");
@@ -195,11 +195,11 @@ Work analysed(const WrittenDrive& written, const Provenance& provenance) {
   return work;
 }
 
-/// What only the closed form gives.
+/// Refuses options that need a closed form.
 void refuse_without_closed_form(const LimitCycleOptions& options, const std::vector<Plot>& plots,
                                 Faults& faults) {
   const std::string why =
-      "must be left out: it needs a closed-form answer, which this drive has not";
+      "must be left out: it needs a closed-form answer, and this drive has none";
   if (options.margins) faults.add({"--margins", "given", why, ""});
   if (options.sensitivities) faults.add({"--sensitivities", "given", why, ""});
   if (has_kind(plots, "tornado")) faults.add({"--plot", "tornado", why, ""});
@@ -241,19 +241,21 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
 
 void add_limit_cycle_command(Command& app, Action& action) {
   const auto options = std::make_shared<LimitCycleOptions>();
-  Command* command = app.add_subcommand("limit-cycle", "does it hunt, how big and how fast?");
+  Command* command = app.add_subcommand(
+      "limit-cycle", "Report whether a drive hunts, with the amplitude and frequency");
   add_servo_or_drive_options(*command, options->servo);
-  command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");
-  command->add_flag("--brief", options->brief, "the headline alone");
+  command->add_option("--format", options->format, "Choose the format: text (default) or json")
+      ->type_name("FORMAT");
+  command->add_flag("--brief", options->brief, "Print the headline alone");
   add_plot_option(*command, options->plots,
-                  "phase: cycles in the phase plane, of a servo over a step\n"
-                  "response that leads to them; tornado: what the amplitude\n"
-                  "depends on; ");
+                  "Draw phase=FILE, the limit cycles in the phase plane (with a closed\n"
+                  "form also a step response that leads to them), or tornado=FILE,\n"
+                  "the sensitivities of the amplitude;");
   command->add_flag("--margins", options->margins,
-                    "how far each number may change until hunting ends or begins; with\n"
-                    "bounces it takes a minute or more");
+                    "Add how far each parameter may change before hunting ends or begins;\n"
+                    "with bounces this takes a minute or more");
   command->add_flag("--sensitivities", options->sensitivities,
-                    "exact sensitivities to every number, in per cent for one per cent");
+                    "Add exact sensitivities to every parameter, in per cent for one per cent");
   command->footer(help_footer(examples));
   command->callback([options, &action] {
     action = [options](const Provenance& provenance) { return run(*options, provenance); };

@@ -1,4 +1,4 @@
-// What the machine could not do: reported on standard error, exit status 3.
+// Failures of the machine: reported on standard error, exit status 3.
 #pragma once
 
 #include <functional>
@@ -12,11 +12,11 @@ namespace gearlash::cli {
 void report_lines(const std::string& lines);
 
 /// Runs `work`. Returns false where the machine refused it output, a plotter, memory or a thread,
-/// which is reported by report_lines(). All else that `work` throws passes.
+/// and reports it by report_lines(). Other exceptions pass.
 bool is_within_means(const std::function<void()>& work);
 
-/// Pictures and files that are made beside the answer. One that fails is reported at once, and
-/// withholds neither the others nor the answer.
+/// Pictures and files beside the answer. A failure is reported at once. It withholds neither the
+/// others nor the answer.
 class Extras {
  public:
   void make(const std::function<void()>& work);

@@ -1,4 +1,4 @@
-// gearlash: will a geared servo with backlash hunt, how big and how fast?
+// gearlash: does a geared servo with backlash hunt, and what must change?
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -17,10 +17,11 @@ namespace gearlash::cli {
 namespace {
 
 constexpr char description[] =
-    "Tells whether a geared servo with backlash will limit-cycle (hunt), how big and how fast.\n";
+    "Report whether a geared servo with backlash hunts (limit-cycles), with which amplitude and\n"
+    "frequency, and what must change to stop it.\n";
 
 constexpr char examples[] =
-    "  gearlash limit-cycle examples/elinco-fd162.toml --plot hunting.svg\n"
+    "  gearlash limit-cycle examples/elinco-fd162.toml --plot phase=hunting.svg\n"
     "  gearlash simulate examples/elinco-fd162.toml --plot time=step.svg > step.csv\n"
     "  gearlash motor examples/elinco-fd162.toml\n"
     "  gearlash map --x friction-ratio=0:1:100 --y damping=0.02:0.8:100 --inertia-ratio 2 \\\n"
@@ -35,12 +36,12 @@ extern "C" void remove_outputs_and_die(int signal_number) {
 
 void install_signal_handlers() {
   for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
-    // nohup has SIGHUP ignored, a shell's background job SIGINT: that stays.
+    // nohup ignores SIGHUP, and a background job of a shell SIGINT. Both stay ignored.
     if (std::signal(signal_number, remove_outputs_and_die) == SIG_IGN) {
       std::signal(signal_number, SIG_IGN);
     }
   }
-  // A closed pipe and a file grown too large are then seen where they are written to.
+  // Writing then reports a closed pipe and a file that has grown too large.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
 }

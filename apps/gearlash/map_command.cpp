@@ -28,7 +28,8 @@ void require_an_area(const GridTask& task) {
   constexpr std::array fields = {"--y", "--x"};
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (task.grid.axes[i].values.size() > 1) continue;
-    faults.add({fields[i], "1 value", "must be two or more; gearlash chart draws one", ""});
+    faults.add({fields[i], "1 value",
+                "must have two values or more; gearlash chart draws a single line", ""});
   }
   faults.require_none();
 }
@@ -48,16 +49,16 @@ ExitStatus run(const MapOptions& options, const Provenance& provenance) {
 void add_map_command(Command& app, Action& action) {
   const auto options = std::make_shared<MapOptions>();
   Command* command = app.add_subcommand(
-      "map", "contours over two parameters of the drive, and where hunting ends");
+      "map", "Draw contours over two parameters of a drive, and where hunting ends");
   command->add_option("--x", options->x, axis_help)->type_name("AXIS")->required();
-  command->add_option("--y", options->y, "axis of another parameter")
+  command->add_option("--y", options->y, "Set the axis of another parameter")
       ->type_name("AXIS")
       ->required();
   add_grid_options(*command, options->grid,
-                   "map: contours of the quantity, or its value at each point where\n"
-                   "drives are searched; ");
+                   "Draw map=FILE, contours of the quantity, or its value at each point\n"
+                   "if drives are searched;");
   command->footer(
-      "Without --backlash amplitudes are in backlashes, to which they are proportional.\n\n" +
+      "Without --backlash, amplitudes are in backlashes, because they are proportional to it.\n\n" +
       help_footer(examples));
   command->callback([options, &action] {
     action = [options](const Provenance& provenance) { return run(*options, provenance); };

@@ -15,7 +15,7 @@ constexpr char examples[] =
     "  gearlash motor examples/elinco-fd162.toml\n"
     "  gearlash motor examples/instrument-two-phase.toml\n";
 
-/// The procedure is that of a proportional loop around a motor with a winding.
+/// The procedure covers a proportional loop and a motor with a winding.
 bool is_data_sheet(const Drive& drive) {
   const auto* pid = std::get_if<PID>(&drive.controller.law);
   return !drive.servo && !std::holds_alternative<TorqueControl>(drive.motor.kind) &&
@@ -31,7 +31,7 @@ ExitStatus run(const ServoOptions& options, const Provenance&) {
                          shown(options.file, std::string_view::npos)}});
   }
   const Drive drive = closed_form_drive(*written, options);
-  // What --set has changed is not what the file says.
+  // With --set the texts of the file no longer apply.
   using Values = std::map<std::string, std::string>;
   const Values values = options.settings.empty() ? written_values(options.file) : Values{};
   write_file("-", motor_procedure(drive, written->angle, values));
@@ -42,9 +42,9 @@ ExitStatus run(const ServoOptions& options, const Provenance&) {
 
 void add_motor_command(Command& app, Action& action) {
   const auto options = std::make_shared<ServoOptions>();
-  Command* command =
-      app.add_subcommand("motor", "from the data sheet to the numbers of the charts, step by step");
-  command->add_option("DRIVE.toml", options->file, "data sheet (docs/data-sheets.md)")
+  Command* command = app.add_subcommand(
+      "motor", "Convert a data sheet to the numbers of the charts, step by step");
+  command->add_option("DRIVE.toml", options->file, "Read this data sheet (docs/data-sheets.md)")
       ->type_name("")
       ->required();
   add_set_option(*command, *options);

@@ -16,7 +16,7 @@
 namespace gearlash::cli {
 namespace {
 
-constexpr double chart_backlash = 0.3;  ///< rad, for which the charts of the thesis are drawn
+constexpr double chart_backlash = 0.3;  ///< rad, of the charts of the thesis
 
 std::string number(double value) { return significant(value, 6); }
 
@@ -30,7 +30,7 @@ struct Given {
   std::string unit;
 };
 
-/// Of the kind of motor; those of all motors stand below it.
+/// Constants of this kind of motor.
 std::vector<Given> motor_constants(const MotorKind& kind) {
   return std::visit(
       Overloaded{[](const ArmatureControl& armature) -> std::vector<Given> {
@@ -119,7 +119,7 @@ class Steps {
   std::string text_;
 };
 
-/// Everything that more than one step needs.
+/// Values that several steps need.
 struct Known {
   explicit Known(const Drive& of) : drive(of) {}
 
@@ -161,7 +161,7 @@ void add_mechanics(Steps& steps, const Known& known) {
                         number(known.mechanical_friction())));
 }
 
-/// Friction by electrical means is left out of the sums of a motor that has none.
+/// A motor without electrical friction has no such term in its sums.
 struct FrictionSum {
   std::string formula;
   std::string numbers;
@@ -186,7 +186,7 @@ void add_ratios(Steps& steps, const FrictionSum& sum, const Known& known) {
             fmt::format("J_L/J_M = {}/{} = {}", number(known.drivetrain.load_inertia),
                         number(known.drivetrain.motor_inertia), number(known.servo.inertia_ratio)));
   if (known.total_friction() == 0.0) {
-    steps.add("Friction ratio", "there is no friction: it has no influence, and is taken as 0");
+    steps.add("Friction ratio", "there is no friction, so it has no influence and is set to 0");
     return;
   }
   steps.add("Friction ratio", "F_L/F_Total", "F_L/" + sum.formula,
@@ -248,7 +248,7 @@ Procedure procedure_for(const TorqueControl&, const Known&) {
 
 // --- the limit cycle ---
 
-/// The thesis reads a chart here; the equation behind the charts is solved instead.
+/// The thesis reads a chart here. This solves the equation behind the chart.
 void add_limit_cycle(Steps& steps, const NormalizedServo& servo) {
   NormalizedServo charted = servo;
   charted.backlash = chart_backlash;

@@ -1,4 +1,4 @@
-// Appendix A of the 1960 thesis with a data sheet's numbers in it, to be followed with a pencil.
+// Appendix A of the 1960 thesis with the numbers of a data sheet, step by step.
 #pragma once
 
 #include <map>

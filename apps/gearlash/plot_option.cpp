@@ -49,7 +49,8 @@ bool has_kind(const std::vector<Plot>& plots, const std::string& kind) {
 
 Option* add_plot_option(Command& command, std::vector<std::string>& typed,
                         const std::string& kinds) {
-  return command.add_option("--plot", typed, kinds + "FILE ends in .svg, .png or .pdf; repeatable")
+  return command
+      .add_option("--plot", typed, kinds + "\nFILE ends in .svg, .png or .pdf; repeatable")
       ->type_name("KIND=FILE")
       ->allow_extra_args(false);
 }

@@ -1,4 +1,4 @@
-// --plot KIND=FILE: what is drawn, and where to.
+// --plot KIND=FILE: pictures and their files.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ struct Plot {
   PictureFormat format = PictureFormat::svg;
 };
 
-/// Every text of --plot. Faults: no KIND=FILE, a KIND that is not among `kinds` (with the nearest
-/// one), another ending than .svg, .png or .pdf.
+/// Reads every --plot. Faults: no KIND=FILE; a KIND not in `kinds` (with the nearest one); an
+/// extension other than .svg, .png or .pdf.
 std::vector<Plot> read_plots(const std::vector<std::string>& typed,
                              const std::vector<std::string>& kinds, Faults& faults);
 
@@ -25,7 +25,7 @@ std::vector<FileUse> files_of(const std::vector<Plot>& plots);
 
 bool has_kind(const std::vector<Plot>& plots, const std::string& kind);
 
-/// The option, repeatable; `kinds` says what each of them draws, a line each.
+/// Adds the repeatable option. `kinds` describes what each kind draws.
 Option* add_plot_option(Command& command, std::vector<std::string>& typed,
                         const std::string& kinds);
 

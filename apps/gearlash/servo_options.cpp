@@ -41,14 +41,14 @@ std::optional<double> read_bare_number(std::string_view field, std::string_view 
   }
 }
 
-/// The text of a drive, where it comes from, and where the files that it names are.
+/// The text of a drive, the name of its source, and the folder of the files that it names.
 struct Source {
   std::string text;
   std::string name;
   std::filesystem::path folder;
 };
 
-/// Of the normal form that options describe, or of a file.
+/// The file, or the normal form that options describe.
 Source source_of(const ServoOptions& options) {
   if (options.file == "-") return {read_standard_input(largest_drive_file), "standard input", {}};
   if (!options.file.empty()) {
@@ -64,7 +64,7 @@ std::string path_of(const NumberOption& option, bool is_normal_form) {
   return (is_of_plant ? "gearbox." : "servo.") + std::string(option.name);
 }
 
-/// Of --set; without a file also of the options that describe the normal form.
+/// Settings from --set and, without a file, from the options of the normal form.
 std::vector<Setting> settings_of(const ServoOptions& options, Faults& faults) {
   std::vector<Setting> settings;
   for (const NumberOption& option : number_options) {
@@ -84,8 +84,8 @@ std::vector<Setting> settings_of(const ServoOptions& options, Faults& faults) {
 void add_set_option(Command& command, ServoOptions& options) {
   command
       .add_option("--set", options.settings,
-                  "any parameter of the drive, with its unit, such as\n"
-                  "gearbox.backlash=\"12 arcmin\"; repeatable; gearlash show lists them")
+                  "Set any parameter of the drive by its path, with its unit:\n"
+                  "gearbox.backlash=\"12 arcmin\"; repeatable; gearlash show lists the paths")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false)
       ->group(servo_group);
@@ -95,23 +95,30 @@ namespace {
 
 void add_options(Command& command, ServoOptions& options, const char* file_help,
                  const char* sensor_help) {
-  command.add_option("SERVO.toml", options.file, file_help)->type_name("");
-  command.add_option("--damping", options.damping, "damping coefficient, 0 or 1e-15 to 1000")
+  command.add_option("DRIVE.toml", options.file, file_help)->type_name("");
+  command
+      .add_option("--damping", options.damping, "Set the damping coefficient: 0, or 1e-15 to 1000")
       ->type_name("NUMBER")
       ->group(servo_group);
-  command.add_option("--inertia-ratio", options.inertia_ratio, "of load to motor; 0 to inf")
+  command
+      .add_option("--inertia-ratio", options.inertia_ratio,
+                  "Set the inertia ratio, load to motor: 0 to inf")
       ->type_name("NUMBER")
       ->group(servo_group);
-  command.add_option("--friction-ratio", options.friction_ratio, "of load to total, 0 to 1")
+  command
+      .add_option("--friction-ratio", options.friction_ratio,
+                  "Set the friction ratio, load to total: 0 to 1")
       ->type_name("NUMBER")
       ->group(servo_group);
   command
       .add_option("--backlash", options.backlash,
-                  "at the load, face to face: rad, or with its unit, \"12 arcmin\"")
+                  "Set the backlash at the load, face to face, in rad or with a unit:\n"
+                  "\"12 arcmin\"")
       ->type_name("ANGLE")
       ->group(servo_group);
   command
-      .add_option("--restitution", options.restitution, "0 (plastic, the default) to 1 (elastic)")
+      .add_option("--restitution", options.restitution,
+                  "Set the restitution: 0 (plastic, the default) to 1 (elastic)")
       ->type_name("NUMBER")
       ->group(servo_group);
   command.add_option("--sensor", options.sensor, sensor_help)
@@ -133,7 +140,7 @@ bool may_be_lost(const fs::path& file) {
   return !file.empty() && file != "-" && !is_device;
 }
 
-/// However it is spelled: a file that is not there yet has no absolute name of its own.
+/// One name for a file, however it is spelled. A file that does not exist yet has no canonical one.
 fs::path resolved(const fs::path& file) {
   std::error_code error;
   const fs::path whole = fs::weakly_canonical(fs::absolute(file, error), error);
@@ -153,15 +160,18 @@ std::string option_name(std::string field) {
 }
 
 void add_servo_options(Command& command, ServoOptions& options) {
-  add_options(command, options, "data sheet or normalised servo (docs/data-sheets.md)",
-              "shaft with the position sensor: load");
+  add_options(command, options,
+              "Read the servo from this file: a data sheet or normalised servo\n"
+              "(docs/data-sheets.md); - is standard input",
+              "Set the shaft with the position sensor: load");
 }
 
 void add_servo_or_drive_options(Command& command, ServoOptions& options) {
   add_options(command, options,
-              "data sheet or normalised servo (docs/data-sheets.md), or drive\n(docs/drives.md)",
-              "shaft with the position sensor: load, motor, or both (of a\n"
-              "drive: position of the load, speed of the motor)");
+              "Read the drive from this file: a data sheet or normalised servo\n"
+              "(docs/data-sheets.md), or any drive (docs/drives.md); - is standard\ninput",
+              "Set the shaft with the position sensor: load, motor or both (position\n"
+              "of the load, speed of the motor)");
 }
 
 void Faults::require_choice(const std::string& field, const std::string& value,
@@ -205,7 +215,7 @@ double read_si(std::string_view field, std::string_view text, const Dimension& d
 
 namespace {
 
-/// Faults of what options say, named as they were typed.
+/// Renames faults to the options that caused them.
 std::vector<Fault> named_as_typed(std::vector<Fault> faults, const ServoOptions& options) {
   const bool has_file = !options.file.empty();
   for (Fault& fault : faults) {
@@ -232,8 +242,7 @@ std::vector<Fault> named_as_typed(std::vector<Fault> faults, const ServoOptions&
   return faults;
 }
 
-/// The normal form of a drive, with the numbers of it that options change: the natural frequency
-/// stays.
+/// The normal form of a drive with the numbers changed by options. The natural frequency stays.
 WrittenDrive changed_normal_form(const WrittenDrive& written, const ServoOptions& options) {
   const std::optional<Drive> form = normal_form_of(written.drive);
   WrittenDrive changed{
@@ -244,7 +253,7 @@ WrittenDrive changed_normal_form(const WrittenDrive& written, const ServoOptions
     if (!typed) return;
     if (!form) {
       faults.add({option_name(name), shown(*typed),
-                  "must be left out: the drive has no normal form with such a number", ""});
+                  "must be left out: the drive has no normal form with this number", ""});
       return;
     }
     double& value = (*changed.drive.servo).*number;

@@ -28,10 +28,10 @@ struct ServoOptions {
 std::string option_name(std::string field);
 
 void add_servo_options(Command& command, ServoOptions& options);
-/// Of a command that takes drives too.
+/// The same for a command that takes any drive.
 void add_servo_or_drive_options(Command& command, ServoOptions& options);
 
-/// A file of a command: what it is for, "--output", and its name.
+/// A file of a command: its use, such as "--output", and its name.
 struct FileUse {
   std::string use;
   std::string file;
@@ -60,9 +60,9 @@ class Faults {
   /// `value` if it is one of `choices`, else a fault of `field`.
   void require_choice(const std::string& field, const std::string& value,
                       const std::vector<std::string>& choices);
-  /// No two of the files that are read or written may be the same, of which one would be lost:
-  /// `input`, the files that it names (tables of signals), and `outputs`, each with what it is for.
-  /// Empty names, "-" and devices are no matter.
+  /// Adds a fault for each output that is the same file as `input`, as a file that it names (a
+  /// table of a signal), or as another output, because one would be lost. Empty names, "-" and
+  /// devices are exempt.
   void require_distinct(const FileUse& input, const std::vector<FileUse>& outputs);
   bool none() const { return faults_.empty(); }
   void require_none() const { gearlash::require_none(faults_); }
@@ -75,7 +75,7 @@ class Faults {
 double read_si(std::string_view field, std::string_view text, const Dimension& dimension);
 
 /// The drive as its user has it: the file, or the normal form of the options, with the settings of
-/// --set. Faults go to `faults`; there is a result, and it is sound, if there are none.
+/// --set. Adds faults to `faults`. Without faults there is a result, and it is valid.
 std::optional<WrittenDrive> resolve_drive(const ServoOptions& options, Faults& faults);
 
 /// The drive without its signals, on which hunting does not depend. Throws InvalidInput, located at

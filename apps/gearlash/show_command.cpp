@@ -1,4 +1,4 @@
-// gearlash show: the drive with all defaults taken.
+// gearlash show: the drive with all defaults filled in.
 #include <memory>
 
 #include "command.hpp"
@@ -35,9 +35,10 @@ ExitStatus run(const ShowOptions& options, const Provenance& provenance) {
 void add_show_command(Command& app, Action& action) {
   const auto options = std::make_shared<ShowOptions>();
   Command* command =
-      app.add_subcommand("show", "the drive with all defaults taken, as a file that reads back");
+      app.add_subcommand("show", "Write the drive with all defaults, as a file that reads back");
   add_servo_or_drive_options(*command, options->servo);
-  command->add_option("--format", options->format, "toml (default) or json")->type_name("FORMAT");
+  command->add_option("--format", options->format, "Choose the format: toml (default) or json")
+      ->type_name("FORMAT");
   command->footer(help_footer(examples));
   command->callback([options, &action] {
     action = [options](const Provenance& provenance) { return run(*options, provenance); };

@@ -50,7 +50,7 @@ struct SimulateOptions {
   std::string output = "-";
 };
 
-/// What is asked for, all in SI.
+/// The task, in SI.
 struct Task {
   WrittenDrive written{};
   Start start{};
@@ -74,13 +74,13 @@ Start read_start(const SimulateOptions& options, Faults& faults) {
   return start;
 }
 
-/// A step in which hunting is seen: five backlashes, and twenty counts of an encoder.
+/// A step that shows hunting: five backlashes, at least twenty encoder counts.
 double default_reference(const drive::ReducedDrive& reduced) {
   const double step = std::max(5.0 * reduced.backlash, 20.0 * reduced.sensing.resolution);
   return step > 0.0 && std::isfinite(step) ? step : 1.0;
 }
 
-/// Of --reference; else the file's; else a step. Its unit is drawn where the file has but radians.
+/// From --reference, else from the file, else a step. Its unit is used if the file has radians.
 void set_reference(const SimulateOptions& options, WrittenDrive& written, Faults& faults) {
   if (options.reference) {
     const Measured angle =
@@ -110,8 +110,8 @@ double read_time(const char* field, const std::string& text, Faults& faults) {
   return time;
 }
 
-/// Twice the time in which the signals settle, and ten periods of the loop. `drive` is nullptr
-/// where it is at fault.
+/// The default end is ten periods of the loop plus twice the settling time of the signals. `drive`
+/// is nullptr if it has faults.
 void read_times(const SimulateOptions& options, const Drive* drive, Task& task, Faults& faults) {
   constexpr double periods = 10.0;
   task.until = 1.0;
@@ -129,7 +129,7 @@ void read_times(const SimulateOptions& options, const Drive* drive, Task& task, 
   if (options.every) task.every = read_time("--every", *options.every, faults);
   if (!options.events && faults.none() && !(task.until / task.every < most_samples)) {
     faults.add({"--every", exact_text(task.every),
-                fmt::format("must be more than {} s: {} samples at most up to {} s",
+                fmt::format("must be more than {} s: at most {} samples in {} s",
                             significant(task.until / most_samples, 6), significant(most_samples, 3),
                             exact_text(task.until)),
                 ""});
@@ -153,7 +153,7 @@ Task read_task(const SimulateOptions& options, Faults& faults) {
   return task;
 }
 
-/// Faults of the span are those of the options that were typed.
+/// Reports faults of the span under the options that were typed.
 Motion simulated(const Task& task, const SimulateOptions& options) {
   try {
     return simulate(task.written.drive, {.until = task.until, .start = task.start});
@@ -194,7 +194,7 @@ std::string title_of(const Task& task) {
   return step != nullptr ? "Step to " + angle(step->after) : "Response to the reference";
 }
 
-/// The verdict, where the closed form has it in no time.
+/// The verdict, if the closed form gives it at once; else empty.
 std::string verdict_of(const WrittenDrive& written) {
   if (!final_servo(written.drive)) return {};
   AnswerReport report;
@@ -258,28 +258,32 @@ ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
 }
 
 void add_start_options(Command& command, SimulateOptions& options) {
-  constexpr char group[] = "Motion (rad, s and rad/s, or with their unit, \"50 ms\", \"3 rpm\")";
+  constexpr char group[] = "Motion (in rad, s and rad/s, or with a unit: \"50 ms\", \"3 rpm\")";
   const auto add = [&](const char* name, auto& typed, const char* help, const char* kind) {
     command.add_option(name, typed, help)->type_name(kind)->group(group);
   };
-  add("--initial-position", options.initial_position, "of the load; default 0", "ANGLE");
+  add("--initial-position", options.initial_position,
+      "Set the initial position of the load; default 0", "ANGLE");
   add("--initial-speed", options.initial_speed,
-      "of both shafts; --initial-gap-speed adds to the\nmotor's; default 0", "SPEED");
+      "Set the initial speed of both shafts; default 0; --initial-gap-speed\nadds to the motor's",
+      "SPEED");
   add("--initial-gap", options.initial_gap,
-      "motor less load, within half the backlash each way; default\n"
-      "on the face that the reference pulls to",
+      "Set the initial position of the motor minus that of the load, within\n"
+      "half the backlash each way; default on the face that the reference\n"
+      "pulls to",
       "ANGLE");
   add("--initial-gap-speed", options.initial_gap_speed,
-      "speed of the motor less that of the load; default 0", "SPEED");
+      "Set the initial speed of the motor minus that of the load; default 0", "SPEED");
   add("--reference", options.reference,
-      "constant position asked for; default what the file says, else a\n"
-      "step of five backlashes, and at least twenty encoder counts",
+      "Set a constant reference; default the file's reference, else a step of\n"
+      "five backlashes, at least twenty encoder counts",
       "ANGLE");
   add("--until", options.until,
-      "time to stop at; default 10 periods of the loop, and twice the time\n"
-      "in which the signals settle",
+      "Set the end time; default 10 periods of the loop plus twice the\n"
+      "settling time of the signals",
       "TIME");
-  add("--every", options.every, "between samples; default a thousandth of --until", "TIME");
+  add("--every", options.every, "Set the time between samples; default a thousandth of --until",
+      "TIME");
 }
 
 }  // namespace
@@ -287,16 +291,20 @@ void add_start_options(Command& command, SimulateOptions& options) {
 void add_simulate_command(Command& app, Action& action) {
   const auto options = std::make_shared<SimulateOptions>();
   Command* command =
-      app.add_subcommand("simulate", "the exact motion after a step or from a disturbance");
+      app.add_subcommand("simulate", "Compute the exact motion after a step or a disturbance");
   add_servo_or_drive_options(*command, options->servo);
   add_start_options(*command, *options);
   command->add_flag("--events", options->events,
-                    "list what happens (faces meet, part, stick) instead of samples;\n"
+                    "List events (faces meet, part; shafts stick) instead of samples;\n"
                     "JSON has both");
-  command->add_option("--format", options->format, "csv (default) or json")->type_name("FORMAT");
+  command->add_option("--format", options->format, "Choose the format: csv (default) or json")
+      ->type_name("FORMAT");
   add_plot_option(*command, options->plots,
-                  "time: the response, the gap and the torque; phase: the\nphase plane; ");
-  command->add_option("--output", options->output, "file for the table; default standard output")
+                  "Draw time=FILE, the response, the gap and the torque, or phase=FILE,\n"
+                  "the phase plane;");
+  command
+      ->add_option("--output", options->output,
+                   "Write the table to this file; default standard output")
       ->type_name("FILE");
   command->footer(help_footer(examples));
   command->callback([options, &action] {

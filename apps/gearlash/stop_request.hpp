@@ -1,12 +1,12 @@
-// Ctrl-C and its like, for work that brings what it has to safety before it ends.
+// Ctrl-C and similar signals, for work that saves its results before it ends.
 #pragma once
 
 #include <array>
 
 namespace gearlash::cli {
 
-/// While one exists, SIGINT, SIGTERM and SIGHUP do not end the program but are noted; those that
-/// the program was started to ignore stay ignored. A second signal ends it at once.
+/// While one exists, SIGINT, SIGTERM and SIGHUP are noted and do not end the program. Signals that
+/// were ignored at the start stay ignored. A second signal ends the program at once.
 class StopRequest {
  public:
   StopRequest();

@@ -1,4 +1,4 @@
-// gearlash sweep: answers over up to six parameters, into a NetCDF file, in little memory.
+// gearlash sweep: a drive over up to six parameters into a NetCDF file, in little memory.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -28,14 +28,15 @@ constexpr char examples[] =
     "  python3 -c 'import xarray; print(xarray.open_dataset(\"sweep.nc\"))'\n";
 
 constexpr char explanation[] =
-    "SWEEP.toml says what is varied, and the rest of the drive as its file does:\n"
+    "SWEEP.toml has the axes, and the drive without the parameters on them:\n"
     "  [sweep]\n"
     "  axes = [\"damping=0.05:0.6:56\", \"inertia-ratio=1/9:9:100:log\"]\n"
-    "  quantities = [\"amplitude\", \"period\"]   # all when left out\n"
+    "  quantities = [\"amplitude\", \"period\"]   # all if left out\n"
     "  [servo]\n"
     "  friction_ratio = 0.1          # without backlash, amplitudes are in backlashes\n\n"
-    "While it runs, FILE.part holds what is done and FILE.part.json how much that is. Both\n"
-    "remain when it is stopped or killed, for --resume; FILE appears when it is whole.\n\n";
+    "During the sweep FILE.part holds the results so far, and FILE.part.json their number.\n"
+    "Both remain for --resume if the sweep is stopped or killed. FILE appears when it is\n"
+    "complete.\n\n";
 
 struct SweepOptions {
   std::string file;
@@ -48,7 +49,7 @@ void require_netcdf(const std::string& output, Faults& faults) {
   faults.add({"--output", shown(output), "must end in .nc", ""});
 }
 
-/// The command without --resume: a resumed sweep's file is the same as any other.
+/// The command without --resume, so that a resumed sweep writes the same file.
 Provenance provenance_of(const SweepOptions& options, const Provenance& typed) {
   const std::vector<std::string> words = {"gearlash", "sweep", options.file, "--output",
                                           options.output};
@@ -59,16 +60,16 @@ Provenance provenance_of(const SweepOptions& options, const Provenance& typed) {
 
 void report_stop(const SweepRun& run, const SweepFile& sweep, const std::string& output) {
   if (run.points_done == 0) {
-    report_lines("stopped before any of " + std::to_string(sweep.grid.size()) +
-                 " points was done: there is nothing to resume");
+    report_lines("stopped before the first of " + std::to_string(sweep.grid.size()) +
+                 " points: there is nothing to resume");
     return;
   }
   fmt::print(stderr,
-             "gearlash: stopped after {} of {} points, which {}.part holds: --resume goes on\n",
+             "gearlash: stopped after {} of {} points, saved in {}.part; --resume continues\n",
              run.points_done, sweep.grid.size(), shown(output, std::string::npos));
 }
 
-/// Shown, and stopped by Ctrl-C.
+/// Progress that Ctrl-C stops.
 class StoppableProgress : public TerminalProgress {
  public:
   StoppableProgress(std::size_t points, const StopRequest& stop)
@@ -100,7 +101,7 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
   const SweepRun done =
       run_sweep(sweep, provenance_of(options, provenance), options.output,
                 options.resume ? SweepStart::resume : SweepStart::anew, *progress);
-  progress.reset();  // wiped before anything is said
+  progress.reset();  // wiped before anything is printed
   if (done.points_done < sweep.grid.size()) {
     report_stop(done, sweep, options.output);
     stop.obey();
@@ -113,15 +114,15 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
 
 void add_sweep_command(Command& app, Action& action) {
   const auto options = std::make_shared<SweepOptions>();
-  Command* command = app.add_subcommand(
-      "sweep", "answers over up to six parameters, into a NetCDF file of any size");
-  command->add_option("SWEEP.toml", options->file, "what is varied, and the rest of the drive")
+  Command* command =
+      app.add_subcommand("sweep", "Analyse a drive over up to six parameters, into a NetCDF file");
+  command->add_option("SWEEP.toml", options->file, "Read the axes and the drive from this file")
       ->type_name("")
       ->required();
-  command->add_option("--output", options->output, "NetCDF-4 file (.nc)")
+  command->add_option("--output", options->output, "Write this NetCDF-4 file (.nc)")
       ->type_name("FILE")
       ->required();
-  command->add_flag("--resume", options->resume, "go on with a sweep that was stopped or killed");
+  command->add_flag("--resume", options->resume, "Continue a sweep that was stopped or killed");
   command->footer(explanation + help_footer(examples));
   command->callback([options, &action] {
     action = [options](const Provenance& provenance) { return run(*options, provenance); };

@@ -37,9 +37,10 @@ bool is_there(const fs::path& path) {
   return fs::exists(path, ignored);
 }
 
-/// In a record: it is of a sweep, and no other program's.
+/// Marks a record as that of a sweep.
 constexpr char kind[] = "unfinished gearlash sweep";
 constexpr std::size_t largest_record = 16 * largest_sweep_file;
+constexpr char unchanged[] = "must be unchanged since the sweep stopped";
 
 std::string text_of(const Json& record) {
   return record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -47,7 +48,7 @@ std::string text_of(const Json& record) {
 
 std::string hexadecimal(std::uint64_t number) { return fmt::format("{:016x}", number); }
 
-/// Of all but the checksum itself.
+/// Over everything except the checksum itself.
 std::string checksum_of_record(Json record) {
   record.erase("checksum");
   return hexadecimal(checksum_of(text_of(record)));
@@ -56,7 +57,7 @@ std::string checksum_of_record(Json record) {
 Json read_json(const fs::path& file) {
   try {
     return Json::parse(read_text_file(file, largest_record), nullptr, false);
-  } catch (const InvalidInput&) {  // not to be read: no record
+  } catch (const InvalidInput&) {  // unreadable: no record
     return {};
   }
 }
@@ -121,7 +122,7 @@ void SweepPart::hold() {
   }
   struct stat held {};
   struct stat named {};
-  // Another sweep may have finished between the two calls, and the file have its name by now.
+  // Another sweep may have finished between the two calls and renamed the file.
   const bool is_ours = descriptor_ >= 0 && lock_file(descriptor_) != FileLock::elsewhere &&
                        fstat(descriptor_, &held) == 0 && lstat(data_.c_str(), &named) == 0 &&
                        held.st_ino == named.st_ino;
@@ -131,7 +132,7 @@ void SweepPart::hold() {
       {{"--output", shown_output_, "must not be written by another sweep at the same time", ""}});
 }
 
-/// A file without contents may be taken: there is nothing in it to lose.
+/// An empty file may be used, because it has nothing to lose.
 void SweepPart::require_own_files() {
   struct stat held {};
   if (fstat(descriptor_, &held) != 0 || !S_ISREG(held.st_mode)) refuse_foreign(data_);
@@ -156,7 +157,7 @@ SweepPart::~SweepPart() { let_go(); }
 SweepRecord SweepPart::read_record(const SweepFile& sweep, const Provenance& provenance) const {
   const Json json = read_json(record_);
   try {
-    if (json.at("checksum") != checksum_of_record(json)) refuse("must be as the sweep left them");
+    if (json.at("checksum") != checksum_of_record(json)) refuse(unchanged);
     if (json.at("provenance").at("version") != provenance.version) {
       refuse("must be of the same version of gearlash");
     }
@@ -178,7 +179,7 @@ SweepRecord SweepPart::read_record(const SweepFile& sweep, const Provenance& pro
   } catch (const Json::exception&) {  // reported below
   } catch (const std::out_of_range&) {
   }
-  refuse("must be as the sweep left them");
+  refuse(unchanged);
 }
 
 void SweepPart::write_record(const SweepFile& sweep, const Provenance& provenance,
@@ -221,8 +222,8 @@ std::string SweepPart::shown_files() const {
 
 void SweepPart::refuse_foreign(const fs::path& file) const {
   throw InvalidInput({{"--output", shown_output_,
-                       "must have no file beside it that no sweep has left: " + whole_name(file) +
-                           " is left alone; rename it, or remove it to start again",
+                       "must have no foreign file beside it: " + whole_name(file) +
+                           " does not come from a sweep and is not touched; rename or remove it",
                        ""}});
 }
 

@@ -1,4 +1,4 @@
-// The unfinished file of a sweep, and the record of how far it has come.
+// The unfinished file of a sweep, and the record of its progress.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace gearlash {
 
-/// What is known of the work on an unfinished sweep.
+/// The progress of an unfinished sweep.
 struct SweepRecord {
   SweepRun run;
   std::uint64_t checksum_of_data = 0;
@@ -21,39 +21,38 @@ struct SweepRecord {
 /// OUTPUT.part and OUTPUT.part.json, beside the file that a symbolic link leads to.
 std::array<std::filesystem::path, 2> unfinished_files(const std::filesystem::path& output);
 
-/// The unfinished files. While one exists, no other program can have one of the same
-/// files. Files of these names are taken only where the record says that a sweep has left them;
-/// others, and symbolic links, are refused and left alone. A record has a checksum of itself.
+/// The unfinished files. While one exists, no other program can have one of the same files.
+/// Existing files of these names are used only if the record shows that they come from a sweep.
+/// Others, and symbolic links, are refused and not touched. A record has a checksum of itself.
 class SweepPart {
  public:
-  /// Throws OutputError where the files cannot be made, and InvalidInput where OUTPUT is there but
-  /// is no regular file, where another program writes OUTPUT.part, or where one of the files is no
-  /// sweep's.
+  /// Throws OutputError if the files cannot be made. Throws InvalidInput if OUTPUT exists but is no
+  /// regular file, if another program writes OUTPUT.part, or if a file does not come from a sweep.
   explicit SweepPart(const std::filesystem::path& output);
-  /// What holds no result is removed, unless it was there before and nothing was begun.
+  /// Removes files without results, except those that existed before and were not begun.
   ~SweepPart();
   SweepPart(const SweepPart&) = delete;
   SweepPart& operator=(const SweepPart&) = delete;
 
-  /// Whether there is something to go on with.
+  /// Whether there is a sweep to resume.
   bool is_begun() const { return is_begun_; }
-  /// How far that has come. Throws InvalidInput where it is of another sweep or version, or where
-  /// the record is not as it was written.
+  /// Its progress. Throws InvalidInput if it is of another sweep or version, or if the record has
+  /// changed.
   SweepRecord read_record(const SweepFile& sweep, const Provenance& provenance) const;
-  /// Brought to the disk, whole or not at all. The first is written before the data are made, so
-  /// that there are never data without one.
+  /// Writes the record, whole or not at all. The first one is written before the data, so that
+  /// there are never data without a record.
   void write_record(const SweepFile& sweep, const Provenance& provenance,
                     const SweepRecord& record);
   /// Gives the data their name.
   void finish();
 
   const std::filesystem::path& data() const { return data_; }
-  /// Bytes that the data take on the disk.
+  /// Bytes of the data on the disk.
   std::size_t bytes() const;
   const std::string& shown_output() const { return shown_output_; }
   /// "a.nc.part and a.nc.part.json"
   std::string shown_files() const;
-  /// The files are not what they should be.
+  /// Throws InvalidInput about the files.
   [[noreturn]] void refuse(const std::string& permitted) const;
 
  private:
@@ -62,13 +61,13 @@ class SweepPart {
   void require_own_files();
   [[noreturn]] void refuse_foreign(const std::filesystem::path& file) const;
 
-  std::filesystem::path output_;  ///< of which a symbolic link keeps its place
+  std::filesystem::path output_;  ///< a symbolic link stays in place
   std::filesystem::path data_;
   std::filesystem::path record_;
   std::string shown_output_;  ///< as it was given
   int descriptor_ = -1;       ///< of the data, locked
   bool is_begun_ = false;
-  bool may_remove_data_ = false;  ///< they were made here, and hold no result
+  bool may_remove_data_ = false;  ///< made here, without results
   bool may_remove_record_ = false;
 };
 

@@ -18,7 +18,7 @@
 namespace gearlash {
 namespace {
 
-/// Points that are held in memory, written and recorded at a time: 50 MB.
+/// Points that are held in memory, written and recorded together: 50 MB.
 constexpr std::size_t longest_piece = std::size_t{1} << 19U;
 
 void require_room(const SweepPart& part, std::size_t bytes) {
@@ -27,12 +27,12 @@ void require_room(const SweepPart& part, std::size_t bytes) {
   const std::size_t taken = part.bytes();
   if (error || bytes <= taken || bytes - taken <= space.available) return;
   constexpr double gigabyte = 1e9;
-  throw OutputError(fmt::format("{}: cannot be written: {:.3g} GB are wanting, {:.3g} GB are free",
+  throw OutputError(fmt::format("{}: cannot be written: needs {:.3g} GB, {:.3g} GB are free",
                                 part.shown_output(), static_cast<double>(bytes - taken) / gigabyte,
                                 static_cast<double>(space.available) / gigabyte));
 }
 
-/// Of the values of a file by variable, so that it does not depend on the pieces they come in.
+/// Checksum of a file by variable, so that it does not depend on the blocks.
 class ChecksumOfData {
  public:
   explicit ChecksumOfData(const SweepFile& sweep)
@@ -60,8 +60,8 @@ class ChecksumOfData {
   std::vector<Checksum> numbers_;
 };
 
-/// One sweep under way. It is the calling thread that writes, because HDF5 prints its errors in all
-/// but the thread in which NetCDF was started.
+/// One sweep. Only the calling thread writes, because HDF5 prints its errors in every thread except
+/// the one in which NetCDF was started.
 class Sweeping {
  public:
   Sweeping(const SweepFile& sweep, const Provenance& provenance, SweepPart& part,
@@ -75,7 +75,7 @@ class Sweeping {
     if (begun.run.points_done > 0) require_data_of(begun);
   }
 
-  /// What was written and recorded in the end.
+  /// Returns what was written and recorded.
   SweepRun run(Progress& progress) {
     const GridCount count = evaluate_in_pieces(
         sweep_.grid, sweep_.quantities, recorded_.points_done, longest_piece,
@@ -85,7 +85,7 @@ class Sweeping {
           SweepRun run = recorded_;
           run.count.add(piece.count);
           run.points_done += piece.table.rows();
-          file_.flush();  // first, so that a record never speaks of what is not on the disk
+          file_.flush();  // first, so that the record never runs ahead of the disk
           record(run);
         },
         progress, cli::steady_seconds);
@@ -94,7 +94,7 @@ class Sweeping {
   }
 
  private:
-  static constexpr char not_whole[] = "must be the whole files that an unfinished sweep leaves";
+  static constexpr char not_whole[] = "must be the complete files of an unfinished sweep";
 
   GridContents contents() const {
     return {sweep_.grid, sweep_.quantities, provenance_, sweep_.text};
@@ -126,7 +126,9 @@ class Sweeping {
     } catch (const OutputError&) {
       part_.refuse(not_whole);
     }
-    if (checksum_.value() != begun.checksum_of_data) part_.refuse("must be as the sweep left them");
+    if (checksum_.value() != begun.checksum_of_data) {
+      part_.refuse("must be unchanged since the sweep stopped");
+    }
   }
 
   void record(const SweepRun& run) {
@@ -149,8 +151,8 @@ SweepRun run_sweep(const SweepFile& sweep, const Provenance& provenance,
   SweepPart part(output);
   if (part.is_begun() && start == SweepStart::anew) {
     throw InvalidInput({{"--output", part.shown_output(),
-                         "must not have an unfinished sweep beside it: --resume goes on with " +
-                             part.shown_files() + ", or remove both to start again",
+                         "must have no unfinished sweep beside it: continue " + part.shown_files() +
+                             " with --resume, or remove both to start again",
                          ""}});
   }
   const SweepRecord begun = part.is_begun() ? part.read_record(sweep, provenance) : SweepRecord{};

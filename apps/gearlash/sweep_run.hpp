@@ -1,4 +1,4 @@
-// Sweeps of any size into a NetCDF file, in little memory, that may be stopped and gone on with.
+// Sweeps of any size into a NetCDF file, in little memory, that can be stopped and resumed.
 #pragma once
 
 #include <cstddef>
@@ -12,23 +12,23 @@ namespace gearlash {
 
 enum class SweepStart {
   anew,   ///< an unfinished sweep into the same file is an InvalidInput
-  resume  ///< goes on with the unfinished sweep, or starts where there is none
+  resume  ///< resumes the unfinished sweep, or starts a new one
 };
 
 struct SweepRun {
   GridCount count;              ///< of all points, those of earlier runs included
-  std::size_t points_done = 0;  ///< all of them, unless stopped; those that a resumed run finds
+  std::size_t points_done = 0;  ///< includes those of earlier runs; all unless stopped
 };
 
-/// Works out the sweep and writes it, piece by piece, to OUTPUT.part beside OUTPUT.part.json, which
-/// says how far it has come; when all is there, OUTPUT.part is renamed. Whenever the program is
-/// stopped, killed, or fails because the disk is full, the two files remain, and SweepStart::resume
-/// goes on from the last piece: the finished file has the same bytes as one of an uninterrupted
-/// run. Memory: some 130 MB for any number of points. `progress` as in evaluate_in_pieces().
+/// Evaluates the sweep and writes it, block by block, to OUTPUT.part, with its progress in
+/// OUTPUT.part.json. OUTPUT.part is renamed when it is complete. If the program is stopped or
+/// killed, or the disk is full, the two files remain, and SweepStart::resume continues after the
+/// last block. The finished file has the same bytes as one of an uninterrupted run. Memory: about
+/// 130 MB for any number of points. `progress` as in evaluate_in_pieces().
 ///
-/// The command of `provenance` is written into the file as it is. Throws InvalidInput for an
-/// unfinished sweep that is not to be gone on with, or that is of another sweep file or version;
-/// OutputError where a file cannot be written, or the disk has not the room.
+/// The command of `provenance` is written into the file. Throws InvalidInput for an unfinished
+/// sweep that is not to be resumed, or that is of another sweep file or version. Throws OutputError
+/// if a file cannot be written or the disk has too little room.
 SweepRun run_sweep(const SweepFile& sweep, const Provenance& provenance,
                    const std::filesystem::path& output, SweepStart start,
                    Progress& progress = no_progress());

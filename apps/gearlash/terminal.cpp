@@ -18,7 +18,7 @@ namespace {
 constexpr auto patience = std::chrono::seconds(1);
 constexpr auto refresh = std::chrono::milliseconds(100);
 
-/// Escape sequences are understood, and not unwanted (no-color.org).
+/// Whether escape sequences are understood and wanted (no-color.org).
 bool takes_escapes(int descriptor) {
   const char* no_color = std::getenv("NO_COLOR");
   const char* terminal = std::getenv("TERM");
@@ -63,8 +63,8 @@ TerminalProgress::TerminalProgress(std::string what, std::size_t count, std::str
       next_(start_ + patience) {}
 
 bool TerminalProgress::go_on(double share, std::size_t /*bytes*/) {
-  if (!is_told_) begun_ = share;
-  is_told_ = true;
+  if (!has_begun_) begun_ = share;
+  has_begun_ = true;
   const Clock::time_point now = Clock::now();
   if (!is_watched_ || now < next_) return true;
   next_ = now + refresh;
@@ -72,7 +72,7 @@ bool TerminalProgress::go_on(double share, std::size_t /*bytes*/) {
   std::string line =
       what_ + ": " + progress_text(share, seconds, static_cast<double>(count_), name_, begun_);
   width_ = std::max(width_, line.size());
-  line.resize(width_, ' ');  // over what was longer
+  line.resize(width_, ' ');  // covers a longer line before it
   fmt::print(stderr, "\r{}", line);
   std::fflush(stderr);
   return true;
@@ -84,7 +84,7 @@ void TerminalProgress::show_done(std::size_t done) {
 
 TerminalProgress::~TerminalProgress() {
   if (width_ == 0) return;
-  // Blanks instead of an escape sequence: understood by every terminal.
+  // Blanks, because not every terminal understands escape sequences.
   std::fputs(("\r" + std::string(width_, ' ') + "\r").c_str(), stderr);
 }
 

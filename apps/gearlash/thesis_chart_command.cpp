@@ -1,5 +1,4 @@
-// gearlash thesis figure, all, chart-reading and extension: the charts of 1960, and those after
-// them.
+// gearlash thesis figure, all, chart-reading and extension: the charts of 1960 and later ones.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -53,7 +52,7 @@ int read_figure_number(const std::string& text) {
   throw InvalidInput({{"N", shown(text), permitted, ""}});
 }
 
-/// Works the figure out and draws it.
+/// Computes the figure and draws it.
 std::string draw_figure(int number, PictureFormat format, Progress& progress) {
   for (const auto& figure : thesis::thesis_phase_figures()) {
     if (figure.number == number) return draw_line_chart(chart_of(figure), format);
@@ -87,11 +86,11 @@ std::string chart_reading_text(const NormalizedServo& servo, const thesis::Chart
   text += fmt::format("  2. The chart of the nearest friction ratio: figure {}, for {}\n",
                       reading.chart->figure, significant(reading.chart->friction_ratio, 2));
   const auto read_text = [](double size) {
-    return size > 0.0 ? "at " + significant(size, 3) : std::string("not there (0)");
+    return size > 0.0 ? "at " + significant(size, 3) : std::string("absent (0)");
   };
   text += fmt::format(
-      "  3. At inertia ratio {} its curve of damping {} is {}, that of {} {};\n"
-      "     between them at {}: ±{} rad for a backlash of 0.3 rad\n",
+      "  3. At inertia ratio {} its curve for damping {} is {}, the curve for {} is {};\n"
+      "     interpolated at {}: ±{} rad for a backlash of 0.3 rad\n",
       significant(servo.inertia_ratio, 4), reading.neighbours[0], read_text(reading.read[0]),
       reading.neighbours[1], read_text(reading.read[1]), significant(servo.damping, 4),
       significant(reading.chart_size, 3));
@@ -100,20 +99,20 @@ std::string chart_reading_text(const NormalizedServo& servo, const thesis::Chart
                       significant(reading.size, 3));
   const LimitCycleAnalysis exact = analyse_limit_cycles(servo);
   if (exact.cycles.empty()) {
-    return text + fmt::format("\nExactly: no limit cycle, {}\n", name_of(exact.verdict));
+    return text + fmt::format("\nExact: no limit cycle, {}\n", name_of(exact.verdict));
   }
   const double size = exact.cycles.front().size;
-  text += fmt::format("\nExactly: ±{} rad; reading the chart is off by {:+.1f} %\n",
-                      significant(size, 6), 100.0 * (reading.size / size - 1.0));
+  text += fmt::format("\nExact: ±{} rad; the reading is off by {:+.1f} %\n", significant(size, 6),
+                      100.0 * (reading.size / size - 1.0));
   const auto error = thesis::reading_error(servo, reading);
   if (!error) return text;
   const auto row = [](const char* cause, double part) {
     return fmt::format("  {:<56}{:+.1f} %\n", cause, 100.0 * part);
   };
-  return text + row("another friction ratio than the chart's", error->friction_ratio) +
+  return text + row("a friction ratio other than the chart's", error->friction_ratio) +
          row("a straight line between the curves of two dampings", error->damping) +
          row("curves drawn through five inertia ratios", error->inertia_ratio) +
-         row("the program's sizes", error->program);
+         row("the program's amplitudes", error->program);
 }
 
 // --- extensions ---
@@ -130,14 +129,14 @@ void add_thesis_figure(Command& thesis, Action& action) {
     std::string output;
   };
   const auto options = std::make_shared<Options>();
-  Command* command =
-      thesis.add_subcommand("figure", "one of figures 2 to 15, then and exactly, as a picture");
-  command->add_option("N", options->number, "number of the figure, 2 to 15")
+  Command* command = thesis.add_subcommand(
+      "figure", "Draw one of figures 2 to 15: the program's points, the exact curves");
+  command->add_option("N", options->number, "Choose the figure: 2 to 15")
       ->type_name("")
       ->required();
   command
       ->add_option("--output", options->output,
-                   "picture, ending in .svg, .png or .pdf; default\nfigure-N.svg")
+                   "Write this picture, .svg, .png or .pdf; default figure-N.svg")
       ->type_name("FILE");
   command->footer(help_footer(figure_examples));
   command->callback([options, &action] {
@@ -158,8 +157,10 @@ void add_thesis_figure(Command& thesis, Action& action) {
 
 void add_thesis_all(Command& thesis, Action& action) {
   const auto folder = std::make_shared<std::string>("thesis-figures");
-  Command* command = thesis.add_subcommand("all", "all figures into a folder, as SVG");
-  command->add_option("--output", *folder, "folder, made if need be; default thesis-figures")
+  Command* command = thesis.add_subcommand("all", "Draw all figures into a folder, as SVG");
+  command
+      ->add_option("--output", *folder,
+                   "Write into this folder, and make it if missing; default\nthesis-figures")
       ->type_name("DIR");
   command->footer(help_footer(figure_examples));
   command->callback([folder, &action] {
@@ -167,8 +168,9 @@ void add_thesis_all(Command& thesis, Action& action) {
       std::error_code error;
       std::filesystem::create_directories(*folder, error);
       if (error) {
-        throw InvalidInput({{"--output", shown(*folder),
-                             "must be a folder that can be made (" + error.message() + ")", ""}});
+        throw InvalidInput(
+            {{"--output", shown(*folder),
+              "must be a folder that exists or can be made (" + error.message() + ")", ""}});
       }
       TerminalProgress progress("Figures");
       const std::vector<int> numbers = figure_numbers();
@@ -188,7 +190,7 @@ void add_thesis_all(Command& thesis, Action& action) {
 void add_thesis_chart_reading(Command& thesis, Action& action) {
   const auto options = std::make_shared<ServoOptions>();
   Command* command = thesis.add_subcommand(
-      "chart-reading", "the size as one read it off the charts, beside the exact one");
+      "chart-reading", "Read the amplitude off the charts, beside the exact one");
   add_servo_options(*command, *options);
   command->footer(help_footer(chart_reading_examples));
   command->callback([options, &action] {
@@ -211,13 +213,13 @@ void add_thesis_extension(Command& thesis, Action& action) {
   };
   const auto options = std::make_shared<Options>();
   Command* command = thesis.add_subcommand(
-      "extension", "what the thesis recommends to do next, as a chart: 2, 3 or 4");
-  command->add_option("N", options->number, "number of the recommendation: 2, 3 or 4")
+      "extension", "Draw the chart of recommendation 2, 3 or 4 of the thesis");
+  command->add_option("N", options->number, "Choose the recommendation: 2, 3 or 4")
       ->type_name("")
       ->required();
   command
       ->add_option("--output", options->output,
-                   "picture, ending in .svg, .png or .pdf; default\nextension-N.svg")
+                   "Write this picture, .svg, .png or .pdf; default extension-N.svg")
       ->type_name("FILE");
   command->footer(help_footer(extension_examples));
   command->callback([options, &action] {

@@ -12,8 +12,8 @@ constexpr char examples[] =
 }  // namespace
 
 void add_thesis_command(Command& app, Action& action) {
-  Command* thesis =
-      app.add_subcommand("thesis", "the program and the charts of 1960, beside the exact answer");
+  Command* thesis = app.add_subcommand(
+      "thesis", "Run the program of 1960 and draw its charts, beside the exact answer");
   thesis->require_subcommand();
   thesis->footer(help_footer(examples));
   add_thesis_table_2(*thesis, action);

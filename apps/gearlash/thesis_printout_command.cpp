@@ -68,10 +68,9 @@ std::string beside_table_2(const std::vector<PrintedLine>& lines) {
   return text;
 }
 
-/// How much of Table II each property carries.
+/// How many numbers of Table II each property accounts for.
 std::string properties_text() {
-  std::string text =
-      "Numbers of Table II, of 190, that come out within one unit of the eighth digit\n\n";
+  std::string text = "Numbers of Table II, out of 190, within one unit of the eighth digit\n\n";
   for (const thesis::NamedMending& one : thesis::mendings()) {
     text += fmt::format("  {:<54}{:>3}\n", one.name, thesis::numbers_reproduced(one.mending));
   }
@@ -92,7 +91,7 @@ struct MachineOptions {
   bool listing = false;
 };
 
-/// How many numbers of Table II the port prints under each set of rules.
+/// How many numbers of Table II the port prints exactly under a set of rules.
 template <thesis::SumRule sum, thesis::LengthRule product, thesis::LengthRule quotient>
 int digits_reproduced() {
   const auto& printed = thesis::thesis_table_2();
@@ -119,7 +118,7 @@ std::string rules_rows(const std::string& name) {
 
 std::string rules_text() {
   using thesis::SumRule;
-  return "Rules of rounding, and how many of the 190 numbers of Table II they give digit for "
+  return "Rounding rules, and how many of the 190 numbers of Table II they reproduce digit for "
          "digit\n"
          "\n" +
          fmt::format("  {:<44}{:<12}{:<12}{}\n", "FAD, FSB", "FMU", "FDV", "numbers") +
@@ -131,7 +130,7 @@ std::string rules_text() {
 std::string listing_text() {
   const auto differences = thesis::differences_of_listing();
   std::string text = fmt::format(
-      "Table I: {} words. Its symbolic column assembles to its octal column but for {}:\n",
+      "Table I: {} words. The symbolic column assembles to the octal column, except for {}:\n",
       thesis::thesis_table_1().octal.size(), differences.size());
   for (const auto& difference : differences) {
     text += fmt::format("  {:05o}  listed     {}\n", difference.address,
@@ -169,8 +168,8 @@ std::string machine_text() {
   thesis::ThesisMachine thesis;
   std::vector<PrintedLine> lines;
   while (lines.size() < thesis::thesis_table_2().size()) lines.push_back(thesis.next_line());
-  return "Table II: the octal words of Table I run by an emulated CDC 1604, and what it printed "
-         "in 1960\n\n" +
+  return "Table II: the octal words of Table I on an emulated CDC 1604, beside the printout of "
+         "1960\n\n" +
          beside_table_2(lines) +
          fmt::format("{} instructions were executed.\n", thesis.machine().registers().executed);
 }
@@ -194,15 +193,15 @@ void add_thesis_table_2(Command& thesis, Action& action) {
   };
   const auto options = std::make_shared<Options>();
   Command* command =
-      thesis.add_subcommand("table-2", "the typical printout, beside what was printed in 1960");
+      thesis.add_subcommand("table-2", "Print Table II again, beside the printout of 1960");
   Option* arithmetic = command
                            ->add_option("--arithmetic", options->arithmetic,
-                                        "double (default), or 1604: the machine's, which cuts\n"
-                                        "operands off before it adds them")
+                                        "Choose the arithmetic: double (default) or 1604, which\n"
+                                        "cuts operands off before it adds them")
                            ->type_name("KIND");
   command
       ->add_flag("--properties", options->properties,
-                 "show how many of its numbers each property of the\nprogram carries")
+                 "Show how many of its numbers each property of the\nprogram accounts for")
       ->excludes(arithmetic);
   command->footer(help_footer(table_2_examples));
   command->callback([options, &action] {
@@ -215,7 +214,7 @@ void add_thesis_table_2(Command& thesis, Action& action) {
         return ExitStatus::done;
       }
       const std::size_t lines = thesis::thesis_table_2().size();
-      write_file("-", "Table II: the program of 1960 run again, and what it printed then\n\n" +
+      write_file("-", "Table II: the program of 1960 run again, beside its printout\n\n" +
                           beside_table_2(run_listed_program(options->arithmetic, lines)));
       return ExitStatus::done;
     };
@@ -224,15 +223,15 @@ void add_thesis_table_2(Command& thesis, Action& action) {
 
 void add_thesis_machine(Command& thesis, Action& action) {
   const auto options = std::make_shared<MachineOptions>();
-  Command* command = thesis.add_subcommand(
-      "machine", "Table II from the octal words of Table I, by an emulated CDC 1604");
+  Command* command =
+      thesis.add_subcommand("machine", "Run the octal words of Table I on an emulated CDC 1604");
   Option* trace =
-      command->add_option("--trace", options->trace, "show the first COUNT instructions instead")
+      command->add_option("--trace", options->trace, "Show the first COUNT instructions instead")
           ->type_name("COUNT");
   Option* rules = command->add_flag("--rules", options->rules,
-                                    "show which rules of rounding give the digits of 1960");
+                                    "Show which rounding rules reproduce the digits of 1960");
   Option* listing = command->add_flag("--listing", options->listing,
-                                      "show where the listing's symbolic and octal columns differ");
+                                      "Show where the listing's symbolic and octal columns differ");
   rules->excludes(trace);
   listing->excludes(trace);
   listing->excludes(rules);

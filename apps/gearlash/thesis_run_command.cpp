@@ -35,28 +35,27 @@ std::string run_text(const NormalizedServo& servo, const thesis::SettledCycle& c
       fmt::format("The program of 1960, {} s of the servo's time in steps of 0.01 s (ω_n = 1):\n",
                   significant(cycle.run_time, 4));
   if (cycle.diverged) {
-    text += "  none: its step is too long for this servo, whose numbers grow without bound\n";
+    text += "  no result: its step is too long for this servo, so the numbers grow without bound\n";
   } else if (!cycle.hunts) {
     text += "  no limit cycle: for 100 s the faces have not met\n";
   } else {
-    text += fmt::format("  size    ±{} rad{}\n", significant(cycle.size, 5),
+    text += fmt::format("  amplitude  ±{} rad{}\n", significant(cycle.size, 5),
                         cycle.settled ? "" : ", still changing");
     text += fmt::format(
-        "          mean of {} cycles, from {} to {}: on the grid none is like the "
-        "next\n",
+        "             mean of {} cycles, from {} to {}; on the grid of 0.01 s no cycle repeats\n",
         cycle.cycles, significant(cycle.smallest, 5), significant(cycle.largest, 5));
-    text += fmt::format("  period  {} s\n", significant(cycle.period, 5));
+    text += fmt::format("  period     {} s\n", significant(cycle.period, 5));
   }
   const LimitCycleAnalysis exact = analyse_limit_cycles(servo);
-  text += "Exactly:\n";
+  text += "Exact:\n";
   if (exact.cycles.empty()) {
     return text + fmt::format("  no limit cycle: {}\n", name_of(exact.verdict));
   }
   const LimitCycle& one = exact.cycles.front();
-  text += fmt::format("  size    ±{} rad\n", significant(one.size, 9));
-  text += fmt::format("  period  {} s\n", significant(one.period, 9));
+  text += fmt::format("  amplitude  ±{} rad\n", significant(one.size, 9));
+  text += fmt::format("  period     {} s\n", significant(one.period, 9));
   if (cycle.hunts) {
-    text += fmt::format("The program's size is off by {:+.2f} %, its period by {:+.2f} %.\n",
+    text += fmt::format("The program's amplitude is off by {:+.2f} %, its period by {:+.2f} %.\n",
                         100.0 * (cycle.size / one.size - 1.0),
                         100.0 * (cycle.period / one.period - 1.0));
   }
@@ -66,7 +65,7 @@ std::string run_text(const NormalizedServo& servo, const thesis::SettledCycle& c
 /// Errors of the charts in per cent, a table for each friction ratio.
 std::string errors_text(const std::vector<thesis::ChartError>& errors) {
   std::string text =
-      "Sizes of the program of 1960 against the exact ones, in per cent\n"
+      "Errors of the program's amplitudes, in per cent of the exact ones\n"
       "(·: neither hunts; then, now: only the program or only the exact servo hunts)\n";
   std::vector<double> sizes;
   const thesis::ChartError* before = nullptr;
@@ -91,13 +90,13 @@ std::string errors_text(const std::vector<thesis::ChartError>& errors) {
   }
   std::sort(sizes.begin(), sizes.end());
   return text + fmt::format(
-                    "\n\n{} servos, {} of which hunt in both: median {:+.1f} %, from {:+.1f} "
+                    "\n\n{} servos; {} hunt in both: median {:+.1f} %, from {:+.1f} "
                     "to {:+.1f} %\n",
                     errors.size(), sizes.size(), sizes[sizes.size() / 2], sizes.front(),
                     sizes.back());
 }
 
-/// What each property of the program does to the size, in per cent.
+/// The effect of each property of the program on the amplitude, in per cent.
 std::string causes_text() {
   const std::vector<NormalizedServo> servos = {
       {.damping = 0.1, .inertia_ratio = 1.0, .friction_ratio = 0.2, .backlash = 0.3},
@@ -110,7 +109,7 @@ std::string causes_text() {
     for (const NormalizedServo& servo : servos) text += fmt::format("{:>7}", servo.*input);
     return text + "\n";
   };
-  std::string text = "Sizes of the program of 1960 against the exact ones, in per cent\n\n";
+  std::string text = "Errors of the program's amplitudes, in per cent of the exact ones\n\n";
   text += row("damping", &NormalizedServo::damping) +
           row("inertia ratio", &NormalizedServo::inertia_ratio) +
           row("friction ratio", &NormalizedServo::friction_ratio) + "\n";
@@ -126,8 +125,7 @@ std::string causes_text() {
   return text;
 }
 
-/// All of the thesis's charts, by the port or by the emulated machine: what each of them gave, and
-/// what it took.
+/// All servos of the thesis's charts, by the port or by the emulated machine.
 struct AllRuns {
   std::vector<thesis::ChartError> errors;
   std::string effort;  ///< of the emulated machine, a line
@@ -155,8 +153,8 @@ AllRuns run_all(bool on_machine) {
   constexpr double seconds_of_1960 = 180.0;
   return {
       errors,
-      fmt::format("{} runs of the emulated machine, {} instructions, {} s; the real one took three "
-                  "minutes a run, {} times as long\n",
+      fmt::format("{} runs of the emulated machine, {} instructions, {} s; the real machine took "
+                  "three minutes per run, {} times as long\n",
                   errors.size(), instructions, significant(seconds, 3),
                   std::round(seconds_of_1960 * static_cast<double>(errors.size()) / seconds))};
 }
@@ -206,16 +204,18 @@ ExitStatus run_program(const RunOptions& options) {
 void add_thesis_run(Command& thesis, Action& action) {
   const auto options = std::make_shared<RunOptions>();
   Command* command = thesis.add_subcommand(
-      "run", "the size that the program of 1960 finds for any servo, beside the exact one");
+      "run", "Find the amplitude of any servo by the program of 1960, beside the exact one");
   add_servo_options(*command, options->servo);
   const std::vector<Option*> servo = command->options();
   Option* all = command->add_flag("--all", options->all,
-                                  "all servos of the thesis's charts, as a table of errors");
-  add_plot_option(*command, options->plots, "errors: those of --all as a map; ")->needs(all);
+                                  "Run all servos of the thesis's charts and tabulate the errors");
+  add_plot_option(*command, options->plots, "Draw errors=FILE, the errors of --all as a map;")
+      ->needs(all);
   Option* machine = command->add_flag("--machine", options->machine,
-                                      "on the emulated CDC 1604 instead of by the port");
+                                      "Run on the emulated CDC 1604 instead of the port");
   Option* causes = command->add_flag("--causes", options->causes,
-                                     "what each property of the program does to five of the sizes");
+                                     "Show the effect of each property of the program on five\n"
+                                     "amplitudes");
   for (Option* option : servo) {
     all->excludes(option);
     causes->excludes(option);

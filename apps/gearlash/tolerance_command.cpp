@@ -1,4 +1,4 @@
-// gearlash tolerance: what will a production run do?
+// gearlash tolerance: how a production run behaves.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -28,7 +28,7 @@ constexpr char examples[] =
     ".hunting\n";
 
 constexpr char explanation[] =
-    "Numbers of DRIVE.toml carry their tolerances:\n"
+    "The numbers of DRIVE.toml carry tolerances:\n"
     "  inertia = \"0.61 oz in2 ± 10 %\"                       uniform\n"
     "  backlash = { min = \"5 arcmin\", max = \"12 arcmin\" }   uniform\n"
     "  friction = { value = \"2 mN m s/rad\", normal = \"5 %\", min = \"1 mN m s/rad\" }\n"
@@ -45,7 +45,7 @@ struct ToleranceOptions {
   std::string output;
 };
 
-/// By the ending of its name: .csv, .json or .nc.
+/// In the format of its extension: .csv, .json or .nc.
 void write_data(const ToleranceReport& report, const std::string& file) {
   OutputFile output(file);
   if (file.ends_with(".nc")) {
@@ -105,7 +105,7 @@ struct Task {
   std::vector<Plot> plots;
 };
 
-/// Then a sample takes milliseconds.
+/// Whether faces may bounce: a sample then takes milliseconds.
 bool may_bounce(const WrittenDrive& written) {
   const auto* rigid = std::get_if<RigidContact>(&written.drive.contact);
   return (rigid != nullptr && rigid->restitution > 0.0) ||
@@ -114,7 +114,7 @@ bool may_bounce(const WrittenDrive& written) {
 }
 
 void read_sampling(const ToleranceOptions& options, bool may_bounce, Task& task, Faults& faults) {
-  // A fraction of a second's work, or some minutes'.
+  // They take a fraction of a second, with bounces some minutes.
   const std::string usual_samples = may_bounce ? "512" : "65536";
   if (may_bounce) task.worst_search.samples = 256;
   task.sampling = sampling_of(read_whole<std::size_t>(
@@ -132,7 +132,7 @@ void read_questions(const ToleranceOptions& options, TimeScale scale, Task& task
   if (options.yield.empty()) return;
   task.yield = read_share("--yield", options.yield, faults);
   if (options.target.empty()) {
-    faults.add({"--target", "", "must say what --yield is to be a share of", ""});
+    faults.add({"--target", "", "must be given: --yield is the share of samples that meet it", ""});
   }
 }
 
@@ -210,29 +210,34 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
 void add_tolerance_command(Command& app, Action& action) {
   const auto options = std::make_shared<ToleranceOptions>();
   Command* command =
-      app.add_subcommand("tolerance", "how many of a production run hunt, how big, and why?");
+      app.add_subcommand("tolerance", "Predict how many samples of a production run hunt, and why");
   add_servo_or_drive_options(*command, options->servo);
   command
       ->add_option("--samples", options->samples,
-                   "samples, at least (default 65536; 512 where faces bounce): 16 times a\n"
-                   "power of two")
+                   "Set the least number of samples, rounded up to 16 times a power of\n"
+                   "two; default 65536, with bounces 512")
       ->type_name("N");
-  command->add_option("--seed", options->seed, "of the random shifts (default 1960)")
+  command->add_option("--seed", options->seed, "Set the seed of the random shifts; default 1960")
       ->type_name("N");
   command
-      ->add_option("--target", options->target, "of which the yield is reported, as design has it")
+      ->add_option("--target", options->target,
+                   "Report the yield of this target, written as for design")
       ->type_name("TARGET");
   command
       ->add_option("--yield", options->yield,
-                   "how much backlash may be let through so that this share meets\n"
-                   "the target: \"95 %\" or 0.95")
+                   "Find the largest backlash that may be accepted so that this share of\n"
+                   "the samples meets the target: \"95 %\" or 0.95")
       ->type_name("SHARE");
   add_plot_option(*command, options->plots,
-                  "distribution: of amplitudes; yield: against a limit of the amplitude;\n"
-                  "indices: what decides; ");
-  command->add_option("--output", options->output, "data too (.csv, .json, .nc)")
+                  "Draw distribution=FILE, the samples by amplitude, yield=FILE, the\n"
+                  "yield over a limit of the amplitude, or indices=FILE, which parameter\n"
+                  "decides;");
+  command
+      ->add_option("--output", options->output,
+                   "Write further data to this file (.csv, .json, .nc)")
       ->type_name("FILE");
-  command->add_option("--format", options->format, "text (default) or json")->type_name("FORMAT");
+  command->add_option("--format", options->format, "Choose the format: text (default) or json")
+      ->type_name("FORMAT");
   command->footer(explanation + help_footer(examples));
   command->callback([options, &action] {
     action = [options](const Provenance& provenance) { return run(*options, provenance); };

@@ -1,4 +1,4 @@
-// A data sheet's values as their author wrote them, beside which conversions are printed.
+// The values of a data sheet as their author wrote them.
 #pragma once
 
 #include <filesystem>

@@ -16,7 +16,7 @@ int main() {
                     .reference = StepSignal{.after = 0.1}};
   const Motion motion = simulate(drive, {.until = 3.0});
   const Samples samples = motion.sampled(1e-3);
-  std::printf("%zu samples, %zu events; at last motor %.4f, load %.4f rad\n", samples.time.size(),
+  std::printf("%zu samples, %zu events; final motor %.4f, load %.4f rad\n", samples.time.size(),
               motion.events().size(), samples.motor_position.back(), samples.load_position.back());
   std::cout << analyse(drive) << '\n';
 }

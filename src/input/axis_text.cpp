@@ -46,7 +46,7 @@ std::string known_text(const Drive& drive, std::string_view name) {
     known.insert(known.end(), parameter.aliases.begin(), parameter.aliases.end());
   }
   for (const NormalFormNumber& number : normal_form_numbers) known.emplace_back(number.name);
-  return "must be a number or a word of this drive" + guess_of(known, name) +
+  return "must be a number or a choice of this drive" + guess_of(known, name) +
          "; gearlash show lists them";
 }
 

@@ -71,7 +71,7 @@ class DriveReader {
     findings_.missing(
         {1, 1}, "motor",
         "must be a section [motor] with [gearbox], [load] and [loop] or [controller], "
-        "or [servo] in their place");
+        "or [servo] instead");
     return false;
   }
 
@@ -84,7 +84,7 @@ class DriveReader {
       if (name == variation_.section) continue;
       if (std::find(names.begin(), names.end(), name) == names.end()) {
         findings_.refuse(key.source().begin, shown(name), document_.written(value),
-                         "is no section: " + one_of(names, name));
+                         "is not a section: " + one_of(names, name));
       }
     }
     if (has("servo") && has("motor")) {
@@ -114,7 +114,7 @@ class DriveReader {
     if (is_plant && drive().servo) return;
     if (is_servo && !drive().servo) return;
     if (name == "controller" && has(loop) && !has("controller")) {
-      read_keys(loop, true, "with error_gain, or [controller] in its place");
+      read_keys(loop, true, "with error_gain, or [controller] instead");
       return;
     }
     const bool is_required = is_plant || (is_servo && !leaves_nothing_to_give());
@@ -230,7 +230,7 @@ class DriveReader {
                      "must not stand beside stiffness: faces are rigid or compliant");
     }
     if (name == loop && has("sensor")) {
-      section.refuse("sensor", "must not stand beside [sensor], which says it");
+      section.refuse("sensor", "must not stand beside [sensor], which already gives it");
     }
   }
 

@@ -266,7 +266,7 @@ void SectionReader::refuse_other_keys() {
   for (const auto& [key, value] : *table_) {
     if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
     findings_.refuse(key.source().begin, field(shown(key.str())), document_.written(value),
-                     "is no key of [" + name_ + "]: " + one_of(known_, key.str()));
+                     "is not a key of [" + name_ + "]: " + one_of(known_, key.str()));
   }
 }
 
@@ -300,10 +300,11 @@ Measured SectionReader::read(const std::string& key, const toml::node& value,
       return {.si = read_number(name, *text), .unit = std::string(expected.unit)};
     }
     if (text) return read_quantity(name, *text, expected);
-    throw InvalidInput({{name, "",
-                         "must be text of a number and a unit of " + std::string(expected.name) +
-                             ", such as \"1 " + std::string(expected.unit) + "\"",
-                         ""}});
+    throw InvalidInput(
+        {{name, "",
+          "must be a text with a number and a unit of " + std::string(expected.name) +
+              ", such as \"1 " + std::string(expected.unit) + "\"",
+          ""}});
   };
   return read(key, value, read_exact, placeholder_quantity);
 }

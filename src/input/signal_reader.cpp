@@ -74,8 +74,7 @@ TableSignal parse_signal_table(std::string_view text, const std::string& name,
       const std::size_t count = table.times.size();
       if (count > 1 && !(table.times[count - 1] > table.times[count - 2])) {
         throw InvalidInput(
-            {{place("time"), shown(time),
-              "must be later than the row before: a table goes forward in time", ""}});
+            {{place("time"), shown(time), "must be later than in the row before", ""}});
       }
     }
   } catch (const io::error::too_few_columns& fault) {

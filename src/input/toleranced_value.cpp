@@ -165,7 +165,7 @@ class TolerancedReader {
   }
 
   static std::string forms() {
-    return "must be { value, tolerance }, { value, normal } (with min and max where pieces are "
+    return "must be { value, tolerance }, { value, normal } (with min and max if samples are "
            "sorted), { min, max } or { lots = [...] }";
   }
 

@@ -139,7 +139,7 @@ void require_parsable(std::string_view text, const std::vector<std::string_view>
                        {static_cast<toml::source_index>(i + 1), column_of(lines[i], *byte)}),
            "line", shown(lines[i]),
            ascii ? "must not nest keys deeper than section.key"
-                 : "must be TOML: signs beyond ASCII belong in closed quotes");
+                 : "must be TOML: characters beyond ASCII must be inside closed quotes");
   }
 }
 

@@ -52,7 +52,7 @@ std::string in_ascii_signs(std::string_view text) {
   while (!text.empty()) {
     const std::string_view before = text;
     const std::optional<char32_t> code_point = take_code_point(text);
-    if (!code_point) throw NotAUnit("text has to be UTF-8");
+    if (!code_point) throw NotAUnit("text must be UTF-8");
     const std::string_view ascii = ascii_spelling(*code_point);
     if (ascii.starts_with('^') && result.ends_with("^-")) {
       result += ascii.substr(1);
@@ -112,7 +112,7 @@ class UnitReader {
   Unit number() {
     const std::size_t length = number_length(rest_);
     const std::optional<double> value = nearest_double(rest_.substr(0, length));
-    if (!value || !(*value > 0.0)) throw NotAUnit("a divisor has to be positive and finite");
+    if (!value || !(*value > 0.0)) throw NotAUnit("a divisor must be positive and finite");
     rest_.remove_prefix(length);
     Unit result;
     result.factor = *value;

@@ -70,8 +70,8 @@ std::string advice(std::string_view unit, const UnitPowers& powers, const Dimens
     return "; x/rad/s is x/(rad s), write x/(rad/s)";
   }
   if (!same_but_for_angle(powers, expected)) return "";
-  if (expected.angle == AngleRule::absent) return "; there is no angle in it";
-  return powers.radian == 0 ? "; the angle has to be written" : "";
+  if (expected.angle == AngleRule::absent) return "; it contains no angle";
+  return powers.radian == 0 ? "; the angle must be written" : "";
 }
 
 void require_dimension(std::string_view field, std::string_view text, std::string_view name,

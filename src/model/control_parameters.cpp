@@ -15,28 +15,28 @@ std::size_t speed_shaft(const Drive& drive) {
 }
 
 std::vector<Parameter> sensor_parameters() {
-  return {{.path = "sensor.position",
-           .slot =
-               [](Drive&) {
-                 return Slot{Choice{[](const Drive& drive) {
-                                      return static_cast<std::size_t>(drive.sensor.position);
-                                    },
-                                    [](Drive& drive, std::size_t choice) {
-                                      drive.sensor.position = static_cast<SensorPlace>(choice);
-                                    }}};
-               },
-           .meaning = "the shaft whose position is measured; both: and the motor's speed",
-           .choices = {"load", "motor", "both"},
-           .other_forms = {{"loop.sensor"}}},
-          {.path = "sensor.speed",
-           .slot =
-               [](Drive&) {
-                 return Slot{Choice{&speed_shaft, [](Drive& drive, std::size_t choice) {
-                                      drive.sensor.speed = static_cast<ShaftName>(choice);
-                                    }}};
-               },
-           .meaning = "the shaft whose speed is fed back",
-           .choices = {"load", "motor"}}};
+  return {
+      {.path = "sensor.position",
+       .slot =
+           [](Drive&) {
+             return Slot{Choice{
+                 [](const Drive& drive) { return static_cast<std::size_t>(drive.sensor.position); },
+                 [](Drive& drive, std::size_t choice) {
+                   drive.sensor.position = static_cast<SensorPlace>(choice);
+                 }}};
+           },
+       .meaning = "shaft with the position sensor; both: position of the load, speed of the motor",
+       .choices = {"load", "motor", "both"},
+       .other_forms = {{"loop.sensor"}}},
+      {.path = "sensor.speed",
+       .slot =
+           [](Drive&) {
+             return Slot{Choice{&speed_shaft, [](Drive& drive, std::size_t choice) {
+                                  drive.sensor.speed = static_cast<ShaftName>(choice);
+                                }}};
+           },
+       .meaning = "shaft of the speed feedback",
+       .choices = {"load", "motor"}}};
 }
 
 std::vector<Parameter> encoder_parameters() {
@@ -65,7 +65,7 @@ std::vector<Parameter> encoder_parameters() {
                         ? Slot{}
                         : Slot{&d.sensor.speed_encoder.counts_per_turn};
            },
-       .meaning = "counts per turn of the encoder whose differences are the speed",
+       .meaning = "counts per turn of the encoder that gives the speed by differences",
        .permitted = Permitted::positive,
        .usual = {100.0, 1e7}},
       {.path = "sensor.speed_resolution",
@@ -76,7 +76,7 @@ std::vector<Parameter> encoder_parameters() {
                         : Slot{&d.sensor.speed_encoder.resolution};
            },
        .dimension = &always<angle>,
-       .meaning = "angle of one count of the encoder whose differences are the speed",
+       .meaning = "angle of one count of the encoder that gives the speed by differences",
        .permitted = Permitted::not_negative,
        .usual = {1e-7, 0.1}}};
 }
@@ -126,7 +126,7 @@ Parameter controller_kind() {
                                      }
                                    }}};
               },
-          .meaning = "the law that makes the output of the error",
+          .meaning = "law that computes the output from the error",
           .is_required = true,
           .choices = {"P", "PD", "PI", "PID", "cascade", "lead-lag", "transfer-function",
                       "state-space"}};
@@ -144,7 +144,7 @@ Parameter controller_shaft() {
                                      drive.controller.shaft = static_cast<ShaftName>(choice);
                                    }}};
               },
-          .meaning = "the shaft whose angles the gains are per",
+          .meaning = "shaft to which the angles in the gains refer",
           .choices = {"load", "motor"}};
 }
 
@@ -215,7 +215,7 @@ std::vector<Parameter> pid_parameters() {
                                           choice == 1;
                                     }}};
                },
-           .meaning = "what the derivative acts on: the error, or the speed sensed",
+           .meaning = "input of the derivative: the error, or the measured speed",
            .choices = {"error", "speed"}}};
 }
 
@@ -223,19 +223,19 @@ std::vector<Parameter> other_laws() {
   return {{.path = "controller.position",
            .slot = [](Drive& d) { return of_law(d, &CascadeController::position); },
            .dimension = &always<rate>,
-           .meaning = "speed asked for per error of position",
+           .meaning = "commanded speed per position error",
            .is_required = true,
            .usual = {0.1, 1000.0}},
           {.path = "controller.speed",
            .slot = [](Drive& d) { return of_law(d, &CascadeController::speed); },
            .dimension = &speed_gain_dimension,
-           .meaning = "output per error of speed",
+           .meaning = "output per speed error",
            .is_required = true,
            .usual = {1e-4, 1e3}},
           {.path = "controller.speed_integral",
            .slot = [](Drive& d) { return of_law(d, &CascadeController::speed_integral); },
            .dimension = &gain_dimension,
-           .meaning = "output per integral of the error of speed",
+           .meaning = "output per integral of the speed error",
            .usual = {1e-3, 1e4}},
           {.path = "controller.gain",
            .slot =
@@ -300,7 +300,7 @@ std::vector<Parameter> matrix_parameters() {
                            choice == 1;
                      }}};
                },
-           .meaning = "variable of the transfer function: s, or z from sample to sample",
+           .meaning = "variable of the transfer function: s, or z if it is sampled",
            .choices = {"s", "z"}},
           {.path = "controller.A",
            .slot = [](Drive& d) { return of_law(d, &StateSpaceController::A); },
@@ -309,7 +309,7 @@ std::vector<Parameter> matrix_parameters() {
            .wanted = "a list of rows of numbers"},
           {.path = "controller.B",
            .slot = [](Drive& d) { return of_law(d, &StateSpaceController::B); },
-           .meaning = "input matrix, by the error or by r, y and v",
+           .meaning = "input matrix, for the error or for r, y and v",
            .is_required = true,
            .wanted = "a list of rows of 1 or 3 numbers"},
           {.path = "controller.C",
@@ -319,7 +319,7 @@ std::vector<Parameter> matrix_parameters() {
            .wanted = "a list of numbers, one for each state"},
           {.path = "controller.D",
            .slot = [](Drive& d) { return of_law(d, &StateSpaceController::D); },
-           .meaning = "direct row, by the error or by r, y and v",
+           .meaning = "direct row, for the error or for r, y and v",
            .is_required = true,
            .wanted = "a list of 1 or 3 numbers"}};
 }
@@ -330,7 +330,7 @@ std::vector<Parameter> sampling_parameters() {
   return {{.path = "sampling.period",
            .slot = [](Drive& d) { return slot_of(d.sampling, &Sampling::period); },
            .dimension = &always<time>,
-           .meaning = "time from sample to sample",
+           .meaning = "time between two samples",
            .permitted = Permitted::positive,
            .is_required = true,
            .other_forms = {{"sampling.frequency", &angular_frequency, 2.0 * std::numbers::pi}},
@@ -352,7 +352,7 @@ std::vector<Parameter> sampling_parameters() {
                                       drive.sampling->method = static_cast<Discretization>(choice);
                                     }}};
                },
-           .meaning = "what replaces d/dt in the controller",
+           .meaning = "method that replaces d/dt in the controller",
            .choices = {"tustin", "backward", "forward"}},
           {.path = "sampling.speed",
            .slot =
@@ -366,7 +366,7 @@ std::vector<Parameter> sampling_parameters() {
                                       drive.sampling->speed_by_differences = choice == 0;
                                     }}};
                },
-           .meaning = "where the speed comes from: differences of the position, or a tachometer",
+           .meaning = "source of the speed: differences of the position, or a tachometer",
            .choices = {"differences", "tachometer"}}};
 }
 

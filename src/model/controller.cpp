@@ -124,7 +124,7 @@ constexpr std::size_t highest_order = 64;
 void expect_permitted_order(RangeCheck& check, const char* field, std::size_t order) {
   if (order <= highest_order) return;
   check.refuse(field, "of order " + std::to_string(order),
-               "must be of order " + std::to_string(highest_order) + " at most (order " +
+               "must be of order at most " + std::to_string(highest_order) + " (order " +
                    std::to_string(order) + ")");
 }
 
@@ -165,7 +165,7 @@ void expect_proper(RangeCheck& check, const TransferFunction& function) {
     check.refuse("numerator", "of degree " + std::to_string(numerator - 1),
                  "must be of no higher degree than the denominator (" +
                      std::to_string(denominator - 1) +
-                     "): a controller cannot differentiate what it is told");
+                     "): a controller cannot differentiate its input");
   }
 }
 
@@ -173,7 +173,7 @@ void inspect(RangeCheck& check, const ErrorTransfer& controller) {
   expect_proper(check, controller.function);
   if (controller.function.delay != 0.0) {
     check.refuse("delay", exact_text(controller.function.delay),
-                 "must be 0: a controller has none by itself");
+                 "must be 0: a continuous controller has no delay");
   }
 }
 

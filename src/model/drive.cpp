@@ -35,7 +35,7 @@ void check_poles(RangeCheck& all, const SampledTransfer& controller) {
   const double radius = spectral_radius(linear_controller(poles));
   if (radius <= largest_radius) return;
   all.refuse("controller.denominator", pole_text(radius),
-             "must have its roots in the unit circle: what is remembered grows without end");
+             "must have its roots in the unit circle: the controller's state grows without bound");
 }
 
 void check_sampling(RangeCheck& all, const ReducedDrive& drive) {
@@ -58,14 +58,15 @@ void check_sampling(RangeCheck& all, const ReducedDrive& drive) {
                      exact_text(longest) + " s");
   }
   all.include(check.faults());
-  const bool is_told = of_samples != nullptr || !check.faults().empty();
-  if (is_told || !validate(drive.controller).empty()) return;
+  const bool is_reported = of_samples != nullptr || !check.faults().empty();
+  if (is_reported || !validate(drive.controller).empty()) return;
   const double radius = spectral_radius(sampled_controller(drive.controller, sampling));
   if (radius <= largest_radius) return;
   const std::string pole = pole_text(radius);
-  all.refuse("sampling.period", pole,
-             "must be so short that what the controller remembers does not grow without end (" +
-                 pole + "), or of another method");
+  all.refuse(
+      "sampling.period", pole,
+      "must be shorter, or the method another one: the controller's state grows without bound (" +
+          pole + ")");
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ void check_breakaway(RangeCheck& check, const Friction& friction, const std::str
   if (!friction.breakaway || *friction.breakaway >= friction.coulomb) return;
   check.refuse(shaft + ".breakaway", exact_text(*friction.breakaway) + " N m",
                "must be at least " + shaft +
-                   ".coulomb: what is at rest is not easier to move than what moves");
+                   ".coulomb: a shaft at rest is not easier to move than a moving one");
 }
 
 void check_normal_form(RangeCheck& check, const Drive& drive) {
@@ -95,7 +95,7 @@ struct Origin {
 };
 constexpr std::array origins = {
     Origin{"motor_inertia", "motor.inertia * gearbox.ratio^2"},
-    Origin{"motor_friction", "(motor.friction + the motor's electrical one) * gearbox.ratio^2"},
+    Origin{"motor_friction", "(motor.friction + electrical friction) * gearbox.ratio^2"},
     Origin{"stiffness", "the motor's torque per volt * loop.error_gain * gearbox.ratio"},
     Origin{"damping", "friction/(2 sqrt(stiffness * inertia)), everything at the load"},
     Origin{"inertia_ratio", "load.inertia/(motor.inertia * gearbox.ratio^2)"}};

@@ -16,7 +16,7 @@ std::vector<Fault> validate_masses_and_stiffness(const Drivetrain& drivetrain) {
   check.positive("stiffness", drivetrain.stiffness, "N m/rad");
   if (drivetrain.motor_inertia == 0.0 && drivetrain.load_inertia == 0.0) {
     check.refuse("load_inertia", "0 kg m2",
-                 "must be positive where motor_inertia is 0: something has to have inertia");
+                 "must be positive if motor_inertia is 0: one shaft must have inertia");
   }
   if (check.faults().empty() && std::isinf(drivetrain.motor_inertia + drivetrain.load_inertia)) {
     check.refuse("load_inertia", exact_text(drivetrain.load_inertia) + " kg m2",

@@ -50,7 +50,7 @@ std::vector<Parameter> servo_parameters() {
           {.path = "servo.natural_frequency",
            .slot = [](Drive& d) { return slot_of(d.servo, &NormalForm::natural_frequency); },
            .dimension = &always<angular_frequency>,
-           .meaning = "undamped natural frequency √(K/(J_M + J_L)); 1 rad/s where it is left out",
+           .meaning = "undamped natural frequency √(K/(J_M + J_L)); 1 rad/s if left out",
            .permitted = Permitted::positive,
            .usual = {0.1, 1000.0}}};
 }
@@ -93,7 +93,7 @@ std::vector<Parameter> motor_constants() {
                             : armature;
                },
            .dimension = &always<resistance>,
-           .meaning = "resistance of the winding through which the motor is controlled",
+           .meaning = "resistance of the controlled winding",
            .permitted = Permitted::positive,
            .is_required = true,
            .usual = {0.01, 1000.0}}};
@@ -106,7 +106,7 @@ std::vector<Parameter> two_phase_constants() {
                  return d.servo ? Slot{} : slot_of(d.motor.kind, &TwoPhase::torque_per_volt);
                },
            .dimension = &always<torque_per_voltage>,
-           .meaning = "slope of the torque by the voltage",
+           .meaning = "slope of torque over voltage",
            .permitted = Permitted::positive,
            .is_required = true,
            .usual = {1e-4, 1.0}},
@@ -116,7 +116,7 @@ std::vector<Parameter> two_phase_constants() {
                  return d.servo ? Slot{} : slot_of(d.motor.kind, &TwoPhase::torque_per_speed);
                },
            .dimension = &always<torque_per_speed>,
-           .meaning = "slope of the torque by the speed, taken positive",
+           .meaning = "slope of torque over speed, taken positive",
            .permitted = Permitted::not_negative,
            .is_required = true,
            .usual = {1e-7, 1e-1}}};
@@ -139,7 +139,7 @@ Parameter motor_kind() {
                                      if (choice == 3) kind = TorqueControl{};
                                    }}};
               },
-          .meaning = "what the controller's output does: volts to a winding, or torque",
+          .meaning = "kind of motor: the controller outputs volts to a winding, or torque",
           .is_required = true,
           .choices = {"armature-controlled", "field-controlled", "two-phase", "torque-controlled"}};
 }
@@ -282,7 +282,7 @@ std::vector<Parameter> contact_parameters() {
                                                       : ContactDamping::full;
                                     }}};
                },
-           .meaning = "how the damping of the faces acts, as in Modelica",
+           .meaning = "law of the damping of the faces, as in Modelica",
            .choices = {"ElastoBacklash", "ElastoBacklash2"}}};
 }
 

@@ -62,13 +62,13 @@ std::vector<Fault> validate(const NormalizedServo& servo) {
   const double motor_friction = servo.damping * (1.0 - servo.friction_ratio);
   if (servo.inertia_ratio == 0.0 && load_friction == 0.0) {
     check.refuse("inertia_ratio", "0",
-                 "must be positive where the load has no friction (damping * friction_ratio = 0): "
-                 "a shaft with neither has no law of motion");
+                 "must be positive if the load has no friction (damping * friction_ratio = 0): "
+                 "a shaft needs inertia or friction");
   }
   if (std::isinf(servo.inertia_ratio) && motor_friction == 0.0) {
     check.refuse("inertia_ratio", "inf",
-                 "must be finite where the motor has no friction (damping * (1 - friction_ratio) "
-                 "= 0): a shaft with neither has no law of motion");
+                 "must be finite if the motor has no friction (damping * (1 - friction_ratio) "
+                 "= 0): a shaft needs inertia or friction");
   }
   return check.faults();
 }

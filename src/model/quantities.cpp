@@ -87,8 +87,8 @@ constexpr auto number = QuantityKind::number;
 /// In the order of Quantity.
 constexpr std::array entries = {
     QuantityEntry{
-        .info = {Quantity::verdict, "verdict", "", "what the drive does", of_answer,
-                 QuantityKind::choice},
+        .info = {Quantity::verdict, "verdict", "", "what the motion of the drive ends in",
+                 of_answer, QuantityKind::choice},
         .value = [](const Answer& answer) -> Value { return static_cast<double>(answer.verdict); }},
     QuantityEntry{.info = {Quantity::growth_at_rest, "growth_at_rest", "1",
                            "growth at rest: the servo hunts when it exceeds 1", of_answer, number},
@@ -124,11 +124,11 @@ constexpr std::array entries = {
                   .dimension = &dimensions::angular_speed,
                   .value = of_cycle<&Cycle::impact_speed>},
     QuantityEntry{.info = {Quantity::engaged_time, "engaged_time", "s",
-                           "time with the faces engaged, of a period", of_motion, number},
+                           "time per period with the faces engaged", of_motion, number},
                   .dimension = &dimensions::time,
                   .value = of_cycle<&Cycle::engaged_time>},
     QuantityEntry{.info = {Quantity::separated_time, "separated_time", "s",
-                           "time with the faces apart, of a period", of_motion, number},
+                           "time per period with the faces apart", of_motion, number},
                   .dimension = &dimensions::time,
                   .value = of_cycle<&Cycle::separated_time>},
     QuantityEntry{.info = {Quantity::motor_friction_loss, "motor_friction_loss", "J",
@@ -145,7 +145,7 @@ constexpr std::array entries = {
                   .value = of_cycle<&Cycle::residual>},
     QuantityEntry{
         .info = {Quantity::static_error, "static_error", "rad",
-                 "largest error at rest, reference less load, that was found", of_answer, number},
+                 "largest error at rest that was found, reference minus load", of_answer, number},
         .dimension = &dimensions::angle,
         .value = static_error_of}};
 

@@ -118,8 +118,7 @@ void inspect(RangeCheck& check, const Table& table) {
     check.finite("values" + place, table.values[i]);
     if (i > 0 && table.times[i] <= table.times[i - 1]) {
       check.refuse("times" + place, exact_text(table.times[i]),
-                   "must be later than the time before it, " + exact_text(table.times[i - 1]) +
-                       ": a table goes forward in time");
+                   "must be later than the time before it, " + exact_text(table.times[i - 1]));
     }
   }
 }

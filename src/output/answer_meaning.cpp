@@ -16,7 +16,7 @@ constexpr int digits = 3;
 std::string certainty_text(const Answer& answer) {
   switch (answer.certainty) {
     case Certainty::searched:
-      return "A search found this.";
+      return "A search found this; it is not proved.";
     case Certainty::computed:
       return "This is computed, not proved.";
     case Certainty::enclosed:
@@ -32,17 +32,17 @@ bool is_proved(const Answer& answer) { return answer.certainty >= Certainty::enc
 
 std::string persistence(const Answer& answer) {
   if (answer.rests_engaged) {
-    return "A large motion may end at rest, with the faces together on either side. Small motion "
-           "in the gap grows";
+    return "A large motion may end at rest, with the faces together on either side. A small motion "
+           "in the gap grows. ";
   }
-  return is_proved(answer) ? "From almost every start the load never comes to rest"
-                           : "The load does not come to rest";
+  return is_proved(answer) ? "From almost every start the load never comes to rest. "
+                           : "The load does not come to rest. ";
 }
 
 /// Other starts may end elsewhere; empty where none was seen to.
 std::string other_motion(const AnswerReport& report) {
   if (report.answer.irregular.empty()) return "";
-  return "Other starts end in a motion that was not seen to repeat, of up to " +
+  return "Other starts end in a motion that was not seen to repeat, up to " +
          swing_text(report.answer.irregular.front().amplitude, report.angle, digits) + ". ";
 }
 
@@ -51,57 +51,58 @@ std::string meaning_when_hunting(const AnswerReport& report) {
   const Cycle* cycle = answer.largest_stable();
   if (cycle == nullptr) {
     return persistence(answer) +
-           ", and its motion was not seen to repeat: it stayed within the amplitude reported for "
-           "as long as it was followed.";
+           "The motion was not seen to repeat. It stayed within the reported amplitude for as long "
+           "as it was followed.";
   }
   const std::string share =
       significant(cycle->amplitude / answer.normal_form->backlash, digits) + " times the backlash";
   const std::string where = cycle->kind == CycleKind::symmetric
-                                ? "to either side of the reference. "
-                                : "to either side of its center, which is off the reference. ";
-  const std::string end = is_proved(answer) ? "it ends in a swing of " + share
-                                            : "the largest steady swing found is " + share;
-  return persistence(answer) + ": " + end + " " + where + other_motion(report) +
-         "The amplitude is proportional to the backlash: half the backlash, half the amplitude at "
-         "the same frequency. No backlash is small enough to end the hunting; that takes a growth "
-         "at rest below 1. " +
+                                ? ", centered on the reference. "
+                                : ", centered beside the reference. ";
+  const std::string end = is_proved(answer)
+                              ? "It ends in an oscillation with an amplitude of " + share
+                              : "The largest stable oscillation found has an amplitude of " + share;
+  return persistence(answer) + end + where + other_motion(report) +
+         "The amplitude is proportional to the backlash, and the frequency does not depend on it. "
+         "So no backlash is small enough to stop the hunting. To stop it, the growth at rest must "
+         "be below 1. " +
          certainty_text(answer);
 }
 
 std::string meaning_when_quiet(const Answer& answer) {
   const NormalFormNumbers& form = *answer.normal_form;
-  if (form.backlash == 0.0) return "Without backlash there is nothing to hunt in.";
-  std::string text = "The load tends to the reference, wherever it starts. ";
+  if (form.backlash == 0.0) return "Without backlash there is no hunting.";
+  std::string text = "From every start the load tends to the reference. ";
   const bool is_massless = form.inertia_ratio == 0.0 || std::isinf(form.inertia_ratio);
   const bool is_plastic = form.restitution == 0.0 || is_massless;
   if (is_plastic && answer.growth_at_rest && *answer.growth_at_rest > 0.0) {
     text +=
-        "The motor goes on crossing the gap, ever more slowly: each crossing takes longer as the "
-        "load is nearer. ";
+        "The motor keeps crossing the gap. Each crossing takes longer, because the load is nearer "
+        "to the reference. ";
   }
   if (answer.is_dissipative) {
     text +=
-        "No restitution can make this servo hunt: apart from the gap it only ever takes energy "
-        "from the motion. ";
+        "The servo cannot hunt with any restitution, because everything outside the gap only takes "
+        "energy from the motion. ";
   }
-  return text + "This holds for any backlash: it depends on damping and ratios alone. " +
+  return text + "This holds for any backlash, because only damping and ratios matter. " +
          certainty_text(answer);
 }
 
 std::string meaning_when_undecided(const Answer& answer) {
   if (answer.neutral_swings) {
-    return "Some swings neither grow nor die away as far as numbers show (multiplier 1): the servo "
+    return "Some oscillations neither grow nor decay, to within rounding (multiplier 1). The servo "
            "lies on a boundary, where any change of a parameter decides.";
   }
   if (answer.bounds) {
     const Range& growth = answer.bounds->growth_at_rest;
     return fmt::format(
-        "The servo lies on the boundary of hunting: its growth at rest is 1 to within {}, the "
-        "width of the interval that is known to hold it, {} … {}.",
+        "The servo lies on the boundary of hunting. Its growth at rest is 1 to within {}, the "
+        "width of the interval that contains it: {} … {}.",
         significant(growth.highest - growth.lowest, 2), significant(growth.lowest, 17),
         significant(growth.highest, 17));
   }
-  return "The numerics could not decide; the table has what is known.";
+  return "The numerics could not decide. The table has what is known.";
 }
 
 std::string meaning_of_closed_form(const AnswerReport& report) {
@@ -113,15 +114,16 @@ std::string meaning_of_closed_form(const AnswerReport& report) {
     case Verdict::hunts_irregularly:
       return meaning_when_hunting(report);
     case Verdict::hunts_if_disturbed:
-      return "At rest the load stays at rest; a large enough disturbance sets it swinging for "
-             "good. " +
+      return "Rest is stable. A large enough disturbance leads to an oscillation that does not "
+             "stop. " +
              certainty_text(answer);
     case Verdict::grows_without_bound:
-      return "There is no friction at all: every swing through the backlash is larger than the "
-             "last. " +
+      return "There is no friction at all. Every swing through the backlash is larger than the one "
+             "before. " +
              certainty_text(answer);
     case Verdict::undamped:
-      return "There is neither friction nor backlash: the load swings for ever as it was started.";
+      return "There is neither friction nor backlash. The load keeps the oscillation that it "
+             "started with.";
     default:
       return meaning_when_undecided(answer);
   }
@@ -143,7 +145,7 @@ std::string ends_text(const SearchRecord& search) {
   add("cycle", "to a cycle");
   add("rest", "to rest");
   add("irregular", "to motion that was not seen to repeat");
-  add("diverges", "away without end");
+  add("diverges", "to runaway");
   add("undecided", "undecided");
   return text;
 }
@@ -160,8 +162,8 @@ std::string search_text(const AnswerReport& report) {
     farthest = std::max(farthest, distance);
   }
   std::string text = fmt::format(
-      "Searched from {}, with the load {} to {} from the reference, each watched for up to {} {}: "
-      "{}. Cycles were closed by shooting; ",
+      "Searched from {}, with the load {} to {} from the reference. Each was followed for up to {} "
+      "{}: {}. Shooting closed the cycles. ",
       starts_text(search.starts.size()), angle_text(report, nearest), angle_text(report, farthest),
       significant(search.watch_time, digits), report.is_normalized ? "/ ω_n" : "s",
       ends_text(search));
@@ -169,13 +171,13 @@ std::string search_text(const AnswerReport& report) {
       std::count_if(report.answer.cycles.begin(), report.answer.cycles.end(),
                     [](const Cycle& cycle) { return cycle.stability == Stability::unstable; });
   text += search.borders == 0
-              ? "no border between starts that led elsewhere had to be searched. "
+              ? "No border between starts with different ends had to be searched. "
               : fmt::format(
-                    "{} border{} between starts that led elsewhere searched, {} unstable "
-                    "cycle{} found. ",
+                    "Searched {} border{} between starts with different ends and found {} unstable "
+                    "cycle{}. ",
                     search.borders, search.borders == 1 ? "" : "s", found, found == 1 ? "" : "s");
-  if (!search.is_complete) text += "The search was stopped before its end. ";
-  return text + "A search is no proof: what no start leads to is not seen.";
+  if (!search.is_complete) text += "The search was stopped early. ";
+  return text + "A search is no proof: it misses what no start leads to.";
 }
 
 }  // namespace

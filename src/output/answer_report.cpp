@@ -92,7 +92,7 @@ std::string motion_text(const AnswerReport& report) {
   if (const Cycle* cycle = report.answer.largest_stable()) {
     if (is_of_motor_alone(*cycle)) {
       return of_motor(cycle->motor_amplitude) + pace(report, cycle->period) +
-             ", while the load stands";
+             ", while the load stands still";
     }
     return amplitude(cycle->amplitude) + pace(report, cycle->period);
   }
@@ -141,7 +141,7 @@ std::string residual_text(double residual) {
 
 void add_energy(Rows& rows, const EnergyLost& energy, const Units& units) {
   const double total = energy.total();
-  rows.push_back({"energy lost in a period", units.energy(total), ""});
+  rows.push_back({"energy lost per period", units.energy(total), ""});
   const auto share = [&](const char* name, double part) {
     rows.push_back({name, units.energy(part), percent(part, total)});
   };
@@ -153,9 +153,9 @@ void add_energy(Rows& rows, const EnergyLost& energy, const Units& units) {
 const char* multiplier_remark(Stability stability) {
   switch (stability) {
     case Stability::stable:
-      return "disturbances die away";
+      return "disturbances decay";
     case Stability::neutral:
-      return "disturbances neither grow nor die away";
+      return "disturbances neither grow nor decay";
     case Stability::unstable:
       return "disturbances grow";
   }
@@ -164,7 +164,7 @@ const char* multiplier_remark(Stability stability) {
 
 void add_contact(Rows& rows, const Cycle& cycle, const Answer& answer, const Units& units) {
   if (answer.engine == Engine::closed_form) {
-    rows.push_back({"impacts", fmt::format("{} a period", cycle.events_per_period),
+    rows.push_back({"impacts", fmt::format("{} per period", cycle.events_per_period),
                     cycle.settles ? "faces stay together" : "faces bounce apart"});
   }
   if (cycle.impact_speed > 0.0) {
@@ -201,7 +201,7 @@ std::string cycle_text(const AnswerReport& report, const Cycle& cycle) {
   add_contact(rows, cycle, answer, units);
   if (cycle.energy) add_energy(rows, *cycle.energy, units);
   if (answer.engine == Engine::general) {
-    rows.push_back({"events in a period", std::to_string(cycle.events_per_period), ""});
+    rows.push_back({"events per period", std::to_string(cycle.events_per_period), ""});
     rows.push_back({"reached from", starts_text(cycle.starts), ""});
   }
   rows.push_back({"residual", residual_text(cycle.residual), "mismatch where the cycle closes"});
@@ -249,9 +249,10 @@ std::string irregular_text(const AnswerReport& report, const IrregularMotion& mo
                spread(*motion.mean_amplitude, *motion.amplitude_deviation)},
               {"mean period", units.time(*motion.mean_period),
                spread(*motion.mean_period, *motion.period_deviation)},
-              {"swings repeat but for", fmt::format("{:.2g} %", 100.0 * *motion.mismatch), ""},
-              {"neighbors part at", units.rate(*motion.exponent), is_chaotic ? "chaotic" : ""},
-              {"watched for", units.time(*motion.watched), ""},
+              {"swings repeat to within", fmt::format("{:.2g} %", 100.0 * *motion.mismatch), ""},
+              {"neighboring motions part at", units.rate(*motion.exponent),
+               is_chaotic ? "chaotic" : ""},
+              {"followed for", units.time(*motion.watched), ""},
               {"reached from", starts_text(motion.starts), ""}});
 }
 
@@ -295,10 +296,10 @@ std::string normal_form_table(const AnswerReport& report) {
 /// How to get what was not asked for.
 std::string offer_text(const AnswerReport& report) {
   std::string text;
-  if (!report.margin) text += "how far each number is from the limit of hunting: --margins";
+  if (!report.margin) text += "--margins adds how far each parameter is from the limit of hunting";
   if (!report.sensitivity) {
-    text +=
-        std::string(text.empty() ? "" : "; ") + "what the amplitude depends on: --sensitivities";
+    text += std::string(text.empty() ? "" : "; ") +
+            "--sensitivities adds what the amplitude depends on";
   }
   return text.empty() ? "" : "\n" + wrapped("Not shown: " + text + ".");
 }
@@ -332,14 +333,14 @@ std::string headline(const AnswerReport& report) {
       return verdict + (answer.rests_engaged ? ", or rests with its faces together: " : ": ") +
              motion_text(report);
     case Verdict::forced:
-      return "swings as it is driven: " + motion_text(report);
+      return "forced oscillation: " + motion_text(report);
     case Verdict::hunts_if_disturbed:
       return verdict + ": " + motion_text(report) +
              (answer.growth_at_rest ? "; " + growth_beside_one(answer) : "");
     case Verdict::grows_without_bound:
       return verdict + ": no friction at all (damping 0)";
     case Verdict::undamped:
-      return verdict + ": any swing persists (damping 0, backlash 0)";
+      return verdict + ": every oscillation persists (damping 0, backlash 0)";
     case Verdict::comes_to_rest:
       return fmt::format("{} from all {}", verdict, starts_text(answer.search->starts.size()));
     case Verdict::cannot_hunt:

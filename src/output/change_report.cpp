@@ -28,37 +28,36 @@ std::string boundary_text(const ChangeableNumber& number, const ParameterMargin&
   return margin.present > 0.0 ? text + " (" + change_text(value / margin.present) + ")" : text;
 }
 
-std::string overall_text(const OverallMargin& overall) {
+std::string overall_text(const OverallMargin& overall, bool hunts) {
   switch (overall.outcome) {
     case MarginOutcome::found:
       break;
     case MarginOutcome::out_of_reach:
-      return "No change of all together was found that reaches it.";
+      return "No combined change was found that reaches the limit of hunting.";
     case MarginOutcome::always_hunts:
-      return "A shaft has no friction: no change by a ratio ends the hunting.";
+      return "One shaft has no friction. No change by a ratio stops the hunting.";
     case MarginOutcome::never_hunts:
-      return "Without backlash there is nothing to hunt in.";
+      return "Without backlash there is no hunting.";
   }
   const LogChange& change = overall.change;
   return fmt::format(
-      "The least change of all together: motor inertia {}, load inertia {}, motor friction {}, "
-      "load "
-      "friction {}, stiffness {} ({} as the root of the sum of squares of the logarithms).",
-      change_text(std::exp(change.motor_inertia)), change_text(std::exp(change.load_inertia)),
-      change_text(std::exp(change.motor_friction)), change_text(std::exp(change.load_friction)),
-      change_text(std::exp(change.stiffness)), significant(overall.distance, 3));
+      "Smallest combined change that {} the hunting: motor inertia {}, load inertia {}, motor "
+      "friction {}, load friction {}, stiffness {}.",
+      hunts ? "stops" : "starts", change_text(std::exp(change.motor_inertia)),
+      change_text(std::exp(change.load_inertia)), change_text(std::exp(change.motor_friction)),
+      change_text(std::exp(change.load_friction)), change_text(std::exp(change.stiffness)));
 }
 
 std::string reason(SensitivityOutcome outcome) {
   switch (outcome) {
     case SensitivityOutcome::no_cycle:
-      return "there is no limit cycle; of growth at rest:";
+      return "there is no limit cycle, so only growth at rest has them";
     case SensitivityOutcome::undecided:
-      return "the servo lies on the boundary of hunting; of growth at rest:";
+      return "the servo lies on the boundary of hunting, so only growth at rest has them";
     case SensitivityOutcome::undamped:
-      return "not worked out without damping";
+      return "not computed without damping";
     case SensitivityOutcome::bounces:
-      return "not worked out for this motion, in which faces bounce";
+      return "not computed for this motion, in which faces bounce";
     case SensitivityOutcome::available:
       break;
   }
@@ -105,15 +104,15 @@ std::string margin_text(const ChangeableDrive& drive, const HuntingMargin& margi
   }
   const std::string what = hunts ? "Where hunting ends" : "Where hunting begins";
   std::string text =
-      what + ", one change by itself" +
+      what + ", one parameter at a time" +
       (rows.size() == 1 ? ": nowhere within a factor of a thousand\n" : "\n" + table_text(rows));
-  std::string rest = overall_text(margin.overall);
+  std::string rest = overall_text(margin.overall, hunts);
   if (drive.drivetrain().restitution > 0.0) {
     rest += (rest.empty() ? "" : " ") +
             std::string(
-                "With bounces the values above were looked for at many places, not proved "
-                "to be the nearest; and the least change is that after which rest ") +
-            (hunts ? "is stable, beside which swings may be left." : "is unstable.");
+                "With bounces, the values above come from a scan and are not proved to be the "
+                "nearest. The combined change is the smallest after which rest ") +
+            (hunts ? "is stable; hunting may remain beside it." : "is unstable.");
   }
   return rest.empty() ? text : text + wrapped(rest);
 }

@@ -94,22 +94,22 @@ std::string meaning(const ComparisonReport& report) {
   for (const SensorCase& one : report.cases) {
     if (one.place == SensorPlace::motor) {
       text +=
-          "With the sensor on the motor the gap is outside the loop: the loop does not see where "
-          "in it the load is. ";
+          "With the sensor on the motor, the gap is outside the loop. The loop does not see where "
+          "the load is in the gap. ";
     } else if (one.place == SensorPlace::both) {
-      text += "Both: position of the load, speed of the motor";
+      text += "With both, the position is the load's and the speed is the motor's";
       text +=
-          uses_speed(reduce(one.report.drive)) ? ". " : ", which this controller makes no use of. ";
+          uses_speed(reduce(one.report.drive)) ? ". " : ", which this controller does not use. ";
     }
   }
   for (const SensorCase& one : report.cases) {
     if (one.response.stop_reason == hybrid::StopReason::reached_end) continue;
-    text += fmt::format("With the sensor on {} the step response could be followed for {} only. ",
+    text += fmt::format("With the sensor on {}, the step response could be followed only for {}. ",
                         name_of(one.place), time(report, one.response.until));
   }
   return text +
-         "Rest and cycles are those that a search from several starts found (limit-cycle "
-         "tells each); step responses are exact motions from rest.";
+         "A search from several starts found the rest and the cycles (limit-cycle reports each). "
+         "Step responses are exact motions from rest.";
 }
 
 }  // namespace
@@ -141,9 +141,9 @@ std::string comparison_text(const ComparisonReport& report) {
           }),
       row(report, "  settled to 5 %",
           response([](const drive::StepResponse& one) { return one.settling_time; })),
-      row(report, "  error at last",
+      row(report, "  error at the end",
           [&](const SensorCase& one) { return angle(report, one.response.final_error); }),
-      row(report, "  swing at last",
+      row(report, "  amplitude at the end",
           [&](const SensorCase& one) { return "±" + angle(report, one.response.ripple); })};
   return table_text(rows) + "\n" + wrapped(meaning(report));
 }

@@ -136,8 +136,8 @@ std::string unresolved_text(const DescribingAnalysis& analysis) {
   if (analysis.unresolved.empty()) return "";
   const Bounds whole{analysis.unresolved.front().low, analysis.unresolved.back().high};
   return fmt::format(
-      "Between the angular frequencies {} and {} the balance could not be decided: solutions there "
-      "fill a range or merge. ",
+      "Between the angular frequencies {} and {} the balance is undecided, because its solutions "
+      "fill a range or merge there. ",
       significant(whole.low, digits), significant(whole.high, digits));
 }
 
@@ -173,8 +173,8 @@ std::string analysis_text(const DescribingAnalysis& analysis, const DescribeRepo
 }
 
 std::string exact_text(const DescribeReport& report) {
-  std::string text = std::string("exact: ") + (is_forced(report) ? "swings as it is driven"
-                                                                 : name_of(report.answer.verdict));
+  std::string text = std::string("exact: ") +
+                     (is_forced(report) ? "forced oscillation" : name_of(report.answer.verdict));
   for (const Cycle& cycle : report.answer.cycles) {
     if (cycle.stability != Stability::stable) continue;
     text += fmt::format(", {}, {}", swing_text(cycle.amplitude, report.angle, digits),

@@ -69,7 +69,7 @@ double nearest_in(const Bounds& interval, double present) {
 }
 
 std::vector<std::string> header() {
-  return {"parameter", "now", "meets the target", "change", "ω_n", "ζ", "K", "then"};
+  return {"parameter", "now", "meets the target", "change", "ω_n", "ζ", "K", "result"};
 }
 
 /// The first of a parameter names it, the others are further ways.
@@ -99,14 +99,14 @@ std::string reason(const DesignReport& report, const FeasibleValues& values) {
     return significant(value / unit.size, digits) + unit.name;
   };
   std::string text = values.parameter + ": ";
-  if (values.searched.low == values.searched.high) return text + "is 0, and has no multiples";
+  if (values.searched.low == values.searched.high) return text + "is 0 and has no multiples";
   if (report.drive.number(values.parameter).is_backlash() &&
       (report.target.no_hunting || !std::isinf(report.target.growth_at_rest.high))) {
-    return text + "however small, it leaves the hunting; only its amplitude follows";
+    return text + "no value stops the hunting; the amplitude is proportional to it";
   }
   text += fmt::format("no value from {} to {}", shown(values.searched.low),
                       shown(values.searched.high));
-  text += values.kind == SearchKind::certified ? "" : " that was looked at";
+  text += values.kind == SearchKind::certified ? "" : " of those tried";
   const Performance closest =
       performance_of(report.drive.with(values.parameter, values.closest->value));
   return text + fmt::format("; closest is {} with {} (growth at rest {})",
@@ -156,13 +156,13 @@ std::string certainty(const DesignReport& report) {
                           : ", except for " + scanned +
                                 ": with bounces, many values were tried, and others may be missed.";
   if (const std::string open = undecided_parts(report, SearchKind::certified); !open.empty()) {
-    text += " The bounds leave open, because a limit is touched there to within rounding: " + open +
-            ".";
+    text += " These parts are open, because they touch a limit to within rounding: " + open + ".";
   }
   if (const std::string open = undecided_parts(report, SearchKind::scanned); !open.empty()) {
     text +=
-        " Nothing is said of these parts, because motion there does not repeat or is too long "
-        "to follow, so that values which meet the target may come and go: " +
+        " No claim is made for these parts, because the motion does not repeat or takes too long "
+        "to "
+        "follow, and values that meet the target may come and go: " +
         open + ".";
   }
   return text;
@@ -253,10 +253,10 @@ std::string design_text(const DesignReport& report) {
     if (answer.intervals.empty()) reasons += "  " + reason(report, answer) + "\n";
   }
   if (rows.size() > 1) {
-    text += "One change by itself, all else as it is; ω_n, ζ and K are what it costs\n" +
+    text += "One change by itself, other parameters fixed; ω_n, ζ and K show its cost\n" +
             table_text(rows) + "\n";
   }
-  if (!reasons.empty()) text += "No value does it\n" + reasons + "\n";
+  if (!reasons.empty()) text += "No value meets the target\n" + reasons + "\n";
   return text + wrapped(certainty(report));
 }
 

@@ -56,7 +56,7 @@ std::vector<Row> headline_rows(const ToleranceReport& report) {
 std::vector<Row> quantile_rows(const ToleranceReport& report) {
   const ToleranceStudy& study = report.study;
   std::vector<Row> rows = {
-      {"share of samples up to it", "amplitude", "amplitude, of those that hunt"}};
+      {"share of samples up to", "amplitude", "amplitude, of those that hunt"}};
   if (has_frequency(report)) rows.front().emplace_back("frequency");
   for (std::size_t i = 0; i < study.amplitude.size(); ++i) {
     Row row = {significant(100.0 * study.amplitude[i].share, digits) + " %",
@@ -141,16 +141,16 @@ std::string worst_text(const ToleranceReport& report) {
   const Performance& worst = report.worst.performance;
   std::string text;
   if (worst.verdict == Verdict::cannot_hunt) {
-    text = "The worst sample within the tolerances cannot hunt (growth at rest " +
+    text = "The worst sample found within the tolerances cannot hunt (growth at rest " +
            significant(worst.growth_at_rest, digits) + ")";
   } else {
-    text = "The worst sample within the tolerances swings " +
+    text = "The worst sample found within the tolerances hunts: " +
            swing_text(worst.amplitude, report.angle, digits);
     if (has_frequency(report)) text += " at " + significant(worst.frequency, digits) + " Hz";
   }
   return text +
-         ", as far as a search by climbing finds; a normal without an end is cut at three "
-         "standard deviations for it.";
+         ". A climbing search found it, with unlimited normal distributions cut at three standard "
+         "deviations.";
 }
 
 std::string backlash_text(const ToleranceReport& report) {
@@ -163,11 +163,12 @@ std::string backlash_text(const ToleranceReport& report) {
   const auto angle = [&](double value) {
     return std::isinf(value) ? std::string("any") : angle_text(value, report);
   };
-  return "\n" + wrapped(fmt::format(
-                    "A yield of {} needs a backlash between {} and at most {} ({} to {} within the "
-                    "error of the estimate).",
-                    demand, angle(widest.min), angle(widest.max), angle(widest.uncertainty.low),
-                    angle(widest.uncertainty.high)));
+  return "\n" +
+         wrapped(fmt::format(
+             "A yield of {} needs a backlash from {} to at most {} ({} to {} within the error "
+             "of the estimate).",
+             demand, angle(widest.min), angle(widest.max), angle(widest.uncertainty.low),
+             angle(widest.uncertainty.high)));
 }
 
 std::string counts_text(const ToleranceReport& report) {
@@ -179,8 +180,7 @@ std::string counts_text(const ToleranceReport& report) {
       study.sampling.seed);
   if (study.undecided + study.unknown_amplitudes + study.refused > 0) {
     text += fmt::format(
-        " Not decided: {}; hunting of an amplitude that is not known: {}; draws that were no "
-        "drive: {}.",
+        " Undecided: {}; hunting with an unknown amplitude: {}; draws that are no drive: {}.",
         study.undecided, study.unknown_amplitudes, study.refused);
   }
   return wrapped(text);
@@ -252,9 +252,9 @@ std::string tolerance_text(const ToleranceReport& report) {
   return "Of all samples\n" + table_text(headline_rows(report)) + "\n" +
          table_text(quantile_rows(report)) +
          fmt::format(
-             "\nWhat decides: the share of the variance of amplitude and of hunting that goes with "
-             "a\nparameter alone, and in all, with what it does together with others (Sobol's "
-             "indices, ± {})\n",
+             "\nWhat decides: the share of the variance of the amplitude, and of hunting, that "
+             "each\nparameter causes alone, and in all, together with others (Sobol's indices, "
+             "± {})\n",
              significant(widest_bar(report.sensitivities), 1)) +
          table_text(number_rows(report)) + "\n" + wrapped(worst_text(report)) +
          backlash_text(report) + "\n" + counts_text(report);

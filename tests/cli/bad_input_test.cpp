@@ -56,10 +56,11 @@ TEST(BadInput, WhatIsTypedIsNeverReadAsAFile) {
 }
 
 TEST(BadInput, WithTheSensorOnTheMotorThereIsNoNormalForm) {
-  EXPECT_THAT(faults({"map", "--x", "damping=0.1:0.2:3", "--y", "friction-ratio=0.1:0.2:3",
-                      "--sensor", "motor", "--output", "map.csv", "examples/elinco-fd162.toml"}),
-              ElementsAre(StartsWith("gearlash: --y = friction-ratio: must be a number or a word"),
-                          StartsWith("gearlash: --x = damping: must be a number or a word")));
+  EXPECT_THAT(
+      faults({"map", "--x", "damping=0.1:0.2:3", "--y", "friction-ratio=0.1:0.2:3", "--sensor",
+              "motor", "--output", "map.csv", "examples/elinco-fd162.toml"}),
+      ElementsAre(StartsWith("gearlash: --y = friction-ratio: must be a number or a choice"),
+                  StartsWith("gearlash: --x = damping: must be a number or a choice")));
   EXPECT_THAT(faults({"limit-cycle", "examples/elinco-fd162.toml", "--sensor", "gear"}),
               ElementsAre("gearlash: --sensor = gear: must be one of load, motor, both"));
 }
@@ -128,8 +129,8 @@ TEST(BadInput, PictureEndings) {
 
 TEST(BadInput, TooManySamplesAndTooLongPicturesAreRefused) {
   EXPECT_THAT(faults({"simulate", "examples/elinco-fd162.toml", "--until", "1", "--every", "1e-8"}),
-              ElementsAre("gearlash: --every = 1e-08: must be more than 1e-07 s: 1e+07 samples at "
-                          "most up to 1 s"));
+              ElementsAre("gearlash: --every = 1e-08: must be more than 1e-07 s: at most 1e+07 "
+                          "samples in 1 s"));
   EXPECT_THAT(faults({"simulate", "examples/normalized.toml", "--until", "1e4", "--plot",
                       "time=never-drawn.svg"}),
               ElementsAre(StartsWith("gearlash: --until = ")));

@@ -224,7 +224,8 @@ TEST(ChartCommand, FaultsAreToldAtOnce) {
                                 "--inertia-ratio", "1", "--friction-ratio", "2", "--quantity",
                                 "weight", "--output", "a.txt", "--damping", "0.2"});
   EXPECT_EQ(run.status, 2);
-  EXPECT_THAT(run.err, HasSubstr("--curves = stiffness: must be a number or a word of this drive"));
+  EXPECT_THAT(run.err,
+              HasSubstr("--curves = stiffness: must be a number or a choice of this drive"));
   EXPECT_THAT(run.err, HasSubstr("--x = 0.6 to 0.1: must rise"));
   EXPECT_THAT(run.err, HasSubstr("--quantity = weight: must be growth_at_rest, amplitude, "));
   EXPECT_THAT(run.err,

@@ -83,10 +83,10 @@ TEST(DescribeCommand, BadInputIsToldAtOnce) {
             "gearlash: --part = wind: must be gap, elastic-gap, torque-limit or "
             "coulomb-friction\n");
   EXPECT_EQ(describe(of_servo({"--part", "gap"})).err,
-            "gearlash: --part = gap: must come with --plot: it says what is drawn\n");
+            "gearlash: --part = gap: must come with --plot: it chooses what to draw\n");
   const Outcome absent = describe(of_servo({"--plot", "nyquist=a.svg", "--part", "torque-limit"}));
   EXPECT_EQ(absent.status, 2);
-  EXPECT_THAT(absent.err, HasSubstr("must be a part that the drive has within its loop"));
+  EXPECT_THAT(absent.err, HasSubstr("must be a part that the drive has inside its loop"));
   const Outcome massless = describe(
       {"--damping", "0.1", "--inertia-ratio", "inf", "--friction-ratio", "0.5", "--backlash", "0"});
   EXPECT_THAT(massless.err, HasSubstr("motor.inertia = 0 kg m2: must be positive"));
@@ -149,7 +149,7 @@ frequency = "1 Hz"
 )";
   const Outcome text = describe({path.string()});
   ASSERT_EQ(text.status, 0) << text.err;
-  EXPECT_THAT(text.out, StartsWith("exact: swings as it is driven, ±3.088 deg"));
+  EXPECT_THAT(text.out, StartsWith("exact: forced oscillation, ±3.088 deg"));
   EXPECT_THAT(text.out, testing::Not(HasSubstr("error")));
   const auto json = nlohmann::json::parse(describe({path.string(), "--format", "json"}).out);
   EXPECT_EQ(json["verdict"], "forced");
@@ -160,7 +160,7 @@ TEST(DescribeCommand, WhatCannotBeDecidedIsToldByTheStatus) {
   const Outcome run = describe({"--damping", "1e-12", "--inertia-ratio", "1", "--friction-ratio",
                                 "1/2", "--backlash", "0.3", "--restitution", "1"});
   EXPECT_EQ(run.status, 1);
-  EXPECT_EQ(run.err, "gearlash: what is exact could not be decided\n");
+  EXPECT_EQ(run.err, "gearlash: the exact answer is undecided\n");
   EXPECT_THAT(run.out, StartsWith("exact: undecided\n"));
 }
 

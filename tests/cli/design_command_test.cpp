@@ -105,10 +105,8 @@ TEST(DesignCommand, SaysWhatItCostsAndWhyNot) {
   EXPECT_THAT(lines.at(1), HasSubstr("not met"));
   EXPECT_THAT(lines, Contains(StartsWith("  gearbox.ratio ")));
   EXPECT_THAT(lines, Contains(StartsWith("    or ")));
-  EXPECT_THAT(
-      lines,
-      Contains("  gearbox.backlash: however small, it leaves the hunting; only its amplitude "
-               "follows"));
+  EXPECT_THAT(lines, Contains("  gearbox.backlash: no value stops the hunting; the amplitude is "
+                              "proportional to it"));
   EXPECT_THAT(lines, Contains(StartsWith("  motor.inertia: no value from ")));
   EXPECT_THAT(run.out, HasSubstr("prove it"));
 }
@@ -153,9 +151,9 @@ TEST(EdgeDesignCommand, PicturesThatCannotBeDrawnAreRefused) {
                   StartsWith("gearlash: --vary = 2 names: must be two different"),
                   StartsWith("gearlash: --plot = a.txt: must")));
   EXPECT_THAT(faults_of({"--vary", "backlash,error_gain"}),
-              ElementsAre(StartsWith("gearlash: --plot is missing: must name a picture")));
+              ElementsAre(StartsWith("gearlash: --plot is missing: must name the picture")));
   EXPECT_THAT(faults_of({"--plot", "region=a.svg"}),
-              ElementsAre(StartsWith("gearlash: --vary is missing: must name two parameters")));
+              ElementsAre(StartsWith("gearlash: --vary is missing: must name the two parameters")));
 }
 
 TEST(EdgeDesignCommand, FaultsAreToldAtOnce) {

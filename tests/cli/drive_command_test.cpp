@@ -159,7 +159,7 @@ TEST_F(DriveCommand, ComparePutsSensorsSideBySide) {
   EXPECT_THAT(lines_of(run.out)[0], HasSubstr("load"));
   std::string unwrapped = run.out;
   std::replace(unwrapped.begin(), unwrapped.end(), '\n', ' ');
-  EXPECT_THAT(unwrapped, HasSubstr("which this controller makes no use of"));
+  EXPECT_THAT(unwrapped, HasSubstr("which this controller does not use"));
   EXPECT_THAT(file_text(picture), HasSubstr("sensor on motor"));
   const json found =
       json::parse(run_tool({"compare", drive, "--sensor", "motor,load", "--format", "json"}).out);

@@ -70,7 +70,7 @@ TEST(ExitStatus, ThreeStandsOverOne) {
   EXPECT_EQ(three.status, 3);
   EXPECT_EQ(three.out, one.out);
   EXPECT_THAT(three.err, HasSubstr(no_gnuplot));
-  EXPECT_THAT(three.err, HasSubstr("gearlash: what is exact could not be decided\n"));
+  EXPECT_THAT(three.err, HasSubstr("gearlash: the exact answer is undecided\n"));
 }
 
 TEST(ExitStatus, ThreeForMemory) {
@@ -123,7 +123,7 @@ TEST(ExitStatus, WithoutThreadsTheWorkIsDoneInOne) {
 
 TEST(ExitStatus, HelpListsThem) {
   for (const char* status : {"\n  0  done", "\n  1  undecided", "\n  2  bad input",
-                             "\n  3  the machine could not", "\n  130, 143  "}) {
+                             "\n  3  the machine failed", "\n  130, 143  "}) {
     EXPECT_THAT(run_tool({"limit-cycle", "--help"}).out, HasSubstr(status));
   }
 }

@@ -22,6 +22,14 @@ TEST_P(Help, HasExamplesAndExitStatuses) {
   EXPECT_THAT(run.out, HasSubstr("  2  bad input"));
 }
 
+TEST_P(Help, OpensWithWhatTheVerbGivesAndEndsWithExamples) {
+  const std::string help = run_tool(GetParam()).out;
+  EXPECT_THAT(help, testing::MatchesRegex("[A-Z][a-z]+ .*[^.?]\n.*")) << "an imperative";
+  const std::size_t examples = help.find("\nExamples:\n");
+  ASSERT_NE(examples, std::string::npos);
+  EXPECT_EQ(help.find("\n\n", examples), std::string::npos) << "nothing after them";
+}
+
 INSTANTIATE_TEST_SUITE_P(Everywhere, Help,
                          testing::Values(std::vector<std::string>{"--help"},
                                          std::vector<std::string>{"-h"},
@@ -31,6 +39,8 @@ INSTANTIATE_TEST_SUITE_P(Everywhere, Help,
                                          std::vector<std::string>{"motor", "--help"},
                                          std::vector<std::string>{"chart", "--help"},
                                          std::vector<std::string>{"map", "--help"},
+                                         std::vector<std::string>{"sweep", "--help"},
+                                         std::vector<std::string>{"compare", "--help"},
                                          std::vector<std::string>{"design", "--help"},
                                          std::vector<std::string>{"tolerance", "--help"},
                                          std::vector<std::string>{"show", "--help"},

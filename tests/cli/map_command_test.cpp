@@ -182,7 +182,7 @@ TEST(EdgeMapAxes, EachBadOneIsOneClearLine) {
       {"damping=0.1:0.5", "--x = damping=0.1:0.5: " + forms},
       {"damping=0.1:0.5:5:cubic", "--x = damping=0.1:0.5:5:cubic: " + forms},
       {"stiffness=1:2:3",
-       "--x = stiffness: must be a number or a word of this drive; gearlash show lists them"},
+       "--x = stiffness: must be a number or a choice of this drive; gearlash show lists them"},
       {"damping=0.5:0.1:5", "--x = 0.5 to 0.1: must rise: the smaller value first"},
       {"inertia-ratio=9:1/9:5:log",
        "--x = 9 to 0.1111111111111111: must rise: the smaller value first"},
@@ -213,10 +213,12 @@ TEST(EdgeMapAxes, BothTogether) {
   EXPECT_THAT(faults_of_axes("damping=0.1:0.5:5", "damping=0.1:0.5:5"),
               ElementsAre("--x = servo.damping: must be another parameter than that of --y"));
   EXPECT_THAT(faults_of_axes("damping=0.5:0.1:5", "weight=1:2:3"),
-              ElementsAre(StartsWith("--y = weight: must be a number or a word"),
+              ElementsAre(StartsWith("--y = weight: must be a number or a choice"),
                           StartsWith("--x = 0.5 to 0.1: must rise")));
-  EXPECT_THAT(faults_of_axes("damping=0.5", "inertia-ratio=1:2:3"),
-              ElementsAre("--x = 1 value: must be two or more; gearlash chart draws one"));
+  EXPECT_THAT(
+      faults_of_axes("damping=0.5", "inertia-ratio=1:2:3"),
+      ElementsAre(
+          "--x = 1 value: must have two values or more; gearlash chart draws a single line"));
   EXPECT_THAT(faults_of_axes("damping=0.1:0.5:5", "inertia-ratio=1,2,inf", "never-written.svg"),
               ElementsAre(StartsWith("--y = inf: must be finite in a picture")));
   EXPECT_THAT(

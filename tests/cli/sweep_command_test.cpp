@@ -59,7 +59,7 @@ TEST(SweepCommand, KilledAndGoneOnWithItGivesTheSameFile) {
   EXPECT_FALSE(std::filesystem::exists(killed / "a.nc"));
   const Outcome anew = run_shell(in_folder(killed, "\"$GEARLASH\" sweep sweep.toml --output a.nc"));
   EXPECT_EQ(anew.status, 2);
-  EXPECT_THAT(anew.err, HasSubstr("--output = a.nc: must not have an unfinished sweep beside it"));
+  EXPECT_THAT(anew.err, HasSubstr("--output = a.nc: must have no unfinished sweep beside it"));
   const Outcome resumed =
       run_shell(in_folder(killed, "\"$GEARLASH\" sweep sweep.toml --output a.nc --resume"));
   EXPECT_EQ(resumed.status, 0) << resumed.err;
@@ -74,7 +74,7 @@ TEST(SweepCommand, CtrlCKeepsWhatIsDone) {
   // In the background a shell has SIGINT ignored.
   const Outcome run = run_shell(in_folder(scratch, interrupted("TERM", "")));
   EXPECT_THAT(run.out, HasSubstr("status 143\n")) << run.err;
-  EXPECT_THAT(run.err, HasSubstr(" of 400 points, which a.nc.part holds: --resume goes on\n"));
+  EXPECT_THAT(run.err, HasSubstr(" of 400 points, saved in a.nc.part; --resume continues\n"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "a.nc"));
   const auto record = nlohmann::json::parse(file_text(scratch / "a.nc.part.json"));
   EXPECT_GT(record["points_done"], 0);
@@ -93,9 +93,10 @@ TEST(SweepCommand, WhatItSaysOfItsFilesIsTrueWheneverItIsStopped) {
   EXPECT_THAT(run.out, HasSubstr("status 143\n")) << run.err;
   const bool has_files = std::filesystem::exists(scratch / "a.nc.part");
   EXPECT_EQ(std::filesystem::exists(scratch / "a.nc.part.json"), has_files);
-  EXPECT_THAT(run.err, HasSubstr(has_files ? " of 400 points, which a.nc.part holds: --resume"
-                                           : "stopped before any of 400 points was done: there is "
-                                             "nothing to resume\n"));
+  EXPECT_THAT(run.err,
+              HasSubstr(has_files ? " of 400 points, saved in a.nc.part; --resume"
+                                  : "stopped before the first of 400 points: there is nothing "
+                                    "to resume\n"));
 }
 
 TEST(SweepCommand, ResumesOnlyTheSameSweep) {
@@ -125,9 +126,8 @@ TEST(SweepCommand, FilesOfOthersAreRefusedAndLeftAlone) {
         const Outcome run = sweep_in(scratch, options);
         EXPECT_EQ(run.status, 2);
         EXPECT_EQ(run.err,
-                  "gearlash: --output = a.nc: must have no file beside it that no sweep has "
-                  "left: " +
-                      name + " is left alone; rename it, or remove it to start again\n");
+                  "gearlash: --output = a.nc: must have no foreign file beside it: " + name +
+                      " does not come from a sweep and is not touched; rename or remove it\n");
         EXPECT_EQ(file_text(scratch / name), contents);
         EXPECT_EQ(scratch.file_count(), 2U);
       }
@@ -178,8 +178,8 @@ TEST(SweepCommand, DataOfAnotherSweepAreNotGoneOnWith) {
   const Outcome run = sweep_in(scratch, "--resume");
   EXPECT_EQ(run.status, 2);
   EXPECT_EQ(run.err,
-            "gearlash: --resume = a.nc.part and a.nc.part.json: must be the whole files that an "
-            "unfinished sweep leaves; remove both to start again\n");
+            "gearlash: --resume = a.nc.part and a.nc.part.json: must be the complete files of an "
+            "unfinished sweep; remove both to start again\n");
 }
 
 TEST(SweepCommand, AFlippedBitIsSeen) {
@@ -204,7 +204,8 @@ TEST(SweepCommand, AFlippedBitIsSeen) {
   const Outcome run = sweep_in(scratch, "--resume");
   EXPECT_EQ(run.status, 2);
   EXPECT_EQ(run.err,
-            "gearlash: --resume = a.nc.part and a.nc.part.json: must be as the sweep left them; "
+            "gearlash: --resume = a.nc.part and a.nc.part.json: must be unchanged since the sweep "
+            "stopped; "
             "remove both to start again\n");
   data[place] = static_cast<char>(data[place] ^ 1);
   write(scratch / "a.nc.part", data);
@@ -227,7 +228,7 @@ TEST(SweepCommand, AnEditedRecordIsRefused) {
     const Outcome run =
         run_shell(in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.nc --resume"));
     EXPECT_EQ(run.status, 2) << points;
-    EXPECT_THAT(run.err, HasSubstr("must be as the sweep left them; remove both"));
+    EXPECT_THAT(run.err, HasSubstr("must be unchanged since the sweep stopped; remove both"));
   }
   write(scratch / "a.nc.part.json", written);
   write(scratch / "a.nc.part", "garbage");
@@ -235,8 +236,8 @@ TEST(SweepCommand, AnEditedRecordIsRefused) {
       run_shell(in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.nc --resume"));
   EXPECT_EQ(run.status, 2);
   EXPECT_EQ(run.err,
-            "gearlash: --resume = a.nc.part and a.nc.part.json: must be the whole files that an "
-            "unfinished sweep leaves; remove both to start again\n");
+            "gearlash: --resume = a.nc.part and a.nc.part.json: must be the complete files of an "
+            "unfinished sweep; remove both to start again\n");
 }
 
 /// One is left when the program is killed after the finished file was given its name, or where only
@@ -295,8 +296,9 @@ TEST(SweepCommand, EveryFaultOfTheFileIsToldWithItsPlace) {
   EXPECT_EQ(run.status, 2);
   const std::string place = "gearlash: sweep.toml:";
   EXPECT_THAT(run.err, HasSubstr(place + "2:9: sweep.axes[0] = damping=0.6:0.1:5: must rise"));
-  EXPECT_THAT(run.err,
-              HasSubstr(place + "2:30: sweep.axes[1] = weight=1:2:3: must be a number or a word"));
+  EXPECT_THAT(
+      run.err,
+      HasSubstr(place + "2:30: sweep.axes[1] = weight=1:2:3: must be a number or a choice"));
   EXPECT_THAT(run.err, HasSubstr("sweep.axes[2] = friction-ratio=0:1:1000000000000: must be from 1 "
                                  "to 1000000\n"));
   EXPECT_THAT(run.err, HasSubstr("sweep.axes[3] = inertia-ratio=0:1:5:log: must be positive"));
@@ -327,7 +329,7 @@ TEST(SweepCommand, TellsBeforehandThatTheDiskIsTooSmall) {
         "[servo]\ninertia_ratio = 1\n");
   const Outcome run = run_shell(in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.nc"));
   EXPECT_EQ(run.status, 3);
-  EXPECT_THAT(run.err, HasSubstr("a.nc: cannot be written: 1.05e+03 GB are wanting, "));
+  EXPECT_THAT(run.err, HasSubstr("a.nc: cannot be written: needs 1.05e+03 GB, "));
   EXPECT_EQ(scratch.file_count(), 1U);
 }
 

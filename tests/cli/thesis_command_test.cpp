@@ -64,8 +64,8 @@ TEST(ThesisCommand, RunTellsWhatTheProgramWouldHaveGivenAndTheTruth) {
   const Outcome run = run_tool(
       {"thesis", "run", "--damping", "0.1", "--inertia-ratio", "1", "--friction-ratio", "0.2"});
   EXPECT_EQ(run.status, 0);
-  EXPECT_THAT(run.out, HasSubstr("\n  size    ±0.51"));
-  EXPECT_THAT(run.out, HasSubstr("\n  size    ±0.497055172 rad\n"));
+  EXPECT_THAT(run.out, HasSubstr("\n  amplitude  ±0.51"));
+  EXPECT_THAT(run.out, HasSubstr("\n  amplitude  ±0.497055172 rad\n"));
   EXPECT_THAT(run.out, HasSubstr("off by +2."));
 }
 
@@ -85,7 +85,7 @@ TEST(ThesisCommand, RunSaysWhereTheStepIsTooLong) {
     const Outcome run = run_tool(words);
     EXPECT_EQ(run.status, 1);
     EXPECT_THAT(run.out, HasSubstr("its step is too long for this servo"));
-    EXPECT_THAT(run.out, HasSubstr("\n  size    ±0.129299"));
+    EXPECT_THAT(run.out, HasSubstr("\n  amplitude  ±0.129299"));
     EXPECT_EQ(run.err, "");
   }
 }
@@ -140,12 +140,12 @@ TEST(ThesisCommand, ChartReadingFollowsTheFourSteps) {
                                 "2", "--friction-ratio", ".1", "--backlash", ".1"});
   EXPECT_EQ(run.status, 0);
   EXPECT_THAT(run.out, HasSubstr("figure 7, for 0.1\n"));
-  EXPECT_THAT(run.out, HasSubstr("\nExactly: ±0.080537 rad; reading the chart is off by +"));
-  EXPECT_THAT(run.out, HasSubstr("\n  the program's sizes  "));
+  EXPECT_THAT(run.out, HasSubstr("\nExact: ±0.080537 rad; the reading is off by +"));
+  EXPECT_THAT(run.out, HasSubstr("\n  the program's amplitudes  "));
   const Outcome resting = run_tool({"thesis", "chart-reading", "--damping", ".45",
                                     "--inertia-ratio", "2", "--friction-ratio", ".4"});
   EXPECT_EQ(resting.status, 0);
-  EXPECT_THAT(resting.out, HasSubstr("that of 0.5 not there (0);\n"));
+  EXPECT_THAT(resting.out, HasSubstr("the curve for 0.5 is absent (0);\n"));
   const Outcome outside = run_tool({"thesis", "chart-reading", "--damping", ".9", "--inertia-ratio",
                                     "20", "--friction-ratio", ".1"});
   EXPECT_EQ(outside.status, 2);
@@ -170,7 +170,7 @@ TEST(ThesisCommand, ExtensionsAreDrawnAndSaidInWords) {
 TEST(ThesisCommand, AllRunsAreComparedWithTheExactAnswer) {
   const Outcome run = run_tool({"thesis", "run", "--all"});
   EXPECT_EQ(run.status, 0);
-  EXPECT_THAT(run.out, HasSubstr("\n160 servos, "));
+  EXPECT_THAT(run.out, HasSubstr("\n160 servos; "));
   EXPECT_THAT(run.out, HasSubstr("\nfriction ratio 0.04"));
   EXPECT_THAT(run.out, HasSubstr("\n  damping 0.6"));
   const test::Scratch scratch;

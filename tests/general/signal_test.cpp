@@ -46,7 +46,7 @@ TEST(EdgeSignal, FaultsAreNamed) {
   const auto faults = validate(Table{{0.0, 2.0, 1.0, 1.0}, {0.0, 0.0, 0.0, 0.0}}, "reference");
   ASSERT_EQ(faults.size(), 2U);
   EXPECT_EQ(faults[0].path, "reference.times[2]");
-  EXPECT_NE(faults[0].permitted.find("goes forward in time"), std::string::npos);
+  EXPECT_NE(faults[0].permitted.find("later than the time before it"), std::string::npos);
   EXPECT_EQ(validate(Table{{0.0}, {}}, "reference").size(), 1U);
   EXPECT_EQ(validate(Trapezoid{}, "reference").size(), 2U);
   EXPECT_EQ(validate(Sine{}, "reference").size(), 1U);

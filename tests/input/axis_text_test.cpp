@@ -83,9 +83,10 @@ TEST(EdgeAxisText, FaultsOfPathsAndWordsSaySo) {
     }
     return std::string("none");
   };
-  EXPECT_EQ(fault_of("controller.proportinal=1,2"),
-            "--x = controller.proportinal: must be a number or a word of this drive (did you mean "
-            "controller.proportional?); gearlash show lists them");
+  EXPECT_EQ(
+      fault_of("controller.proportinal=1,2"),
+      "--x = controller.proportinal: must be a number or a choice of this drive (did you mean "
+      "controller.proportional?); gearlash show lists them");
   EXPECT_EQ(fault_of("sensor.position=load,moon"),
             "--x = moon: must be one of load, motor, both (did you mean motor?)");
   EXPECT_THAT(fault_of("sensor.position=0:1:2"), testing::HasSubstr("must be PATH=FROM:TO:COUNT"));
@@ -101,8 +102,9 @@ TEST(EdgeAxisText, EachFaultIsOneLine) {
   EXPECT_EQ(fault("damping="), "--x = damping=: " + forms);
   EXPECT_EQ(fault("damping=1:2"), "--x = damping=1:2: " + forms);
   EXPECT_EQ(fault("damping=0.1:0.2:5:lin"), "--x = damping=0.1:0.2:5:lin: " + forms);
-  EXPECT_EQ(fault("stiffness=1:2:3"),
-            "--x = stiffness: must be a number or a word of this drive; gearlash show lists them");
+  EXPECT_EQ(
+      fault("stiffness=1:2:3"),
+      "--x = stiffness: must be a number or a choice of this drive; gearlash show lists them");
   EXPECT_EQ(fault("damping=0.1:0.6:0"), "--x = 0 values: must be from 1 to 1000000");
   EXPECT_EQ(fault("damping=0.1:0.6:1000000000000"),
             "--x = 1000000000000 values: must be from 1 to 1000000");

@@ -166,7 +166,7 @@ TEST(ServoFile, ByteOrderMarkAndLineEndingsChangeNothing) {
   EXPECT_EQ(parse_servo("\xEF\xBB\xBF" + crlf, "s.toml"), expected);
   EXPECT_THAT(
       refusals("\xEF\xBB\xBF" + replaced(crlf, "\"282 ohm\"", "282")),
-      ElementsAre("s.toml:7:14: motor.resistance = 282: must be text of a number and a unit "
+      ElementsAre("s.toml:7:14: motor.resistance = 282: must be a text with a number and a unit "
                   "of electrical resistance, such as \"1 ohm\""));
 }
 
@@ -259,30 +259,30 @@ sensor = "motor"
 restitution = 1.5
 )toml"),
       ElementsAre(
-          "s.toml:1:2: moter = [moter]: is no section: must be one of servo, motor, gearbox, "
+          "s.toml:1:2: moter = [moter]: is not a section: must be one of servo, motor, gearbox, "
           "load, contact, sensor, controller, sampling, reference, load_torque, loop (did you mean "
           "motor?)",
           "s.toml:2:1: motor.back_emf_constant is missing: must be voltage per angular "
           "speed, such as V s/rad",
-          "s.toml:4:1: motor.inertai = 3 kg m2: is no key of [motor]: must be one of kind, "
+          "s.toml:4:1: motor.inertai = 3 kg m2: is not a key of [motor]: must be one of kind, "
           "inertia, friction, torque_constant, back_emf_constant, speed_constant, resistance, "
           "coulomb, breakaway, voltage_limit (did you mean inertia?)",
           "s.toml:5:11: motor.inertia = -0.61 oz in2: must be zero or positive, and finite",
-          "s.toml:6:12: motor.friction = 3: must be text of a number and a unit of torque "
+          "s.toml:6:12: motor.friction = 3: must be a text with a number and a unit of torque "
           "per angular speed, such as \"1 N m s/rad\"",
           "s.toml:7:19: motor.torque_constant = 28.2 oz in/A: must be torque per current, "
           "such as N m/A; oz, lb, g and kg are masses, the forces are ozf, lbf, gf and kgf",
           "s.toml:8:14: motor.resistance = 282 volts: must be electrical resistance, such "
           "as ohm",
           "s.toml:10:9: gearbox.ratio = nan: must be positive and finite",
-          "s.toml:11:12: gearbox.backlash = [\"a\", 1, …: must be text of a number and a "
+          "s.toml:11:12: gearbox.backlash = [\"a\", 1, …: must be a text with a number and a "
           "unit of angle, such as \"1 rad\"",
           "s.toml:14:11: load.inertia = \\x07\\n16.4e-6 slug ft2: must be a number and a "
           "unit of moment of inertia, such as kg m2",
           "s.toml:15:12: load.friction = 0.002: must be a number and a unit of torque per "
           "angular speed, such as N m s/rad",
           "s.toml:17:14: loop.error_gain = 10 V: must be voltage per angle, such as V/rad; "
-          "the angle has to be written",
+          "the angle must be written",
           "s.toml:20:15: contact.restitution = 1.5: must be from 0 to 1"));
 }
 
@@ -316,7 +316,7 @@ TEST(ServoFileRefusal, EachSectionOfADataSheetIsNeeded) {
 TEST(ServoFileRefusal, OneFormOfServo) {
   EXPECT_THAT(refusals(""),
               ElementsAre("s.toml:1:1: motor is missing: must be a section [motor] with [gearbox], "
-                          "[load] and [loop] or [controller], or [servo] in their place"));
+                          "[load] and [loop] or [controller], or [servo] instead"));
   EXPECT_EQ(refusals("# nothing\n").size(), 1U);
   EXPECT_THAT(refusals(std::string(sample) + normalized),
               ElementsAre("s.toml:16:1: servo = [servo]: must not stand beside [motor]: a file "
@@ -334,10 +334,11 @@ TEST(ServoFileRefusal, KindOfMotor) {
                   "you mean armature-controlled?)"));
   EXPECT_THAT(refusals(replaced(sample, "\"armature-controlled\"", "3")),
               ElementsAre(StartsWith("s.toml:2:8: motor.kind = 3: must be one of ")));
-  EXPECT_THAT(refusals(replaced(sample, "armature-", "field-")),
-              ElementsAre(StartsWith("s.toml:6:1: motor.back_emf_constant = 0.233 V/(rad/s): is no "
-                                     "key of [motor]: must be one of kind, inertia, friction, "
-                                     "torque_constant, resistance")));
+  EXPECT_THAT(
+      refusals(replaced(sample, "armature-", "field-")),
+      ElementsAre(StartsWith("s.toml:6:1: motor.back_emf_constant = 0.233 V/(rad/s): is not "
+                             "a key of [motor]: must be one of kind, inertia, friction, "
+                             "torque_constant, resistance")));
 }
 
 TEST(ServoFileRefusal, OtherFaultsBesideAnUnknownKind) {
@@ -413,10 +414,11 @@ TEST(ServoFileRefusal, OfTolerancesThatAreNone) {
 
 TEST(ServoFileRefusal, OfAnotherType) {
   for (const char* value : {"true", "3.0", "1979-05-27", "[\"1 ohm\"]"}) {
-    EXPECT_THAT(refusals(replaced(sample, "\"282 ohm\"", value)),
-                ElementsAre("s.toml:7:14: motor.resistance = " + std::string(value) +
-                            ": must be text of a number and a unit of electrical resistance, such "
-                            "as \"1 ohm\""));
+    EXPECT_THAT(
+        refusals(replaced(sample, "\"282 ohm\"", value)),
+        ElementsAre("s.toml:7:14: motor.resistance = " + std::string(value) +
+                    ": must be a text with a number and a unit of electrical resistance, such "
+                    "as \"1 ohm\""));
   }
   for (const char* value : {"true", "[1]", "\"one\"", "\"1:1:1\""}) {
     EXPECT_THAT(refusals(replaced(sample, "ratio = 1", std::string("ratio = ") + value)),
@@ -486,8 +488,8 @@ TEST(ServoFileRefusal, NotToml) {
   EXPECT_THAT(refusals("[servo]\ndamping = 1\ndamping = 2\n"), ElementsAre(HasSubstr("redefine")));
   EXPECT_THAT(
       refusals("[servo]\ndamping = \xC2\xBD\n"),
-      ElementsAre("s.toml:2:11: line = damping = ½: must be TOML: signs beyond ASCII belong "
-                  "in closed quotes"));
+      ElementsAre("s.toml:2:11: line = damping = ½: must be TOML: characters beyond ASCII must be "
+                  "inside closed quotes"));
   for (const char* text : {"[!]", "[[[", "[", "a = [}]", "a = 0.1'\xC2\xB2'", "a = 1e999", "\"a"}) {
     EXPECT_EQ(refusals(text).size(), 1U) << text;
   }

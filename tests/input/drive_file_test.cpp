@@ -255,9 +255,9 @@ TEST_F(DriveFileTable, IsReadWithItsUnits) {
 
 TEST_F(DriveFileTable, EdgeFaultsNameTheLine) {
   EXPECT_THAT(refusals_of("time (s),position (deg)\n0,0\n2,1\n1,1\n"),
-              ElementsAre(HasSubstr("move.csv:4: time = 1: must be later than the row before")));
+              ElementsAre(HasSubstr("move.csv:4: time = 1: must be later than in the row before")));
   EXPECT_THAT(refusals_of("time (s),position (deg)\n0,0\n0,1\n"),
-              ElementsAre(HasSubstr("move.csv:3: time = 0: must be later than the row before")));
+              ElementsAre(HasSubstr("move.csv:3: time = 0: must be later than in the row before")));
   EXPECT_THAT(refusals_of("time (s),position (kg)\n0,0\n"),
               ElementsAre(HasSubstr("second column")));
   EXPECT_THAT(refusals_of("time,position\n0,0\n"), ElementsAre(HasSubstr("first column = time")));
@@ -301,7 +301,7 @@ TEST(EdgeDriveFile, EveryFaultIsToldAtOnce) {
   text = replaced(text, "after = \"0.1 N m\"", "after = \"0.1 rad\"");
   EXPECT_THAT(refusals(text),
               ElementsAre("drive.toml:6:13: motor.breakaway = 2 mN m: must be at least "
-                          "motor.coulomb: what is at rest is not easier to move than what moves",
+                          "motor.coulomb: a shaft at rest is not easier to move than a moving one",
                           HasSubstr("contact.stiffness = -1 N m/rad: must be positive"),
                           HasSubstr("sensor.counts_per_turn = 0: must be positive"),
                           HasSubstr("sampling.period = 0 s: must be positive"),
@@ -321,7 +321,7 @@ TEST(EdgeDriveFile, ControllersThatNothingCanBeGetALine) {
   for (int i = 0; i < 65; ++i) many += ", 1";
   EXPECT_THAT(refusal("num = [1]\nden = [" + many + "]\n"),
               ElementsAre(::testing::AllOf(HasSubstr("controller.den = [1, 1, "),
-                                           HasSubstr(": must be of order 64 at most (order 65)"))));
+                                           HasSubstr(": must be of order at most 64 (order 65)"))));
   EXPECT_THAT(refusal("num = [1, 0, 0]\nden = [1, 1]\n"),
               ElementsAre(HasSubstr("controller.num = [1, 0, 0]: must be of no higher degree")));
   EXPECT_THAT(refusal("num = [1]\nden = [1, -2]\nvariable = \"z\"\n", sampling),
@@ -329,7 +329,7 @@ TEST(EdgeDriveFile, ControllersThatNothingCanBeGetALine) {
   EXPECT_THAT(refusal("num = [1]\nden = [1, -0.5]\nvariable = \"z\"\n"),
               ElementsAre(HasSubstr("sampling")));
   EXPECT_THAT(refusal("num = [1, 0]\nden = [0.004, 1]\n", sampling + "method = \"forward\"\n"),
-              ElementsAre(HasSubstr("sampling.period = 10 ms: must be so short")));
+              ElementsAre(HasSubstr("sampling.period = 10 ms: must be shorter")));
   EXPECT_THAT(refusal("num = [1, 0]\nden = [0.004, 1]\n", sampling), IsEmpty());
   EXPECT_THAT(refusal("num = \"1\"\nden = [0, 0]\n").size(), 2U);
   EXPECT_THAT(refusal("num = [1, 0, 0]\nden = [1, -2]\nvariable = \"z\"\n",
@@ -365,7 +365,7 @@ TEST(EdgeDriveFile, WhatExcludesEachOtherIsTold) {
   EXPECT_THAT(refusals(joint + std::string("[servo]\ndamping = 1\n")),
               ElementsAre(HasSubstr("servo")));
   EXPECT_THAT(refusals(replaced(joint, "torque_limit = \"0.2 N m\"", "voltage_limit = \"1 V\"")),
-              ElementsAre(HasSubstr("motor.voltage_limit = 1 V: is no key of [motor]")));
+              ElementsAre(HasSubstr("motor.voltage_limit = 1 V: is not a key of [motor]")));
   EXPECT_THAT(refusals(plain + std::string("[sensor]\nposition = \"load\"\n")),
               ElementsAre(HasSubstr("controller is missing: must be a section [controller] with")));
 }

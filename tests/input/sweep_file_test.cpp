@@ -63,10 +63,11 @@ TEST(SweepFile, AnyDriveIsSwept) {
 TEST(SweepFile, FaultsAreToldWithTheirPlaces) {
   EXPECT_THAT(faults("[servo]\ndamping = 1\n"),
               ElementsAre("s.toml:1:1: sweep is missing: must be a section [sweep] with axes"));
-  EXPECT_THAT(faults("[sweep]\naxes = []\nspeed = 1\n"),
-              ElementsAre("s.toml:2:8: sweep.axes = []: must be a list of texts: [\"…\", \"…\"]",
-                          "s.toml:3:1: sweep.speed = 1: is no key of [sweep]: must be one of axes, "
-                          "quantities, verdicts"));
+  EXPECT_THAT(
+      faults("[sweep]\naxes = []\nspeed = 1\n"),
+      ElementsAre("s.toml:2:8: sweep.axes = []: must be a list of texts: [\"…\", \"…\"]",
+                  "s.toml:3:1: sweep.speed = 1: is not a key of [sweep]: must be one of axes, "
+                  "quantities, verdicts"));
   EXPECT_THAT(
       faults("[sweep]\naxes = ['damping=0.1,0.2']\n[servo]\ninertia_ratio = 1\n"
              "friction_ratio=1\n[contact]\nrestitution = 2\n[gearbox]\n"),

@@ -261,11 +261,11 @@ TEST(Units, NeverConvertsByReciprocalOffsetOrLogarithm) {
 
 TEST(Units, RadianIsWrittenWhereItTellsSpeedsFromFrequencies) {
   EXPECT_EQ(refusal("10 V", voltage_per_angle),
-            "key = 10 V: must be voltage per angle, such as V/rad; the angle has to be written");
+            "key = 10 V: must be voltage per angle, such as V/rad; the angle must be written");
   EXPECT_EQ(refusal("2 s-1", angular_frequency),
-            "key = 2 s-1: must be angular frequency, such as rad/s; the angle has to be written");
+            "key = 2 s-1: must be angular frequency, such as rad/s; the angle must be written");
   EXPECT_EQ(refusal("1 kg m2 rad", inertia),
-            "key = 1 kg m2 rad: must be moment of inertia, such as kg m2; there is no angle in it");
+            "key = 1 kg m2 rad: must be moment of inertia, such as kg m2; it contains no angle");
   EXPECT_TRUE(refusal("0.1 m/m", angle).starts_with("key = "));
   EXPECT_TRUE(refusal("1 N m s rad", torque_per_speed).starts_with("key = "));
   EXPECT_TRUE(refusal("1 rad2", angle).starts_with("key = "));

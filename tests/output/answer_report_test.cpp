@@ -50,8 +50,9 @@ TEST(Headline, GivesAmplitudeAndFrequency) {
 }
 
 TEST(Headline, SaysWhereTheMotorAloneSwings) {
-  EXPECT_EQ(headline(report_of(Verdict::hunts, ticking)),
-            "hunts: the motor within the gap, ±0.004 rad (0.229°) at 2 Hz, while the load stands");
+  EXPECT_EQ(
+      headline(report_of(Verdict::hunts, ticking)),
+      "hunts: the motor within the gap, ±0.004 rad (0.229°) at 2 Hz, while the load stands still");
 }
 
 TEST(Headline, OfForcedMotionIsNoHunting) {

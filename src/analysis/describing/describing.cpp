@@ -298,23 +298,23 @@ const char* description_of(Assumption assumption) {
     case Assumption::motor_carries_all:
       return "the motor drives all inertia and viscous friction at all times";
     case Assumption::load_reacts:
-      return "the sensors are on the motor, so that by positions alone the gap is outside of the "
-             "loop and causes no cycle; described is the first harmonic of the load's inertia and "
-             "viscous friction acting back on the motor";
+      return "the sensors are on the motor, so the gap is outside the loop of positions and causes "
+             "no cycle there; the description takes the first harmonic of the load's inertia and "
+             "viscous friction, which act back on the motor";
     case Assumption::gap_left_out:
       return "there is no gap: both shafts turn as one";
     case Assumption::torque_limit_left_out:
       return "the torque is not limited";
     case Assumption::coulomb_left_out:
-      return "friction is viscous alone";
+      return "all friction is viscous";
     case Assumption::breakaway_left_out:
-      return "breakaway torque has no share, for a sine rests at no time: of hunting that comes of "
-             "stiction this says nothing";
+      return "breakaway torque has no effect, because a sine is never at rest; hunting from "
+             "stiction is not described";
     case Assumption::sampling_as_delay:
-      return "the controller acts in continuous time, later by half a sampling period and its "
+      return "the controller is continuous, with a delay of half a sampling period plus its "
              "computational delay";
     case Assumption::delay_as_rational:
-      return "that delay within the loop is a rational function of order 4";
+      return "this delay inside the loop is a rational function of order 4";
     case Assumption::encoder_left_out:
       return "encoders have no steps";
     case Assumption::signals_left_out:
