@@ -29,7 +29,7 @@ namespace {
 using namespace gearlash::benchmarks;
 
 struct Accuracy {
-  double size = 0.0;         ///< worst relative difference from ours
+  double amplitude = 0.0;    ///< worst relative difference from ours
   double period = 0.0;       ///< likewise
   double half_cycles = 0.0;  ///< mean, to convergence
   bool complete = true;      ///< every problem converged
@@ -55,7 +55,8 @@ Accuracy check(const Task& task, const std::vector<Problem>& problems) {
   for (std::size_t i = 0; i < problems.size(); ++i) {
     const RivalCycle& found = answers[i];
     const auto& cycle = problems[i].cycle;
-    accuracy.size = std::max(accuracy.size, std::abs(found.size / cycle.size - 1.0));
+    accuracy.amplitude =
+        std::max(accuracy.amplitude, std::abs(found.amplitude / cycle.amplitude - 1.0));
     accuracy.period = std::max(accuracy.period, std::abs(found.period / cycle.period - 1.0));
     accuracy.half_cycles +=
         static_cast<double>(found.half_cycles) / static_cast<double>(problems.size());
@@ -96,7 +97,7 @@ void print_race(const Race& race, const FastestTimes& times) {
     yardsticks.push_back(microseconds(entry));
     std::printf(" times %s |", entry.contestant.name.c_str());
   }
-  std::printf(" worst error: size, period | half cycles |\n|---|--:|");
+  std::printf(" worst error: amplitude, period | half cycles |\n|---|--:|");
   for (std::size_t i = 0; i < yardsticks.size(); ++i) std::printf("--:|");
   std::printf("--:|--:|\n");
   for (const Entry& entry : race.entries) {
@@ -104,7 +105,7 @@ void print_race(const Race& race, const FastestTimes& times) {
     if (std::isnan(time)) continue;
     std::printf("| %s | %.3f |", entry.contestant.name.c_str(), time);
     for (const double yardstick : yardsticks) std::printf(" %.3g |", time / yardstick);
-    std::printf(" %.1e, %.1e%s | %.0f |\n", entry.accuracy.size, entry.accuracy.period,
+    std::printf(" %.1e, %.1e%s | %.0f |\n", entry.accuracy.amplitude, entry.accuracy.period,
                 entry.accuracy.complete ? "" : " (did not converge)", entry.accuracy.half_cycles);
   }
 }

@@ -155,7 +155,7 @@ ReportPart enter_chart_lookups() {
   std::vector<Entry> entries;
   for (const ChartTask& task : chart_tasks()) entries.push_back(enter(task));
   return [entries](const FastestTimes& times) {
-    std::printf("\n**Charts for programs** (size, tolerance %.0e)\n\n", tolerance);
+    std::printf("\n**Charts for programs** (amplitude, tolerance %.0e)\n\n", tolerance);
     std::printf(
         "| axes, values | checked points | largest error found | median of the cells | stated, at "
         "most | cells solved, %% | to build, ms | lookup between values, ns | lookup solved, ns |\n"

@@ -77,8 +77,8 @@ Contestant half_cycle_rival(const std::string& name, Arguments... arguments) {
       double time = 0.0;
       double face = 1.0;
       EngagedState state = {begin.load_position, begin.load_speed};
-      const double size = follow_half_cycle(*rival, coefficients, time, state, face);
-      return RivalCycle{size, 2.0 * time, 1, true};
+      const double amplitude = follow_half_cycle(*rival, coefficients, time, state, face);
+      return RivalCycle{amplitude, 2.0 * time, 1, true};
     };
   });
 }
@@ -103,16 +103,16 @@ SingleTask prepare_analysis(const Problem& problem) {
   return [servo = problem.servo] {
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
     const LimitCycle& cycle = analysis.cycles.front();
-    return RivalCycle{cycle.size, cycle.period, 0, true};
+    return RivalCycle{cycle.amplitude, cycle.period, 0, true};
   };
 }
 
 /// The layer below: the scalar equation alone, which gives the period; nothing else is worked out.
 SingleTask prepare_scalar_equation(const Problem& problem) {
-  return [servo = problem.servo, size = problem.cycle.size] {
+  return [servo = problem.servo, amplitude = problem.cycle.amplitude] {
     const ServoDynamics dynamics = servo_dynamics(servo);
     const auto half = balanced_half_cycle(dynamics, growth_at_rest(dynamics));
-    return RivalCycle{size, 2.0 * (half->flight_time + half->engaged_time), 0, true};
+    return RivalCycle{amplitude, 2.0 * (half->flight_time + half->engaged_time), 0, true};
   };
 }
 
@@ -121,9 +121,9 @@ SingleTask prepare_scalar_equation(const Problem& problem) {
 SingleTask prepare_simulation(const Problem& problem) {
   const ServoState begin = separation_on_cycle(problem);
   const double until = 0.5 * problem.cycle.period * (1.0 + 1e-9);
-  return [servo = problem.servo, begin, until, size = problem.cycle.size] {
+  return [servo = problem.servo, begin, until, amplitude = problem.cycle.amplitude] {
     const Trajectory trajectory = simulate(servo, begin, {.until = until, .reference = 0.0});
-    return RivalCycle{size, 2.0 * trajectory.events().back().time, 1, true};
+    return RivalCycle{amplitude, 2.0 * trajectory.events().back().time, 1, true};
   };
 }
 
@@ -131,7 +131,7 @@ SingleTask prepare_simulation(const Problem& problem) {
 SingleTask prepare_phases(const Problem& problem) {
   constexpr double horizon = 100.0;  // far beyond any half cycle
   const ServoState begin = separation_on_cycle(problem);
-  return [servo = problem.servo, begin, size = problem.cycle.size] {
+  return [servo = problem.servo, begin, amplitude = problem.cycle.amplitude] {
     const ServoDynamics dynamics = servo_dynamics(servo);
     Phase phase = parted_phase(dynamics, 1.0, begin.load_position, begin.load_speed);
     double time = 0.0;
@@ -139,7 +139,7 @@ SingleTask prepare_phases(const Problem& problem) {
       const PhaseEnd end = end_of_phase(dynamics, phase, horizon);
       if (!end.has_event) return RivalCycle{};
       time += end.duration;
-      if (end.kind == EventKind::separation) return RivalCycle{size, 2.0 * time, 1, true};
+      if (end.kind == EventKind::separation) return RivalCycle{amplitude, 2.0 * time, 1, true};
       phase = end.next;
     }
   };
@@ -148,7 +148,8 @@ SingleTask prepare_phases(const Problem& problem) {
 SingleTask prepare_program_of_1960(const Problem& problem) {
   return [parameters = thesis::program_parameters(problem.servo)] {
     const thesis::SettledCycle cycle = thesis::run_until_settled(parameters);
-    return RivalCycle{cycle.size, cycle.period, 2 * cycle.cycles, cycle.settled && cycle.hunts};
+    return RivalCycle{cycle.amplitude, cycle.period, 2 * cycle.cycles,
+                      cycle.settled && cycle.hunts};
   };
 }
 

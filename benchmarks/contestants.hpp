@@ -20,7 +20,7 @@ enum class Start {
 enum class Contact { plastic, bouncing };
 
 /// All of a race's problems made ready (solvers allocated); calling it does the work once and
-/// writes a size and a period for each. What is made ready is not measured.
+/// writes an amplitude and a period for each. What is made ready is not measured.
 using Task = std::function<void(std::vector<RivalCycle>& answers)>;
 
 struct Contestant {

@@ -75,10 +75,10 @@ ReportPart enter_design_race() {
                         static_cast<double>(sampling.samples()),
                         [pieces] { return study_tolerances(pieces, sampling).hunting.value; }));
   lines.push_back(enter("exact sensitivities, cycle_sensitivity()", 1.0,
-                        [] { return cycle_sensitivity(sample).size.value; }));
+                        [] { return cycle_sensitivity(sample).amplitude.value; }));
   lines.push_back(enter("certified search of the gain for no hunting, feasible_values()", 1.0,
                         [search] { return search("error_gain", true); }));
-  lines.push_back(enter("certified search of the gain for a size, feasible_values()", 1.0,
+  lines.push_back(enter("certified search of the gain for an amplitude, feasible_values()", 1.0,
                         [search] { return search("error_gain", false); }));
   lines.push_back(enter("margins of all parameters, hunting_margin()", 1.0,
                         [drive] { return hunting_margin(drive).overall.distance; }));

@@ -110,9 +110,9 @@ std::string accuracy_of(const std::vector<RivalCycle>& answers,
       ++unsettled;
       continue;
     }
-    worst = std::max(worst, std::abs(answers[i].size / problems[i].cycle.size - 1.0));
+    worst = std::max(worst, std::abs(answers[i].amplitude / problems[i].cycle.amplitude - 1.0));
   }
-  return text("size and period; size within %.1e, %.0f did not settle", worst, unsettled);
+  return text("amplitude and period; amplitude within %.1e, %.0f did not settle", worst, unsettled);
 }
 
 void enter_rivals(GridRace& race, const std::vector<Problem>& problems) {

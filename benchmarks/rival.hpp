@@ -11,9 +11,9 @@
 namespace gearlash::benchmarks {
 
 inline constexpr double rival_tolerance = 1e-10;  ///< relative and absolute, of an integrator
-inline constexpr double cycle_tolerance = 1e-9;   ///< relative, between successive sizes
-/// With bounces the integrators restart some forty times a half cycle; their sizes then scatter by
-/// more than 1e-9 and would never agree.
+inline constexpr double cycle_tolerance = 1e-9;   ///< relative, between successive amplitudes
+/// With bounces the integrators restart some forty times a half cycle; their amplitudes then
+/// scatter by more than 1e-9 and would never agree.
 inline constexpr double bouncing_cycle_tolerance = 1e-7;
 
 /// The coefficients of the equations of motion (see NormalizedServo).
@@ -68,9 +68,9 @@ concept EventIntegrator =
     };
 
 struct RivalCycle {
-  double size = 0.0;
+  double amplitude = 0.0;
   double period = 0.0;
-  std::size_t half_cycles = 0;  ///< integrated until the size repeated
+  std::size_t half_cycles = 0;  ///< integrated until the amplitude repeated
   bool converged = false;
 };
 
@@ -106,7 +106,7 @@ double follow_half_cycle(Integrator& integrator, const Coefficients& servo, doub
 }
 
 /// From an engaged start on `face` (already separating when `parted`) until two successive half
-/// cycles have the same size.
+/// cycles have the same amplitude.
 template <EventIntegrator Integrator>
 RivalCycle find_cycle(Integrator& integrator, const NormalizedServo& servo, EngagedState start,
                       double face, bool parted) {
@@ -119,10 +119,10 @@ RivalCycle find_cycle(Integrator& integrator, const NormalizedServo& servo, Enga
   if (!parted) integrator.follow_engagement(time, state, face);
   while (cycle.half_cycles < most_half_cycles && !cycle.converged) {
     const double begin = time;
-    const double size = follow_half_cycle(integrator, coefficients, time, state, face);
-    if (!(size > 0.0)) break;
-    cycle.converged = std::abs(size - cycle.size) <= tolerance * size;
-    cycle.size = size;
+    const double amplitude = follow_half_cycle(integrator, coefficients, time, state, face);
+    if (!(amplitude > 0.0)) break;
+    cycle.converged = std::abs(amplitude - cycle.amplitude) <= tolerance * amplitude;
+    cycle.amplitude = amplitude;
     cycle.period = 2.0 * (time - begin);
     ++cycle.half_cycles;
   }

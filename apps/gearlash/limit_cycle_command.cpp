@@ -73,7 +73,7 @@ Step step_to_draw(const Work& work) {
     // Until a disturbance is down to a hundredth, which the cycle's line hides, but at most eight
     // periods, because more lines cannot be told apart.
     const double periods = std::log(0.01) / std::log(std::abs(cycle->multiplier));
-    return {rounded(1.8 * std::max(cycle->size, cycle->motor_size)),
+    return {rounded(1.8 * std::max(cycle->amplitude, cycle->motor_amplitude)),
             cycle->period * std::clamp(std::ceil(periods), 4.0, 8.0)};
   }
   const double settling_time =

@@ -268,11 +268,11 @@ void add_limit_cycle(Steps& steps, const NormalizedServo& servo) {
                            number(analysis.growth_at_rest)));
     return;
   }
-  steps.more(fmt::format("computed, not read: ±{} rad", number(cycle->size)));
-  const double size = cycle->size * servo.backlash / chart_backlash;
+  steps.more(fmt::format("computed, not read: ±{} rad", number(cycle->amplitude)));
+  const double amplitude = cycle->amplitude * servo.backlash / chart_backlash;
   steps.add("Limit cycle for this backlash",
-            fmt::format("{} × {}/0.3 = {} rad", number(cycle->size), number(servo.backlash),
-                        number(size)));
+            fmt::format("{} × {}/0.3 = {} rad", number(cycle->amplitude), number(servo.backlash),
+                        number(amplitude)));
 }
 
 }  // namespace

@@ -85,25 +85,25 @@ std::string chart_reading_text(const NormalizedServo& servo, const thesis::Chart
                       significant(servo.friction_ratio, 4));
   text += fmt::format("  2. The chart of the nearest friction ratio: figure {}, for {}\n",
                       reading.chart->figure, significant(reading.chart->friction_ratio, 2));
-  const auto read_text = [](double size) {
-    return size > 0.0 ? "at " + significant(size, 3) : std::string("absent (0)");
+  const auto read_text = [](double amplitude) {
+    return amplitude > 0.0 ? "at " + significant(amplitude, 3) : std::string("absent (0)");
   };
   text += fmt::format(
       "  3. At inertia ratio {} its curve for damping {} is {}, the curve for {} is {};\n"
       "     interpolated at {}: ±{} rad for a backlash of 0.3 rad\n",
       significant(servo.inertia_ratio, 4), reading.neighbours[0], read_text(reading.read[0]),
       reading.neighbours[1], read_text(reading.read[1]), significant(servo.damping, 4),
-      significant(reading.chart_size, 3));
+      significant(reading.chart_amplitude, 3));
   text += fmt::format("  4. For this backlash: {} × {}/0.3 = ±{} rad\n",
-                      significant(reading.chart_size, 3), significant(servo.backlash, 4),
-                      significant(reading.size, 3));
+                      significant(reading.chart_amplitude, 3), significant(servo.backlash, 4),
+                      significant(reading.amplitude, 3));
   const LimitCycleAnalysis exact = analyse_limit_cycles(servo);
   if (exact.cycles.empty()) {
     return text + fmt::format("\nExact: no limit cycle, {}\n", name_of(exact.verdict));
   }
-  const double size = exact.cycles.front().size;
-  text += fmt::format("\nExact: ±{} rad; the reading is off by {:+.1f} %\n", significant(size, 6),
-                      100.0 * (reading.size / size - 1.0));
+  const double amplitude = exact.cycles.front().amplitude;
+  text += fmt::format("\nExact: ±{} rad; the reading is off by {:+.1f} %\n",
+                      significant(amplitude, 6), 100.0 * (reading.amplitude / amplitude - 1.0));
   const auto error = thesis::reading_error(servo, reading);
   if (!error) return text;
   const auto row = [](const char* cause, double part) {

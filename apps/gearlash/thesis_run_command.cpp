@@ -1,4 +1,4 @@
-// gearlash thesis run: the sizes that the program of 1960 finds, beside the exact ones.
+// gearlash thesis run: the amplitudes that the program of 1960 finds, beside the exact ones.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,7 +39,7 @@ std::string run_text(const NormalizedServo& servo, const thesis::SettledCycle& c
   } else if (!cycle.hunts) {
     text += "  no limit cycle: for 100 s the faces have not met\n";
   } else {
-    text += fmt::format("  amplitude  ±{} rad{}\n", significant(cycle.size, 5),
+    text += fmt::format("  amplitude  ±{} rad{}\n", significant(cycle.amplitude, 5),
                         cycle.settled ? "" : ", still changing");
     text += fmt::format(
         "             mean of {} cycles, from {} to {}; on the grid of 0.01 s no cycle repeats\n",
@@ -52,11 +52,11 @@ std::string run_text(const NormalizedServo& servo, const thesis::SettledCycle& c
     return text + fmt::format("  no limit cycle: {}\n", name_of(exact.verdict));
   }
   const LimitCycle& one = exact.cycles.front();
-  text += fmt::format("  amplitude  ±{} rad\n", significant(one.size, 9));
+  text += fmt::format("  amplitude  ±{} rad\n", significant(one.amplitude, 9));
   text += fmt::format("  period     {} s\n", significant(one.period, 9));
   if (cycle.hunts) {
     text += fmt::format("The program's amplitude is off by {:+.2f} %, its period by {:+.2f} %.\n",
-                        100.0 * (cycle.size / one.size - 1.0),
+                        100.0 * (cycle.amplitude / one.amplitude - 1.0),
                         100.0 * (cycle.period / one.period - 1.0));
   }
   return text;
@@ -67,7 +67,7 @@ std::string errors_text(const std::vector<thesis::ChartError>& errors) {
   std::string text =
       "Errors of the program's amplitudes, in per cent of the exact ones\n"
       "(·: neither hunts; then, now: only the program or only the exact servo hunts)\n";
-  std::vector<double> sizes;
+  std::vector<double> per_cent;
   const thesis::ChartError* before = nullptr;
   for (const thesis::ChartError& error : errors) {
     const NormalizedServo& servo = error.servo;
@@ -81,19 +81,19 @@ std::string errors_text(const std::vector<thesis::ChartError>& errors) {
       if (only_balanced) text += std::string(16, ' ');
     }
     const auto relative = error.relative();
-    if (relative) sizes.push_back(100.0 * *relative);
-    text += fmt::format("{:>8}", relative        ? fmt::format("{:+.1f}", sizes.back())
+    if (relative) per_cent.push_back(100.0 * *relative);
+    text += fmt::format("{:>8}", relative        ? fmt::format("{:+.1f}", per_cent.back())
                                  : error.program ? "then"
                                  : error.exact   ? "now"
                                                  : "·");
     before = &error;
   }
-  std::sort(sizes.begin(), sizes.end());
+  std::sort(per_cent.begin(), per_cent.end());
   return text + fmt::format(
                     "\n\n{} servos; {} hunt in both: median {:+.1f} %, from {:+.1f} "
                     "to {:+.1f} %\n",
-                    errors.size(), sizes.size(), sizes[sizes.size() / 2], sizes.front(),
-                    sizes.back());
+                    errors.size(), per_cent.size(), per_cent[per_cent.size() / 2], per_cent.front(),
+                    per_cent.back());
 }
 
 /// The effect of each property of the program on the amplitude, in per cent.
@@ -116,7 +116,7 @@ std::string causes_text() {
   for (const thesis::NamedMending& one : thesis::mendings()) {
     text += fmt::format("  {:<54}", one.name);
     for (const NormalizedServo& servo : servos) {
-      const double error = thesis::size_error(servo, one.mending);
+      const double error = thesis::amplitude_error(servo, one.mending);
       text += std::isnan(error) ? fmt::format("{:>7}", "rests")
                                 : fmt::format("{:>+7.2f}", 100.0 * error);
     }

@@ -25,10 +25,10 @@ ReducedDrive thesis_servo(const Contact& contact) {
 }
 
 /// Of the cycle that a step of 0.3 rad ends in.
-double size_of(const Contact& contact) {
+double amplitude_of(const Contact& contact) {
   const ShaftStates start{.motor_position = 0.45, .load_position = 0.3};
   const AttractorSearch found = find_attractors(thesis_servo(contact), {.starts = {start}});
-  return found.cycles.empty() ? std::nan("") : found.cycles.front().size;
+  return found.cycles.empty() ? std::nan("") : found.cycles.front().amplitude;
 }
 
 }  // namespace
@@ -36,16 +36,16 @@ double size_of(const Contact& contact) {
 int main() {
   constexpr double reduced_inertia = 2.0 / 9.0;  // J_M J_L/(J_M + J_L)
   constexpr double relaxation = 0.1;             // s, damping/stiffness
-  const double plastic = size_of(RigidContact{0.0});
-  const double bouncing = size_of(RigidContact{std::exp(-2.0)});
+  const double plastic = amplitude_of(RigidContact{0.0});
+  const double bouncing = amplitude_of(RigidContact{std::exp(-2.0)});
   std::printf("# rigid, restitution 0: %.9f; exp(-2): %.9f\n", plastic, bouncing);
   std::printf("# stiffness   c = 0.1 k    from plastic  c critical   from exp(-2)\n");
   for (int decade = 2; decade <= 6; ++decade) {
     const double stiffness = std::pow(10.0, decade);
     const double critical = 2.0 * std::sqrt(stiffness * reduced_inertia);
     const double slow =
-        size_of(CompliantContact{stiffness, relaxation * stiffness, ContactDamping::full});
-    const double quick = size_of(CompliantContact{stiffness, critical, ContactDamping::full});
+        amplitude_of(CompliantContact{stiffness, relaxation * stiffness, ContactDamping::full});
+    const double quick = amplitude_of(CompliantContact{stiffness, critical, ContactDamping::full});
     std::printf("  %9.0f   %.9f  %.3e     %.9f  %.3e\n", stiffness, slow, std::abs(slow - plastic),
                 quick, std::abs(quick - bouncing));
   }

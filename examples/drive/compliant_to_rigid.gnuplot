@@ -4,7 +4,7 @@ set encoding utf8
 set output ARG1
 set title "Faces that give tend to rigid ones"
 set xlabel "stiffness of the mesh, by that of the loop"
-set ylabel "size of the cycle, from that of rigid faces"
+set ylabel "amplitude of the cycle, from that of rigid faces"
 set logscale xy
 set format '10^{%T}'
 set grid linewidth 0.5 linecolor rgb '#c4c4c4'

@@ -29,8 +29,8 @@ Cycle cycle_of(const LimitCycle& found, Certainty certainty, double time_unit,
   cycle.kind = found.kind;
   cycle.stability = found.stable ? Stability::stable : Stability::unstable;
   cycle.certainty = certainty;
-  cycle.amplitude = found.size;
-  cycle.motor_amplitude = found.motor_size;
+  cycle.amplitude = found.amplitude;
+  cycle.motor_amplitude = found.motor_amplitude;
   cycle.period = found.period * time_unit;
   cycle.multiplier = found.multiplier;
   cycle.residual = found.residual;
@@ -72,7 +72,7 @@ ProvedBounds bounds_of(const CycleBounds& bounds, const Scales& scales) {
   ProvedBounds proved{.growth_at_rest = same(bounds.growth_at_rest)};
   if (!bounds.has_cycle) return proved;
   proved.has_cycle = true;
-  proved.amplitude = scaled(bounds.size, scales.backlash);
+  proved.amplitude = scaled(bounds.amplitude, scales.backlash);
   proved.period = scaled(bounds.period, scales.time_unit);
   proved.multiplier = same(bounds.multiplier);
   return proved;
@@ -116,8 +116,8 @@ Cycle cycle_of(const drive::FoundCycle& found, const drive::DriveSystem& system)
   Cycle cycle;
   cycle.kind = found.is_symmetric ? CycleKind::symmetric : CycleKind::asymmetric;
   cycle.stability = found.stability;
-  cycle.amplitude = found.size;
-  cycle.motor_amplitude = found.motor_size;
+  cycle.amplitude = found.amplitude;
+  cycle.motor_amplitude = found.motor_amplitude;
   cycle.center = found.is_symmetric ? 0.0 : found.center;
   cycle.period = found.period();
   cycle.multiplier = found.multiplier;
@@ -132,8 +132,8 @@ Cycle cycle_of(const drive::FoundCycle& found, const drive::DriveSystem& system)
 }
 
 IrregularMotion irregular_of(const drive::IrregularFound& found) {
-  return {.amplitude = found.size,
-          .motor_amplitude = found.motor_size,
+  return {.amplitude = found.amplitude,
+          .motor_amplitude = found.motor_amplitude,
           .center = found.center,
           .is_motor_alone = found.is_motor_alone,
           .mean_amplitude = found.half_swing,
@@ -254,7 +254,7 @@ Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& serv
   for (const LimitCycle& cycle : analysis.cycles) {
     answer.cycles.push_back(cycle_of(cycle, of_cycles, time_unit, stiffness));
   }
-  if (const auto amplitude = known(analysis.irregular_size)) {
+  if (const auto amplitude = known(analysis.irregular_amplitude)) {
     answer.irregular.push_back({.amplitude = *amplitude});
   }
   return answer;

@@ -205,8 +205,8 @@ LimitCycle describe(const NormalizedServo& servo, const ServoDynamics& dynamics,
 
   const Trajectory period = simulate(servo, cycle.start, {.until = cycle.period, .reference = 0.0});
   const Extremes range = extremes(period, 0.0, cycle.period);
-  cycle.size = range.load_size();
-  cycle.motor_size = range.motor_size();
+  cycle.amplitude = range.load_amplitude();
+  cycle.motor_amplitude = range.motor_amplitude();
   const EnergyAccount books = period.energy_at(cycle.period);
   // The arrival that closes the period may fall just before or just after its end: its impact is
   // booked by count, from the state it happens in.
@@ -239,7 +239,7 @@ class Search {
       result_.cycles.push_back(describe(servo_, dynamics_, known.point));
     }
     std::sort(result_.cycles.begin(), result_.cycles.end(),
-              [](const LimitCycle& a, const LimitCycle& b) { return a.size > b.size; });
+              [](const LimitCycle& a, const LimitCycle& b) { return a.amplitude > b.amplitude; });
     result_.cut_short = course_.cut_short || still_growing_;
     return result_;
   }
@@ -373,7 +373,7 @@ class Search {
       return;
     }
     result_.all_starts_settled = false;
-    result_.irregular_size = std::fmax(result_.irregular_size, size_from(arrival));
+    result_.irregular_amplitude = std::fmax(result_.irregular_amplitude, amplitude_from(arrival));
   }
 
   void attempt(const Arrival& arrival, const std::array<Arrival, longest_order>& recent,
@@ -388,7 +388,7 @@ class Search {
   }
 
   /// Half peak-to-peak over some hundred further traversals.
-  double size_from(const Arrival& arrival) const {
+  double amplitude_from(const Arrival& arrival) const {
     constexpr double duration = 100.0 * std::numbers::pi;
     constexpr std::size_t event_limit = 100'000;
     const GapState state = after_arrival(dynamics_, arrival);
@@ -398,7 +398,7 @@ class Search {
     start.set_gap_speed(state.gap_speed);
     const Trajectory motion =
         simulate(servo_, start, {.until = duration, .reference = 0.0, .event_limit = event_limit});
-    return extremes(motion, 0.0, motion.end_time()).load_size();
+    return extremes(motion, 0.0, motion.end_time()).load_amplitude();
   }
 
   const NormalizedServo& servo_;

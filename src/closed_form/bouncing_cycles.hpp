@@ -15,8 +15,9 @@ struct BouncingCycles {
   bool all_starts_settled = true;  ///< every start tried ended in one of the cycles, or at rest
   bool cut_short = false;    ///< events ran out, or a motion still grew at the end of its watch
   bool any_neutral = false;  ///< a cycle was met whose multiplier is 1 to within rounding
-  double irregular_size = std::numeric_limits<double>::quiet_NaN();  ///< largest half peak-to-peak
-                                                                     ///< of those that did not
+  double irregular_amplitude =
+      std::numeric_limits<double>::quiet_NaN();  ///< largest half peak-to-peak
+                                                 ///< of those that did not
 };
 
 /// Newton's method on k-fold traversals, k = 1, 2, 3, 4, 6, 8. It starts from the plastic cycle,

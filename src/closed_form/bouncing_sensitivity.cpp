@@ -309,10 +309,10 @@ std::optional<BouncingSlopes> bouncing_slopes(const NormalizedServo& servo,
   const auto total = [&](const Gradient& of) -> BouncingGradient {
     return of.head<4>() + arrival_slopes.transpose() * of.tail<3>();
   };
-  const Dual size = 0.5 * (range.largest - range.smallest);
+  const Dual amplitude = 0.5 * (range.largest - range.smallest);
   const Dual root = largest_eigenvalue(slope);
   const Dual multiplier = repeats_of(orbit->order) == 2 ? Dual(root * root) : root;
-  return BouncingSlopes{.size = total(size.derivatives()),
+  return BouncingSlopes{.amplitude = total(amplitude.derivatives()),
                         .period = total(duration.derivatives()),
                         .multiplier = total(multiplier.derivatives())};
 }

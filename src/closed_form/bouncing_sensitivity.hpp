@@ -14,7 +14,7 @@ namespace gearlash {
 using BouncingGradient = Eigen::Vector4d;
 
 struct BouncingSlopes {
-  BouncingGradient size, period, multiplier;
+  BouncingGradient amplitude, period, multiplier;
 };
 
 /// The motion of the cycle is repeated event by event, with derivatives by the parameters p and by

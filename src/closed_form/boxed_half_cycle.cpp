@@ -286,7 +286,7 @@ BoxedEnd BoxedHalfCycle::end(const Interval& time) const {
   return end;
 }
 
-Interval BoxedHalfCycle::size(const BoxedEnd& end) const {
+Interval BoxedHalfCycle::amplitude(const BoxedEnd& end) const {
   Interval most = max(abs(parting_position_), abs(end.position));
   // There ẏ = 0, so that Q = y².
   const bool may_turn_at_once = end.speed.contains(0.0);

@@ -36,7 +36,7 @@ class BoxedHalfCycle {
 
   /// Half peak-to-peak of the load: where it parts, where it meets, and where it turns while
   /// engaged.
-  Interval size(const BoxedEnd& end) const;
+  Interval amplitude(const BoxedEnd& end) const;
 
   /// J_M U (y + cP) after a flight of this time, U = |u − u₀|. Where Q exceeds it, a longer flight
   /// lowers the amplitude at parting, measured in gaps crossed.

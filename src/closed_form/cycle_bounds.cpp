@@ -115,7 +115,7 @@ CycleBounds bound_cycles(const ServoBox& box, double guessed_flight_time,
   const Interval time{times.shortest, times.longest};
   const detail::BoxedEnd end = half.end(time);
   bounds.period = not_negative(2.0 * (time + end.engaged)).bounds();
-  if (end.gap.low > 0.0) bounds.size = (half.size(end) / end.gap).bounds();
+  if (end.gap.low > 0.0) bounds.amplitude = (half.amplitude(end) / end.gap).bounds();
   bounds.has_cycle = time.low > 0.0 && std::isfinite(time.high);
   if (multiplier == MultiplierBounds::left_out || !bounds.has_cycle) return bounds;
   // On the cycle ρ = 1, so that R′ = 1 − J_M U (y + cP)/Q; it lies between 0 and 1.

@@ -52,7 +52,7 @@ DriveBox box_between(const Drivetrain& low, const Drivetrain& high, const DataEr
 struct CycleBounds {
   Bounds growth_at_rest{0.0, infinity};
   /// For the cycle, if there is one: half peak-to-peak of the load over the backlash.
-  Bounds size{0.0, infinity};
+  Bounds amplitude{0.0, infinity};
   Bounds period{0.0, infinity};  ///< likewise, in units of 1/ω_n
   Bounds multiplier{0.0, 1.0};   ///< likewise, Floquet's; if requested
   bool has_cycle = false;        ///< all hunt, and the above are bounds of their cycles

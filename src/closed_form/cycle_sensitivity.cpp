@@ -84,9 +84,9 @@ Gradient log_growth_gradient(const DualDynamics& dynamics) {
          log_gradient(d) - exponent.derivatives();
 }
 
-/// Of the load, for a unit amplitude: see sizes() of plastic_cycle.cpp.
-Dual dual_unit_size(const DualDynamics& dynamics, const DualFlight& flight,
-                    const DualHalfCycle& half) {
+/// Of the load, for a unit amplitude: see amplitudes_of() of plastic_cycle.cpp.
+Dual dual_unit_amplitude(const DualDynamics& dynamics, const DualFlight& flight,
+                         const DualHalfCycle& half) {
   using std::abs;
   Dual turning = half.load_position;
   const Dual& zeta = dynamics.damping;
@@ -124,14 +124,14 @@ void add_slopes(CycleSensitivity& sensitivity, const NormalizedServo& servo, dou
   const Dual time = dual_flight_time(dynamics, flight, flight_time);
   const DualHalfCycle half = dual_half_cycle(dynamics, flight, time);
   const Dual gap = -half.gap_displacement;
-  const Dual size = servo.backlash * dual_unit_size(dynamics, flight, half) / gap;
+  const Dual amplitude = servo.backlash * dual_unit_amplitude(dynamics, flight, half) / gap;
   const Dual period = 2.0 * (half.engaged_time + time);
   const Dual slope = half_map_slope(half);
   const Dual multiplier = slope * slope;
   const auto add = [&](SensitiveValue& of, const Dual& found, double by_backlash) {
     of = sensitive<servo_numbers>(servo, of.value, found.derivatives(), by_backlash);
   };
-  add(sensitivity.size, size, sensitivity.size.value / servo.backlash);
+  add(sensitivity.amplitude, amplitude, sensitivity.amplitude.value / servo.backlash);
   add(sensitivity.period, period, 0.0);
   add(sensitivity.multiplier, multiplier, 0.0);
 }
@@ -196,10 +196,10 @@ bool add_limits_of_slopes(CycleSensitivity& sensitivity, const NormalizedServo& 
     SensitiveValue& of = sensitivity.*quantity;
     of = limit_of(servo, of.value, slopes);
   };
-  add(&CycleSensitivity::size);
+  add(&CycleSensitivity::amplitude);
   add(&CycleSensitivity::period);
   add(&CycleSensitivity::multiplier);
-  sensitivity.size.slope.backlash = sensitivity.size.value / servo.backlash;
+  sensitivity.amplitude.slope.backlash = sensitivity.amplitude.value / servo.backlash;
   return true;
 }
 
@@ -220,7 +220,7 @@ CycleSensitivity plastic_sensitivity(const NormalizedServo& servo) {
   const LimitCycle cycle = plastic_cycle(dynamics, *balanced);
   if (!cycle.stable) return ended(SensitivityOutcome::undecided);
   CycleSensitivity with_cycle = sensitivity;
-  with_cycle.size.value = cycle.size;
+  with_cycle.amplitude.value = cycle.amplitude;
   with_cycle.period.value = cycle.period;
   with_cycle.multiplier.value = cycle.multiplier;
   if (has_massless_side(servo)) {
@@ -251,7 +251,8 @@ CycleSensitivity bouncing_sensitivity(const NormalizedServo& servo) {
     return sensitivity;
   }
   sensitivity.outcome = SensitivityOutcome::available;
-  sensitivity.size = sensitive(servo, cycle->size, slopes->size, cycle->size / servo.backlash);
+  sensitivity.amplitude =
+      sensitive(servo, cycle->amplitude, slopes->amplitude, cycle->amplitude / servo.backlash);
   sensitivity.period = sensitive(servo, cycle->period, slopes->period);
   sensitivity.multiplier = sensitive(servo, cycle->multiplier, slopes->multiplier);
   return sensitivity;

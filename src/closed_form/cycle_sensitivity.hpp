@@ -35,7 +35,7 @@ enum class SensitivityOutcome {
 struct CycleSensitivity {
   SensitivityOutcome outcome = SensitivityOutcome::no_cycle;
   SensitiveValue growth_at_rest;  ///< μ₀; no derivatives (NaN) where it is infinite
-  SensitiveValue size;            ///< amplitude of the cycle seen in practice, largest_stable()
+  SensitiveValue amplitude;       ///< amplitude of the cycle seen in practice, largest_stable()
   SensitiveValue period;
   SensitiveValue multiplier;
 

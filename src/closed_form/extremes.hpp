@@ -11,8 +11,12 @@ struct Extremes {
   double motor_lowest;
   double motor_highest;
 
-  double load_size() const { return 0.5 * (load_highest - load_lowest); }     ///< half peak-to-peak
-  double motor_size() const { return 0.5 * (motor_highest - motor_lowest); }  ///< half peak-to-peak
+  double load_amplitude() const {
+    return 0.5 * (load_highest - load_lowest);
+  }  ///< half peak-to-peak
+  double motor_amplitude() const {
+    return 0.5 * (motor_highest - motor_lowest);
+  }  ///< half peak-to-peak
 };
 
 /// Extremes over [from, to], clamped to the trajectory, from ≤ to; positions as in at(). Turning

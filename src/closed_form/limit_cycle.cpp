@@ -36,7 +36,7 @@ Verdict bouncing_verdict(double growth, const BouncingCycles& found) {
   const bool any_stable = std::any_of(found.cycles.begin(), found.cycles.end(),
                                       [](const LimitCycle& cycle) { return cycle.stable; });
   if ((found.cut_short || found.any_neutral) && !any_stable) return Verdict::undecided;
-  const bool any_lasting = any_stable || !std::isnan(found.irregular_size);
+  const bool any_lasting = any_stable || !std::isnan(found.irregular_amplitude);
   if (growth > 1.0 && !any_lasting) return Verdict::undecided;
   if (growth > 1.0) return any_stable ? Verdict::hunts : Verdict::hunts_irregularly;
   if (any_stable || !found.all_starts_settled) return Verdict::hunts_if_disturbed;
@@ -48,7 +48,7 @@ void analyse_bouncing(const NormalizedServo& servo, const ServoDynamics& dynamic
   const BouncingCycles found = find_bouncing_cycles(servo, dynamics);
   analysis.cycles = found.cycles;
   analysis.neutral_swings = found.any_neutral;
-  analysis.irregular_size = found.irregular_size;
+  analysis.irregular_amplitude = found.irregular_amplitude;
   analysis.verdict = bouncing_verdict(analysis.growth_at_rest, found);
 }
 

@@ -26,9 +26,9 @@ struct CycleEnergy {
 /// Times in units of 1/ω_n, angles in rad at the load shaft. NaN where not computed.
 struct LimitCycle {
   CycleKind kind = CycleKind::symmetric;
-  bool stable = false;                                           ///< |multiplier| < 1
-  double size = std::numeric_limits<double>::quiet_NaN();        ///< half peak-to-peak of the load
-  double motor_size = std::numeric_limits<double>::quiet_NaN();  ///< the same of the motor
+  bool stable = false;                                          ///< |multiplier| < 1
+  double amplitude = std::numeric_limits<double>::quiet_NaN();  ///< half peak-to-peak of the load
+  double motor_amplitude = std::numeric_limits<double>::quiet_NaN();  ///< the same of the motor
   double period = std::numeric_limits<double>::quiet_NaN();
   double multiplier = std::numeric_limits<double>::quiet_NaN();    ///< Floquet's, largest modulus,
                                                                    ///< over a whole period
@@ -37,7 +37,7 @@ struct LimitCycle {
   double engaged_time = std::numeric_limits<double>::quiet_NaN();  ///< a period's share
   double separated_time = std::numeric_limits<double>::quiet_NaN();  ///< a period's share
   double residual = std::numeric_limits<double>::quiet_NaN();  ///< relative mismatch of the state
-                                                               ///< after one map, of its size
+                                                               ///< after one map, of its amplitude
   std::size_t impacts_per_period = 0;  ///< impacts counted one by one; a settling adds none more
   bool settles = false;                ///< bounces settle (or are plastic) before each separation
   CycleEnergy energy;
@@ -63,7 +63,7 @@ struct LimitCycleAnalysis {
   std::vector<LimitCycle> cycles;  ///< by decreasing amplitude
   /// Half the peak-to-peak of bounded motion that was not seen to repeat. It may exist beside a
   /// stable cycle. NaN if every start ended in a cycle or at rest.
-  double irregular_size = std::numeric_limits<double>::quiet_NaN();
+  double irregular_amplitude = std::numeric_limits<double>::quiet_NaN();
   std::optional<CycleBounds> bounds;  ///< proved; set on request if contact is plastic
 
   bool is_proved() const { return certainty >= Certainty::enclosed; }

@@ -65,15 +65,15 @@ double motor_turning_position(const ServoDynamics& dynamics, const GapFlight& fl
   return position_at_turn(point, at(point.motion));
 }
 
-/// Sizes of both shafts for a unit amplitude; half_gap is b/2 in the same unit. The load turns at
-/// the impact or in the engaged motion after it, the motor in the flight or likewise.
-struct Sizes {
+/// Amplitudes of both shafts for a unit amplitude σ at parting; half_gap is b/2 in that unit. The
+/// load turns at the impact or in the engaged motion after it, the motor in the flight or likewise.
+struct Amplitudes {
   double load;
   double motor;
 };
 
-Sizes sizes(const ServoDynamics& dynamics, const GapFlight& flight, const UnitHalfCycle& half,
-            double half_gap) {
+Amplitudes amplitudes_of(const ServoDynamics& dynamics, const GapFlight& flight,
+                         const UnitHalfCycle& half, double half_gap) {
   double turning = half.load_position;
   const double turning_time =
       first_zero(dynamics.damping, half.common_speed,
@@ -109,7 +109,7 @@ LimitCycle plastic_cycle(const ServoDynamics& dynamics, const UnitHalfCycle& hal
   const double gap = -half.gap_displacement;
   const double amplitude = dynamics.backlash / gap;
   const double square = amplitude * amplitude;
-  const Sizes unit_sizes = sizes(dynamics, flight, half, 0.5 * gap);
+  const Amplitudes unit_amplitudes = amplitudes_of(dynamics, flight, half, 0.5 * gap);
   const BasicCycleLosses<double> losses =
       cycle_losses(dynamics, flight, half, motor_friction_in_flight(dynamics, flight, half));
   const double slope = half_map_slope(half);
@@ -118,8 +118,8 @@ LimitCycle plastic_cycle(const ServoDynamics& dynamics, const UnitHalfCycle& hal
   cycle.kind = CycleKind::symmetric;
   cycle.multiplier = slope * slope;
   cycle.stable = cycle.multiplier < 1.0;
-  cycle.size = amplitude * unit_sizes.load;
-  cycle.motor_size = amplitude * unit_sizes.motor;
+  cycle.amplitude = amplitude * unit_amplitudes.load;
+  cycle.motor_amplitude = amplitude * unit_amplitudes.motor;
   cycle.engaged_time = 2.0 * half.engaged_time;
   cycle.separated_time = 2.0 * half.flight_time;
   cycle.period = cycle.engaged_time + cycle.separated_time;

@@ -16,13 +16,13 @@ std::string change_text(double ratio) {
   return (percent < 0.0 ? "−" : "+") + significant(std::abs(percent), 3) + " %";
 }
 
-std::string swing_text(double size, const AngleUnit& unit, int digits) {
-  const std::string radians = significant(size, digits) + " rad";
+std::string swing_text(double amplitude, const AngleUnit& unit, int digits) {
+  const std::string radians = significant(amplitude, digits) + " rad";
   if (unit.radians != 1.0) {
-    return fmt::format("±{} {} ({})", significant(unit.from_radians(size), digits), unit.name,
+    return fmt::format("±{} {} ({})", significant(unit.from_radians(amplitude), digits), unit.name,
                        radians);
   }
-  const double degrees = size * 180.0 / std::numbers::pi;
+  const double degrees = amplitude * 180.0 / std::numbers::pi;
   return fmt::format("±{} ({}°)", radians, significant(degrees, digits));
 }
 

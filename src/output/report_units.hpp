@@ -21,6 +21,6 @@ std::string significant(double value, int digits);
 std::string change_text(double ratio);
 
 /// A size, the author's unit first: "±12.3 arcmin (0.00358 rad)", "±0.0814 rad (4.67°)".
-std::string swing_text(double size, const AngleUnit& unit, int digits);
+std::string swing_text(double amplitude, const AngleUnit& unit, int digits);
 
 }  // namespace gearlash

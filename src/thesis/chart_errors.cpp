@@ -39,13 +39,13 @@ std::vector<NormalizedServo> charted_servos() {
 }
 
 std::vector<ChartError> chart_errors(
-    const std::function<SettledCycle(const ProgramParameters&)>& size_of, Progress& progress) {
+    const std::function<SettledCycle(const ProgramParameters&)>& cycle_of, Progress& progress) {
   const std::vector<NormalizedServo> servos = charted_servos();
   std::vector<ChartError> errors;
   for (const NormalizedServo& servo : servos) {
-    const SettledCycle cycle = size_of(program_parameters(servo));
-    errors.push_back(
-        {servo, cycle.hunts ? std::optional(cycle.size) : std::nullopt, exact_size(servo)});
+    const SettledCycle cycle = cycle_of(program_parameters(servo));
+    errors.push_back({servo, cycle.hunts ? std::optional(cycle.amplitude) : std::nullopt,
+                      exact_amplitude(servo)});
     progress.go_on(static_cast<double>(errors.size()) / static_cast<double>(servos.size()));
   }
   return errors;

@@ -30,9 +30,9 @@ struct ChartError {
   }
 };
 
-/// `size_of` runs the program for one servo.
+/// `cycle_of` runs the program for one servo.
 std::vector<ChartError> chart_errors(
-    const std::function<SettledCycle(const ProgramParameters&)>& size_of,
+    const std::function<SettledCycle(const ProgramParameters&)>& cycle_of,
     Progress& progress = no_progress());
 
 /// The errors as a map, a panel for each friction ratio, in per cent.

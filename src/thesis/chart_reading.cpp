@@ -25,11 +25,12 @@ std::vector<DesignChart1960> make_charts() {
     chart.inertia_ratios = figure.grid;
     for (const FigureCurve& curve : figure.curves) {
       chart.dampings.push_back(curve.servo.damping);
-      std::vector<double> sizes;
+      std::vector<double> amplitudes;
       for (const double place : figure.grid) {
-        sizes.push_back(run_until_settled(program_parameters(servo_at(figure, curve, place))).size);
+        amplitudes.push_back(
+            run_until_settled(program_parameters(servo_at(figure, curve, place))).amplitude);
       }
-      chart.sizes.push_back(std::move(sizes));
+      chart.amplitudes.push_back(std::move(amplitudes));
     }
     charts.push_back(std::move(chart));
   }
@@ -38,20 +39,20 @@ std::vector<DesignChart1960> make_charts() {
 
 /// A smooth curve through the five points of a damping, over the logarithm of the inertia ratio, as
 /// a French curve draws it: makima's, which does not overshoot.
-double read_curve(const std::vector<double>& inertia_ratios, std::vector<double> sizes,
+double read_curve(const std::vector<double>& inertia_ratios, std::vector<double> amplitudes,
                   double inertia_ratio) {
   std::vector<double> places;
   for (const double ratio : inertia_ratios) places.push_back(std::log(ratio));
   const double place = std::clamp(std::log(inertia_ratio), places.front(), places.back());
   return std::max(0.0, boost::math::interpolators::makima<std::vector<double>>(
-                           std::move(places), std::move(sizes))(place));
+                           std::move(places), std::move(amplitudes))(place));
 }
 
 /// Between the curves of two dampings, in proportion to the damping.
-double between(const std::array<double, 2>& dampings, const std::array<double, 2>& sizes,
+double between(const std::array<double, 2>& dampings, const std::array<double, 2>& amplitudes,
                double damping) {
   const double share = (damping - dampings[0]) / (dampings[1] - dampings[0]);
-  return (1.0 - share) * sizes[0] + share * sizes[1];
+  return (1.0 - share) * amplitudes[0] + share * amplitudes[1];
 }
 
 }  // namespace
@@ -87,10 +88,10 @@ ChartReading read_chart(const NormalizedServo& servo) {
   std::size_t below = 0;
   while (below + 2 < chart.dampings.size() && servo.damping > chart.dampings[below + 1]) ++below;
   reading.neighbours = {chart.dampings[below], chart.dampings[below + 1]};
-  reading.read = {read_curve(ratios, chart.sizes[below], servo.inertia_ratio),
-                  read_curve(ratios, chart.sizes[below + 1], servo.inertia_ratio)};
-  reading.chart_size = between(reading.neighbours, reading.read, servo.damping);
-  reading.size = reading.chart_size * servo.backlash / charted_backlash;
+  reading.read = {read_curve(ratios, chart.amplitudes[below], servo.inertia_ratio),
+                  read_curve(ratios, chart.amplitudes[below + 1], servo.inertia_ratio)};
+  reading.chart_amplitude = between(reading.neighbours, reading.read, servo.damping);
+  reading.amplitude = reading.chart_amplitude * servo.backlash / charted_backlash;
   return reading;
 }
 
@@ -98,25 +99,25 @@ std::optional<ReadingError> reading_error(const NormalizedServo& servo,
                                           const ChartReading& reading) {
   NormalizedServo charted = servo;
   charted.backlash = charted_backlash;
-  const auto size_at = [&](double damping, double inertia_ratio) {
+  const auto amplitude_at = [&](double damping, double inertia_ratio) {
     NormalizedServo one = charted;
     one.damping = damping;
     one.inertia_ratio = inertia_ratio;
-    return exact_size(one).value_or(0.0);
+    return exact_amplitude(one).value_or(0.0);
   };
-  const double exact = size_at(servo.damping, servo.inertia_ratio);
+  const double exact = amplitude_at(servo.damping, servo.inertia_ratio);
   charted.friction_ratio = reading.chart->friction_ratio;
-  const double on_chart = size_at(servo.damping, servo.inertia_ratio);
+  const double on_chart = amplitude_at(servo.damping, servo.inertia_ratio);
   std::array<double, 2> at_ratio{};
   std::array<double, 2> through_points{};
   for (std::size_t i = 0; i < 2; ++i) {
-    std::vector<double> sizes;
+    std::vector<double> amplitudes;
     for (const double ratio : reading.chart->inertia_ratios) {
-      sizes.push_back(size_at(reading.neighbours[i], ratio));
+      amplitudes.push_back(amplitude_at(reading.neighbours[i], ratio));
     }
-    at_ratio[i] = size_at(reading.neighbours[i], servo.inertia_ratio);
+    at_ratio[i] = amplitude_at(reading.neighbours[i], servo.inertia_ratio);
     through_points[i] =
-        read_curve(reading.chart->inertia_ratios, std::move(sizes), servo.inertia_ratio);
+        read_curve(reading.chart->inertia_ratios, std::move(amplitudes), servo.inertia_ratio);
     if (at_ratio[i] == 0.0 || through_points[i] == 0.0) return std::nullopt;
   }
   if (exact == 0.0 || on_chart == 0.0) return std::nullopt;
@@ -125,8 +126,8 @@ std::optional<ReadingError> reading_error(const NormalizedServo& servo,
   return ReadingError{.friction_ratio = on_chart / exact - 1.0,
                       .damping = along_line / on_chart - 1.0,
                       .inertia_ratio = along_curves / along_line - 1.0,
-                      .program = reading.chart_size / along_curves - 1.0,
-                      .whole = reading.chart_size / exact - 1.0};
+                      .program = reading.chart_amplitude / along_curves - 1.0,
+                      .whole = reading.chart_amplitude / exact - 1.0};
 }
 
 }  // namespace gearlash::thesis

@@ -13,9 +13,9 @@ namespace gearlash::thesis {
 struct DesignChart1960 {
   int figure = 7;
   double friction_ratio = 0.1;
-  std::vector<double> inertia_ratios;      ///< 1/9 … 9
-  std::vector<double> dampings;            ///< 0.1 … 0.6
-  std::vector<std::vector<double>> sizes;  ///< [damping][inertia ratio], rad for backlash 0.3
+  std::vector<double> inertia_ratios;           ///< 1/9 … 9
+  std::vector<double> dampings;                 ///< 0.1 … 0.6
+  std::vector<std::vector<double>> amplitudes;  ///< [damping][inertia ratio], rad for backlash 0.3
 };
 
 /// The charts of the thesis, worked out by its program (150 runs, a second or so).
@@ -26,8 +26,8 @@ struct ChartReading {
   const DesignChart1960* chart = nullptr;  ///< step 2: that of the nearest friction ratio
   std::array<double, 2> neighbours{};      ///< dampings of the curves read between
   std::array<double, 2> read{};            ///< step 3: sizes read off these curves
-  double chart_size = 0.0;                 ///< and between them, for backlash 0.3
-  double size = 0.0;                       ///< step 4: for the backlash given
+  double chart_amplitude = 0.0;            ///< and between them, for backlash 0.3
+  double amplitude = 0.0;                  ///< step 4: for the backlash given
 };
 
 /// Where a reading's error comes from: factors whose product is reading/exact, each less 1.

@@ -13,10 +13,10 @@ bool has_gap(const NormalizedServo& servo) {
 
 }  // namespace
 
-std::optional<double> exact_size(const NormalizedServo& servo) {
+std::optional<double> exact_amplitude(const NormalizedServo& servo) {
   const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
   const LimitCycle* cycle = largest_stable(analysis);
-  return cycle != nullptr ? std::optional(cycle->size) : std::nullopt;
+  return cycle != nullptr ? std::optional(cycle->amplitude) : std::nullopt;
 }
 
 ExactCurve exact_curve(const std::vector<double>& places,
@@ -26,8 +26,8 @@ ExactCurve exact_curve(const std::vector<double>& places,
   for (const double place : places) {
     const NormalizedServo servo = servo_at(place);
     if (has_gap(servo)) {
-      const std::optional<double> size = exact_size(servo);
-      servos.push_back({place, size.value_or(not_a_number), size.has_value()});
+      const std::optional<double> amplitude = exact_amplitude(servo);
+      servos.push_back({place, amplitude.value_or(not_a_number), amplitude.has_value()});
     } else {
       servos.push_back({place, servo.backlash == 0.0 ? 0.0 : not_a_number});
     }

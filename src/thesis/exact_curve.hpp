@@ -11,7 +11,7 @@
 namespace gearlash::thesis {
 
 /// Size of the largest stable limit cycle, rad; nothing where there is none.
-std::optional<double> exact_size(const NormalizedServo& servo);
+std::optional<double> exact_amplitude(const NormalizedServo& servo);
 
 /// The size through a continuum of servos.
 struct ExactCurve {

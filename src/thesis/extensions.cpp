@@ -31,12 +31,12 @@ ChartCurve bouncing_curve(std::string name, const std::vector<double>& places,
   for (const double place : places) {
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servo_at(place));
     const LimitCycle* cycle = largest_stable(analysis);
-    const double size = cycle != nullptr ? cycle->size : not_a_number;
-    if (std::abs(size / before - 1.0) > leap) result.line.push_back({place, not_a_number});
-    result.line.push_back({place, size});
+    const double amplitude = cycle != nullptr ? cycle->amplitude : not_a_number;
+    if (std::abs(amplitude / before - 1.0) > leap) result.line.push_back({place, not_a_number});
+    result.line.push_back({place, amplitude});
     (cycle != nullptr ? result.marks : result.ends)
-        .push_back({place, cycle != nullptr ? size : analysis.irregular_size});
-    before = size;
+        .push_back({place, cycle != nullptr ? amplitude : analysis.irregular_amplitude});
+    before = amplitude;
   }
   return result;
 }

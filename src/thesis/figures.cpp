@@ -231,7 +231,7 @@ FigureCurveData work_out(const Figure& figure, const FigureCurve& curve, Progres
     const double place = figure.grid[i];
     const SettledCycle cycle =
         run_until_settled(program_parameters(servo_at(figure, curve, place)));
-    if (cycle.hunts) data.program.push_back({place, cycle.size});
+    if (cycle.hunts) data.program.push_back({place, cycle.amplitude});
     progress.go_on(static_cast<double>(i + 1) / static_cast<double>(figure.grid.size()));
   }
   const ExactCurve exact =

@@ -32,10 +32,10 @@ int numbers_reproduced(const Mending& mending) {
   return result.within_one;
 }
 
-double size_error(const NormalizedServo& servo, const Mending& mending) {
+double amplitude_error(const NormalizedServo& servo, const Mending& mending) {
   const SettledCycle cycle = run_until_settled(program_parameters(servo), mending);
   if (!cycle.hunts) return std::numeric_limits<double>::quiet_NaN();
-  return cycle.size / exact_size(servo).value() - 1.0;
+  return cycle.amplitude / exact_amplitude(servo).value() - 1.0;
 }
 
 }  // namespace gearlash::thesis

@@ -23,6 +23,6 @@ int numbers_reproduced(const Mending& mending);
 
 /// Error of the program's size against the exact one, relative; NaN where the program does not
 /// hunt. Precondition: the exact servo does.
-double size_error(const NormalizedServo& servo, const Mending& mending);
+double amplitude_error(const NormalizedServo& servo, const Mending& mending);
 
 }  // namespace gearlash::thesis

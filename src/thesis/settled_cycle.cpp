@@ -15,7 +15,7 @@ constexpr std::size_t window = 20;  // cycles
 
 struct Cycle {
   double end;
-  double size;
+  double amplitude;
 };
 
 /// Gathers the cycles of a running program: each ends at every second contact.
@@ -55,17 +55,17 @@ class Cycles {
   double high_ = -std::numeric_limits<double>::infinity();
 };
 
-double mean_size(const std::vector<Cycle>& cycles, std::size_t from) {
+double mean_amplitude(const std::vector<Cycle>& cycles, std::size_t from) {
   double sum = 0.0;
-  for (std::size_t i = from; i < from + window; ++i) sum += cycles[i].size;
+  for (std::size_t i = from; i < from + window; ++i) sum += cycles[i].amplitude;
   return sum / static_cast<double>(window);
 }
 
 bool has_settled(const std::vector<Cycle>& cycles) {
   constexpr double tolerance = 1e-3;
   if (cycles.size() < 2 * window + 1) return false;
-  const double before = mean_size(cycles, cycles.size() - 2 * window);
-  const double now = mean_size(cycles, cycles.size() - window);
+  const double before = mean_amplitude(cycles, cycles.size() - 2 * window);
+  const double now = mean_amplitude(cycles, cycles.size() - window);
   return std::abs(now - before) < tolerance * now;
 }
 
@@ -73,10 +73,10 @@ void describe(const std::vector<Cycle>& cycles, SettledCycle& result) {
   const std::size_t from = cycles.size() - window;
   const auto [smallest, largest] =
       std::minmax_element(cycles.begin() + static_cast<std::ptrdiff_t>(from), cycles.end(),
-                          [](const Cycle& a, const Cycle& b) { return a.size < b.size; });
-  result.size = mean_size(cycles, from);
-  result.smallest = smallest->size;
-  result.largest = largest->size;
+                          [](const Cycle& a, const Cycle& b) { return a.amplitude < b.amplitude; });
+  result.amplitude = mean_amplitude(cycles, from);
+  result.smallest = smallest->amplitude;
+  result.largest = largest->amplitude;
   result.period = (cycles.back().end - cycles[from - 1].end) / static_cast<double>(window);
   result.cycles = window;
 }

@@ -9,11 +9,11 @@ namespace gearlash::thesis {
 
 /// Of the load, from one contact on the same face to the next; rad, and s for ω_n = 1.
 struct SettledCycle {
-  bool settled = false;   ///< false: still changing when the longest run was over
-  bool hunts = false;     ///< false: the faces did not meet for 100 s
-  bool diverged = false;  ///< the step is too long for this servo: the numbers grow without bound
-  double size = 0.0;      ///< half peak-to-peak, mean of the last cycles
-  double smallest = 0.0;  ///< of those cycles: on a grid of 0.01 s none is like the next
+  bool settled = false;    ///< false: still changing when the longest run was over
+  bool hunts = false;      ///< false: the faces did not meet for 100 s
+  bool diverged = false;   ///< the step is too long for this servo: the numbers grow without bound
+  double amplitude = 0.0;  ///< half peak-to-peak, mean of the last cycles
+  double smallest = 0.0;   ///< of those cycles: on a grid of 0.01 s none is like the next
   double largest = 0.0;
   double period = 0.0;     ///< mean of the same
   std::size_t cycles = 0;  ///< that were averaged

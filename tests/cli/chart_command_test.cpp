@@ -49,7 +49,7 @@ TEST(ChartCommand, CurvesAreSingleCalls) {
       EXPECT_EQ(amplitude, 0.0);
       EXPECT_TRUE(columns["period"][i].is_null());
     } else {
-      EXPECT_NEAR(amplitude, single.cycles.front().size, 1e-12 * amplitude);
+      EXPECT_NEAR(amplitude, single.cycles.front().amplitude, 1e-12 * amplitude);
     }
   }
 }

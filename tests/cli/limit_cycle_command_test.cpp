@@ -30,8 +30,8 @@ json parsed(const Outcome& run) {
 void expect_same_cycle(const json& printed, const LimitCycle& cycle) {
   EXPECT_EQ(printed["kind"], name_of(cycle.kind));
   EXPECT_EQ(printed["stability"], cycle.stable ? "stable" : "unstable");
-  EXPECT_EQ(printed["amplitude"].get<double>(), cycle.size);
-  EXPECT_EQ(printed["motor_amplitude"].get<double>(), cycle.motor_size);
+  EXPECT_EQ(printed["amplitude"].get<double>(), cycle.amplitude);
+  EXPECT_EQ(printed["motor_amplitude"].get<double>(), cycle.motor_amplitude);
   EXPECT_EQ(printed["period"].get<double>(), cycle.period);
   EXPECT_EQ(printed["multiplier"].get<double>(), cycle.multiplier);
   EXPECT_EQ(printed["impact_speed"].get<double>(), cycle.impact_speed);
@@ -143,7 +143,7 @@ TEST(LimitCycleCommand, PhysicalNumbersAreThoseOfTheDataSheet) {
   const LimitCycle cycle = analyse_limit_cycles(file.servo).cycles.at(0);
   const json& physical = printed["cycles"][0];
   const json& form = printed["normal_form"];
-  EXPECT_NEAR(physical["amplitude"].get<double>() / cycle.size, 1.0, 1e-14);
+  EXPECT_NEAR(physical["amplitude"].get<double>() / cycle.amplitude, 1.0, 1e-14);
   EXPECT_NEAR(physical["period"].get<double>() / (cycle.period / *file.natural_frequency), 1.0,
               1e-14);
   EXPECT_EQ(physical["frequency"].get<double>(), 1.0 / physical["period"].get<double>());

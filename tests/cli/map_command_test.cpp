@@ -52,8 +52,8 @@ TEST(MapCommand, PointsAreSingleCallsAndTheBoundaryIsWhereGrowthIsOne) {
                               .inertia_ratio = 2.0,
                               .friction_ratio = map["axes"][1]["values"][5],
                               .backlash = 0.3};
-  const double size = map["columns"]["amplitude"][2 * 13 + 5];
-  EXPECT_NEAR(size, analyse_limit_cycles(servo).cycles.at(0).size, 1e-12 * size);
+  const double amplitude = map["columns"]["amplitude"][2 * 13 + 5];
+  EXPECT_NEAR(amplitude, analyse_limit_cycles(servo).cycles.at(0).amplitude, 1e-12 * amplitude);
   ASSERT_EQ(map["hunting_boundary"].size(), 1U);
   ASSERT_GT(map["hunting_boundary"][0].size(), 20U);
   for (const auto& point : map["hunting_boundary"][0]) {

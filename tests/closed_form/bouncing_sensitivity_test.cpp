@@ -95,7 +95,7 @@ class Period {
 
   Vector arrival() const { return {now_.position, momentum(), now_.gap_speed}; }
   const Real& duration() const { return duration_; }
-  Real size() const { return (largest_ - smallest_) / 2; }
+  Real amplitude() const { return (largest_ - smallest_) / 2; }
 
  private:
   struct State {
@@ -174,7 +174,7 @@ class Period {
 };
 
 struct Cycle {
-  Real size, period, multiplier;
+  Real amplitude, period, multiplier;
 };
 
 /// Of the eigenvalue of largest modulus, refined in seventy digits; of a pair, the modulus.
@@ -238,7 +238,7 @@ Cycle cycle_near(const Numbers& numbers, const Real& backlash, const std::vector
     for (std::size_t i = 0; i < 3; ++i) arrival[i] += change[i];
   }
   const Period there = period_from(arrival);
-  return {there.size(), there.duration(), multiplier_of(slope)};
+  return {there.amplitude(), there.duration(), multiplier_of(slope)};
 }
 
 struct Field {
@@ -302,7 +302,7 @@ double compare(const NormalizedServo& servo, const LimitCycle& cycle) {
       EXPECT_LE(error, tolerance) << quantity << " by " << field.name;
       worst = std::max(worst, error);
     };
-    expect_near("size", found.size, &Cycle::size);
+    expect_near("amplitude", found.amplitude, &Cycle::amplitude);
     expect_near("period", found.period, &Cycle::period);
     expect_near("multiplier", found.multiplier, &Cycle::multiplier);
   }
@@ -411,7 +411,7 @@ TEST(EdgeBouncingSensitivity, ADoubleMultiplierHasNoDerivative) {
   }
   const CycleSensitivity found = cycle_sensitivity(with_restitution(elastic, pair));
   ASSERT_TRUE(found.available());
-  EXPECT_TRUE(std::isfinite(found.size.slope.damping));
+  EXPECT_TRUE(std::isfinite(found.amplitude.slope.damping));
   EXPECT_TRUE(std::isfinite(found.period.slope.restitution));
   EXPECT_TRUE(std::isnan(found.multiplier.slope.damping));
   EXPECT_TRUE(std::isnan(found.multiplier.slope.restitution));

@@ -11,7 +11,7 @@ namespace {
 
 struct Expected {
   CycleKind kind;
-  double size;
+  double amplitude;
   double period;
   bool stable;
 };
@@ -28,7 +28,7 @@ void expect_cycles(const NormalizedServo& servo, const std::vector<Expected>& ex
     const LimitCycle& cycle = analysis.cycles[i];
     constexpr double printed = 5e-6;
     EXPECT_EQ(cycle.kind, expected[i].kind) << i;
-    EXPECT_NEAR(cycle.size, expected[i].size, printed * expected[i].size) << i;
+    EXPECT_NEAR(cycle.amplitude, expected[i].amplitude, printed * expected[i].amplitude) << i;
     EXPECT_NEAR(cycle.period, expected[i].period, printed * expected[i].period) << i;
     EXPECT_EQ(cycle.stable, expected[i].stable) << i;
   }

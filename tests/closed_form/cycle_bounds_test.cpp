@@ -90,7 +90,7 @@ TEST_P(PropertyCycleBounds, HoldForEveryServoOfTheBox) {
       const bool hunts = analysis.verdict == Verdict::hunts;
       EXPECT_FALSE(hunts ? bounds.none_hunt() : bounds.all_hunt());
       if (!hunts) continue;
-      expect_within(bounds.size, analysis.cycles.front().size);
+      expect_within(bounds.amplitude, analysis.cycles.front().amplitude);
       expect_within(bounds.period, analysis.cycles.front().period);
     }
   }
@@ -113,7 +113,7 @@ TEST(PropertyCycleBounds, CloseInInProportionToTheWidth) {
     ++compared;
     ASSERT_TRUE(bounds.all_hunt() || bounds.none_hunt());
     if (bounds.none_hunt()) continue;
-    EXPECT_LT(bounds.size.high / bounds.size.low - 1.0, 2e4 * width);
+    EXPECT_LT(bounds.amplitude.high / bounds.amplitude.low - 1.0, 2e4 * width);
     EXPECT_LT(bounds.period.high / bounds.period.low - 1.0, 2e4 * width);
   }
   EXPECT_GT(compared, 800);
@@ -126,7 +126,7 @@ TEST(EdgeCycleBounds, AreTrueWithoutAGuessAndWithABadOne) {
   for (const double guess : {std::numeric_limits<double>::quiet_NaN(), 0.0, 1e-9, 0.1, 10.0, 1e9}) {
     const CycleBounds bounds = bound_cycles(range.box(), guess);
     EXPECT_TRUE(bounds.all_hunt());
-    expect_within(bounds.size, cycle.size);
+    expect_within(bounds.amplitude, cycle.amplitude);
     expect_within(bounds.period, cycle.period);
   }
 }

@@ -99,7 +99,7 @@ class Servo {
   }
 
   struct Cycle {
-    Real growth_at_rest, size, period, multiplier;  ///< of unit backlash
+    Real growth_at_rest, amplitude, period, multiplier;  ///< of unit backlash
   };
 
   Cycle cycle(double guess) const {
@@ -110,12 +110,12 @@ class Servo {
     const Impact at = impact(t);
     const Engagement engaged = engagement(at.position, at.common_speed);
     cycle.period = 2 * (t + *engaged.duration);
-    Real size = std::max<Real>(abs(start_), abs(at.position));
+    Real amplitude = std::max<Real>(abs(start_), abs(at.position));
     const auto turning = engaged.motion.first_zero(0, 1);
     if (turning && *turning < *engaged.duration) {
-      size = std::max<Real>(size, abs(engaged.motion.at(*turning).position));
+      amplitude = std::max<Real>(amplitude, abs(engaged.motion.at(*turning).position));
     }
-    cycle.size = size / at.gap;
+    cycle.amplitude = amplitude / at.gap;
     // R(σ) = σ ρ(t), σ gap(t) = b.
     const Real h = t * Real("1e-13");
     const Real growth_slope = (growth(t + h) - growth(t - h)) / (2 * h);
@@ -153,8 +153,8 @@ Differences differences(const Numbers& here, Real Numbers::*number, double fligh
     return (at_high.*quantity - at_low.*quantity) / (2 * step);
   };
   return {Servo(here).cycle(flight_time),
-          {of(&Servo::Cycle::growth_at_rest), of(&Servo::Cycle::size), of(&Servo::Cycle::period),
-           of(&Servo::Cycle::multiplier)}};
+          {of(&Servo::Cycle::growth_at_rest), of(&Servo::Cycle::amplitude),
+           of(&Servo::Cycle::period), of(&Servo::Cycle::multiplier)}};
 }
 
 struct Field {
@@ -176,7 +176,7 @@ constexpr double cycle_tolerance = 512.0 * epsilon;
 
 /// The largest error met, by quantity, as a share of its tolerance.
 struct Worst {
-  double growth = 0.0, size = 0.0, period = 0.0, multiplier = 0.0;
+  double growth = 0.0, amplitude = 0.0, period = 0.0, multiplier = 0.0;
 };
 
 double error_of(const SensitiveValue& found, const Field& field, double present, const Real& value,
@@ -192,10 +192,10 @@ void compare(const NormalizedServo& servo, Worst& worst, double allowance = 1.0)
   if (found.available()) {
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
     flight_time = 0.5 * analysis.cycles.at(0).separated_time;
-    EXPECT_EQ(found.size.value, analysis.cycles[0].size);
+    EXPECT_EQ(found.amplitude.value, analysis.cycles[0].amplitude);
     EXPECT_EQ(found.period.value, analysis.cycles[0].period);
     EXPECT_EQ(found.multiplier.value, analysis.cycles[0].multiplier);
-    EXPECT_EQ(found.size.slope.backlash, found.size.value / servo.backlash);
+    EXPECT_EQ(found.amplitude.slope.backlash, found.amplitude.value / servo.backlash);
   }
   for (const Field& field : fields) {
     const double present = servo.*field.present;
@@ -211,13 +211,14 @@ void compare(const NormalizedServo& servo, Worst& worst, double allowance = 1.0)
     expect_near("growth", growth, growth_tolerance, worst.growth);
     if (!found.available()) continue;
     const double tolerance = allowance * cycle_tolerance;
-    const double size = error_of(found.size, field, present, exact.value.size * servo.backlash,
-                                 exact.slope.size * servo.backlash);
+    const double amplitude =
+        error_of(found.amplitude, field, present, exact.value.amplitude * servo.backlash,
+                 exact.slope.amplitude * servo.backlash);
     const double period =
         error_of(found.period, field, present, exact.value.period, exact.slope.period);
     const double multiplier =
         error_of(found.multiplier, field, present, exact.value.multiplier, exact.slope.multiplier);
-    expect_near("size", size, tolerance, worst.size);
+    expect_near("amplitude", amplitude, tolerance, worst.amplitude);
     expect_near("period", period, tolerance, worst.period);
     expect_near("multiplier", multiplier, tolerance, worst.multiplier);
   }
@@ -226,7 +227,7 @@ void compare(const NormalizedServo& servo, Worst& worst, double allowance = 1.0)
 /// For the record of the test, and so that the tolerances stay near the errors.
 void record(const Worst& worst) {
   testing::Test::RecordProperty("worst_growth", exact_text(worst.growth));
-  testing::Test::RecordProperty("worst_size", exact_text(worst.size));
+  testing::Test::RecordProperty("worst_amplitude", exact_text(worst.amplitude));
   testing::Test::RecordProperty("worst_period", exact_text(worst.period));
   testing::Test::RecordProperty("worst_multiplier", exact_text(worst.multiplier));
 }
@@ -342,8 +343,8 @@ void compare_massless(const NormalizedServo& servo, MasslessErrors& worst) {
   if (found.available()) {
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
     flight_time = 0.5 * analysis.cycles.at(0).separated_time;
-    EXPECT_EQ(found.size.value, analysis.cycles[0].size);
-    EXPECT_EQ(found.size.slope.backlash, found.size.value / servo.backlash);
+    EXPECT_EQ(found.amplitude.value, analysis.cycles[0].amplitude);
+    EXPECT_EQ(found.amplitude.slope.backlash, found.amplitude.value / servo.backlash);
   }
   const Numbers here{servo.damping, is_motor ? Real(1 / hardly_any) : hardly_any,
                      servo.friction_ratio};
@@ -368,7 +369,7 @@ void compare_massless(const NormalizedServo& servo, MasslessErrors& worst) {
     };
     near(found.growth_at_rest, &Servo::Cycle::growth_at_rest, 1);
     if (!found.available()) return;
-    near(found.size, &Servo::Cycle::size, servo.backlash);
+    near(found.amplitude, &Servo::Cycle::amplitude, servo.backlash);
     near(found.period, &Servo::Cycle::period, 1);
     near(found.multiplier, &Servo::Cycle::multiplier, 1);
   };
@@ -429,7 +430,7 @@ TEST(EdgeCycleSensitivity, EqualRatesAndExactlyCriticalDamping) {
             1e-8 * (std::abs(value.slope.*field.slope) + value.value / servo.*field.present))
             << field.name;
       };
-      expect_near(found.size, &LimitCycle::size);
+      expect_near(found.amplitude, &LimitCycle::amplitude);
       expect_near(found.period, &LimitCycle::period);
       expect_near(found.multiplier, &LimitCycle::multiplier);
     }
@@ -444,9 +445,10 @@ TEST(EdgeCycleSensitivity, FrictionOnOneSideAloneHasACycleAndNoGrowthToDifferent
     ASSERT_TRUE(found.available());
     EXPECT_TRUE(std::isinf(found.growth_at_rest.value));
     EXPECT_TRUE(std::isnan(found.growth_at_rest.slope.damping));
-    EXPECT_NEAR(found.size.slope.damping,
-                numerical_slope(servo, &NormalizedServo::damping, 1e-3, &LimitCycle::size), 1e-8);
-    EXPECT_TRUE(std::isfinite(found.size.slope.friction_ratio));
+    EXPECT_NEAR(found.amplitude.slope.damping,
+                numerical_slope(servo, &NormalizedServo::damping, 1e-3, &LimitCycle::amplitude),
+                1e-8);
+    EXPECT_TRUE(std::isfinite(found.amplitude.slope.friction_ratio));
   }
 }
 
@@ -458,8 +460,8 @@ TEST(EdgeCycleSensitivity, WithoutACycleTheGrowthAloneHasDerivatives) {
   EXPECT_EQ(found.outcome, SensitivityOutcome::no_cycle);
   EXPECT_LT(found.growth_at_rest.value, 1.0);
   EXPECT_LT(found.growth_at_rest.slope.damping, 0.0);
-  EXPECT_TRUE(std::isnan(found.size.value));
-  EXPECT_TRUE(std::isnan(found.size.slope.damping));
+  EXPECT_TRUE(std::isnan(found.amplitude.value));
+  EXPECT_TRUE(std::isnan(found.amplitude.slope.damping));
   servo = sample;
   servo.backlash = 0.0;
   found = cycle_sensitivity(servo);
@@ -481,7 +483,7 @@ TEST(PropertyCycleSensitivity, SmallRestitutionActsToThirdOrder) {
   for (const NormalizedServo& servo :
        {sample, NormalizedServo{0.3, 2.0, 0.3, 0.3}, NormalizedServo{0.1, 1.0, 0.2, 1.0}}) {
     SCOPED_TRACE(describe(servo));
-    EXPECT_EQ(cycle_sensitivity(servo).size.slope.restitution, 0.0);
+    EXPECT_EQ(cycle_sensitivity(servo).amplitude.slope.restitution, 0.0);
     const LimitCycleAnalysis plastic = analyse_limit_cycles(servo);
     const auto with_bounces = [&](double restitution) {
       NormalizedServo bouncing = servo;
@@ -497,7 +499,7 @@ TEST(PropertyCycleSensitivity, SmallRestitutionActsToThirdOrder) {
     const LimitCycle& rest = plastic.cycles.at(0);
     const LimitCycle& near = *largest_stable(fine);
     const LimitCycle& far = *largest_stable(coarse);
-    expect_third_order(rest.size, near.size, far.size);
+    expect_third_order(rest.amplitude, near.amplitude, far.amplitude);
     expect_third_order(rest.period, near.period, far.period);
     expect_third_order(rest.multiplier, near.multiplier, far.multiplier);
     expect_third_order(plastic.growth_at_rest, fine.growth_at_rest, coarse.growth_at_rest);
@@ -547,7 +549,7 @@ void expect_agrees_with_differences(const NormalizedServo& servo, const Field& f
       return largest_stable(analysis)->*quantity;
     };
   };
-  expect_near(found.size, of_cycle(&LimitCycle::size));
+  expect_near(found.amplitude, of_cycle(&LimitCycle::amplitude));
   expect_near(found.period, of_cycle(&LimitCycle::period));
   expect_near(found.multiplier, of_cycle(&LimitCycle::multiplier));
 }
@@ -570,7 +572,7 @@ TEST(PropertyCycleSensitivity, WithBouncesAgreesWithDifferences) {
     for (const Field& field : fields) expect_agrees_with_differences(servo, field, found);
     expect_agrees_with_differences(servo, restitution_field, found);
     if (!found.available()) continue;
-    EXPECT_EQ(found.size.slope.backlash, found.size.value / servo.backlash);
+    EXPECT_EQ(found.amplitude.slope.backlash, found.amplitude.value / servo.backlash);
     EXPECT_TRUE(std::isfinite(found.multiplier.slope.damping));
   }
   EXPECT_GE(available, 12);
@@ -585,7 +587,7 @@ TEST(CycleSensitivity, OfAnAsymmetricCycleWhoseBouncesDoNotSettle) {
   ASSERT_FALSE(cycle.settles);
   const CycleSensitivity found = cycle_sensitivity(servo);
   ASSERT_TRUE(found.available());
-  EXPECT_EQ(found.size.value, cycle.size);
+  EXPECT_EQ(found.amplitude.value, cycle.amplitude);
   // It begins as a fork next by: a short step, and so a rough difference.
   const double slope = numerical_slope(servo, &NormalizedServo::damping, 1e-7, &LimitCycle::period);
   EXPECT_NEAR(found.period.slope.damping, slope, 1e-4 * std::abs(slope));
@@ -596,7 +598,7 @@ TEST(EdgeCycleSensitivity, AnIrregularMotionHasTheGrowthAlone) {
   servo.restitution = 0.9;
   const CycleSensitivity found = cycle_sensitivity(servo);
   EXPECT_EQ(found.outcome, SensitivityOutcome::no_cycle);
-  EXPECT_TRUE(std::isnan(found.size.value));
+  EXPECT_TRUE(std::isnan(found.amplitude.value));
   EXPECT_TRUE(std::isfinite(found.growth_at_rest.slope.restitution));
 }
 

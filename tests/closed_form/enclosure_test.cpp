@@ -55,7 +55,7 @@ class OracleEnclosure : public testing::TestWithParam<std::uint64_t> {};
 TEST_P(OracleEnclosure, HoldsWhatIsExactAndIsNarrow) {
   SeededDraws draws(GetParam());
   Widths growth{"growth at rest"};
-  Widths size{"size"};
+  Widths amplitude{"amplitude"};
   Widths period{"period"};
   Widths multiplier{"multiplier"};
   constexpr int count = 5000;
@@ -79,19 +79,19 @@ TEST_P(OracleEnclosure, HoldsWhatIsExactAndIsNarrow) {
       ++without_cycle;
       continue;
     }
-    size.add(analysis.bounds->size, cycle->size_over_backlash);
+    amplitude.add(analysis.bounds->amplitude, cycle->amplitude_over_backlash);
     period.add(analysis.bounds->period, cycle->period);
     multiplier.add(analysis.bounds->multiplier, cycle->multiplier);
   }
   RecordProperty("median width of growth at rest, epsilons", std::to_string(growth.median()));
-  RecordProperty("of size", std::to_string(size.median()));
+  RecordProperty("of amplitude", std::to_string(amplitude.median()));
   RecordProperty("of period", std::to_string(period.median()));
   RecordProperty("of multiplier", std::to_string(multiplier.median()));
   EXPECT_LE(undecided, count / 1000);
   EXPECT_LE(without_cycle, count / 1000);
-  EXPECT_GT(size.all.size(), std::size_t{2500});
+  EXPECT_GT(amplitude.all.size(), std::size_t{2500});
   EXPECT_LT(growth.median(), 100.0);
-  EXPECT_LT(size.median(), 1000.0);
+  EXPECT_LT(amplitude.median(), 1000.0);
   EXPECT_LT(period.median(), 300.0);
 }
 
@@ -121,9 +121,9 @@ TEST(EdgeEnclosure, FrictionOnOneSideOnlyIsATheorem) {
     EXPECT_EQ(analysis.verdict, Verdict::hunts);
     EXPECT_EQ(analysis.certainty, Certainty::theorem);
     EXPECT_EQ(analysis.bounds->growth_at_rest.low, infinity);
-    const Bounds size = analysis.bounds->size;
-    EXPECT_TRUE(size.contains(analysis.cycles.front().size / servo.backlash));
-    EXPECT_LT(size.high / size.low - 1.0, 1e-12);
+    const Bounds amplitude = analysis.bounds->amplitude;
+    EXPECT_TRUE(amplitude.contains(analysis.cycles.front().amplitude / servo.backlash));
+    EXPECT_LT(amplitude.high / amplitude.low - 1.0, 1e-12);
   }
 }
 
@@ -141,9 +141,10 @@ TEST(EdgeEnclosure, MasslessSidesAreEnclosed) {
         EXPECT_TRUE(bounds.growth_at_rest.contains(analysis.growth_at_rest));
         if (analysis.verdict != Verdict::hunts) continue;
         // Computed to some 1e-14, enclosed to as much.
-        EXPECT_NEAR(analysis.cycles.front().size, 0.5 * (bounds.size.low + bounds.size.high),
-                    1e-11 * bounds.size.high);
-        EXPECT_LT(bounds.size.high / bounds.size.low - 1.0, 1e-9);
+        EXPECT_NEAR(analysis.cycles.front().amplitude,
+                    0.5 * (bounds.amplitude.low + bounds.amplitude.high),
+                    1e-11 * bounds.amplitude.high);
+        EXPECT_LT(bounds.amplitude.high / bounds.amplitude.low - 1.0, 1e-9);
         EXPECT_NEAR(analysis.cycles.front().multiplier,
                     0.5 * (analysis.bounds->multiplier.low + analysis.bounds->multiplier.high),
                     1e-11);

@@ -64,7 +64,7 @@ class ExactHalfCycle {
   }
 
   struct Cycle {
-    Digits size_over_backlash;
+    Digits amplitude_over_backlash;
     Digits period;
     Digits multiplier;
   };

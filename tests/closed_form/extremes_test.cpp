@@ -120,7 +120,7 @@ TEST(OracleExtremes, OvershootOfTheStepResponse) {
   EXPECT_NEAR(range.load_highest, peak, 8.0 * epsilon);
   EXPECT_EQ(range.load_lowest, 0.0);
   EXPECT_EQ(range.motor_highest, range.load_highest);
-  EXPECT_NEAR(range.load_size(), 0.5 * peak, 8.0 * epsilon);
+  EXPECT_NEAR(range.load_amplitude(), 0.5 * peak, 8.0 * epsilon);
 }
 
 TEST(EdgeExtremes, EmptyAndClampedStretches) {
@@ -130,7 +130,7 @@ TEST(EdgeExtremes, EmptyAndClampedStretches) {
       simulate(servo, engaged_start(servo, 0.0, 0.0, 1.0), {.until = 10.0, .reference = 1.0});
   const Extremes point = extremes(motion, 2.0, 2.0);
   EXPECT_EQ(point.load_lowest, motion.at(2.0).load_position);
-  EXPECT_EQ(point.load_size(), 0.0);
+  EXPECT_EQ(point.load_amplitude(), 0.0);
   const Extremes whole = extremes(motion, 0.0, 10.0);
   const Extremes beyond = extremes(motion, -5.0, 50.0);
   EXPECT_EQ(whole.load_highest, beyond.load_highest);

@@ -26,8 +26,8 @@ std::string describe(const NormalizedServo& s) {
 
 /// Half peak-to-peak of the load from `from` on, sampled every 200th of a radian and at the events.
 /// The load's position has kinks at impacts only; between them a turning point is at most half a
-/// step from a sample, which misses ½ a (step/2)², 3e-6 of a size.
-double sampled_size(const Trajectory& motion, double from) {
+/// step from a sample, which misses ½ a (step/2)², 3e-6 of an amplitude.
+double sampled_amplitude(const Trajectory& motion, double from) {
   double low = infinity;
   double high = -infinity;
   const auto include = [&](double position) {
@@ -78,9 +78,10 @@ TEST(PropertyVerdict, PlasticServosDoWhatItSays) {
         const LimitCycle& cycle = analysis.cycles.front();
         if (cycle.multiplier > 0.995) continue;
         ++hunting;
-        const Trajectory motion = long_run(servo, factor * cycle.size, until);
-        ASSERT_NEAR(sampled_size(motion, until - 1.5 * cycle.period), cycle.size, 1e-5 * cycle.size)
-            << "from " << factor << " times its size";
+        const Trajectory motion = long_run(servo, factor * cycle.amplitude, until);
+        ASSERT_NEAR(sampled_amplitude(motion, until - 1.5 * cycle.period), cycle.amplitude,
+                    1e-5 * cycle.amplitude)
+            << "from " << factor << " times its amplitude";
       } else {
         ++resting;
         const Trajectory motion = long_run(servo, factor * servo.backlash, until);
@@ -106,7 +107,7 @@ TEST(PropertyVerdict, FrictionOnOneSideOnlyAlwaysHunts) {
     ASSERT_EQ(analysis.verdict, Verdict::hunts) << describe(servo);
     ASSERT_EQ(analysis.growth_at_rest, infinity) << describe(servo);
     ASSERT_EQ(analysis.cycles.size(), 1U) << describe(servo);
-    ASSERT_GT(analysis.cycles.front().size, 0.0) << describe(servo);
+    ASSERT_GT(analysis.cycles.front().amplitude, 0.0) << describe(servo);
   }
 }
 
@@ -120,9 +121,9 @@ TEST(EdgeVerdict, NoDampingGrowsWithoutBound) {
   const Trajectory motion = long_run(servo, 0.3, 2000.0);
   for (const double from : {90.0, 490.0, 1990.0}) {
     const Trajectory part = long_run(servo, 0.3, from + 10.0);
-    const double size = sampled_size(part, from);
-    EXPECT_GT(size, 1.2 * before);
-    before = size;
+    const double found = sampled_amplitude(part, from);
+    EXPECT_GT(found, 1.2 * before);
+    before = found;
   }
 }
 
@@ -191,27 +192,28 @@ TEST(OracleRestitution, SizesOfSettledRuns) {
   const LimitCycleAnalysis slight = analyse_limit_cycles(sample(0.3));
   EXPECT_EQ(slight.verdict, Verdict::hunts);
   ASSERT_FALSE(slight.cycles.empty());
-  EXPECT_NEAR(slight.cycles.front().size, 0.2401, 0.5e-4);
+  EXPECT_NEAR(slight.cycles.front().amplitude, 0.2401, 0.5e-4);
   EXPECT_TRUE(slight.cycles.front().settles);
   // At e = 0.6 the motion takes hundreds of periods to its cycle, which is asymmetric: the design's
   // 0.2172 was read before the end, and is 0.3 % too large.
   const LimitCycleAnalysis middle = analyse_limit_cycles(sample(0.6));
   EXPECT_EQ(middle.verdict, Verdict::hunts);
-  const double late = sampled_size(long_run(sample(0.6), 1.0, 2e4), 2e4 - 20.0);
+  const double late = sampled_amplitude(long_run(sample(0.6), 1.0, 2e4), 2e4 - 20.0);
   EXPECT_NEAR(late, 0.216536, 2e-6);
   EXPECT_NEAR(late, 0.2172, 1e-3);
   const bool seen =
       std::any_of(middle.cycles.begin(), middle.cycles.end(), [&](const LimitCycle& cycle) {
-        return cycle.stable && std::abs(cycle.size - late) < 2e-5 * late;
+        return cycle.stable && std::abs(cycle.amplitude - late) < 2e-5 * late;
       });
   EXPECT_TRUE(seen) << "a long run ends at " << late;
   // At 0.9 the motion does not repeat, and the last bit of a root decides where it is after 2000 s;
-  // 0.1709 is one of the sizes it passes through, and its extent over 150 swings is not chance.
+  // 0.1709 is one of the amplitudes it passes through, and its extent over 150 swings is not
+  // chance.
   const LimitCycleAnalysis lively = analyse_limit_cycles(sample(0.9));
-  const double range = sampled_size(long_run(sample(0.9), 0.2, 2000.0), 1000.0);
+  const double range = sampled_amplitude(long_run(sample(0.9), 0.2, 2000.0), 1000.0);
   EXPECT_NEAR(range, 0.1725, 2e-3);
   if (lively.verdict == Verdict::hunts_irregularly) {
-    EXPECT_NEAR(lively.irregular_size, range, 5e-3);
+    EXPECT_NEAR(lively.irregular_amplitude, range, 5e-3);
   }
 }
 
@@ -225,11 +227,11 @@ TEST(PropertyRestitution, EveryReportedCycleReturnsToItself) {
     servo.restitution = draws.uniform(0.05, 0.8);
     SCOPED_TRACE(describe(servo));
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
-    double size_before = infinity;
+    double amplitude_before = infinity;
     for (const LimitCycle& cycle : analysis.cycles) {
       ++cycles;
-      ASSERT_LE(cycle.size, size_before);
-      size_before = cycle.size;
+      ASSERT_LE(cycle.amplitude, amplitude_before);
+      amplitude_before = cycle.amplitude;
       ASSERT_LE(cycle.residual, 1e-10);
       ASSERT_EQ(cycle.stable, std::abs(cycle.multiplier) < 1.0);
       ASSERT_GE(cycle.impacts_per_period, 2U);
@@ -241,13 +243,13 @@ TEST(PropertyRestitution, EveryReportedCycleReturnsToItself) {
       const ServoState first = motion.at(offset);
       const ServoState again = motion.at(offset + cycle.period);
       // The residual allowed, multiplied along one period.
-      const double scale = std::max(cycle.size, cycle.motor_size);
+      const double scale = std::max(cycle.amplitude, cycle.motor_amplitude);
       const double tolerance = 1e-8 * scale * std::max(1.0, std::abs(cycle.multiplier));
       ASSERT_NEAR(first.load_position, again.load_position, tolerance);
       ASSERT_NEAR(first.motor_position, again.motor_position, tolerance);
       ASSERT_NEAR(first.load_speed, again.load_speed, tolerance);
       ASSERT_NEAR(first.motor_speed, again.motor_speed, tolerance);
-      ASSERT_NEAR(sampled_size(motion, 0.0), cycle.size, 1e-4 * cycle.size);
+      ASSERT_NEAR(sampled_amplitude(motion, 0.0), cycle.amplitude, 1e-4 * cycle.amplitude);
       ASSERT_NEAR(cycle.engaged_time + cycle.separated_time, cycle.period, 1e-9);
       const EnergyAccount books = motion.energy_at(offset + cycle.period);
       const EnergyAccount start = motion.energy_at(offset);
@@ -316,17 +318,17 @@ TEST(PropertyRestitution, VerdictIsWhatALongSimulationDoes) {
     constexpr double until = 2e4;
     for (const double amplitude : {0.1 * servo.backlash, 10.0 * servo.backlash}) {
       const Trajectory motion = long_run(servo, amplitude, until);
-      const double size = sampled_size(motion, until - 50.0);
+      const double found = sampled_amplitude(motion, until - 50.0);
       if (analysis.verdict == Verdict::cannot_hunt) {
         ++resting;
-        ASSERT_LT(size, 0.05 * servo.backlash) << "from " << amplitude;
+        ASSERT_LT(found, 0.05 * servo.backlash) << "from " << amplitude;
       } else if (analysis.verdict == Verdict::hunts) {
         ++hunting;
         const bool known = std::any_of(
             analysis.cycles.begin(), analysis.cycles.end(), [&](const LimitCycle& cycle) {
-              return cycle.stable && std::abs(cycle.size - size) < 1e-4 * size;
+              return cycle.stable && std::abs(cycle.amplitude - found) < 1e-4 * found;
             });
-        ASSERT_TRUE(known) << "a run from " << amplitude << " ends at " << size;
+        ASSERT_TRUE(known) << "a run from " << amplitude << " ends at " << found;
       }
     }
   }
@@ -342,7 +344,8 @@ TEST(PropertyRestitution, SizeIsProportionalToBacklash) {
     const LimitCycleAnalysis other = analyse_limit_cycles(wider);
     ASSERT_EQ(one.cycles.size(), other.cycles.size());
     for (std::size_t k = 0; k < one.cycles.size(); ++k) {
-      EXPECT_NEAR(other.cycles[k].size, 8.0 * one.cycles[k].size, 1e-10 * other.cycles[k].size);
+      EXPECT_NEAR(other.cycles[k].amplitude, 8.0 * one.cycles[k].amplitude,
+                  1e-10 * other.cycles[k].amplitude);
       EXPECT_NEAR(other.cycles[k].period, one.cycles[k].period, 1e-9);
     }
   }
@@ -353,7 +356,7 @@ TEST(PropertyRestitution, NearlyPlasticTendsToThePlasticCycle) {
   for (const double small : {1e-3, 1e-6, 1e-9}) {
     const LimitCycleAnalysis analysis = analyse_limit_cycles(sample(small));
     ASSERT_EQ(analysis.cycles.size(), 1U) << small;
-    EXPECT_NEAR(analysis.cycles[0].size, plastic.size, small + 1e-10) << small;
+    EXPECT_NEAR(analysis.cycles[0].amplitude, plastic.amplitude, small + 1e-10) << small;
     EXPECT_NEAR(analysis.cycles[0].period, plastic.period, 10.0 * small + 1e-9) << small;
     EXPECT_NEAR(analysis.cycles[0].multiplier, plastic.multiplier, 10.0 * small + 1e-6) << small;
   }
@@ -375,7 +378,7 @@ TEST(PropertyRestitution, NearlyElasticTendsToTheElasticCycle) {
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
     ASSERT_EQ(analysis.cycles.size(), 1U) << small;
     EXPECT_NEAR(analysis.growth_at_rest, elastic.growth_at_rest, 10.0 * small + 1e-6) << small;
-    EXPECT_NEAR(analysis.cycles[0].size, elastic.cycles[0].size, small + 1e-8) << small;
+    EXPECT_NEAR(analysis.cycles[0].amplitude, elastic.cycles[0].amplitude, small + 1e-8) << small;
     EXPECT_NEAR(analysis.cycles[0].period, elastic.cycles[0].period, 10.0 * small + 1e-7) << small;
   }
 }
@@ -450,8 +453,8 @@ TEST(PropertyVerdict, OverdampedServosRestAfterLargeMotionsAndHuntAfterSmallOnes
       const double until = 60.0 * cycle.period;
       const Trajectory motion =
           simulate(servo, parted(servo, 0.5 * amplitude), {.until = until, .reference = 0.0});
-      EXPECT_NEAR(extremes(motion, until - 1.5 * cycle.period, until).load_size(), cycle.size,
-                  1e-6 * cycle.size);
+      EXPECT_NEAR(extremes(motion, until - 1.5 * cycle.period, until).load_amplitude(),
+                  cycle.amplitude, 1e-6 * cycle.amplitude);
     } else {
       ASSERT_EQ(analysis.verdict, Verdict::cannot_hunt);
       const Trajectory motion = simulate(servo, engaged_start(servo, -servo.backlash, 0.0, 0.0),
@@ -471,8 +474,8 @@ TEST(EdgeRestitution, LightlyDampedCyclesAreFoundFarOutsideTheScan) {
     EXPECT_EQ(analysis.verdict, Verdict::hunts);
     ASSERT_EQ(analysis.cycles.size(), 1U);
     servo.restitution = 0.0;
-    const double plastic = analyse_limit_cycles(servo).cycles.at(0).size;
-    EXPECT_NEAR(analysis.cycles[0].size, plastic, 1e-6 * plastic);
+    const double plastic = analyse_limit_cycles(servo).cycles.at(0).amplitude;
+    EXPECT_NEAR(analysis.cycles[0].amplitude, plastic, 1e-6 * plastic);
   }
 }
 
@@ -495,13 +498,13 @@ TEST(EdgeRestitution, IrregularMotionBesideAStableCycleIsTold) {
   const LimitCycle* const stable = largest_stable(analysis);
   ASSERT_NE(stable, nullptr);
   // What two step responses end in.
-  const auto final_size = [&](double step) {
+  const auto final_amplitude = [&](double step) {
     const Trajectory motion =
         simulate(servo, engaged_start(servo, 0.0, 0.0, step), {.until = 3000.0, .reference = step});
-    return extremes(motion, 2500.0, 3000.0).load_size();
+    return extremes(motion, 2500.0, 3000.0).load_amplitude();
   };
-  EXPECT_NEAR(final_size(0.2), stable->size, 1e-9);
-  EXPECT_NEAR(final_size(0.02), analysis.irregular_size, 2e-3);
+  EXPECT_NEAR(final_amplitude(0.2), stable->amplitude, 1e-9);
+  EXPECT_NEAR(final_amplitude(0.02), analysis.irregular_amplitude, 2e-3);
 }
 
 TEST(EdgeRestitution, MotionThatDiesAwaySlowlyIsNoHunting) {

@@ -29,7 +29,7 @@ LimitCycle only_cycle(const NormalizedServo& servo) {
 
 /// The scalar equation solved in forty digits from exponentials of the raw equations' matrices.
 struct Known {
-  double damping, inertia_ratio, friction_ratio, size, period;
+  double damping, inertia_ratio, friction_ratio, amplitude, period;
 };
 
 TEST(OraclePlasticCycle, FortyDigitNumbers) {
@@ -42,7 +42,7 @@ TEST(OraclePlasticCycle, FortyDigitNumbers) {
                                          .friction_ratio = known.friction_ratio,
                                          .backlash = 0.3});
     // The condition of the root, 1/(1 − R′), is below 4 for these.
-    EXPECT_NEAR(cycle.size, known.size, 64.0 * epsilon * known.size);
+    EXPECT_NEAR(cycle.amplitude, known.amplitude, 64.0 * epsilon * known.amplitude);
     EXPECT_NEAR(cycle.period, known.period, 64.0 * epsilon * known.period);
     EXPECT_TRUE(cycle.stable);
     EXPECT_TRUE(cycle.settles);
@@ -173,7 +173,7 @@ TEST(PropertyPlasticCycle, EverythingAgreesWithASimulatedPeriod) {
     const double offset = 0.125 * cycle.separated_time;
     const Trajectory motion =
         simulate(servo, cycle.start, {.until = cycle.period + offset, .reference = 0.0});
-    const double scale = std::max(cycle.size, cycle.motor_size);
+    const double scale = std::max(cycle.amplitude, cycle.motor_amplitude);
     const double tolerance = 1e-10 * scale;
     const ServoState first = motion.at(offset);
     const ServoState again = motion.at(offset + cycle.period);
@@ -183,8 +183,8 @@ TEST(PropertyPlasticCycle, EverythingAgreesWithASimulatedPeriod) {
     ASSERT_NEAR(first.motor_speed, again.motor_speed, tolerance);
 
     const Extremes turns = extremes(motion, offset, offset + cycle.period);
-    ASSERT_NEAR(turns.load_size(), cycle.size, 1e-12 * scale);
-    ASSERT_NEAR(turns.motor_size(), cycle.motor_size, 1e-12 * scale);
+    ASSERT_NEAR(turns.load_amplitude(), cycle.amplitude, 1e-12 * scale);
+    ASSERT_NEAR(turns.motor_amplitude(), cycle.motor_amplitude, 1e-12 * scale);
 
     double hardest = 0.0;
     for (const Event& event : motion.events()) {
@@ -226,8 +226,9 @@ TEST(PropertyPlasticCycle, SizeIsExactlyProportionalToBacklash) {
       const double bits = factor == 4.0 ? 0.0 : 8.0 * epsilon;
       ASSERT_EQ(one.period, other.period);
       ASSERT_EQ(one.multiplier, other.multiplier);
-      ASSERT_NEAR(other.size, factor * one.size, bits * other.size);
-      ASSERT_NEAR(other.motor_size, factor * one.motor_size, bits * other.motor_size);
+      ASSERT_NEAR(other.amplitude, factor * one.amplitude, bits * other.amplitude);
+      ASSERT_NEAR(other.motor_amplitude, factor * one.motor_amplitude,
+                  bits * other.motor_amplitude);
       ASSERT_NEAR(other.impact_speed, factor * one.impact_speed, bits * other.impact_speed);
       ASSERT_NEAR(other.energy.lost(), factor * factor * one.energy.lost(),
                   8.0 * bits * other.energy.lost());
@@ -272,8 +273,8 @@ TEST(EdgePlasticCycle, ExtremesOfTheRangesThatHunt) {
         ASSERT_EQ(analysis.verdict == Verdict::hunts, analysis.growth_at_rest > 1.0);
         if (analysis.verdict != Verdict::hunts) continue;
         const LimitCycle& cycle = analysis.cycles.at(0);
-        EXPECT_TRUE(std::isfinite(cycle.size) && cycle.size > 0.0);
-        EXPECT_GE(cycle.motor_size, 0.0);
+        EXPECT_TRUE(std::isfinite(cycle.amplitude) && cycle.amplitude > 0.0);
+        EXPECT_GE(cycle.motor_amplitude, 0.0);
         EXPECT_TRUE(cycle.stable);
         EXPECT_GE(cycle.multiplier, 0.0);
         EXPECT_LE(cycle.residual, 1e-12);
@@ -296,8 +297,9 @@ TEST(EdgePlasticCycle, MasslessSidesAreTheLimitsOfLightOnes) {
       const LimitCycleAnalysis near = analyse_limit_cycles(servo);
       ASSERT_EQ(limit.verdict, near.verdict) << massless;
       if (limit.cycles.empty()) continue;
-      EXPECT_NEAR(limit.cycles[0].size, near.cycles[0].size, 1e-6) << massless << " " << share;
-      EXPECT_NEAR(limit.cycles[0].motor_size, near.cycles[0].motor_size, 1e-6);
+      EXPECT_NEAR(limit.cycles[0].amplitude, near.cycles[0].amplitude, 1e-6)
+          << massless << " " << share;
+      EXPECT_NEAR(limit.cycles[0].motor_amplitude, near.cycles[0].motor_amplitude, 1e-6);
       EXPECT_NEAR(limit.cycles[0].period, near.cycles[0].period, 1e-5);
     }
   }

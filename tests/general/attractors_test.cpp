@@ -48,7 +48,7 @@ TEST(OracleAttractors, TheThesissServoHuntsFromEverywhere) {
   const AttractorSearch found = find_attractors(servo(0.19, 2.0, 0.1));
   ASSERT_EQ(found.cycles.size(), 1U);
   const FoundCycle& cycle = found.cycles.front();
-  EXPECT_NEAR(cycle.size, 0.241611108, 5e-10);
+  EXPECT_NEAR(cycle.amplitude, 0.241611108, 5e-10);
   EXPECT_NEAR(cycle.period(), 6.456205, 5e-7);
   EXPECT_EQ(cycle.stability, Stability::stable);
   EXPECT_TRUE(cycle.is_symmetric);
@@ -81,8 +81,8 @@ TEST(OracleAttractors, PlasticServosAreTheClosedForm) {
     ++hunting;
     const FoundCycle& cycle = found.cycles.front();
     const LimitCycle& wanted = exact.cycles.front();
-    EXPECT_NEAR(cycle.size, wanted.size, 1e-9 * wanted.size);
-    EXPECT_NEAR(cycle.motor_size, wanted.motor_size, 1e-9 * wanted.motor_size);
+    EXPECT_NEAR(cycle.amplitude, wanted.amplitude, 1e-9 * wanted.amplitude);
+    EXPECT_NEAR(cycle.motor_amplitude, wanted.motor_amplitude, 1e-9 * wanted.motor_amplitude);
     EXPECT_NEAR(cycle.period(), wanted.period, 1e-9 * wanted.period);
     EXPECT_NEAR(cycle.impact_speed, wanted.impact_speed, 1e-9 * wanted.impact_speed);
     EXPECT_NEAR(cycle.multiplier, std::abs(wanted.multiplier), 1e-8);
@@ -107,7 +107,7 @@ TEST(OracleAttractors, MirrorImagesCountAsOne) {
   ASSERT_EQ(exact.cycles.size(), 2U);
   ASSERT_EQ(found.cycles.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_NEAR(found.cycles[i].size, exact.cycles[i].size, 1e-9);
+    EXPECT_NEAR(found.cycles[i].amplitude, exact.cycles[i].amplitude, 1e-9);
     EXPECT_NEAR(found.cycles[i].period(), exact.cycles[i].period, 1e-9);
     EXPECT_NEAR(found.cycles[i].multiplier, exact.cycles[i].multiplier, 1e-8);
   }
@@ -118,14 +118,14 @@ TEST(OracleAttractors, MirrorImagesCountAsOne) {
   EXPECT_TRUE(found.cycles[1].is_symmetric);
 }
 
-/// Restitution 0.9: the closed form sees bounded motion of size 0.1723 that does not repeat.
+/// Restitution 0.9: the closed form sees bounded motion of amplitude 0.1723 that does not repeat.
 TEST(OracleAttractors, ChaosIsMeasured) {
   const auto exact = analyse_limit_cycles(same_servo(0.19, 2.0, 0.1, 0.9));
   const auto found = find_attractors(servo(0.19, 2.0, 0.1, 0.9));
   ASSERT_EQ(found.irregular.size(), 1U);
   const IrregularFound& motion = found.irregular.front();
   EXPECT_EQ(motion.starts, found.outcomes.size());
-  EXPECT_NEAR(motion.size, exact.irregular_size, 0.005);
+  EXPECT_NEAR(motion.amplitude, exact.irregular_amplitude, 0.005);
   EXPECT_GT(motion.exponent * motion.period, 0.3);
   EXPECT_GT(motion.mismatch, 0.01);
   EXPECT_GT(motion.period_deviation, 0.01);
@@ -133,10 +133,10 @@ TEST(OracleAttractors, ChaosIsMeasured) {
     EXPECT_EQ(cycle.stability, Stability::unstable);
     const bool is_known =
         std::any_of(exact.cycles.begin(), exact.cycles.end(), [&](const LimitCycle& wanted) {
-          return std::abs(cycle.size - wanted.size) < 1e-8 &&
+          return std::abs(cycle.amplitude - wanted.amplitude) < 1e-8 &&
                  std::abs(cycle.multiplier - std::abs(wanted.multiplier)) < 1e-6;
         });
-    EXPECT_TRUE(is_known || !cycle.is_symmetric) << cycle.size;
+    EXPECT_TRUE(is_known || !cycle.is_symmetric) << cycle.amplitude;
   }
 }
 
@@ -154,7 +154,7 @@ TEST(OracleAttractors, AnUnstableCycleSeparatesRestAndHunting) {
   const FoundCycle& between = found.cycles[1];
   EXPECT_EQ(hunting.stability, Stability::stable);
   EXPECT_EQ(between.stability, Stability::unstable);
-  EXPECT_LT(between.size, hunting.size);
+  EXPECT_LT(between.amplitude, hunting.amplitude);
   ASSERT_FALSE(found.edges.empty());
   EXPECT_EQ(found.edges.front().cycle, 1U);
   ASSERT_TRUE(found.rest);
@@ -163,7 +163,7 @@ TEST(OracleAttractors, AnUnstableCycleSeparatesRestAndHunting) {
   EXPECT_GE(found.rest->load.lowest, -0.015);
 
   // Half the peak-to-peak that a motion from beside the orbit ends with.
-  const auto final_size = [&](double factor) {
+  const auto final_amplitude = [&](double factor) {
     hybrid::State beside = between.orbit.start;
     beside.numbers[motor_speed] *= factor;
     beside.numbers[load_speed] *= factor;
@@ -174,10 +174,10 @@ TEST(OracleAttractors, AnUnstableCycleSeparatesRestAndHunting) {
     for (const hybrid::Event& event : tail.events()) load.include(event.before[load_position]);
     return 0.5 * (load.highest - load.lowest);
   };
-  const double one = final_size(0.97);
-  const double other = final_size(1.03);
+  const double one = final_amplitude(0.97);
+  const double other = final_amplitude(1.03);
   EXPECT_EQ(std::min(one, other), 0.0);
-  EXPECT_GT(std::max(one, other), 0.9 * hunting.size);
+  EXPECT_GT(std::max(one, other), 0.9 * hunting.amplitude);
 }
 
 /// Amplitudes grow as exp(σt) for ever: Routh says so of s³ + 0.38 s² + s + 1.
@@ -203,7 +203,7 @@ TEST(OracleAttractors, WithoutEventsASineIsAnsweredAsTheLinearLoopDoes) {
   ASSERT_EQ(found.cycles.size(), 1U);
   const FoundCycle& cycle = found.cycles.front();
   EXPECT_NEAR(cycle.period(), 4.0 * std::acos(-1.0), 1e-9);
-  EXPECT_NEAR(cycle.size, 0.5 / std::hypot(1.0 - 0.25, 0.38 * 0.5), 1e-9);
+  EXPECT_NEAR(cycle.amplitude, 0.5 / std::hypot(1.0 - 0.25, 0.38 * 0.5), 1e-9);
   EXPECT_NEAR(cycle.center, 10.15, 1e-9);
   EXPECT_NEAR(cycle.multiplier, std::exp(-0.19 * cycle.period()), 1e-8);
   EXPECT_EQ(cycle.starts, 2U);
@@ -221,7 +221,7 @@ TEST(OracleAttractors, AClockThatNothingLocksToIsNoChaos) {
   EXPECT_EQ(motion.starts, 2U);
   EXPECT_LT(std::abs(motion.exponent) * motion.period, 0.02);
   EXPECT_LT(motion.period_deviation, 1e-3);
-  EXPECT_GT(motion.size, 0.2416);  // the delay of half a period and 0.02 takes damping away
+  EXPECT_GT(motion.amplitude, 0.2416);  // the delay of half a period and 0.02 takes damping away
 }
 
 /// What a reference adds is nothing but place: fixed, or moving with a ramp (then friction counts).
@@ -241,7 +241,7 @@ TEST(PropertyAttractors, CyclesMoveWithTheReference) {
   ASSERT_EQ(moving.cycles.size(), 1U);
   EXPECT_EQ(far.coordinates, Coordinates::fixed);
   EXPECT_EQ(moving.coordinates, Coordinates::co_moving);
-  EXPECT_NEAR(far.cycles[0].size, at_0.cycles[0].size, 1e-12);
+  EXPECT_NEAR(far.cycles[0].amplitude, at_0.cycles[0].amplitude, 1e-12);
   EXPECT_NEAR(far.cycles[0].center, 0.0, 1e-12);
   EXPECT_LT(misfit_after_a_period(moving.system, moving.cycles[0].orbit), 1e-11);
 }
@@ -256,7 +256,7 @@ TEST(EdgeAttractors, WhatCannotBeCarriedAlongIsMeasuredInPlace) {
       find_attractors(drive, {.starts = {{0.45, 0.3, 0.3, 0.3}}, .swing_times = 60.0});
   EXPECT_EQ(found.coordinates, Coordinates::in_place);
   ASSERT_EQ(found.irregular.size(), 1U);
-  EXPECT_NEAR(found.irregular[0].size, 0.27, 0.02);
+  EXPECT_NEAR(found.irregular[0].amplitude, 0.27, 0.02);
 }
 
 /// Otherwise a fast computer's drive would be watched for a few swings only.
@@ -267,7 +267,7 @@ TEST(EdgeAttractors, TicksAreNotCountedAsEvents) {
       drive, {.starts = {{0.45, 0.0, 0.3, 0.0}}, .most_events = 1'000, .most_edges = 0});
   ASSERT_EQ(found.irregular.size(), 1U);
   EXPECT_GT(found.outcomes.front().watched, 200.0);
-  EXPECT_NEAR(found.irregular.front().size, 0.2416, 0.01);
+  EXPECT_NEAR(found.irregular.front().amplitude, 0.2416, 0.01);
 }
 
 /// The load creeps to rest while the motor sticks: the ticks then repeat what stands still.
@@ -357,7 +357,7 @@ TEST(PropertyAttractors, EveryCycleClosesAndRepeats) {
       led += cycle.starts;
       EXPECT_LT(cycle.orbit.residual, 1e-9);
       EXPECT_LT(misfit_after_a_period(found.system, cycle.orbit), 1e-10 * (1.0 + cycle.multiplier));
-      EXPECT_GT(cycle.size, 0.0);
+      EXPECT_GT(cycle.amplitude, 0.0);
       EXPECT_TRUE(cycle.starts == 0 || cycle.stability != Stability::unstable);
     }
     for (const IrregularFound& motion : found.irregular) led += motion.starts;

@@ -64,7 +64,7 @@ TEST(SearchTolerances, WhatIsClosedMustFitItselfAndTheMotion) {
     EXPECT_EQ(find_attractors(hunting, options).count(MotionEnd::cycle), 0U);
   }
   AttractorOptions options = few_starts();
-  options.tolerances.cycle.least_size = 1e3;
+  options.tolerances.cycle.least_amplitude = 1e3;
   EXPECT_EQ(find_attractors(hunting, options).count(MotionEnd::cycle), 0U);
 }
 

@@ -137,8 +137,8 @@ TEST(OracleStickSlip, SwingsThatAreNeverCaughtAreAFamily) {
   EXPECT_EQ(cycle.starts, 3U);
   EXPECT_EQ(cycle.stability, Stability::neutral);
   EXPECT_NEAR(cycle.period(), 2.0 * std::numbers::pi, 1e-10);
-  EXPECT_NEAR(cycle.sizes.lowest, 0.02, 1e-10);
-  EXPECT_NEAR(cycle.sizes.highest, 0.09, 1e-10);
+  EXPECT_NEAR(cycle.amplitudes.lowest, 0.02, 1e-10);
+  EXPECT_NEAR(cycle.amplitudes.highest, 0.09, 1e-10);
   EXPECT_NEAR(cycle.center, center, 1e-10);
 }
 
@@ -151,7 +151,7 @@ TEST(OracleStickSlip, ADriveThatDrawsALoadIsTheMassOnABelt) {
     ASSERT_EQ(found.cycles.size(), 1U);
     const FoundCycle& cycle = found.cycles.front();
     EXPECT_EQ(cycle.starts, 2U);
-    EXPECT_NEAR(cycle.size, belt.size(), 1e-12 * belt.size());
+    EXPECT_NEAR(cycle.amplitude, belt.size(), 1e-12 * belt.size());
     EXPECT_NEAR(cycle.period(), belt.period(), 1e-12 * belt.period());
     EXPECT_NEAR(cycle.center, -belt.sliding / belt.spring, 1e-12);
     EXPECT_LT(cycle.multiplier, 1e-12);
@@ -411,8 +411,8 @@ TEST(OracleStickSlip, APidDriveWithStictionHuntsAsIn50Digits) {
   const double end = 40.0 * period;
   const auto high = deepest(highs, end - 1.1 * period, end, 1.0);
   const auto low = deepest(lows, end - 1.1 * period, end, -1.0);
-  const double size = static_cast<double>((high.value - low.value) / 2);
-  EXPECT_NEAR(cycle.size, size, 1e-10 * size);
+  const double amplitude = static_cast<double>((high.value - low.value) / 2);
+  EXPECT_NEAR(cycle.amplitude, amplitude, 1e-10 * amplitude);
   const double time = static_cast<double>(high.time);
   const auto earlier = deepest(highs, time - 1.25 * period, time - 0.75 * period, 1.0);
   const double measured = static_cast<double>(high.time - earlier.time);
@@ -432,10 +432,10 @@ ReducedDrive thesis_servo(const Contact& contact) {
   return drive;
 }
 
-double hunting_size(const Contact& contact) {
+double hunting_amplitude(const Contact& contact) {
   const AttractorSearch found =
       find_attractors(thesis_servo(contact), {.starts = {{0.45, 0.0, 0.3, 0.0}}});
-  return found.cycles.empty() ? std::nan("") : found.cycles.front().size;
+  return found.cycles.empty() ? std::nan("") : found.cycles.front().amplitude;
 }
 
 /// Mean slopes of log error over log stiffness, from decade to decade.
@@ -450,11 +450,12 @@ std::vector<double> orders(const std::vector<double>& errors) {
 /// Damping in proportion to stiffness: at contact the relative speed is used up in a time μ/c and a
 /// way of v μ/c, and what the spring then gives back is e ≈ μ k/c²; all go as 1/stiffness.
 TEST(OracleCompliantToRigid, WithDampingAsStiffnessContactBecomesPlastic) {
-  const double rigid = hunting_size(RigidContact{0.0});
+  const double rigid = hunting_amplitude(RigidContact{0.0});
   std::vector<double> errors;
   for (const double stiffness : {1e3, 1e4, 1e5}) {
     errors.push_back(
-        hunting_size(CompliantContact{stiffness, 0.1 * stiffness, ContactDamping::full}) - rigid);
+        hunting_amplitude(CompliantContact{stiffness, 0.1 * stiffness, ContactDamping::full}) -
+        rigid);
   }
   for (const double order : orders(errors)) EXPECT_NEAR(order, -1.0, 0.1);
   EXPECT_LT(std::abs(errors.back()), 1e-5);
@@ -464,13 +465,13 @@ TEST(OracleCompliantToRigid, WithDampingAsStiffnessContactBecomesPlastic) {
 /// e⁻² of the relative speed. So it tends to rigid faces of that restitution, by the time and way
 /// of a contact, 1/ω.
 TEST(OracleCompliantToRigid, WithCriticalDampingRestitutionIsExpMinus2) {
-  const double rigid = hunting_size(RigidContact{std::exp(-2.0)});
+  const double rigid = hunting_amplitude(RigidContact{std::exp(-2.0)});
   constexpr double reduced_inertia = 2.0 / 9.0;
   std::vector<double> errors;
   for (const double stiffness : {1e4, 1e5, 1e6}) {
     const double critical = 2.0 * std::sqrt(stiffness * reduced_inertia);
-    errors.push_back(hunting_size(CompliantContact{stiffness, critical, ContactDamping::full}) -
-                     rigid);
+    errors.push_back(
+        hunting_amplitude(CompliantContact{stiffness, critical, ContactDamping::full}) - rigid);
   }
   for (const double order : orders(errors)) EXPECT_NEAR(order, -0.5, 0.05);
 }

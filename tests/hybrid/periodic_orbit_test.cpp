@@ -33,7 +33,7 @@ hybrid::HybridSystem turning_servo_system(const NormalizedServo& servo) {
 }
 
 /// Half of the peak-to-peak of the load.
-double size_of(const hybrid::PeriodicOrbit& orbit) {
+double amplitude_of(const hybrid::PeriodicOrbit& orbit) {
   double lowest = orbit.start.numbers[2];
   double highest = lowest;
   for (const hybrid::Event& event : orbit.events) {
@@ -50,7 +50,7 @@ TEST(OraclePeriodicOrbit, OfServosIsTheClosedFormsCycle) {
   int compared = 0;
   double worst_period = 0.0;
   double worst_multiplier = 0.0;
-  double worst_size = 0.0;
+  double worst_amplitude = 0.0;
   while (compared < 1000) {
     const NormalizedServo servo{.damping = draws.log_uniform(0.02, 0.8),
                                 .inertia_ratio = draws.log_uniform(0.05, 20.0),
@@ -78,15 +78,16 @@ TEST(OraclePeriodicOrbit, OfServosIsTheClosedFormsCycle) {
     EXPECT_TRUE(orbit->events.size() == 6U || orbit->events.size() == 4U);
     EXPECT_TRUE(orbit->is_stable());
     worst_period = std::max(worst_period, std::abs(orbit->period / exact.period - 1.0));
-    worst_size = std::max(worst_size, std::abs(size_of(*orbit) / exact.size - 1.0));
+    worst_amplitude =
+        std::max(worst_amplitude, std::abs(amplitude_of(*orbit) / exact.amplitude - 1.0));
     worst_multiplier =
         std::max(worst_multiplier, std::abs(std::abs(orbit->multipliers.at(0)) - exact.multiplier));
   }
   EXPECT_LT(worst_period, 1e-12);
-  EXPECT_LT(worst_size, 1e-10);
+  EXPECT_LT(worst_amplitude, 1e-10);
   EXPECT_LT(worst_multiplier, 1e-8);
   RecordProperty("worst_period", exact_text(worst_period));
-  RecordProperty("worst_size", exact_text(worst_size));
+  RecordProperty("worst_amplitude", exact_text(worst_amplitude));
   RecordProperty("worst_multiplier", exact_text(worst_multiplier));
 }
 

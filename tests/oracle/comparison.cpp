@@ -241,7 +241,7 @@ class Comparison {
     report_.failure = text.str();
   }
 
-  /// States at random times and at the turning points, whose spread is the size.
+  /// States at random times and at the turning points, whose spread gives the amplitude.
   void compare_between_events() {
     std::mt19937_64 random(12345);
     for (int i = 0; i < options_.random_times; ++i) {
@@ -250,7 +250,7 @@ class Comparison {
       if (near_event(time)) continue;
       if (!compare_at(time)) return;
     }
-    compare_size();
+    compare_amplitude();
   }
 
   bool near_event(double time) const {
@@ -278,7 +278,7 @@ class Comparison {
     return accept_state(largest_difference(seen, expected, scale), condition, time);
   }
 
-  void compare_size() {
+  void compare_amplitude() {
     Extended high = drawn_.initial.load_position;
     Extended low = high;
     double seen_high = drawn_.initial.load_position;
@@ -295,10 +295,10 @@ class Comparison {
       seen_low = std::min(seen_low, seen);
     }
     if (high == low) return;
-    const Extended size = (high - low) / 2;
-    const Extended error = std::abs((seen_high - seen_low) / 2 - size) / scale_[0];
-    report_.size_error = static_cast<double>(error);
-    accept(error, report_.condition, "size", static_cast<double>(horizon_));
+    const Extended amplitude = (high - low) / 2;
+    const Extended error = std::abs((seen_high - seen_low) / 2 - amplitude) / scale_[0];
+    report_.amplitude_error = static_cast<double>(error);
+    accept(error, report_.condition, "amplitude", static_cast<double>(horizon_));
   }
 
   const RandomCase& drawn_;

@@ -32,7 +32,7 @@ struct CaseReport {
   double condition = 1.0;             ///< worst of the events compared
   double time_error = 0.0;            ///< worst |Δt|/2π
   double state_error = 0.0;           ///< worst |Δx|/scale, events and times between
-  double size_error = 0.0;            ///< of half the peak-to-peak of the load, relative
+  double amplitude_error = 0.0;       ///< of half the peak-to-peak of the load, relative
   double scaled_error = 0.0;          ///< worst of all errors divided by max(1, condition)
   double reference_difference = 0.0;  ///< scaled likewise: odeint against exponential; 0 if not run
 };

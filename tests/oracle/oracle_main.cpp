@@ -149,8 +149,8 @@ void print_table(const std::vector<CaseReport>& all) {
       [](const Reports& r) { return spread(r, &CaseReport::time_error); });
   row("state, error/scale: median, worst",
       [](const Reports& r) { return spread(r, &CaseReport::state_error); });
-  row("size, relative error: median, worst",
-      [](const Reports& r) { return spread(r, &CaseReport::size_error); });
+  row("amplitude, relative error: median, worst",
+      [](const Reports& r) { return spread(r, &CaseReport::amplitude_error); });
   row("any error/max(1, condition): median, worst",
       [](const Reports& r) { return spread(r, &CaseReport::scaled_error); });
   row("condition: median", [](const Reports& r) { return percentile(r, 0.5); });
@@ -168,22 +168,23 @@ void print_table(const std::vector<CaseReport>& all) {
 
 bool print_cycles() {
   std::printf(
-      "\n| damping | inertia ratio | friction ratio | restitution | size, reference | "
-      "size, library | period, reference | period, library | agrees |\n");
+      "\n| damping | inertia ratio | friction ratio | restitution | amplitude, reference | "
+      "amplitude, library | period, reference | period, library | agrees |\n");
   std::printf("|---|---|---|---|---|---|---|---|---|\n");
   bool all_agree = true;
   for (const auto& check : gearlash::oracle::check_known_cycles()) {
     all_agree = all_agree && check.agrees;
     std::printf("| %g | %g | %g | %g | %.12g | %.12g | %.12g | %.12g | %s |\n", check.servo.damping,
                 check.servo.inertia_ratio, check.servo.friction_ratio, check.servo.restitution,
-                check.reference_size, check.library_size, check.reference_period,
+                check.reference_amplitude, check.library_amplitude, check.reference_period,
                 check.library_period, check.agrees ? "yes" : "**no**");
   }
   const auto irregular = gearlash::oracle::check_irregular_motion();
   std::printf("| %g | %g | %g | %g | %.4g | %.4g | irregular | irregular | %s |\n",
               irregular.servo.damping, irregular.servo.inertia_ratio,
-              irregular.servo.friction_ratio, irregular.servo.restitution, irregular.reference_size,
-              irregular.library_size, irregular.agrees ? "yes" : "**no**");
+              irregular.servo.friction_ratio, irregular.servo.restitution,
+              irregular.reference_amplitude, irregular.library_amplitude,
+              irregular.agrees ? "yes" : "**no**");
   return all_agree && irregular.agrees;
 }
 

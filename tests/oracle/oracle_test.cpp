@@ -46,9 +46,10 @@ TEST(Oracle, StiffTrajectoriesAgreeWithTheMatrixExponential) { expect_agreement(
 TEST(Oracle, LimitCyclesAreWhatLongRunsOfTheReferenceSettleOn) {
   for (const CycleCheck& check : check_known_cycles()) {
     EXPECT_TRUE(check.agrees) << "damping " << check.servo.damping << ", restitution "
-                              << check.servo.restitution << ": size " << check.library_size
-                              << " against " << check.reference_size << ", period "
-                              << check.library_period << " against " << check.reference_period;
+                              << check.servo.restitution << ": amplitude "
+                              << check.library_amplitude << " against " << check.reference_amplitude
+                              << ", period " << check.library_period << " against "
+                              << check.reference_period;
   }
 }
 
@@ -65,7 +66,7 @@ TEST(Oracle, ServosThatOnlyTakeEnergyFromTheGapComeToRest) {
 
 TEST(Oracle, IrregularHuntingIsAsLargeAsInALongRunOfTheReference) {
   const IrregularCheck check = check_irregular_motion();
-  EXPECT_TRUE(check.agrees) << check.library_size << " against " << check.reference_size;
+  EXPECT_TRUE(check.agrees) << check.library_amplitude << " against " << check.reference_amplitude;
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace gearlash::oracle {
 namespace {
 
 struct ReferenceCycle {
-  Extended size = std::numeric_limits<Extended>::quiet_NaN();
+  Extended amplitude = std::numeric_limits<Extended>::quiet_NaN();
   Extended period = std::numeric_limits<Extended>::quiet_NaN();
 };
 
@@ -58,20 +58,20 @@ bool close(double value, double expected) {
 CycleCheck check_cycle(const NormalizedServo& servo, Extended until) {
   const ReferenceCycle expected = converged_cycle(servo, until);
   CycleCheck check{.servo = servo,
-                   .reference_size = static_cast<double>(expected.size),
+                   .reference_amplitude = static_cast<double>(expected.amplitude),
                    .reference_period = static_cast<double>(expected.period),
-                   .library_size = std::numeric_limits<double>::quiet_NaN(),
+                   .library_amplitude = std::numeric_limits<double>::quiet_NaN(),
                    .library_period = std::numeric_limits<double>::quiet_NaN(),
                    .agrees = false};
   // The run can only settle on a stable cycle; of several, it is compared with the nearest.
   for (const LimitCycle& cycle : analyse_limit_cycles(servo).cycles) {
-    const double now = std::abs(cycle.size - check.reference_size);
-    const double before = std::abs(check.library_size - check.reference_size);
+    const double now = std::abs(cycle.amplitude - check.reference_amplitude);
+    const double before = std::abs(check.library_amplitude - check.reference_amplitude);
     if (!cycle.stable || now >= before) continue;
-    check.library_size = cycle.size;
+    check.library_amplitude = cycle.amplitude;
     check.library_period = cycle.period;
   }
-  check.agrees = close(check.library_size, check.reference_size) &&
+  check.agrees = close(check.library_amplitude, check.reference_amplitude) &&
                  close(check.library_period, check.reference_period);
   return check;
 }
@@ -118,11 +118,12 @@ IrregularCheck check_irregular_motion() {
   }
   const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
   IrregularCheck check{.servo = servo,
-                       .reference_size = static_cast<double>((high - low) / 2),
-                       .library_size = analysis.irregular_size,
+                       .reference_amplitude = static_cast<double>((high - low) / 2),
+                       .library_amplitude = analysis.irregular_amplitude,
                        .agrees = false};
   check.agrees = analysis.verdict == Verdict::hunts_irregularly &&
-                 std::abs(check.library_size - check.reference_size) <= 0.01 * check.reference_size;
+                 std::abs(check.library_amplitude - check.reference_amplitude) <=
+                     0.01 * check.reference_amplitude;
   return check;
 }
 

@@ -9,21 +9,21 @@ namespace gearlash::oracle {
 
 struct CycleCheck {
   NormalizedServo servo;
-  double reference_size;
+  double reference_amplitude;
   double reference_period;
-  double library_size;
+  double library_amplitude;
   double library_period;
-  bool agrees;  ///< size and period to 1e-10 (relative)
+  bool agrees;  ///< amplitude and period to 1e-10 (relative)
 };
 
 std::vector<CycleCheck> check_known_cycles();
 
 /// DESIGN's last row, restitution 0.9: the motion never repeats. Half the peak-to-peak of a long
-/// run beside the library's irregular_size.
+/// run beside the library's irregular_amplitude.
 struct IrregularCheck {
   NormalizedServo servo;
-  double reference_size;
-  double library_size;
+  double reference_amplitude;
+  double library_amplitude;
   bool agrees;  ///< to 1 %: both are the extremes of a finite run
 };
 

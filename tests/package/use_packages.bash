@@ -28,7 +28,7 @@ version="$(dpkg-query --show --showformat='${Version}' gearlash)"
 examples=/usr/share/doc/gearlash/examples
 check "gearlash --version is $version" test "$(gearlash --version)" = "gearlash $version"
 gearlash limit-cycle --damping 0.19 --inertia-ratio 2 --friction-ratio 0.1 --backlash 0.3 >cycle.txt
-check 'the size of a limit cycle is 0.2416 rad' grep -E 'size, load +±0\.2416[0-9]* rad' cycle.txt
+check 'the amplitude of a limit cycle is 0.2416 rad' grep -E 'amplitude, load +±0\.2416[0-9]* rad' cycle.txt
 check 'a data sheet' gearlash limit-cycle "$examples/elinco-fd162.toml" --plot phase=cycle.svg
 check 'its picture' grep '</svg>' cycle.svg
 check 'a sweep into NetCDF' gearlash sweep "$examples/sweep.toml" --output sweep.nc

@@ -196,7 +196,7 @@ TEST(Picture, TheLegendTellsTwoCyclesApart) {
   drive::AttractorSearch search = drive::find_attractors(reduced);
   ASSERT_EQ(search.cycles.size(), 1U);
   search.cycles.push_back(search.cycles.front());
-  search.cycles.back().size *= 2.0;
+  search.cycles.back().amplitude *= 2.0;
   const MotionPicture picture = attractor_picture("title", drive, reduced, search, {});
   ASSERT_EQ(picture.motions.size(), 2U);
   EXPECT_NE(picture.motions[0].name, picture.motions[1].name);

@@ -14,7 +14,7 @@ namespace {
 
 struct Known {
   double damping, inertia_ratio, friction_ratio;
-  double motor_size;  ///< worked out in sixty digits, for a backlash of 1
+  double motor_amplitude;  ///< worked out in sixty digits, for a backlash of 1
 };
 
 constexpr Known known[] = {
@@ -30,12 +30,13 @@ TEST(RegressionMotorTurning, IsFoundOneByOneAndSideBySide) {
                                 .inertia_ratio = one.inertia_ratio,
                                 .friction_ratio = one.friction_ratio,
                                 .backlash = 1.0};
-    EXPECT_NEAR(analyse_limit_cycles(servo).cycles.at(0).motor_size, one.motor_size,
-                1e-13 * one.motor_size);
+    EXPECT_NEAR(analyse_limit_cycles(servo).cycles.at(0).motor_amplitude, one.motor_amplitude,
+                1e-13 * one.motor_amplitude);
     for (const VectorUnit unit : available_vector_units()) {
       Table table = table_of(1);
       find_limit_cycles({&servo, 1}, columns_of(table), unit);
-      EXPECT_NEAR(table[Quantity::motor_amplitude].front(), one.motor_size, 1e-13 * one.motor_size);
+      EXPECT_NEAR(table[Quantity::motor_amplitude].front(), one.motor_amplitude,
+                  1e-13 * one.motor_amplitude);
     }
   }
 }
@@ -49,7 +50,7 @@ TEST(RegressionMotorTurning, IsWhereTheSimulatorTurns) {
   const Trajectory motion =
       simulate(servo, cycle.start, {.until = 1.5 * cycle.period, .reference = 0.0});
   const Extremes turns = extremes(motion, 0.25 * cycle.period, 1.25 * cycle.period);
-  EXPECT_NEAR(cycle.motor_size, turns.motor_size(), 1e-9 * cycle.motor_size);
+  EXPECT_NEAR(cycle.motor_amplitude, turns.motor_amplitude(), 1e-9 * cycle.motor_amplitude);
 }
 
 /// x³ − 12 x + 20 has its zero at −4.27…, a minimum at 2 and a maximum at −2.

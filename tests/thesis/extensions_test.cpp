@@ -22,7 +22,7 @@ const ChartCurve& curve(const Extension& extension, const std::string& name) {
   return *found;
 }
 
-std::vector<double> sizes(const ChartCurve& curve, double low, double high) {
+std::vector<double> amplitudes(const ChartCurve& curve, double low, double high) {
   std::vector<double> found;
   for (const ChartPoint& point : curve.line) {
     if (point.x >= low * (1.0 - 1e-9) && point.x <= high * (1.0 + 1e-9)) found.push_back(point.y);
@@ -31,7 +31,7 @@ std::vector<double> sizes(const ChartCurve& curve, double low, double high) {
 }
 
 double at(const ChartCurve& curve, double place) {
-  const std::vector<double> found = sizes(curve, place, place);
+  const std::vector<double> found = amplitudes(curve, place, place);
   return found.empty() ? std::nan("") : found.front();
 }
 
@@ -55,8 +55,8 @@ TEST(Extensions, FrictionOnOneSideHuntsWhateverTheInertias) {
     EXPECT_GT(at(curve(extension, "J_L/J_M 1/4"), end), at(curve(extension, "J_L/J_M 1"), end));
     EXPECT_GT(at(curve(extension, "J_L/J_M 1"), end), at(curve(extension, "J_L/J_M 4"), end));
   }
-  for (const double size : sizes(curve(extension, "massless load"), 0.005, 1.0)) {
-    EXPECT_GT(size, 0.19);
+  for (const double amplitude : amplitudes(curve(extension, "massless load"), 0.005, 1.0)) {
+    EXPECT_GT(amplitude, 0.19);
   }
   const ChartCurve& light_motor = curve(extension, "massless motor");
   EXPECT_GT(at(light_motor, 0.0), 0.15);
@@ -72,15 +72,16 @@ TEST(Extensions, HeavyLoadsAreAlikeAndLightOnesDependOnDamping) {
   const Extension extension = thesis::extension(3);
   for (int tenth = 1; tenth <= 6; ++tenth) {
     const ChartCurve& one = curve(extension, "damping 0." + std::to_string(tenth));
-    EXPECT_LT(spread(sizes(one, 30.0, 1e3)), 0.05) << one.name;
+    EXPECT_LT(spread(amplitudes(one, 30.0, 1e3)), 0.05) << one.name;
     if (tenth >= 4) {
       EXPECT_EQ(one.ends.size(), 1U) << one.name;
-      for (const double size : sizes(one, 1e-3, 0.1)) EXPECT_TRUE(std::isnan(size)) << one.name;
+      for (const double amplitude : amplitudes(one, 1e-3, 0.1))
+        EXPECT_TRUE(std::isnan(amplitude)) << one.name;
     }
   }
-  for (const double size : sizes(curve(extension, "damping 0.1"), 1e-3, 0.1)) {
-    EXPECT_GT(size / 0.3, 2.2);
-    EXPECT_LT(size / 0.3, 3.2);
+  for (const double amplitude : amplitudes(curve(extension, "damping 0.1"), 1e-3, 0.1)) {
+    EXPECT_GT(amplitude / 0.3, 2.2);
+    EXPECT_LT(amplitude / 0.3, 3.2);
   }
 }
 
@@ -112,16 +113,17 @@ TEST(Extensions, RestitutionOverTheChartsOf1960) {
   for (NormalizedServo servo : charted_servos()) {
     const LimitCycleAnalysis plastic = analyse_limit_cycles(servo);
     if (plastic.cycles.empty()) continue;
-    const double size = plastic.cycles.front().size;
+    const double amplitude = plastic.cycles.front().amplitude;
     servo.restitution = 0.1;
-    EXPECT_NEAR(largest_stable(analyse_limit_cycles(servo))->size, size, 0.01 * size);
+    EXPECT_NEAR(largest_stable(analyse_limit_cycles(servo))->amplitude, amplitude,
+                0.01 * amplitude);
     servo.restitution = 0.5;
     const LimitCycleAnalysis half = analyse_limit_cycles(servo);
     const LimitCycle* cycle = largest_stable(half);
     any_irregular = any_irregular || cycle == nullptr;
     if (cycle == nullptr) continue;
-    least = std::min(least, cycle->size / size);
-    most = std::max(most, cycle->size / size);
+    least = std::min(least, cycle->amplitude / amplitude);
+    most = std::max(most, cycle->amplitude / amplitude);
   }
   EXPECT_NEAR(least, 2.0 / 3.0, 0.05);
   EXPECT_NEAR(most, 1.5, 0.1);

@@ -27,7 +27,7 @@ TEST(OracleSettledCycle, SizesOfDesignSectionFour) {
   EXPECT_TRUE(sample.hunts);
   EXPECT_GE(sample.largest, 0.24687);
   EXPECT_LE(sample.smallest, 0.24687);
-  EXPECT_NEAR(sample.size, 0.2464, 2e-4);
+  EXPECT_NEAR(sample.amplitude, 0.2464, 2e-4);
   const SettledCycle balanced = run_until_settled(program_parameters(
       {.damping = 0.1, .inertia_ratio = 1.0, .friction_ratio = 0.2, .backlash = 0.3}));
   EXPECT_GE(balanced.largest, 0.5120);
@@ -49,11 +49,12 @@ TEST(OracleFigures, ExactCurvesAreSingleCallsAndTheProgramIsNear) {
   const FigureCurveData data = work_out(chart, curve);
   for (const ChartPoint& point : data.exact) {
     const auto analysis = analyse_limit_cycles(servo_at(chart, curve, point.x));
-    ASSERT_EQ(point.y, analysis.cycles.at(0).size);
+    ASSERT_EQ(point.y, analysis.cycles.at(0).amplitude);
   }
   ASSERT_EQ(data.program.size(), chart.grid.size());
   for (const ChartPoint& point : data.program) {
-    const double exact = analyse_limit_cycles(servo_at(chart, curve, point.x)).cycles.at(0).size;
+    const double exact =
+        analyse_limit_cycles(servo_at(chart, curve, point.x)).cycles.at(0).amplitude;
     // "Sizes 1 to 4 % too large", and the scatter of the grid.
     EXPECT_NEAR(point.y / exact, 1.02, 0.025) << point.x;
   }

@@ -20,16 +20,16 @@ TEST(Mendings, EachPropertyCarriesNumbersOfThePrintout) {
 }
 
 /// With the load held still no longer and the contact found within the step, what is left of the
-/// scheme is of higher order: the exact size comes out.
+/// scheme is of higher order: the exact amplitude comes out.
 TEST(OracleMendings, HeldLoadAndLateContactMakeLightlyDampedSizesTooLarge) {
   for (const double inertia_ratio : {0.25, 1.0, 4.0}) {
     const NormalizedServo servo{
         .damping = 0.1, .inertia_ratio = inertia_ratio, .friction_ratio = 0.2, .backlash = 0.3};
-    const double as_it_was = size_error(servo, {});
-    const double with_either = std::min(size_error(servo, {.shafts_together = true}),
-                                        size_error(servo, {.contact_interpolated = true}));
+    const double as_it_was = amplitude_error(servo, {});
+    const double with_either = std::min(amplitude_error(servo, {.shafts_together = true}),
+                                        amplitude_error(servo, {.contact_interpolated = true}));
     const double mended =
-        size_error(servo, {.shafts_together = true, .contact_interpolated = true});
+        amplitude_error(servo, {.shafts_together = true, .contact_interpolated = true});
     EXPECT_GT(as_it_was, 0.02);
     EXPECT_LT(with_either, as_it_was);
     EXPECT_LT(std::abs(mended), 0.1 * as_it_was);
@@ -39,9 +39,9 @@ TEST(OracleMendings, HeldLoadAndLateContactMakeLightlyDampedSizesTooLarge) {
 TEST(OracleMendings, OldPositionAtContactMakesSmallSwingsTooSmall) {
   const NormalizedServo servo{
       .damping = 0.6, .inertia_ratio = 9.0, .friction_ratio = 1.0, .backlash = 0.3};
-  EXPECT_LT(size_error(servo, {}), -0.03);
-  EXPECT_LT(std::abs(size_error(servo, {.new_position_at_contact = true})), 0.006);
-  EXPECT_LT(std::abs(size_error(servo, {.fresh_first_stage = true})), 0.006);
+  EXPECT_LT(amplitude_error(servo, {}), -0.03);
+  EXPECT_LT(std::abs(amplitude_error(servo, {.new_position_at_contact = true})), 0.006);
+  EXPECT_LT(std::abs(amplitude_error(servo, {.fresh_first_stage = true})), 0.006);
 }
 
 TEST(EdgeSettledCycle, StepTooLongForTheServoIsTold) {

@@ -146,9 +146,10 @@ DescribedMotion motion_of(const DescribingAnalysis& analysis, const PredictedCyc
   motion.amplitude =
       analysis.load_per_motor
           ? motion.motor_amplitude * modulus(*analysis.load_per_motor, cycle.frequency)
-          : load_size(analysis.part == DescribedPart::gap_load_held ? LoadInGap::held_by_friction
-                                                                    : LoadInGap::coasting,
-                      cycle, gap);
+          : load_amplitude(analysis.part == DescribedPart::gap_load_held
+                               ? LoadInGap::held_by_friction
+                               : LoadInGap::coasting,
+                           cycle, gap);
   return motion;
 }
 

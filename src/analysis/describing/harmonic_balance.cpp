@@ -302,7 +302,7 @@ void require_range(const Bounds& frequencies) {
 // ---- The servo
 
 /// Of the play's output, A − h = h tan²(φ/2) where A is next to h.
-double held_load_size(const PredictedCycle& cycle, double half_gap) {
+double held_load_amplitude(const PredictedCycle& cycle, double half_gap) {
   if (cycle.amplitude >= 2.0 * half_gap) return cycle.amplitude - half_gap;
   const double angle = std::asin(std::sqrt(std::min(1.0, -pi * cycle.gain.imag())));
   const double tangent = std::tan(0.5 * angle);
@@ -310,7 +310,7 @@ double held_load_size(const PredictedCycle& cycle, double half_gap) {
 }
 
 /// The load is farthest with the input, if they have met by then, else as they meet, A sin c + h.
-double coasting_load_size(const PredictedCycle& cycle, double half_gap) {
+double coasting_load_amplitude(const PredictedCycle& cycle, double half_gap) {
   const double cosine = 1.0 - std::sqrt(-pi * cycle.gain.imag());
   const double sine = cosine >= 0.0 ? 1.0 : std::sqrt((1.0 - cosine) * (1.0 + cosine));
   return cycle.amplitude * sine + half_gap;
@@ -319,7 +319,7 @@ double coasting_load_size(const PredictedCycle& cycle, double half_gap) {
 void append(std::vector<DescribedCycle>& estimate, LoadInGap load, double gap,
             const HarmonicBalance& balance) {
   for (const PredictedCycle& cycle : balance.cycles) {
-    estimate.push_back({load, load_size(load, cycle, gap), cycle.amplitude, cycle.period,
+    estimate.push_back({load, load_amplitude(load, cycle, gap), cycle.amplitude, cycle.period,
                         cycle.stable, cycle.residual});
   }
 }
@@ -365,9 +365,9 @@ Bounds natural_frequency_range(const TransferFunction& loop) {
   return {scale.low / beyond, loop.delay > 0.0 ? std::min(high, 100.0 * turn / loop.delay) : high};
 }
 
-double load_size(LoadInGap load, const PredictedCycle& cycle, double gap) {
-  return load == LoadInGap::coasting ? coasting_load_size(cycle, 0.5 * gap)
-                                     : held_load_size(cycle, 0.5 * gap);
+double load_amplitude(LoadInGap load, const PredictedCycle& cycle, double gap) {
+  return load == LoadInGap::coasting ? coasting_load_amplitude(cycle, 0.5 * gap)
+                                     : held_load_amplitude(cycle, 0.5 * gap);
 }
 
 std::vector<DescribedCycle> describing_function_estimate(const NormalizedServo& servo) {

@@ -71,13 +71,13 @@ enum class LoadInGap {
 /// being the motor's: A − h of a load held by friction, and of a coasting one A + h, or A sin c + h
 /// where the faces meet past the motor's turning point. It keeps its digits where A → h.
 /// Precondition: a cycle of harmonic_balance() with the kind of gap that belongs to `load`.
-double load_size(LoadInGap load, const PredictedCycle& cycle, double gap);
+double load_amplitude(LoadInGap load, const PredictedCycle& cycle, double gap);
 
 /// Times in units of 1/ω_n, angles in rad at the load shaft.
 struct DescribedCycle {
   LoadInGap load = LoadInGap::held_by_friction;
-  double size = std::numeric_limits<double>::quiet_NaN();        ///< half peak-to-peak of the load
-  double motor_size = std::numeric_limits<double>::quiet_NaN();  ///< the motor's amplitude
+  double amplitude = std::numeric_limits<double>::quiet_NaN();  ///< half peak-to-peak of the load
+  double motor_amplitude = std::numeric_limits<double>::quiet_NaN();  ///< the motor's amplitude
   double period = std::numeric_limits<double>::quiet_NaN();
   bool stable = false;
   double residual = std::numeric_limits<double>::quiet_NaN();
@@ -85,7 +85,7 @@ struct DescribedCycle {
 
 /// What the classical harmonic balance predicts of the servo, to be put beside the exact answer of
 /// analyse_limit_cycles(): first the cycles of a load held by friction, then of a coasting one,
-/// each by increasing size.
+/// each by increasing amplitude.
 ///
 /// Assumed, as textbooks do: the motor drives all the inertia and all the friction at all times, so
 /// that θ_M = −G θ_L with G = 1/(s² + 2ζs), and the load is a function of the motor's angle alone,

@@ -92,7 +92,7 @@ DrivetrainSensitivity drivetrain_sensitivity(const Drivetrain& drive) {
     sensitivity.quantities.push_back({quantity, value.value, normalization.slopes_of(value.slope)});
   };
   add(Quantity::growth_at_rest, cycle.growth_at_rest);
-  add(Quantity::amplitude, cycle.size);
+  add(Quantity::amplitude, cycle.amplitude);
   add(Quantity::multiplier, cycle.multiplier);
   if (!cycle.available()) return sensitivity;
   // In seconds: T = T′/ω_n, dT = (dT′ − T′ d ln ω_n)/ω_n; and f = 1/T.

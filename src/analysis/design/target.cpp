@@ -38,7 +38,7 @@ Judgement either(Judgement a, Judgement b) { return a == b ? a : Judgement::some
 /// Drives that hunt, if there are any.
 Judgement judge_hunting(const Target& target, const DriveBox& box, const CycleBounds& cycles) {
   if (target.no_hunting) return Judgement::none;
-  const Interval amplitude = Interval(box.backlash) * Interval(cycles.size);
+  const Interval amplitude = Interval(box.backlash) * Interval(cycles.amplitude);
   const Interval frequency = 1.0 / (Interval(cycles.period) * Interval(box.time_unit));
   return both(judge(target.amplitude, amplitude.bounds()),
               judge(target.frequency, frequency.bounds()));
@@ -69,7 +69,7 @@ Performance performance_of(const Drivetrain& drive) {
   Performance performance{.verdict = analysis.verdict, .growth_at_rest = analysis.growth_at_rest};
   if (analysis.verdict == Verdict::cannot_hunt) performance.amplitude = 0.0;
   if (const LimitCycle* cycle = largest_stable(analysis)) {
-    performance.amplitude = cycle->size;
+    performance.amplitude = cycle->amplitude;
     performance.frequency = natural_frequency(drive) / cycle->period;
     performance.flight_time = 0.5 * cycle->separated_time;
   }

@@ -57,8 +57,8 @@ void write_row(const CycleColumns& cycles, std::size_t row, Verdict verdict, dou
     if (!cycles[quantity].empty()) cycles[quantity][row] = value;
   };
   write(Quantity::growth_at_rest, growth_at_rest);
-  write(Quantity::amplitude, cycle.size);
-  write(Quantity::motor_amplitude, cycle.motor_size);
+  write(Quantity::amplitude, cycle.amplitude);
+  write(Quantity::motor_amplitude, cycle.motor_amplitude);
   write(Quantity::period, cycle.period);
   write(Quantity::frequency, 1.0 / cycle.period);
   write(Quantity::multiplier, cycle.multiplier);
@@ -123,7 +123,7 @@ void solve_alone(const NormalizedServo& servo, const CycleColumns& cycles, std::
   const LimitCycleAnalysis analysis = analyse_row(servo, row);
   const LimitCycle* cycle = largest_stable(analysis);
   LimitCycle seen = cycle != nullptr ? *cycle : LimitCycle{};
-  if (cycle == nullptr) seen.size = analysis.irregular_size;
+  if (cycle == nullptr) seen.amplitude = analysis.irregular_amplitude;
   write_row(cycles, row, analysis.verdict, analysis.growth_at_rest, seen);
 }
 

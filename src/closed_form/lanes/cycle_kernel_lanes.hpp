@@ -421,9 +421,10 @@ class CycleLanes {
         copysign(sqrt(half_.form) * exp(-servo_.damping * turning_time), half_.common_speed);
     const Real turning = select(turning_time < half_.engaged_time, turned, half_.load_position);
     const Real motor_turning = motor_turning_position(certain);
-    const Real size = max(abs(start), max(abs(half_.load_position), abs(turning)));
-    const Real motor_size = max(max(abs(start + half_gap), abs(motor_turning + half_gap)),
-                                max(abs(half_.load_position - half_gap), abs(turning - half_gap)));
+    const Real unit_amplitude = max(abs(start), max(abs(half_.load_position), abs(turning)));
+    const Real unit_motor_amplitude =
+        max(max(abs(start + half_gap), abs(motor_turning + half_gap)),
+            max(abs(half_.load_position - half_gap), abs(turning - half_gap)));
 
     const BasicCycleLosses<Real> losses =
         cycle_losses(servo_, flight_, half_, motor_friction_in_flight());
@@ -432,8 +433,8 @@ class CycleLanes {
     certain = certain && half_.engaged_time > Real(0.0);
 
     select(certain, Real(CycleBlock::hunts), failed).store_aligned(block.outcome + row);
-    const Real values[] = {amplitude * size,
-                           amplitude * motor_size,
+    const Real values[] = {amplitude * unit_amplitude,
+                           amplitude * unit_motor_amplitude,
                            2.0 * half_.engaged_time + 2.0 * half_.flight_time,
                            slope * slope,
                            -amplitude * half_.gap_speed,

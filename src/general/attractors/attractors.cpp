@@ -245,7 +245,7 @@ class Search {
     rest.swing_ratio = std::fmax(rest.swing_ratio, verdict.swing_ratio);  // the other of a NaN
   }
 
-  /// Stable ones first, by falling size; in numbers without scale.
+  /// Stable ones first, by falling amplitude; in numbers without scale.
   void finish() {
     std::vector<std::size_t> order(result_.cycles.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -253,7 +253,7 @@ class Search {
       const FoundCycle& one = result_.cycles[a];
       const FoundCycle& other = result_.cycles[b];
       if (one.stability != other.stability) return one.stability < other.stability;
-      return one.size > other.size;
+      return one.amplitude > other.amplitude;
     });
     std::vector<FoundCycle> sorted;
     std::vector<std::size_t> place(order.size());

@@ -22,7 +22,7 @@ enum class Coordinates {
   co_moving,  ///< with a reference that is a ramp
   in_place    ///< a ramp that the drive's numbers cannot be carried along with (encoders read by a
               ///< sampled controller, a controller that does not act on the error): motion is
-              ///< measured, cycles are not closed and rest is motion of no size
+              ///< measured, cycles are not closed and rest is motion of no amplitude
 };
 
 using gearlash::Stability;
@@ -38,14 +38,14 @@ struct Extent {
 struct FoundCycle {
   hybrid::PeriodicOrbit orbit;  ///< of AttractorSearch::system; with residual and all multipliers
   Stability stability = Stability::unstable;
-  double size = 0.0;        ///< rad, half the peak-to-peak of the load; 0 where the motor hunts
-                            ///< within the gap and the load stands
-  double motor_size = 0.0;  ///< rad, of the motor
-  double center = 0.0;      ///< rad, mean of the load's extremes, from the reference
+  double amplitude = 0.0;  ///< rad, half the peak-to-peak of the load; 0 where the motor hunts
+                           ///< within the gap and the load stands
+  double motor_amplitude = 0.0;  ///< rad, of the motor
+  double center = 0.0;           ///< rad, mean of the load's extremes, from the reference
   /// rad, of all that count as this one: mirror images, and neutral cycles of one period, which are
   /// a family.
   Extent centers;
-  Extent sizes;               ///< rad, likewise
+  Extent amplitudes;          ///< rad, likewise
   double frequency = 0.0;     ///< rad/s, 2π/period
   double impact_speed = 0.0;  ///< rad/s, |ω_M − ω_L| at the hardest impact; 0 without impacts
   double multiplier = 0.0;    ///< the largest modulus of the orbit's
@@ -72,9 +72,9 @@ struct RestFound {
 /// Bounded motion that was not seen to close, measured over its last part: a cycle that is locked
 /// to nothing, quasi-periodic motion, chaos, or a slow transient.
 struct IrregularFound {
-  double size = 0.0;        ///< rad, half the peak-to-peak of the load
-  double motor_size = 0.0;  ///< rad, of the motor
-  double center = 0.0;      ///< rad, of the load, from the reference
+  double amplitude = 0.0;        ///< rad, half the peak-to-peak of the load
+  double motor_amplitude = 0.0;  ///< rad, of the motor
+  double center = 0.0;           ///< rad, of the load, from the reference
   /// Within the gap, while the load hardly moves. Swings and periods are then the motor's.
   bool is_motor_alone = false;
   double period = 0.0;  ///< s, mean, from one passing of the center upwards to the next
@@ -113,7 +113,7 @@ struct Edge {
 struct AttractorSearch {
   Coordinates coordinates = Coordinates::fixed;
   hybrid::HybridSystem system;     ///< with settled signals, positions from the reference
-  std::vector<FoundCycle> cycles;  ///< stable ones first, by falling size
+  std::vector<FoundCycle> cycles;  ///< stable ones first, by falling amplitude
   std::optional<RestFound> rest;
   std::vector<IrregularFound> irregular;
   std::vector<Outcome> outcomes;  ///< of every start, in order

@@ -81,14 +81,15 @@ std::optional<FoundCycle> CycleClosing::closed_cycle(const Trajectory& motion,
   const auto orbit = closed(motion, nearness);
   if (!orbit || !(orbit->residual < tolerances_.residual)) return std::nullopt;
   const FoundCycle cycle = measured(setting_, shortest(*orbit), tolerances_);
-  if (!(extent_of(cycle) > tolerances_.least_size * setting_.small_length)) return std::nullopt;
+  if (!(extent_of(cycle) > tolerances_.least_amplitude * setting_.small_length))
+    return std::nullopt;
   const Range load = lately(motion, setting_.load, cycle.period());
   const Range motor = lately(motion, setting_.motor, cycle.period());
   const auto is_as = [&](double seen, double wanted) {
     return agree(seen, wanted, extent_of(cycle), tolerances_.agreement);
   };
-  const bool is_on_it = is_as(0.5 * load.width(), cycle.size) &&
-                        is_as(0.5 * motor.width(), cycle.motor_size) &&
+  const bool is_on_it = is_as(0.5 * load.width(), cycle.amplitude) &&
+                        is_as(0.5 * motor.width(), cycle.motor_amplitude) &&
                         is_as(load.middle(), cycle.center);
   return is_on_it ? std::optional(cycle) : std::nullopt;
 }

@@ -96,18 +96,20 @@ FoundCycle measured(const SearchSetting& setting, const PeriodicOrbit& orbit,
   cycle.orbit = without_spare_multipliers(setting, orbit);
   cycle.multiplier = largest_multiplier(cycle.orbit);
   cycle.stability = stability_of(cycle.multiplier, tolerances);
-  cycle.size = 0.5 * load.width();
-  cycle.motor_size = 0.5 * motor.width();
+  cycle.amplitude = 0.5 * load.width();
+  cycle.motor_amplitude = 0.5 * motor.width();
   cycle.center = load.middle();
   cycle.centers.include(cycle.center);
-  cycle.sizes.include(cycle.size);
+  cycle.amplitudes.include(cycle.amplitude);
   cycle.frequency = 2.0 * std::numbers::pi / orbit.period;
   cycle.impact_speed = hardest_impact(setting, orbit);
   cycle.is_symmetric = mismatch_after(setting, orbit, 0.5, -1.0) < tolerances.recurrence;
   return cycle;
 }
 
-double extent_of(const FoundCycle& cycle) { return std::max(cycle.size, cycle.motor_size); }
+double extent_of(const FoundCycle& cycle) {
+  return std::max(cycle.amplitude, cycle.motor_amplitude);
+}
 
 bool is_one_with(FoundCycle& known, const FoundCycle& cycle, const CycleTolerances& tolerances) {
   if (known.stability != cycle.stability) return false;
@@ -117,8 +119,8 @@ bool is_one_with(FoundCycle& known, const FoundCycle& cycle, const CycleToleranc
   }
   const double same = tolerances.same_cycle;
   if (!agree(known.period(), period, period, same) ||
-      !agree(known.size, cycle.size, extent_of(cycle), same) ||
-      !agree(known.motor_size, cycle.motor_size, extent_of(cycle), same)) {
+      !agree(known.amplitude, cycle.amplitude, extent_of(cycle), same) ||
+      !agree(known.motor_amplitude, cycle.motor_amplitude, extent_of(cycle), same)) {
     return false;
   }
   if (agree(known.center, cycle.center, extent_of(cycle), same)) return true;
@@ -132,7 +134,7 @@ std::size_t place_of(const FoundCycle& cycle, const CycleTolerances& tolerances,
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!is_one_with(all[i], cycle, tolerances)) continue;
     all[i].centers.include(cycle.center);
-    all[i].sizes.include(cycle.size);
+    all[i].amplitudes.include(cycle.amplitude);
     return i;
   }
   all.push_back(cycle);

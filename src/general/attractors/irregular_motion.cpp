@@ -71,8 +71,8 @@ Irregularity irregularity_of(const Watch& watch, const hybrid::Trajectory& stret
   }
   if (!result.reason.empty()) return result;
   const Range range = range_of(of_load);
-  found.size = 0.5 * range.width();
-  found.motor_size = 0.5 * range_of(of_motor).width();
+  found.amplitude = 0.5 * range.width();
+  found.motor_amplitude = 0.5 * range_of(of_motor).width();
   found.center = range.middle();
   found.watched = stretch.end_time() - from;
   const Spread period =
@@ -89,12 +89,12 @@ Irregularity irregularity_of(const Watch& watch, const hybrid::Trajectory& stret
 std::size_t place_among(const std::vector<IrregularFound>& known, const IrregularFound& found,
                         const IrregularTolerances& tolerances) {
   const double share = tolerances.same_motion;
-  const double extent = std::max(found.size, found.motor_size);
+  const double extent = std::max(found.amplitude, found.motor_amplitude);
   const auto same = std::find_if(known.begin(), known.end(), [&](const IrregularFound& one) {
     // Where the motor hunts alone the load may stand anywhere.
     const bool is_centered = found.is_motor_alone || agree(one.center, found.center, extent, share);
     return one.is_motor_alone == found.is_motor_alone && is_centered &&
-           agree(one.size, found.size, extent, share) &&
+           agree(one.amplitude, found.amplitude, extent, share) &&
            agree(one.half_swing, found.half_swing, extent, share);
   });
   return static_cast<std::size_t>(same - known.begin());

@@ -39,7 +39,7 @@ struct CycleTolerances {
   /// A closed orbit must close this well, as a share of the state.
   double residual = 1e-9;
   /// Anything below this share of the small length is rest.
-  double least_size = 1e-9;
+  double least_amplitude = 1e-9;
   /// A motion is on a cycle if amplitudes and centre agree to this share of its amplitude.
   double agreement = 0.02;
   /// Motion is compared with a cycle over this many of its periods.

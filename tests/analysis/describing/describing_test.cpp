@@ -57,8 +57,8 @@ TEST(OracleDescribing, TheServoHasItsOwnEstimate) {
     const auto expected = describing_function_estimate(servo);
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
-      EXPECT_NEAR(found[i].amplitude / expected[i].size, 1.0, 1e-10);
-      EXPECT_NEAR(found[i].motor_amplitude / expected[i].motor_size, 1.0, 1e-12);
+      EXPECT_NEAR(found[i].amplitude / expected[i].amplitude, 1.0, 1e-10);
+      EXPECT_NEAR(found[i].motor_amplitude / expected[i].motor_amplitude, 1.0, 1e-12);
       EXPECT_NEAR(found[i].balance.period / expected[i].period, 1.0, 1e-12);
       EXPECT_EQ(found[i].balance.stable, expected[i].stable);
     }

@@ -409,7 +409,8 @@ TEST(HarmonicBalanceEdge, NaturalFrequencyRange) {
 TEST(HarmonicBalanceOracle, EstimateBesideTheExactCycle) {
   struct Row {
     double damping, inertia_ratio, friction_ratio;
-    double exact_size, exact_period, held_size, held_period, coasting_size, coasting_period;
+    double exact_amplitude, exact_period, held_amplitude, held_period, coasting_amplitude,
+        coasting_period;
   };
   const double none = std::numeric_limits<double>::quiet_NaN();
   for (const Row& row : {Row{0.19, 2.0, 0.1, 0.2416, 6.456, 0.2332, 7.872, 0.5715, 5.908},
@@ -421,17 +422,17 @@ TEST(HarmonicBalanceOracle, EstimateBesideTheExactCycle) {
     const NormalizedServo servo{row.damping, row.inertia_ratio, row.friction_ratio, 0.3};
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
     ASSERT_NE(largest_stable(analysis), nullptr);
-    EXPECT_NEAR(largest_stable(analysis)->size, row.exact_size, 5.1e-5);
+    EXPECT_NEAR(largest_stable(analysis)->amplitude, row.exact_amplitude, 5.1e-5);
     EXPECT_NEAR(largest_stable(analysis)->period, row.exact_period, 5.1e-4);
     std::size_t held = 0;
     for (const DescribedCycle& cycle : describing_function_estimate(servo)) {
       if (!cycle.stable) continue;
       const bool is_held = cycle.load == LoadInGap::held_by_friction;
       held += is_held ? 1 : 0;
-      EXPECT_NEAR(cycle.size, is_held ? row.held_size : row.coasting_size, 5.1e-5);
+      EXPECT_NEAR(cycle.amplitude, is_held ? row.held_amplitude : row.coasting_amplitude, 5.1e-5);
       EXPECT_NEAR(cycle.period, is_held ? row.held_period : row.coasting_period, 5.1e-4);
     }
-    EXPECT_EQ(held, std::isnan(row.held_size) ? 0U : 1U);
+    EXPECT_EQ(held, std::isnan(row.held_amplitude) ? 0U : 1U);
   }
 }
 
@@ -446,20 +447,20 @@ TEST(HarmonicBalanceProperty, EstimateHasTheCyclesThatTheHeaderStates) {
     ASSERT_EQ(estimate.size(), has_held ? 3U : 1U) << damping;
     for (const DescribedCycle& cycle : estimate) {
       EXPECT_LT(cycle.residual, 1e-10) << damping;  // of relative errors of gains of either size
-      EXPECT_GT(cycle.size, 0.0);
+      EXPECT_GT(cycle.amplitude, 0.0);
     }
     EXPECT_TRUE(estimate.back().stable);
     EXPECT_EQ(estimate.back().load, LoadInGap::coasting);
     if (has_held) {
       EXPECT_FALSE(estimate[0].stable);
       EXPECT_TRUE(estimate[1].stable);
-      EXPECT_LT(estimate[0].size, estimate[1].size);
+      EXPECT_LT(estimate[0].amplitude, estimate[1].amplitude);
       EXPECT_EQ(estimate[1].load, LoadInGap::held_by_friction);
     }
     NormalizedServo wider = servo;
     wider.backlash *= 2.0;
-    EXPECT_NEAR(describing_function_estimate(wider).back().size, 2.0 * estimate.back().size,
-                100.0 * epsilon * estimate.back().size);
+    EXPECT_NEAR(describing_function_estimate(wider).back().amplitude,
+                2.0 * estimate.back().amplitude, 100.0 * epsilon * estimate.back().amplitude);
   }
 }
 

@@ -88,7 +88,7 @@ TEST_P(OracleDriveBox, HoldsEveryDriveWithin) {
     EXPECT_FALSE(bounds.none_hunt());
     const auto cycle = exact.cycle(guess);
     if (!cycle) continue;
-    expect_holds(bounds.size, cycle->size_over_backlash);
+    expect_holds(bounds.amplitude, cycle->amplitude_over_backlash);
     expect_holds(bounds.period, cycle->period);
     const Digits inertia = Digits(drawn.motor_inertia) + Digits(drawn.load_inertia);
     expect_holds(box.time_unit, sqrt(inertia / Digits(drawn.stiffness)));

@@ -70,7 +70,7 @@ double value_of(Quantity quantity, const Drivetrain& drive) {
   if (quantity == Quantity::growth_at_rest) return analysis.growth_at_rest;
   const LimitCycle* cycle = largest_stable(analysis);
   if (cycle == nullptr) return std::numeric_limits<double>::quiet_NaN();
-  if (quantity == Quantity::amplitude) return cycle->size;
+  if (quantity == Quantity::amplitude) return cycle->amplitude;
   if (quantity == Quantity::multiplier) return cycle->multiplier;
   const double period = cycle->period / natural_frequency(drive);
   return quantity == Quantity::period ? period : 1.0 / period;

@@ -99,12 +99,12 @@ TEST(FeasibleValues, ThatDoNotExistHaveAClosestOne) {
   const FeasibleValues found = feasible_values(sample_drive(), "load_inertia", enormous);
   EXPECT_TRUE(found.intervals.empty());
   ASSERT_TRUE(found.closest.has_value());
-  const auto size_at = [](double value) {
+  const auto amplitude_at = [](double value) {
     return performance_of(sample_drive().with("load_inertia", value)).amplitude;
   };
-  EXPECT_EQ(found.closest->performance.amplitude, size_at(found.closest->value));
+  EXPECT_EQ(found.closest->performance.amplitude, amplitude_at(found.closest->value));
   for (const double value : {found.searched.low, 0.01, 0.1, 1.0, 10.0, found.searched.high}) {
-    EXPECT_GE(found.closest->performance.amplitude, size_at(value)) << value;
+    EXPECT_GE(found.closest->performance.amplitude, amplitude_at(value)) << value;
   }
 }
 

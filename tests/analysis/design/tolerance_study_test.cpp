@@ -26,7 +26,7 @@ Target no_hunting() {
 }
 
 /// Of the sample with one rad of backlash.
-double size_per_backlash(double load_friction) {
+double amplitude_per_backlash(double load_friction) {
   Drive drive = sample_data_sheet();
   drive.gearbox.backlash = 1.0;
   drive.load.friction.viscous = load_friction;
@@ -41,7 +41,7 @@ TEST_P(OracleToleranceOfBacklash, SizesAreThoseOfTheBacklashScaled) {
   SCOPED_TRACE(fixed_sampling.seed);
   const Distribution& backlash = GetParam();
   SCOPED_TRACE(text_of(backlash));
-  const double scale = size_per_backlash(0.038);
+  const double scale = amplitude_per_backlash(0.038);
   const StudyQuestions questions{.target = at_most(scale * quantile(backlash, 0.8))};
   const ToleranceStudy study =
       study_tolerances(toleranced({{"gearbox.backlash", backlash}}), fixed_sampling, questions);
@@ -117,7 +117,7 @@ struct ProductCase {
   double moment(int power) const {
     using boost::math::quadrature::gauss;
     return gauss<double, 30>::integrate(
-               [&](double f) { return std::pow(size_per_backlash(f), power); }, friction.min,
+               [&](double f) { return std::pow(amplitude_per_backlash(f), power); }, friction.min,
                friction.max) /
            (friction.max - friction.min);
   }
@@ -249,7 +249,7 @@ TEST(PropertyToleranceStudy, APlainCountOfDrivesAgrees) {
     const ClosedFormServo drawn = drive_with(drive, values);
     const LimitCycleAnalysis analysis = analyse_limit_cycles(drawn.servo);
     const LimitCycle* cycle = largest_stable(analysis);
-    sizes.push_back(cycle != nullptr ? cycle->size : 0.0);
+    sizes.push_back(cycle != nullptr ? cycle->amplitude : 0.0);
     if (cycle != nullptr) hunting += 1.0;
     if (sizes.back() <= 0.1) meeting += 1.0;
   }

@@ -21,14 +21,14 @@ Target at_most(double size) {
 constexpr SamplePlan sampling{.points = 2048, .replicates = 16, .seed = 51};
 
 /// Size of the sample for one rad of backlash.
-double size_per_backlash() {
+double amplitude_per_backlash() {
   return performance_of(referred_drivetrain(sample_data_sheet())).amplitude / 0.3;
 }
 
 TEST(OracleWidestBacklash, OfBacklashAloneIsALine) {
   SCOPED_TRACE(sampling.seed);
   const double limit = 0.2;  // met up to backlash b = limit/S
-  const double met = limit / size_per_backlash();
+  const double met = limit / amplitude_per_backlash();
   for (const double min : {0.0, 0.1}) {
     for (const double yield : {0.5, 0.9, 1.0}) {
       const auto found = widest_backlash(toleranced({}), {at_most(limit), yield, min}, sampling);
@@ -87,7 +87,7 @@ TEST(PropertyWidestBacklash, AnyNumberOfThreadsGivesTheSameBits) {
 }
 
 TEST(EdgeWidestBacklash, IsNothingWhereZeroToleranceDoesNotReachTheYield) {
-  const double limit = 0.09 * size_per_backlash();
+  const double limit = 0.09 * amplitude_per_backlash();
   EXPECT_FALSE(widest_backlash(toleranced({}), {at_most(limit), 0.5, 0.1}, sampling));
   // The nominal backlash of 0.3 rad is the lowest where no other is given.
   EXPECT_FALSE(widest_backlash(toleranced({}), {at_most(limit), 0.5, {}}, sampling));
@@ -106,9 +106,9 @@ TEST(EdgeWidestBacklash, IsZeroWhereOnlyZeroBacklashDoes) {
 }
 
 TEST(EdgeWidestBacklash, HasNoLimitWhereBacklashDoesNotMatter) {
-  Target any_size;
-  any_size.frequency.high = 1e3;
-  const auto found = widest_backlash(toleranced({}), {any_size, 0.99, {}}, sampling);
+  Target any_amplitude;
+  any_amplitude.frequency.high = 1e3;
+  const auto found = widest_backlash(toleranced({}), {any_amplitude, 0.99, {}}, sampling);
   ASSERT_TRUE(found);
   EXPECT_TRUE(std::isinf(found->max));
   EXPECT_EQ(found->min, 0.3);

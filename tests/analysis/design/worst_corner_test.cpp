@@ -62,7 +62,7 @@ void expect_unbeaten(const TolerancedDrive& drive, std::uint64_t seed) {
   const NormalizedServo servo = drive_with(drive, values_of(worst)).servo;
   const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
   if (hunts) {
-    EXPECT_NEAR(largest_stable(analysis)->size, found, 1e-12 * found);
+    EXPECT_NEAR(largest_stable(analysis)->amplitude, found, 1e-12 * found);
   } else {
     EXPECT_NEAR(analysis.growth_at_rest, found, 1e-12 * found);
   }
@@ -109,7 +109,7 @@ TEST(PropertyWorstCorner, OfRandomBoxesIsNotBeatenByTheirCornersAndMiddles) {
       const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
       const LimitCycle* cycle = largest_stable(analysis);
       if (cycle != nullptr) {
-        ASSERT_LE(cycle->size, worst.performance.amplitude * (1.0 + 1e-9));
+        ASSERT_LE(cycle->amplitude, worst.performance.amplitude * (1.0 + 1e-9));
       } else if (worst.performance.verdict == Verdict::cannot_hunt) {
         ASSERT_LE(analysis.growth_at_rest, worst.performance.growth_at_rest * (1.0 + 1e-9));
       }
@@ -141,7 +141,7 @@ TEST(OracleWorstCorner, MayLieInside) {
         .damping = 0.19, .inertia_ratio = ratio, .friction_ratio = 0.1, .backlash = 0.3};
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
     if (const LimitCycle* cycle = largest_stable(analysis)) {
-      largest = std::max(largest, cycle->size);
+      largest = std::max(largest, cycle->amplitude);
     }
   }
   EXPECT_GE(worst.performance.amplitude, largest);

@@ -567,7 +567,7 @@ TEST(DesignChart, WithRestitutionUnlikeCellsAreSolved) {
       EXPECT_EQ(answer.verdict, exact.verdict);
       ASSERT_EQ(std::isnan(answer.value), cycle == nullptr);
       if (cycle == nullptr) continue;
-      EXPECT_NEAR(answer.value, cycle->size, answer.error * cycle->size);
+      EXPECT_NEAR(answer.value, cycle->amplitude, answer.error * cycle->amplitude);
     }
   }
 }

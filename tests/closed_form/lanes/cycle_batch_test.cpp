@@ -31,10 +31,10 @@ Table one_by_one(const std::vector<NormalizedServo>& servos) {
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servos[row]);
     const LimitCycle* found = largest_stable(analysis);
     LimitCycle cycle = found != nullptr ? *found : LimitCycle{};
-    if (found == nullptr) cycle.size = analysis.irregular_size;
+    if (found == nullptr) cycle.amplitude = analysis.irregular_amplitude;
     const std::array values = {analysis.growth_at_rest,
-                               cycle.size,
-                               cycle.motor_size,
+                               cycle.amplitude,
+                               cycle.motor_amplitude,
                                cycle.period,
                                1.0 / cycle.period,
                                cycle.multiplier,
