@@ -202,12 +202,13 @@ Verdict verdict_of(const drive::AttractorSearch& search, const drive::ReducedDri
 std::vector<Note> notes_of(const drive::AttractorSearch& search) {
   std::vector<Note> notes;
   if (search.coordinates == drive::Coordinates::co_moving) {
-    notes.push_back({"co-moving", "The reference is a ramp: positions are relative to it."});
+    notes.push_back({"co-moving", "The reference is a ramp. Positions are relative to it."});
   }
   if (search.coordinates == drive::Coordinates::in_place) {
-    notes.push_back({"in-place",
-                     "The reference is a ramp that encoder or controller do not move along with: "
-                     "motion was measured, cycles were not closed."});
+    notes.push_back(
+        {"in-place",
+         "The reference is a ramp, and the encoder or the controller does not move with "
+         "it. The motion was measured, and no cycle was closed."});
   }
   std::set<std::string> reasons;
   for (const drive::Outcome& outcome : search.outcomes) {

@@ -152,11 +152,11 @@ std::string stop_text_of(const hybrid::Trajectory& trajectory) {
     case hybrid::StopReason::event_limit:
       return "after " + std::to_string(trajectory.events().size()) + " events";
     case hybrid::StopReason::zeno:
-      return "events come ever faster" + at;
+      return "events accumulate" + at;
     case hybrid::StopReason::chattering:
-      return "events without end" + at;
+      return "endless events" + at;
     case hybrid::StopReason::diverged:
-      return "numbers grow without end at " + exact_text(trajectory.end_time()) + " s";
+      return "the numbers grow without bound at " + exact_text(trajectory.end_time()) + " s";
   }
   return {};
 }

@@ -26,7 +26,7 @@ ReducedDrive with_settled_signals(ReducedDrive drive) {
   if (std::holds_alternative<Ramp>(drive.load_torque)) {
     RangeCheck check;
     check.refuse("load_torque", "a ramp",
-                 "must be constant or a sine in the end: there are no attractors else");
+                 "must end as a constant or a sine: otherwise there are no attractors");
     require_none(check.faults());
   }
   return drive;
