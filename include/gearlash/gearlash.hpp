@@ -3,6 +3,7 @@
 
 #include "gearlash/analyse.hpp"
 #include "gearlash/answer.hpp"
+#include "gearlash/bounds.hpp"
 #include "gearlash/controller.hpp"
 #include "gearlash/drive.hpp"
 #include "gearlash/fault.hpp"
