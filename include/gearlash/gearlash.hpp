@@ -5,6 +5,7 @@
 #include "gearlash/answer.hpp"
 #include "gearlash/bounds.hpp"
 #include "gearlash/controller.hpp"
+#include "gearlash/design.hpp"
 #include "gearlash/drive.hpp"
 #include "gearlash/fault.hpp"
 #include "gearlash/grid.hpp"

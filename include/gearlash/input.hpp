@@ -1,9 +1,10 @@
-// Reads drives from TOML files.
+// Reads drives from TOML files, and targets from text.
 #pragma once
 
 #include <filesystem>
 #include <string_view>
 
+#include "gearlash/design.hpp"
 #include "gearlash/drive.hpp"
 
 namespace gearlash {
@@ -14,5 +15,12 @@ namespace gearlash {
 
 /// The same for text; tables are in `folder`.
 [[nodiscard]] Drive parse_drive(std::string_view toml, const std::filesystem::path& folder = {});
+
+/// A target as it is typed: "no-hunting", "amplitude <= 1 arcmin and frequency >= 5 Hz". Conditions
+/// are joined by "and". Quantities are amplitude (a bare number is in radians), frequency ("5 Hz",
+/// "30 rad/s"), period and growth-at-rest; < is as good as <=. Throws InvalidInput, naming
+/// "target", with all that is wrong: unknown quantities, wrong units, contradictions, and times
+/// asked of a normal form without a natural frequency.
+[[nodiscard]] Target parse_target(std::string_view text, const Drive& drive);
 
 }  // namespace gearlash

@@ -105,7 +105,7 @@ class LargestMaxima {
 
 std::vector<Fault> validate(const BacklashDemand& demand) {
   RangeCheck check;
-  check.include(validate(demand.target));
+  check.include(faults(demand.target));
   if (demand.target.amplitude.low > 0.0) {
     check.refuse("target", "amplitude >= " + exact_text(demand.target.amplitude.low),
                  "must have no lower limit of amplitude: more backlash then would be better");
