@@ -18,4 +18,5 @@
 #include "gearlash/quantity.hpp"
 #include "gearlash/sensitivity.hpp"
 #include "gearlash/signal.hpp"
+#include "gearlash/tolerance.hpp"
 #include "gearlash/version.hpp"
