@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/grid/design_chart.hpp"
+#include "analysis/grid/axis.hpp"
+#include "gearlash/chart.hpp"
 
 namespace gearlash::benchmarks {
 namespace {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "analysis/design/feasible_values.hpp"
 #include "command.hpp"
 #include "input/target_text.hpp"
 #include "machine_faults.hpp"

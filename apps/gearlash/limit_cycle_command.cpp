@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "analysis/analyse.hpp"
+#include "analysis/design/hunting_margin.hpp"
 #include "analysis/final_servo.hpp"
 #include "command.hpp"
 #include "gearlash/motion.hpp"
@@ -225,7 +226,7 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   Work work = analysed(*written, provenance);
   const bool wants_sensitivities = options.sensitivities || has_kind(plots, "tornado");
   if (options.margins || wants_sensitivities) {
-    add_changes(work, *closed_form_drive(written->drive), options.margins, wants_sensitivities);
+    add_changes(work, written->drive, options.margins, wants_sensitivities);
   }
   Extras extras;
   for (const Plot& plot : plots) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "analysis/design/sampling.hpp"
 #include "command.hpp"
 #include "input/target_text.hpp"
 #include "machine_faults.hpp"
@@ -184,13 +185,13 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
                          .provenance = provenance};
   const std::size_t samples = task.sampling.samples();
   report.study =
-      study_tolerances(task.drive, task.sampling, task.questions, {}, begin("Study", samples));
+      study_tolerances(task.drive, task.sampling, task.questions, begin("Study", samples));
   report.sensitivities = study_sensitivities(
-      task.drive, task.sampling, {}, begin("Indices", samples * (task.drive.varied.size() + 2)));
+      task.drive, task.sampling, begin("Indices", samples * (task.drive.varied.size() + 2)));
   if (task.yield > 0.0) {
     report.backlash =
         widest_backlash(task.drive, {.target = task.questions.target, .yield = task.yield},
-                        task.sampling, {}, begin("Backlash", samples));
+                        task.sampling, begin("Backlash", samples));
   }
   report.worst = worst_corner(task.drive, task.worst_search, {},
                               begin("Worst sample", 2 * task.worst_search.starts, "climbs"));

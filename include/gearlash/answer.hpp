@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gearlash/bounds.hpp"
 #include "gearlash/drive.hpp"
 #include "gearlash/quantity.hpp"
 
@@ -50,12 +51,6 @@ enum class Stability : std::uint8_t {
 /// Which engine answered.
 enum class Engine : std::uint8_t { closed_form, general };
 
-/// Lowest and highest.
-struct Range {
-  double lowest = 0.0;
-  double highest = 0.0;
-};
-
 /// Energy lost in a period, J. The loop feeds in the same amount.
 struct EnergyLost {
   double motor_friction = 0.0;
@@ -89,9 +84,9 @@ struct Cycle {
 
 /// Equilibria found. With dry friction, or in the gap, they are a set.
 struct Rest {
-  Range load{};   ///< rad, from the reference
-  Range motor{};  ///< rad, from the reference, at the load's shaft
-  Range error{};  ///< rad, reference − load
+  Bounds load{};   ///< rad, from the reference
+  Bounds motor{};  ///< rad, from the reference, at the load's shaft
+  Bounds error{};  ///< rad, reference − load
   std::size_t starts = 0;
   /// For rest approached by ever smaller and slower swings: the largest ratio of two.
   std::optional<double> swing_ratio{};
@@ -134,11 +129,11 @@ struct SearchRecord {
 
 /// Proved bounds.
 struct ProvedBounds {
-  Range growth_at_rest{};
+  Bounds growth_at_rest{};
   bool has_cycle = false;  ///< if so, the following are its bounds
-  Range amplitude{};       ///< rad
-  Range period{};          ///< s
-  Range multiplier{};
+  Bounds amplitude{};      ///< rad
+  Bounds period{};         ///< s
+  Bounds multiplier{};
 };
 
 /// The servo of 1960 that a drive is equivalent to.

@@ -3,7 +3,10 @@
 
 #include "gearlash/analyse.hpp"
 #include "gearlash/answer.hpp"
+#include "gearlash/bounds.hpp"
+#include "gearlash/chart.hpp"
 #include "gearlash/controller.hpp"
+#include "gearlash/design.hpp"
 #include "gearlash/drive.hpp"
 #include "gearlash/fault.hpp"
 #include "gearlash/grid.hpp"
@@ -16,4 +19,5 @@
 #include "gearlash/quantity.hpp"
 #include "gearlash/sensitivity.hpp"
 #include "gearlash/signal.hpp"
+#include "gearlash/tolerance.hpp"
 #include "gearlash/version.hpp"

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "gearlash/bounds.hpp"
 #include "gearlash/fault.hpp"
 
 namespace gearlash::hybrid {
@@ -139,12 +140,7 @@ struct Orbit {
 [[nodiscard]] std::optional<Orbit> find_orbit(const System& system, Mode start, const Row& state,
                                               double until);
 
-struct Extent {
-  double lowest = 0.0;
-  double highest = 0.0;
-};
-
 /// The extremes of a form over one period, between events too.
-[[nodiscard]] Extent extent(const System& system, const Orbit& orbit, const Form& form);
+[[nodiscard]] Bounds extent(const System& system, const Orbit& orbit, const Form& form);
 
 }  // namespace gearlash::hybrid

@@ -19,8 +19,6 @@ std::optional<double> known(double value) {
   return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
-Range range_of(const drive::Extent& extent) { return {extent.lowest, extent.highest}; }
-
 // ---- closed form --------------------------------------------------------------------------------
 
 Cycle cycle_of(const LimitCycle& found, Certainty certainty, double time_unit,
@@ -62,19 +60,17 @@ Scales scales_of(const ClosedFormServo& servo, const DriveBox& box) {
   return {decimal(servo.servo.backlash), Interval(1.0) / decimal(servo.natural_frequency)};
 }
 
-Range scaled(const Bounds& bounds, const Interval& unit) {
-  const Interval product = Interval(bounds) * unit;
-  return {product.low, product.high};
+Bounds scaled(const Bounds& bounds, const Interval& unit) {
+  return (Interval(bounds) * unit).bounds();
 }
 
 ProvedBounds bounds_of(const CycleBounds& bounds, const Scales& scales) {
-  const auto same = [](const Bounds& range) { return Range{range.low, range.high}; };
-  ProvedBounds proved{.growth_at_rest = same(bounds.growth_at_rest)};
+  ProvedBounds proved{.growth_at_rest = bounds.growth_at_rest};
   if (!bounds.has_cycle) return proved;
   proved.has_cycle = true;
   proved.amplitude = scaled(bounds.amplitude, scales.backlash);
   proved.period = scaled(bounds.period, scales.time_unit);
-  proved.multiplier = same(bounds.multiplier);
+  proved.multiplier = bounds.multiplier;
   return proved;
 }
 
@@ -272,9 +268,9 @@ Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive
     answer.irregular.push_back(irregular_of(motion));
   }
   if (search.rest) {
-    answer.rest = Rest{.load = range_of(search.rest->load),
-                       .motor = range_of(search.rest->motor),
-                       .error = range_of(search.rest->error),
+    answer.rest = Rest{.load = search.rest->load,
+                       .motor = search.rest->motor,
+                       .error = search.rest->error,
                        .starts = search.rest->starts,
                        .swing_ratio = known(search.rest->swing_ratio)};
   }

@@ -7,18 +7,18 @@
 
 namespace gearlash {
 
-std::optional<Drive> closed_form_drive(Drive drive) {
-  if (drive.reference) {
-    const Signal end = drive::settled(*drive.reference);
-    if (!std::holds_alternative<double>(end)) return std::nullopt;
+Drive without_ended_signals(Drive drive) {
+  if (drive.reference && std::holds_alternative<double>(drive::settled(*drive.reference))) {
     drive.reference.reset();
   }
-  if (drive.load_torque) {
-    drive.load_torque = drive::settled(*drive.load_torque);
-    const auto* constant = std::get_if<double>(&*drive.load_torque);
-    if (constant == nullptr || *constant != 0.0) return std::nullopt;
+  if (drive.load_torque && drive::settled(*drive.load_torque) == Signal{0.0}) {
     drive.load_torque.reset();
   }
+  return drive;
+}
+
+std::optional<Drive> closed_form_drive(Drive drive) {
+  drive = without_ended_signals(std::move(drive));
   return closed_form_servo(drive) ? std::optional(std::move(drive)) : std::nullopt;
 }
 

@@ -18,9 +18,11 @@ struct FinalServo {
 };
 /// Nothing where the general engine must answer. Precondition: the drive is sound.
 std::optional<FinalServo> final_servo(const Drive& drive);
-/// The drive without its signals, where the closed form then answers for it: hunting does not
-/// depend on where a reference stays in the end. Nothing for any other drive. Precondition: it is
-/// sound.
+/// The drive without a reference that stays somewhere in the end, on which hunting does not depend,
+/// and without a load torque that ends at 0. Precondition: its signals are sound.
+Drive without_ended_signals(Drive drive);
+/// The same where the closed form then answers for it; nothing for any other drive. Precondition:
+/// it is sound.
 std::optional<Drive> closed_form_drive(Drive drive);
 
 }  // namespace gearlash

@@ -22,8 +22,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/bounds.hpp"
 #include "base/special_numbers.hpp"
+#include "gearlash/bounds.hpp"
 
 #ifdef __FAST_MATH__
 #error "interval arithmetic needs IEEE 754: compile without -ffast-math"

@@ -1,8 +1,8 @@
 // Proved bounds of the limit cycles of all servos in a box.
 #pragma once
 
-#include "base/bounds.hpp"
 #include "base/special_numbers.hpp"
+#include "gearlash/bounds.hpp"
 #include "model/drivetrain.hpp"
 #include "model/normalized_servo.hpp"
 

@@ -135,10 +135,10 @@ class FormInMode {
   FormInMode(const HybridSystem& system, std::size_t mode, const AffineForm& form)
       : form_(form), alone_(with_turns(system, mode, form)) {}
 
-  void widen(Extent& extent, const Vector& start, double duration) const {
+  void widen(Bounds& extent, const Vector& start, double duration) const {
     const auto include = [&](const Vector& state) {
-      extent.lowest = std::min(extent.lowest, form_.at(state));
-      extent.highest = std::max(extent.highest, form_.at(state));
+      extent.low = std::min(extent.low, form_.at(state));
+      extent.high = std::max(extent.high, form_.at(state));
     };
     const Trajectory motion = simulate(alone_, {0, start}, {.until = duration});
     include(start);
@@ -211,7 +211,7 @@ std::optional<Orbit> find_orbit(const System& system, Mode start, const Row& sta
                found->residual,     found->is_stable(),           found->multipliers};
 }
 
-Extent extent(const System& system, const Orbit& orbit, const Form& form) {
+Bounds extent(const System& system, const Orbit& orbit, const Form& form) {
   const HybridSystem& engine = assembled(system);
   const AffineForm affine = form_of(form);
   if (affine.normal.size() != engine.size()) {
@@ -222,7 +222,7 @@ Extent extent(const System& system, const Orbit& orbit, const Form& form) {
   const double until = from + orbit.period;
   State here = start_of(orbit.mode, orbit.start);
   const Trajectory turn = simulate(engine, here, {.from = from, .until = until});
-  Extent extent{affine.at(here.numbers), affine.at(here.numbers)};
+  Bounds extent{affine.at(here.numbers), affine.at(here.numbers)};
   std::vector<std::optional<FormInMode>> modes(engine.mode_count());
   double time = from;
   const auto follow = [&](double next) {

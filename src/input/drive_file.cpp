@@ -122,10 +122,12 @@ std::optional<SensorPlace> sensor_named(std::string_view name) {
   return std::nullopt;
 }
 
-Drive read_drive(const std::filesystem::path& toml) {
-  return parse_drive(read_text_file(toml, largest_drive_file), toml.string(), toml.parent_path(),
-                     {})
-      .drive;
+Drive read_drive(const std::filesystem::path& toml) { return read_toleranced_drive(toml).nominal; }
+
+TolerancedDrive read_toleranced_drive(const std::filesystem::path& toml) {
+  WrittenDrive written =
+      parse_drive(read_text_file(toml, largest_drive_file), toml.string(), toml.parent_path(), {});
+  return {std::move(written.drive), std::move(written.tolerances)};
 }
 
 Drive parse_drive(std::string_view toml, const std::filesystem::path& folder) {

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/design/toleranced_drive.hpp"
 #include "gearlash/drive.hpp"
+#include "gearlash/tolerance.hpp"
 #include "input/units.hpp"
 
 namespace gearlash {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "analysis/design/distribution.hpp"
 #include "input/signal_reader.hpp"
 #include "input/units.hpp"
 #include "model/normalized_servo.hpp"
@@ -375,7 +376,7 @@ class DriveReader {
       return name_in_file(field.substr(0, field.find('.', field.find('.') + 1)));
     };
     if (!file_.tolerances.empty() && closed_form_servo(drive())) {
-      findings_.take(validate(TolerancedDrive{drive(), file_.tolerances}), name_of, place_);
+      findings_.take(faults(TolerancedDrive{drive(), file_.tolerances}), name_of, place_);
       return;
     }
     for (const ParameterTolerance& tolerance : file_.tolerances) {

@@ -4,6 +4,8 @@
 #include <limits>
 #include <numeric>
 
+#include "analysis/design/distribution.hpp"
+
 namespace gearlash {
 namespace {
 

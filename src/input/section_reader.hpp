@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/design/toleranced_drive.hpp"
 #include "base/fault.hpp"
+#include "gearlash/tolerance.hpp"
 #include "input/toleranced_value.hpp"
 #include "input/toml_document.hpp"
 #include "input/units.hpp"

@@ -9,8 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "gearlash/input.hpp"
 #include "input/units.hpp"
 #include "model/quantities.hpp"
+#include "model/reduced_drive.hpp"
 
 namespace gearlash {
 namespace {
@@ -76,7 +78,7 @@ class TargetReader {
   }
 
   Target target() {
-    for (Fault& fault : validate(target_)) {
+    for (Fault& fault : faults(target_)) {
       fault.path = field_;
       faults_.push_back(std::move(fault));
     }
@@ -91,7 +93,7 @@ class TargetReader {
 
   void add(std::string_view condition, const Condition& parts) {
     const std::optional<Quantity> quantity = find_quantity(parts.quantity);
-    Bounds* limits = quantity ? target_.limits_of(*quantity) : nullptr;
+    Bounds* limits = quantity ? limits_of(*quantity) : nullptr;
     if (limits == nullptr) refuse(condition, forms);
     const bool is_period = quantity == Quantity::period;
     if (time_scale_ == TimeScale::unknown && (is_period || quantity == Quantity::frequency)) {
@@ -101,6 +103,21 @@ class TargetReader {
     if (is_period && !(limit > 0.0)) refuse(condition, "must have a positive limit");
     if (!(limit >= 0.0)) refuse(condition, "must have a limit of 0 or more");
     restrict(*limits, parts.is_at_most != is_period, is_period ? 1.0 / limit : limit);
+  }
+
+  /// nullptr where a target has none. A period is a frequency.
+  Bounds* limits_of(Quantity quantity) {
+    switch (quantity) {
+      case Quantity::amplitude:
+        return &target_.amplitude;
+      case Quantity::frequency:
+      case Quantity::period:
+        return &target_.frequency;
+      case Quantity::growth_at_rest:
+        return &target_.growth_at_rest;
+      default:
+        return nullptr;
+    }
   }
 
   double read_limit(Quantity quantity, std::string_view text) const {
@@ -133,6 +150,10 @@ Target read_target(std::string_view field, std::string_view text, TimeScale time
   TargetReader reader(field, time_scale);
   for (const std::string_view condition : conditions_of(text)) reader.read(condition);
   return reader.target();
+}
+
+Target parse_target(std::string_view text, const Drive& drive) {
+  return read_target("target", text, is_normalized(drive) ? TimeScale::unknown : TimeScale::known);
 }
 
 }  // namespace gearlash

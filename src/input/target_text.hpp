@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "analysis/design/target.hpp"
+#include "gearlash/design.hpp"
 
 namespace gearlash {
 
@@ -16,7 +16,7 @@ enum class TimeScale { known, unknown };
 /// number is in radians), frequency ("5 Hz", "30 rad/s") and period ("0.2 s"), which a servo that
 /// comes to rest keeps, and growth-at-rest (a number). A limit itself is permitted, with < as with
 /// <=. Throws InvalidInput, naming `field`, with all that is wrong: unknown quantities, wrong
-/// units, contradictions (validate(Target)).
+/// units, contradictions (faults(Target)).
 Target read_target(std::string_view field, std::string_view text, TimeScale time_scale);
 
 }  // namespace gearlash

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "analysis/design/distribution.hpp"
+#include "gearlash/tolerance.hpp"
 #include "input/units.hpp"
 
 namespace gearlash {

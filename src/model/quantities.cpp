@@ -77,7 +77,7 @@ Value frequency_of(const Answer& answer) {
 
 Value static_error_of(const Answer& answer) {
   if (!answer.rest) return std::nullopt;
-  return std::max(std::abs(answer.rest->error.lowest), std::abs(answer.rest->error.highest));
+  return std::max(std::abs(answer.rest->error.low), std::abs(answer.rest->error.high));
 }
 
 constexpr auto of_answer = QuantityScope::answer;

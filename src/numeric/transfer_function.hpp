@@ -4,8 +4,8 @@
 #include <complex>
 #include <vector>
 
-#include "base/bounds.hpp"
 #include "base/fault.hpp"
+#include "gearlash/bounds.hpp"
 
 namespace gearlash {
 

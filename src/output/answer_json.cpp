@@ -9,9 +9,7 @@
 namespace gearlash {
 namespace {
 
-Json json_range(const Range& range) {
-  return {json_number(range.lowest), json_number(range.highest)};
-}
+Json json_range(const Bounds& range) { return {json_number(range.low), json_number(range.high)}; }
 
 Json json_energy(const std::optional<EnergyLost>& energy) {
   if (!energy) return nullptr;
@@ -99,7 +97,7 @@ Json json_search(const std::optional<SearchRecord>& search) {
 
 Json json_bounds(const std::optional<ProvedBounds>& bounds) {
   if (!bounds) return nullptr;
-  const auto of_cycle = [&](const Range& range) {
+  const auto of_cycle = [&](const Bounds& range) {
     return bounds->has_cycle ? json_range(range) : Json(nullptr);
   };
   return {{"growth_at_rest", json_range(bounds->growth_at_rest)},

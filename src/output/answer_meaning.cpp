@@ -95,12 +95,12 @@ std::string meaning_when_undecided(const Answer& answer) {
            "lies on a boundary, where any change of a parameter decides.";
   }
   if (answer.bounds) {
-    const Range& growth = answer.bounds->growth_at_rest;
+    const Bounds& growth = answer.bounds->growth_at_rest;
     return fmt::format(
         "The servo lies on the boundary of hunting. Its growth at rest is 1 to within {}, the "
         "width of the interval that contains it: {} … {}.",
-        significant(growth.highest - growth.lowest, 2), significant(growth.lowest, 17),
-        significant(growth.highest, 17));
+        significant(growth.high - growth.low, 2), significant(growth.low, 17),
+        significant(growth.high, 17));
   }
   return "The numerics could not decide. The table has what is known.";
 }

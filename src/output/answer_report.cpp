@@ -57,12 +57,12 @@ std::string angle_text(const AnswerReport& report, double radians) {
   return number(report.angle.from_radians(radians)) + " " + report.angle.name;
 }
 
-std::string range_text(const AnswerReport& report, const Range& range) {
-  const double low = report.angle.from_radians(range.lowest);
-  const double high = report.angle.from_radians(range.highest);
+std::string range_text(const AnswerReport& report, const Bounds& range) {
+  const double low = report.angle.from_radians(range.low);
+  const double high = report.angle.from_radians(range.high);
   constexpr double unseen = 1e-9;  // of the larger: one number, not two
   if (high - low <= unseen * std::max(std::abs(low), std::abs(high))) {
-    return angle_text(report, range.lowest);
+    return angle_text(report, range.low);
   }
   return fmt::format("{} … {} {}", number(low), number(high), report.angle.name);
 }
@@ -122,13 +122,12 @@ std::string growth_beside_one(const Answer& answer) {
 // ---- cycles, rest, irregular motion -------------------------------------------------------------
 
 /// Where the enclosure is too wide for the digits of the table, what is proved.
-void add_range(Rows& rows, const Range& range, double scale, const std::string& unit) {
+void add_range(Rows& rows, const Bounds& range, double scale, const std::string& unit) {
   constexpr double unseen = 1e-6;
-  if (range.highest - range.lowest <= unseen * range.highest) return;
+  if (range.high - range.low <= unseen * range.high) return;
   rows.push_back(
       {"  proved",
-       fmt::format("{} … {} {}", number(range.lowest / scale), number(range.highest / scale), unit),
-       ""});
+       fmt::format("{} … {} {}", number(range.low / scale), number(range.high / scale), unit), ""});
 }
 
 /// Only its order matters: a bound that no change of rounding moves.

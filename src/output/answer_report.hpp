@@ -6,8 +6,8 @@
 #include <string>
 
 #include "analysis/design/drive_sensitivity.hpp"
-#include "analysis/design/hunting_margin.hpp"
 #include "gearlash/answer.hpp"
+#include "gearlash/design.hpp"
 #include "gearlash/drive.hpp"
 #include "input/units.hpp"
 #include "output/report_units.hpp"

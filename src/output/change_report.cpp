@@ -22,10 +22,10 @@ std::string value_text(const ChangeableNumber& number, double value, const Angle
 }
 
 std::string boundary_text(const ChangeableNumber& number, const ParameterMargin& margin,
-                          double value, const AngleUnit& angle) {
-  if (std::isnan(value)) return "–";
-  const std::string text = value_text(number, value, angle);
-  return margin.present > 0.0 ? text + " (" + change_text(value / margin.present) + ")" : text;
+                          const std::optional<double>& value, const AngleUnit& angle) {
+  if (!value) return "–";
+  const std::string text = value_text(number, *value, angle);
+  return margin.present > 0.0 ? text + " (" + change_text(*value / margin.present) + ")" : text;
 }
 
 std::string overall_text(const OverallMargin& overall, bool hunts) {
@@ -39,7 +39,7 @@ std::string overall_text(const OverallMargin& overall, bool hunts) {
     case MarginOutcome::never_hunts:
       return "Without backlash there is no hunting.";
   }
-  const LogChange& change = overall.change;
+  const LogChange& change = *overall.change;
   return fmt::format(
       "Smallest combined change that {} the hunting: motor inertia {}, load inertia {}, motor "
       "friction {}, load friction {}, stiffness {}.",
@@ -96,7 +96,7 @@ std::string margin_text(const ChangeableDrive& drive, const HuntingMargin& margi
   bool hunts = false;
   for (const ParameterMargin& one : margin.parameters) {
     hunts = hunts || one.hunts;
-    if (std::isnan(one.below) && std::isnan(one.above)) continue;
+    if (!one.below && !one.above) continue;
     const ChangeableNumber& number = drive.number(one.parameter);
     rows.push_back({number.name, value_text(number, one.present, angle),
                     boundary_text(number, one, one.below, angle),
@@ -142,20 +142,18 @@ nlohmann::ordered_json margin_json(const ChangeableDrive& drive, const HuntingMa
     parameters.push_back({{"parameter", one.parameter},
                           {"unit", drive.number(one.parameter).unit},
                           {"present", json_number(one.present)},
-                          {"below", json_number(one.below)},
-                          {"above", json_number(one.above)},
+                          {"below", json_optional(one.below)},
+                          {"above", json_optional(one.above)},
                           {"certified", one.kind == SearchKind::certified}});
   }
   Json json = {{"parameters", std::move(parameters)}, {"overall", nullptr}};
-  const OverallMargin& overall = margin.overall;
-  if (overall.outcome == MarginOutcome::found) {
-    const LogChange& change = overall.change;
-    json["overall"] = {{"distance", json_number(overall.distance)},
-                       {"motor_inertia", json_number(change.motor_inertia)},
-                       {"load_inertia", json_number(change.load_inertia)},
-                       {"motor_friction", json_number(change.motor_friction)},
-                       {"load_friction", json_number(change.load_friction)},
-                       {"stiffness", json_number(change.stiffness)}};
+  if (const std::optional<LogChange>& change = margin.overall.change) {
+    json["overall"] = {{"distance", json_number(change->length())},
+                       {"motor_inertia", json_number(change->motor_inertia)},
+                       {"load_inertia", json_number(change->load_inertia)},
+                       {"motor_friction", json_number(change->motor_friction)},
+                       {"load_friction", json_number(change->load_friction)},
+                       {"stiffness", json_number(change->stiffness)}};
   }
   return json;
 }

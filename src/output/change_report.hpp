@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/design/drive_sensitivity.hpp"
-#include "analysis/design/hunting_margin.hpp"
+#include "gearlash/design.hpp"
 #include "output/report_units.hpp"
 
 namespace gearlash {

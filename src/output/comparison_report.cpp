@@ -56,8 +56,8 @@ std::string static_error(const ComparisonReport& report, const SensorCase& one) 
   const Answer& answer = one.report.answer;
   const bool is_known = answer.search && answer.search->count("undecided") == 0;
   if (!answer.rest) return is_known ? "never at rest" : "not known";
-  const double low = answer.rest->error.lowest;
-  const double high = answer.rest->error.highest;
+  const double low = answer.rest->error.low;
+  const double high = answer.rest->error.high;
   const double size = std::max(std::abs(low), std::abs(high));
   // Rest at one place is one number.
   if (high - low <= 1e-6 * size) return angle(report, low);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/design/target.hpp"
 #include "output/columns.hpp"
 #include "output/drive_text.hpp"
 #include "output/json_values.hpp"
@@ -107,10 +108,9 @@ std::string reason(const DesignReport& report, const FeasibleValues& values) {
   text += fmt::format("no value from {} to {}", shown(values.searched.low),
                       shown(values.searched.high));
   text += values.kind == SearchKind::certified ? "" : " of those tried";
-  const Performance closest =
-      performance_of(report.drive.with(values.parameter, values.closest->value));
-  return text + fmt::format("; closest is {} with {} (growth at rest {})",
-                            shown(values.closest->value), performance_text(closest, report),
+  const Performance closest = performance_of(report.drive.with(values.parameter, *values.closest));
+  return text + fmt::format("; closest is {} with {} (growth at rest {})", shown(*values.closest),
+                            performance_text(closest, report),
                             significant(closest.growth_at_rest, 3));
 }
 
@@ -204,8 +204,7 @@ Json json_value(const DesignReport& report, const FeasibleValues& values, double
 
 Json json_answer(const DesignReport& report, const FeasibleValues& values) {
   const ChangeableNumber& number = report.drive.number(values.parameter);
-  const double nearest = values.nearest();
-  const bool is_met = !std::isnan(nearest);
+  const std::optional<double> nearest = values.nearest();
   return {{"parameter", number.name},
           {"description", number.description},
           {"unit", number.unit},
@@ -214,8 +213,8 @@ Json json_answer(const DesignReport& report, const FeasibleValues& values) {
           {"certified", values.kind == SearchKind::certified},
           {"intervals", json_all(values.intervals)},
           {"undecided", json_all(values.undecided)},
-          {"nearest", is_met ? json_value(report, values, nearest) : Json(nullptr)},
-          {"closest", is_met ? Json(nullptr) : json_value(report, values, values.closest->value)}};
+          {"nearest", nearest ? json_value(report, values, *nearest) : Json(nullptr)},
+          {"closest", nearest ? Json(nullptr) : json_value(report, values, *values.closest)}};
 }
 
 /// Whether the target is met at present: with plastic contact as far as that is proved of the data.

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/design/feasible_values.hpp"
+#include "analysis/design/changeable_drive.hpp"
+#include "gearlash/design.hpp"
 #include "output/report_units.hpp"
 
 namespace gearlash {

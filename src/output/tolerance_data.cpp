@@ -3,14 +3,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 
 #include "base/range_check.hpp"
+#include "base/special_numbers.hpp"
 #include "output/csv_table.hpp"
 #include "output/netcdf_file.hpp"
 
 namespace gearlash {
 namespace {
+
+// What is not there is not a number in a file.
+double value_of(const std::optional<Estimate>& estimate) {
+  return estimate ? estimate->value : not_a_number;
+}
+double error_of(const std::optional<Estimate>& estimate) {
+  return estimate ? estimate->standard_error.value_or(not_a_number) : not_a_number;
+}
 
 /// A quantity estimated at several shares, and what it is.
 struct QuantileSeries {
@@ -36,25 +44,32 @@ std::vector<QuantileSeries> quantile_series(const ToleranceReport& report) {
 struct IndexSeries {
   const char* name;
   const char* long_name;
-  std::function<Estimate(const NumberSensitivity&)> of;
+  std::optional<SensitivityIndices> NumberSensitivity::*indices;
+  Estimate SensitivityIndices::*index;
+
+  std::optional<Estimate> of(const NumberSensitivity& number) const {
+    const std::optional<SensitivityIndices>& found = number.*indices;
+    return found ? std::optional((*found).*index) : std::nullopt;
+  }
 };
 
 const std::array<IndexSeries, 4>& index_series() {
   static const std::array<IndexSeries, 4> series = {
       {{"first_order_index_of_amplitude", "first-order Sobol index of the amplitude",
-        [](const NumberSensitivity& number) { return number.of_amplitude.first_order; }},
+        &NumberSensitivity::of_amplitude, &SensitivityIndices::first_order},
        {"total_index_of_amplitude", "total Sobol index of the amplitude",
-        [](const NumberSensitivity& number) { return number.of_amplitude.total; }},
+        &NumberSensitivity::of_amplitude, &SensitivityIndices::total},
        {"first_order_index_of_hunting", "first-order Sobol index of whether it hunts",
-        [](const NumberSensitivity& number) { return number.of_hunting.first_order; }},
+        &NumberSensitivity::of_hunting, &SensitivityIndices::first_order},
        {"total_index_of_hunting", "total Sobol index of whether it hunts",
-        [](const NumberSensitivity& number) { return number.of_hunting.total; }}}};
+        &NumberSensitivity::of_hunting, &SensitivityIndices::total}}};
   return series;
 }
 
 /// Single estimates by their names.
-std::vector<std::pair<const char*, Estimate>> single_estimates(const ToleranceReport& report) {
-  std::vector<std::pair<const char*, Estimate>> estimates = {
+std::vector<std::pair<const char*, std::optional<Estimate>>> single_estimates(
+    const ToleranceReport& report) {
+  std::vector<std::pair<const char*, std::optional<Estimate>>> estimates = {
       {"hunting", report.study.hunting}, {"mean_amplitude", report.study.mean_amplitude}};
   if (!report.target_text.empty()) estimates.emplace_back("yield", report.study.yield);
   return estimates;
@@ -79,12 +94,12 @@ class TwoPassFile {
 
   void add_estimates(const std::string& name, const std::vector<NetcdfDimension>& dimensions,
                      const std::string& long_name, const std::string& units,
-                     const std::vector<Estimate>& estimates) {
+                     const std::vector<std::optional<Estimate>>& estimates) {
     std::vector<double> values;
     std::vector<double> errors;
-    for (const Estimate& estimate : estimates) {
-      values.push_back(estimate.value);
-      errors.push_back(estimate.standard_error);
+    for (const std::optional<Estimate>& estimate : estimates) {
+      values.push_back(value_of(estimate));
+      errors.push_back(error_of(estimate));
     }
     for (const NetcdfVariable variable :
          {add(name, dimensions, long_name, units, std::move(values)),
@@ -122,7 +137,7 @@ void add_quantiles(const ToleranceReport& report, TwoPassFile& file) {
   const NetcdfDimension share = file.file().add_dimension("share", shares.size());
   file.add("share", {share}, "share of samples up to the value", "1", shares);
   for (const QuantileSeries& series : quantile_series(report)) {
-    std::vector<Estimate> estimates;
+    std::vector<std::optional<Estimate>> estimates;
     for (const QuantileEstimate& quantile : series.quantiles) estimates.push_back(quantile.value);
     file.add_estimates(std::string(series.name) + "_quantile", {share}, series.long_name,
                        series.units, estimates);
@@ -142,7 +157,7 @@ void add_indices(const ToleranceReport& report, TwoPassFile& file) {
       file.add("number", {number}, "parameter that varies", "1", places);
   file.file().set_attribute(variable, "flag_meanings", names);
   for (const IndexSeries& series : index_series()) {
-    std::vector<Estimate> estimates;
+    std::vector<std::optional<Estimate>> estimates;
     for (const NumberSensitivity& one : numbers) estimates.push_back(series.of(one));
     file.add_estimates(series.name, {number}, series.long_name, "1", estimates);
   }
@@ -165,8 +180,9 @@ void add_histogram(const ToleranceReport& report, TwoPassFile& file) {
 
 void write_tolerance_csv(const ToleranceReport& report, const TextSink& sink) {
   CsvTable table(sink, {"quantity", "of", "value", "standard_error"});
-  const auto line = [&](std::string_view quantity, std::string_view of, const Estimate& estimate) {
-    table.row(quantity, of, estimate.value, estimate.standard_error);
+  const auto line = [&](std::string_view quantity, std::string_view of,
+                        const std::optional<Estimate>& estimate) {
+    table.row(quantity, of, value_of(estimate), error_of(estimate));
   };
   for (const auto& [name, estimate] : single_estimates(report)) line(name, "", estimate);
   for (const QuantileSeries& series : quantile_series(report)) {
@@ -182,7 +198,7 @@ void write_tolerance_csv(const ToleranceReport& report, const TextSink& sink) {
   const AmplitudeHistogram& histogram = report.study.histogram;
   for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
     line("samples", exact_text(histogram.edges[i]) + " to " + exact_text(histogram.edges[i + 1]),
-         {.value = static_cast<double>(histogram.counts[i])});
+         Estimate{.value = static_cast<double>(histogram.counts[i])});
   }
 }
 

@@ -24,9 +24,8 @@ bool has_frequency(const ToleranceReport& report) { return !is_normalized(report
 
 /// "12.3 ± 0.2 %": a probability with two standard errors.
 std::string percent_text(const Estimate& estimate) {
-  if (std::isnan(estimate.value)) return "not known";
   return fmt::format("{} ± {} %", significant(100.0 * estimate.value, digits),
-                     significant(100.0 * bar * estimate.standard_error, 2));
+                     significant(100.0 * bar * *estimate.standard_error, 2));
 }
 
 std::string angle_text(double angle, const ToleranceReport& report) {
@@ -34,13 +33,12 @@ std::string angle_text(double angle, const ToleranceReport& report) {
   return significant(unit.from_radians(angle), digits) + " " + unit.name;
 }
 
-std::string amplitude_text(const Estimate& estimate, const ToleranceReport& report) {
-  if (std::isnan(estimate.value)) return "none";
-  return "±" + angle_text(estimate.value, report);
+std::string amplitude_text(const std::optional<Estimate>& estimate, const ToleranceReport& report) {
+  return estimate ? "±" + angle_text(estimate->value, report) : "none";
 }
 
-std::string frequency_text(const Estimate& estimate) {
-  return std::isnan(estimate.value) ? "none" : significant(estimate.value, digits) + " Hz";
+std::string frequency_text(const std::optional<Estimate>& estimate) {
+  return estimate ? significant(estimate->value, digits) + " Hz" : "none";
 }
 
 std::vector<Row> headline_rows(const ToleranceReport& report) {
@@ -68,9 +66,10 @@ std::vector<Row> quantile_rows(const ToleranceReport& report) {
   return rows;
 }
 
-std::string index_text(const Estimate& estimate) {
-  if (std::isnan(estimate.value)) return "–";
-  return fmt::format("{:.3f}", std::max(0.0, estimate.value));  // below 0 only by its error
+std::string index_text(const std::optional<SensitivityIndices>& indices,
+                       Estimate SensitivityIndices::*index) {
+  if (!indices) return "–";
+  return fmt::format("{:.3f}", std::max(0.0, ((*indices).*index).value));  // below 0 by its error
 }
 
 /// Angles in the author's unit, all else in its own.
@@ -112,9 +111,10 @@ std::string spread_text(const ParameterTolerance& varied, const ToleranceReport&
 double widest_bar(const SensitivityStudy& study) {
   double widest = 0.0;
   for (const NumberSensitivity& number : study.numbers) {
-    for (const SensitivityIndices& indices : {number.of_amplitude, number.of_hunting}) {
-      for (const Estimate& estimate : {indices.first_order, indices.total}) {
-        widest = std::fmax(widest, bar * estimate.standard_error);
+    for (const auto& indices : {number.of_amplitude, number.of_hunting}) {
+      if (!indices) continue;
+      for (const Estimate& estimate : {indices->first_order, indices->total}) {
+        widest = std::max(widest, bar * estimate.standard_error.value_or(0.0));
       }
     }
   }
@@ -128,11 +128,12 @@ std::vector<Row> number_rows(const ToleranceReport& report) {
     const ParameterTolerance& varied = report.drive.varied[i];
     const NumberSensitivity& indices = report.sensitivities.numbers[i];
     const WorstNumber& worst = report.worst.numbers[i];
-    rows.push_back(
-        {varied.path, spread_text(varied, report), index_text(indices.of_amplitude.first_order),
-         index_text(indices.of_amplitude.total), index_text(indices.of_hunting.first_order),
-         index_text(indices.of_hunting.total),
-         number_text(worst.path, worst.value, report) + ", " + name_of(worst.place)});
+    rows.push_back({varied.path, spread_text(varied, report),
+                    index_text(indices.of_amplitude, &SensitivityIndices::first_order),
+                    index_text(indices.of_amplitude, &SensitivityIndices::total),
+                    index_text(indices.of_hunting, &SensitivityIndices::first_order),
+                    index_text(indices.of_hunting, &SensitivityIndices::total),
+                    number_text(worst.path, worst.value, report) + ", " + name_of(worst.place)});
   }
   return rows;
 }
@@ -186,9 +187,9 @@ std::string counts_text(const ToleranceReport& report) {
   return wrapped(text);
 }
 
-Json json_estimate(const Estimate& estimate) {
-  return {{"value", json_number(estimate.value)},
-          {"standard_error", json_number(estimate.standard_error)}};
+Json json_estimate(const std::optional<Estimate>& estimate) {
+  return {{"value", estimate ? json_number(estimate->value) : Json(nullptr)},
+          {"standard_error", estimate ? json_optional(estimate->standard_error) : Json(nullptr)}};
 }
 
 Json json_quantiles(const std::vector<QuantileEstimate>& quantiles) {
@@ -201,9 +202,10 @@ Json json_quantiles(const std::vector<QuantileEstimate>& quantiles) {
   return json;
 }
 
-Json json_indices(const SensitivityIndices& indices) {
-  return {{"first_order", json_estimate(indices.first_order)},
-          {"total", json_estimate(indices.total)}};
+Json json_indices(const std::optional<SensitivityIndices>& indices) {
+  using Found = std::optional<Estimate>;
+  return {{"first_order", json_estimate(indices ? Found(indices->first_order) : Found())},
+          {"total", json_estimate(indices ? Found(indices->total) : Found())}};
 }
 
 Json json_parameters(const ToleranceReport& report) {

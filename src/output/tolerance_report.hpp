@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/design/tolerance_study.hpp"
-#include "analysis/design/widest_backlash.hpp"
 #include "analysis/design/worst_corner.hpp"
+#include "gearlash/tolerance.hpp"
 #include "output/report_units.hpp"
 
 namespace gearlash {

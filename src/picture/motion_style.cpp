@@ -12,14 +12,10 @@
 
 namespace gearlash {
 
-void Extent::include(double value) {
-  low = std::min(low, value);
-  high = std::max(high, value);
-}
-
-std::string Extent::range(double margin) const {
-  const double extent = high > low ? high - low : std::max(1.0, std::abs(high));
-  return fmt::format("[{:.7g}:{:.7g}]", low - margin * extent, high + margin * extent);
+std::string range_of(const Bounds& extent, double margin) {
+  const auto [low, high] = extent;
+  const double length = high > low ? high - low : std::max(1.0, std::abs(high));
+  return fmt::format("[{:.7g}:{:.7g}]", low - margin * length, high + margin * length);
 }
 
 void ImpactMarks::add(double x, double y) {

@@ -1,10 +1,10 @@
 // What both pictures of a motion share.
 #pragma once
 
-#include <limits>
 #include <string>
 #include <utility>
 
+#include "base/extent.hpp"
 #include "picture/drawn_motion.hpp"
 #include "picture/gnuplot_script.hpp"
 #include "picture/motion_picture.hpp"
@@ -16,16 +16,8 @@ namespace gearlash {
 inline constexpr char load_colour[] = "#0072b2";
 inline constexpr char motor_colour[] = "#d55e00";
 
-/// Lowest and highest of what is drawn.
-struct Extent {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-
-  void include(double value);
-  double length() const { return high > low ? high - low : 0.0; }
-  /// As gnuplot wants it: with a margin, and never empty.
-  std::string range(double margin = 0.05) const;
-};
+/// The extent of an axis as gnuplot wants it: with a margin, and never empty.
+std::string range_of(const Bounds& extent, double margin = 0.05);
 
 /// Impacts, each unless it would cover the one before it.
 class ImpactMarks {

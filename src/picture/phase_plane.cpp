@@ -133,15 +133,15 @@ std::string axes(const MotionPicture& picture, const Extent& positions, const Ex
   const std::string& unit = picture.angle.name;
   const std::string per_time = is_normalized(picture.drive) ? unit + " ω_n" : unit + "/s";
   return "set xlabel " + quoted("position from the reference (" + unit + ")") + "\nset ylabel " +
-         quoted("speed (" + per_time + ")") + "\nset xrange " + positions.range() +
-         "\nset yrange " + speeds.range() +
+         quoted("speed (" + per_time + ")") + "\nset xrange " + range_of(positions) +
+         "\nset yrange " + range_of(speeds) +
          "\nset xzeroaxis linetype -1 linewidth 0.7\nset yzeroaxis linetype -1 linewidth 0.7\n";
 }
 
 /// The gap's width, to compare with.
 std::string gap_bar(const MotionPicture& picture, const Extent& positions, const Extent& speeds) {
   const double gap = picture.angle.from_radians(reduce(picture.drive).backlash);
-  if (!(gap > 0.0) || gap > positions.length()) return "";
+  if (!(gap > 0.0) || gap > positions.width()) return "";
   const double left = positions.low;
   const double height = speeds.low;
   return fmt::format(
@@ -173,7 +173,7 @@ std::string draw_phase_plane(const MotionPicture& picture, PictureFormat format)
   std::string data;
   std::vector<std::string> layers;
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    curves[i].mark_impacts(pieces[i], positions.length(), speeds.length());
+    curves[i].mark_impacts(pieces[i], positions.width(), speeds.width());
     data += curves[i].data();
     curves[i].add_fill(layers);
   }

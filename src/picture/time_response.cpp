@@ -87,7 +87,7 @@ Response response_of(const MotionPicture& picture) {
     for (const DrawnPoint& point : piece.points) add_point(point, response);
   }
   add_apart(pieces, response);
-  ImpactMarks marks("impacts", response.end_time, response.positions.length());
+  ImpactMarks marks("impacts", response.end_time, response.positions.width());
   for (const DrawnPiece& piece : pieces) {
     const DrawnPoint& last = piece.points.back();
     if (piece.ends_with_impact) marks.add(last.time, last.motor_position);
@@ -104,8 +104,8 @@ bool has_small_end(const Response& response) {
   last.include(response.last_motor.low);
   last.include(response.last_motor.high);
   last.include(0.0);
-  return last.length() < small * response.positions.length() &&
-         last.length() > nothing * 2.0 * response.half_gap;
+  return last.width() < small * response.positions.width() &&
+         last.width() > nothing * 2.0 * response.half_gap;
 }
 
 struct Panel {
@@ -125,7 +125,7 @@ constexpr char motor_style[] = "linewidth 1.6 dashtype (8,4)";
 constexpr char reference_style[] = "linewidth 1 dashtype 4";
 
 Panel position_panel(const MotionPicture& picture, const Response& response) {
-  Panel panel{270.0, "position (" + picture.angle.name + ")", response.positions.range(), {}};
+  Panel panel{270.0, "position (" + picture.angle.name + ")", range_of(response.positions), {}};
   if (response.half_gap > 0.0) {
     panel.layers.push_back(
         fmt::format("$curve using 1:4:5 with filledcurves fill solid noborder linecolor rgb '{}' "
@@ -148,7 +148,7 @@ Panel end_panel(const MotionPicture& picture, const Response& response) {
   for (const double value : {response.last_motor.low, response.last_motor.high, 0.0}) {
     last.include(value);
   }
-  Panel panel{200.0, "enlarged (" + picture.angle.name + ")", last.range(0.25), {}};
+  Panel panel{200.0, "enlarged (" + picture.angle.name + ")", range_of(last, 0.25), {}};
   if (response.half_gap > 0.0) {
     panel.layers.push_back(fmt::format(
         "$curve using 1:11:12 with filledcurves fill solid noborder linecolor rgb '{}' notitle",
@@ -162,7 +162,7 @@ Panel end_panel(const MotionPicture& picture, const Response& response) {
 }
 
 Panel gap_panel(const MotionPicture& picture, const Response& response) {
-  Panel panel{110.0, "gap (" + picture.angle.name + ")", response.gaps.range(0.12), {}};
+  Panel panel{110.0, "gap (" + picture.angle.name + ")", range_of(response.gaps, 0.12), {}};
   for (const double face : {-response.half_gap, response.half_gap}) {
     panel.layers.push_back(
         fmt::format("{:.7g} with lines linewidth 3 linecolor rgb '#909090' notitle", face));
@@ -182,7 +182,7 @@ Panel torque_panel(const MotionPicture& picture, const Response& response) {
     torques.include(limit);
     torques.include(-limit);
   }
-  Panel panel{130.0, "torque (N m)", torques.range(), {}};
+  Panel panel{130.0, "torque (N m)", range_of(torques), {}};
   if (is_near) {
     for (const double value : {limit, -limit}) {
       panel.layers.push_back(
@@ -221,7 +221,7 @@ std::vector<std::string> more_in_legend(const MotionPicture& picture, const Resp
 /// "end: load ±1.8 arcmin, motor ±3.4 arcmin".
 std::string end_line(const MotionPicture& picture, const Response& response) {
   const auto swing = [&](const Extent& extent) {
-    return "±" + significant(0.5 * extent.length(), 3) + " " + picture.angle.name;
+    return "±" + significant(0.5 * extent.width(), 3) + " " + picture.angle.name;
   };
   return "in the last third: load " + swing(response.last_load) + ", motor " +
          swing(response.last_motor);

@@ -74,10 +74,9 @@ BarChart indices_of(const ToleranceReport& report) {
                  .value_meaning = "in all",
                  .part_meaning = "alone"};
   for (const NumberSensitivity& number : report.sensitivities.numbers) {
-    const SensitivityIndices& indices = number.of_amplitude;
-    if (std::isnan(indices.total.value)) continue;
-    chart.bars.push_back({number.path, std::max(0.0, indices.total.value),
-                          std::max(0.0, indices.first_order.value)});
+    if (!number.of_amplitude) continue;
+    chart.bars.push_back({number.path, std::max(0.0, number.of_amplitude->total.value),
+                          std::max(0.0, number.of_amplitude->first_order.value)});
   }
   std::stable_sort(chart.bars.begin(), chart.bars.end(),
                    [](const Bar& a, const Bar& b) { return a.value > b.value; });

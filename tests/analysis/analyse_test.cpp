@@ -32,8 +32,8 @@ TEST(EdgeAnalyse, BoundsCoverTheDataWhereTheFrictionIsADifference) {
     other.motor.friction.viscous *= change;
     const double growth = analyse(other).growth_at_rest.value();
     EXPECT_NE(growth, answer.growth_at_rest.value());
-    EXPECT_LE(answer.bounds->growth_at_rest.lowest, growth);
-    EXPECT_GE(answer.bounds->growth_at_rest.highest, growth);
+    EXPECT_LE(answer.bounds->growth_at_rest.low, growth);
+    EXPECT_GE(answer.bounds->growth_at_rest.high, growth);
   }
 }
 

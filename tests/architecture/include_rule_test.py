@@ -77,7 +77,7 @@ class IncludeRule(unittest.TestCase):
         self.assert_sound({"src/hybrid/orbit.cpp": "#include <Eigen/Core>\n"})
 
     def test_public_headers_burden_no_user_with_a_library_or_a_room(self):
-        for header in ("<Eigen/Core>", "<boost/math/tools/roots.hpp>", '"base/bounds.hpp"'):
+        for header in ("<Eigen/Core>", "<boost/math/tools/roots.hpp>", '"base/extent.hpp"'):
             self.assert_refused("include/gearlash/answer.hpp", f"#include {header}\n")
 
     def test_numerics_keep_to_what_web_assembly_has(self):

@@ -113,7 +113,7 @@ TEST(OracleAttractors, MirrorImagesCountAsOne) {
   }
   EXPECT_EQ(found.cycles[0].stability, Stability::stable);
   EXPECT_TRUE(found.cycles[0].has_mirror_image);
-  EXPECT_NEAR(found.cycles[0].centers.lowest, -found.cycles[0].centers.highest, 1e-9);
+  EXPECT_NEAR(found.cycles[0].centers.low, -found.cycles[0].centers.high, 1e-9);
   EXPECT_EQ(found.cycles[1].stability, Stability::unstable);
   EXPECT_TRUE(found.cycles[1].is_symmetric);
 }
@@ -159,8 +159,8 @@ TEST(OracleAttractors, AnUnstableCycleSeparatesRestAndHunting) {
   EXPECT_EQ(found.edges.front().cycle, 1U);
   ASSERT_TRUE(found.rest);
   // The load rests where the spring does not overcome its breakaway torque.
-  EXPECT_LE(found.rest->load.highest, 0.015);
-  EXPECT_GE(found.rest->load.lowest, -0.015);
+  EXPECT_LE(found.rest->load.high, 0.015);
+  EXPECT_GE(found.rest->load.low, -0.015);
 
   // Half the peak-to-peak that a motion from beside the orbit ends with.
   const auto final_amplitude = [&](double factor) {
@@ -172,7 +172,7 @@ TEST(OracleAttractors, AnUnstableCycleSeparatesRestAndHunting) {
     Extent load;
     load.include(tail.end().numbers[load_position]);
     for (const hybrid::Event& event : tail.events()) load.include(event.before[load_position]);
-    return 0.5 * (load.highest - load.lowest);
+    return 0.5 * (load.high - load.low);
   };
   const double one = final_amplitude(0.97);
   const double other = final_amplitude(1.03);

@@ -137,8 +137,8 @@ TEST(OracleStickSlip, SwingsThatAreNeverCaughtAreAFamily) {
   EXPECT_EQ(cycle.starts, 3U);
   EXPECT_EQ(cycle.stability, Stability::neutral);
   EXPECT_NEAR(cycle.period(), 2.0 * std::numbers::pi, 1e-10);
-  EXPECT_NEAR(cycle.amplitudes.lowest, 0.02, 1e-10);
-  EXPECT_NEAR(cycle.amplitudes.highest, 0.09, 1e-10);
+  EXPECT_NEAR(cycle.amplitudes.low, 0.02, 1e-10);
+  EXPECT_NEAR(cycle.amplitudes.high, 0.09, 1e-10);
   EXPECT_NEAR(cycle.center, center, 1e-10);
 }
 

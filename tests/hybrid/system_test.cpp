@@ -35,12 +35,12 @@ TEST(HybridSystemOracle, StickSlipHasItsPeriodAndExtremesBetweenEvents) {
   EXPECT_NEAR(orbit->period, period, 1e-13 * period);
   EXPECT_TRUE(orbit->stable);
   const double radius = std::hypot(Block::belt, 1.0 - Block::dry);
-  const Extent position = extent(block.system, *orbit, {{1, 0}});
-  EXPECT_NEAR(position.highest, Block::dry + radius, 1e-14);
-  EXPECT_NEAR(position.lowest, Block::dry - radius, 1e-14);
-  const Extent speed = extent(block.system, *orbit, {{0, 1}, 1.0});
-  EXPECT_NEAR(speed.highest, 1.0 + Block::belt, 1e-14);
-  EXPECT_NEAR(speed.lowest, 1.0 - radius, 1e-14);
+  const Bounds position = extent(block.system, *orbit, {{1, 0}});
+  EXPECT_NEAR(position.high, Block::dry + radius, 1e-14);
+  EXPECT_NEAR(position.low, Block::dry - radius, 1e-14);
+  const Bounds speed = extent(block.system, *orbit, {{0, 1}, 1.0});
+  EXPECT_NEAR(speed.high, 1.0 + Block::belt, 1e-14);
+  EXPECT_NEAR(speed.low, 1.0 - radius, 1e-14);
 }
 
 TEST(HybridSystem, EventsSayTheirNamesAndModes) {

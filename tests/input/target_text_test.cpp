@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "gearlash/input.hpp"
+
 namespace gearlash {
 namespace {
 
@@ -33,6 +35,14 @@ TEST(TargetText, IsReadWithItsUnits) {
   EXPECT_EQ(read("frequency >= 30 rad/s").frequency.low, 30.0 / (2.0 * std::numbers::pi));
   EXPECT_TRUE(read("no-hunting").no_hunting);
   EXPECT_EQ(read("growth-at-rest <= 0.9").growth_at_rest.high, 0.9);
+}
+
+TEST(TargetText, OfADriveMayNameTimesIfItHasThem) {
+  Drive drive = normal_form(0.19, 2.0, 0.1, 0.3);
+  EXPECT_EQ(parse_target("size <= 1 deg", drive).amplitude.high, degree);
+  EXPECT_THROW((void)parse_target("frequency >= 5 Hz", drive), InvalidInput);
+  drive.servo->natural_frequency = 14.5;
+  EXPECT_EQ(parse_target("frequency >= 5 Hz", drive).frequency.low, 5.0);
 }
 
 std::vector<std::string> faults_of(std::string_view text, TimeScale scale = TimeScale::known) {

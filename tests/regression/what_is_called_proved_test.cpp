@@ -7,6 +7,7 @@
 
 #include "analysis/design/drives.hpp"
 #include "analysis/design/feasible_values.hpp"
+#include "analysis/design/target.hpp"
 #include "closed_form/growth_at_rest.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "closed_form/trajectory.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/final_servo.hpp"
 #include "base/range_check.hpp"
 #include "model/reduced_drive.hpp"
 
@@ -68,6 +69,12 @@ double friction_terms(const Drive& drive, double friction) {
   return std::max(friction, 2.0 * viscous - friction);
 }
 
+Drive with_closed_form(const Drive& drive) {
+  require_none(faults(drive));
+  if (std::optional<Drive> found = closed_form_drive(drive)) return *std::move(found);
+  throw InvalidInput({{"drive", "without a closed form", permitted_with_closed_form, ""}});
+}
+
 }  // namespace
 
 DataError data_error_of(const Drive& drive, const Drivetrain& drivetrain) {
@@ -85,21 +92,17 @@ DataError data_error_of(const Drive& drive, const Drivetrain& drivetrain) {
   return error;
 }
 
-ChangeableDrive::ChangeableDrive(const Drive& drive) : drive_(drive) {
-  require_none(faults(drive));
-  if (!closed_form_servo(drive)) {
-    throw InvalidInput({{"drive", "without a closed form", permitted_with_closed_form, ""}});
-  }
-  drivetrain_ = referred_drivetrain(drive);
+ChangeableDrive::ChangeableDrive(const Drive& drive) : drive_(with_closed_form(drive)) {
+  drivetrain_ = referred_drivetrain(drive_);
   for (const Name& name : before_feedback) add_parameter(name.path);
-  if (drive.servo) add_shares();
-  if (!drive.servo) add_feedback(1.0);
+  if (drive_.servo) add_shares();
+  if (!drive_.servo) add_feedback(1.0);
   for (const Name& name : after_feedback) add_parameter(name.path);
   usual_ = numbers_.size();
   for (const Parameter& parameter : all_parameters_of_drives()) {
     if (find(parameter.path) == nullptr) add_parameter(parameter.path);
   }
-  data_error_ = data_error_of(drive, drivetrain_);
+  data_error_ = data_error_of(drive_, drivetrain_);
 }
 
 void ChangeableDrive::add_parameter(std::string_view path) {
@@ -177,7 +180,7 @@ const ChangeableNumber& ChangeableDrive::number(std::string_view name) const {
   for (const ChangeableNumber& number : numbers_) {
     permitted += (&number == numbers_.data() ? " " : ", ") + number.name;
   }
-  throw InvalidInput({{std::string(name), "", permitted, ""}});
+  throw InvalidInput({{"parameter", std::string(name), permitted, ""}});
 }
 
 ChangeableDrive::Changed ChangeableDrive::changed(std::initializer_list<Change> changes) const {

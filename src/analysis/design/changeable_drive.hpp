@@ -39,6 +39,7 @@ class ChangeableDrive {
   /// Throws InvalidInput with every fault, or where the drive has no closed form.
   explicit ChangeableDrive(const Drive& drive);
 
+  /// Without its signals, on which hunting does not depend.
   const Drive& drive() const { return drive_; }
   const Drivetrain& drivetrain() const { return drivetrain_; }
 

@@ -1,82 +1,20 @@
-// What a number of a data sheet may be, piece by piece of a production run.
+// What can be said of a distribution of tolerance.hpp.
 #pragma once
 
-#include <limits>
-#include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
-#include "base/fault.hpp"
-#include "closed_form/cycle_bounds.hpp"
+#include "gearlash/tolerance.hpp"
 
 namespace gearlash {
 
-/// The same in every piece.
-struct ExactValue {
-  double value = 0.0;
-
-  bool operator==(const ExactValue&) const = default;
-};
-
-/// Every value from `min` to `max` is as likely.
-struct UniformBetween {
-  double min = 0.0;
-  double max = 0.0;
-
-  bool operator==(const UniformBetween&) const = default;
-};
-
-/// Likewise, from nominal − tolerance to nominal + tolerance; the tolerance is absolute, ≥ 0.
-struct UniformAbout {
-  double nominal = 0.0;
-  double tolerance = 0.0;
-
-  bool operator==(const UniformAbout&) const = default;
-};
-
-/// "± 10 %" is a share of 0.1.
-inline UniformAbout within_share(double nominal, double share) {
-  return {nominal, share * nominal};
-}
-
-/// Gauss's, density ∝ exp(−(x − mean)²/(2 standard_deviation²)), of which pieces below `min` or
-/// above `max` are sorted out where those are given; mean and standard deviation are those before
-/// the sorting. standard_deviation > 0, min < max, min < mean + 3 standard deviations and max >
-/// mean − 3 standard deviations.
-struct Normal {
-  double mean = 0.0;
-  double standard_deviation = 1.0;
-  std::optional<double> min = {};
-  std::optional<double> max = {};
-
-  bool operator==(const Normal&) const = default;
-};
-
-struct Lot {
-  double value = 0.0;
-  double weight = 1.0;  ///< > 0; only ratios of weights matter
-
-  bool operator==(const Lot&) const = default;
-};
-
-/// One of several values, each as likely as its weight says: lots of several makers, gear wheels of
-/// several ratios. At least one lot.
-struct DiscreteLots {
-  std::vector<Lot> lots;
-
-  bool operator==(const DiscreteLots&) const = default;
-};
-
-using Distribution = std::variant<ExactValue, UniformBetween, UniformAbout, Normal, DiscreteLots>;
-
-/// Every fault of the ranges above, fields being `field`.min and so on.
+/// Every fault of the ranges in gearlash/tolerance.hpp, fields being `field`.min and so on.
 std::vector<Fault> validate(const Distribution& distribution, std::string_view field);
 
 /// The functions below: precondition: validate() is empty.
 
-/// The value that a share u of all pieces do not exceed; 0 < u < 1.
+/// The value that a share u of all samples do not exceed; 0 < u < 1.
 double quantile(const Distribution& distribution, double u);
 double mean_of(const Distribution& distribution);
 double standard_deviation_of(const Distribution& distribution);

@@ -66,7 +66,7 @@ DrawnCycles solve(const TolerancedDrive& drive, std::size_t rows, std::span<cons
   columns[Quantity::growth_at_rest] = cycles.growth_at_rest;
   columns[Quantity::amplitude] = amplitude;
   columns[Quantity::period] = period;
-  cycles.solved = find_limit_cycles(servos, columns, unit);
+  find_limit_cycles(servos, columns, unit);
   cycles.amplitude_per_backlash.resize(rows);
   cycles.frequency.resize(rows);
   for (std::size_t row = 0; row < rows; ++row) {
@@ -75,7 +75,6 @@ DrawnCycles solve(const TolerancedDrive& drive, std::size_t rows, std::span<cons
   }
   for (const std::size_t row : refused) write_refused(cycles, row);
   cycles.refused = refused.size();
-  cycles.solved.one_by_one -= refused.size();  // a servo without a gap is not for the lanes
   return cycles;
 }
 

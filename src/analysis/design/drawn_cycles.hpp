@@ -20,7 +20,6 @@ struct DrawnCycles {
   std::vector<double> growth_at_rest;  ///< NaN where the values make no drive
   std::vector<double> frequency;       ///< Hz; NaN where there is no cycle
   std::vector<Verdict> verdict;
-  BatchCount solved;
   std::size_t refused = 0;  ///< values that make no drive: verdict undecided, amplitudes NaN
 
   std::size_t rows() const { return verdict.size(); }

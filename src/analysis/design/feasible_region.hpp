@@ -45,7 +45,7 @@ struct FeasibleRegion {
 };
 
 /// What is narrower than a cell between the axes' values can be missed, as by boundary_of_region().
-/// Precondition: two different parameters, validate(target) is empty.
+/// Precondition: two different parameters, faults(target) is empty.
 FeasibleRegion feasible_region(const ChangeableDrive& drive, const ParameterAxis& x,
                                const ParameterAxis& y, const Target& target, Cost cost);
 

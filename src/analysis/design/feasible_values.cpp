@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <limits>
 
+#include "analysis/design/target.hpp"
 #include "base/bracketed_root.hpp"
 #include "base/on_threads.hpp"
+#include "base/range_check.hpp"
 #include "closed_form/growth_at_rest.hpp"
 
 namespace gearlash {
@@ -19,6 +21,12 @@ struct Part {
   Judgement judgement;
   /// One of its ends, or what was met with while closing in, has no cycle that is known.
   bool is_unknown = false;
+};
+
+/// A value, and what the drive does there.
+struct TriedValue {
+  double value = 0.0;
+  Performance performance{};
 };
 
 /// Values all over a range: by ratio where that is wide, from 0 on over the last four decades; of a
@@ -160,12 +168,14 @@ class Search {
   }
 
   /// The value that comes closest to the target.
-  TriedValue closest(const Bounds& range) {
+  double closest(const Bounds& range) {
     std::vector<TriedValue> tried = tried_values(range);
     tried.push_back(at(number_.present));
     const auto beyond = [&](const TriedValue& one) { return excess(target_, one.performance); };
-    return *std::min_element(tried.begin(), tried.end(),
-                             [&](const auto& a, const auto& b) { return beyond(a) < beyond(b); });
+    const auto nearest =
+        std::min_element(tried.begin(), tried.end(),
+                         [&](const auto& a, const auto& b) { return beyond(a) < beyond(b); });
+    return nearest->value;
   }
 
  private:
@@ -340,20 +350,19 @@ std::vector<Part> joined(const std::vector<Part>& parts) {
 }  // namespace
 
 bool FeasibleValues::contains(double value) const {
-  return std::any_of(intervals.begin(), intervals.end(), [&](const Bounds& interval) {
-    return value >= interval.low && value <= interval.high;
-  });
+  return std::any_of(intervals.begin(), intervals.end(),
+                     [&](const Bounds& interval) { return interval.contains(value); });
 }
 
-double FeasibleValues::nearest() const {
-  double nearest = std::numeric_limits<double>::quiet_NaN();
+std::optional<double> FeasibleValues::nearest() const {
+  std::optional<double> nearest;
   const auto distance = [&](double value) {
     return present > 0.0 && value > 0.0 ? std::abs(std::log(value / present))
                                         : std::abs(value - present);
   };
   for (const Bounds& interval : intervals) {
     const double here = std::clamp(present, interval.low, interval.high);
-    if (std::isnan(nearest) || distance(here) < distance(nearest)) nearest = here;
+    if (!nearest || distance(here) < distance(*nearest)) nearest = here;
   }
   return nearest;
 }
@@ -411,6 +420,12 @@ FeasibleValues feasible_values(const ChangeableDrive& drive, std::string_view pa
   if (found.intervals.empty()) found.closest = search.closest(found.searched);
   found.evaluations = search.evaluations();
   return found;
+}
+
+FeasibleValues feasible_values(const Drive& drive, std::string_view parameter,
+                               const Target& target) {
+  require_none(faults(target));
+  return feasible_values(ChangeableDrive(drive), parameter, target);
 }
 
 }  // namespace gearlash

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "analysis/design/drive_sensitivity.hpp"
-#include "analysis/design/target.hpp"
+#include "analysis/design/feasible_values.hpp"
 #include "base/special_numbers.hpp"
 #include "closed_form/growth_at_rest.hpp"
 #include "numeric/linear_algebra.hpp"
@@ -217,18 +217,12 @@ std::optional<Change> least_change(const LogGrowth& growth, Change at) {
   return stationary_change(growth, at);
 }
 
-void accept(OverallMargin& margin, const LogGrowth& growth, const Drivetrain& drive,
-            const Change& change) {
-  const double distance = change.norm();
-  if (!std::isnan(margin.distance) && margin.distance <= distance) return;
-  const double growth_there = std::exp(growth.value(change));
+void accept(OverallMargin& margin, const LogGrowth& growth, const Change& change) {
+  if (margin.change && margin.change->length() <= change.norm()) return;
   constexpr double acceptable = 1e-10;
-  if (!(std::abs(growth_there - 1.0) < acceptable)) return;
+  if (!(std::abs(std::exp(growth.value(change)) - 1.0) < acceptable)) return;
   margin.outcome = MarginOutcome::found;
-  margin.distance = distance;
-  margin.change = {change(0), change(1), change(2), change(3), change(4)};
-  margin.at_boundary = changed(drive, change);
-  margin.growth_at_boundary = growth_there;
+  margin.change = LogChange{change(0), change(1), change(2), change(3), change(4)};
 }
 
 std::optional<MarginOutcome> outcome_without_search(const Drivetrain& drive) {
@@ -238,6 +232,14 @@ std::optional<MarginOutcome> outcome_without_search(const Drivetrain& drive) {
 }
 
 }  // namespace
+
+std::optional<double> ParameterMargin::per_cent_below() const {
+  return below && present != 0.0 ? std::optional(100.0 * (*below / present - 1.0)) : std::nullopt;
+}
+
+std::optional<double> ParameterMargin::per_cent_above() const {
+  return above && present != 0.0 ? std::optional(100.0 * (*above / present - 1.0)) : std::nullopt;
+}
 
 double LogChange::length() const {
   return Change(motor_inertia, load_inertia, motor_friction, load_friction, stiffness).norm();
@@ -253,7 +255,7 @@ OverallMargin overall_margin(const Drivetrain& drive) {
   }
   const LogGrowth growth(drive);
   std::vector<Change> starts = crossings(growth);
-  for (const Change& crossing : starts) accept(margin, growth, drive, crossing);
+  for (const Change& crossing : starts) accept(margin, growth, crossing);
   constexpr std::size_t most_crossings = 8;
   if (starts.size() > most_crossings) starts.resize(most_crossings);
   starts.push_back(Change::Zero());
@@ -262,7 +264,7 @@ OverallMargin overall_margin(const Drivetrain& drive) {
     const auto least = least_change(growth, start);
     if (!least) continue;
     ++margin.converged;
-    accept(margin, growth, drive, *least);
+    accept(margin, growth, *least);
   }
   if (margin.outcome != MarginOutcome::found) margin.outcome = MarginOutcome::out_of_reach;
   return margin;
@@ -278,8 +280,8 @@ ParameterMargin parameter_margin(const ChangeableDrive& drive, std::string_view 
   for (const Bounds& interval : quiet.intervals) {
     for (const double end : {interval.low, interval.high}) {
       if (end == quiet.searched.low || end == quiet.searched.high) continue;
-      if (end <= quiet.present) margin.below = std::fmax(margin.below, end);
-      if (end >= quiet.present) margin.above = std::fmin(margin.above, end);
+      if (end <= quiet.present) margin.below = std::max(margin.below.value_or(end), end);
+      if (end >= quiet.present) margin.above = std::min(margin.above.value_or(end), end);
     }
   }
   return margin;
@@ -294,11 +296,16 @@ HuntingMargin hunting_margin(const ChangeableDrive& drive, Progress& progress) {
   });
   for (const std::string& name : names) {
     margin.parameters.push_back(parameter_margin(drive, name));
-    progress.go_on(static_cast<double>(margin.parameters.size()) /
-                   static_cast<double>(names.size() + 1));
+    margin.stopped = !progress.go_on(static_cast<double>(margin.parameters.size()) /
+                                     static_cast<double>(names.size() + 1));
+    if (margin.stopped) break;
   }
   margin.overall = overall_margin(drive.drivetrain());
   return margin;
+}
+
+HuntingMargin hunting_margin(const Drive& drive, Progress& progress) {
+  return hunting_margin(ChangeableDrive(drive), progress);
 }
 
 }  // namespace gearlash

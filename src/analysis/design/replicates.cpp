@@ -36,22 +36,24 @@ Estimate estimate_of(double value, std::span<const double> of_replicates) {
     sum += one;
     count += 1.0;
   }
-  if (count < 2.0) return {value, not_a_number};
+  if (count < 2.0) return {value, {}};
   double squares = 0.0;
   for (const double one : of_replicates) {
     if (!std::isnan(one)) squares += (one - sum / count) * (one - sum / count);
   }
-  return {value, std::sqrt(squares / (count * (count - 1.0)))};
+  const double error = std::sqrt(squares / (count * (count - 1.0)));
+  return {value, std::isnan(error) ? std::nullopt : std::optional(error)};  // infinite values
 }
 
-Estimate ratio_of(std::span<const double> numerators, std::span<const double> denominators) {
+std::optional<Estimate> ratio_of(std::span<const double> numerators,
+                                 std::span<const double> denominators) {
   double numerator = 0.0;
   double denominator = 0.0;
   for (std::size_t i = 0; i < numerators.size(); ++i) {
     numerator += numerators[i];
     denominator += denominators[i];
   }
-  if (!(denominator > 0.0)) return {};
+  if (!(denominator > 0.0)) return std::nullopt;
   const double ratio = numerator / denominator;
   const double mean = denominator / static_cast<double>(denominators.size());
   std::vector<double> differences;
@@ -99,7 +101,8 @@ double SortedReplicates::quantile(double p) const {
   return high == low ? low : low + (rank - whole) * (high - low);
 }
 
-Estimate SortedReplicates::estimated_quantile(double p) const {
+std::optional<Estimate> SortedReplicates::estimated_quantile(double p) const {
+  if (size() == 0) return std::nullopt;
   std::vector<double> each;
   for (const auto& replicate : replicates)
     each.push_back(SortedReplicates{{replicate}}.quantile(p));

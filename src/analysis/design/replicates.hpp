@@ -3,21 +3,23 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "analysis/design/sampling.hpp"
 #include "analysis/grid/grid_evaluation.hpp"
+#include "gearlash/tolerance.hpp"
 
 namespace gearlash::detail {
 
-/// `value` with the standard error that the replicates' own values tell; NaNs among them are left
+/// `value` with the standard error that the replicates' own values show; NaNs among them are left
 /// out.
 Estimate estimate_of(double value, std::span<const double> of_replicates);
 
 /// Σ numerators/Σ denominators; its standard error is that of the numerators less the ratio times
-/// the denominators. NaN where the denominators are 0 in all.
-Estimate ratio_of(std::span<const double> numerators, std::span<const double> denominators);
+/// the denominators. Nothing where the denominators are 0 in all.
+std::optional<Estimate> ratio_of(std::span<const double> numerators,
+                                 std::span<const double> denominators);
 
 /// Numbers ≥ 0, infinity included, in rising order, replicate by replicate.
 struct SortedReplicates {
@@ -29,8 +31,8 @@ struct SortedReplicates {
   /// That a share p of all do not exceed, 0 ≤ p ≤ 1: between the two numbers whose mid-ranks are
   /// nearest to p (Hazen). NaN where there are none.
   double quantile(double p) const;
-  Estimate estimated_quantile(double p) const;
-  std::size_t count_between(double low, double high) const;  ///< low ≤ x < high
+  std::optional<Estimate> estimated_quantile(double p) const;  ///< nothing where there are none
+  std::size_t count_between(double low, double high) const;    ///< low ≤ x < high
   SortedReplicates above(double floor) const;
   SortedReplicates finite() const;
 };

@@ -4,6 +4,7 @@
 #include "analysis/design/drawn_cycles.hpp"
 #include "analysis/design/drawn_values.hpp"
 #include "analysis/design/replicates.hpp"
+#include "analysis/design/sampling.hpp"
 #include "analysis/design/tolerance_study.hpp"
 #include "base/range_check.hpp"
 
@@ -134,15 +135,16 @@ class Indices {
   }
 
   Estimate variance() const { return variance_; }
-  SensitivityIndices of(std::size_t number) const {
-    if (!varies_) return {};
+  std::optional<SensitivityIndices> of(std::size_t number) const {
+    if (!varies_) return std::nullopt;
     std::vector<double> first;
     std::vector<double> total;
     for (const Sums* sums : replicates_) {
       first.push_back(sums->points > 0.0 ? sums->first_variance(number) : 0.0);
       total.push_back(sums->points > 0.0 ? sums->total_variance(number) : 0.0);
     }
-    return {detail::ratio_of(first, variances_), detail::ratio_of(total, variances_)};
+    return SensitivityIndices{*detail::ratio_of(first, variances_),
+                              *detail::ratio_of(total, variances_)};
   }
 
  private:
@@ -184,7 +186,7 @@ SensitivityStudy study_of(const TolerancedDrive& drive, const SamplePlan& sampli
 SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SamplePlan& sampling,
                                      const Workers& workers, Progress& progress) {
   RangeCheck check;
-  require_none(check.include(validate(drive)).include(validate(sampling)).faults());
+  require_none(check.include(faults(drive)).include(validate(sampling)).faults());
   const std::size_t numbers = drive.varied.size();
   if (numbers == 0) {
     SensitivityStudy nothing;
@@ -206,6 +208,11 @@ SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SampleP
   SensitivityStudy study = study_of(drive, sampling, blocks, usual_amplitude);
   study.stopped = !all_done;
   return study;
+}
+
+SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SamplePlan& sampling,
+                                     Progress& progress) {
+  return study_sensitivities(drive, sampling, Workers{}, progress);
 }
 
 }  // namespace gearlash

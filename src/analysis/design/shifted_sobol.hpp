@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "analysis/design/sampling.hpp"
+#include "gearlash/tolerance.hpp"
 
 namespace gearlash::detail {
 

@@ -50,20 +50,6 @@ Judgement judge_quiet(const Target& target) {
 
 }  // namespace
 
-Bounds* Target::limits_of(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::amplitude:
-      return &amplitude;
-    case Quantity::frequency:
-    case Quantity::period:
-      return &frequency;
-    case Quantity::growth_at_rest:
-      return &growth_at_rest;
-    default:
-      return nullptr;
-  }
-}
-
 Performance performance_of(const Drivetrain& drive) {
   const LimitCycleAnalysis analysis = analyse_limit_cycles(normalize(drive));
   Performance performance{.verdict = analysis.verdict, .growth_at_rest = analysis.growth_at_rest};
@@ -135,7 +121,7 @@ Judgement judge(const Target& target, const DriveBox& box, double guessed_flight
   return both(growth, either(hunting, judge_quiet(target)));
 }
 
-std::vector<Fault> validate(const Target& target) {
+std::vector<Fault> faults(const Target& target) {
   RangeCheck check;
   const auto require_room = [&](const char* quantity, const Bounds& limits) {
     if (limits.low <= limits.high) return;

@@ -1,30 +1,14 @@
-// What a servo should do: targets for its limit cycle.
+// How a servo does by a target.
 #pragma once
 
 #include <limits>
-#include <vector>
 
 #include "analysis/design/changeable_drive.hpp"
-#include "base/fault.hpp"
 #include "base/special_numbers.hpp"
 #include "closed_form/limit_cycle.hpp"
-#include "gearlash/quantity.hpp"
+#include "gearlash/design.hpp"
 
 namespace gearlash {
-
-/// Limits that a servo has to keep all together. One that cannot hunt has amplitude 0 and no
-/// frequency.
-struct Target {
-  bool no_hunting = false;          ///< it comes to rest from everywhere: Verdict::cannot_hunt
-  Bounds amplitude{0.0, infinity};  ///< rad, half peak-to-peak of the load; Quantity::amplitude
-  Bounds frequency{0.0, infinity};  ///< Hz, of a servo that hunts
-  Bounds growth_at_rest{0.0, infinity};  ///< below 1 it is a margin to hunting
-
-  /// The limits of a quantity; nullptr where a target has none. A period is a frequency.
-  Bounds* limits_of(Quantity quantity);
-
-  bool operator==(const Target&) const = default;
-};
 
 /// What a target is compared with.
 struct Performance {
@@ -65,9 +49,5 @@ enum class Judgement { none, some, all };
 
 /// By bound_cycles(): proved. The guess is as there.
 Judgement judge(const Target& target, const DriveBox& box, double guessed_flight_time);
-
-/// Limits that contradict each other ("amplitude <= 1 deg and amplitude >= 2 deg"), or that nothing
-/// can keep, each as a fault of the field `target`.
-std::vector<Fault> validate(const Target& target);
 
 }  // namespace gearlash

@@ -7,6 +7,7 @@
 #include "analysis/design/drawn_cycles.hpp"
 #include "analysis/design/drawn_values.hpp"
 #include "analysis/design/replicates.hpp"
+#include "analysis/design/sampling.hpp"
 #include "base/on_threads.hpp"
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
@@ -24,7 +25,6 @@ struct Counts {
   std::size_t unknown_amplitudes = 0;
   std::size_t finite_amplitudes = 0;
   std::size_t refused = 0;
-  BatchCount solved;
   double sum_of_amplitudes = 0.0;
 
   void add(const Counts& others) {
@@ -34,8 +34,6 @@ struct Counts {
     unknown_amplitudes += others.unknown_amplitudes;
     finite_amplitudes += others.finite_amplitudes;
     refused += others.refused;
-    solved.side_by_side += others.solved.side_by_side;
-    solved.one_by_one += others.solved.one_by_one;
     sum_of_amplitudes += others.sum_of_amplitudes;
   }
 };
@@ -48,7 +46,7 @@ struct Columns {
 
 Counts count_block(const detail::DrawnCycles& cycles, const Target& target, std::size_t place,
                    Columns& columns) {
-  Counts counts{.refused = cycles.refused, .solved = cycles.solved};
+  Counts counts{.refused = cycles.refused};
   for (std::size_t row = 0; row < cycles.rows(); ++row) {
     const double size = cycles.amplitude(row);
     const double frequency = cycles.frequency[row];
@@ -112,7 +110,8 @@ AmplitudeHistogram histogram_of(const detail::SortedReplicates& sizes, std::size
 
 /// Σ quantity/Σ all, over the replicates.
 template <class Quantity, class All>
-Estimate share_of(const std::vector<Counts>& replicates, Quantity quantity, All all) {
+std::optional<Estimate> share_of(const std::vector<Counts>& replicates, Quantity quantity,
+                                 All all) {
   std::vector<double> quantities;
   std::vector<double> wholes;
   for (const Counts& counts : replicates) {
@@ -133,9 +132,9 @@ ToleranceStudy counted(const SamplePlan& sampling, const std::vector<Counts>& bl
   const auto points = [&](const Counts&) { return sampling.points; };
   ToleranceStudy study;
   study.sampling = sampling;
-  study.hunting = share_of(
+  study.hunting = *share_of(
       replicates, [](const Counts& c) { return c.hunting; }, points);
-  study.yield = share_of(
+  study.yield = *share_of(
       replicates, [](const Counts& c) { return c.meeting; }, points);
   study.mean_amplitude = share_of(
       replicates, [](const Counts& c) { return c.sum_of_amplitudes; },
@@ -143,14 +142,13 @@ ToleranceStudy counted(const SamplePlan& sampling, const std::vector<Counts>& bl
   study.undecided = total.undecided;
   study.unknown_amplitudes = total.unknown_amplitudes;
   study.refused = total.refused;
-  study.solved = total.solved;
   return study;
 }
 
 void require_sound(const TolerancedDrive& drive, const SamplePlan& sampling,
                    const StudyQuestions& questions) {
   RangeCheck check;
-  check.include(validate(drive)).include(validate(sampling)).include(validate(questions));
+  check.include(faults(drive)).include(validate(sampling)).include(validate(questions));
   require_none(check.faults());
 }
 
@@ -158,7 +156,7 @@ void require_sound(const TolerancedDrive& drive, const SamplePlan& sampling,
 
 std::vector<Fault> validate(const StudyQuestions& questions) {
   RangeCheck check;
-  check.include(validate(questions.target));
+  check.include(faults(questions.target));
   for (const double share : questions.shares) check.within("quantile", share, 0.0, 1.0);
   constexpr std::size_t most_bins = 1'000'000;
   if (questions.bins > most_bins) {
@@ -193,6 +191,11 @@ ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& 
   const detail::SortedReplicates frequencies = sorted(columns.frequency, sampling, workers.threads);
   study.frequency = quantiles_of(frequencies.above(no_cycle), questions.shares);
   return study;
+}
+
+ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& sampling,
+                                const StudyQuestions& questions, Progress& progress) {
+  return study_tolerances(drive, sampling, questions, Workers{}, progress);
 }
 
 }  // namespace gearlash

@@ -5,6 +5,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "analysis/final_servo.hpp"
 #include "base/range_check.hpp"
 #include "model/drivetrain_slopes.hpp"
 #include "model/parameters.hpp"
@@ -93,7 +94,7 @@ std::vector<double> corner_of(std::span<const Bounds> ranges, std::size_t corner
 /// Of a drive that is no servo of the closed form.
 std::vector<Fault> faults_of_servo(const Drive& drive) {
   std::vector<Fault> found = faults(drive);
-  if (found.empty() && !closed_form_servo(drive)) {
+  if (found.empty() && !closed_form_drive(drive)) {
     found.push_back({"drive", "without a closed form", permitted_with_closed_form, ""});
   }
   return found;
@@ -135,9 +136,9 @@ std::vector<Fault> validate_one_by_one(const TolerancedDrive& drive) {
     if (!seen.insert(parameter->path).second) {
       check.refuse(varied.path, text_of(varied.distribution), "must be given once");
     }
-    const std::vector<Fault> faults = validate(varied.distribution, varied.path);
-    check.include(faults);
-    if (faults.empty()) check_range(check, varied, permitted_draws(*parameter));
+    const std::vector<Fault> found = validate(varied.distribution, varied.path);
+    check.include(found);
+    if (found.empty()) check_range(check, varied, permitted_draws(*parameter));
   }
   return check.faults();
 }
@@ -159,11 +160,16 @@ std::vector<Fault> validate_nominal(const TolerancedDrive& drive) {
 
 }  // namespace
 
-std::vector<Fault> validate(const TolerancedDrive& drive) {
+std::vector<Fault> faults(const TolerancedDrive& given) {
   RangeCheck check;
-  const bool has_form = drive::proportional_drivetrain(reduce(drive.nominal)).has_value();
-  if (has_form) check.include(validate_one_by_one(drive));
-  check.include(validate_nominal(drive));
+  TolerancedDrive drive = given;
+  const std::vector<Fault> of_nominal = validate_nominal(drive);
+  if (of_nominal.empty()) drive.nominal = without_ended_signals(drive.nominal);
+  // A drive that is at fault may still have the form of a servo; its tolerances are then looked at.
+  if (of_nominal.empty() || drive::proportional_drivetrain(reduce(drive.nominal))) {
+    check.include(validate_one_by_one(drive));
+  }
+  check.include(of_nominal);
   if (!check.faults().empty()) return check.faults();
   std::vector<Bounds> drawn;
   std::vector<Bounds> possible;
@@ -203,7 +209,7 @@ ClosedFormServo drive_with(const TolerancedDrive& drive, std::span<const double>
   detail::DrawnDrive drawn(drive);
   const Drive& changed = drawn.with(values);
   require_none(faults_of_servo(changed));
-  return *closed_form_servo(changed);
+  return *closed_form_servo(*closed_form_drive(changed));
 }
 
 namespace detail {

@@ -14,29 +14,6 @@
 
 namespace gearlash {
 
-/// A parameter of a drive, by its path, that differs from sample to sample.
-struct ParameterTolerance {
-  std::string path;
-  Distribution distribution;  ///< independent of those of the others
-
-  bool operator==(const ParameterTolerance&) const = default;
-};
-
-struct TolerancedDrive {
-  Drive nominal{};  ///< with a closed form; of varied parameters without effect
-  std::vector<ParameterTolerance> varied{};
-
-  bool operator==(const TolerancedDrive&) const = default;
-};
-
-/// Every fault: parameters on which the closed form does not depend, or that are given twice;
-/// distributions that are none, or of which a value is drawn (drawn_range_of()) that no such
-/// parameter can have; nominal values. Where each parameter is possible by itself, all corners of
-/// the box of the values drawn, and of the support (three_sigma_range_of()), have to be drives with
-/// a closed form. A backlash between 0 and 1e-15 rad, which a drive must not have, may be drawn:
-/// amplitudes are worked out per backlash.
-std::vector<Fault> validate(const TolerancedDrive& drive);
-
 /// "gearbox.backlash", or of a normal form "servo.backlash".
 std::string_view path_of_backlash(const Drive& drive);
 /// Which of the drive's varied parameters is its backlash, if any is.

@@ -6,6 +6,7 @@
 #include "analysis/design/drawn_cycles.hpp"
 #include "analysis/design/drawn_values.hpp"
 #include "analysis/design/replicates.hpp"
+#include "analysis/design/sampling.hpp"
 #include "base/on_threads.hpp"
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
@@ -105,7 +106,7 @@ class LargestMaxima {
 
 std::vector<Fault> validate(const BacklashDemand& demand) {
   RangeCheck check;
-  check.include(validate(demand.target));
+  check.include(faults(demand.target));
   if (demand.target.amplitude.low > 0.0) {
     check.refuse("target", "amplitude >= " + exact_text(demand.target.amplitude.low),
                  "must have no lower limit of amplitude: more backlash then would be better");
@@ -122,7 +123,7 @@ std::optional<WidestBacklash> widest_backlash(const TolerancedDrive& drive,
                                               const SamplePlan& sampling, const Workers& workers,
                                               Progress& progress) {
   RangeCheck check;
-  check.include(validate(drive)).include(validate(sampling)).include(validate(demand));
+  check.include(faults(drive)).include(validate(sampling)).include(validate(demand));
   require_none(check.faults());
   const double min = lowest_backlash(drive, demand);
   const TolerancedDrive unit_drive = with_unit_backlash(drive);
@@ -146,10 +147,16 @@ std::optional<WidestBacklash> widest_backlash(const TolerancedDrive& drive,
   if (!max) return std::nullopt;
   widest.max = *max;
   widest.yield = maxima.yield_with(*max);
-  const double error = widest.yield.standard_error;
+  const double error = widest.yield.standard_error.value_or(0.0);
   widest.uncertainty = {maxima.with_yield(demand.yield + error).value_or(min),
                         maxima.with_yield(demand.yield - error).value_or(min)};
   return widest;
+}
+
+std::optional<WidestBacklash> widest_backlash(const TolerancedDrive& drive,
+                                              const BacklashDemand& demand,
+                                              const SamplePlan& sampling, Progress& progress) {
+  return widest_backlash(drive, demand, sampling, Workers{}, progress);
 }
 
 }  // namespace gearlash

@@ -327,7 +327,7 @@ const char* name_of(PlaceInRange place) {
 WorstCorner worst_corner(const TolerancedDrive& drive, const WorstSearch& search,
                          const Workers& workers, Progress& progress) {
   RangeCheck check;
-  check.include(validate(drive));
+  check.include(faults(drive));
   if (search.starts < 1) check.refuse("starts", "0", "must be at least 1");
   require_none(check.faults());
   Climb climb(drive, search, workers, progress);

@@ -4,7 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "analysis/grid/design_chart.hpp"
+#include "analysis/grid/cubic_table.hpp"
+#include "gearlash/chart.hpp"
 
 namespace gearlash::detail {
 
@@ -25,6 +26,12 @@ Table solve_points(const Grid& refined_grid, Quantity quantity, std::size_t thre
 /// The straightened values of the points of the grid itself.
 std::vector<double> values_of_nodes(const Grid& refined_grid, Quantity quantity,
                                     std::span<const double> values);
+
+struct ChartCell {
+  double error;  ///< stated; NaN where the servo is to be solved
+  Verdict verdict;
+  bool has_value;
+};
 
 /// The cells of a table and how well it does in them.
 struct ExaminedCells {

@@ -1,16 +1,18 @@
-#include "analysis/grid/design_chart.hpp"
-
 #include <array>
 #include <cmath>
-#include <stdexcept>
 #include <string>
 
 #include "analysis/grid/chart_cells.hpp"
 #include "analysis/grid/grid_evaluation.hpp"
+#include "analysis/grid/grid_points.hpp"
 #include "base/range_check.hpp"
+#include "gearlash/chart.hpp"
 
 namespace gearlash {
 namespace {
+
+/// A chart is held in memory, with the points compared between the values of its axes.
+constexpr std::size_t most_points = 100'000'000;
 
 /// What a cubic asks for, beyond what a grid does.
 void check_axis(RangeCheck& check, const Axis& axis, const std::string& name) {
@@ -46,9 +48,9 @@ void require_sound(const Grid& grid, double tolerance) {
                  "must be at most " + std::to_string(CubicTable::most_axes));
   }
   const double points = points_with_those_between(grid);
-  if (points > static_cast<double>(most_points_of_a_design_chart)) {
+  if (points > static_cast<double>(most_points)) {
     check.refuse("points", exact_text(points),
-                 "must be at most " + std::to_string(most_points_of_a_design_chart) +
+                 "must be at most " + std::to_string(most_points) +
                      ", those between the values included: a chart is held in memory");
   }
   require_none(check.within("tolerance", tolerance, 0.0, 1.0).faults());
@@ -70,50 +72,90 @@ const char* name_of(ChartSource source) {
   return "";
 }
 
-DesignChart::DesignChart(Grid grid, Quantity quantity, const DesignChartOptions& options)
-    : grid_((require_sound(grid, options.tolerance), std::move(grid))),
-      points_(grid_),
-      quantity_(quantity) {
-  const Grid refined_grid = detail::refined(grid_);
+class DesignChart::Cells {
+ public:
+  Cells(Grid grid, Quantity quantity, const DesignChartOptions& options);
+
+  ChartAnswer look_up(std::span<const double> place) const;
+
+  Grid grid;
+  Quantity quantity;
+  ChartAccuracy accuracy{};
+
+ private:
+  void solve(std::span<const double> place, ChartAnswer& answer) const;
+  [[noreturn]] void refuse(std::size_t count) const;
+
+  GridPoints points_;
+  CubicTable table_{};                      ///< straightened
+  std::vector<detail::ChartCell> cells_{};  ///< the last axis fastest
+};
+
+DesignChart::Cells::Cells(Grid sound_grid, Quantity of, const DesignChartOptions& options)
+    : grid(std::move(sound_grid)), quantity(of), points_(grid) {
+  const Grid refined_grid = detail::refined(grid);
   const Table points = detail::solve_points(refined_grid, quantity, options.threads);
-  table_ =
-      CubicTable(grid_.axes, detail::values_of_nodes(refined_grid, quantity, points[quantity]));
+  table_ = CubicTable(grid.axes, detail::values_of_nodes(refined_grid, quantity, points[quantity]));
   detail::ExaminedCells examined =
       detail::examine_cells(table_, refined_grid, quantity, points, options);
   cells_ = std::move(examined.cells);
-  accuracy_ = examined.accuracy;
+  accuracy = examined.accuracy;
 }
 
-ChartAnswer DesignChart::look_up(std::span<const double> place) const {
+// There is one object to be returned, so that none is copied: that would take longer than the
+// cubic.
+ChartAnswer DesignChart::Cells::look_up(std::span<const double> place) const {
+  ChartAnswer answer;
   const std::vector<CubicAxis>& axes = table_.axes();
-  if (place.size() != axes.size()) {
-    throw std::invalid_argument("place: " + std::to_string(place.size()) + " values; must be " +
-                                std::to_string(axes.size()) + ", one for each axis");
-  }
+  if (place.size() != axes.size()) refuse(place.size());
   std::array<CubicPlace, CubicTable::most_axes> places;
   std::size_t index = 0;
   for (std::size_t axis = 0; axis < axes.size(); ++axis) {
-    if (!axes[axis].contains(place[axis])) return {};
+    if (!axes[axis].contains(place[axis])) return answer;
     places[axis] = axes[axis].at(place[axis]);
     index = index * axes[axis].intervals() + places[axis].interval;
   }
   const detail::ChartCell& cell = cells_[index];
-  if (std::isnan(cell.error)) return solved(place);
-  ChartAnswer answer{
-      .verdict = cell.verdict, .error = cell.error, .source = ChartSource::interpolated};
+  if (std::isnan(cell.error)) {
+    solve(place, answer);
+    return answer;
+  }
+  answer.verdict = cell.verdict;
+  answer.error = cell.error;
+  answer.source = ChartSource::interpolated;
   if (cell.has_value) {
-    answer.value = detail::unstraightened(quantity_, table_.at({places.data(), axes.size()}));
+    answer.value = detail::unstraightened(quantity, table_.at({places.data(), axes.size()}));
   }
   return answer;
 }
 
-ChartAnswer DesignChart::solved(std::span<const double> place) const {
-  const PointAnswer answer = answer_at(points_, place, quantity_);
-  if (!answer.is_drive) return {};
-  return {.value = of_motion(quantity_, answer.verdict, answer.value),
-          .verdict = answer.verdict,
-          .error = 0.0,
-          .source = ChartSource::solved};
+void DesignChart::Cells::solve(std::span<const double> place, ChartAnswer& answer) const {
+  const PointAnswer found = answer_at(points_, place, quantity);
+  if (!found.is_drive) return;
+  answer.verdict = found.verdict;
+  answer.error = 0.0;
+  answer.source = ChartSource::solved;
+  const double value = of_motion(quantity, found.verdict, found.value);
+  if (!std::isnan(value)) answer.value = value;
 }
+
+void DesignChart::Cells::refuse(std::size_t count) const {
+  throw InvalidInput(
+      {{"place", std::to_string(count) + " values",
+        "must be " + std::to_string(table_.axes().size()) + ", one for each axis", ""}});
+}
+
+DesignChart::DesignChart(Grid grid, Quantity quantity, const DesignChartOptions& options) {
+  require_sound(grid, options.tolerance);
+  cells_ = std::make_shared<const Cells>(std::move(grid), quantity, options);
+}
+
+ChartAnswer DesignChart::look_up(std::span<const double> place) const {
+  return cells_->look_up(place);
+}
+
+const Grid& DesignChart::grid() const noexcept { return cells_->grid; }
+Quantity DesignChart::quantity() const noexcept { return cells_->quantity; }
+const ChartAccuracy& DesignChart::accuracy() const noexcept { return cells_->accuracy; }
 
 }  // namespace gearlash

@@ -353,11 +353,6 @@ class Search {
 
 }  // namespace
 
-void Extent::include(double value) {
-  lowest = std::min(lowest, value);
-  highest = std::max(highest, value);
-}
-
 std::size_t AttractorSearch::count(MotionEnd end) const {
   return static_cast<std::size_t>(
       std::count_if(outcomes.begin(), outcomes.end(),

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/extent.hpp"
 #include "gearlash/answer.hpp"
 #include "gearlash/progress.hpp"
 #include "general/assemble/drive_system.hpp"
@@ -26,14 +27,6 @@ enum class Coordinates {
 };
 
 using gearlash::Stability;
-
-/// Lowest and highest.
-struct Extent {
-  double lowest = std::numeric_limits<double>::infinity();
-  double highest = -std::numeric_limits<double>::infinity();
-
-  void include(double value);
-};
 
 struct FoundCycle {
   hybrid::PeriodicOrbit orbit;  ///< of AttractorSearch::system; with residual and all multipliers

@@ -83,8 +83,8 @@ std::optional<FoundCycle> CycleClosing::closed_cycle(const Trajectory& motion,
   const FoundCycle cycle = measured(setting_, shortest(*orbit), tolerances_);
   if (!(extent_of(cycle) > tolerances_.least_amplitude * setting_.small_length))
     return std::nullopt;
-  const Range load = lately(motion, setting_.load, cycle.period());
-  const Range motor = lately(motion, setting_.motor, cycle.period());
+  const Extent load = lately(motion, setting_.load, cycle.period());
+  const Extent motor = lately(motion, setting_.motor, cycle.period());
   const auto is_as = [&](double seen, double wanted) {
     return agree(seen, wanted, extent_of(cycle), tolerances_.agreement);
   };
@@ -111,9 +111,9 @@ std::optional<std::size_t> CycleClosing::known_cycle_of(
   return std::nullopt;
 }
 
-Range CycleClosing::lately(const Trajectory& motion, const Watched& watched, double period) const {
+Extent CycleClosing::lately(const Trajectory& motion, const Watched& watched, double period) const {
   const double short_time = options_.budget.short_stretch * setting_.swing_time;
-  Range range;
+  Extent range;
   for (const Sample& sample : samples(motion, watched, short_time)) {
     if (sample.time >= motion.end_time() - tolerances_.compared_periods * period) {
       range.include(sample.value);

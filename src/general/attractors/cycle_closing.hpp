@@ -24,7 +24,7 @@ class CycleClosing {
                                             const std::vector<FoundCycle>& known) const;
 
   /// Covers slightly more than the last period of a motion.
-  Range lately(const hybrid::Trajectory& motion, const Watched& watched, double period) const;
+  Extent lately(const hybrid::Trajectory& motion, const Watched& watched, double period) const;
 
  private:
   std::optional<hybrid::PeriodicOrbit> closed(const hybrid::Trajectory& motion,

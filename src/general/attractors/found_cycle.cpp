@@ -90,8 +90,8 @@ double mismatch_after(const SearchSetting& setting, const PeriodicOrbit& orbit, 
 FoundCycle measured(const SearchSetting& setting, const PeriodicOrbit& orbit,
                     const CycleTolerances& tolerances) {
   const Trajectory motion = motion_on(setting.system, orbit, 1.0);
-  const Range load = range_of(samples(motion, setting.load, 0.0));
-  const Range motor = range_of(samples(motion, setting.motor, 0.0));
+  const Extent load = extent_of(samples(motion, setting.load, 0.0));
+  const Extent motor = extent_of(samples(motion, setting.motor, 0.0));
   FoundCycle cycle;
   cycle.orbit = without_spare_multipliers(setting, orbit);
   cycle.multiplier = largest_multiplier(cycle.orbit);

@@ -19,8 +19,8 @@ std::vector<Sample> after(const std::vector<Sample>& all, double from) {
 /// Whether both halves go about equally far.
 bool is_steady(const std::vector<Sample>& samples, const IrregularTolerances& tolerances) {
   const double middle = 0.5 * (samples.front().time + samples.back().time);
-  Range first;
-  Range second;
+  Extent first;
+  Extent second;
   for (const Sample& sample : samples) {
     (sample.time < middle ? first : second).include(sample.value);
   }
@@ -70,13 +70,13 @@ Irregularity irregularity_of(const Watch& watch, const hybrid::Trajectory& stret
     result.reason = "swings still grow or shrink at the end";
   }
   if (!result.reason.empty()) return result;
-  const Range range = range_of(of_load);
+  const Extent range = extent_of(of_load);
   found.amplitude = 0.5 * range.width();
-  found.motor_amplitude = 0.5 * range_of(of_motor).width();
+  found.motor_amplitude = 0.5 * extent_of(of_motor).width();
   found.center = range.middle();
   found.watched = stretch.end_time() - from;
   const Spread period =
-      spread_of_periods(upward_passings(stretch, watched, last, range_of(last).middle(), from));
+      spread_of_periods(upward_passings(stretch, watched, last, extent_of(last).middle(), from));
   found.period = period.mean;
   found.period_deviation = period.deviation;
   const Spread half_swing = spread_of_half_swings(turns);

@@ -92,11 +92,6 @@ void carry_over(const HybridSystem& system, const Event& event, bool is_chained,
 
 }  // namespace
 
-void Range::include(double value) {
-  lowest = std::min(lowest, value);
-  highest = std::max(highest, value);
-}
-
 Watched watched(const HybridSystem& system, hybrid::AffineForm value, hybrid::AffineForm speed) {
   hybrid::PreparedSystem turns(turning_system(system, speed));
   return {std::move(value), std::move(speed), std::move(turns)};
@@ -131,14 +126,14 @@ std::vector<Sample> extremes(const std::vector<Sample>& samples) {
   return result;
 }
 
-Range range_of(const std::vector<Sample>& samples) {
-  Range range;
+Extent extent_of(const std::vector<Sample>& samples) {
+  Extent range;
   for (const Sample& sample : samples) range.include(sample.value);
   return range;
 }
 
-std::vector<Range> ranges(const Trajectory& motion, double from) {
-  std::vector<Range> result(static_cast<std::size_t>(motion.end().numbers.size()));
+std::vector<Extent> extents(const Trajectory& motion, double from) {
+  std::vector<Extent> result(static_cast<std::size_t>(motion.end().numbers.size()));
   const auto include = [&](const Vector& numbers) {
     for (std::size_t i = 0; i < result.size(); ++i) {
       result[i].include(numbers[static_cast<Eigen::Index>(i)]);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/extent.hpp"
 #include "hybrid/hybrid_trajectory.hpp"
 
 namespace gearlash::drive {
@@ -33,19 +34,10 @@ std::vector<Sample> samples(const hybrid::Trajectory& motion, const Watched& wat
 /// Highs and lows, alternating.
 std::vector<Sample> extremes(const std::vector<Sample>& samples);
 
-struct Range {
-  double lowest = std::numeric_limits<double>::infinity();
-  double highest = -std::numeric_limits<double>::infinity();
-
-  void include(double value);
-  double width() const { return highest - lowest; }
-  double middle() const { return 0.5 * (lowest + highest); }
-};
-
-Range range_of(const std::vector<Sample>& samples);
+Extent extent_of(const std::vector<Sample>& samples);
 
 /// The range of every number of the state over events, start and end.
-std::vector<Range> ranges(const hybrid::Trajectory& motion, double from);
+std::vector<Extent> extents(const hybrid::Trajectory& motion, double from);
 
 struct Spread {
   double mean = std::numeric_limits<double>::quiet_NaN();

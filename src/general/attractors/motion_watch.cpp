@@ -6,11 +6,11 @@
 namespace gearlash::drive {
 
 void include_ranges(Watch& watch, const hybrid::Trajectory& stretch) {
-  const std::vector<Range> here = ranges(stretch, stretch.start_time());
+  const std::vector<Extent> here = extents(stretch, stretch.start_time());
   if (watch.all.empty()) watch.all = here;
   for (std::size_t i = 0; i < here.size(); ++i) {
-    watch.all[i].include(here[i].lowest);
-    watch.all[i].include(here[i].highest);
+    watch.all[i].include(here[i].low);
+    watch.all[i].include(here[i].high);
   }
 }
 
@@ -26,8 +26,8 @@ void include_turns(Watch& watch, const hybrid::Trajectory& stretch, const Search
 
 bool is_at_rest(const Watch& watch, const hybrid::Trajectory& stretch, const SearchSetting& setting,
                 const RestTolerances& tolerances) {
-  const std::vector<Range> last =
-      ranges(stretch, 0.5 * (stretch.start_time() + stretch.end_time()));
+  const std::vector<Extent> last =
+      extents(stretch, 0.5 * (stretch.start_time() + stretch.end_time()));
   const hybrid::Vector& scale = setting.frame.scale;
   const double positions =
       std::max({watch.all[motor_position].width(), watch.all[load_position].width(),

@@ -13,7 +13,7 @@ struct Watch {
   hybrid::State here;
   double time = 0.0;
   std::size_t events = 0;
-  std::vector<Range> all{};  ///< of each number
+  std::vector<Extent> all{};  ///< of each number
   std::vector<Sample> load{};
   std::vector<Sample> motor{};
   bool starts_at_rest = false;

@@ -181,14 +181,14 @@ SearchSetting search_setting(const ReducedDrive& drive, const StartTolerances& s
 
 SearchSetting scaled(const SearchSetting& setting, const hybrid::Trajectory& motion) {
   SearchSetting result = setting;
-  const std::vector<Range> all = ranges(motion, motion.start_time());
+  const std::vector<Extent> all = extents(motion, motion.start_time());
   const auto power_of_2 = [](double value) {
     return value > 0.0 && std::isfinite(value) ? std::exp2(std::round(std::log2(value))) : 1.0;
   };
   Vector& scale = result.frame.scale;
   for (Eigen::Index i = 0; i < scale.size(); ++i) {
-    const Range& range = all[static_cast<std::size_t>(i)];
-    scale[i] = power_of_2(std::max(std::abs(range.lowest), std::abs(range.highest)));
+    const Extent& range = all[static_cast<std::size_t>(i)];
+    scale[i] = power_of_2(std::max(std::abs(range.low), std::abs(range.high)));
   }
   for (const auto& [one, other] :
        {std::pair{motor_position, load_position}, std::pair{motor_speed, load_speed}}) {

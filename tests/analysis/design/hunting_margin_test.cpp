@@ -5,8 +5,10 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "analysis/design/drives.hpp"
+#include "analysis/design/target.hpp"
 #include "base/range_check.hpp"
 #include "base/seeded_draws.hpp"
 #include "closed_form/growth_at_rest.hpp"
@@ -61,10 +63,10 @@ double first_change(const ChangeableDrive& drive, std::string_view parameter, do
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-void expect_same(double found, double scanned) {
-  EXPECT_EQ(std::isnan(found), std::isnan(scanned)) << found << " " << scanned;
-  if (std::isnan(found)) return;
-  EXPECT_NEAR(found, scanned, 1e-10 * scanned);
+void expect_same(const std::optional<double>& found, double scanned) {
+  ASSERT_EQ(!found, std::isnan(scanned)) << scanned;
+  if (!found) return;
+  EXPECT_NEAR(*found, scanned, 1e-10 * scanned);
 }
 
 TEST(PropertyHuntingMargin, OfEachParameterIsWhereBisectionEnds) {
@@ -84,9 +86,9 @@ TEST(PropertyHuntingMargin, OfEachParameterIsWhereBisectionEnds) {
       EXPECT_EQ(margin.kind, SearchKind::certified);
       EXPECT_EQ(margin.hunts, hunts(drive.drivetrain()));
       expect_same(margin.above, first_change(drive, parameter, margin.searched.high));
-      found += !std::isnan(margin.above) + !std::isnan(margin.below);
+      found += margin.above.has_value() + margin.below.has_value();
       if (parameter == "tachometer") {
-        EXPECT_TRUE(std::isnan(margin.below));
+        EXPECT_FALSE(margin.below);
         continue;
       }
       const double low = std::max(margin.searched.low, 1e-6 * margin.present);
@@ -101,13 +103,14 @@ TEST(HuntingMargin, InPerCentOfThePresentValue) {
       .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3});
   const ParameterMargin gain = parameter_margin(drive, "error_gain");
   EXPECT_TRUE(gain.hunts);
-  EXPECT_TRUE(std::isnan(gain.above));  // stiffer loops hunt
-  EXPECT_LT(gain.per_cent_below(), 0.0);
-  EXPECT_FALSE(hunts(drive.with("error_gain", gain.below)));
-  EXPECT_TRUE(hunts(drive.with("error_gain", gain.below * (1.0 + 1e-12))));
-  EXPECT_DOUBLE_EQ(gain.per_cent_below(), 100.0 * (gain.below - 1.0));
+  EXPECT_FALSE(gain.above);  // stiffer loops hunt
+  ASSERT_TRUE(gain.below);
+  EXPECT_LT(gain.per_cent_below().value(), 0.0);
+  EXPECT_FALSE(hunts(drive.with("error_gain", *gain.below)));
+  EXPECT_TRUE(hunts(drive.with("error_gain", *gain.below * (1.0 + 1e-12))));
+  EXPECT_DOUBLE_EQ(gain.per_cent_below().value(), 100.0 * (*gain.below - 1.0));
   const ParameterMargin backlash = parameter_margin(drive, "backlash");
-  EXPECT_TRUE(std::isnan(backlash.below) && std::isnan(backlash.above));
+  EXPECT_FALSE(backlash.below || backlash.above);
 }
 
 // ---- all together -------------------------------------------------------------------------------
@@ -150,9 +153,13 @@ int crossed(const Drivetrain& drive, const Direction& direction, double length, 
 }
 
 Direction direction_of(const OverallMargin& margin) {
-  const LogChange& change = margin.change;
+  const LogChange& change = *margin.change;
   return unit({change.motor_inertia, change.load_inertia, change.motor_friction,
                change.load_friction, change.stiffness});
+}
+
+Drivetrain at_boundary(const Drivetrain& drive, const OverallMargin& margin) {
+  return changed(drive, direction_of(margin), margin.change->length());
 }
 
 TEST(PropertyHuntingMargin, NoRandomDirectionIsShorter) {
@@ -166,9 +173,8 @@ TEST(PropertyHuntingMargin, NoRandomDirectionIsShorter) {
     const OverallMargin margin = overall_margin(drive);
     ASSERT_EQ(margin.outcome, MarginOutcome::found);
     EXPECT_GE(margin.converged, 1U);
-    EXPECT_NEAR(growth_of(margin.at_boundary), 1.0, 1e-10);
-    EXPECT_NEAR(margin.distance, margin.change.length(), 1e-15 * margin.distance);
-    const double shorter = margin.distance - 1e-6;
+    EXPECT_NEAR(growth_of(at_boundary(drive, margin)), 1.0, 1e-10);
+    const double shorter = margin.change->length() - 1e-6;
     for (int k = 0; k < 2000; ++k) {
       EXPECT_EQ(crossed(drive, drawn_direction(draws), shorter, 16), 0);
     }
@@ -180,7 +186,8 @@ TEST(PropertyHuntingMargin, NoRandomDirectionIsShorter) {
       for (std::size_t n = 0; n < near.size(); ++n) near[n] += spread * aside[n];
       EXPECT_EQ(crossed(drive, unit(near), shorter, 4), 0);
     }
-    EXPECT_NE(hunts(changed(drive, direction_of(margin), margin.distance + 1e-6)), hunts(drive));
+    EXPECT_NE(hunts(changed(drive, direction_of(margin), margin.change->length() + 1e-6)),
+              hunts(drive));
   }
 }
 
@@ -193,11 +200,11 @@ TEST(PropertyHuntingMargin, ChangesNoUnit) {
     SCOPED_TRACE(describe(servo));
     const OverallMargin margin = overall_margin(changeable(servo).drivetrain());
     ASSERT_EQ(margin.outcome, MarginOutcome::found);
-    const LogChange& x = margin.change;
+    const LogChange& x = *margin.change;
     const double inertias = x.motor_inertia + x.load_inertia;
     const double frictions = x.motor_friction + x.load_friction;
-    EXPECT_NEAR(inertias + frictions + x.stiffness, 0.0, 1e-7 * margin.distance);
-    EXPECT_NEAR(2.0 * inertias + frictions, 0.0, 1e-7 * margin.distance);
+    EXPECT_NEAR(inertias + frictions + x.stiffness, 0.0, 1e-7 * margin.change->length());
+    EXPECT_NEAR(2.0 * inertias + frictions, 0.0, 1e-7 * margin.change->length());
   }
 }
 
@@ -216,9 +223,9 @@ TEST(PropertyHuntingMargin, OfAllTogetherIsShorterThanOfOne) {
                              one.parameter == "motor_friction" || one.parameter == "load_inertia" ||
                              one.parameter == "motor_inertia" || one.parameter == "error_gain";
       if (!is_number) continue;
-      for (const double end : {one.below, one.above}) {
-        if (std::isnan(end)) continue;
-        EXPECT_GE(std::abs(std::log(end / one.present)), margin.overall.distance - 1e-9);
+      for (const std::optional<double>& end : {one.below, one.above}) {
+        if (!end) continue;
+        EXPECT_GE(std::abs(std::log(*end / one.present)), margin.overall.change->length() - 1e-9);
       }
     }
   }
@@ -237,16 +244,17 @@ TEST(HuntingMargin, WithBouncesOfAllTogetherIsWhereRestTurnsStable) {
   const OverallMargin margin = overall_margin(drive);
   ASSERT_EQ(margin.outcome, MarginOutcome::found);
   EXPECT_TRUE(margin.hunts);
-  EXPECT_NEAR(growth_of(margin.at_boundary), 1.0, 1e-10);
+  EXPECT_NEAR(growth_of(at_boundary(drive, margin)), 1.0, 1e-10);
   const Direction along = direction_of(margin);
-  EXPECT_EQ(performance_of(changed(drive, along, margin.distance + 1e-3)).verdict,
+  EXPECT_EQ(performance_of(changed(drive, along, margin.change->length() + 1e-3)).verdict,
             Verdict::cannot_hunt);
-  EXPECT_EQ(performance_of(changed(drive, along, margin.distance - 1e-3)).verdict, Verdict::hunts);
+  EXPECT_EQ(performance_of(changed(drive, along, margin.change->length() - 1e-3)).verdict,
+            Verdict::hunts);
   constexpr std::uint64_t seed = 2405;
   SCOPED_TRACE(seed);
   SeededDraws draws(seed);
   for (int k = 0; k < 500; ++k) {
-    EXPECT_EQ(crossed(drive, drawn_direction(draws), margin.distance - 1e-6, 8), 0);
+    EXPECT_EQ(crossed(drive, drawn_direction(draws), margin.change->length() - 1e-6, 8), 0);
   }
 }
 
@@ -254,12 +262,12 @@ TEST(HuntingMargin, WithBouncesOfOneIsWhereTheVerdictChanges) {
   const ParameterMargin margin = parameter_margin(bouncing_drive(), "load_friction");
   EXPECT_EQ(margin.kind, SearchKind::scanned);
   EXPECT_TRUE(margin.hunts);
-  EXPECT_TRUE(std::isnan(margin.below));
+  EXPECT_FALSE(margin.below);
   const auto verdict_at = [](double value) {
     return performance_of(bouncing_drive().with("load_friction", value)).verdict;
   };
-  EXPECT_EQ(verdict_at(margin.above), Verdict::cannot_hunt);
-  EXPECT_EQ(verdict_at(margin.above * (1.0 - 1e-4)), Verdict::hunts);
+  EXPECT_EQ(verdict_at(*margin.above), Verdict::cannot_hunt);
+  EXPECT_EQ(verdict_at(*margin.above * (1.0 - 1e-4)), Verdict::hunts);
 }
 
 TEST(EdgeHuntingMargin, SaysWhatItIsNotWorkedOutFor) {
@@ -287,7 +295,7 @@ TEST(EdgeHuntingMargin, IsFoundWhereGrowthAtRestIsNought) {
   const OverallMargin margin = overall_margin(drive);
   ASSERT_EQ(margin.outcome, MarginOutcome::found);
   EXPECT_FALSE(margin.hunts);
-  EXPECT_NEAR(growth_of(margin.at_boundary), 1.0, 1e-10);
+  EXPECT_NEAR(growth_of(at_boundary(drive, margin)), 1.0, 1e-10);
 }
 
 }  // namespace

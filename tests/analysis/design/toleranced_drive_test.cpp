@@ -37,7 +37,7 @@ TolerancedDrive normalised_with(const char* path, const Distribution& distributi
 
 std::vector<std::string> faults_of(const TolerancedDrive& drive) {
   std::vector<std::string> lines;
-  for (const Fault& fault : validate(drive)) lines.push_back(to_string(fault));
+  for (const Fault& fault : faults(drive)) lines.push_back(to_string(fault));
   return lines;
 }
 

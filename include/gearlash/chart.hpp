@@ -2,32 +2,35 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <initializer_list>
-#include <limits>
+#include <memory>
+#include <optional>
 #include <span>
-#include <vector>
 
-#include "analysis/grid/cubic_table.hpp"
-#include "analysis/grid/grid_points.hpp"
+#include "gearlash/answer.hpp"
+#include "gearlash/grid.hpp"
+#include "gearlash/quantity.hpp"
 
 namespace gearlash {
 
 /// Where an answer of a chart comes from.
-enum class ChartSource {
+enum class ChartSource : std::uint8_t {
   interpolated,  ///< between servos that are alike
   solved,        ///< at once, where interpolation would not keep the tolerance
   outside        ///< nowhere: the place is not on the chart, or is no servo
 };
 
 /// "interpolated", "solved", "outside".
-const char* name_of(ChartSource source);
+[[nodiscard]] const char* name_of(ChartSource source);
 
-/// NaN and undecided where nothing is known. SI.
+/// In SI.
 struct ChartAnswer {
-  double value = std::numeric_limits<double>::quiet_NaN();  ///< NaN, too, where there is no cycle
+  std::optional<double> value{};  ///< nothing where there is no cycle
   Verdict verdict = Verdict::undecided;
-  /// Stated, relative (of a growth at rest below 1: absolute), beside rounding; 0 where solved.
-  double error = std::numeric_limits<double>::quiet_NaN();
+  /// Stated, relative (of a growth at rest below 1: absolute), beside rounding; 0 where solved;
+  /// nothing outside.
+  std::optional<double> error{};
   ChartSource source = ChartSource::outside;
 
   bool operator==(const ChartAnswer&) const = default;
@@ -50,28 +53,14 @@ struct DesignChartOptions {
   std::size_t threads = 0;  ///< to build with; 0: as many as the machine has cores
 };
 
-/// Points of a chart, those compared between the values of its axes included, are at most so many:
-/// they are held in memory.
-inline constexpr std::size_t most_points_of_a_design_chart = 100'000'000;
-
-namespace detail {
-
-struct ChartCell {
-  double error;  ///< stated; NaN where the servo is to be solved
-  Verdict verdict;
-  bool has_value;
-};
-
-}  // namespace detail
-
 /// One quantity of the limit cycle over one to five parameters of a drive that has a closed form:
-/// of others each cell takes searches.
+/// of others each cell takes searches. Copies share what was worked out.
 ///
-/// Interpolation is by a cubic along each axis (cubic_table.hpp), of growth at rest as 1/(1 + μ₀),
-/// which stays smooth where μ₀ grows to infinity. When the chart is built, every cell is compared
-/// with servos solved half-way between the axes' values: 3ⁿ − 2ⁿ of them for n axes, in the middles
-/// of its edges, of its faces and of itself. At both ends of an axis, where no cell beyond tells of
-/// an error that is by chance small half-way, they are solved at the quarters, too.
+/// Interpolation is by a cubic along each axis, of growth at rest as 1/(1 + μ₀), which stays smooth
+/// where μ₀ grows to infinity. When the chart is built, every cell is compared with servos solved
+/// half-way between the axes' values: 3ⁿ − 2ⁿ of them for n axes, in the middles of its edges, of
+/// its faces and of itself. At both ends of an axis, where no cell beyond shows an error that is by
+/// chance small half-way, they are solved at the quarters, too.
 ///
 /// An error is largest about half-way, but the value may be many times smaller towards a corner,
 /// and there the same error is relatively larger. So the largest that is found in a cell is taken
@@ -93,31 +82,26 @@ class DesignChart {
  public:
   /// Throws InvalidInput for a grid that is not sound (faults(grid); its axes are called "axis
   /// 1", …), has no axis, or an axis with fewer than four values, an infinite one or, where
-  /// logarithmic, 0; for too many points; and for a tolerance outside its range.
+  /// logarithmic, 0; for more than 100,000,000 points, those compared between the values included;
+  /// and for a tolerance outside its range.
   DesignChart(Grid grid, Quantity quantity, const DesignChartOptions& options = {});
 
   /// The answer at a place, one value for each axis in their order. Outside the axes' ranges, and
-  /// for NaN, ChartSource::outside: nothing is extrapolated. Allocates nothing, but where a servo
-  /// must be solved one by one (cycle_batch.hpp). Throws std::invalid_argument for another number
-  /// of values.
-  ChartAnswer look_up(std::span<const double> place) const;
-  ChartAnswer look_up(std::initializer_list<double> place) const {
+  /// for a value that is no number, ChartSource::outside: nothing is extrapolated. Allocates
+  /// nothing, but where a drive that bounces is solved. Throws InvalidInput for another number of
+  /// values.
+  [[nodiscard]] ChartAnswer look_up(std::span<const double> place) const;
+  [[nodiscard]] ChartAnswer look_up(std::initializer_list<double> place) const {
     return look_up(std::span<const double>(place.begin(), place.size()));
   }
 
-  const Grid& grid() const { return grid_; }
-  Quantity quantity() const { return quantity_; }
-  const ChartAccuracy& accuracy() const { return accuracy_; }
+  [[nodiscard]] const Grid& grid() const noexcept;
+  [[nodiscard]] Quantity quantity() const noexcept;
+  [[nodiscard]] const ChartAccuracy& accuracy() const noexcept;
 
  private:
-  ChartAnswer solved(std::span<const double> place) const;
-
-  Grid grid_;
-  GridPoints points_;
-  Quantity quantity_;
-  CubicTable table_;                      ///< straightened
-  std::vector<detail::ChartCell> cells_;  ///< the last axis fastest
-  ChartAccuracy accuracy_;
+  class Cells;  // what was worked out
+  std::shared_ptr<const Cells> cells_;
 };
 
 }  // namespace gearlash
