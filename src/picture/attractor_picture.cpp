@@ -46,10 +46,9 @@ Motion motion_of_irregular(const drive::ReducedDrive& reduced,
 /// Two cycles of a picture differ in it.
 std::string name_of_cycle(const drive::FoundCycle& cycle, const AngleUnit& angle) {
   const bool is_of_load = cycle.size > 0.0;
-  return fmt::format(
-      "{} cycle {}±{} {}, {}", name_of(cycle.stability), is_of_load ? "" : "motor ",
-      significant(angle.from_radians(is_of_load ? cycle.size : cycle.motor_size), digits),
-      angle.name, significant(cycle.period(), digits));
+  return fmt::format("{} cycle {}±{}, {}", name_of(cycle.stability), is_of_load ? "" : "motor ",
+                     angle_text(is_of_load ? cycle.size : cycle.motor_size, angle, digits),
+                     significant(cycle.period(), digits));
 }
 
 }  // namespace
