@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "command_line.hpp"
@@ -32,6 +33,15 @@ void add_tolerance_command(Command& app, Action& action);
 void add_compare_command(Command& app, Action& action);
 void add_show_command(Command& app, Action& action);
 void add_thesis_command(Command& app, Action& action);
+
+/// Makes `run(*options, provenance)` the action of the command.
+template <class Options, class Run>
+void set_action(Command& command, Action& action, const std::shared_ptr<Options>& options,
+                const Run& run) {
+  command.callback([options, &action, run] {
+    action = [options, run](const Provenance& provenance) { return run(*options, provenance); };
+  });
+}
 
 /// The end of every --help.
 std::string help_footer(const std::string& examples);

@@ -18,15 +18,6 @@ std::vector<std::string> names_of_subcommands(const CLI::App& app) {
   return names;
 }
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) text += i + 1 == names.size() ? " or " : ", ";
-    text += names[i];
-  }
-  return text;
-}
-
 /// Throws InvalidInput unless `words` begins with a subcommand of `app`. `typed`: the words before.
 void require_known_subcommand(const CLI::App& app, const std::string& typed,
                               const std::vector<std::string>& words) {
@@ -37,7 +28,8 @@ void require_known_subcommand(const CLI::App& app, const std::string& typed,
   if (std::find(names.begin(), names.end(), first) == names.end()) {
     throw InvalidInput(
         {{"subcommand", first.empty() ? "" : shown(first),
-          "must be " + listed(names) + guess_of(names, first) + "; see " + typed + " --help", ""}});
+          "must be " + alternatives(names) + guess_of(names, first) + "; see " + typed + " --help",
+          ""}});
   }
   require_known_subcommand(*app.get_subcommand(first), typed + " " + first,
                            {words.begin() + 1, words.end()});
@@ -82,16 +74,6 @@ Option* Option::delimiter(char character) {
 
 Option* Option::allow_extra_args(bool allowed) {
   option_->allow_extra_args(allowed);
-  return this;
-}
-
-Option* Option::take_all() {
-  option_->take_all();
-  return this;
-}
-
-Option* Option::expected(int count) {
-  option_->expected(count);
   return this;
 }
 

@@ -29,9 +29,6 @@ class Option {
   Option* delimiter(char character);
   /// Whether further words after the first are values of this option too.
   Option* allow_extra_args(bool allowed);
-  /// Keeps all values of a repeated option.
-  Option* take_all();
-  Option* expected(int count);
   /// May not be given together with the other one.
   Option* excludes(Option* other);
   /// May only be given together with the other one.

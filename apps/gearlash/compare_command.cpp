@@ -90,12 +90,10 @@ SensorCase compared(const WrittenDrive& written, SensorPlace place, const Step& 
                     const Provenance& provenance, Progress& progress) {
   SensorCase one;
   one.place = place;
-  one.report.drive = with_sensor(written.drive, place);
-  one.report.angle = written.angle;
-  one.report.is_normalized = is_normalized(written.drive);
-  one.report.provenance = provenance;
-  const drive::ReducedDrive reduced = reduce(one.report.drive);
-  one.report.answer = answer_of(drive::find_attractors(reduced, {}, progress), reduced);
+  const Drive drive = with_sensor(written.drive, place);
+  const drive::ReducedDrive reduced = reduce(drive);
+  one.report = report_of(drive, answer_of(drive::find_attractors(reduced, {}, progress), reduced),
+                         written.angle, provenance);
   one.response = drive::step_response(reduced, step.size, step.until);
   return one;
 }
@@ -114,9 +112,7 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
   {
     TerminalProgress progress("Comparing");
     for (const SensorPlace place : places) {
-      const auto done = static_cast<double>(report.cases.size());
-      const auto all = static_cast<double>(places.size());
-      ProgressPart part(progress, done / all, (done + 1.0) / all);
+      ProgressPart part(progress, report.cases.size(), places.size());
       report.cases.push_back(compared(*written, place, step, provenance, part));
     }
   }
@@ -164,9 +160,7 @@ void add_compare_command(Command& app, Action& action) {
       ->type_name("FORMAT");
   add_plot_option(*command, options->plots, "Draw time=FILE, the step responses;");
   command->footer(help_footer(examples));
-  command->callback([options, &action] {
-    action = [options](const Provenance& provenance) { return run(*options, provenance); };
-  });
+  set_action(*command, action, options, run);
 }
 
 }  // namespace gearlash::cli

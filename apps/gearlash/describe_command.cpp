@@ -101,14 +101,8 @@ std::string draw(const DescribeReport& report, const DescribeOptions& options,
                        .exact = report.answer.verdict == Verdict::forced ? std::vector<Cycle>{}
                                                                          : report.answer.cycles,
                        .angle = report.angle,
-                       .time_unit = report.time_unit},
+                       .is_normalized = report.is_normalized},
                       format);
-}
-
-std::string text_for_terminal(const DescribeReport& report) {
-  const std::string text = describe_text(report);
-  const std::size_t end_of_first = text.find('\n');
-  return emphasized(text.substr(0, end_of_first)) + text.substr(end_of_first);
 }
 
 ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
@@ -126,13 +120,14 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
                               .answer = answer,
                               .backlash = reduced.backlash,
                               .angle = input.written.angle,
-                              .time_unit = is_normalized(input.written.drive) ? "1/ω_n" : "s",
+                              .is_normalized = is_normalized(input.written.drive),
                               .provenance = provenance};
   Extras extras;
   for (const Plot& plot : plots) {
     extras.make([&] { write_file(plot.file, draw(report, options, plot.format)); });
   }
-  write_file("-", options.format == "json" ? describe_json(report) : text_for_terminal(report));
+  write_file("-", options.format == "json" ? describe_json(report)
+                                           : with_bold_headline(describe_text(report)));
   if (answer.verdict != Verdict::undecided) return extras.status(ExitStatus::done);
   report_lines("the exact answer is undecided");
   return extras.status(ExitStatus::undecided);
@@ -155,9 +150,7 @@ void add_describe_command(Command& app, Action& action) {
                    "coulomb-friction; default the first part in the loop")
       ->type_name("PART");
   command->footer(explanation + help_footer(examples));
-  command->callback([options, &action] {
-    action = [options](const Provenance& provenance) { return run(*options, provenance); };
-  });
+  set_action(*command, action, options, run);
 }
 
 }  // namespace gearlash::cli

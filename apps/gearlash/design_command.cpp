@@ -194,9 +194,7 @@ void add_design_command(Command& app, Action& action) {
   command->add_option("--format", options->format, "Choose the format: text (default) or json")
       ->type_name("FORMAT");
   command->footer(help_footer(examples));
-  command->callback([options, &action] {
-    action = [options](const Provenance& provenance) { return run(*options, provenance); };
-  });
+  set_action(*command, action, options, run);
 }
 
 }  // namespace gearlash::cli

@@ -148,11 +148,6 @@ std::string draw(const Work& work, const Plot& plot) {
       plot.format);
 }
 
-std::string text_for_terminal(const std::string& text) {
-  const std::size_t end_of_headline = text.find('\n');
-  return emphasized(text.substr(0, end_of_headline)) + text.substr(end_of_headline);
-}
-
 /// A verdict of hunting is undecided if the search found no amplitude.
 bool is_decided(const Answer& answer) {
   switch (answer.verdict) {
@@ -188,11 +183,7 @@ Work analysed(const WrittenDrive& written, const Provenance& provenance) {
     TerminalProgress progress("Searching");
     work.analysis = analyse_in_full(written.drive, {}, progress);
   }
-  work.report.drive = written.drive;
-  work.report.answer = work.analysis.answer;
-  work.report.angle = written.angle;
-  work.report.is_normalized = is_normalized(written.drive);
-  work.report.provenance = provenance;
+  work.report = report_of(written.drive, work.analysis.answer, written.angle, provenance);
   return work;
 }
 
@@ -209,7 +200,7 @@ void refuse_without_closed_form(const LimitCycleOptions& options, const std::vec
 std::string printed(const Work& work, const LimitCycleOptions& options) {
   if (options.format == "json") return answer_json(work.report);
   if (options.brief) return headline(work.report) + "\n";
-  return text_for_terminal(answer_text(work.report));
+  return with_bold_headline(answer_text(work.report));
 }
 
 ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
@@ -258,9 +249,7 @@ void add_limit_cycle_command(Command& app, Action& action) {
   command->add_flag("--sensitivities", options->sensitivities,
                     "Add exact sensitivities to every parameter, in per cent for one per cent");
   command->footer(help_footer(examples));
-  command->callback([options, &action] {
-    action = [options](const Provenance& provenance) { return run(*options, provenance); };
-  });
+  set_action(*command, action, options, run);
 }
 
 }  // namespace gearlash::cli

@@ -60,9 +60,7 @@ void add_map_command(Command& app, Action& action) {
   command->footer(
       "Without --backlash, amplitudes are in backlashes, because they are proportional to it.\n\n" +
       help_footer(examples));
-  command->callback([options, &action] {
-    action = [options](const Provenance& provenance) { return run(*options, provenance); };
-  });
+  set_action(*command, action, options, run);
 }
 
 }  // namespace gearlash::cli

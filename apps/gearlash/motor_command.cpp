@@ -3,10 +3,10 @@
 
 #include "command.hpp"
 #include "input/units.hpp"
+#include "input/written_texts.hpp"
 #include "motor_procedure.hpp"
 #include "output/output_file.hpp"
 #include "servo_options.hpp"
-#include "written_values.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -32,9 +32,9 @@ ExitStatus run(const ServoOptions& options, const Provenance&) {
   }
   const Drive drive = closed_form_drive(*written, options);
   // With --set the texts of the file no longer apply.
-  using Values = std::map<std::string, std::string>;
-  const Values values = options.settings.empty() ? written_values(options.file) : Values{};
-  write_file("-", motor_procedure(drive, written->angle, values));
+  std::map<std::string, std::string> texts;
+  if (options.settings.empty()) texts = written_texts(options.file);
+  write_file("-", motor_procedure(drive, written->angle, texts));
   return ExitStatus::done;
 }
 
@@ -49,9 +49,7 @@ void add_motor_command(Command& app, Action& action) {
       ->required();
   add_set_option(*command, *options);
   command->footer(help_footer(examples));
-  command->callback([options, &action] {
-    action = [options](const Provenance& provenance) { return run(*options, provenance); };
-  });
+  set_action(*command, action, options, run);
 }
 
 }  // namespace gearlash::cli

@@ -75,10 +75,13 @@ std::vector<Given> given_values(const Drive& drive) {
   return values;
 }
 
-std::string given_table(const Drive& drive, const std::map<std::string, std::string>& written) {
+std::string given_table(const Drive& drive, std::map<std::string, std::string> written) {
   const std::vector<Given> values = given_values(drive);
   std::size_t longest = 0;
-  for (const auto& [key, text] : written) longest = std::max(longest, text.size());
+  for (auto& [key, text] : written) {
+    text = shown(text);
+    longest = std::max(longest, text.size());
+  }
   std::string table;
   for (const Given& value : values) {
     const std::string si = number(value.si) + " " + value.unit;

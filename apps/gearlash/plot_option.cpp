@@ -5,27 +5,17 @@
 #include "input/section_reader.hpp"
 
 namespace gearlash::cli {
-namespace {
-
-std::string forms_of(const std::vector<std::string>& kinds) {
-  std::string text;
-  for (const std::string& kind : kinds) {
-    if (!text.empty()) text += kind == kinds.back() ? " or " : ", ";
-    text += kind + "=FILE";
-  }
-  return text;
-}
-
-}  // namespace
-
 std::vector<Plot> read_plots(const std::vector<std::string>& typed,
                              const std::vector<std::string>& kinds, Faults& faults) {
+  std::vector<std::string> forms;
+  for (const std::string& kind : kinds) forms.push_back(kind + "=FILE");
   std::vector<Plot> plots;
   for (const std::string& text : typed) {
     const std::size_t sign = text.find('=');
     const std::string kind = text.substr(0, sign);
     if (sign == std::string::npos || std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) {
-      faults.add({"--plot", shown(text), "must be " + forms_of(kinds) + guess_of(kinds, kind), ""});
+      faults.add(
+          {"--plot", shown(text), "must be " + alternatives(forms) + guess_of(kinds, kind), ""});
       continue;
     }
     const std::string file = text.substr(sign + 1);

@@ -1,4 +1,3 @@
-#include "analysis/final_servo.hpp"
 #include "servo_options.hpp"
 
 #include <algorithm>
@@ -7,9 +6,11 @@
 #include <utility>
 
 #include "analysis/analyse.hpp"
-#include "input/named_files.hpp"
+#include "analysis/final_servo.hpp"
+#include "input/section_reader.hpp"
 #include "input/text_file.hpp"
 #include "input/units.hpp"
+#include "input/written_texts.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash::cli {
@@ -31,14 +32,6 @@ constexpr NumberOption number_options[] = {{"damping", &ServoOptions::damping},
 std::string permitted_without_file(std::string_view field) {
   if (field == "backlash") return "must be an angle such as 0.1 (rad) or \"12 arcmin\"";
   return "must be " + permitted_values(field);
-}
-
-std::optional<double> read_bare_number(std::string_view field, std::string_view text) {
-  try {
-    return read_number(field, text);
-  } catch (const InvalidInput&) {
-    return std::nullopt;  // its unit decides, if it has one
-  }
 }
 
 /// The text of a drive, the name of its source, and the folder of the files that it names.
@@ -64,14 +57,20 @@ std::string path_of(const NumberOption& option, bool is_normal_form) {
   return (is_of_plant ? "gearbox." : "servo.") + std::string(option.name);
 }
 
+/// As --set would give it. A bare backlash is in radians.
+void add_setting(const NumberOption& option, const ServoOptions& options, bool is_normal_form,
+                 std::vector<Setting>& settings) {
+  const std::optional<std::string>& typed = options.*option.typed;
+  if (!typed) return;
+  const bool is_bare = option.typed == &ServoOptions::backlash && bare_number(*typed);
+  settings.push_back({path_of(option, is_normal_form), *typed + (is_bare ? " rad" : "")});
+}
+
 /// Settings from --set and, without a file, from the options of the normal form.
 std::vector<Setting> settings_of(const ServoOptions& options, Faults& faults) {
   std::vector<Setting> settings;
   for (const NumberOption& option : number_options) {
-    const std::optional<std::string>& typed = options.*option.typed;
-    if (!typed || !options.file.empty()) continue;
-    const bool is_bare = option.typed == &ServoOptions::backlash && read_bare_number("", *typed);
-    settings.push_back({path_of(option, true), *typed + (is_bare ? " rad" : "")});
+    if (options.file.empty()) add_setting(option, options, true, settings);
   }
   for (const std::string& text : options.settings) {
     faults.collect([&] { return settings.push_back(read_setting(text)), 0; }, 0);
@@ -127,11 +126,6 @@ void add_options(Command& command, ServoOptions& options, const char* file_help,
   add_set_option(command, options);
 }
 
-void require_finite(std::string_view field, std::string_view text, double number) {
-  if (std::isfinite(number)) return;
-  throw InvalidInput({{std::string(field), shown(text), "must be finite", ""}});
-}
-
 namespace fs = std::filesystem;
 
 bool may_be_lost(const fs::path& file) {
@@ -177,20 +171,16 @@ void add_servo_or_drive_options(Command& command, ServoOptions& options) {
 void Faults::require_choice(const std::string& field, const std::string& value,
                             const std::vector<std::string>& choices) {
   if (std::find(choices.begin(), choices.end(), value) != choices.end()) return;
-  std::string permitted = "must be ";
-  for (std::size_t i = 0; i < choices.size(); ++i) {
-    if (i > 0) permitted += i + 1 == choices.size() ? " or " : ", ";
-    permitted += choices[i];
-  }
-  add({field, shown(value), permitted, ""});
+  add({field, shown(value), "must be " + alternatives(choices), ""});
 }
 
 void Faults::require_distinct(const FileUse& input, const std::vector<FileUse>& outputs) {
   std::vector<FileUse> others;
   if (!input.file.empty()) {
     others.push_back(input);
-    for (const NamedFile& named : files_named_in(input.file)) {
-      others.push_back({named.field, named.path.string()});
+    for (const auto& [path, text] : written_texts(input.file)) {
+      if (!path.ends_with(".file") || text.empty()) continue;
+      others.push_back({path, (fs::path(input.file).parent_path() / text).string()});
     }
   }
   for (const FileUse& output : outputs) {
@@ -207,9 +197,9 @@ void Faults::require_distinct(const FileUse& input, const std::vector<FileUse>& 
 }
 
 double read_si(std::string_view field, std::string_view text, const Dimension& dimension) {
-  const std::optional<double> number = read_bare_number(field, text);
+  const std::optional<double> number = bare_number(text);
   if (!number) return to_si(field, text, dimension);
-  require_finite(field, text, *number);
+  if (!std::isfinite(*number)) refuse(field, text, "must be finite");
   return *number;
 }
 
@@ -273,16 +263,10 @@ WrittenDrive read_drive_as_typed(const ServoOptions& options, std::vector<Settin
     return parse_drive(source.text, source.name, source.folder, settings);
   }
   const bool is_normal_form = has_normal_form(source.text, source.name);
-  const auto add = [&](const NumberOption& option) {
-    const std::optional<std::string>& typed = options.*option.typed;
-    if (!typed) return;
-    const bool is_bare = option.typed == &ServoOptions::backlash && read_bare_number("", *typed);
-    settings.push_back({path_of(option, is_normal_form), *typed + (is_bare ? " rad" : "")});
-  };
   for (const NumberOption& option : number_options) {
     const bool is_of_both =
         option.typed == &ServoOptions::backlash || option.typed == &ServoOptions::restitution;
-    if (is_normal_form || is_of_both) add(option);
+    if (is_normal_form || is_of_both) add_setting(option, options, is_normal_form, settings);
   }
   if (options.sensor) settings.push_back({"sensor.position", *options.sensor});
   const WrittenDrive written = parse_drive(source.text, source.name, source.folder, settings);

@@ -40,9 +40,7 @@ void add_show_command(Command& app, Action& action) {
   command->add_option("--format", options->format, "Choose the format: toml (default) or json")
       ->type_name("FORMAT");
   command->footer(help_footer(examples));
-  command->callback([options, &action] {
-    action = [options](const Provenance& provenance) { return run(*options, provenance); };
-  });
+  set_action(*command, action, options, run);
 }
 
 }  // namespace gearlash::cli

@@ -179,10 +179,7 @@ Motion simulated(const Task& task, const SimulateOptions& options) {
 // ---- pictures -----------------------------------------------------------------------------------
 
 std::string title_of(const Task& task) {
-  const AngleUnit& unit = task.written.angle;
-  const auto angle = [&](double radians) {
-    return significant(unit.from_radians(radians), 4) + " " + unit.name;
-  };
+  const auto angle = [&](double radians) { return angle_text(radians, task.written.angle, 4); };
   const Signal reference = task.written.drive.reference.value_or(Signal{});
   const bool is_at_rest = task.start.load_position == 0.0 && task.start.load_speed == 0.0;
   if (!is_at_rest) {
@@ -197,12 +194,8 @@ std::string title_of(const Task& task) {
 /// The verdict, if the closed form gives it at once; else empty.
 std::string verdict_of(const WrittenDrive& written) {
   if (!final_servo(written.drive)) return {};
-  AnswerReport report;
-  report.drive = written.drive;
-  report.answer = analyse(written.drive, {.proofs = false});
-  report.angle = written.angle;
-  report.is_normalized = is_normalized(written.drive);
-  return headline(report);
+  return headline(
+      report_of(written.drive, analyse(written.drive, {.proofs = false}), written.angle, {}));
 }
 
 std::string draw(const Task& task, const Motion& motion, const Plot& plot) {
@@ -307,9 +300,7 @@ void add_simulate_command(Command& app, Action& action) {
                    "Write the table to this file; default standard output")
       ->type_name("FILE");
   command->footer(help_footer(examples));
-  command->callback([options, &action] {
-    action = [options](const Provenance& provenance) { return run(*options, provenance); };
-  });
+  set_action(*command, action, options, run);
 }
 
 }  // namespace gearlash::cli

@@ -124,9 +124,7 @@ void add_sweep_command(Command& app, Action& action) {
       ->required();
   command->add_flag("--resume", options->resume, "Continue a sweep that was stopped or killed");
   command->footer(explanation + help_footer(examples));
-  command->callback([options, &action] {
-    action = [options](const Provenance& provenance) { return run(*options, provenance); };
-  });
+  set_action(*command, action, options, run);
 }
 
 }  // namespace gearlash::cli

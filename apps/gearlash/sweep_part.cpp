@@ -185,17 +185,19 @@ SweepRecord SweepPart::read_record(const SweepFile& sweep, const Provenance& pro
 void SweepPart::write_record(const SweepFile& sweep, const Provenance& provenance,
                              const SweepRecord& record) {
   const SweepRun& run = record.run;
-  Json json = {{"kind", kind},
-               {"provenance", json_provenance(provenance)},
-               {"points", sweep.grid.size()},
-               {"points_done", run.points_done},
-               {"side_by_side", run.count.solved.side_by_side},
-               {"one_by_one", run.count.solved.one_by_one},
-               {"searched", run.count.searched},
-               {"refused", run.count.refused},
-               {"unproved", run.count.unproved},
-               {"sweep", sweep.text},
-               {"checksum_of_data", hexadecimal(record.checksum_of_data)}};
+  Json json = {
+      {"kind", kind},
+      {"provenance",
+       {{"program", "gearlash"}, {"version", provenance.version}, {"command", provenance.command}}},
+      {"points", sweep.grid.size()},
+      {"points_done", run.points_done},
+      {"side_by_side", run.count.solved.side_by_side},
+      {"one_by_one", run.count.solved.one_by_one},
+      {"searched", run.count.searched},
+      {"refused", run.count.refused},
+      {"unproved", run.count.unproved},
+      {"sweep", sweep.text},
+      {"checksum_of_data", hexadecimal(record.checksum_of_data)}};
   json["checksum"] = checksum_of_record(json);
   may_remove_data_ = may_remove_record_ = run.points_done == 0;
   write_file(record_, text_of(json));

@@ -28,8 +28,10 @@ bool takes_escapes(int descriptor) {
 
 }  // namespace
 
-std::string emphasized(const std::string& text) {
-  return takes_escapes(STDOUT_FILENO) ? "\x1b[1m" + text + "\x1b[0m" : text;
+std::string with_bold_headline(const std::string& text) {
+  if (!takes_escapes(STDOUT_FILENO)) return text;
+  const std::size_t end = text.find('\n');
+  return "\x1b[1m" + text.substr(0, end) + "\x1b[0m" + text.substr(end);
 }
 
 std::string progress_text(double share, double seconds, double things, const std::string& name,
@@ -51,8 +53,6 @@ std::string progress_text(double share, double seconds, double things, const std
 double steady_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-
-TerminalProgress::TerminalProgress(std::string what) : TerminalProgress(std::move(what), 0, "") {}
 
 TerminalProgress::TerminalProgress(std::string what, std::size_t count, std::string name)
     : what_(std::move(what)),
@@ -76,10 +76,6 @@ bool TerminalProgress::go_on(double share, std::size_t /*bytes*/) {
   fmt::print(stderr, "\r{}", line);
   std::fflush(stderr);
   return true;
-}
-
-void TerminalProgress::show_done(std::size_t done) {
-  go_on(static_cast<double>(done) / static_cast<double>(count_));
 }
 
 TerminalProgress::~TerminalProgress() {

@@ -8,8 +8,9 @@
 
 namespace gearlash::cli {
 
-/// `text` in bold where standard output is a terminal; as it is elsewhere, or with NO_COLOR set.
-std::string emphasized(const std::string& text);
+/// `text` with its first line in bold where standard output is a terminal; as it is elsewhere, or
+/// with NO_COLOR set.
+std::string with_bold_headline(const std::string& text);
 
 /// "42 %, 3.1 million servos/s, 12 s left": the share of the work done, the rate in things per
 /// second (if their number is known, else `things` is 0), and the time left at this rate. `begun`
@@ -24,16 +25,14 @@ double steady_seconds();
 /// after a second of work, and wiped at the end.
 class TerminalProgress : public Progress {
  public:
-  explicit TerminalProgress(std::string what);
-  /// Work on `count` things, such as "servos", with their rate.
-  TerminalProgress(std::string what, std::size_t count, std::string name);
+  /// Work on `count` things, such as "servos", is shown with its rate.
+  explicit TerminalProgress(std::string what, std::size_t count = 0, std::string name = "");
   ~TerminalProgress() override;
   TerminalProgress(const TerminalProgress&) = delete;
   TerminalProgress& operator=(const TerminalProgress&) = delete;
 
-  bool go_on(double share, std::size_t bytes = 0) override;
   /// A first call before any work gives what was done earlier.
-  void show_done(std::size_t done);
+  bool go_on(double share, std::size_t bytes = 0) override;
 
  private:
   using Clock = std::chrono::steady_clock;

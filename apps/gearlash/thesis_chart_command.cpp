@@ -8,6 +8,7 @@
 
 #include "base/progress_part.hpp"
 #include "closed_form/limit_cycle.hpp"
+#include "input/section_reader.hpp"
 #include "machine_faults.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/columns.hpp"
@@ -37,19 +38,12 @@ std::vector<int> figure_numbers() {
 }
 
 int read_figure_number(const std::string& text) {
-  const std::vector<int> numbers = figure_numbers();
-  for (const int number : numbers) {
-    if (text == std::to_string(number)) return number;
+  std::vector<std::string> names;
+  for (const int number : figure_numbers()) {
+    names.push_back(std::to_string(number));
+    if (text == names.back()) return number;
   }
-  std::string permitted = "must be the number of a figure:";
-  for (const int number : numbers) {
-    permitted += fmt::format("{} {}",
-                             number == numbers.front()  ? ""
-                             : number == numbers.back() ? " or"
-                                                        : ",",
-                             number);
-  }
-  throw InvalidInput({{"N", shown(text), permitted, ""}});
+  refuse("N", text, "must be the number of a figure: " + alternatives(names));
 }
 
 /// Computes the figure and draws it.
@@ -61,14 +55,7 @@ std::string draw_figure(int number, PictureFormat format, Progress& progress) {
   const auto figure = std::find_if(figures.begin(), figures.end(), [&](const auto& candidate) {
     return candidate.number == number;
   });
-  std::vector<thesis::FigureCurveData> data;
-  const auto count = static_cast<double>(figure->curves.size());
-  for (const auto& curve : figure->curves) {
-    const auto before = static_cast<double>(data.size());
-    ProgressPart part(progress, before / count, (before + 1.0) / count);
-    data.push_back(thesis::work_out(*figure, curve, part));
-  }
-  return draw_line_chart(chart_of(*figure, data), format);
+  return draw_line_chart(chart_of(*figure, progress), format);
 }
 
 // --- chart-reading ---
@@ -139,19 +126,17 @@ void add_thesis_figure(Command& thesis, Action& action) {
                    "Write this picture, .svg, .png or .pdf; default figure-N.svg")
       ->type_name("FILE");
   command->footer(help_footer(figure_examples));
-  command->callback([options, &action] {
-    action = [options](const Provenance&) {
-      Faults faults;
-      const int number = faults.collect([&] { return read_figure_number(options->number); }, 2);
-      const std::string file =
-          options->output.empty() ? fmt::format("figure-{}.svg", number) : options->output;
-      const PictureFormat format =
-          faults.collect([&] { return picture_format("--output", file); }, PictureFormat::svg);
-      faults.require_none();
-      TerminalProgress progress("Figure " + options->number);
-      write_file(file, draw_figure(number, format, progress));
-      return ExitStatus::done;
-    };
+  set_action(*command, action, options, [](auto& typed, const Provenance&) {
+    Faults faults;
+    const int number = faults.collect([&] { return read_figure_number(typed.number); }, 2);
+    const std::string file =
+        typed.output.empty() ? fmt::format("figure-{}.svg", number) : typed.output;
+    const PictureFormat format =
+        faults.collect([&] { return picture_format("--output", file); }, PictureFormat::svg);
+    faults.require_none();
+    TerminalProgress progress("Figure " + typed.number);
+    write_file(file, draw_figure(number, format, progress));
+    return ExitStatus::done;
   });
 }
 
@@ -163,27 +148,23 @@ void add_thesis_all(Command& thesis, Action& action) {
                    "Write into this folder, and make it if missing; default\nthesis-figures")
       ->type_name("DIR");
   command->footer(help_footer(figure_examples));
-  command->callback([folder, &action] {
-    action = [folder](const Provenance&) {
-      std::error_code error;
-      std::filesystem::create_directories(*folder, error);
-      if (error) {
-        throw InvalidInput(
-            {{"--output", shown(*folder),
-              "must be a folder that exists or can be made (" + error.message() + ")", ""}});
-      }
-      TerminalProgress progress("Figures");
-      const std::vector<int> numbers = figure_numbers();
-      const auto count = static_cast<double>(numbers.size());
-      for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const auto done = static_cast<double>(i);
-        ProgressPart part(progress, done / count, (done + 1.0) / count);
-        const std::filesystem::path file =
-            std::filesystem::path(*folder) / fmt::format("figure-{}.svg", numbers[i]);
-        write_file(file.string(), draw_figure(numbers[i], PictureFormat::svg, part));
-      }
-      return ExitStatus::done;
-    };
+  set_action(*command, action, folder, [](const std::string& name, const Provenance&) {
+    std::error_code error;
+    std::filesystem::create_directories(name, error);
+    if (error) {
+      throw InvalidInput(
+          {{"--output", shown(name),
+            "must be a folder that exists or can be made (" + error.message() + ")", ""}});
+    }
+    TerminalProgress progress("Figures");
+    const std::vector<int> numbers = figure_numbers();
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      ProgressPart part(progress, i, numbers.size());
+      const std::filesystem::path file =
+          std::filesystem::path(name) / fmt::format("figure-{}.svg", numbers[i]);
+      write_file(file.string(), draw_figure(numbers[i], PictureFormat::svg, part));
+    }
+    return ExitStatus::done;
   });
 }
 
@@ -193,16 +174,14 @@ void add_thesis_chart_reading(Command& thesis, Action& action) {
       "chart-reading", "Read the amplitude off the charts, beside the exact one");
   add_servo_options(*command, *options);
   command->footer(help_footer(chart_reading_examples));
-  command->callback([options, &action] {
-    action = [options](const Provenance&) {
-      if (options->file.empty() && !options->backlash) options->backlash = "0.3";
-      Faults faults;
-      const std::optional<WrittenDrive> written = resolve_drive(*options, faults);
-      faults.require_none();
-      const NormalizedServo servo = closed_form_servo(closed_form_drive(*written, *options))->servo;
-      write_file("-", chart_reading_text(servo, thesis::read_chart(servo)));
-      return ExitStatus::done;
-    };
+  set_action(*command, action, options, [](auto& typed, const Provenance&) {
+    if (typed.file.empty() && !typed.backlash) typed.backlash = "0.3";
+    Faults faults;
+    const std::optional<WrittenDrive> written = resolve_drive(typed, faults);
+    faults.require_none();
+    const NormalizedServo servo = closed_form_servo(closed_form_drive(*written, typed))->servo;
+    write_file("-", chart_reading_text(servo, thesis::read_chart(servo)));
+    return ExitStatus::done;
   });
 }
 
@@ -222,26 +201,24 @@ void add_thesis_extension(Command& thesis, Action& action) {
                    "Write this picture, .svg, .png or .pdf; default extension-N.svg")
       ->type_name("FILE");
   command->footer(help_footer(extension_examples));
-  command->callback([options, &action] {
-    action = [options](const Provenance&) {
-      Faults faults;
-      if (options->number != "2" && options->number != "3" && options->number != "4") {
-        faults.add({"N", shown(options->number),
-                    "must be 2, 3 or 4 (recommendation 1 is gearlash thesis run)", ""});
-      }
-      const std::string file =
-          options->output.empty() ? "extension-" + options->number + ".svg" : options->output;
-      const PictureFormat format =
-          faults.collect([&] { return picture_format("--output", file); }, PictureFormat::svg);
-      faults.require_none();
-      TerminalProgress progress("Extension " + options->number);
-      const thesis::Extension extension = thesis::extension(std::stoi(options->number), progress);
-      Extras extras;
-      extras.make([&] { write_file(file, draw_line_chart(extension.chart, format)); });
-      write_file("-", wrapped(fmt::format("{}. {}", extension.number, extension.wish)) + "\n" +
-                          wrapped(extension.lesson));
-      return extras.status(ExitStatus::done);
-    };
+  set_action(*command, action, options, [](auto& typed, const Provenance&) {
+    Faults faults;
+    if (typed.number != "2" && typed.number != "3" && typed.number != "4") {
+      faults.add({"N", shown(typed.number),
+                  "must be 2, 3 or 4 (recommendation 1 is gearlash thesis run)", ""});
+    }
+    const std::string file =
+        typed.output.empty() ? "extension-" + typed.number + ".svg" : typed.output;
+    const PictureFormat format =
+        faults.collect([&] { return picture_format("--output", file); }, PictureFormat::svg);
+    faults.require_none();
+    TerminalProgress progress("Extension " + typed.number);
+    const thesis::Extension extension = thesis::extension(std::stoi(typed.number), progress);
+    Extras extras;
+    extras.make([&] { write_file(file, draw_line_chart(extension.chart, format)); });
+    write_file("-", wrapped(fmt::format("{}. {}", extension.number, extension.wish)) + "\n" +
+                        wrapped(extension.lesson));
+    return extras.status(ExitStatus::done);
   });
 }
 

@@ -30,7 +30,8 @@ constexpr char table_2_examples[] =
     "  gearlash thesis table-2 --arithmetic 1604\n"
     "  gearlash thesis table-2 --properties\n";
 
-std::vector<PrintedLine> run_listed_program(const std::string& arithmetic, std::size_t lines) {
+std::vector<PrintedLine> run_listed_program(const std::string& arithmetic) {
+  const std::size_t lines = thesis::thesis_table_2().size();
   if (arithmetic == "1604") {
     return thesis::printout<Number1604<FloatRules{}>>(thesis::listed_parameters, lines);
   }
@@ -45,18 +46,16 @@ std::string row_text(const PrintedRow& row) {
 
 /// Lines of a printout beside those of Table II.
 std::string beside_table_2(const std::vector<PrintedLine>& lines) {
-  const auto& printed = thesis::thesis_table_2();
   const std::string heading = fmt::format("{:<13}{:<13}{:<13}{:<13}{:<13}", "TIME", "MOTOR SPEED",
                                           "MOTOR POS.", "LOAD SPEED", "LOAD POS.");
   std::string text = fmt::format("{:<68}{}\n", "now", "1960");
   text += heading + "   " + heading.substr(0, heading.find_last_not_of(' ') + 1) + "\n";
-  thesis::Reproduction result;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const PrintedRow now = printed_row(lines[i]);
-    thesis::compare(printed[i], now, i, result);
-    const std::string row = row_text(now) + "   " + row_text(printed[i]);
+    const std::string row =
+        row_text(printed_row(lines[i])) + "   " + row_text(thesis::thesis_table_2()[i]);
     text += row.substr(0, row.find_last_not_of(' ') + 1) + "\n";
   }
+  const thesis::Reproduction result = reproduction_of(lines);
   text += fmt::format(
       "\n{} of 190 numbers have the digits of 1960; {} are within one unit of the eighth digit.\n",
       result.exact, result.within_one);
@@ -94,13 +93,9 @@ struct MachineOptions {
 /// How many numbers of Table II the port prints exactly under a set of rules.
 template <thesis::SumRule sum, thesis::LengthRule product, thesis::LengthRule quotient>
 int digits_reproduced() {
-  const auto& printed = thesis::thesis_table_2();
-  const auto lines = thesis::printout<Number1604<FloatRules{sum, product, quotient}>>(
-      thesis::listed_parameters, printed.size());
-  thesis::Reproduction result;
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    thesis::compare(printed[i], printed_row(lines[i]), i, result);
-  return result.exact;
+  using Number = Number1604<FloatRules{sum, product, quotient}>;
+  const std::size_t lines = thesis::thesis_table_2().size();
+  return reproduction_of(thesis::printout<Number>(thesis::listed_parameters, lines)).exact;
 }
 
 template <thesis::SumRule sum>
@@ -142,7 +137,7 @@ std::string listing_text() {
 }
 
 /// The first instructions with the registers before each, and the registers after the last.
-std::string trace_text(int count) {
+std::string trace_text(std::uint64_t count) {
   thesis::ThesisMachine thesis;
   std::string text = "   P      instruction         A                 B1 … B6\n";
   const auto registers_text = [](const thesis::Registers& registers) {
@@ -158,7 +153,7 @@ std::string trace_text(int count) {
                             registers.in_lower ? "L" : "U", thesis::mnemonic(instruction.operation),
                             instruction.designator, instruction.operand, registers_text(registers));
       });
-  for (int i = 0; i < count; ++i) thesis.machine().step();
+  for (std::uint64_t i = 0; i < count; ++i) thesis.machine().step();
   const thesis::Registers& last = thesis.machine().registers();
   return text + fmt::format("  {:05o} {}  {:<12}  {}\n", last.p, last.in_lower ? "L" : "U", "",
                             registers_text(last));
@@ -172,16 +167,6 @@ std::string machine_text() {
          "1960\n\n" +
          beside_table_2(lines) +
          fmt::format("{} instructions were executed.\n", thesis.machine().registers().executed);
-}
-
-int trace_count(const std::string& text) {
-  constexpr int most = 1'000'000;
-  int count = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (error != std::errc() || end != text.data() + text.size() || count < 1 || count > most) {
-    throw InvalidInput({{"--trace", shown(text), "must be a whole number from 1 to 1000000", ""}});
-  }
-  return count;
 }
 
 }  // namespace
@@ -204,20 +189,17 @@ void add_thesis_table_2(Command& thesis, Action& action) {
                  "Show how many of its numbers each property of the\nprogram accounts for")
       ->excludes(arithmetic);
   command->footer(help_footer(table_2_examples));
-  command->callback([options, &action] {
-    action = [options](const Provenance&) {
-      Faults faults;
-      faults.require_choice("--arithmetic", options->arithmetic, {"double", "1604"});
-      faults.require_none();
-      if (options->properties) {
-        write_file("-", properties_text());
-        return ExitStatus::done;
-      }
-      const std::size_t lines = thesis::thesis_table_2().size();
-      write_file("-", "Table II: the program of 1960 run again, beside its printout\n\n" +
-                          beside_table_2(run_listed_program(options->arithmetic, lines)));
+  set_action(*command, action, options, [](auto& typed, const Provenance&) {
+    Faults faults;
+    faults.require_choice("--arithmetic", typed.arithmetic, {"double", "1604"});
+    faults.require_none();
+    if (typed.properties) {
+      write_file("-", properties_text());
       return ExitStatus::done;
-    };
+    }
+    write_file("-", "Table II: the program of 1960 run again, beside its printout\n\n" +
+                        beside_table_2(run_listed_program(typed.arithmetic)));
+    return ExitStatus::done;
   });
 }
 
@@ -236,17 +218,15 @@ void add_thesis_machine(Command& thesis, Action& action) {
   listing->excludes(trace);
   listing->excludes(rules);
   command->footer(help_footer(machine_examples));
-  command->callback([options, &action] {
-    action = [options](const Provenance&) {
-      if (options->trace) {
-        write_file("-", trace_text(trace_count(*options->trace)));
-      } else if (options->rules) {
-        write_file("-", rules_text());
-      } else {
-        write_file("-", options->listing ? listing_text() : machine_text());
-      }
-      return ExitStatus::done;
-    };
+  set_action(*command, action, options, [](auto& typed, const Provenance&) {
+    if (typed.trace) {
+      write_file("-", trace_text(read_whole("--trace", *typed.trace, 1, 1'000'000)));
+    } else if (typed.rules) {
+      write_file("-", rules_text());
+    } else {
+      write_file("-", typed.listing ? listing_text() : machine_text());
+    }
+    return ExitStatus::done;
   });
 }
 

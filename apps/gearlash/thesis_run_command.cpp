@@ -167,7 +167,7 @@ struct RunOptions {
   std::vector<std::string> plots;
 };
 
-ExitStatus run_program(const RunOptions& options) {
+ExitStatus run_program(const RunOptions& options, const Provenance&) {
   if (options.all) {
     Faults faults;
     const std::vector<Plot> plots = read_plots(options.plots, {"errors"}, faults);
@@ -223,9 +223,7 @@ void add_thesis_run(Command& thesis, Action& action) {
   causes->excludes(all);
   causes->excludes(machine);
   command->footer(help_footer(run_examples));
-  command->callback([options, &action] {
-    action = [options](const Provenance&) { return run_program(*options); };
-  });
+  set_action(*command, action, options, run_program);
 }
 
 }  // namespace gearlash::cli

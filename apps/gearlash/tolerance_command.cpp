@@ -70,20 +70,6 @@ TolerancePicture picture_of(const Plot& plot) {
       ->second;
 }
 
-/// Without sign, fraction or exponent.
-template <class Whole>
-Whole read_whole(const std::string& field, const std::string& text, Whole least, Whole most,
-                 Faults& faults) {
-  Whole number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool is_whole = error == std::errc() && end == text.data() + text.size();
-  if (is_whole && number >= least && number <= most) return number;
-  faults.add(
-      {field, shown(text),
-       "must be a whole number from " + std::to_string(least) + " to " + std::to_string(most), ""});
-  return least;
-}
-
 /// "95 %" or 0.95.
 double read_share(const std::string& field, std::string text, Faults& faults) {
   const bool in_percent = text.ends_with('%');
@@ -118,11 +104,13 @@ void read_sampling(const ToleranceOptions& options, bool may_bounce, Task& task,
   // They take a fraction of a second, with bounces some minutes.
   const std::string usual_samples = may_bounce ? "512" : "65536";
   if (may_bounce) task.worst_search.samples = 256;
-  task.sampling = sampling_of(read_whole<std::size_t>(
-      "--samples", options.samples.empty() ? usual_samples : options.samples, 32, most_samples,
-      faults));
-  task.sampling.seed =
-      read_whole<std::uint64_t>("--seed", options.seed, 0, std::uint64_t{1} << 53U, faults);
+  const auto whole = [&](const char* field, const std::string& text, std::uint64_t least,
+                         std::uint64_t most) {
+    return faults.collect([&] { return read_whole(field, text, least, most); }, least);
+  };
+  task.sampling = sampling_of(whole(
+      "--samples", options.samples.empty() ? usual_samples : options.samples, 32, most_samples));
+  task.sampling.seed = whole("--seed", options.seed, 0, std::uint64_t{1} << 53U);
 }
 
 void read_questions(const ToleranceOptions& options, TimeScale scale, Task& task, Faults& faults) {
@@ -240,9 +228,7 @@ void add_tolerance_command(Command& app, Action& action) {
   command->add_option("--format", options->format, "Choose the format: text (default) or json")
       ->type_name("FORMAT");
   command->footer(explanation + help_footer(examples));
-  command->callback([options, &action] {
-    action = [options](const Provenance& provenance) { return run(*options, provenance); };
-  });
+  set_action(*command, action, options, run);
 }
 
 }  // namespace gearlash::cli

@@ -119,8 +119,7 @@ void measure(const Path& path, StepResponse& response) {
   response.ripple = 0.5 * (last_highest - last_lowest);
 }
 
-}  // namespace
-
+/// The motion that a response is measured on.
 hybrid::Trajectory step_motion(ReducedDrive drive, double step, double until) {
   RangeCheck check;
   if (!(std::isfinite(step) && step != 0.0)) {
@@ -134,6 +133,8 @@ hybrid::Trajectory step_motion(ReducedDrive drive, double step, double until) {
   const ShaftStates rest{.motor_position = way * 0.5 * drive.backlash};
   return hybrid::simulate(system.system, drive_start(drive, system, rest), {.until = until});
 }
+
+}  // namespace
 
 StepResponse step_response(const ReducedDrive& drive, double step, double until) {
   const hybrid::Trajectory motion = step_motion(drive, step, until);

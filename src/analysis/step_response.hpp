@@ -27,7 +27,4 @@ struct StepResponse {
 /// a swing that comes and goes between two of them is not seen. Throws InvalidInput.
 StepResponse step_response(const ReducedDrive& drive, double step, double until);
 
-/// The motion that it is measured on. Throws InvalidInput.
-hybrid::Trajectory step_motion(ReducedDrive drive, double step, double until);
-
 }  // namespace gearlash::drive

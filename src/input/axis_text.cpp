@@ -17,27 +17,6 @@ namespace {
 
 constexpr char forms[] = "must be PATH=FROM:TO:COUNT, PATH=FROM:TO:COUNT:log or PATH=A,B,C";
 
-[[noreturn]] void refuse(std::string_view field, std::string_view text, std::string permitted) {
-  throw InvalidInput({{std::string(field), shown(text), std::move(permitted), ""}});
-}
-
-std::string_view without_blanks(std::string_view text) {
-  constexpr char blanks[] = " \t";
-  const std::size_t begin = text.find_first_not_of(blanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
-
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  while (true) {
-    const std::size_t end = text.find(separator);
-    parts.push_back(without_blanks(text.substr(0, end)));
-    if (end == std::string_view::npos) return parts;
-    text.remove_prefix(end + 1);
-  }
-}
-
 /// What the drive has, and the short names.
 std::string known_text(const Drive& drive, std::string_view name) {
   std::vector<std::string> known;
@@ -55,12 +34,8 @@ double read_value(const AxisText& axis, const std::string& path, const Parameter
   if (!parameter.choices.empty()) {
     return static_cast<double>(choice_of(parameter, axis.field, text));
   }
-  if (text.empty()) return read_number(axis.field, text);
-  try {
-    return read_number(axis.field, text);  // without a unit: in SI
-  } catch (const InvalidInput&) {
-    if (parameter.dimension(drive) == nullptr) throw;
-  }
+  if (text.empty() || parameter.dimension(drive) == nullptr) return read_number(axis.field, text);
+  if (const auto number = bare_number(text)) return *number;  // in SI
   try {
     return number_of(parameter, drive, path, text);
   } catch (const InvalidInput& error) {
@@ -85,8 +60,8 @@ std::size_t read_count(std::string_view field, std::string_view text) {
 AxisText split_axis(std::string_view field, std::string_view text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos) refuse(field, text, forms);
-  const std::string_view name = without_blanks(text.substr(0, equals));
-  const std::string_view values = without_blanks(text.substr(equals + 1));
+  const std::string_view name = trimmed(text.substr(0, equals));
+  const std::string_view values = trimmed(text.substr(equals + 1));
   if (name.empty() || values.empty()) refuse(field, text, forms);
   return {std::string(field), std::string(name), std::string(values)};
 }
@@ -107,9 +82,9 @@ Axis read_axis(const AxisText& text, const Drive& drive) {
   const auto value_of = [&](std::string_view value) {
     return read_value(text, axis.path, *parameter, with_part, value);
   };
-  const std::vector<std::string_view> parts = split(text.values, ':');
+  const std::vector<std::string_view> parts = split(text.values, ":");
   if (parts.size() == 1) {
-    for (const std::string_view value : split(text.values, ',')) {
+    for (const std::string_view value : split(text.values, ",")) {
       axis.values.push_back(value_of(value));
     }
   } else {

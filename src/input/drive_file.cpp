@@ -11,18 +11,6 @@
 namespace gearlash {
 namespace {
 
-/// A TOML list, "[1, 2]"; all else is text, which the reader of the key takes: "30 arcmin", "0.25".
-toml::table value_of(const std::string& text) {
-  try {
-    toml::table table = toml::parse("value = " + text);
-    if (table.size() == 1 && table["value"].is_array()) return table;
-  } catch (const toml::parse_error&) {  // then it is text
-  }
-  toml::table table;
-  table.insert("value", text);
-  return table;
-}
-
 constexpr std::string_view nothing = "none";
 
 bool is_section(std::string_view name) {
@@ -56,7 +44,12 @@ void apply(TomlDocument& document, const Setting& setting) {
   for (const OtherForm& form : parameter.other_forms) {
     take_out(form.path, form.dimension == nullptr);
   }
-  document.set(place, *value_of(setting.text).get("value"));
+  // All that is no list is text, which the reader of the key takes: "30 arcmin", "0.25".
+  if (const std::optional<toml::array> list = list_in(setting.text)) {
+    document.set(place, *list);
+  } else {
+    document.set(place, toml::value<std::string>(setting.text));
+  }
 }
 
 /// The text with its settings applied.
@@ -86,8 +79,7 @@ WrittenDrive parse_drive(std::string_view toml, std::string_view source_name,
 Setting read_setting(const std::string& text) {
   const std::size_t sign = text.find('=');
   if (sign == std::string::npos) {
-    throw InvalidInput(
-        {{"--set", shown(text), "must be PATH=VALUE, such as gearbox.ratio=50", ""}});
+    refuse("--set", text, "must be PATH=VALUE, such as gearbox.ratio=50");
   }
   Setting setting{text.substr(0, sign), text.substr(sign + 1)};
   const bool is_without = setting.text == nothing && is_section(setting.path);
@@ -97,8 +89,7 @@ Setting read_setting(const std::string& text) {
       paths.emplace_back(parameter.path);
       for (const OtherForm& form : parameter.other_forms) paths.emplace_back(form.path);
     }
-    throw InvalidInput({{"--set", shown(setting.path),
-                         "must be a parameter of a drive" + guess_of(paths, setting.path), ""}});
+    refuse("--set", setting.path, "must be a parameter of a drive" + guess_of(paths, setting.path));
   }
   return setting;
 }

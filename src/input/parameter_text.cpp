@@ -1,21 +1,15 @@
 #include "input/parameter_text.hpp"
 
-#include <toml++/toml.h>
-
 #include <algorithm>
 
 #include "gearlash/parameter.hpp"
 #include "input/section_reader.hpp"
+#include "input/toml_document.hpp"
 #include "input/units.hpp"
 #include "model/parameter_values.hpp"
 
 namespace gearlash {
 namespace {
-
-[[noreturn]] void refuse(std::string_view path, std::string_view text,
-                         const std::string& permitted) {
-  throw InvalidInput({{std::string(path), shown(text), permitted, ""}});
-}
 
 const OtherForm* inverse_form(const Parameter& parameter, std::string_view path) {
   for (const OtherForm& form : parameter.other_forms) {
@@ -24,13 +18,8 @@ const OtherForm* inverse_form(const Parameter& parameter, std::string_view path)
   return nullptr;
 }
 
-/// A TOML list: "[1, 2.5]", "[[1, 0], [0, 1]]".
-toml::table list_of(std::string_view path, std::string_view text) {
-  try {
-    toml::table table = toml::parse("value = " + std::string(text));
-    if (table["value"].is_array()) return table;
-  } catch (const toml::parse_error&) {  // reported below
-  }
+toml::array list_of(std::string_view path, std::string_view text) {
+  if (std::optional<toml::array> list = list_in(text)) return *std::move(list);
   refuse(path, text, "must be a list, such as [1, 2.5]");
 }
 
@@ -90,11 +79,9 @@ void set(Drive& drive, std::string_view path, std::string_view text) {
   } else if (auto* const* word = std::get_if<std::string*>(&slot)) {
     **word = std::string(text);
   } else if (auto* const* list = std::get_if<std::vector<double>*>(&slot); list && !has_index) {
-    const toml::table table = list_of(path, text);
-    **list = numbers_of(path, *table["value"].as_array());
+    **list = numbers_of(path, list_of(path, text));
   } else if (auto* const* rows = std::get_if<Rows*>(&slot); rows && !has_index) {
-    const toml::table table = list_of(path, text);
-    **rows = rows_of(path, *table["value"].as_array());
+    **rows = rows_of(path, list_of(path, text));
   } else {
     set(drive, path, number_of(parameter, drive, path, text));
   }

@@ -60,21 +60,21 @@ double exact_number(const std::string& field, const toml::node& value) {
   throw InvalidInput({{field, "", "must be a number without unit, such as 0.25 or \"1/9\"", ""}});
 }
 
-bool is_bare_number(const std::string& text) {
-  try {
-    read_number("", text);
-    return true;
-  } catch (const InvalidInput&) {
-    return false;
-  }
-}
-
 }  // namespace
 
 std::string one_of(const std::vector<std::string>& known, std::string_view written) {
   std::string text = "must be one of ";
   for (const std::string& name : known) text += (&name == &known.front() ? "" : ", ") + name;
   return text + guess_of(known, written);
+}
+
+std::string alternatives(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) text += i + 1 == names.size() ? " or " : ", ";
+    text += names[i];
+  }
+  return text;
 }
 
 std::string guess_of(const std::vector<std::string>& known, std::string_view written) {
@@ -152,11 +152,6 @@ std::optional<Measured> SectionReader::optional_quantity(const std::string& key,
 double SectionReader::number(const std::string& key, const std::string& permitted) {
   const toml::node* value = require(key, "must be " + permitted);
   return value != nullptr ? read(key, *value) : placeholder_number;
-}
-
-double SectionReader::number(const std::string& key, double if_missing) {
-  const toml::node* value = find(key);
-  return value != nullptr ? read(key, *value) : if_missing;
 }
 
 std::optional<std::string> SectionReader::choice(const std::string& key,
@@ -298,9 +293,8 @@ Measured SectionReader::read(const std::string& key, const toml::node& value,
       return {.si = exact_number(name, node), .unit = std::string(expected.unit)};
     }
     const std::optional<std::string> text = node.value_exact<std::string>();
-    if (bare_numbers_ && text && is_bare_number(*text)) {
-      return {.si = read_number(name, *text), .unit = std::string(expected.unit)};
-    }
+    const std::optional<double> number = text ? bare_number(*text) : std::nullopt;
+    if (bare_numbers_ && number) return {.si = *number, .unit = std::string(expected.unit)};
     if (text) return read_quantity(name, *text, expected);
     throw InvalidInput(
         {{name, "",

@@ -81,7 +81,6 @@ class SectionReader {
   /// A number without unit: of TOML, or in text (a fraction). Where it is missing, `permitted` says
   /// what it must be.
   double number(const std::string& key, const std::string& permitted);
-  double number(const std::string& key, double if_missing);
   /// One of `choices`. Empty, and noted, for anything else; a missing key is noted if `required`.
   std::optional<std::string> choice(const std::string& key, const std::vector<std::string>& choices,
                                     bool required);
@@ -90,7 +89,7 @@ class SectionReader {
   /// missing, which is noted if `permitted` says what it must be.
   std::vector<std::string> texts(const std::string& key, const std::string& permitted = "");
   /// A text; empty where it is missing, which is noted if `permitted` says what it must be.
-  std::string text(const std::string& key, const std::string& permitted = "");
+  std::string text(const std::string& key, const std::string& permitted);
   /// A list of numbers; empty where it is missing, which is noted.
   std::vector<double> numbers(const std::string& key, const std::string& permitted);
   /// A list of such lists.
@@ -101,7 +100,6 @@ class SectionReader {
   /// Notes every key that has not been read.
   void refuse_other_keys();
 
-  bool present() const { return table_ != nullptr; }
   bool has(const std::string& key) const { return table_ != nullptr && table_->contains(key); }
   /// The section's header, or the beginning of the file.
   Place place() const;
@@ -128,6 +126,9 @@ class SectionReader {
 
 /// " (did you mean b?)", or nothing where none is near.
 std::string guess_of(const std::vector<std::string>& known, std::string_view written);
+
+/// "a, b or c".
+std::string alternatives(const std::vector<std::string>& names);
 
 /// "must be one of a, b, c (did you mean b?)".
 std::string one_of(const std::vector<std::string>& known, std::string_view written);

@@ -30,7 +30,7 @@ Column read_head(const std::string& place, const std::string& head, const Dimens
                                 ", such as \"" + std::string(dimension.name) + " (" +
                                 std::string(dimension.unit) + ")\"";
   if (open == std::string::npos || close == std::string::npos || close < open) {
-    throw InvalidInput({{place, shown(head), permitted, ""}});
+    refuse(place, head, permitted);
   }
   const std::string unit = head.substr(open + 1, close - open - 1);
   return {place, to_si(place, "1 " + unit, dimension)};
@@ -38,13 +38,13 @@ Column read_head(const std::string& place, const std::string& head, const Dimens
 
 double read_cell(const std::string& place, const std::string& text, const Column& column) {
   const double value = read_number(place, text) * column.unit_in_si;
-  if (!std::isfinite(value)) throw InvalidInput({{place, shown(text), "must be finite", ""}});
+  if (!std::isfinite(value)) refuse(place, text, "must be finite");
   return value;
 }
 
-InvalidInput wrong_row(const std::string& name, int line, const std::string& found) {
-  return InvalidInput({{name + ":" + std::to_string(line) + ": row", found,
-                        "must have two columns, separated by a comma: times and values", ""}});
+[[noreturn]] void refuse_row(const std::string& name, int line, const char* found) {
+  refuse(name + ":" + std::to_string(line) + ": row", found,
+         "must have two columns, separated by a comma: times and values");
 }
 
 }  // namespace
@@ -63,8 +63,7 @@ TableSignal parse_signal_table(std::string_view text, const std::string& name,
       return name + ":" + std::to_string(reader.get_file_line()) + ": " + column;
     };
     if (!reader.read_row(time, value)) {
-      throw InvalidInput(
-          {{name, "an empty table", "must have a row of names and rows of numbers", ""}});
+      refuse(name, "an empty table", "must have a row of names and rows of numbers");
     }
     const Column times = read_head(place("first column"), time, dimensions::time);
     const Column second = read_head(place("second column"), value, values);
@@ -73,19 +72,18 @@ TableSignal parse_signal_table(std::string_view text, const std::string& name,
       table.values.push_back(read_cell(place("value"), value, second));
       const std::size_t count = table.times.size();
       if (count > 1 && !(table.times[count - 1] > table.times[count - 2])) {
-        throw InvalidInput(
-            {{place("time"), shown(time), "must be later than in the row before", ""}});
+        refuse(place("time"), time, "must be later than in the row before");
       }
     }
   } catch (const io::error::too_few_columns& fault) {
-    throw wrong_row(name, fault.file_line, "one column");
+    refuse_row(name, fault.file_line, "one column");
   } catch (const io::error::too_many_columns& fault) {
-    throw wrong_row(name, fault.file_line, "more than two columns");
+    refuse_row(name, fault.file_line, "more than two columns");
   } catch (const io::error::base& fault) {
-    throw InvalidInput({{name, "a table that cannot be read", fault.what(), ""}});
+    refuse(name, "a table that cannot be read", fault.what());
   }
   if (table.times.empty()) {
-    throw InvalidInput({{name, "a table without rows", "must have at least one", ""}});
+    refuse(name, "a table without rows", "must have at least one");
   }
   return table;
 }

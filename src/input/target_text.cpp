@@ -17,28 +17,9 @@
 namespace gearlash {
 namespace {
 
-constexpr std::string_view blanks = " \t";
 constexpr char forms[] =
     "must be no-hunting, or amplitude, frequency, period or growth-at-rest, then <= or >=, then a "
     "limit, as in \"amplitude <= 1 arcmin\"; several joined by \"and\"";
-
-std::string_view without_blanks(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(blanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
-
-/// Between the words "and".
-std::vector<std::string_view> conditions_of(std::string_view text) {
-  constexpr std::string_view joint = " and ";
-  std::vector<std::string_view> conditions;
-  while (true) {
-    const std::size_t end = text.find(joint);
-    conditions.push_back(without_blanks(text.substr(0, end)));
-    if (end == std::string_view::npos) return conditions;
-    text.remove_prefix(end + joint.size());
-  }
-}
 
 struct Condition {
   std::string_view quantity;
@@ -52,8 +33,8 @@ std::optional<Condition> split(std::string_view condition) {
   for (const auto& [relation, is_at_most] : relations) {
     const std::size_t place = condition.find(relation);
     if (place == std::string_view::npos) continue;
-    return Condition{without_blanks(condition.substr(0, place)), is_at_most,
-                     without_blanks(condition.substr(place + relation.size()))};
+    return Condition{trimmed(condition.substr(0, place)), is_at_most,
+                     trimmed(condition.substr(place + relation.size()))};
   }
   return std::nullopt;
 }
@@ -70,7 +51,7 @@ class TargetReader {
         return;
       }
       const std::optional<Condition> parts = split(condition);
-      if (!parts || parts->limit.empty()) refuse(condition, forms);
+      if (!parts || parts->limit.empty()) refuse(field_, condition, forms);
       add(condition, *parts);
     } catch (const InvalidInput& error) {
       faults_.insert(faults_.end(), error.faults().begin(), error.faults().end());
@@ -87,21 +68,18 @@ class TargetReader {
   }
 
  private:
-  [[noreturn]] void refuse(std::string_view value, std::string permitted) const {
-    throw InvalidInput({{std::string(field_), shown(value), std::move(permitted), ""}});
-  }
-
   void add(std::string_view condition, const Condition& parts) {
     const std::optional<Quantity> quantity = find_quantity(parts.quantity);
     Bounds* limits = quantity ? limits_of(*quantity) : nullptr;
-    if (limits == nullptr) refuse(condition, forms);
+    if (limits == nullptr) refuse(field_, condition, forms);
     const bool is_period = quantity == Quantity::period;
     if (time_scale_ == TimeScale::unknown && (is_period || quantity == Quantity::frequency)) {
-      refuse(condition, "needs a time scale: a servo with a natural_frequency, or a data sheet");
+      refuse(field_, condition,
+             "needs a time scale: a servo with a natural_frequency, or a data sheet");
     }
     const double limit = read_limit(*quantity, parts.limit);
-    if (is_period && !(limit > 0.0)) refuse(condition, "must have a positive limit");
-    if (!(limit >= 0.0)) refuse(condition, "must have a limit of 0 or more");
+    if (is_period && !(limit > 0.0)) refuse(field_, condition, "must have a positive limit");
+    if (!(limit >= 0.0)) refuse(field_, condition, "must have a limit of 0 or more");
     restrict(*limits, parts.is_at_most != is_period, is_period ? 1.0 / limit : limit);
   }
 
@@ -148,7 +126,7 @@ class TargetReader {
 
 Target read_target(std::string_view field, std::string_view text, TimeScale time_scale) {
   TargetReader reader(field, time_scale);
-  for (const std::string_view condition : conditions_of(text)) reader.read(condition);
+  for (const std::string_view condition : split(text, " and ")) reader.read(condition);
   return reader.target();
 }
 

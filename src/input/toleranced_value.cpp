@@ -11,14 +11,6 @@
 namespace gearlash {
 namespace {
 
-constexpr std::string_view blanks = " \t";
-
-std::string without_blanks(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(blanks);
-  if (begin == std::string_view::npos) return {};
-  return std::string(text.substr(begin, text.find_last_not_of(blanks) - begin + 1));
-}
-
 /// The texts on either side of "±".
 struct Halves {
   std::string nominal;
@@ -31,8 +23,9 @@ std::optional<Halves> halves_of(const toml::node& value) {
   for (const std::string_view sign : {"±", "+/-", "+-"}) {
     const std::size_t place = text->find(sign);
     if (place == std::string::npos) continue;
-    return Halves{without_blanks(text->substr(0, place)),
-                  without_blanks(text->substr(place + sign.size()))};
+    const std::string_view whole = *text;
+    return Halves{std::string(trimmed(whole.substr(0, place))),
+                  std::string(trimmed(whole.substr(place + sign.size())))};
   }
   return std::nullopt;
 }
@@ -60,7 +53,7 @@ class TolerancedReader {
 
   TolerancedValue read_halves(const Halves& halves) const {
     std::string nominal_text = halves.nominal;
-    if (!is_percent(halves.tolerance) && is_bare(nominal_text)) {
+    if (!is_percent(halves.tolerance) && bare_number(nominal_text)) {
       nominal_text += " " + unit_of(halves.tolerance);  // "0.61 ± 0.05 oz in2"
     }
     const Measured nominal = exact(nominal_text);
@@ -69,19 +62,10 @@ class TolerancedReader {
 
   static bool is_percent(const std::string& text) { return text.ends_with('%'); }
 
-  static bool is_bare(const std::string& text) {
-    try {
-      read_number("", text);
-      return true;
-    } catch (const InvalidInput&) {
-      return false;
-    }
-  }
-
   static std::string unit_of(const std::string& text) {
     const std::size_t end =
         text.find_first_of(" \tabcdfghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
-    return end == std::string::npos ? "" : without_blanks(text.substr(end));
+    return end == std::string::npos ? "" : std::string(trimmed(std::string_view(text).substr(end)));
   }
 
   /// In SI: a share of the nominal value, or a value of its own.
@@ -89,7 +73,7 @@ class TolerancedReader {
     if (!is_percent(text)) return not_negative(text, exact(text).si);
     constexpr double percent = 0.01;
     const double share =
-        percent * read_number(field_, without_blanks(text.substr(0, text.size() - 1)));
+        percent * read_number(field_, trimmed(std::string_view(text).substr(0, text.size() - 1)));
     return not_negative(text, share) * std::abs(nominal);
   }
 

@@ -217,4 +217,14 @@ std::string TomlDocument::written(const toml::node& node) const {
       " …");
 }
 
+std::optional<toml::array> list_in(std::string_view text) {
+  try {
+    const toml::table table = toml::parse("value = " + std::string(text));
+    const toml::array* list = table["value"].as_array();
+    if (list != nullptr && table.size() == 1) return *list;
+  } catch (const toml::parse_error&) {  // then it is none
+  }
+  return std::nullopt;
+}
+
 }  // namespace gearlash

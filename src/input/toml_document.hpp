@@ -4,6 +4,7 @@
 #include <toml++/toml.h>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,5 +45,8 @@ class TomlDocument {
   std::vector<std::string_view> lines_;
   toml::table root_;
 };
+
+/// The list that a text is in TOML, "[1, 2.5]"; nothing where it is none.
+std::optional<toml::array> list_in(std::string_view text);
 
 }  // namespace gearlash

@@ -1,9 +1,11 @@
 #include "input/units.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "base/decimal.hpp"
 #include "input/unit_expression.hpp"
@@ -11,18 +13,6 @@
 
 namespace gearlash {
 namespace {
-
-[[noreturn]] void refuse(std::string_view field, std::string_view text,
-                         const std::string& permitted) {
-  throw InvalidInput({{std::string(field), shown(text), permitted, ""}});
-}
-
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t";
-  const std::size_t begin = text.find_first_not_of(blanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
 
 /// A number that is the whole of `text`. Empty where it is none, NaN where no double holds it.
 std::optional<double> decimal(std::string_view text) {
@@ -134,6 +124,27 @@ Measured read_quantity(std::string_view field, std::string_view text, const Dime
   }
 }
 
+[[noreturn]] void refuse(std::string_view field, std::string_view text, std::string permitted) {
+  throw InvalidInput({{std::string(field), shown(text), std::move(permitted), ""}});
+}
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blanks = " \t";
+  const std::size_t begin = text.find_first_not_of(blanks);
+  if (begin == std::string_view::npos) return {};
+  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
+
+std::vector<std::string_view> split(std::string_view text, std::string_view separator) {
+  std::vector<std::string_view> parts;
+  while (true) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(trimmed(text.substr(0, end)));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + separator.size());
+  }
+}
+
 double to_si(std::string_view field, std::string_view text, const Dimension& expected) {
   return read_quantity(field, text, expected).si;
 }
@@ -156,13 +167,27 @@ double read_number(std::string_view field, std::string_view text) {
   return value + 0.0;
 }
 
-Measured read_angle(std::string_view field, std::string_view text) {
-  std::optional<double> bare;
+std::optional<double> bare_number(std::string_view text) {
   try {
-    bare = read_number(field, text);
-  } catch (const InvalidInput&) {  // its unit decides, if it has one
-    return read_quantity(field, text, dimensions::angle);
+    return read_number("", text);
+  } catch (const InvalidInput&) {
+    return std::nullopt;
   }
+}
+
+std::uint64_t read_whole(std::string_view field, std::string_view text, std::uint64_t least,
+                         std::uint64_t most) {
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool is_whole = error == std::errc() && end == text.data() + text.size();
+  if (is_whole && number >= least && number <= most) return number;
+  refuse(field, text,
+         "must be a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+}
+
+Measured read_angle(std::string_view field, std::string_view text) {
+  const std::optional<double> bare = bare_number(text);
+  if (!bare) return read_quantity(field, text, dimensions::angle);
   if (!std::isfinite(*bare)) refuse(field, text, "must be finite");
   return {.si = *bare, .unit_in_si = 1.0, .unit = "rad"};
 }

@@ -1,8 +1,11 @@
 // Quantities as engineers write them ("28.2 ozf in/A", "12 arcmin"), into SI.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/fault.hpp"
 #include "model/dimension.hpp"
@@ -35,6 +38,14 @@ double to_si(std::string_view field, std::string_view text, const Dimension& exp
 /// 1/0).
 double read_number(std::string_view field, std::string_view text);
 
+/// The number that `text` is, as read_number() has it; nothing where it is none, or has a unit.
+std::optional<double> bare_number(std::string_view text);
+
+/// A whole number without sign, fraction or exponent. Throws InvalidInput, of `field`, for anything
+/// else and outside `least` to `most`.
+std::uint64_t read_whole(std::string_view field, std::string_view text, std::uint64_t least,
+                         std::uint64_t most);
+
 /// A finite angle: a number of radians, or a number with its unit ("12 arcmin"). Throws as
 /// read_number() and read_quantity() do.
 Measured read_angle(std::string_view field, std::string_view text);
@@ -42,6 +53,15 @@ Measured read_angle(std::string_view field, std::string_view text);
 /// Author's text made fit for one line of an error: control characters and invalid UTF-8 escaped,
 /// an empty or blank text quoted, at most `limit` characters and then "…".
 std::string shown(std::string_view text, std::size_t limit = 60);
+
+/// Throws InvalidInput with one fault, of what `field` has been given.
+[[noreturn]] void refuse(std::string_view field, std::string_view text, std::string permitted);
+
+/// Without blanks and tabs at its ends.
+std::string_view trimmed(std::string_view text);
+
+/// The trimmed parts between separators, one at least.
+std::vector<std::string_view> split(std::string_view text, std::string_view separator);
 
 /// The unit in which an author thinks of angles.
 struct AngleUnit {

@@ -87,12 +87,10 @@ Json json_start(const StartOutcome& start) {
 
 Json json_search(const std::optional<SearchRecord>& search) {
   if (!search) return nullptr;
-  Json starts = Json::array();
-  for (const StartOutcome& start : search->starts) starts.push_back(json_start(start));
   return {{"watch_time", json_number(search->watch_time)},
           {"complete", search->is_complete},
           {"borders", search->borders},
-          {"starts", std::move(starts)}};
+          {"starts", json_list(search->starts, &json_start)}};
 }
 
 Json json_bounds(const std::optional<ProvedBounds>& bounds) {
@@ -108,19 +106,8 @@ Json json_bounds(const std::optional<ProvedBounds>& bounds) {
 
 Json json_normal_form(const std::optional<NormalFormNumbers>& form) {
   if (!form) return nullptr;
-  return {{"damping", json_number(form->damping)},
-          {"inertia_ratio", json_number(form->inertia_ratio)},
-          {"friction_ratio", json_number(form->friction_ratio)},
-          {"backlash", json_number(form->backlash)},
-          {"restitution", json_number(form->restitution)},
-          {"natural_frequency", json_number(form->natural_frequency)},
-          {"stiffness", json_optional(form->stiffness)}};
-}
-
-template <class List, class Convert>
-Json json_list(const List& list, const Convert& convert) {
-  Json json = Json::array();
-  for (const auto& element : list) json.push_back(convert(element));
+  Json json = gearlash::json_normal_form(*form, form->natural_frequency);
+  json["stiffness"] = json_optional(form->stiffness);
   return json;
 }
 

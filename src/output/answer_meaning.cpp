@@ -131,10 +131,6 @@ std::string meaning_of_closed_form(const AnswerReport& report) {
 
 // ---- what was searched --------------------------------------------------------------------------
 
-std::string angle_text(const AnswerReport& report, double radians) {
-  return significant(report.angle.from_radians(radians), 6) + " " + report.angle.name;
-}
-
 /// "24 to a cycle, 12 to rest".
 std::string ends_text(const SearchRecord& search) {
   std::string text;
@@ -162,11 +158,12 @@ std::string search_text(const AnswerReport& report) {
     farthest = std::max(farthest, distance);
   }
   std::string text = fmt::format(
-      "Searched from {}, with the load {} to {} from the reference. Each was followed for up to {} "
-      "{}: {}. Shooting closed the cycles. ",
-      starts_text(search.starts.size()), angle_text(report, nearest), angle_text(report, farthest),
-      significant(search.watch_time, digits), report.is_normalized ? "/ ω_n" : "s",
-      ends_text(search));
+      "Searched from {}, with the load {} to {} from the reference. Each was followed for up to "
+      "{}: "
+      "{}. Shooting closed the cycles. ",
+      starts_text(search.starts.size()), angle_text(nearest, report.angle, 6),
+      angle_text(farthest, report.angle, 6),
+      time_text(search.watch_time, report.is_normalized, digits), ends_text(search));
   const auto found =
       std::count_if(report.answer.cycles.begin(), report.answer.cycles.end(),
                     [](const Cycle& cycle) { return cycle.stability == Stability::unstable; });
@@ -183,8 +180,8 @@ std::string search_text(const AnswerReport& report) {
 }  // namespace
 
 std::string meaning_text(const AnswerReport& report) {
-  if (report.answer.engine == Engine::general) return search_text(report);
-  return meaning_of_closed_form(report);
+  if (report.answer.engine == Engine::closed_form) return meaning_of_closed_form(report);
+  return report.answer.search ? search_text(report) : "";
 }
 
 }  // namespace gearlash

@@ -39,9 +39,7 @@ double backlash_of(const AnswerReport& report) {
 struct Units {
   explicit Units(const AnswerReport& report) : is_normalized(report.is_normalized) {}
 
-  std::string time(double seconds) const {
-    return number(seconds) + (is_normalized ? " / ω_n" : " s");
-  }
+  std::string time(double seconds) const { return time_text(seconds, is_normalized, table_digits); }
   std::string speed(double value) const {
     return number(value) + (is_normalized ? " rad ω_n" : " rad/s");
   }
@@ -53,16 +51,12 @@ struct Units {
   bool is_normalized;
 };
 
-std::string angle_text(const AnswerReport& report, double radians) {
-  return number(report.angle.from_radians(radians)) + " " + report.angle.name;
-}
-
 std::string range_text(const AnswerReport& report, const Bounds& range) {
   const double low = report.angle.from_radians(range.low);
   const double high = report.angle.from_radians(range.high);
   constexpr double unseen = 1e-9;  // of the larger: one number, not two
   if (high - low <= unseen * std::max(std::abs(low), std::abs(high))) {
-    return angle_text(report, range.low);
+    return angle_text(range.low, report.angle, table_digits);
   }
   return fmt::format("{} … {} {}", number(low), number(high), report.angle.name);
 }
@@ -185,7 +179,8 @@ std::string cycle_text(const AnswerReport& report, const Cycle& cycle) {
   }
   rows.push_back(amplitude_row(report, "amplitude, motor", cycle.motor_amplitude));
   if (cycle.center != 0.0) {
-    rows.push_back({"center, from the reference", angle_text(report, cycle.center), ""});
+    rows.push_back(
+        {"center, from the reference", angle_text(cycle.center, report.angle, table_digits), ""});
   }
   rows.push_back({"period", units.time(cycle.period), ""});
   if (has_bounds) {
@@ -243,7 +238,8 @@ std::string irregular_text(const AnswerReport& report, const IrregularMotion& mo
          table_text(
              {amplitude_row(report, "amplitude, load", motion.amplitude),
               amplitude_row(report, "amplitude, motor", *motion.motor_amplitude),
-              {"center, from the reference", angle_text(report, motion.center), ""},
+              {"center, from the reference", angle_text(motion.center, report.angle, table_digits),
+               ""},
               {"mean amplitude", swing_text(*motion.mean_amplitude, report.angle, table_digits),
                spread(*motion.mean_amplitude, *motion.amplitude_deviation)},
               {"mean period", units.time(*motion.mean_period),
@@ -283,7 +279,7 @@ std::string normal_form_table(const AnswerReport& report) {
   rows.push_back({"damping, ζ", number(form.damping), ""});
   rows.push_back({"inertia ratio, J_L/J_M", number(form.inertia_ratio), ""});
   rows.push_back({"friction ratio, F_L/(F_M+F_L)", number(form.friction_ratio), ""});
-  rows.push_back({"backlash, b", angle_text(report, form.backlash),
+  rows.push_back({"backlash, b", angle_text(form.backlash, report.angle, table_digits),
                   report.angle.radians == 1.0 ? "" : number(form.backlash) + " rad"});
   rows.push_back({"restitution, e", number(form.restitution), ""});
   const auto& growth = report.answer.growth_at_rest;
@@ -314,13 +310,17 @@ bool is_of_motor_alone(const Cycle& cycle) {
   return cycle.amplitude <= unseen * cycle.motor_amplitude;
 }
 
+AnswerReport report_of(const Drive& drive, const Answer& answer, const AngleUnit& angle,
+                       const Provenance& provenance) {
+  return {.drive = drive,
+          .answer = answer,
+          .angle = angle,
+          .is_normalized = is_normalized(drive),
+          .provenance = provenance};
+}
+
 AnswerReport report_of(const Drive& drive, const Answer& answer) {
-  AnswerReport report;
-  report.drive = drive;
-  report.answer = answer;
-  report.is_normalized = is_normalized(drive);
-  report.provenance.version = version;
-  return report;
+  return report_of(drive, answer, {}, {.command = "", .version = version});
 }
 
 std::string headline(const AnswerReport& report) {

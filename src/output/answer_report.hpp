@@ -27,7 +27,10 @@ struct AnswerReport {
   std::optional<DriveSensitivity> sensitivity{};
 };
 
-/// A report in radians, without margins.
+/// A report without margins and sensitivities.
+AnswerReport report_of(const Drive& drive, const Answer& answer, const AngleUnit& angle,
+                       const Provenance& provenance);
+/// In radians, and made by this version.
 AnswerReport report_of(const Drive& drive, const Answer& answer);
 
 /// Whether the motor swings within the gap while the load stands.

@@ -16,7 +16,7 @@ constexpr int digits = 4;
 
 std::string value_text(const ChangeableNumber& number, double value, const AngleUnit& angle) {
   if (number.is_backlash()) {
-    return significant(angle.from_radians(value), digits) + " " + angle.name;
+    return angle_text(value, angle, digits);
   }
   return significant(value, digits) + (number.unit == "1" ? "" : " " + number.unit);
 }
@@ -137,16 +137,14 @@ std::string sensitivity_text(const DriveSensitivity& sensitivity) {
 }
 
 nlohmann::ordered_json margin_json(const ChangeableDrive& drive, const HuntingMargin& margin) {
-  Json parameters = Json::array();
-  for (const ParameterMargin& one : margin.parameters) {
-    parameters.push_back({{"parameter", one.parameter},
-                          {"unit", drive.number(one.parameter).unit},
-                          {"present", json_number(one.present)},
-                          {"below", json_optional(one.below)},
-                          {"above", json_optional(one.above)},
-                          {"certified", one.kind == SearchKind::certified}});
-  }
-  Json json = {{"parameters", std::move(parameters)}, {"overall", nullptr}};
+  Json json;
+  json["parameters"] = json_list(margin.parameters, [&](const ParameterMargin& one) {
+    return Json{
+        {"parameter", one.parameter},          {"unit", drive.number(one.parameter).unit},
+        {"present", json_number(one.present)}, {"below", json_optional(one.below)},
+        {"above", json_optional(one.above)},   {"certified", one.kind == SearchKind::certified}};
+  });
+  json["overall"] = nullptr;
   if (const std::optional<LogChange>& change = margin.overall.change) {
     json["overall"] = {{"distance", json_number(change->length())},
                        {"motor_inertia", json_number(change->motor_inertia)},

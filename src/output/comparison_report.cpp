@@ -8,6 +8,7 @@
 
 #include "input/drive_file.hpp"
 #include "output/columns.hpp"
+#include "output/drive_text.hpp"
 #include "output/json_values.hpp"
 
 namespace gearlash {
@@ -18,13 +19,12 @@ constexpr int digits = 4;
 const AnswerReport& first_of(const ComparisonReport& report) { return report.cases.front().report; }
 
 std::string angle(const ComparisonReport& report, double radians) {
-  const AngleUnit& unit = first_of(report).angle;
-  return significant(unit.from_radians(radians), digits) + " " + unit.name;
+  return angle_text(radians, first_of(report).angle, digits);
 }
 
 std::string time(const ComparisonReport& report, double seconds) {
   if (std::isnan(seconds)) return "–";
-  return significant(seconds, digits) + (first_of(report).is_normalized ? " / ω_n" : " s");
+  return time_text(seconds, first_of(report).is_normalized, digits);
 }
 
 // ---- one cell each ------------------------------------------------------------------------------
@@ -149,28 +149,22 @@ std::string comparison_text(const ComparisonReport& report) {
 }
 
 std::string comparison_json(const ComparisonReport& report) {
-  Json cases = Json::array();
-  for (const SensorCase& one : report.cases) {
+  Json json = json_head("compare", report.provenance);
+  json["cases"] = json_list(report.cases, [](const SensorCase& one) {
     const drive::StepResponse& response = one.response;
-    Json json = {{"sensor", name_of(one.place)},
-                 {"encoder_step", json_number(encoder_step(one))},
-                 {"step_response",
-                  {{"step", json_number(response.step)},
-                   {"watched", json_number(response.until)},
-                   {"rise_time", json_number(response.rise_time)},
-                   {"overshoot", json_number(response.overshoot)},
-                   {"settling_time", json_number(response.settling_time)},
-                   {"band", json_number(response.band)},
-                   {"final_error", json_number(response.final_error)},
-                   {"ripple", json_number(response.ripple)}}}};
-    json["limit_cycle"] = Json::parse(answer_json(one.report));
-    cases.push_back(std::move(json));
-  }
-  const Json json = {{"schema", "gearlash/compare/2"},
-                     {"version", report.provenance.version},
-                     {"command", report.provenance.command},
-                     {"units", "SI"},
-                     {"cases", std::move(cases)}};
+    return Json{{"sensor", name_of(one.place)},
+                {"encoder_step", json_number(encoder_step(one))},
+                {"step_response",
+                 {{"step", json_number(response.step)},
+                  {"watched", json_number(response.until)},
+                  {"rise_time", json_number(response.rise_time)},
+                  {"overshoot", json_number(response.overshoot)},
+                  {"settling_time", json_number(response.settling_time)},
+                  {"band", json_number(response.band)},
+                  {"final_error", json_number(response.final_error)},
+                  {"ripple", json_number(response.ripple)}}},
+                {"limit_cycle", Json::parse(answer_json(one.report))}};
+  });
   return json.dump(2) + "\n";
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "base/overloaded.hpp"
@@ -20,10 +19,7 @@ using drive::DescribedMotion;
 using drive::DescribingAnalysis;
 using drive::PredictionError;
 
-constexpr double turn = 2.0 * std::numbers::pi;
 constexpr int digits = 4;
-
-bool in_seconds(const std::string& time_unit) { return time_unit == "s"; }
 
 const char* stability(bool stable) { return stable ? "stable" : "unstable"; }
 
@@ -43,12 +39,10 @@ struct Motion {
 };
 
 Cells motion_row(const std::string& name, const Motion& motion, const DescribeReport& report) {
-  return {
-      name, swing_text(motion.amplitude, report.angle, digits),
-      fmt::format("±{} {}", significant(report.angle.from_radians(motion.motor_amplitude), digits),
-                  report.angle.name),
-      period_text(motion.period, report.time_unit, digits),
-      frequency_text(motion.period, report.time_unit, digits)};
+  return {name, swing_text(motion.amplitude, report.angle, digits),
+          "±" + angle_text(motion.motor_amplitude, report.angle, digits),
+          time_text(motion.period, report.is_normalized, digits),
+          frequency_text(motion.period, report.is_normalized, digits)};
 }
 
 Cells error_row(const PredictionError& error) {
@@ -178,7 +172,7 @@ std::string exact_text(const DescribeReport& report) {
   for (const Cycle& cycle : report.answer.cycles) {
     if (cycle.stability != Stability::stable) continue;
     text += fmt::format(", {}, {}", swing_text(cycle.amplitude, report.angle, digits),
-                        frequency_text(cycle.period, report.time_unit, digits));
+                        frequency_text(cycle.period, report.is_normalized, digits));
   }
   return text + "\n";
 }
@@ -252,44 +246,19 @@ Json json_motion(const DescribingAnalysis& analysis, const DescribedMotion& moti
 }
 
 Json json_analysis(const DescribingAnalysis& analysis, const DescribeReport& report) {
-  Json assumptions = Json::array();
-  for (const drive::Assumption assumption : analysis.assumptions) {
-    assumptions.push_back(description_of(assumption));
-  }
-  Json cycles = Json::array();
-  for (const DescribedMotion& motion : analysis.cycles) {
-    cycles.push_back(json_motion(analysis, motion, report));
-  }
-  Json unresolved = Json::array();
-  for (const Bounds& range : analysis.unresolved) {
-    unresolved.push_back({{"from", json_number(range.low)}, {"to", json_number(range.high)}});
-  }
+  const auto json_of = [&](const DescribedMotion& motion) {
+    return json_motion(analysis, motion, report);
+  };
   return {{"part", name_of(analysis.part)},
           {"nonlinearity", json_nonlinearity(analysis.nonlinearity)},
           {"in_loop", is_in_loop(analysis)},
           {"loop", json_transfer(analysis.loop)},
-          {"assumptions", std::move(assumptions)},
-          {"cycles", std::move(cycles)},
-          {"unresolved_angular_frequencies", std::move(unresolved)}};
-}
-
-Json json_cycles(const DescribeReport& report) {
-  Json cycles = Json::array();
-  for (const Cycle& cycle : report.answer.cycles) cycles.push_back(json_cycle(cycle));
-  return cycles;
+          {"assumptions", json_list(analysis.assumptions, &drive::description_of)},
+          {"cycles", json_list(analysis.cycles, json_of)},
+          {"unresolved_angular_frequencies", json_list(analysis.unresolved, &json_bounds)}};
 }
 
 }  // namespace
-
-std::string period_text(double period, const std::string& time_unit, int digits_shown) {
-  if (in_seconds(time_unit)) return significant(period, digits_shown) + " s";
-  return significant(period, digits_shown) + " / ω_n";
-}
-
-std::string frequency_text(double period, const std::string& time_unit, int digits_shown) {
-  if (in_seconds(time_unit)) return significant(1.0 / period, digits_shown) + " Hz";
-  return "ω = " + significant(turn / period, digits_shown) + " ω_n";
-}
 
 std::string describe_text(const DescribeReport& report) {
   std::string text = exact_text(report);
@@ -300,15 +269,13 @@ std::string describe_text(const DescribeReport& report) {
 }
 
 std::string describe_json(const DescribeReport& report) {
-  Json analyses = Json::array();
-  for (const DescribingAnalysis& analysis : report.analyses) {
-    analyses.push_back(json_analysis(analysis, report));
-  }
   Json json = json_head("describe", report.drive, report.provenance);
   json["engine"] = name_of(report.answer.engine);
   json["verdict"] = name_of(report.answer.verdict);
-  json["cycles"] = json_cycles(report);
-  json["analyses"] = std::move(analyses);
+  json["cycles"] = json_list(report.answer.cycles, &json_cycle);
+  json["analyses"] = json_list(report.analyses, [&](const DescribingAnalysis& analysis) {
+    return json_analysis(analysis, report);
+  });
   return json.dump(2) + "\n";
 }
 

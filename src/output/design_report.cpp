@@ -168,27 +168,10 @@ std::string certainty(const DesignReport& report) {
   return text;
 }
 
-Json json_performance(const Performance& performance) {
-  return {{"verdict", name_of(performance.verdict)},
-          {"growth_at_rest", json_number(performance.growth_at_rest)},
-          {"amplitude", json_number(performance.amplitude)},
-          {"frequency", json_number(performance.frequency)}};
-}
-
 Json json_loop(const Drivetrain& drive) {
   return {{"natural_frequency", json_number(natural_frequency(drive))},
           {"damping", json_number(normalize(drive).damping)},
           {"stiffness", json_number(drive.stiffness)}};
-}
-
-Json json_bounds(const Bounds& bounds) {
-  return {{"from", json_number(bounds.low)}, {"to", json_number(bounds.high)}};
-}
-
-Json json_all(const std::vector<Bounds>& parts) {
-  Json json = Json::array();
-  for (const Bounds& part : parts) json.push_back(json_bounds(part));
-  return json;
 }
 
 /// A value of the parameter and what the drive does with it.
@@ -211,8 +194,8 @@ Json json_answer(const DesignReport& report, const FeasibleValues& values) {
           {"present", json_number(values.present)},
           {"searched", json_bounds(values.searched)},
           {"certified", values.kind == SearchKind::certified},
-          {"intervals", json_all(values.intervals)},
-          {"undecided", json_all(values.undecided)},
+          {"intervals", json_list(values.intervals, &json_bounds)},
+          {"undecided", json_list(values.undecided, &json_bounds)},
           {"nearest", nearest ? json_value(report, values, *nearest) : Json(nullptr)},
           {"closest", nearest ? Json(nullptr) : json_value(report, values, *values.closest)}};
 }
@@ -261,15 +244,13 @@ std::string design_text(const DesignReport& report) {
 
 std::string design_json(const DesignReport& report) {
   const Performance present = performance_of(report.drive.drivetrain());
-  Json answers = Json::array();
-  for (const FeasibleValues& answer : report.answers)
-    answers.push_back(json_answer(report, answer));
   Json json = json_head("design", report.drive.drive(), report.provenance);
   json["target"] = report.target_text;
   json["met"] = json_of(judge_present(report, present));
   json["present"] = {{"performance", json_performance(present)},
                      {"loop", json_loop(report.drive.drivetrain())}};
-  json["answers"] = std::move(answers);
+  json["answers"] = json_list(
+      report.answers, [&](const FeasibleValues& answer) { return json_answer(report, answer); });
   return json.dump(2) + "\n";
 }
 

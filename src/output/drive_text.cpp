@@ -120,13 +120,18 @@ std::vector<std::string> defaults_taken(const Drive& drive) {
   return paths;
 }
 
-Json json_head(const char* name, const Drive& drive, const Provenance& provenance) {
+Json json_head(const char* name, const Provenance& provenance) {
   return {{"schema", fmt::format("gearlash/{}/2", name)},
           {"version", provenance.version},
           {"command", provenance.command},
-          {"units", "SI"},
-          {"drive", drive_json(drive)},
-          {"defaults", defaults_taken(drive)}};
+          {"units", "SI"}};
+}
+
+Json json_head(const char* name, const Drive& drive, const Provenance& provenance) {
+  Json json = json_head(name, provenance);
+  json["drive"] = drive_json(drive);
+  json["defaults"] = defaults_taken(drive);
+  return json;
 }
 
 std::string show_text(const Drive& drive) {
@@ -152,12 +157,7 @@ std::string show_json(const Drive& drive, const Provenance& provenance) {
   json["normal_form"] = nullptr;
   json["linear_loop"] = nullptr;
   if (const auto closed = closed_form_servo(drive)) {
-    json["normal_form"] = {{"damping", json_number(closed->servo.damping)},
-                           {"inertia_ratio", json_number(closed->servo.inertia_ratio)},
-                           {"friction_ratio", json_number(closed->servo.friction_ratio)},
-                           {"backlash", json_number(closed->servo.backlash)},
-                           {"restitution", json_number(closed->servo.restitution)},
-                           {"natural_frequency", json_number(closed->natural_frequency)}};
+    json["normal_form"] = json_normal_form(closed->servo, closed->natural_frequency);
   } else {
     const drive::TimeScales scales = drive::time_scales(reduce(drive));
     json["linear_loop"] = {{"slowest_swing", json_number(scales.swing)},

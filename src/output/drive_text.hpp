@@ -14,8 +14,9 @@ namespace gearlash {
 /// a signal is named by its file.
 std::string to_toml(const Drive& drive);
 
-/// What every answer in JSON starts with: schema "gearlash/NAME/2", version, command and units, the
-/// drive and the defaults taken.
+/// What every answer in JSON starts with: schema "gearlash/NAME/2", version, command and units.
+nlohmann::ordered_json json_head(const char* name, const Provenance& provenance);
+/// The same with the drive and the defaults taken.
 nlohmann::ordered_json json_head(const char* name, const Drive& drive,
                                  const Provenance& provenance);
 

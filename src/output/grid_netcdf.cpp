@@ -12,8 +12,6 @@
 #include "model/reduced_drive.hpp"
 #include "output/grid_table.hpp"
 #include "output/json_values.hpp"
-#include "output/netcdf_file.hpp"
-#include "output/output_file.hpp"
 
 namespace gearlash {
 namespace {
@@ -79,245 +77,208 @@ std::string words_of(const Axis& axis, const Drive& drive) {
   return words;
 }
 
+std::string meaning_of(const Axis& axis, const Grid& grid) {
+  return std::string(parameter_of(axis, grid.drive)->meaning);
+}
+
+using Attributes = std::vector<std::pair<std::string, std::string>>;
+
+Attributes attributes_of_file(const GridContents& contents) {
+  const Grid& grid = contents.grid;
+  Attributes attributes = {
+      {"Conventions", "CF-1.8"},
+      {"title", "What geared drives with backlash end in"},
+      {"source", "gearlash " + contents.provenance.version},
+      {"history", contents.provenance.command},
+      {"certainty", certainty_of(grid)},
+      {"drive", fixed_parameters(grid).dump()},
+      {"comment", is_normalized(grid.drive)
+                      ? "SI units, with an undamped natural frequency of 1 rad/s and a loop "
+                        "stiffness of 1 N m/rad."
+                      : "SI units."}};
+  if (!contents.source_text.empty()) attributes.emplace_back("sweep", contents.source_text);
+  return attributes;
+}
+
+void describe_axis(NetcdfFile& file, const Axis& axis, const Grid& grid,
+                   NetcdfDimension dimension) {
+  const std::string unit = unit_of(axis, grid.drive);
+  const NetcdfVariable variable = file.add_numbers(
+      column_name(axis.path), {dimension}, meaning_of(axis, grid), unit.empty() ? "1" : unit);
+  file.set_attribute(variable, "path", axis.path);
+  file.set_attribute(variable, "spacing", axis.logarithmic ? "logarithmic" : "linear");
+  if (unit.empty()) file.set_attribute(variable, "words", words_of(axis, grid.drive));
+}
+
+/// Their names, with blanks between.
+std::string describe_fixed_numbers(NetcdfFile& file, const Grid& grid) {
+  std::string names;
+  for (const FixedNumber& number : fixed_numbers(grid)) {
+    file.add_numbers(number.name, {}, number.meaning, number.unit);
+    names += (names.empty() ? "" : " ") + number.name;
+  }
+  return names;
+}
+
+void write_parameters(NetcdfFile& file, const Grid& grid) {
+  for (const Axis& axis : grid.axes) {
+    file.write(file.variable(column_name(axis.path)), {0}, {axis.values.size()}, axis.values);
+  }
+  for (const FixedNumber& number : fixed_numbers(grid)) {
+    file.write(file.variable(number.name), {}, {}, std::span(&number.value, 1));
+  }
+}
+
+/// By axis: y, x.
+std::array<std::vector<double>, 2> columns_of(const std::vector<MapCurve>& curves) {
+  constexpr double gap = std::numeric_limits<double>::quiet_NaN();
+  std::array<std::vector<double>, 2> columns;
+  for (const MapCurve& curve : curves) {
+    if (&curve != &curves.front()) {
+      for (std::vector<double>& column : columns) column.push_back(gap);
+    }
+    for (const MapPoint& point : curve) {
+      columns[0].push_back(point.y);
+      columns[1].push_back(point.x);
+    }
+  }
+  return columns;
+}
+
+std::string boundary_name(const Axis& axis) { return "hunting_boundary_" + column_name(axis.path); }
+
 }  // namespace
 
-class GridNetcdf::Layout {
- public:
-  Layout(NetcdfFile file, const GridContents& contents)
-      : file_(std::move(file)), grid_(contents.grid), quantities_(contents.quantities) {}
-
-  void describe(const GridContents& contents) {
-    describe_file(contents);
-    std::vector<NetcdfDimension> dimensions;
-    for (const Axis& axis : grid_.axes) {
-      dimensions.push_back(file_.add_dimension(column_name(axis.path), axis.values.size()));
-    }
-    for (std::size_t i = 0; i < grid_.axes.size(); ++i) describe_axis(grid_.axes[i], dimensions[i]);
-    const std::string fixed = describe_fixed_numbers();
-    const NetcdfVariable verdict =
-        file_.add_flags(verdict_name, dimensions, "verdict on the drive", verdict_words());
-    if (!fixed.empty()) file_.set_attribute(verdict, "coordinates", fixed);
-    for (const Quantity quantity : quantities_) {
-      const QuantityInfo& info = info_of(quantity);
-      const NetcdfVariable variable = file_.add_numbers(
-          std::string(info.name), dimensions, std::string(info.meaning), std::string(info.unit));
-      file_.declare_nan_missing(variable);
-      if (!fixed.empty()) file_.set_attribute(variable, "coordinates", fixed);
-    }
-    file_.end_description();
-    write_parameters();
-    claim_places();
+void GridNetcdf::describe(const GridContents& contents) {
+  for (const auto& [name, text] : attributes_of_file(contents)) {
+    file_.set_attribute_of_file(name, text);
   }
-
-  void find_variables() {
-    verdict_ = file_.variable(verdict_name);
-    for (const Quantity quantity : quantities_) {
-      variables_.push_back(file_.variable(std::string(name_of(quantity))));
-    }
+  std::vector<NetcdfDimension> dimensions;
+  for (const Axis& axis : grid_.axes) {
+    dimensions.push_back(file_.add_dimension(column_name(axis.path), axis.values.size()));
   }
-
-  /// Whether the file says of the grid what describe() wrote.
-  bool describes(const GridContents& contents) const {
-    for (const auto& [name, text] : attributes_of_file(contents)) {
-      const bool is_free = name == "history";  // the command may spell its files in another way
-      if (!is_free && file_.attribute_of_file(name) != text) return false;
-    }
-    return std::all_of(grid_.axes.begin(), grid_.axes.end(), [&](const Axis& axis) {
-      std::vector<double> values(axis.values.size());
-      file_.read(file_.variable(column_name(axis.path)), {0}, {values.size()}, values);
-      return values == axis.values;
-    });
+  for (std::size_t i = 0; i < grid_.axes.size(); ++i) {
+    describe_axis(file_, grid_.axes[i], grid_, dimensions[i]);
   }
-
-  void read(std::size_t first, Table& table) const {
-    const GridBox box = box_of(grid_, first, table.rows());
-    std::vector<signed char> flags(table.rows());
-    file_.read(verdict_, box.start, box.extent, flags);
-    std::transform(flags.begin(), flags.end(), table.column_of_verdicts().begin(),
-                   [](signed char flag) { return static_cast<Verdict>(flag); });
-    for (std::size_t i = 0; i < quantities_.size(); ++i) {
-      file_.read(variables_[i], box.start, box.extent, table.column(quantities_[i]));
-    }
+  const std::string fixed = describe_fixed_numbers(file_, grid_);
+  const NetcdfVariable verdict =
+      file_.add_flags(verdict_name, dimensions, "verdict on the drive", verdict_words());
+  if (!fixed.empty()) file_.set_attribute(verdict, "coordinates", fixed);
+  for (const Quantity quantity : quantities_) {
+    const QuantityInfo& info = info_of(quantity);
+    const NetcdfVariable variable = file_.add_numbers(
+        std::string(info.name), dimensions, std::string(info.meaning), std::string(info.unit));
+    file_.declare_nan_missing(variable);
+    if (!fixed.empty()) file_.set_attribute(variable, "coordinates", fixed);
   }
+  file_.end_description();
+  write_parameters(file_, grid_);
+  claim_places();
+}
 
-  void write(const GridPiece& piece) {
-    const Table& table = piece.table;
-    const GridBox box = box_of(grid_, piece.first, table.rows());
-    flags_.resize(table.rows());
-    std::transform(table.verdicts().begin(), table.verdicts().end(), flags_.begin(),
-                   [](Verdict verdict) { return static_cast<signed char>(verdict); });
-    file_.write(verdict_, box.start, box.extent, flags_);
-    for (std::size_t i = 0; i < quantities_.size(); ++i) {
-      file_.write(variables_[i], box.start, box.extent, table[quantities_[i]]);
-    }
-    begin_flush_now_and_then(piece);
+void GridNetcdf::find_variables() {
+  verdict_ = file_.variable(verdict_name);
+  for (const Quantity quantity : quantities_) {
+    variables_.push_back(file_.variable(std::string(name_of(quantity))));
   }
+}
 
-  void write_boundary(const std::vector<MapCurve>& curves) {
-    if (curves.empty()) return;
-    const std::array<std::vector<double>, 2> boundary = columns_of(curves);
-    describe_boundary(boundary.front().size());
-    for (std::size_t i = 0; i < boundary.size(); ++i) {
-      file_.write(file_.variable(boundary_name(grid_.axes[i])), {0}, {boundary[i].size()},
-                  boundary[i]);
-    }
+bool GridNetcdf::describes(const GridContents& contents) const {
+  for (const auto& [name, text] : attributes_of_file(contents)) {
+    const bool is_free = name == "history";  // the command may spell its files in another way
+    if (!is_free && file_.attribute_of_file(name) != text) return false;
   }
+  return std::all_of(grid_.axes.begin(), grid_.axes.end(), [&](const Axis& axis) {
+    std::vector<double> values(axis.values.size());
+    file_.read(file_.variable(column_name(axis.path)), {0}, {values.size()}, values);
+    return values == axis.values;
+  });
+}
 
-  NetcdfFile& file() { return file_; }
-
- private:
-  using Attributes = std::vector<std::pair<std::string, std::string>>;
-
-  Attributes attributes_of_file(const GridContents& contents) const {
-    Attributes attributes = {
-        {"Conventions", "CF-1.8"},
-        {"title", "What geared drives with backlash end in"},
-        {"source", "gearlash " + contents.provenance.version},
-        {"history", contents.provenance.command},
-        {"certainty", certainty_of(grid_)},
-        {"drive", fixed_parameters(grid_).dump()},
-        {"comment", is_normalized(grid_.drive)
-                        ? "SI units, with an undamped natural frequency of 1 rad/s and a loop "
-                          "stiffness of 1 N m/rad."
-                        : "SI units."}};
-    if (!contents.source_text.empty()) attributes.emplace_back("sweep", contents.source_text);
-    return attributes;
+/// One value of each variable is written. The library then gives the whole variable its place, and
+/// what is written later leaves the file's structure as it is: a program that is killed leaves it
+/// readable.
+void GridNetcdf::claim_places() {
+  find_variables();
+  const std::vector<std::size_t> one(grid_.axes.size(), 1);
+  const std::vector<std::size_t> origin(grid_.axes.size(), 0);
+  const signed char flag = 0;
+  const double number = 0.0;
+  file_.write(verdict_, origin, one, std::span(&flag, 1));
+  for (const NetcdfVariable variable : variables_) {
+    file_.write(variable, origin, one, std::span(&number, 1));
   }
+}
 
-  void describe_file(const GridContents& contents) {
-    for (const auto& [name, text] : attributes_of_file(contents)) {
-      file_.set_attribute_of_file(name, text);
-    }
-  }
-
-  void describe_axis(const Axis& axis, NetcdfDimension dimension) {
-    const std::string unit = unit_of(axis, grid_.drive);
-    const NetcdfVariable variable = file_.add_numbers(column_name(axis.path), {dimension},
-                                                      meaning_of(axis), unit.empty() ? "1" : unit);
-    file_.set_attribute(variable, "path", axis.path);
-    file_.set_attribute(variable, "spacing", axis.logarithmic ? "logarithmic" : "linear");
-    if (unit.empty()) file_.set_attribute(variable, "words", words_of(axis, grid_.drive));
-  }
-
-  std::string meaning_of(const Axis& axis) const {
-    return std::string(parameter_of(axis, grid_.drive)->meaning);
-  }
-
-  /// Their names, with blanks between.
-  std::string describe_fixed_numbers() {
-    std::string names;
-    for (const FixedNumber& number : fixed_numbers(grid_)) {
-      file_.add_numbers(number.name, {}, number.meaning, number.unit);
-      names += (names.empty() ? "" : " ") + number.name;
-    }
-    return names;
-  }
-
-  void write_parameters() {
-    for (const Axis& axis : grid_.axes) {
-      file_.write(file_.variable(column_name(axis.path)), {0}, {axis.values.size()}, axis.values);
-    }
-    for (const FixedNumber& number : fixed_numbers(grid_)) {
-      file_.write(file_.variable(number.name), {}, {}, std::span(&number.value, 1));
-    }
-  }
-
-  /// By axis: y, x.
-  static std::array<std::vector<double>, 2> columns_of(const std::vector<MapCurve>& curves) {
-    constexpr double gap = std::numeric_limits<double>::quiet_NaN();
-    std::array<std::vector<double>, 2> columns;
-    for (const MapCurve& curve : curves) {
-      if (&curve != &curves.front()) {
-        for (std::vector<double>& column : columns) column.push_back(gap);
-      }
-      for (const MapPoint& point : curve) {
-        columns[0].push_back(point.y);
-        columns[1].push_back(point.x);
-      }
-    }
-    return columns;
-  }
-
-  static std::string boundary_name(const Axis& axis) {
-    return "hunting_boundary_" + column_name(axis.path);
-  }
-
-  void describe_boundary(std::size_t points) {
-    file_.resume_description();
-    const NetcdfDimension dimension = file_.add_dimension("hunting_boundary_point", points);
-    for (const Axis& axis : grid_.axes) {
-      file_.add_numbers(
-          boundary_name(axis), {dimension},
-          meaning_of(axis) + ", where hunting ends (growth at rest 1); NaN between curves",
-          unit_of(axis, grid_.drive));
-    }
-    file_.end_description();
-  }
-
-  /// So that the disk is at work while the next points are worked out; seldom enough that it has
-  /// long pieces of each variable to take.
-  void begin_flush_now_and_then(const GridPiece& piece) {
-    constexpr std::size_t often_enough = std::size_t{1} << 18U;
-    const std::size_t written = piece.first + piece.table.rows();
-    if (written - flushed_ < often_enough && written < grid_.size()) return;
-    file_.begin_flush();
-    flushed_ = written;
-  }
-
-  /// One value of each variable is written: with it the library gives the whole variable its place,
-  /// so that what is written later leaves the file's structure as it is, and a program that is
-  /// killed leaves it readable.
-  void claim_places() {
-    find_variables();
-    const std::vector<std::size_t> one(grid_.axes.size(), 1);
-    const std::vector<std::size_t> origin(grid_.axes.size(), 0);
-    const signed char flag = 0;
-    const double number = 0.0;
-    file_.write(verdict_, origin, one, std::span(&flag, 1));
-    for (const NetcdfVariable variable : variables_) {
-      file_.write(variable, origin, one, std::span(&number, 1));
-    }
-  }
-
-  NetcdfFile file_;
-  Grid grid_;
-  std::vector<Quantity> quantities_;
-  NetcdfVariable verdict_ = 0;
-  std::vector<NetcdfVariable> variables_;  ///< of the quantities
-  std::vector<signed char> flags_;
-  std::size_t flushed_ = 0;  ///< points written before the last begin_flush()
-};
-
-GridNetcdf::GridNetcdf(std::unique_ptr<Layout> layout) : layout_(std::move(layout)) {}
-GridNetcdf::~GridNetcdf() = default;
-GridNetcdf::GridNetcdf(GridNetcdf&& other) noexcept = default;
+/// Keeps the disk at work while the next points are worked out; seldom enough that it has long
+/// pieces of each variable to take.
+void GridNetcdf::begin_flush_now_and_then(const GridPiece& piece) {
+  constexpr std::size_t often_enough = std::size_t{1} << 18U;
+  const std::size_t written = piece.first + piece.table.rows();
+  if (written - flushed_ < often_enough && written < grid_.size()) return;
+  file_.begin_flush();
+  flushed_ = written;
+}
 
 GridNetcdf GridNetcdf::create(const std::filesystem::path& path, const std::string& shown_name,
                               const GridContents& contents) {
-  auto layout = std::make_unique<Layout>(NetcdfFile::create(path, shown_name), contents);
-  layout->describe(contents);
-  return GridNetcdf(std::move(layout));
+  GridNetcdf grid(NetcdfFile::create(path, shown_name), contents);
+  grid.describe(contents);
+  return grid;
 }
 
 GridNetcdf GridNetcdf::reopen(const std::filesystem::path& path, const std::string& shown_name,
                               const GridContents& contents) {
-  auto layout = std::make_unique<Layout>(NetcdfFile::reopen(path, shown_name), contents);
-  layout->find_variables();
-  if (!layout->describes(contents)) {
+  GridNetcdf grid(NetcdfFile::reopen(path, shown_name), contents);
+  grid.find_variables();
+  if (!grid.describes(contents)) {
     throw OutputError(shown_name + ": describes another grid than the one to go on with");
   }
-  return GridNetcdf(std::move(layout));
+  return grid;
 }
 
-void GridNetcdf::read(std::size_t first, Table& table) const { layout_->read(first, table); }
-
-void GridNetcdf::write(const GridPiece& piece) { layout_->write(piece); }
-void GridNetcdf::write_boundary(const std::vector<MapCurve>& boundary) {
-  layout_->write_boundary(boundary);
+void GridNetcdf::read(std::size_t first, Table& table) const {
+  const GridBox box = box_of(grid_, first, table.rows());
+  std::vector<signed char> flags(table.rows());
+  file_.read(verdict_, box.start, box.extent, flags);
+  std::transform(flags.begin(), flags.end(), table.column_of_verdicts().begin(),
+                 [](signed char flag) { return static_cast<Verdict>(flag); });
+  for (std::size_t i = 0; i < quantities_.size(); ++i) {
+    file_.read(variables_[i], box.start, box.extent, table.column(quantities_[i]));
+  }
 }
 
-void GridNetcdf::flush() { layout_->file().flush(); }
-void GridNetcdf::close() { layout_->file().close(); }
+void GridNetcdf::write(const GridPiece& piece) {
+  const Table& table = piece.table;
+  const GridBox box = box_of(grid_, piece.first, table.rows());
+  flags_.resize(table.rows());
+  std::transform(table.verdicts().begin(), table.verdicts().end(), flags_.begin(),
+                 [](Verdict verdict) { return static_cast<signed char>(verdict); });
+  file_.write(verdict_, box.start, box.extent, flags_);
+  for (std::size_t i = 0; i < quantities_.size(); ++i) {
+    file_.write(variables_[i], box.start, box.extent, table[quantities_[i]]);
+  }
+  begin_flush_now_and_then(piece);
+}
+
+void GridNetcdf::write_boundary(const std::vector<MapCurve>& curves) {
+  if (curves.empty()) return;
+  const std::array<std::vector<double>, 2> boundary = columns_of(curves);
+  file_.resume_description();
+  const NetcdfDimension dimension =
+      file_.add_dimension("hunting_boundary_point", boundary.front().size());
+  for (const Axis& axis : grid_.axes) {
+    file_.add_numbers(
+        boundary_name(axis), {dimension},
+        meaning_of(axis, grid_) + ", where hunting ends (growth at rest 1); NaN between curves",
+        unit_of(axis, grid_.drive));
+  }
+  file_.end_description();
+  for (std::size_t i = 0; i < boundary.size(); ++i) {
+    file_.write(file_.variable(boundary_name(grid_.axes[i])), {0}, {boundary[i].size()},
+                boundary[i]);
+  }
+}
 
 std::size_t netcdf_bytes(const GridContents& contents) {
   return contents.grid.size() * (1 + sizeof(double) * contents.quantities.size());

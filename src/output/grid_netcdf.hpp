@@ -2,12 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analysis/grid/grid_pieces.hpp"
 #include "analysis/grid/region_boundary.hpp"
+#include "output/netcdf_file.hpp"
 #include "output/output_file.hpp"
 #include "output/report_units.hpp"
 
@@ -38,9 +39,6 @@ class GridNetcdf {
   /// attributes or axes are not those of `contents`.
   static GridNetcdf reopen(const std::filesystem::path& path, const std::string& shown_name,
                            const GridContents& contents);
-  ~GridNetcdf();
-  GridNetcdf(GridNetcdf&& other) noexcept;
-  GridNetcdf& operator=(GridNetcdf&& other) = delete;
 
   void write(const GridPiece& piece);
   /// Of points that were written, from `first` on as many as the table has rows (a box of the
@@ -49,14 +47,26 @@ class GridNetcdf {
   /// Of a map, whose axes are y and x, once; no curve: nothing is written.
   void write_boundary(const std::vector<MapCurve>& boundary);
   /// Brings what was written to the disk (fsync).
-  void flush();
-  void close();
+  void flush() { file_.flush(); }
+  void close() { file_.close(); }
 
  private:
-  class Layout;
-  explicit GridNetcdf(std::unique_ptr<Layout> layout);
+  GridNetcdf(NetcdfFile file, const GridContents& contents)
+      : file_(std::move(file)), grid_(contents.grid), quantities_(contents.quantities) {}
+  void describe(const GridContents& contents);
+  /// Whether the file says of the grid what describe() wrote.
+  bool describes(const GridContents& contents) const;
+  void find_variables();
+  void claim_places();
+  void begin_flush_now_and_then(const GridPiece& piece);
 
-  std::unique_ptr<Layout> layout_;
+  NetcdfFile file_;
+  Grid grid_;
+  std::vector<Quantity> quantities_;
+  NetcdfVariable verdict_ = 0;
+  std::vector<NetcdfVariable> variables_;  ///< of the quantities
+  std::vector<signed char> flags_;
+  std::size_t flushed_ = 0;  ///< points written before the last begin_flush()
 };
 
 /// Bytes that the values of such a file take.

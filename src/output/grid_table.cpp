@@ -37,17 +37,14 @@ Json json_value(const Axis& axis, const Drive& drive, double value) {
 }
 
 Json json_axes(const Grid& grid) {
-  Json axes = Json::array();
-  for (const Axis& axis : grid.axes) {
-    Json values = Json::array();
-    for (const double value : axis.values) values.push_back(json_value(axis, grid.drive, value));
+  return json_list(grid.axes, [&](const Axis& axis) {
     const std::string unit = unit_of(axis, grid.drive);
-    axes.push_back({{"path", axis.path},
-                    {"unit", unit.empty() ? Json(nullptr) : Json(unit)},
-                    {"spacing", axis.logarithmic ? "logarithmic" : "linear"},
-                    {"values", std::move(values)}});
-  }
-  return axes;
+    const auto json_of = [&](double value) { return json_value(axis, grid.drive, value); };
+    return Json{{"path", axis.path},
+                {"unit", unit.empty() ? Json(nullptr) : Json(unit)},
+                {"spacing", axis.logarithmic ? "logarithmic" : "linear"},
+                {"values", json_list(axis.values, json_of)}};
+  });
 }
 
 std::vector<Quantity> quantities_of(const Table& table) {

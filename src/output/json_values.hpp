@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "model/normalized_servo.hpp"
-#include "output/report_units.hpp"
+#include "analysis/design/target.hpp"
+#include "gearlash/bounds.hpp"
 
 namespace gearlash {
 
@@ -23,18 +23,34 @@ inline Json json_optional(const std::optional<double>& number) {
   return number ? json_number(*number) : Json(nullptr);
 }
 
-inline Json json_servo(const NormalizedServo& servo) {
-  return {{"damping", json_number(servo.damping)},
-          {"inertia_ratio", json_number(servo.inertia_ratio)},
-          {"friction_ratio", json_number(servo.friction_ratio)},
-          {"backlash", json_number(servo.backlash)},
-          {"restitution", json_number(servo.restitution)},
-          {"sensor", servo.sensor == ShaftName::load ? "load" : "motor"}};
+/// What `convert` makes of each element.
+template <class List, class Convert>
+Json json_list(const List& list, const Convert& convert) {
+  Json json = Json::array();
+  for (const auto& element : list) json.push_back(convert(element));
+  return json;
 }
 
-inline Json json_provenance(const Provenance& provenance) {
-  return {
-      {"program", "gearlash"}, {"version", provenance.version}, {"command", provenance.command}};
+inline Json json_bounds(const Bounds& bounds) {
+  return {{"from", json_number(bounds.low)}, {"to", json_number(bounds.high)}};
+}
+
+inline Json json_performance(const Performance& performance) {
+  return {{"verdict", name_of(performance.verdict)},
+          {"growth_at_rest", json_number(performance.growth_at_rest)},
+          {"amplitude", json_number(performance.amplitude)},
+          {"frequency", json_number(performance.frequency)}};
+}
+
+/// Of NormalFormNumbers or a NormalizedServo.
+template <class Form>
+Json json_normal_form(const Form& form, double natural_frequency) {
+  return {{"damping", json_number(form.damping)},
+          {"inertia_ratio", json_number(form.inertia_ratio)},
+          {"friction_ratio", json_number(form.friction_ratio)},
+          {"backlash", json_number(form.backlash)},
+          {"restitution", json_number(form.restitution)},
+          {"natural_frequency", json_number(natural_frequency)}};
 }
 
 }  // namespace gearlash

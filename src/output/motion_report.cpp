@@ -40,14 +40,10 @@ Json json_event(const MotionEvent& event) {
           {"before", json_shafts(event.before)}, {"after", json_shafts(event.after)}};
 }
 
-Json json_touches(const Motion& motion) {
-  Json touches = Json::array();
-  for (const MotionTouch& touch : motion.touches()) {
-    touches.push_back({{"time", json_number(touch.time)},
-                       {"what", touch.what},
-                       {"within", json_optional(touch.within)}});
-  }
-  return touches;
+Json json_touch(const MotionTouch& touch) {
+  return {{"time", json_number(touch.time)},
+          {"what", touch.what},
+          {"within", json_optional(touch.within)}};
 }
 
 Json json_energy(const Motion& motion) {
@@ -79,7 +75,7 @@ Json json_header(const MotionReport& report) {
                      {"time", json_number(motion.end_time())},
                      {"text", motion.stop_text()}};
   json["energy"] = json_energy(motion);
-  json["touches"] = json_touches(motion);
+  json["touches"] = json_list(motion.touches(), &json_touch);
   return json;
 }
 

@@ -113,16 +113,22 @@ NetcdfDimension NetcdfFile::add_dimension(const std::string& name, std::size_t l
   return dimension;
 }
 
-NetcdfVariable NetcdfFile::add_numbers(const std::string& name,
-                                       const std::vector<NetcdfDimension>& dimensions,
-                                       const std::string& long_name, const std::string& units) {
+NetcdfVariable NetcdfFile::define(const std::string& name, int type,
+                                  const std::vector<NetcdfDimension>& dimensions) {
   NetcdfVariable variable = 0;
-  require(nc_def_var, name.c_str(), NC_DOUBLE, static_cast<int>(dimensions.size()),
-          dimensions.data(), &variable);
+  require(nc_def_var, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(),
+          &variable);
   if (!dimensions.empty()) {
     require(nc_def_var_chunking, variable, NC_CONTIGUOUS, nullptr);
     require(nc_def_var_fill, variable, NC_NOFILL, nullptr);
   }
+  return variable;
+}
+
+NetcdfVariable NetcdfFile::add_numbers(const std::string& name,
+                                       const std::vector<NetcdfDimension>& dimensions,
+                                       const std::string& long_name, const std::string& units) {
+  const NetcdfVariable variable = define(name, NC_DOUBLE, dimensions);
   set_attribute(variable, "long_name", long_name);
   set_attribute(variable, "units", units);
   return variable;
@@ -137,13 +143,7 @@ NetcdfVariable NetcdfFile::add_flags(const std::string& name,
                                      const std::vector<NetcdfDimension>& dimensions,
                                      const std::string& long_name,
                                      const std::vector<std::string>& meanings) {
-  NetcdfVariable variable = 0;
-  require(nc_def_var, name.c_str(), NC_BYTE, static_cast<int>(dimensions.size()), dimensions.data(),
-          &variable);
-  if (!dimensions.empty()) {
-    require(nc_def_var_chunking, variable, NC_CONTIGUOUS, nullptr);
-    require(nc_def_var_fill, variable, NC_NOFILL, nullptr);
-  }
+  const NetcdfVariable variable = define(name, NC_BYTE, dimensions);
   std::vector<signed char> values;
   std::string words;
   for (const std::string& meaning : meanings) {

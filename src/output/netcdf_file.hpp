@@ -27,9 +27,8 @@ class NetcdfFile {
 
   // Description, before the first values, or after resume_description().
   NetcdfDimension add_dimension(const std::string& name, std::size_t length);
-  /// Doubles; one number without dimensions. Stored without gaps in
-  /// the order of the indices, so that what is written does not depend on the pieces it is written
-  /// in.
+  /// Doubles; one number without dimensions. Values are stored without gaps in the order of the
+  /// indices: the file does not depend on the pieces in which it is written.
   NetcdfVariable add_numbers(const std::string& name,
                              const std::vector<NetcdfDimension>& dimensions,
                              const std::string& long_name, const std::string& units);
@@ -70,6 +69,9 @@ class NetcdfFile {
 
   template <class Call, class... Arguments>
   void require(Call call, Arguments... arguments) const;
+
+  NetcdfVariable define(const std::string& name, int type,
+                        const std::vector<NetcdfDimension>& dimensions);
 
   int id_;  ///< the library's; negative when closed
   std::filesystem::path path_;

@@ -16,11 +16,23 @@ std::string change_text(double ratio) {
   return (percent < 0.0 ? "−" : "+") + significant(std::abs(percent), 3) + " %";
 }
 
+std::string angle_text(double radians, const AngleUnit& unit, int digits) {
+  return significant(unit.from_radians(radians), digits) + " " + unit.name;
+}
+
+std::string time_text(double seconds, bool is_normalized, int digits) {
+  return significant(seconds, digits) + (is_normalized ? " / ω_n" : " s");
+}
+
+std::string frequency_text(double period, bool is_normalized, int digits) {
+  if (!is_normalized) return significant(1.0 / period, digits) + " Hz";
+  return "ω = " + significant(2.0 * std::numbers::pi / period, digits) + " ω_n";
+}
+
 std::string swing_text(double amplitude, const AngleUnit& unit, int digits) {
   const std::string radians = significant(amplitude, digits) + " rad";
   if (unit.radians != 1.0) {
-    return fmt::format("±{} {} ({})", significant(unit.from_radians(amplitude), digits), unit.name,
-                       radians);
+    return "±" + angle_text(amplitude, unit, digits) + " (" + radians + ")";
   }
   const double degrees = amplitude * 180.0 / std::numbers::pi;
   return fmt::format("±{} ({}°)", radians, significant(degrees, digits));

@@ -29,8 +29,7 @@ std::string percent_text(const Estimate& estimate) {
 }
 
 std::string angle_text(double angle, const ToleranceReport& report) {
-  const AngleUnit& unit = report.angle;
-  return significant(unit.from_radians(angle), digits) + " " + unit.name;
+  return gearlash::angle_text(angle, report.angle, digits);
 }
 
 std::string amplitude_text(const std::optional<Estimate>& estimate, const ToleranceReport& report) {
@@ -193,13 +192,11 @@ Json json_estimate(const std::optional<Estimate>& estimate) {
 }
 
 Json json_quantiles(const std::vector<QuantileEstimate>& quantiles) {
-  Json json = Json::array();
-  for (const QuantileEstimate& quantile : quantiles) {
+  return json_list(quantiles, [](const QuantileEstimate& quantile) {
     Json entry = {{"share", json_number(quantile.share)}};
     entry.update(json_estimate(quantile.value));
-    json.push_back(std::move(entry));
-  }
-  return json;
+    return entry;
+  });
 }
 
 Json json_indices(const std::optional<SensitivityIndices>& indices) {
@@ -228,9 +225,7 @@ Json json_parameters(const ToleranceReport& report) {
 }
 
 Json json_histogram(const AmplitudeHistogram& histogram) {
-  Json edges = Json::array();
-  for (const double edge : histogram.edges) edges.push_back(json_number(edge));
-  return {{"edges", std::move(edges)},
+  return {{"edges", json_list(histogram.edges, &json_number)},
           {"counts", histogram.counts},
           {"quiet", histogram.quiet},
           {"unknown", histogram.unknown}};
@@ -243,9 +238,7 @@ Json json_backlash(const ToleranceReport& report) {
           {"min", json_number(widest.min)},
           {"max", json_number(widest.max)},
           {"yield", json_estimate(widest.yield)},
-          {"uncertainty",
-           {{"from", json_number(widest.uncertainty.low)},
-            {"to", json_number(widest.uncertainty.high)}}}};
+          {"uncertainty", json_bounds(widest.uncertainty)}};
 }
 
 }  // namespace
@@ -264,7 +257,6 @@ std::string tolerance_text(const ToleranceReport& report) {
 
 std::string tolerance_json(const ToleranceReport& report) {
   const ToleranceStudy& study = report.study;
-  const Performance& worst = report.worst.performance;
   const bool has_target = !report.target_text.empty();
   Json json = json_head("tolerance", report.drive.nominal, report.provenance);
   json["sampling"] = {{"points", study.sampling.points},
@@ -279,10 +271,7 @@ std::string tolerance_json(const ToleranceReport& report) {
   json["frequency"] = json_quantiles(study.frequency);
   json["histogram"] = json_histogram(study.histogram);
   json["parameters"] = json_parameters(report);
-  json["worst"] = {{"verdict", name_of(worst.verdict)},
-                   {"growth_at_rest", json_number(worst.growth_at_rest)},
-                   {"amplitude", json_number(worst.amplitude)},
-                   {"frequency", json_number(worst.frequency)}};
+  json["worst"] = json_performance(report.worst.performance);
   json["backlash"] = json_backlash(report);
   json["undecided"] = study.undecided;
   json["unknown_amplitudes"] = study.unknown_amplitudes;

@@ -47,9 +47,9 @@ Motion motion_of_irregular(const drive::ReducedDrive& reduced,
 std::string name_of_cycle(const drive::FoundCycle& cycle, const AngleUnit& angle) {
   const bool is_of_load = cycle.amplitude > 0.0;
   return fmt::format(
-      "{} cycle {}±{} {}, {}", name_of(cycle.stability), is_of_load ? "" : "motor ",
-      significant(angle.from_radians(is_of_load ? cycle.amplitude : cycle.motor_amplitude), digits),
-      angle.name, significant(cycle.period(), digits));
+      "{} cycle {}±{}, {}", name_of(cycle.stability), is_of_load ? "" : "motor ",
+      angle_text(is_of_load ? cycle.amplitude : cycle.motor_amplitude, angle, digits),
+      significant(cycle.period(), digits));
 }
 
 }  // namespace

@@ -31,9 +31,7 @@ std::string draw_comparison(const ComparisonReport& report, PictureFormat format
   constexpr int digits = 4;
   const SensorCase& first = report.cases.front();
   const AngleUnit& unit = first.report.angle;
-  const auto angle = [&](double radians) {
-    return significant(unit.from_radians(radians), digits) + " " + unit.name;
-  };
+  const auto angle = [&](double radians) { return angle_text(radians, unit, digits); };
   LineChart chart;
   chart.title = "Step of " + angle(first.response.step) + " by the place of the sensor";
   chart.subtitle = "backlash " + angle(reduce(first.report.drive).backlash);

@@ -59,13 +59,7 @@ double slope_of(const PaperPoint& from, const PaperPoint& to) {
 double distance_from(const PaperPoint& point, const PaperLine& line) {
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const double right = line[i + 1].right - line[i].right;
-    const double up = line[i + 1].up - line[i].up;
-    const double length_squared = right * right + up * up;
-    const double along = (point.right - line[i].right) * right + (point.up - line[i].up) * up;
-    const double share = length_squared > 0.0 ? std::clamp(along / length_squared, 0.0, 1.0) : 0.0;
-    nearest = std::min(nearest,
-                       distance(point, {line[i].right + share * right, line[i].up + share * up}));
+    nearest = std::min(nearest, distance_from_chord(point, line[i], line[i + 1]));
   }
   return nearest;
 }

@@ -52,9 +52,7 @@ std::string numbers_line(const MotionPicture& picture) {
   drive.reference.reset();
   drive.load_torque.reset();
   const drive::ReducedDrive reduced = reduce(drive);
-  std::string line =
-      fmt::format("backlash {} {}", significant(picture.angle.from_radians(reduced.backlash), 4),
-                  picture.angle.name);
+  std::string line = "backlash " + angle_text(reduced.backlash, picture.angle, 4);
   if (const auto closed = closed_form_servo(drive)) {
     const NormalizedServo& servo = closed->servo;
     line = fmt::format("damping {}, inertia ratio {}, friction ratio {}, {}",

@@ -46,10 +46,9 @@ struct KeyPoint {
 };
 
 std::string motion_text(double size, double period, const NyquistPicture& picture) {
-  const std::string swing = fmt::format(
-      "±{} {}", significant(picture.angle.from_radians(size), digits), picture.angle.name);
-  if (picture.time_unit != "s") return swing + ", ω = " + significant(turn / period, digits);
-  return swing + ", " + frequency_text(period, picture.time_unit, digits);
+  const std::string swing = "±" + angle_text(size, picture.angle, digits);
+  if (picture.is_normalized) return swing + ", ω = " + significant(turn / period, digits);
+  return swing + ", " + frequency_text(period, false, digits);
 }
 
 /// What tells analyses of one loop apart, after a comma; nothing of one alone.
@@ -197,7 +196,7 @@ std::vector<double> round_numbers() {
 
 std::vector<CurveMark> frequency_marks(const NyquistPicture& picture, MarkChooser& chooser) {
   std::vector<CurveMark> marks;
-  const bool in_hertz = picture.time_unit == "s";
+  const bool in_hertz = !picture.is_normalized;
   for (const double number : round_numbers()) {
     const double frequency = in_hertz ? turn * number : number;
     const std::string text = significant(number, digits);
@@ -286,7 +285,7 @@ class NyquistDrawing {
     for (std::size_t i = 0; i < picture.analyses.size(); ++i) {
       const DescribingAnalysis& analysis = picture.analyses[i];
       curves_.push_back(
-          {"−1/N(A)" + distinction(picture, analysis) + meaning(analysis, picture.time_unit),
+          {"−1/N(A)" + distinction(picture, analysis) + meaning(analysis, picture.is_normalized),
            traced_inverse_gain(analysis.nonlinearity, window_),
            inverse_styles[i % inverse_styles.size()],
            {}});
@@ -294,12 +293,12 @@ class NyquistDrawing {
   }
 
   /// What the marks of amplitude are in.
-  static std::string meaning(const DescribingAnalysis& analysis, const std::string& time_unit) {
+  static std::string meaning(const DescribingAnalysis& analysis, bool is_normalized) {
     switch (analysis.part) {
       case DescribedPart::torque_limit:
         return ", A by the limit T_max";
       case DescribedPart::coulomb_friction:
-        return time_unit == "s" ? ", A in rad/s" : ", A in rad ω_n";
+        return is_normalized ? ", A in rad ω_n" : ", A in rad/s";
       default:
         return ", A by half the gap, h";
     }

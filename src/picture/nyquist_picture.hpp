@@ -16,7 +16,7 @@ struct NyquistPicture {
   std::vector<drive::DescribingAnalysis> analyses = {};
   std::vector<Cycle> exact = {};  ///< the stable ones are drawn
   AngleUnit angle = {};
-  std::string time_unit = "s";  ///< "s", or that of normalised times; frequencies are then ω
+  bool is_normalized = false;  ///< times are in units of 1/ω_n, and frequencies ω
 };
 
 /// Those of this part, for a gap of either kind of load; empty where it is in no loop.

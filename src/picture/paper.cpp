@@ -10,16 +10,6 @@ Axis scale_of(const ChartAxis& axis) {
   return {.values = {axis.low.value(), axis.high.value()}, .logarithmic = axis.logarithmic};
 }
 
-double distance_from_chord(const PaperPoint& point, const PaperPoint& from, const PaperPoint& to) {
-  const double right = to.right - from.right;
-  const double up = to.up - from.up;
-  const double length_squared = right * right + up * up;
-  if (length_squared == 0.0) return distance(point, from);
-  const double share = std::clamp(
-      ((point.right - from.right) * right + (point.up - from.up) * up) / length_squared, 0.0, 1.0);
-  return distance(point, {from.right + share * right, from.up + share * up});
-}
-
 void keep_outliers(const PaperLine& line, std::size_t first, std::size_t last, double tolerance,
                    std::vector<bool>& kept) {
   double farthest = tolerance;
@@ -40,6 +30,16 @@ void keep_outliers(const PaperLine& line, std::size_t first, std::size_t last, d
 
 double distance(const PaperPoint& one, const PaperPoint& other) {
   return std::hypot(one.right - other.right, one.up - other.up);
+}
+
+double distance_from_chord(const PaperPoint& point, const PaperPoint& from, const PaperPoint& to) {
+  const double right = to.right - from.right;
+  const double up = to.up - from.up;
+  const double length_squared = right * right + up * up;
+  if (length_squared == 0.0) return distance(point, from);
+  const double share = std::clamp(
+      ((point.right - from.right) * right + (point.up - from.up) * up) / length_squared, 0.0, 1.0);
+  return distance(point, {from.right + share * right, from.up + share * up});
 }
 
 double length_of(const PaperLine& line) {

@@ -17,6 +17,9 @@ using PaperLine = std::vector<PaperPoint>;
 
 double distance(const PaperPoint& one, const PaperPoint& other);
 
+/// From the nearest point between `from` and `to`.
+double distance_from_chord(const PaperPoint& point, const PaperPoint& from, const PaperPoint& to);
+
 double length_of(const PaperLine& line);
 
 /// The rectangle between the axes of a map.

@@ -14,7 +14,7 @@ PictureFormat picture_format(const std::string& field, const std::filesystem::pa
   if (ending == ".svg") return PictureFormat::svg;
   if (ending == ".png") return PictureFormat::png;
   if (ending == ".pdf") return PictureFormat::pdf;
-  throw InvalidInput({{field, shown(path.string()), "must end in .svg, .png or .pdf", ""}});
+  refuse(field, path.string(), "must end in .svg, .png or .pdf");
 }
 
 }  // namespace gearlash

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "output/columns.hpp"
+
 namespace gearlash {
 namespace {
 
@@ -12,11 +14,10 @@ using Complex = std::complex<double>;
 
 constexpr double turn = 2.0 * std::numbers::pi;
 
-/// In letters; of UTF-8, and without the marks of subscripts.
+/// In letters, without the marks of subscripts.
 std::size_t width_of(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U && c != '_';
-  }));
+  const auto marks = std::count(text.begin(), text.end(), '_');
+  return width_in_columns(text) - static_cast<std::size_t>(marks);
 }
 
 }  // namespace

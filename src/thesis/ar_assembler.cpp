@@ -125,17 +125,17 @@ class Assembler {
 
   unsigned half(const Statement& statement) {
     const std::string& name = statement.operation;
-    int operation = operation_of(name);
+    std::optional<unsigned> operation = operation_of(name);
     if (name.empty()) operation = 0;
-    if (operation < 0 && is_octal(name)) operation = std::stoi(name, nullptr, 8);
-    if (operation < 0) refuse(statement, "no operation");
+    if (!operation && is_octal(name))
+      operation = static_cast<unsigned>(std::stoul(name, nullptr, 8));
+    if (!operation) refuse(statement, "no operation");
     const unsigned designator =
         statement.designator.empty() ? 0 : value(statement, statement.designator);
     const unsigned operand = statement.operand.empty() ? 0 : value(statement, statement.operand);
     constexpr unsigned operation_place = 18;
     constexpr unsigned designator_place = 15;
-    return (static_cast<unsigned>(operation) << operation_place) |
-           (designator << designator_place) | operand;
+    return (*operation << operation_place) | (designator << designator_place) | operand;
   }
 
   /// A number in octal, a name, "/" for here, each with a number added or taken away.

@@ -3,35 +3,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "base/special_numbers.hpp"
 #include "thesis/exact_curve.hpp"
+#include "thesis/figures.hpp"
 
 namespace gearlash::thesis {
-namespace {
-
-constexpr std::array friction_ratios = {0.04, 0.1, 0.2, 0.4, 0.6, 1.0};
-constexpr std::array inertia_ratios = {1.0 / 9.0, 0.25, 1.0, 4.0, 9.0};
-constexpr int dampings = 6;  // 0.1 … 0.6
-
-}  // namespace
 
 std::vector<NormalizedServo> charted_servos() {
-  constexpr double backlash = 0.3;
   std::vector<NormalizedServo> servos;
-  for (const double friction_ratio : friction_ratios) {
-    for (int tenth = 1; tenth <= dampings; ++tenth) {
-      for (const double inertia_ratio : inertia_ratios) {
+  for (const double friction_ratio : charted_friction_ratios) {
+    for (int tenth = 1; tenth <= charted_dampings; ++tenth) {
+      for (const double inertia_ratio : charted_inertia_ratios) {
         const bool in_figure_2_or_3 = tenth == 1 || inertia_ratio == 1.0;
         if (friction_ratio == 0.04 && !in_figure_2_or_3) continue;
         servos.push_back({.damping = tenth / 10.0,
                           .inertia_ratio = inertia_ratio,
                           .friction_ratio = friction_ratio,
-                          .backlash = backlash});
+                          .backlash = charted_backlash});
       }
     }
   }
@@ -62,16 +54,19 @@ CellMap error_map(const std::vector<ChartError>& errors) {
               .y_label = "damping",
               .columns = {"1/9", "1/4", "1", "4", "9"},
               .largest = largest};
-  for (int tenth = 1; tenth <= dampings; ++tenth) map.rows.push_back(fmt::format("0.{}", tenth));
-  for (const double friction_ratio : friction_ratios) {
-    CellPanel panel{fmt::format("friction ratio {}", friction_ratio),
-                    std::vector(dampings, std::vector(inertia_ratios.size(), not_a_number))};
+  for (int tenth = 1; tenth <= charted_dampings; ++tenth)
+    map.rows.push_back(fmt::format("0.{}", tenth));
+  for (const double friction_ratio : charted_friction_ratios) {
+    CellPanel panel{
+        fmt::format("friction ratio {}", friction_ratio),
+        std::vector(charted_dampings, std::vector(charted_inertia_ratios.size(), not_a_number))};
     for (const ChartError& error : errors) {
       if (error.servo.friction_ratio != friction_ratio) continue;
       const auto row = static_cast<std::size_t>(std::lround(10.0 * error.servo.damping) - 1);
-      const auto column = static_cast<std::size_t>(
-          std::find(inertia_ratios.begin(), inertia_ratios.end(), error.servo.inertia_ratio) -
-          inertia_ratios.begin());
+      const auto column = static_cast<std::size_t>(std::find(charted_inertia_ratios.begin(),
+                                                             charted_inertia_ratios.end(),
+                                                             error.servo.inertia_ratio) -
+                                                   charted_inertia_ratios.begin());
       panel.values.at(row).at(column) = 100.0 * error.relative().value_or(rests);
     }
     map.panels.push_back(std::move(panel));

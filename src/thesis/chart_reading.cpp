@@ -13,8 +13,6 @@
 namespace gearlash::thesis {
 namespace {
 
-constexpr double charted_backlash = 0.3;
-
 std::vector<DesignChart1960> make_charts() {
   std::vector<DesignChart1960> charts;
   for (const Figure& figure : thesis_figures()) {

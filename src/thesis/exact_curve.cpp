@@ -19,7 +19,7 @@ std::optional<double> exact_amplitude(const NormalizedServo& servo) {
   return cycle != nullptr ? std::optional(cycle->amplitude) : std::nullopt;
 }
 
-ExactCurve exact_curve(const std::vector<double>& places,
+ChartCurve exact_curve(const std::vector<double>& places,
                        const std::function<NormalizedServo(double place)>& servo_at) {
   std::vector<CurveServo> servos;
   servos.reserve(places.size());
@@ -32,8 +32,7 @@ ExactCurve exact_curve(const std::vector<double>& places,
       servos.push_back({place, servo.backlash == 0.0 ? 0.0 : not_a_number});
     }
   }
-  ChartCurve curve = curve_to_hunting_ends(servos, servo_at, 0.0);
-  return {std::move(curve.line), std::move(curve.ends)};
+  return curve_to_hunting_ends(servos, servo_at, 0.0);
 }
 
 }  // namespace gearlash::thesis

@@ -13,15 +13,10 @@ namespace gearlash::thesis {
 /// Size of the largest stable limit cycle, rad; nothing where there is none.
 std::optional<double> exact_amplitude(const NormalizedServo& servo);
 
-/// The size through a continuum of servos.
-struct ExactCurve {
-  std::vector<ChartPoint> line;  ///< NaN where there is no cycle, or no such servo
-  std::vector<ChartPoint> ends;  ///< where the cycle begins or ends, found by bisection
-};
-
-/// At the places, which rise; without a gap the size is 0. Precondition: plastic contact, for which
-/// a cycle ends at one place between two neighbours.
-ExactCurve exact_curve(const std::vector<double>& places,
+/// The size through a continuum of servos, at places which rise: NaN where there is no cycle or no
+/// such servo, 0 without a gap. Bisection finds the ends, where the cycle begins or ends.
+/// Precondition: plastic contact, for which a cycle ends at one place between two neighbours.
+ChartCurve exact_curve(const std::vector<double>& places,
                        const std::function<NormalizedServo(double place)>& servo_at);
 
 }  // namespace gearlash::thesis

@@ -9,16 +9,16 @@
 #include "base/special_numbers.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "thesis/exact_curve.hpp"
+#include "thesis/figures.hpp"
 
 namespace gearlash::thesis {
 namespace {
 
-constexpr double charted_backlash = 0.3;
-
-ChartCurve curve(std::string name, const std::vector<double>& places,
-                 const std::function<NormalizedServo(double)>& servo_at) {
-  ExactCurve exact = exact_curve(places, servo_at);
-  return {.name = std::move(name), .line = std::move(exact.line), .ends = std::move(exact.ends)};
+ChartCurve named_curve(std::string name, const std::vector<double>& places,
+                       const std::function<NormalizedServo(double)>& servo_at) {
+  ChartCurve curve = exact_curve(places, servo_at);
+  curve.name = std::move(name);
+  return curve;
 }
 
 /// With bounces: steady swings as marks joined by a line, parted where one leaps to the next, and
@@ -81,7 +81,7 @@ Extension zero_friction_and_inertia() {
                                                               {"massless motor", infinity}};
   for (const auto& [name, ratio] : ratios) {
     result.chart.curves.push_back(
-        curve(name, evenly(0.0, 1.0, 201), [ratio = ratio](double friction_ratio) {
+        named_curve(name, evenly(0.0, 1.0, 201), [ratio = ratio](double friction_ratio) {
           return NormalizedServo{.damping = 0.2,
                                  .inertia_ratio = ratio,
                                  .friction_ratio = friction_ratio,
@@ -108,15 +108,15 @@ Extension wide_inertia_ratios() {
                       .high = 1e3},
                 .y = size_axis,
                 .end_meaning = "hunting ends"}};
-  constexpr int dampings = 6;
-  for (int tenth = 1; tenth <= dampings; ++tenth) {
-    result.chart.curves.push_back(curve(fmt::format("damping 0.{}", tenth),
-                                        evenly_in_logarithm(1e-3, 1e3, 601), [tenth](double ratio) {
-                                          return NormalizedServo{.damping = tenth / 10.0,
-                                                                 .inertia_ratio = ratio,
-                                                                 .friction_ratio = 0.2,
-                                                                 .backlash = charted_backlash};
-                                        }));
+  for (int tenth = 1; tenth <= charted_dampings; ++tenth) {
+    result.chart.curves.push_back(
+        named_curve(fmt::format("damping 0.{}", tenth), evenly_in_logarithm(1e-3, 1e3, 601),
+                    [tenth](double ratio) {
+                      return NormalizedServo{.damping = tenth / 10.0,
+                                             .inertia_ratio = ratio,
+                                             .friction_ratio = 0.2,
+                                             .backlash = charted_backlash};
+                    }));
   }
   return result;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/progress_part.hpp"
 #include "base/special_numbers.hpp"
 #include "closed_form/trajectory.hpp"
 #include "thesis/exact_curve.hpp"
@@ -14,13 +15,11 @@
 namespace gearlash::thesis {
 namespace {
 
-constexpr double charted_backlash = 0.3;
-constexpr double least_friction_ratio = 0.04;  // "representative of the zero friction ratio case"
-
-const std::vector<double> inertia_ratios = {1.0 / 9.0, 1.0 / 4.0, 1.0, 4.0, 9.0};
-const std::vector<double> friction_ratios = {0.04, 0.1, 0.2, 0.4, 0.6, 1.0};
+const std::vector<double> inertia_ratios(charted_inertia_ratios.begin(),
+                                         charted_inertia_ratios.end());
+const std::vector<double> friction_ratios(charted_friction_ratios.begin(),
+                                          charted_friction_ratios.end());
 const std::vector<double> backlashes = {0.1, 0.2, 0.3, 0.4, 0.5};
-constexpr int dampings = 6;  // 0.1 … 0.6
 
 std::string ratio_text(double ratio) {
   return ratio < 1.0 ? fmt::format("1/{:.0f}", 1.0 / ratio) : fmt::format("{:.0f}", ratio);
@@ -28,7 +27,7 @@ std::string ratio_text(double ratio) {
 
 std::vector<FigureCurve> by_damping(double inertia_ratio, double friction_ratio) {
   std::vector<FigureCurve> curves;
-  for (int tenth = 1; tenth <= dampings; ++tenth) {
+  for (int tenth = 1; tenth <= charted_dampings; ++tenth) {
     curves.push_back({fmt::format("damping 0.{}", tenth),
                       {.damping = tenth / 10.0,
                        .inertia_ratio = inertia_ratio,
@@ -102,8 +101,8 @@ ChartAxis axis_of(const Figure& figure) {
     case Along::friction_ratio:
       return {.label = "friction ratio, load friction to total friction",
               .logarithmic = true,
-              .low = least_friction_ratio,
-              .high = 1.0,
+              .low = friction_ratios.front(),
+              .high = friction_ratios.back(),
               .tics = {{"0.04", 0.04},
                        {"0.1", 0.1},
                        {"0.2", 0.2},
@@ -117,8 +116,8 @@ ChartAxis axis_of(const Figure& figure) {
   }
   return {.label = "inertia ratio, load to motor",
           .logarithmic = true,
-          .low = 1.0 / 9.0,
-          .high = 9.0,
+          .low = inertia_ratios.front(),
+          .high = inertia_ratios.back(),
           .tics = {{"1/9", 1.0 / 9.0}, {"1/4", 0.25}, {"1", 1.0}, {"4", 4.0}, {"9", 9.0}}};
 }
 
@@ -225,23 +224,21 @@ NormalizedServo servo_at(const Figure& figure, const FigureCurve& curve, double 
   return servo;
 }
 
-FigureCurveData work_out(const Figure& figure, const FigureCurve& curve, Progress& progress) {
-  FigureCurveData data;
+ChartCurve work_out(const Figure& figure, const FigureCurve& curve, Progress& progress) {
+  ChartCurve drawn =
+      exact_curve(places(figure), [&](double place) { return servo_at(figure, curve, place); });
+  drawn.name = curve.name;
   for (std::size_t i = 0; i < figure.grid.size(); ++i) {
     const double place = figure.grid[i];
     const SettledCycle cycle =
         run_until_settled(program_parameters(servo_at(figure, curve, place)));
-    if (cycle.hunts) data.program.push_back({place, cycle.amplitude});
+    if (cycle.hunts) drawn.marks.push_back({place, cycle.amplitude});
     progress.go_on(static_cast<double>(i + 1) / static_cast<double>(figure.grid.size()));
   }
-  const ExactCurve exact =
-      exact_curve(places(figure), [&](double place) { return servo_at(figure, curve, place); });
-  data.exact = exact.line;
-  data.boundaries = exact.ends;
-  return data;
+  return drawn;
 }
 
-LineChart chart_of(const Figure& figure, const std::vector<FigureCurveData>& data) {
+LineChart chart_of(const Figure& figure, Progress& progress) {
   LineChart chart{.title = fmt::format("Figure {}", figure.number),
                   .subtitle = figure.caption,
                   .x = axis_of(figure),
@@ -250,17 +247,18 @@ LineChart chart_of(const Figure& figure, const std::vector<FigureCurveData>& dat
                   .mark_meaning = "program of 1960",
                   .mark_size = 0.65};
   if (figure.along == Along::inertia_ratio) chart.y.high = 1.0;  // one scale for all design charts
-  for (std::size_t i = 0; i < data.size(); ++i) {
+  for (const FigureCurve& one : figure.curves) {
+    ProgressPart part(progress, chart.curves.size(), figure.curves.size());
+    ChartCurve curve = work_out(figure, one, part);
     const bool hunts =
-        std::any_of(data[i].exact.begin(), data[i].exact.end(),
+        std::any_of(curve.line.begin(), curve.line.end(),
                     [](const ChartPoint& point) { return point.x > 0.0 && !std::isnan(point.y); });
-    ChartCurve curve;
-    curve.name = figure.curves[i].name + (hunts ? "" : ": rests");
-    if (hunts) curve.line = data[i].exact;
-    curve.marks = data[i].program;
-    curve.ends = data[i].boundaries;
+    if (!hunts) {
+      curve.name += ": rests";
+      curve.line.clear();
+    }
+    if (!curve.ends.empty()) chart.end_meaning = "hunting ends";
     chart.curves.push_back(std::move(curve));
-    if (!data[i].boundaries.empty()) chart.end_meaning = "hunting ends";
   }
   return chart;
 }

@@ -2,6 +2,7 @@
 // exactly.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,12 @@
 #include "picture/line_chart.hpp"
 
 namespace gearlash::thesis {
+
+// The grid of the charts. A friction ratio of 0.04 stands for 0.
+inline constexpr double charted_backlash = 0.3;  ///< rad
+inline constexpr int charted_dampings = 6;       ///< 0.1 … 0.6
+inline constexpr std::array charted_inertia_ratios = {1.0 / 9.0, 1.0 / 4.0, 1.0, 4.0, 9.0};
+inline constexpr std::array charted_friction_ratios = {0.04, 0.1, 0.2, 0.4, 0.6, 1.0};
 
 /// What a figure has along its axis.
 enum class Along { friction_ratio, backlash, inertia_ratio };
@@ -33,19 +40,13 @@ const std::vector<Figure>& thesis_figures();
 /// The servo of a curve at one place of the axis.
 NormalizedServo servo_at(const Figure& figure, const FigureCurve& curve, double place);
 
-/// A curve worked out. Sizes are half peak-to-peak of the load, rad.
-struct FigureCurveData {
-  std::vector<ChartPoint> program;     ///< at the grid, where the program hunts
-  std::vector<ChartPoint> exact;       ///< through the continuum; NaN where there is no cycle
-  std::vector<ChartPoint> boundaries;  ///< where the exact cycle begins or ends
-};
+/// A curve worked out: exact_curve() with the program's sizes as marks at the grid, where it hunts.
+/// Sizes are half peak-to-peak of the load, rad.
+ChartCurve work_out(const Figure& figure, const FigureCurve& curve,
+                    Progress& progress = no_progress());
 
-/// Calls `done(share)` now and then.
-FigureCurveData work_out(const Figure& figure, const FigureCurve& curve,
-                         Progress& progress = no_progress());
-
-/// The figure as a chart to be drawn.
-LineChart chart_of(const Figure& figure, const std::vector<FigureCurveData>& data);
+/// The figure as a chart to be drawn, with all its curves worked out.
+LineChart chart_of(const Figure& figure, Progress& progress = no_progress());
 
 /// Figures 12 … 15: the step response in the phase plane, motor and load apart in the gap.
 struct PhaseFigure {

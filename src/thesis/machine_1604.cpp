@@ -10,54 +10,6 @@ namespace {
 constexpr unsigned address_bits = 077777;
 constexpr unsigned half_word = 24;
 
-namespace operation {
-enum : unsigned {
-  ars = 001,
-  als = 005,
-  ena = 010,
-  ina = 011,
-  lda = 012,
-  lac = 013,
-  add = 014,
-  sub = 015,
-  sta = 020,
-  ajp = 022,
-  fad = 030,
-  fsb = 031,
-  fmu = 032,
-  fdv = 033,
-  ssk = 036,
-  eni = 050,
-  ini = 051,
-  liu = 052,
-  lil = 053,
-  isk = 054,
-  ijp = 055,
-  siu = 056,
-  sil = 057,
-  rao = 072,
-  slj = 075
-};
-}  // namespace operation
-
-struct Mnemonic {
-  const char* name;
-  unsigned operation;
-};
-constexpr std::array mnemonics = {Mnemonic{"ARS", operation::ars}, Mnemonic{"ALS", operation::als},
-                                  Mnemonic{"ENA", operation::ena}, Mnemonic{"INA", operation::ina},
-                                  Mnemonic{"LDA", operation::lda}, Mnemonic{"LAC", operation::lac},
-                                  Mnemonic{"ADD", operation::add}, Mnemonic{"SUB", operation::sub},
-                                  Mnemonic{"STA", operation::sta}, Mnemonic{"AJP", operation::ajp},
-                                  Mnemonic{"FAD", operation::fad}, Mnemonic{"FSB", operation::fsb},
-                                  Mnemonic{"FMU", operation::fmu}, Mnemonic{"FDV", operation::fdv},
-                                  Mnemonic{"SSK", operation::ssk}, Mnemonic{"ENI", operation::eni},
-                                  Mnemonic{"INI", operation::ini}, Mnemonic{"LIU", operation::liu},
-                                  Mnemonic{"LIL", operation::lil}, Mnemonic{"ISK", operation::isk},
-                                  Mnemonic{"IJP", operation::ijp}, Mnemonic{"SIU", operation::siu},
-                                  Mnemonic{"SIL", operation::sil}, Mnemonic{"RAO", operation::rao},
-                                  Mnemonic{"SLJ", operation::slj}};
-
 /// a − b, one's complement, with end-around borrow: a subtractive adder, so that a − a is +0.
 Word difference(Word a, Word b) { return a >= b ? a - b : (a + word_bits - b) & word_bits; }
 
@@ -100,16 +52,9 @@ Word shifted_right(Word word, unsigned places) {
 
 std::string mnemonic(unsigned operation) {
   for (const Mnemonic& known : mnemonics) {
-    if (known.operation == operation) return known.name;
+    if (known.operation == operation) return std::string(known.name);
   }
   return fmt::format("{:02o}", operation);
-}
-
-int operation_of(const std::string& mnemonic) {
-  for (const Mnemonic& known : mnemonics) {
-    if (known.name == mnemonic) return static_cast<int>(known.operation);
-  }
-  return -1;
 }
 
 void Machine1604::provide(unsigned address, HostRoutine routine) {
@@ -171,7 +116,14 @@ void Machine1604::step() {
 }
 
 void Machine1604::execute(const Instruction& instruction) {
-  const bool is_plain = execute_accumulator(instruction) || execute_index(instruction);
+  const std::optional<Word> accumulated = accumulator_after(instruction);
+  if (accumulated) {
+    registers_.a = *accumulated;
+    const bool is_stored = instruction.operation == operation_of("STA") ||
+                           instruction.operation == operation_of("RAO");
+    if (is_stored) write(address_of(instruction), registers_.a);
+  }
+  const bool is_plain = accumulated || execute_index(instruction);
   if (!is_plain && execute_jump(instruction)) return;
   if (!is_plain) {
     fault("operation " + mnemonic(instruction.operation) + " is not provided");
@@ -179,56 +131,41 @@ void Machine1604::execute(const Instruction& instruction) {
   advance();
 }
 
-bool Machine1604::execute_accumulator(const Instruction& instruction) {
-  Word& a = registers_.a;
+std::optional<Word> Machine1604::accumulator_after(const Instruction& instruction) const {
+  const Word a = registers_.a;
   const auto operand = [&] { return read(address_of(instruction)); };
   const auto number = [&] { return Float1604::of(operand()); };
   switch (instruction.operation) {
-    case operation::ars:
-      a = shifted_right(a, address_of(instruction));
-      return true;
-    case operation::als:
-      a = shifted_left_around(a, address_of(instruction));
-      return true;
-    case operation::ena:
-      a = extended(address_of(instruction));
-      return true;
-    case operation::ina:
-      a = total(a, extended(address_of(instruction)));
-      return true;
-    case operation::lda:
-      a = operand();
-      return true;
-    case operation::lac:
-      a = complement(operand());
-      return true;
-    case operation::add:
-      a = total(a, operand());
-      return true;
-    case operation::sub:
-      a = difference(a, operand());
-      return true;
-    case operation::sta:
-      write(address_of(instruction), a);
-      return true;
-    case operation::rao:
-      a = total(operand(), 1);
-      write(address_of(instruction), a);
-      return true;
-    case operation::fad:
-      a = sum(Float1604::of(a), number(), rules_.sum).word();
-      return true;
-    case operation::fsb:
-      a = sum(Float1604::of(a), -number(), rules_.sum).word();
-      return true;
-    case operation::fmu:
-      a = product(Float1604::of(a), number(), rules_.product).word();
-      return true;
-    case operation::fdv:
-      a = quotient(Float1604::of(a), number(), rules_.quotient).word();
-      return true;
+    case *operation_of("ARS"):
+      return shifted_right(a, address_of(instruction));
+    case *operation_of("ALS"):
+      return shifted_left_around(a, address_of(instruction));
+    case *operation_of("ENA"):
+      return extended(address_of(instruction));
+    case *operation_of("INA"):
+      return total(a, extended(address_of(instruction)));
+    case *operation_of("LDA"):
+      return operand();
+    case *operation_of("LAC"):
+      return complement(operand());
+    case *operation_of("ADD"):
+      return total(a, operand());
+    case *operation_of("SUB"):
+      return difference(a, operand());
+    case *operation_of("STA"):
+      return a;
+    case *operation_of("RAO"):
+      return total(operand(), 1);
+    case *operation_of("FAD"):
+      return sum(Float1604::of(a), number(), rules_.sum).word();
+    case *operation_of("FSB"):
+      return sum(Float1604::of(a), -number(), rules_.sum).word();
+    case *operation_of("FMU"):
+      return product(Float1604::of(a), number(), rules_.product).word();
+    case *operation_of("FDV"):
+      return quotient(Float1604::of(a), number(), rules_.quotient).word();
     default:
-      return false;
+      return std::nullopt;
   }
 }
 
@@ -240,23 +177,23 @@ bool Machine1604::execute_index(const Instruction& instruction) {
     if (b != 0) registers_.index[b] = value;
   };
   switch (instruction.operation) {
-    case operation::eni:
+    case *operation_of("ENI"):
       set(instruction.operand);
       return true;
-    case operation::ini:
+    case *operation_of("INI"):
       set(index_total(registers_.index[b], instruction.operand));
       return true;
-    case operation::liu:
+    case *operation_of("LIU"):
       set(upper_instruction(read(instruction.operand)).operand);
       return true;
-    case operation::lil:
+    case *operation_of("LIL"):
       set(lower_instruction(read(instruction.operand)).operand);
       return true;
-    case operation::siu:
+    case *operation_of("SIU"):
       write(instruction.operand,
             with_upper_address(read(instruction.operand), registers_.index[b]));
       return true;
-    case operation::sil:
+    case *operation_of("SIL"):
       write(instruction.operand,
             with_lower_address(read(instruction.operand), registers_.index[b]));
       return true;
@@ -268,30 +205,30 @@ bool Machine1604::execute_index(const Instruction& instruction) {
 bool Machine1604::execute_jump(const Instruction& instruction) {
   const unsigned b = instruction.designator;
   switch (instruction.operation) {
-    case operation::slj: {
+    case *operation_of("SLJ"): {
       constexpr unsigned return_jump_always = 4;
       if (b != 0 && b != return_jump_always) fault("jump keys are not provided");
       b == 0 ? jump(instruction.operand) : return_jump(instruction.operand);
       return true;
     }
-    case operation::ajp: {
+    case *operation_of("AJP"): {
       const Word a = registers_.a;
       const std::array condition = {a == 0, a != 0, !is_negative(a), is_negative(a)};
       if (b >= condition.size()) fault("AJP to a return jump is not provided");
       condition[b] ? jump(instruction.operand) : advance();
       return true;
     }
-    case operation::ssk:
+    case *operation_of("SSK"):
       exit_fully_if(is_negative(read(address_of(instruction))));
       return true;
-    case operation::isk: {
+    case *operation_of("ISK"): {
       unsigned& index = index_register(b);
       const bool reached = index == instruction.operand;
       index = reached ? 0 : index_total(index, 1);
       exit_fully_if(reached);
       return true;
     }
-    case operation::ijp: {
+    case *operation_of("IJP"): {
       unsigned& index = index_register(b);
       constexpr unsigned minus_one = 077776;
       const bool more = index != 0;

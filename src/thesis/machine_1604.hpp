@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "thesis/float_1604.hpp"
@@ -27,10 +29,26 @@ constexpr Instruction lower_instruction(Word word) {
           static_cast<unsigned>(word) & 077777U};
 }
 constexpr Instruction upper_instruction(Word word) { return lower_instruction(word >> 24U); }
+struct Mnemonic {
+  std::string_view name;
+  unsigned operation;
+};
+/// The instructions that this machine knows.
+inline constexpr Mnemonic mnemonics[] = {
+    {"ARS", 001}, {"ALS", 005}, {"ENA", 010}, {"INA", 011}, {"LDA", 012},
+    {"LAC", 013}, {"ADD", 014}, {"SUB", 015}, {"STA", 020}, {"AJP", 022},
+    {"FAD", 030}, {"FSB", 031}, {"FMU", 032}, {"FDV", 033}, {"SSK", 036},
+    {"ENI", 050}, {"INI", 051}, {"LIU", 052}, {"LIL", 053}, {"ISK", 054},
+    {"IJP", 055}, {"SIU", 056}, {"SIL", 057}, {"RAO", 072}, {"SLJ", 075}};
 /// "LDA", or the operation's number in octal where this machine does not know it.
 std::string mnemonic(unsigned operation);
-/// The operation of a mnemonic, or −1.
-int operation_of(const std::string& mnemonic);
+/// The operation of a mnemonic; nothing where this machine does not know it.
+constexpr std::optional<unsigned> operation_of(std::string_view mnemonic) {
+  for (const Mnemonic& known : mnemonics) {
+    if (known.name == mnemonic) return known.operation;
+  }
+  return std::nullopt;
+}
 
 struct Registers {
   Word a = 0;                       ///< accumulator
@@ -79,7 +97,8 @@ class Machine1604 {
   void exit_fully_if(bool condition);
   unsigned& index_register(unsigned designator);
   void execute(const Instruction& instruction);
-  bool execute_accumulator(const Instruction& instruction);
+  /// Nothing where the instruction is not one of the accumulator's.
+  std::optional<Word> accumulator_after(const Instruction& instruction) const;
   bool execute_index(const Instruction& instruction);
   bool execute_jump(const Instruction& instruction);
   [[noreturn]] void fault(const std::string& what) const;

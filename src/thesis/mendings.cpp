@@ -23,13 +23,8 @@ const std::vector<NamedMending>& mendings() {
 }
 
 int numbers_reproduced(const Mending& mending) {
-  const auto& printed = thesis_table_2();
-  const auto lines = printout<double>(listed_parameters, printed.size(), mending);
-  Reproduction result;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    compare(printed[i], printed_row(lines[i]), i, result);
-  }
-  return result.within_one;
+  const auto lines = printout<double>(listed_parameters, thesis_table_2().size(), mending);
+  return reproduction_of(lines).within_one;
 }
 
 double amplitude_error(const NormalizedServo& servo, const Mending& mending) {

@@ -44,6 +44,26 @@ std::vector<PrintedRow> read_table_2() {
   return rows;
 }
 
+/// Adds a row, of line `line` counted from 0.
+void compare(const PrintedRow& printed, const PrintedRow& now, std::size_t line,
+             Reproduction& result) {
+  constexpr std::array names = {"time", "motor speed", "motor position", "load speed",
+                                "load position"};
+  for (std::size_t k = 0; k < printed.size(); ++k) {
+    const bool same = printed[k] == now[k];
+    // 99999999 and 1.0000000 are neighbours though their exponents differ.
+    const double value = now[k].digits * std::pow(10.0, now[k].exponent - digits_printed);
+    constexpr double one_and_rounding = 1.0 + 1e-6;
+    const bool neighbours = std::abs(units_apart(value, printed[k])) <= one_and_rounding;
+    result.exact += same ? 1 : 0;
+    result.within_one += neighbours ? 1 : 0;
+    if (same) continue;
+    (neighbours ? result.near : result.others)
+        .push_back(fmt::format("line {}, {}: {} here, {} in 1960", line + 1, names[k],
+                               printed_text(now[k]), printed_text(printed[k])));
+  }
+}
+
 }  // namespace
 
 PrintedNumber printed_number(double value) {
@@ -74,23 +94,12 @@ PrintedRow printed_row(const PrintedLine& line) {
           printed_number(line.load_position)};
 }
 
-void compare(const PrintedRow& printed, const PrintedRow& now, std::size_t line,
-             Reproduction& result) {
-  constexpr std::array names = {"time", "motor speed", "motor position", "load speed",
-                                "load position"};
-  for (std::size_t k = 0; k < printed.size(); ++k) {
-    const bool same = printed[k] == now[k];
-    // 99999999 and 1.0000000 are neighbours though their exponents differ.
-    const double value = now[k].digits * std::pow(10.0, now[k].exponent - 8);
-    constexpr double one_and_rounding = 1.0 + 1e-6;
-    const bool neighbours = std::abs(units_apart(value, printed[k])) <= one_and_rounding;
-    result.exact += same ? 1 : 0;
-    result.within_one += neighbours ? 1 : 0;
-    if (same) continue;
-    (neighbours ? result.near : result.others)
-        .push_back(fmt::format("line {}, {}: {} here, {} in 1960", line + 1, names[k],
-                               printed_text(now[k]), printed_text(printed[k])));
+Reproduction reproduction_of(const std::vector<PrintedLine>& lines) {
+  Reproduction result;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    compare(thesis_table_2()[i], printed_row(lines[i]), i, result);
   }
+  return result;
 }
 
 const std::vector<PrintedRow>& thesis_table_2() {

@@ -40,9 +40,8 @@ struct Reproduction {
   std::vector<std::string> others = {};  ///< farther off
 };
 
-/// Adds a row, of line `line` counted from 0.
-void compare(const PrintedRow& printed, const PrintedRow& now, std::size_t line,
-             Reproduction& result);
+/// Of the first lines of a printout, as many as Table II has at most.
+Reproduction reproduction_of(const std::vector<PrintedLine>& lines);
 
 /// The first lines that the program prints with these parameters.
 template <class Number>

@@ -1,11 +1,11 @@
 // Transfer functions of controllers against C (sI − A)⁻¹ B + D worked out at single s.
-#include "model/controller_transfer.hpp"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <complex>
 #include <random>
+
+#include "model/rational_function.hpp"
 
 namespace gearlash::drive {
 namespace {
@@ -43,6 +43,18 @@ Complex value_of(const TransferFunction& transfer, Complex s) {
     return value;
   };
   return polynomial(transfer.numerator) / polynomial(transfer.denominator);
+}
+
+/// As doubles. Denominators begin with 1; a zero function has the numerator {0}.
+struct ControllerTransfer {
+  TransferFunction reference;
+  TransferFunction position;
+  TransferFunction speed;
+};
+
+ControllerTransfer controller_transfer(const LinearController& controller) {
+  const ExactControllerTransfer exact = exact_transfer(controller, TorqueGiven::as_asked);
+  return {rounded(exact.reference), rounded(exact.position), rounded(exact.speed)};
 }
 
 void expect_same(const LinearController& controller, Complex s) {

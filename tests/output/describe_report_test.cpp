@@ -98,7 +98,7 @@ TEST(DescribeReport, APredictionTooSmallToBeSeenIsInTheJsonAlone) {
 
 TEST(EdgeDescribeReport, NormalisedTimesAreTold) {
   DescribeReport report = report_of(type_one_servo());
-  report.time_unit = "1/ω_n";
+  report.is_normalized = true;
   EXPECT_THAT(describe_text(report), HasSubstr("3.948 / ω_n"));
   EXPECT_THAT(describe_text(report), HasSubstr("ω = 1.591 ω_n"));
   EXPECT_THAT(describe_text(report), Not(HasSubstr(" Hz")));

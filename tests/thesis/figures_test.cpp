@@ -46,26 +46,26 @@ TEST(Figures, AreThoseOfTheThesis) {
 TEST(OracleFigures, ExactCurvesAreSingleCallsAndTheProgramIsNear) {
   const Figure& chart = figure(8);
   const FigureCurve& curve = chart.curves.at(1);
-  const FigureCurveData data = work_out(chart, curve);
-  for (const ChartPoint& point : data.exact) {
+  const ChartCurve data = work_out(chart, curve);
+  for (const ChartPoint& point : data.line) {
     const auto analysis = analyse_limit_cycles(servo_at(chart, curve, point.x));
     ASSERT_EQ(point.y, analysis.cycles.at(0).amplitude);
   }
-  ASSERT_EQ(data.program.size(), chart.grid.size());
-  for (const ChartPoint& point : data.program) {
+  ASSERT_EQ(data.marks.size(), chart.grid.size());
+  for (const ChartPoint& point : data.marks) {
     const double exact =
         analyse_limit_cycles(servo_at(chart, curve, point.x)).cycles.at(0).amplitude;
     // "Sizes 1 to 4 % too large", and the scatter of the grid.
     EXPECT_NEAR(point.y / exact, 1.02, 0.025) << point.x;
   }
-  EXPECT_TRUE(data.boundaries.empty());
+  EXPECT_TRUE(data.ends.empty());
 }
 
 TEST(OracleFigures, CurvesEndWhereTheGrowthAtRestIsOne) {
   const Figure& chart = figure(3);
   int ends = 0;
   for (const FigureCurve& curve : chart.curves) {
-    for (const ChartPoint& end : work_out(chart, curve).boundaries) {
+    for (const ChartPoint& end : work_out(chart, curve).ends) {
       ++ends;
       const NormalizedServo servo = servo_at(chart, curve, end.x);
       EXPECT_NEAR(growth_at_rest(servo_dynamics(servo)), 1.0, 1e-9) << curve.name;
@@ -76,17 +76,15 @@ TEST(OracleFigures, CurvesEndWhereTheGrowthAtRestIsOne) {
 
 TEST(Figures, SizeIsProportionalToBacklash) {
   const Figure& chart = figure(4);
-  const FigureCurveData data = work_out(chart, chart.curves.at(0));
-  for (const ChartPoint& point : data.exact) {
-    EXPECT_NEAR(point.y, data.exact.back().y * point.x / data.exact.back().x, 1e-12);
+  const ChartCurve data = work_out(chart, chart.curves.at(0));
+  for (const ChartPoint& point : data.line) {
+    EXPECT_NEAR(point.y, data.line.back().y * point.x / data.line.back().x, 1e-12);
   }
 }
 
 TEST(Figures, AreDrawn) {
   const Figure& chart = figure(11);
-  std::vector<FigureCurveData> data;
-  for (const FigureCurve& curve : chart.curves) data.push_back(work_out(chart, curve));
-  const std::string svg = draw_line_chart(chart_of(chart, data), PictureFormat::svg);
+  const std::string svg = draw_line_chart(chart_of(chart), PictureFormat::svg);
   EXPECT_NE(svg.find("Design chart for friction ratio of 1.0"), std::string::npos);
   EXPECT_NE(svg.find("damping 0.6"), std::string::npos);
   const std::string phase =

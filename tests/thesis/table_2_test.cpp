@@ -11,14 +11,7 @@ namespace {
 
 template <class Number>
 int numbers_reproduced() {
-  const auto& printed = thesis_table_2();
-  const std::vector<PrintedLine> lines = printout<Number>(listed_parameters, printed.size());
-  int exact = 0;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const PrintedRow row = printed_row(lines[i]);
-    for (std::size_t k = 0; k < row.size(); ++k) exact += row[k] == printed[i][k] ? 1 : 0;
-  }
-  return exact;
+  return reproduction_of(printout<Number>(listed_parameters, thesis_table_2().size())).exact;
 }
 
 TEST(OracleTableTwo, IsWhole) {

@@ -65,7 +65,7 @@ struct DescribingAnalysis {
 ///   c = (1 − p) P + (1 − q) s V   from the motor:
 ///
 /// gap            θ_L = N θ_M; the motor drives all inertia and friction at all times, as textbooks
-///                have it and describing_function_estimate():  L = a/(D + c).
+///                have it:  L = a/(D + c).
 ///                Sensors on the motor alone, a = 0: the gap is then outside of that loop, in which
 ///                no cycle arises from it. What is described is the load's first harmonic as it
 ///                acts back on the motor:  L = D_L/(D_M + c).

@@ -316,14 +316,6 @@ double coasting_load_amplitude(const PredictedCycle& cycle, double half_gap) {
   return cycle.amplitude * sine + half_gap;
 }
 
-void append(std::vector<DescribedCycle>& estimate, LoadInGap load, double gap,
-            const HarmonicBalance& balance) {
-  for (const PredictedCycle& cycle : balance.cycles) {
-    estimate.push_back({load, load_amplitude(load, cycle, gap), cycle.amplitude, cycle.period,
-                        cycle.stable, cycle.residual});
-  }
-}
-
 }  // namespace
 
 HarmonicBalance harmonic_balance(const Nonlinearity& nonlinearity, const TransferFunction& loop,
@@ -368,22 +360,6 @@ Bounds natural_frequency_range(const TransferFunction& loop) {
 double load_amplitude(LoadInGap load, const PredictedCycle& cycle, double gap) {
   return load == LoadInGap::coasting ? coasting_load_amplitude(cycle, 0.5 * gap)
                                      : held_load_amplitude(cycle, 0.5 * gap);
-}
-
-std::vector<DescribedCycle> describing_function_estimate(const NormalizedServo& servo) {
-  require_none(validate(servo));
-  std::vector<DescribedCycle> estimate;
-  const double damping = servo.damping;
-  if (damping == 0.0 || servo.backlash == 0.0) return estimate;
-  const TransferFunction loop{{1.0}, {1.0, 2.0 * damping, 0.0}, 0.0};
-  // |N| < 4/π has ω below 1.13. For small ζ the smaller cycle is at 11 ζ³, and for great ζ the only
-  // one at 0.64/ζ.
-  const Bounds frequencies{std::min(damping * damping * damping, 0.1 / damping), 2.0};
-  append(estimate, LoadInGap::held_by_friction, servo.backlash,
-         harmonic_balance(FrictionControlledBacklash{servo.backlash}, loop, frequencies));
-  append(estimate, LoadInGap::coasting, servo.backlash,
-         harmonic_balance(InertiaControlledBacklash{servo.backlash}, loop, frequencies));
-  return estimate;
 }
 
 }  // namespace gearlash

@@ -8,6 +8,7 @@
 #include <complex>
 #include <numbers>
 
+#include "analysis/describing/servo_estimate.hpp"
 #include "closed_form/limit_cycle.hpp"
 
 namespace gearlash::drive {

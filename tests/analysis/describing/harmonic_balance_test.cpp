@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/describing/servo_estimate.hpp"
 #include "base/correct_digits.hpp"
 #include "base/fifty_digits.hpp"
 #include "base/seeded_draws.hpp"
