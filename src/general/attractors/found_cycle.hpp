@@ -5,7 +5,7 @@
 
 namespace gearlash::drive {
 
-/// Over so many periods.
+/// The motion on an orbit over a number of periods.
 hybrid::Trajectory motion_on(const hybrid::PreparedSystem& system,
                              const hybrid::PeriodicOrbit& orbit, double periods);
 
