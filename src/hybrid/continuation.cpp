@@ -13,9 +13,9 @@ namespace {
 
 using Index = Eigen::Index;
 
-// ---- why a branch ends --------------------------------------------------------------------------
+// ---- the end of a branch ------------------------------------------------------------------------
 
-/// How near the orbit is to gaining or losing an event at a guard. Small means near.
+/// How near the orbit is to gaining or losing an event at a guard: 0 where that happens.
 struct Clearance {
   double share = infinity;
   std::string name;
@@ -153,7 +153,7 @@ class Continuation {
 
   double parameter_of(const Vector& point) const { return point[size_] * parameter_scale_; }
 
-  /// G, scaled, and its slope.
+  /// G, scaled, and its slope. evaluate() gives none if a phase does not end as it should.
   struct Evaluated {
     Vector residual;
     Matrix slope;

@@ -90,8 +90,8 @@ std::optional<FastDecays> fast_decays(const AffineFlow& flow) {
   const Vector rest = -(projector * solved(invertible, Vector(projector * flow.offset)));
   Matrix slow = matrix - matrix * projector;
   // Entries left by rounding alone would couple unrelated numbers and distort their weights.
-  // Eigenvectors, and so the projector, are less accurate than rounding of these sums suggests: P²
-  // − P and A P − P A measure their error.
+  // Eigenvectors, and so the projector, are less accurate than rounding of these sums. The misfits
+  // P² − P and A P − P A measure by how much.
   constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
   constexpr double safety = 8.0;
   const Matrix sizes = matrix.cwiseAbs();

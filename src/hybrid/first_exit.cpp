@@ -12,7 +12,7 @@
 namespace gearlash::hybrid {
 namespace {
 
-/// Not initialised. Without the heap for as many as the steps of a simulation have.
+/// Not initialised. The steps of a simulation have few enough to need no heap.
 class Coefficients {
  public:
   explicit Coefficients(std::size_t size) : size_(size) {
@@ -285,7 +285,7 @@ class Search {
       const double size = std::abs(step);
       x += step;
       if (!(x >= stretch.low && x <= stretch.high) || !(size <= 0.5 * last)) return std::nullopt;
-      // The remaining error is about C size². The ratio to the last step estimates C.
+      // The remaining error is about C size². The size over the square of the last one estimates C.
       const double curved = std::max(16.0, size / (last * last));
       if (curved * size * size <= 0.25 * std::numeric_limits<double>::epsilon() * x) return x;
       last = size;

@@ -39,7 +39,7 @@ int order_for(double rates) {
   return static_cast<int>(std::lower_bound(first + 1, first + highest_order, rates) - first);
 }
 
-// ---- what moves, and how fast -------------------------------------------------------------------
+// ---- moving numbers and their rates -------------------------------------------------------------
 
 LinearFlow::LinearFlow(const AffineFlow& flow) {
   find_moving(flow);
@@ -130,8 +130,8 @@ void LinearFlow::weigh_within_loops(const std::vector<std::vector<bool>>& reache
   }
 }
 
-/// In the order in which loops act on each other. Weights make what comes from other loops at most
-/// a quarter of the fastest rate.
+/// Loop by loop, first those that act on the others. Afterwards what comes from other loops is at
+/// most a quarter of the fastest rate.
 void LinearFlow::weigh_between_loops(const std::vector<std::vector<bool>>& reached,
                                      double fastest) {
   const std::size_t size = reached.size();

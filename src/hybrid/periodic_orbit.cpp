@@ -93,7 +93,8 @@ std::optional<PeriodicOrbit> closing_orbit(const PreparedSystem& system, const T
     farthest = std::max({farthest, distance, largest_entry(begin.before - end.after)});
     if (distance > options.nearness * scale) continue;
     if (!is_same_event(begin, end) || !(begin.time < end.time)) continue;
-    // A motion that has hardly moved creeps, or rests from tick to tick: only a few tries.
+    // A motion that has hardly moved creeps, or rests from tick to tick. The latter gets a few
+    // tries.
     if (!has_returned && tries_at_rest++ >= most_tries_at_rest) continue;
     const double start = middle_of_longest(events, last - back, last);
     auto shooting = Shooting::about(system, motion.at(start), start, end.time - begin.time, back,
