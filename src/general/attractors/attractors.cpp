@@ -221,7 +221,7 @@ class Search {
     }
   }
 
-  // ---- what came of it --------------------------------------------------------------------------
+  // ---- the record -------------------------------------------------------------------------------
 
   void record(const ShaftStates& start, const Verdict& verdict) {
     Outcome outcome{start, verdict.end, verdict.which, verdict.watched, verdict.reason};
