@@ -259,7 +259,7 @@ BasicMotorSpeed<Real> motor_speed_at(const BasicGapFlight<Real>& flight, Real mo
 }
 
 /// Root of the quintic through value, slope and curvature at 0 and at `end`, values of opposite
-/// sign, to some 1e-4 of `end`: Halley's step from the root of a parabola.
+/// sign, to about 1e-4 of `end`: Halley's step from the root of a parabola.
 template <class Real>
 Real quintic_root(const BasicValueAndSlope<Real>& at_start, const BasicValueAndSlope<Real>& at_end,
                   Real end) {
