@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::array<int, 6> orders = {1, 2, 3, 4, 6, 8};
 constexpr int longest_order = 8;
-/// Irregular motion passes near infinitely many unstable cycles. With this many known, motions are
-/// no longer tried for more.
+/// Irregular motion passes near infinitely many unstable cycles. Once this many are known, no more
+/// are sought along motions.
 constexpr std::size_t most_cycles = 16;
 
 bool arrives(const Traversal& traversal) {

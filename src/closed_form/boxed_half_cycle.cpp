@@ -226,13 +226,13 @@ BoxedEnd BoxedHalfCycle::flight_over_massless_load(const Interval& time) const {
   return end;
 }
 
-/// P at impact less the speed at parting.
+/// P at impact minus the speed at parting.
 Interval BoxedHalfCycle::speed_change(const BoxedEnd& end) const {
   return massless_load_ ? -end.kick : -(load_rate_ * end.moved) - end.kick;
 }
 
-/// Q just after impact less Q at parting, from the changes of position and speed: for light damping
-/// it is far smaller than either.
+/// Q just after impact minus Q at parting, from the changes of position and speed. For light
+/// damping it is far smaller than either Q.
 Interval BoxedHalfCycle::form_change(const BoxedEnd& end) const {
   const Interval slowed = speed_change(end);
   if (massless_load_) return slowed * (slowed + 2.0 * damping_);

@@ -18,7 +18,7 @@ double size_of(const EngagedFlow::State& state) {
 }
 
 /// Whether nearly elastic bounces of speed `rebound` under the acceleration `pressing` are too many
-/// to be followed and small enough to be neglected; see fading_rattle().
+/// to be followed and small enough to be summed up; see fading_rattle().
 bool matters_no_more(const ServoDynamics& dynamics, const EngagedFlow& common, double pressing,
                      double rebound) {
   constexpr double many = 1e4;

@@ -81,7 +81,7 @@ struct CycleSensitivity {
 /// derivative is that of one side. Throws InvalidInput.
 CycleSensitivity cycle_sensitivity(const NormalizedServo& servo);
 
-/// Growth at rest alone, which takes no search for cycles. NaN where ζ = 0. Throws InvalidInput.
+/// Growth at rest alone, which takes no search for cycles. NaN if ζ = 0. Throws InvalidInput.
 SensitiveValue growth_sensitivity(const NormalizedServo& servo);
 
 }  // namespace gearlash

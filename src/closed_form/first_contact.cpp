@@ -159,7 +159,7 @@ bool rounding_decides(const GapFlight& flight, double backlash, double time, dou
   const auto may_be = [&](const DecayIntegrals& decays) {
     return std::abs(excess) <= share * (backlash + size_of_terms(flight, time, decays));
   };
-  if (!may_be({0.5, 0.5, 1.0 / 6.0})) return false;  // the most that they can be
+  if (!may_be({0.5, 0.5, 1.0 / 6.0})) return false;  // their upper bounds
   const BasicFlightDecays<double> decays = decays_at(flight, time);
   return may_be(
       {decays.motor.double_integral, decays.load.double_integral, decays.coupled.double_integral});

@@ -60,7 +60,7 @@ std::vector<Fault> validate_start(const NormalizedServo& servo, const ServoState
   return check.faults();
 }
 
-/// A gap within rounding of a face is on it.
+/// Moves a gap within rounding of a face onto it.
 GapState snapped_to_faces(GapState state, const ServoState& initial, double backlash) {
   if (std::abs(std::abs(state.gap) - 0.5 * backlash) <= gap_allowance(initial)) {
     state.gap = std::copysign(0.5 * backlash, state.gap);

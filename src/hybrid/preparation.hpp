@@ -11,7 +11,7 @@
 
 namespace gearlash::hybrid {
 
-/// A reset as those rows in which it is not the identity.
+/// A reset, as the rows in which it differs from the identity.
 struct PreparedReset {
   struct Row {
     int number;
