@@ -1,4 +1,4 @@
-// Decimal numbers into doubles, whatever the locale and the standard library.
+// Converts decimal numbers to doubles, independently of locale and standard library.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,8 @@
 namespace gearlash {
 
 /// The double nearest to a decimal number ([-] digits [. digits] [e [+-] digits]) that is the whole
-/// of `text`. Nothing where no normal or subnormal double holds it. Precondition: `text` is one.
+/// of `text`. Empty if no normal or subnormal double holds it. Precondition: `text` is such a
+/// number.
 std::optional<double> nearest_double(std::string_view text);
 
 }  // namespace gearlash

@@ -9,7 +9,7 @@ namespace {
 /// A file of a megabyte may have a hundred thousand faults.
 constexpr std::size_t most_lines = 100;
 
-/// One line a fault; beyond `most_lines` a last one that counts the others.
+/// One line per fault. Beyond `most_lines` a last line counts the others.
 std::string joined(const std::vector<Fault>& faults) {
   std::string text;
   const std::size_t count = std::min(faults.size(), most_lines);

@@ -4,9 +4,8 @@
 // rounding to nearest and moves them outward to the neighbouring double, or one beyond. The
 // rounding mode is never changed: WebAssembly has none, and compilers move code across its changes.
 //
-//   +, −, ×, ÷, √   rounded to nearest by IEEE 754, off by at most half a unit in the last place;
-//   one
-//                   neighbour is enough. Neighbours as in Rump, Zimmermann, Boldo & Melquiond,
+//   +, −, ×, ÷, √   rounded to nearest by IEEE 754, off by at most half a unit in the last place:
+//                   one neighbour is enough. Neighbours as in Rump, Zimmermann, Boldo & Melquiond,
 //                   "Computing predecessor and successor in rounding to nearest", BIT 49 (2009).
 //   exp, log, …     from the C library, which states errors of at most 1 unit in the last place for
 //                   them on every platform that Gearlash supports (GNU C Library manual, "Known

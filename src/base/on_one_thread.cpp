@@ -1,4 +1,4 @@
-// on_threads() where there are none, as in a browser: GEARLASH_THREADS=OFF builds it instead.
+// on_threads() for a platform without threads, such as a browser (GEARLASH_THREADS=OFF).
 #include "base/on_threads.hpp"
 
 namespace gearlash {

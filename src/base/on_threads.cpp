@@ -17,9 +17,9 @@
 namespace gearlash {
 namespace {
 
-/// The calling thread and those that the system lets it start beside itself, `wanted` in all at
-/// most. They are started for a moment: TBB takes it for granted that all its threads can be, and
-/// one of them that cannot start another ends the program.
+/// Number of threads that the system permits, at most `wanted`, with the calling one. They are
+/// started for a moment, because TBB relies on all its threads: if one of them cannot start
+/// another, the program ends.
 std::size_t startable_threads(std::size_t wanted) {
   std::latch all_started(1);
   std::vector<std::jthread> others;
@@ -34,7 +34,7 @@ std::size_t startable_threads(std::size_t wanted) {
   return others.size() + 1;
 }
 
-/// `wanted`, or fewer where the system refuses them.
+/// `wanted`, or fewer if the system refuses them.
 std::size_t permitted_threads(std::size_t wanted) {
   static std::atomic<std::size_t> most_started = 1;
   if (wanted <= most_started) return wanted;

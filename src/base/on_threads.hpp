@@ -1,4 +1,4 @@
-// The same work for many indices, on as many threads as are asked for.
+// The same work for many indices, on a requested number of threads.
 #pragma once
 
 #include <cstddef>
@@ -6,9 +6,9 @@
 
 namespace gearlash {
 
-/// work(0), …, work(count − 1) in any order, several at a time; 0 threads: as many as the machine
-/// has cores. Where the system lets fewer be started, on those, if need be on the calling one
-/// alone. What an index throws is thrown on. Built with GEARLASH_THREADS=OFF: on the calling one.
+/// Calls work(0), …, work(count − 1) in any order, several at a time. 0 threads means as many as
+/// the machine has cores. If the system permits fewer, uses those, or the calling thread alone.
+/// Rethrows what an index throws. Built with GEARLASH_THREADS=OFF it uses the calling thread.
 void on_threads(std::size_t threads, std::size_t count,
                 const std::function<void(std::size_t)>& work);
 

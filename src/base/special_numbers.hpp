@@ -1,4 +1,4 @@
-// The two numbers that are none, named once for all rooms.
+// Infinity and not-a-number, named once for all rooms.
 #pragma once
 
 #include <limits>

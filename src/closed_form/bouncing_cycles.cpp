@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::array<int, 6> orders = {1, 2, 3, 4, 6, 8};
 constexpr int longest_order = 8;
-/// Irregular motion passes by unstable cycles without end; these many tell enough.
+/// Irregular motion passes near infinitely many unstable cycles. Once this many are known, no more
+/// are sought along motions.
 constexpr std::size_t most_cycles = 16;
 
 bool arrives(const Traversal& traversal) {
@@ -90,8 +91,8 @@ double mismatch(const Iterate& map, const Arrival& start) {
   return (map.end - start).norm() / start.norm();
 }
 
-/// Whether a fixed point can be told from its neighbours: what the map is uncertain by moves it
-/// little. It does not hold where a multiplier is 1 to rounding: there a swing of any size lasts.
+/// Whether a fixed point is isolated: the uncertainty of the map displaces it little. False if a
+/// multiplier is 1 to rounding, where swings of any amplitude persist.
 bool is_isolated(const FixedPoint& point) {
   constexpr double map_rounding = 1e-14;
   constexpr double displacement_allowed = 1e-5;
@@ -116,8 +117,8 @@ struct KnownCycle {
   }
 };
 
-/// Whether a step of Newton's method on `order` traversals leads so straight and so near to a known
-/// cycle that those to follow, each nearer by a square, end in it. (Cycles a few 1e-6 apart occur;
+/// Whether a step of Newton's method on `order` traversals leads so directly to a known cycle that
+/// the following steps, with quadratic convergence, end in it. (Cycles a few 1e-6 apart occur;
 /// nearer ones were not seen.)
 bool leads_to_known(const std::vector<KnownCycle>& known, const Arrival& from, const Arrival& step,
                     int order) {
@@ -130,8 +131,8 @@ bool leads_to_known(const std::vector<KnownCycle>& known, const Arrival& from, c
   });
 }
 
-/// Newton's method with halved steps where the mismatch does not fall. Empty where it does not
-/// converge, or on the way to a cycle that is known.
+/// Newton's method. Steps are halved until the mismatch falls. Empty if it does not converge, or if
+/// it leads to a known cycle.
 std::optional<FixedPoint> newton(Course& course, const std::vector<KnownCycle>& known,
                                  Arrival arrival, int order) {
   constexpr int step_limit = 25;
@@ -161,7 +162,7 @@ std::optional<FixedPoint> newton(Course& course, const std::vector<KnownCycle>& 
   return FixedPoint{order, arrival, *map, residual};
 }
 
-/// The point belongs to a cycle of a lower order when it already repeats after a divisor of it.
+/// Whether the point belongs to a cycle of lower order: it repeats after a divisor of its order.
 bool repeats_earlier(Course& course, const FixedPoint& point) {
   return std::any_of(orders.begin(), orders.end(), [&](int divisor) {
     if (divisor >= point.order || point.order % divisor != 0) return false;
@@ -208,8 +209,8 @@ LimitCycle describe(const NormalizedServo& servo, const ServoDynamics& dynamics,
   cycle.amplitude = range.load_amplitude();
   cycle.motor_amplitude = range.motor_amplitude();
   const EnergyAccount books = period.energy_at(cycle.period);
-  // The arrival that closes the period may fall just before or just after its end: its impact is
-  // booked by count, from the state it happens in.
+  // The arrival that closes the period may fall just before or just after its end. So its impact is
+  // not taken from the events but computed once, from the arrival itself.
   const double first_impact = impact(dynamics, point.arrival(1), point.arrival(2)).energy_lost;
   cycle.energy = {books.motor_friction, books.load_friction, first_impact};
   for (const Event& event : period.events()) {
@@ -249,7 +250,8 @@ class Search {
   bool try_from(const Arrival& start, int order) {
     const std::optional<FixedPoint> point = newton(course_, known_, start, order);
     if (!point || distance_to_known(point->arrival) < 1e-7) return false;
-    // On the boundary of hunting the motor creeps for ever: such a cycle is not told from rest.
+    // On the boundary of hunting the motor creeps without end. Such a cycle cannot be distinguished
+    // from rest.
     const bool is_endless = 2.0 * point->map.duration > longest_simulation;
     if (is_endless || !is_isolated(*point)) {
       result_.any_neutral = true;
@@ -260,7 +262,8 @@ class Search {
     return true;
   }
 
-  /// Few bounces change the cycle little, and it may lie far outside the scan.
+  /// Starts from the plastic cycle: a few bounces change it little, and it may lie outside the
+  /// scan.
   void try_plastic_cycle() {
     ServoDynamics plastic = dynamics_;
     plastic.restitution = 0.0;
@@ -272,7 +275,7 @@ class Search {
     if (arrives(first)) try_from(first.next, 1);
   }
 
-  /// Coarsely first, then finer, for as long as half of the events last.
+  /// Coarsely first, then finer, until half of the events are used.
   void scan_amplitudes() {
     constexpr int count = 121;
     const std::size_t reserve = course_.events_left / 2;
@@ -284,8 +287,8 @@ class Search {
     }
   }
 
-  /// Whether the load has come to rest and the motor creeps at the speed that the loop and its
-  /// friction balance at.
+  /// Whether the load is at rest and the motor creeps at the speed at which the loop balances its
+  /// friction.
   bool creeps(const Arrival& arrival) const {
     constexpr double rounding = 1e-13;
     const double creeping_speed = -arrival(0) / dynamics_.motor_friction;
@@ -294,8 +297,8 @@ class Search {
            std::abs(load_speed) <= rounding * std::abs(arrival(1));
   }
 
-  /// Whether two arrivals in a row differ by the factor μ₀ alone: no cycle is as small as they (but
-  /// where μ₀ is 1 to nine digits, of which nothing is told).
+  /// Whether two successive arrivals differ by the factor μ₀ alone. Then no cycle is this small.
+  /// False if μ₀ is 1 to nine digits, because growth at rest then decides nothing.
   bool grows_as_at_rest(const Arrival& arrival, const Arrival& next) const {
     constexpr double told_apart = 1e-9;
     const double growth = growth_at_rest_;
@@ -338,8 +341,8 @@ class Search {
     return nearest;
   }
 
-  /// Follows one motion until it rests, meets a stable cycle, or has gone on too long without
-  /// even coming nearer to one (a lightly damped servo takes 1/ζ crossings).
+  /// Follows one motion until it rests, meets a stable cycle, or has continued too long without
+  /// coming nearer to one (a lightly damped servo takes 1/ζ crossings).
   void follow(Arrival arrival) {
     constexpr int traversal_limit = 1500;
     constexpr int between_attempts = 25;
@@ -364,8 +367,8 @@ class Search {
       attempt(arrival, recent, count);
     }
     if (distance_to_stable(arrival) < 0.9 * distance_halfway) return;
-    // Motion that is still dying away does not last, and motion that is still growing has not shown
-    // how far.
+    // Motion that still decays does not last. Motion that still grows has not shown its final
+    // amplitude.
     const auto never = largest.end();
     if (std::adjacent_find(largest.begin(), never, std::less_equal<>()) == never) return;
     if (std::adjacent_find(largest.begin(), never, std::greater_equal<>()) == never) {
@@ -387,7 +390,7 @@ class Search {
     }
   }
 
-  /// Half peak-to-peak over some hundred further traversals.
+  /// Half peak-to-peak over about a hundred further traversals.
   double amplitude_from(const Arrival& arrival) const {
     constexpr double duration = 100.0 * std::numbers::pi;
     constexpr std::size_t event_limit = 100'000;

@@ -53,15 +53,15 @@ struct DualRange {
 
 // ---- the phases ---------------------------------------------------------------------------------
 
-/// When a flight meets the face that it meets after `time`: u(t) does not change.
+/// The time of a contact with its derivatives, given its value: u at the contact is constant.
 Dual time_of_contact(const DualFlight& flight, double time) {
   const Dual fixed = time;
   const DualState at = state_after(flight, fixed, dual_decays(flight, fixed));
   return {time, -at.gap.derivatives() / at.gap_speed.value()};
 }
 
-/// Faces together, from (y, P) until N falls through zero: how long, where the load turns, and the
-/// state on the line N = 0, whose amplitude is √(Q/Q(line)) e^{−ζt}.
+/// Engaged motion from (y, P) until N falls through zero: its duration, the load's turning point,
+/// and the final state on the line N = 0, with the amplitude √(Q/Q(line)) e^{−ζt}.
 struct DualEngagement {
   Dual duration;
   std::optional<Dual> turning;
@@ -98,7 +98,7 @@ DualEngagement engagement(const DualDynamics& dynamics, const Dual& position, co
 
 enum class Course { arrived, left_for_good, not_followed };
 
-/// Runs a motion again from an arrival, with the simulator's own events.
+/// Repeats a motion from an arrival, with the simulator's own events.
 struct Rerun {
   const ServoDynamics& plain;
   const DualDynamics& dynamics;
@@ -134,7 +134,7 @@ struct Rerun {
     state = state_after(flight, flying, decays);
   }
 
-  /// To the next arrival at the other face, or to the flight that never comes back to this one.
+  /// Runs to the next arrival at the other face, or to a flight that never returns to this one.
   Course run(const DualArrival& arrival) {
     const Arrival at = values_of(arrival);
     const PhaseStart start = begin_phase(
@@ -169,19 +169,19 @@ struct Rerun {
 
   DualFlight backward_flight{};  ///< the one that crosses the gap
 
-  /// Mirrored.
+  /// The next arrival, mirrored.
   DualArrival next() const {
     return {-state.load_position, -(state.load_speed + dynamics.motor_inertia * state.gap_speed),
             -state.gap_speed};
   }
 
-  /// By the arrival that it began with.
+  /// ∂next/∂arrival.
   DualSlope slope() const { return disturbances.arrive(state); }
 };
 
 // ---- the cycle as a fixed point -----------------------------------------------------------------
 
-/// k traversals and what they did. A full period is twice an odd number of them, or an even one.
+/// Successive traversals. A full period is twice an odd number of them, or an even number.
 struct Iterated {
   Arrival end;
   Eigen::Matrix3d slope = Eigen::Matrix3d::Identity();
@@ -222,7 +222,7 @@ struct Orbit {
   int order;
 };
 
-/// The arrival before LimitCycle::start, and after how many traversals it comes again.
+/// The arrival before LimitCycle::start, and the number of traversals after which it recurs.
 std::optional<Orbit> orbit_of(const ServoDynamics& dynamics, const LimitCycle& cycle) {
   const ServoState& start = cycle.start;
   const double gap_speed = start.motor_speed - start.load_speed;
@@ -243,10 +243,11 @@ std::optional<Orbit> orbit_of(const ServoDynamics& dynamics, const LimitCycle& c
   return std::nullopt;
 }
 
-/// Of that eigenvalue λ of M which is largest, or of its modulus where it is one of a pair. With
-/// B(λ) the adjugate of λI − M, of rank one (right times left eigenvector) where λ is simple,
+/// The eigenvalue λ of M with the largest modulus (for a complex pair, that modulus), with its
+/// derivatives. With B(λ) the adjugate of λI − M, of rank one (right times left eigenvector) if λ
+/// is simple,
 ///   dλ = tr(B dM)/tr B,   tr B = (λ − λ₂)(λ − λ₃).
-/// NaN's for dλ where λ is double.
+/// dλ is NaN if λ is double.
 Dual largest_eigenvalue(const DualSlope& dual) {
   Eigen::Matrix3d slope;
   for (Eigen::Index i = 0; i < slope.size(); ++i) slope(i) = dual(i).value();
@@ -266,7 +267,7 @@ Dual largest_eigenvalue(const DualSlope& dual) {
   const double modulus = std::abs(value);
   const std::complex<double> direction = is_real ? 1.0 : std::conj(value) / modulus;
   const Eigen::Matrix3d by_entry = (direction * adjugate.transpose() / adjugate.trace()).real();
-  constexpr double told_apart = 1e-6;  // rounding parts a double one by 1e-8
+  constexpr double told_apart = 1e-6;  // rounding splits a double one by 1e-8
   Gradient gradient = Gradient::Constant(not_a_number);
   if (std::abs(adjugate.trace()) > told_apart * modulus * modulus) {
     gradient.setZero();
@@ -289,7 +290,7 @@ std::optional<BouncingSlopes> bouncing_slopes(const NormalizedServo& servo,
   }
   Dual duration = 0.0;
   DualRange range;
-  DualSlope slope = DualSlope::Identity();  // of as many traversals as the cycle repeats after
+  DualSlope slope = DualSlope::Identity();  // over the traversals after which the cycle repeats
   double side = 1.0;
   for (int i = 0; i < repeats_of(orbit->order) * orbit->order; ++i, side = -side) {
     Rerun rerun{.plain = plain, .dynamics = dynamics};
@@ -302,7 +303,7 @@ std::optional<BouncingSlopes> bouncing_slopes(const NormalizedServo& servo,
   }
   Eigen::Matrix<double, 3, numbers> map;
   for (int i = 0; i < 3; ++i) map.row(i) = arrival[static_cast<std::size_t>(i)].derivatives();
-  // Over a whole period, which for an odd order is two runs of the cycle.
+  // Derivatives over a whole period, which for an odd order is two runs of the cycle.
   const FourColumns arrival_slopes =
       solved_with_full_pivoting(Eigen::Matrix3d(Eigen::Matrix3d::Identity() - map.rightCols<3>()),
                                 FourColumns(map.leftCols<4>()));
@@ -319,7 +320,7 @@ std::optional<BouncingSlopes> bouncing_slopes(const NormalizedServo& servo,
 
 std::optional<BouncingGradient> bouncing_log_growth_gradient(const NormalizedServo& servo) {
   ServoDynamics wide = servo_dynamics(servo);
-  wide.backlash = 1e6;  // which motion of order one cannot cross: see growth_at_rest.cpp
+  wide.backlash = 1e6;  // too wide to cross; see growth_at_rest.cpp
   const DualDynamics dynamics = dynamics_with_restitution(servo);
   Rerun rerun{.plain = wide, .dynamics = dynamics};
   const Dual contact_speed = 1.0 / dynamics.motor_friction;

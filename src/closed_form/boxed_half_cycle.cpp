@@ -12,14 +12,14 @@ namespace {
 
 // ---- flights ------------------------------------------------------------------------------------
 
-/// What a flight is made of. All increase with the time and decrease with the rates.
+/// The terms of a flight. All increase with the time and decrease with the rates.
 struct FlightParts {
   Interval way;    ///< t exp[0, −Dt]
   Interval speed;  ///< t² exp[0, −Dt, −ct]
   Interval gap;    ///< t³ exp[0, 0, −Dt, −ct]
 };
 
-/// At two exponents and a time.
+/// The terms at two exponents and a time.
 FlightParts parts_at(double load_exponent, double motor_exponent, double time) {
   const BasicDecay<Interval> load = enclosed_decay(load_exponent);
   const BasicConvolution<Interval> both =
@@ -28,7 +28,7 @@ FlightParts parts_at(double load_exponent, double motor_exponent, double time) {
   return {t * load.integral, t * (t * both.integral), t * (t * (t * both.double_integral))};
 }
 
-/// Of the last time that is asked about, which may be infinite.
+/// The terms at a time that may be infinite, with the slowest rates.
 FlightParts parts_at_most(const Interval& load_rate, const Interval& motor_rate, double time) {
   if (std::isinf(time)) {
     const Interval load = load_rate.low;
@@ -39,7 +39,8 @@ FlightParts parts_at_most(const Interval& load_rate, const Interval& motor_rate,
                   time);
 }
 
-/// From the parts at the shortest time and the fastest rates to those at the longest and slowest.
+/// Bounds of the terms, from the shortest time and the fastest rates to the longest time and the
+/// slowest rates.
 FlightParts flight_parts(const Interval& load_rate, const Interval& motor_rate,
                          const Interval& time) {
   const FlightParts least = parts_at((load_rate.high * Interval(time.low)).high,
@@ -50,7 +51,7 @@ FlightParts flight_parts(const Interval& load_rate, const Interval& motor_rate,
           {least.gap.low, most.gap.high}};
 }
 
-/// The same of one decay.
+/// The terms of a flight with one decay.
 struct DecayParts {
   Interval way;  ///< t exp[0, −rt]
   Interval gap;  ///< t² exp[0, 0, −rt]
@@ -68,7 +69,7 @@ DecayParts decay_parts(const Interval& rate, const Interval& time) {
   return {{least.way.low, most.way.high}, {least.gap.low, most.gap.high}};
 }
 
-/// e^{−rate·time}; nothing decays at the rate 0, however long it takes.
+/// e^{−rate·time}; 1 at the rate 0, even for an infinite time.
 Interval decayed(const Interval& rate, const Interval& time) { return exp(-(rate * time)); }
 
 // ---- first zeros --------------------------------------------------------------------------------
@@ -88,15 +89,15 @@ Interval zero_of(double damping, double rising) {
   return {time.low, excess.low > 0.0 ? time.high : infinity};
 }
 
-/// The same of many: with x = e^{−ζt}z, z̈ + (1 − ζ²)z = 0, z(0) = −1, ż(0) = rising, the zero comes
-/// later the more damping there is (the pull is weaker) and the less z rises at first (Sturm's
-/// comparison theorem).
+/// The same for a box. With x = e^{−ζt}z: z̈ + (1 − ζ²)z = 0, z(0) = −1, ż(0) = rising. The zero
+/// comes later for more damping, which weakens the pull, and for a smaller initial slope of z
+/// (Sturm's comparison theorem).
 Interval first_zero_from_below(const Interval& damping, const Interval& rising) {
   return {zero_of(damping.low, rising.high).low, zero_of(damping.high, rising.low).high};
 }
 
-/// ln(quotient)/(λ₂ − λ₁) for a quotient of at least 1, both of its parts being positive where the
-/// zero exists; infinite where the divisor is not positive.
+/// ln(fast_part/slow_part)/(λ₂ − λ₁), for a quotient of at least 1. Both parts are positive if the
+/// zero exists. Infinite if the divisor is not positive.
 Interval time_of_quotient(const Interval& fast_part, const Interval& slow_part,
                           const Interval& rate_split) {
   if (!(slow_part.high > 0.0)) return infinity;
@@ -141,8 +142,8 @@ BoxedHalfCycle::BoxedHalfCycle(const ServoBox& box)
   form_at_parting_ = form_of(-load_rate_, 1.0);
 }
 
-/// Q(y, v) = y² + 2ζyv + v²: a sum of squares, or, overdamped, the product of the two motions that
-/// decay by themselves.
+/// Q(y, v) = y² + 2ζyv + v²: a sum of squares or, if overdamped, a product of the two decaying
+/// modes.
 Interval BoxedHalfCycle::form_of(const Interval& position, const Interval& speed) const {
   if (is_overdamped()) {
     return (position + slow_rate_ * speed) * (position + fast_rate_ * speed);
@@ -152,8 +153,8 @@ Interval BoxedHalfCycle::form_of(const Interval& position, const Interval& speed
 
 // ---- growth at rest -----------------------------------------------------------------------------
 
-/// As growth_at_rest() has it: with p = (1 − λ₁/c)(1 − λ₁/D), μ₀ = −p e^{−λ₁t₁}; the faces part
-/// again only where p < 0, that is where λ₁ lies between c and D.
+/// As in growth_at_rest(): with p = (1 − λ₁/c)(1 − λ₁/D), μ₀ = −p e^{−λ₁t₁}. The faces part again
+/// only if p < 0, that is if λ₁ lies between c and D.
 Interval BoxedHalfCycle::overdamped_growth_at_rest(const Interval& motor_time,
                                                    const Interval& load_time,
                                                    const Interval& rising) const {
@@ -175,7 +176,8 @@ Interval BoxedHalfCycle::growth_at_rest() const {
   const Interval rising =
       rising_at_rest(damping_, motor_inertia_, load_inertia_, motor_time, load_time);
   if (is_overdamped()) return overdamped_growth_at_rest(motor_time, load_time, rising);
-  // (r² − 2ζr + 1)/r² of a rate r: not below 0, though beside an overdamped servo that is not seen.
+  // (r² − 2ζr + 1)/r² for a rate r. Not below 0, although next to overdamped servos its bounds may
+  // be.
   const auto form_of = [&](const Interval& time) {
     return not_negative(square(1.0 - damping_ * time) +
                         (1.0 - damping_) * (1.0 + damping_) * square(time));
@@ -198,7 +200,7 @@ BoxedEnd BoxedHalfCycle::flight_of_two_masses(const Interval& time) const {
   return end;
 }
 
-/// ü = −(Q/F_M) e^{−Dt}, and the motor has no part in the common speed.
+/// ü = −(Q/F_M) e^{−Dt}, and the motor does not contribute to the common speed.
 BoxedEnd BoxedHalfCycle::flight_of_massless_motor(const Interval& time) const {
   const DecayParts parts = decay_parts(load_rate_, time);
   BoxedEnd end;
@@ -211,7 +213,7 @@ BoxedEnd BoxedHalfCycle::flight_of_massless_motor(const Interval& time) const {
   return end;
 }
 
-/// v̇_M = −c v_M − 1 beside a load at rest, which has no part in the common speed.
+/// v̇_M = −c v_M − 1 beside a load at rest, which does not contribute to the common speed.
 BoxedEnd BoxedHalfCycle::flight_over_massless_load(const Interval& time) const {
   const DecayParts parts = decay_parts(motor_rate_, time);
   BoxedEnd end;
@@ -224,13 +226,13 @@ BoxedEnd BoxedHalfCycle::flight_over_massless_load(const Interval& time) const {
   return end;
 }
 
-/// P at impact less the speed at parting.
+/// P at impact minus the speed at parting.
 Interval BoxedHalfCycle::speed_change(const BoxedEnd& end) const {
   return massless_load_ ? -end.kick : -(load_rate_ * end.moved) - end.kick;
 }
 
-/// Q just after impact less Q at parting, from the changes of position and speed: for light damping
-/// it is far smaller than either.
+/// Q just after impact minus Q at parting, from the changes of position and speed. For light
+/// damping it is far smaller than either Q.
 Interval BoxedHalfCycle::form_change(const BoxedEnd& end) const {
   const Interval slowed = speed_change(end);
   if (massless_load_) return slowed * (slowed + 2.0 * damping_);
@@ -238,7 +240,7 @@ Interval BoxedHalfCycle::form_change(const BoxedEnd& end) const {
          2.0 * damping_ * (parting_position_ * slowed + end.moved * (1.0 + slowed));
 }
 
-/// y + λ₁P, which has the sign of λ₂ − D where the faces part again.
+/// y + λ₁P, which has the sign of λ₂ − D if the faces part again.
 Interval BoxedHalfCycle::slow_part(const BoxedEnd& end) const {
   return end.position + slow_rate_ * end.speed;
 }
@@ -252,7 +254,8 @@ Interval BoxedHalfCycle::overdamped_engaged_time(const BoxedEnd& end) const {
                           side(slow_rate_) * slow_part(end), rate_split_);
 }
 
-/// The impact engages: n = y₀P − y < 0, with n = N/J_L. Where its bounds say nothing, t₁ > 0.
+/// The impact engages the faces: n = N/J_L = y₀P − y < 0. If the bounds of n contain 0, only t₁ > 0
+/// is known.
 Interval BoxedHalfCycle::engaged_time(const BoxedEnd& end) const {
   const Interval load =
       massless_load_ ? end.speed : parting_position_ * speed_change(end) - end.moved;
@@ -264,7 +267,7 @@ Interval BoxedHalfCycle::engaged_time(const BoxedEnd& end) const {
   return is_overdamped() ? narrower(overdamped_engaged_time(end), time) : time;
 }
 
-/// ln ρ = ½ ln(Q/Q at parting) − ζt₁; overdamped also ln((y + λ₁P)/(λ₂ − D)) − λ₁t₁.
+/// ln ρ = ½ ln(Q/Q at parting) − ζt₁; if overdamped, also ln((y + λ₁P)/(λ₂ − D)) − λ₁t₁.
 void BoxedHalfCycle::set_growth(BoxedEnd& end) const {
   const Interval change = form_change(end);
   end.form = not_negative(common_part(form_of(end.position, end.speed), form_at_parting_ + change));
@@ -288,13 +291,13 @@ BoxedEnd BoxedHalfCycle::end(const Interval& time) const {
 
 Interval BoxedHalfCycle::amplitude(const BoxedEnd& end) const {
   Interval most = max(abs(parting_position_), abs(end.position));
-  // There ẏ = 0, so that Q = y².
+  // At the turning point ẏ = 0, so Q = y².
   const bool may_turn_at_once = end.speed.contains(0.0);
   const Interval rising = (end.position + damping_ * end.speed) / end.speed;
   const Interval turning =
       may_turn_at_once ? Interval(0.0, infinity) : first_zero_from_below(damping_, rising);
   Interval turned = sqrt(end.form) * decayed(damping_, turning);
-  // Overdamped, y = (y + λ₁P) e^{−λ₁t} where ẏ = 0.
+  // If overdamped, y = (y + λ₁P) e^{−λ₁t} where ẏ = 0.
   if (is_overdamped())
     turned = common_part(turned, abs(slow_part(end)) * decayed(slow_rate_, turning));
   if (turning.low < end.engaged.high) most.high = std::max(most.high, turned.high);
@@ -304,7 +307,7 @@ Interval BoxedHalfCycle::amplitude(const BoxedEnd& end) const {
 
 Interval BoxedHalfCycle::thrust(const Interval& time, const BoxedEnd& end) const {
   if (massless_load_) return end.crossed * decayed(motor_rate_, time);  // y + cP = e^{−ct}
-  if (massless_motor_) return end.crossed * end.speed;  // cJ_M → F_M, which `crossed` stands for
+  if (massless_motor_) return end.crossed * end.speed;  // cJ_M → F_M, which `crossed` contains
   const Interval plain = end.position + motor_rate_ * end.speed;
   // (DJ_M + cJ_L) e^{−ct} + (1 + cJ_L(c − D)) t exp[−Dt, −ct]
   const auto convolved = [&](double load_exponent, double motor_exponent) {
@@ -325,7 +328,7 @@ namespace {
 
 double middle_of(const Interval& x) { return 0.5 * (x.low + x.high); }
 
-/// d ln ρ/d ln t near a flight time, as far as a step needs it.
+/// d ln ρ/d ln t near a flight time, accurate enough for a step.
 double slope_of_growth(const BoxedHalfCycle& half, double time, const BoxedEnd& here) {
   constexpr double nearby = 1e-3;
   const double drive = middle_of(here.position + half.motor_rate() * here.speed);
@@ -335,9 +338,9 @@ double slope_of_growth(const BoxedHalfCycle& half, double time, const BoxedEnd& 
   return (middle_of(there) - middle_of(here.log_growth)) / nearby;
 }
 
-/// A flight time that is shorter (sign −1), or longer (+1), than that of the cycle of every servo
-/// of the box. 0, or infinity, where none is found. `off_by` is how far ln ρ may be off, by its
-/// slope, at the guess.
+/// A flight time shorter (sign −1) or longer (+1) than that of the cycle of every servo in the box.
+/// 0 or infinity if none is found. `off_by` is the bound of ln ρ at the guess, divided by its
+/// slope.
 double bounding_flight_time(const BoxedHalfCycle& half, double guess, double off_by, double sign) {
   constexpr double shortest_step = 0x1p-51;
   constexpr double longest_step = 12.0;

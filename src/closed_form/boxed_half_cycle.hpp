@@ -8,7 +8,7 @@ namespace gearlash::detail {
 
 /// The end of a half cycle after flights of given times.
 struct BoxedEnd {
-  Interval moved;       ///< y at impact less y at parting
+  Interval moved;       ///< y at impact minus y at parting
   Interval position;    ///< y at impact
   Interval speed;       ///< P, the common speed just after impact
   Interval kick;        ///< J_M |u̇| just before impact

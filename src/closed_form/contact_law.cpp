@@ -17,8 +17,8 @@ double size_of(const EngagedFlow::State& state) {
   return std::abs(state.position) + std::abs(state.speed);
 }
 
-/// Whether nearly elastic bounces of speed `rebound`, under the pressing acceleration `pressing`,
-/// are many and matter no more; see fading_rattle().
+/// Whether nearly elastic bounces of speed `rebound` under the acceleration `pressing` are too many
+/// to be followed and small enough to be summed up; see fading_rattle().
 bool matters_no_more(const ServoDynamics& dynamics, const EngagedFlow& common, double pressing,
                      double rebound) {
   constexpr double many = 1e4;
@@ -108,8 +108,8 @@ SettlingBounces fading_rattle(const ServoDynamics& dynamics, FaceSign face, doub
   }
   const double energy = 0.5 * reduced_inertia * rebound * rebound;
   const double drag = drag_on_gap(dynamics);
-  // ṗ = −(1−e)a/2 − κp/3: what friction takes of p² on the way to 0, with `ratio` that of its two
-  // terms now.
+  // ṗ = −(1−e)a/2 − κp/3: friction's share of the loss of p² on the way to 0, where `ratio` is that
+  // of the two terms now.
   const double by_impacts = 1.5 * (1.0 - dynamics.restitution) * pressing;
   const double ratio = drag * rebound / by_impacts;
   const double friction_share = by_impacts == 0.0 ? 1.0

@@ -41,7 +41,7 @@ struct SettlingBounces {
 ///   T = T₀ (1 − T₀ (κ + 2a′/a)/6),   T₀ = 2 s₀/(1 − e),
 /// to third order in T₀ (derivation: docs/mathematics.md). At their end the faces are engaged in
 /// the state that the engaged flow would have reached over T, to the same order. `imminent` is set
-/// if T₀ times the rates involved is below 1e-5. The third order, which is left out, is then some
+/// if T₀ times the rates involved is below 1e-5. The third order, which is left out, is then about
 /// 1e-15. This is an estimate, because its factor is not bounded. Precondition: just after an
 /// impact on `face`, gap_speed pointing away from it, 0 < e < 1.
 SettlingBounces settling_bounces(const ServoDynamics& dynamics, FaceSign face, double load_position,

@@ -39,7 +39,7 @@ struct KnownDrive {
         stiffness(known(drive.stiffness, error.each)),
         backlash(known(drive.backlash, error.each)) {}
 
-  /// Of a shaft: its friction over its inertia, and its share of all inertia.
+  /// A shaft's friction over its inertia, and its share of the total inertia.
   static Interval rate(const Interval& friction, const Interval& inertia) {
     return inertia.high == 0.0 ? Interval(infinity) : friction / inertia;
   }

@@ -15,8 +15,7 @@
 namespace gearlash {
 namespace {
 
-/// With derivatives by damping, inertia ratio and friction ratio: the backlash is but the scale of
-/// the motion.
+/// Derivatives by damping, inertia ratio and friction ratio. The backlash only scales the motion.
 using Dual = BasicDual<servo_numbers>;
 using Gradient = Dual::DerType;
 using DualDynamics = BasicServoDynamics<Dual>;
@@ -25,7 +24,7 @@ using DualHalfCycle = BasicUnitHalfCycle<Dual>;
 
 // ---- the half cycle -----------------------------------------------------------------------------
 
-/// J_M y + F_M P, which dies away as the motor comes to creep, without cancellation:
+/// J_M y + F_M P without cancellation. It decays as the motor begins to creep:
 ///   q = y + cP,  q e^{ct} = q₀ + (1 + c J_L(c − D)) v₀ t φ₁((c − D)t),  q₀ = (D J_M + c J_L) v₀.
 Dual drive_at_impact(const DualDynamics& dynamics, const DualFlight& flight, const Dual& time,
                      const BasicFlightDecays<Dual>& decays) {
@@ -53,17 +52,18 @@ DualHalfCycle dual_half_cycle(const DualDynamics& dynamics, const DualFlight& fl
   return half;
 }
 
-/// Of the balanced half cycle: one step of Newton's method in the derivatives.
+/// The flight time of the balanced half cycle with its derivatives, by one step of Newton's method
+/// in the derivatives.
 Dual dual_flight_time(const DualDynamics& dynamics, const DualFlight& flight, double flight_time) {
   const Dual fixed = flight_time;
   const DualHalfCycle half = dual_half_cycle(dynamics, flight, fixed);
   return {flight_time, -half.log_growth.derivatives() / half.log_growth_slope.value()};
 }
 
-/// Below this ln μ₀ the flight time is refined: doubles know it to some epsilons over ln μ₀.
+/// Below this ln μ₀ the flight time is refined: doubles give it only to a few epsilons over ln μ₀.
 constexpr double ill_conditioned = 1.0;
 
-// ---- what is asked ------------------------------------------------------------------------------
+// ---- the derivatives ----------------------------------------------------------------------------
 
 /// d ln μ₀ = ½ d ln g(c) + ½ d ln g(D) − d ln cD − d(ζt₁), g(x) = x² − 2ζx + 1.
 Gradient log_growth_gradient(const DualDynamics& dynamics) {
@@ -84,7 +84,7 @@ Gradient log_growth_gradient(const DualDynamics& dynamics) {
          log_gradient(d) - exponent.derivatives();
 }
 
-/// Of the load, for a unit amplitude: see amplitudes_of() of plastic_cycle.cpp.
+/// The load's amplitude for a unit half cycle; see amplitudes_of() in plastic_cycle.cpp.
 Dual dual_unit_amplitude(const DualDynamics& dynamics, const DualFlight& flight,
                          const DualHalfCycle& half) {
   using std::abs;
@@ -104,7 +104,7 @@ Dual dual_unit_amplitude(const DualDynamics& dynamics, const DualFlight& flight,
   return largest;
 }
 
-/// The restitution is the number that follows the servo's own, where it is one.
+/// The derivative by the restitution, if there is one, follows those by the servo's own numbers.
 template <int count>
 SensitiveValue sensitive(const NormalizedServo& servo, double value,
                          const Eigen::Matrix<double, count, 1>& slope, double by_backlash = 0.0) {
@@ -148,7 +148,7 @@ using LightSides = std::array<NormalizedServo, light_count>;
 /// Servos whose light side has J/F = τ, 2τ, … 6τ.
 LightSides light_sides(const NormalizedServo& servo, double growth) {
   constexpr double short_time = 1e-3;
-  constexpr double least_ratio = 1e-9;  // of a servo
+  constexpr double least_ratio = 1e-9;  // of a sound servo
   const bool is_motor = std::isinf(servo.inertia_ratio);
   const double friction_share = is_motor ? 1.0 - servo.friction_ratio : servo.friction_ratio;
   const double closeness = growth > 1.0 ? std::min(1.0, std::log(growth)) : 1.0;
@@ -181,7 +181,7 @@ SensitiveValue limit_of(const NormalizedServo& servo, double value,
        limit(&ServoGradient::friction_ratio)});
 }
 
-/// False where a light side does not hunt, or hardly.
+/// False if a light side does not hunt, or is too near the boundary of hunting.
 bool add_limits_of_slopes(CycleSensitivity& sensitivity, const NormalizedServo& servo) {
   std::array<CycleSensitivity, light_count> light;
   const LightSides servos = light_sides(servo, sensitivity.growth_at_rest.value);

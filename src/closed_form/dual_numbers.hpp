@@ -80,7 +80,7 @@ inline double zero_by_split(double split, double n, double d, double form, doubl
   return q * q * q * sum;
 }
 
-/// first_zero(), which is finite: tan(wt)/w = n/d with n = −x, d = ẋ + ζx, hence, with
+/// first_zero(), which is finite: tan(wt)/w = n/d with n = −x, d = ẋ + ζx. With
 /// d² − (ζ² − 1)n² = Q(x, ẋ),  dt = (d dn − n dd)/Q + ∂t/∂s · 2ζ dζ.
 template <class Dual>
 Dual dual_first_zero(const Dual& damping, const Dual& value, const Dual& slope) {

@@ -14,7 +14,8 @@ namespace {
 
 using Rational = boost::multiprecision::cpp_rational;
 
-/// f + (1 − f) r and 4ζ² f (1 − f)(1 + r), both divided by 1 + r: by the shafts' shares of inertia.
+/// f + (1 − f) r and 4ζ² f (1 − f)(1 + r), both divided by 1 + r, in terms of the shafts' shares of
+/// inertia.
 template <class Number>
 struct Sides {
   Number needed;
@@ -66,9 +67,8 @@ bool is_dissipative(const NormalizedServo& servo, Reading reading) {
   const double motor_share = 1.0 / (1.0 + ratio);
   const double load_share = std::isinf(ratio) ? 1.0 : ratio / (1.0 + ratio);
   const Sides<double> sides(servo.damping, motor_share, load_share, servo.friction_ratio);
-  // All terms are positive and each is off by a few units in the last place, but for those of 1 −
-  // f, which both sides have in common, and which a decimal puts off by 1e-13 of itself at most
-  // here.
+  // Each term is positive and off by a few units in the last place. The exception is 1 − f, which
+  // both sides share: for a decimal f it is off by at most 1e-13 of itself here.
   constexpr double clearly = 1e-12;
   const double friction_left = 1.0 - servo.friction_ratio;
   if (friction_left > 1e-3 && std::abs(sides.needed - sides.given) > clearly * sides.needed) {

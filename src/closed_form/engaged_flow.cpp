@@ -24,7 +24,7 @@ Responses underdamped(double damping, double time) {
   return {cosine + damping * impulse, cosine - damping * impulse, impulse};
 }
 
-/// Sums of positive terms only (but for the speed, which changes sign).
+/// Sums of positive terms only, except for the speed, which changes sign.
 Responses overdamped(double damping, double time) {
   const double half_split = std::sqrt((damping - 1.0) * (damping + 1.0));
   const double fast = damping + half_split;

@@ -61,7 +61,7 @@ std::vector<double> motor_turning_times(const GapFlight& flight, double from, do
     const double start_speed = motor_speed(start);
     const double end_speed = motor_speed(end);
     if (!(start_speed * end_speed < 0.0)) continue;
-    // The position is stationary there: a bisected time is more than it needs.
+    // The position is stationary there, so a time from bisection is accurate enough.
     const auto speed = [&](double t) { return ValueAndSlope{motor_speed(t), 0.0}; };
     times.push_back(
         bracketed_root(speed, start, end, 0.5 * (start + end), end_speed > 0.0 ? 1.0 : -1.0));
@@ -69,7 +69,7 @@ std::vector<double> motor_turning_times(const GapFlight& flight, double from, do
   return times;
 }
 
-/// A motion of one closed form, from `from` on; its end is the next one's start.
+/// Includes a motion of one closed form, but not its end, which is the next motion's start.
 void include(Range& range, const ServoDynamics& dynamics, const Phase& phase, double from,
              double to) {
   if (!(from < to)) return;

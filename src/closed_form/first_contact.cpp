@@ -25,9 +25,9 @@ double inflection_time(const GapFlight& flight) {
 }
 
 /// Sign of u̇ as t → ∞. In the end the loop drives the motor against the side on which the load
-/// comes to rest, y∞ = y₀ + v₀/D, or to which it coasts for ever. With the load at rest at the
-/// reference the motor's speed dies out as well, but for a motor without friction, which keeps its
-/// own (a massless one, without coupling, has friction).
+/// comes to rest, y∞ = y₀ + v₀/D, or to which it coasts without end. If the load rests at the
+/// reference, the motor's speed decays to 0 too, except for a motor without friction, which keeps
+/// its speed. (A massless motor, which has no coupling, has friction.)
 double final_direction(const GapFlight& flight) {
   const double d = flight.load_rate;
   const double v = flight.load_speed;
@@ -58,7 +58,7 @@ struct TurningPoints {
 };
 
 TurningPoints turning_points(const GapFlight& flight) {
-  // The gap is stationary there: so small an error of the time does not show in it.
+  // The gap is stationary there, so this error of the time does not show in it.
   constexpr double tolerance = 1e-11;
   TurningPoints turning;
   // The rate of ü is G e^{−Dt} − cü.
@@ -73,7 +73,7 @@ TurningPoints turning_points(const GapFlight& flight) {
   const std::array<double, 2> ends = {inflection_time(flight), infinity};
   const std::array<double, 2> bends = {initial_bend(flight), sign_of(flight.gap_drive)};
   double start = 0.0;
-  // Exact for a constant acceleration, and beyond its zero for a constant rate of it.
+  // Exact if ü is constant; beyond the zero of ü, if its rate is constant.
   double guess = -flight.gap_speed / flight.gap_acceleration;
   double direction = initial_direction(flight);
   for (std::size_t piece = 0; piece < ends.size() && start < infinity; ++piece) {
@@ -81,7 +81,7 @@ TurningPoints turning_points(const GapFlight& flight) {
     const ValueAndSlope at_end =
         std::isinf(end) ? ValueAndSlope{final_direction(flight), 0.0} : speed(end);
     const double end_direction = sign_of(at_end.value);
-    // Where u̇ and ü have the same sign u̇ cannot turn.
+    // u̇ cannot change its sign while ü has the same sign.
     if (direction * bends[piece] < 0.0) {
       if (end_direction * direction < 0.0) {
         turning.times[turning.count++] =
@@ -95,8 +95,8 @@ TurningPoints turning_points(const GapFlight& flight) {
   return turning;
 }
 
-/// A finite time beyond `from` at which `reached` holds; doubled until it does (1e90 keeps t³ a
-/// finite number, and is no time that a servo will see).
+/// A finite time beyond `from` at which `reached` holds, by doubling. The limit of 1e90 keeps t³
+/// finite and exceeds the time of any servo.
 template <class Predicate>
 double finite_bound(double from, const Predicate& reached) {
   double bound = std::max(2.0 * from, 1.0);
@@ -104,9 +104,9 @@ double finite_bound(double from, const Predicate& reached) {
   return bound;
 }
 
-/// From a turning point exact under a constant acceleration. Else the least of the times that each
-/// of the gap's first three derivatives would take alone; after a clean parting with the next
-/// order, u = G t³/6 (1 − (c + D) t/4 + …).
+/// A guess of the crossing. From a turning point it is exact under constant acceleration. From the
+/// start it is the least of the times that each of the gap's first three derivatives would take
+/// alone; after a clean parting it includes the next order, u = G t³/6 (1 − (c + D) t/4 + …).
 double crossing_guess(const GapFlight& flight, double start, double target) {
   if (start > 0.0) {
     const FlightPoint turning = point_in_flight(flight, start);
@@ -120,7 +120,7 @@ double crossing_guess(const GapFlight& flight, double start, double target) {
                    cubic * (1.0 + drag / (12.0 + drag))});
 }
 
-/// |u − u₀| up to t is at most this: the decays' integrals are at most 1/2 and 1/6.
+/// Bound of |u − u₀| up to a time: the decays' integrals are at most 1/2 and 1/6.
 double farthest(const GapFlight& flight, double time) {
   const double acceleration =
       std::abs(flight.motor_acceleration) + std::abs(flight.load_deceleration);
@@ -128,15 +128,15 @@ double farthest(const GapFlight& flight, double time) {
                  time * (acceleration / 2.0 + time * std::abs(flight.coupling) / 6.0));
 }
 
-/// The integrals of the decays that a flight's terms have as factors.
+/// Integrals of the decays, which are factors of a flight's terms.
 struct DecayIntegrals {
   double motor;
   double load;
   double coupled;
 };
 
-/// Σ|terms| of u − u₀, as they are before they cancel: A is the sum of −c v_M and −y₀/J_M, and of a
-/// massless motor u̇₀ = −y₀/F_M − v₀ and B = D v₀ − v₀/F_M are differences.
+/// Σ|terms| of u − u₀ before they cancel. A is the sum of −c v_M and −y₀/J_M. For a massless motor
+/// u̇₀ = −y₀/F_M − v₀ and B = D v₀ − v₀/F_M are differences.
 double size_of_terms(const GapFlight& flight, double time, const DecayIntegrals& decays) {
   const double load_speed = std::abs(flight.load_speed);
   const double gap_speed = std::abs(flight.gap_speed);
@@ -150,22 +150,22 @@ double size_of_terms(const GapFlight& flight, double time, const DecayIntegrals&
                          std::abs(flight.coupling) * time * decays.coupled));
 }
 
-/// Whether rounding decides on which side of a face u is that is computed to be `excess` beyond it:
-/// 32 epsilons of the gap and of all terms. Sixteen of them are those of a decay's integral
-/// (decay_integral.hpp), which a relative error of its rate changes by no more than that; the
-/// others are for rates, coefficients and the sum.
+/// Whether rounding decides on which side of a face u lies, given its computed distance `excess`
+/// beyond the face. The band is 32 epsilons of the gap and of all terms. Sixteen of these cover a
+/// decay's integral (decay_integral.hpp), which a relative error of its rate changes by no more
+/// than that error. The others cover rates, coefficients and the sum.
 bool rounding_decides(const GapFlight& flight, double backlash, double time, double excess) {
   constexpr double share = 32.0 * std::numeric_limits<double>::epsilon();
   const auto may_be = [&](const DecayIntegrals& decays) {
     return std::abs(excess) <= share * (backlash + size_of_terms(flight, time, decays));
   };
-  if (!may_be({0.5, 0.5, 1.0 / 6.0})) return false;  // the most that they can be
+  if (!may_be({0.5, 0.5, 1.0 / 6.0})) return false;  // their upper bounds
   const BasicFlightDecays<double> decays = decays_at(flight, time);
   return may_be(
       {decays.motor.double_integral, decays.load.double_integral, decays.coupled.double_integral});
 }
 
-/// A stretch of a flight on which u is monotone, and the face that it leads to, from u₀.
+/// A stretch of a flight on which u is monotone; `target` is the face that it leads to, from u₀.
 struct MonotonePiece {
   double start;
   double end;
@@ -173,8 +173,8 @@ struct MonotonePiece {
   double direction;
 };
 
-/// Where u − u₀ reaches the target, or infinity if it does not by the horizon. `touch` is set where
-/// the piece ends so near it that rounding decides.
+/// Time at which u − u₀ reaches the target, or infinity if it does not by the horizon. Sets `touch`
+/// if the piece ends so near the target that rounding decides.
 double crossing(const GapFlight& flight, const MonotonePiece& piece, double backlash,
                 double horizon, GapTouch& touch) {
   const auto& [start, end, target, direction] = piece;
@@ -190,7 +190,8 @@ double crossing(const GapFlight& flight, const MonotonePiece& piece, double back
     return infinity;
   }
   double bound = end;
-  // At a speed that does not die out the gap closes for certain; else it must be seen to.
+  // If u̇ does not tend to 0 the gap closes for certain. Otherwise a time must be found at which it
+  // is closed.
   if (std::isinf(end) && final_direction(flight) == 0.0) {
     bound = finite_bound(start, [&](double t) { return beyond(t) >= 0.0; });
   }
@@ -209,8 +210,8 @@ double crossing(const GapFlight& flight, const MonotonePiece& piece, double back
   return time;
 }
 
-/// When a bounce is over: a flight off its face that is bent back to it all the while, and too low
-/// for the other face. Infinity for any other flight, and where the bend's end comes first.
+/// Duration of a bounce: a flight from a face with ü towards that face throughout, too low to reach
+/// the other face. Infinity for any other flight, or if ü changes its sign first.
 double bounce_duration(const GapFlight& flight, double backlash) {
   const double toward = sign_of(flight.gap_acceleration);
   if (std::abs(flight.gap) != 0.5 * backlash || !(toward * flight.gap > 0.0) ||
@@ -220,7 +221,7 @@ double bounce_duration(const GapFlight& flight, double backlash) {
   const double under_constant_acceleration = -2.0 * flight.gap_speed / flight.gap_acceleration;
   if (!(std::abs(flight.gap_speed) * under_constant_acceleration < backlash)) return infinity;
   const double bend_end = inflection_time(flight);
-  // (u − u₀)/t, which is monotone as long as the bend lasts.
+  // (u − u₀)/t, which is monotone until ü changes its sign.
   const auto mean_speed = [&](double t) {
     const FlightPoint point = point_in_flight(flight, t);
     const double speed = point.gap_displacement / t;

@@ -11,7 +11,7 @@
 namespace gearlash {
 namespace {
 
-/// A gap that motion of order one cannot cross.
+/// Too wide for motion of order one to cross.
 constexpr double wide_gap = 1e6;
 
 /// The load at y = −1, at rest; the motor arrives from behind on the forward face.
@@ -25,9 +25,9 @@ double rest_position(const GapFlight& flight) {
   return flight.load_position + flight.load_speed / flight.load_rate;
 }
 
-/// ζ ≥ 1. With p = (1 − λ₁/c)(1 − λ₁/D), the faces part again only where p < 0, after
+/// ζ ≥ 1. With p = (1 − λ₁/c)(1 − λ₁/D), the faces part again only if p < 0, after
 ///   t₁ = ln(1 + (λ₂ − λ₁)q)/(λ₂ − λ₁),  q = (J_M/c + J_L/D)/(−p),
-/// of which μ₀ = −p e^{−λ₁t₁}. Nothing cancels but in p.
+/// and μ₀ = −p e^{−λ₁t₁}. Only p involves cancellation.
 double overdamped_growth(const ServoDynamics& dynamics, double motor_time, double load_time) {
   const double split = 2.0 * std::sqrt((dynamics.damping - 1.0) * (dynamics.damping + 1.0));
   const double slow = 1.0 / (dynamics.damping + 0.5 * split);
@@ -39,7 +39,7 @@ double overdamped_growth(const ServoDynamics& dynamics, double motor_time, doubl
   return fall * std::exp(-slow * engaged_time);
 }
 
-/// One engaged motion from contact to parting.
+/// Growth over one engaged motion, from contact to parting.
 double plastic_growth(const ServoDynamics& dynamics) {
   const double zeta = dynamics.damping;
   const double motor_time = 1.0 / dynamics.motor_rate;
@@ -56,7 +56,7 @@ double plastic_growth(const ServoDynamics& dynamics) {
          std::exp(-zeta * std::atan2(frequency, rising) / frequency);
 }
 
-/// The bounces followed one by one.
+/// Follows the bounces one by one.
 double bouncing_growth(const ServoDynamics& dynamics) {
   constexpr int event_limit = 200'000;
   ServoDynamics wide = dynamics;

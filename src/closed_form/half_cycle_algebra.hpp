@@ -21,15 +21,15 @@ template <class Real>
 struct BasicUnitHalfCycle {
   Real flight_time;       ///< t₂
   Real engaged_time;      ///< t₁, infinite if the faces do not part again
-  Real load_moved;        ///< y at impact less y at parting
+  Real load_moved;        ///< y at impact minus y at parting
   Real load_position;     ///< y at impact
   Real load_speed;        ///< v_L just before impact
   Real gap_displacement;  ///< u − u₀ at impact, < 0
   Real gap_speed;         ///< u̇ just before impact, ≤ 0
   Real gap_acceleration;  ///< ü just before impact
   Real common_speed;      ///< P = J_M v_M + J_L v_L, the speed just after impact
-  Real square_change;     ///< (y² + P²) just after impact less (y² + v²) at parting
-  Real form_change;       ///< Q just after impact less Q at parting
+  Real square_change;     ///< (y² + P²) just after impact minus (y² + v²) at parting
+  Real form_change;       ///< Q just after impact minus Q at parting
   Real form;              ///< Q(y, P) = y² + 2ζyP + P² just after impact
   Real log_growth;        ///< ln ρ, ρ the amplitude at the next parting; −∞ if there is none
   Real log_growth_slope;  ///< d ln ρ/dt₂ = |u̇| (J_M y + F_M P)/(y² + 2ζyP + P²), > 0
@@ -216,7 +216,7 @@ Real guessed_flight_time(const BasicServoDynamics<Real>& dynamics, Real log_grow
   const Real frequency_squared = 1.0 - dynamics.damping * dynamics.damping;
   const Real deficit =
       std::numbers::pi * dynamics.damping / sqrt(max(least_frequency_squared, frequency_squared));
-  // From t⁴/8 = δ: 3t/4 + … in place of t less the step.
+  // From t⁴/8 = δ: 3t/4 + … instead of t minus the step.
   const Real undragged = sqrt(sqrt(8.0 * deficit));
   const Real early = undragged * (1.0 - drag / (3.0 * (undragged + drag)));
   const Real fitted = 8.0;
@@ -259,7 +259,7 @@ BasicMotorSpeed<Real> motor_speed_at(const BasicGapFlight<Real>& flight, Real mo
 }
 
 /// Root of the quintic through value, slope and curvature at 0 and at `end`, values of opposite
-/// sign, to some 1e-4 of `end`: Halley's step from the root of a parabola.
+/// sign, to about 1e-4 of `end`: Halley's step from the root of a parabola.
 template <class Real>
 Real quintic_root(const BasicValueAndSlope<Real>& at_start, const BasicValueAndSlope<Real>& at_end,
                   Real end) {

@@ -21,7 +21,7 @@ void analyse_plastic(const ServoDynamics& dynamics, LimitCycleAnalysis& analysis
   }
   const auto half = balanced_half_cycle(dynamics, analysis.growth_at_rest);
   if (half) analysis.cycles.push_back(plastic_cycle(dynamics, *half));
-  // Else growth at rest is 1 + rounding: the theorem says that there is a cycle, and a stable one.
+  // The theorem proves a stable cycle. If none is found, growth at rest is 1 + rounding.
   if (half && analysis.cycles.front().stable) {
     analysis.verdict = Verdict::hunts;
     return;
@@ -62,7 +62,7 @@ std::optional<Verdict> verdict_by_theorem(const ServoDynamics& dynamics, bool is
   return std::nullopt;
 }
 
-/// All that needs no search; the verdict where a theorem gives it.
+/// Everything that needs no search, with the verdict if a theorem gives it.
 LimitCycleAnalysis begun(const ServoDynamics& dynamics, bool is_dissipative) {
   LimitCycleAnalysis analysis;
   analysis.growth_at_rest = growth_at_rest(dynamics);
@@ -91,8 +91,8 @@ LimitCycleAnalysis analyse(const NormalizedServo& servo, bool is_dissipative) {
   return analysis;
 }
 
-/// The cycle that is proved to exist, as far as doubles can find it: next to the boundary it may be
-/// missing, and its multiplier be 1 by rounding.
+/// Adds the cycle that is proved to exist, if doubles can find it. Next to the boundary it may be
+/// missing, or its multiplier may be 1 by rounding.
 void add_proved_cycle(const ServoDynamics& dynamics, LimitCycleAnalysis& analysis) {
   const double least = 1.0 + std::numeric_limits<double>::epsilon();
   const auto half = balanced_half_cycle(dynamics, std::max(analysis.growth_at_rest, least));
@@ -101,7 +101,7 @@ void add_proved_cycle(const ServoDynamics& dynamics, LimitCycleAnalysis& analysi
   analysis.cycles.front().stable = true;
 }
 
-/// Plastic contact and damping: what holds of all servos of the box.
+/// For plastic contact and damping: what holds for all servos of the box.
 LimitCycleAnalysis enclose_plastic(const ServoDynamics& dynamics, const ServoBox& box,
                                    bool is_dissipative) {
   const double unknown = std::numeric_limits<double>::quiet_NaN();

@@ -50,8 +50,8 @@ struct LimitCycleAnalysis {
   /// For the verdict, and for the number of limit cycles that mirror themselves.
   Certainty certainty = Certainty::searched;
   double growth_at_rest = std::numeric_limits<double>::quiet_NaN();  ///< μ₀, see growth_at_rest()
-  /// Whether no restitution at all can make it hunt: 1/c + 1/D ≤ 2ζ, decided exactly for the given
-  /// numbers (docs/mathematics.md, Absence by energy).
+  /// Whether no restitution can make it hunt: 1/c + 1/D ≤ 2ζ, decided exactly for the given numbers
+  /// (docs/mathematics.md, Absence by energy).
   bool is_dissipative = false;
   /// Whether some motions end at rest with the faces together, on either: ζ ≥ 1. Such a servo has
   /// rest beside its limit cycle: small motion in the gap grows, and a large one ends with the

@@ -31,7 +31,7 @@ GapState state_in_flight(const GapFlight& flight, double time) {
 
 PhaseEnd no_event(const GapTouch& touch = {}) { return {.duration = infinity, .touch = touch}; }
 
-/// The bounces to come, where they need not be followed one by one.
+/// The sum of the bounces to come; `imminent` if they need not be followed one by one.
 SettlingBounces bounces_summed_up(const ServoDynamics& dynamics, FaceSign face,
                                   const GapState& after, std::size_t bounces) {
   constexpr std::size_t always_followed = 100;
@@ -41,7 +41,7 @@ SettlingBounces bounces_summed_up(const ServoDynamics& dynamics, FaceSign face,
   return fading_rattle(dynamics, face, after.load_position, after.load_speed, after.gap_speed);
 }
 
-/// What follows an impact, the `bounces`-th in a row, that left the shafts in the state `after`.
+/// The phase after an impact, the `bounces`-th in a row, that left the shafts in the state `after`.
 Phase phase_after_impact(const ServoDynamics& dynamics, FaceSign face, const GapState& after,
                          std::size_t bounces) {
   if (after.gap_speed == 0.0) {
@@ -106,7 +106,7 @@ PhaseEnd end_of_engagement(const ServoDynamics& dynamics, const Phase& phase, do
                .face = face_of(phase.face),
                .next = parted_phase(dynamics, phase.face, state.position, state.speed)};
   const GapFlight& flight = end.next.flight;
-  // N touches zero without passing through it only where it vanishes for good, to rounding.
+  // N touches zero without crossing it only if it vanishes for good, within rounding.
   if (!leaves(flight, phase.face)) return no_event();
   end.before = {flight.load_position, state.speed, flight.gap, 0.0};
   end.after = {flight.load_position, flight.load_speed, flight.gap, flight.gap_speed};
@@ -132,8 +132,8 @@ Bounce bounce_from(const ServoDynamics& dynamics, const GapFlight& flight, doubl
   return {flight, start, first_contact(flight, dynamics.backlash, infinity).time};
 }
 
-/// Follows the bounces of a settling phase one by one until `time`, or until what is left of them
-/// is below a double's resolution of it.
+/// Follows the bounces of a settling phase one by one until `time`, or until the rest of them is
+/// shorter than a double resolves there.
 GapState state_while_settling(const ServoDynamics& dynamics, const Phase& phase, double time) {
   const double resolution = std::numeric_limits<double>::epsilon() * time;
   for (Bounce bounce = first_bounce(dynamics, phase);
@@ -169,7 +169,7 @@ PhaseStart begin_phase(const ServoDynamics& dynamics, const GapState& state) {
   const FaceSign face = state.gap >= 0.0 ? 1.0 : -1.0;
   GapState clamped = state;
   if (on_face) clamped.gap = gap_on(dynamics, face);
-  // A massless shaft in the gap has the speed that its law gives it, whatever was asked for.
+  // A massless shaft in the gap has the speed of its own law, whatever speed is given.
   const GapFlight flight = flight_from(dynamics, clamped);
   const bool touching = on_face && (state.gap_speed == 0.0 || flight.gap_speed == 0.0);
   if (touching && stays_engaged(dynamics, face, state.load_position, state.load_speed)) {

@@ -11,8 +11,9 @@
 namespace gearlash {
 namespace {
 
-/// F_M ∫ v_M² dt over a unit flight. Where the motor's decay is slight, from the definition, which
-/// keeps its relative accuracy as F_M → 0, else from the motor's energy.
+/// F_M ∫ v_M² dt over a unit flight. If the motor's decay is slight, it is computed from the
+/// definition, which keeps its relative accuracy as F_M → 0, otherwise from the balance of the
+/// motor's energy.
 double motor_friction_in_flight(const ServoDynamics& dynamics, const GapFlight& flight,
                                 const UnitHalfCycle& half) {
   constexpr double slight = 0.1;
@@ -35,9 +36,9 @@ double motor_friction_in_flight(const ServoDynamics& dynamics, const GapFlight& 
                                   convolution(once, decay(2.0 * dynamics.load_rate * time)));
 }
 
-/// Where the motor turns within the flight, from the gap's middle line; e^{ct} v_M has the slope
-/// −y e^{ct}/J_M and y changes sign at most once, from below, so v_M, positive at the start, has at
-/// most one zero. The start's position when it does not turn.
+/// Position at which the motor turns within the flight, from the gap's middle line; the start's
+/// position if it does not turn. e^{ct} v_M has the slope −y e^{ct}/J_M, and y changes its sign at
+/// most once, from below. So v_M, positive at the start, has at most one zero.
 double motor_turning_position(const ServoDynamics& dynamics, const GapFlight& flight,
                               const UnitHalfCycle& half) {
   const double motor_drive = dynamics.massless_motor() ? -flight.load_rate / dynamics.motor_friction
@@ -66,7 +67,8 @@ double motor_turning_position(const ServoDynamics& dynamics, const GapFlight& fl
 }
 
 /// Amplitudes of both shafts for a unit amplitude σ at parting; half_gap is b/2 in that unit. The
-/// load turns at the impact or in the engaged motion after it, the motor in the flight or likewise.
+/// load turns at the impact or in the engaged motion after it. The motor turns there or in the
+/// flight.
 struct Amplitudes {
   double load;
   double motor;
@@ -78,7 +80,7 @@ Amplitudes amplitudes_of(const ServoDynamics& dynamics, const GapFlight& flight,
   const double turning_time =
       first_zero(dynamics.damping, half.common_speed,
                  -2.0 * dynamics.damping * half.common_speed - half.load_position);
-  // There ẏ = 0, so that Q = y².
+  // At the turning point ẏ = 0, so Q = y².
   if (turning_time < half.engaged_time) {
     turning = std::copysign(std::sqrt(half.form) * std::exp(-dynamics.damping * turning_time),
                             half.common_speed);

@@ -11,8 +11,8 @@ namespace {
 
 using Extended = boost::multiprecision::cpp_bin_float_quad;
 
-// The quotients of decay_integral.hpp as they stand: thirty-four digits can spare those that a
-// small difference takes.
+// The quotients of decay_integral.hpp, without its series: of thirty-four digits enough remain
+// after the cancellation in a small difference.
 
 BasicDecay<Extended> extended_decay(const Extended& exponent) {
   if (exponent == 0) return {exponent, 1, 1, 0.5};

@@ -60,7 +60,7 @@ std::vector<Fault> validate_start(const NormalizedServo& servo, const ServoState
   return check.faults();
 }
 
-/// A gap within rounding of a face is on it.
+/// Moves a gap within rounding of a face onto it.
 GapState snapped_to_faces(GapState state, const ServoState& initial, double backlash) {
   if (std::abs(std::abs(state.gap) - 0.5 * backlash) <= gap_allowance(initial)) {
     state.gap = std::copysign(0.5 * backlash, state.gap);
@@ -68,8 +68,8 @@ GapState snapped_to_faces(GapState state, const ServoState& initial, double back
   return state;
 }
 
-/// Adds the friction losses and the loop's supply over the first `duration` of a phase. Over a
-/// settling phase the common motion's losses are taken, and the bounces' own at once.
+/// Adds the friction losses and the loop's supply over the first `duration` of a phase. For a
+/// settling phase these are the losses of the common motion, and those of the bounces at once.
 void accumulate(const ServoDynamics& dynamics, const Phase& phase, double duration,
                 EnergyAccount& account) {
   if (phase.mode != Mode::separated) {

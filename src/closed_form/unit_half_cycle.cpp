@@ -40,8 +40,9 @@ double balanced_flight_time(const ServoDynamics& dynamics, const GapFlight& flig
   return bracketed_root(log_growth, 0.0, infinity, guess, 1.0, time_tolerance);
 }
 
-/// Halley's step from a half cycle towards the balanced one; taken when it is so short that what
-/// its second order leaves out is below rounding. `taken` has the residual of the step's own order.
+/// Halley's step from a half cycle towards the balanced one. It is taken if it is so short that
+/// what its second order leaves out is below rounding. `taken` has the residual of the step's own
+/// order.
 struct LastStep {
   double length;
   std::optional<UnitHalfCycle> taken;
@@ -77,7 +78,8 @@ std::optional<UnitHalfCycle> balanced_half_cycle(const ServoDynamics& dynamics,
   for (int evaluation = 1;; ++evaluation) {
     const LastStep step = last_step(dynamics, flight, half);
     if (step.taken) return step.taken;
-    // Far off, or not converging as Halley's method does from nearby: the bracket decides.
+    // Far from the root, or converging more slowly than Halley's method near a root: use the
+    // bracket.
     constexpr int most_evaluations = 3;
     if (evaluation == most_evaluations || !(std::abs(step.length) < 0.5 * half.flight_time)) break;
     half = half_cycle(dynamics, flight, half.flight_time + step.length);

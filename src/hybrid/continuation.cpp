@@ -13,9 +13,9 @@ namespace {
 
 using Index = Eigen::Index;
 
-// ---- why a branch ends --------------------------------------------------------------------------
+// ---- the end of a branch ------------------------------------------------------------------------
 
-/// How near a guard comes to an event that would be new, or to one that goes.
+/// How near the orbit is to gaining or losing an event at a guard: 0 where that happens.
 struct Clearance {
   double share = infinity;
   std::string name;
@@ -27,7 +27,7 @@ struct Clearance {
   }
 };
 
-/// Of the guards that an orbit passes by: the least distance over the largest, in a mode.
+/// For each guard that does not end a stretch of the orbit: its least distance over its largest.
 void consider_guards_passed_by(const HybridSystem& system, const Trajectory& motion,
                                const std::vector<Event>& events, Clearance& clearance) {
   double begin = motion.start_time();
@@ -54,7 +54,7 @@ void consider_guards_passed_by(const HybridSystem& system, const Trajectory& mot
   }
 }
 
-/// Of the guards met: the least speed over the highest, of each transition.
+/// For each guard that is met: the speed at which it is met over the highest such speed.
 void consider_guards_met(const HybridSystem& system, const std::vector<Event>& events,
                          Clearance& clearance) {
   const auto speed_of = [&](const Event& event) {
@@ -140,20 +140,20 @@ class Continuation {
 
  private:
   static constexpr std::size_t phases = 4;
-  static constexpr double shortest = 1e-9;    // of a step that fails
-  static constexpr double slow_going = 1e-5;  // of one that does not
+  static constexpr double shortest = 1e-9;    // the branch ends at a failing step this short,
+  static constexpr double slow_going = 1e-5;  // or at a converging one
 
-  /// A solution, with the slopes there.
+  /// A solution with its derivatives.
   struct Solved {
     Vector point;  ///< unknowns and parameter, scaled
-    Matrix slope;  ///< of G by them, one row fewer
+    Matrix slope;  ///< ∂G/∂point, one row fewer than columns
     PeriodicOrbit orbit;
     int steps = 0;
   };
 
   double parameter_of(const Vector& point) const { return point[size_] * parameter_scale_; }
 
-  /// G, scaled, and its slope; nothing where a phase does not end as it should.
+  /// G, scaled, and its slope. evaluate() gives none if a phase does not end as it should.
   struct Evaluated {
     Vector residual;
     Matrix slope;
@@ -169,7 +169,7 @@ class Continuation {
     return std::move(equations->residual);
   }
 
-  /// By central differences, smaller ones where a greater one has other events (near a grazing).
+  /// Central differences. Near a grazing a large difference has other events: then smaller ones.
   std::optional<Vector> slope_by_parameter(const Vector& unknowns, double parameter) const {
     for (const double difference : {1e-6, 1e-8, 1e-10}) {
       const double step = difference * parameter_scale_;
@@ -196,7 +196,7 @@ class Continuation {
     return evaluated;
   }
 
-  /// From a guess, at right angles to a direction.
+  /// Newton's method from a guess, at right angles to a direction.
   std::optional<Solved> corrected(const Vector& guess, const Vector& direction) const {
     Vector point = guess;
     double last = infinity;
@@ -221,7 +221,7 @@ class Continuation {
     return std::nullopt;
   }
 
-  /// The unit tangent that goes on the way of the last one.
+  /// The unit tangent in the direction of the last one.
   Vector tangent_of(const Solved& solved) const {
     Matrix slope(size_ + 1, size_ + 1);
     slope << solved.slope, tangent_.transpose();
@@ -229,7 +229,7 @@ class Continuation {
     return tangent.normalized();
   }
 
-  /// The planes of an orbit, and its point.
+  /// Sets up the planes of an orbit and its point on the branch.
   bool lay_planes(const BranchPoint& at) {
     const PreparedSystem system(family_(at.parameter));
     auto shooting = Shooting::about(system, at.orbit.start, at.orbit.start_time, at.orbit.period,
@@ -243,7 +243,8 @@ class Continuation {
     return true;
   }
 
-  /// New planes go with the orbit; which way is on is told by where it has come from.
+  /// Planes are set up anew at each point. The last point, in the new unknowns, gives the
+  /// direction.
   void go_on_from(const Branch& branch, const Solved& next, const Vector& turned) {
     point_ = next.point;
     tangent_ = turned;
@@ -274,7 +275,7 @@ class Continuation {
     tangent_ = before.tangent_;
   }
 
-  /// Between the last point and a step on, by bisection on which way the parameter goes.
+  /// Bisects between the last point and the next one, on the sign of the parameter's tangent.
   void find_fold(Branch& branch, double step) const {
     double before = 0.0;
     double after = step;

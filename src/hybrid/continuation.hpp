@@ -51,7 +51,7 @@ struct ContinuationOptions {
 ///   G(z) = 0,  t·(z − z_last) = step
 /// has a neighbouring solution, beyond a fold too. Steps are doubled where Newton's method
 /// converges quickly, and halved where it fails. Below 1e-5 the branch ends. (Towards the grazing
-/// of its own impact they shrink as the square of its speed, which leaves some 1e-4 of the
+/// of its own impact they shrink as the square of its speed, which leaves about 1e-4 of the
 /// parameter.) Folds are closed in on until the tangent has no component along the parameter.
 /// Central differences differentiate G by the parameter; that costs Newton's method steps, not
 /// digits.

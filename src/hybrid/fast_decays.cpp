@@ -12,7 +12,7 @@
 namespace gearlash::hybrid {
 namespace {
 
-/// Decays split off are so much faster than all that is left, which pays.
+/// Least ratio of the fast rates to the remaining ones at which splitting pays.
 constexpr double least_gap = 8.0;
 
 using ComplexMatrix = Eigen::MatrixXcd;
@@ -27,8 +27,8 @@ std::vector<Eigen::Index> by_size(const Spectrum& values) {
   return order;
 }
 
-/// How many of the largest eigenvalues decay and have the widest gap, by ratio, to the next; 0
-/// where none is wide enough.
+/// Number of the largest eigenvalues that all decay and have the widest gap, by ratio, to the next.
+/// 0 if no gap is wide enough.
 std::size_t count_of_fast(const Spectrum& values, const std::vector<Eigen::Index>& order) {
   std::size_t count = 0;
   double widest = least_gap;
@@ -77,7 +77,7 @@ std::optional<FastDecays> fast_decays(const AffineFlow& flow) {
   const ComplexMatrix left = fast_vectors(matrix.transpose(), count);
   const ComplexMatrix overlap = left.transpose() * right;
   const Matrix projector = (right * solved(overlap, ComplexMatrix(left.transpose()))).real();
-  // Where eigenvectors are nearly alike it is known too badly to be of use.
+  // Nearly parallel eigenvectors make the projector too inaccurate to use.
   constexpr double acceptable = 1e-11;
   const double size = 1.0 + projector.norm();
   const Matrix commuted = matrix * projector - projector * matrix;
@@ -89,9 +89,9 @@ std::optional<FastDecays> fast_decays(const AffineFlow& flow) {
   const Matrix invertible = matrix * projector + (identity - projector);
   const Vector rest = -(projector * solved(invertible, Vector(projector * flow.offset)));
   Matrix slow = matrix - matrix * projector;
-  // What only rounding has left would couple numbers that have nothing to do with each other, and
-  // weigh them by it. Eigenvectors, and so the projector, are less well known than their sums are:
-  // how well, P² − P and A P − P A tell.
+  // Entries left by rounding alone would couple unrelated numbers and distort their weights.
+  // Eigenvectors, and so the projector, are less accurate than rounding of these sums. The misfits
+  // P² − P and A P − P A measure by how much.
   constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
   constexpr double safety = 8.0;
   const Matrix sizes = matrix.cwiseAbs();

@@ -16,9 +16,9 @@ struct FastDecays {
   Vector rest;       ///< of P x
   AffineFlow slow;
 
-  /// Whether P x is at its rest, to rounding of what it is and has been made of. `largest` holds
-  /// the numbers' largest magnitudes up to now. (If the rest is 0, P x never reaches rounding of
-  /// its own magnitude.)
+  /// Whether P x is at its rest, within rounding of its terms up to now. `largest` holds the
+  /// numbers' largest magnitudes up to now. (If the rest is 0, P x never reaches rounding of its
+  /// own magnitude.)
   bool are_over(const Vector& state, const Vector& largest) const;
   /// Returns a state of the slow flow with the resting part set to its rest. Otherwise rounding of
   /// that flow, a share of ‖A‖, would accumulate.

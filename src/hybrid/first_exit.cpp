@@ -12,7 +12,7 @@
 namespace gearlash::hybrid {
 namespace {
 
-/// As many as the steps of a simulation have without the heap. Not initialised.
+/// Not initialised. The steps of a simulation have few enough to need no heap.
 class Coefficients {
  public:
   explicit Coefficients(std::size_t size) : size_(size) {
@@ -36,7 +36,7 @@ class Coefficients {
 
 constexpr std::size_t sums_at_once = 4;
 
-/// In four sums, of every fourth coefficient each, so that one need not wait for the other.
+/// Four independent sums of every fourth coefficient each, which the processor can overlap.
 /// Precondition: a multiple of four coefficients.
 double value_at(std::span<const double> coefficients, double x) {
   const double square = x * x;
@@ -56,7 +56,7 @@ Coefficients in_fours(std::span<const double> coefficients) {
   return padded;
 }
 
-/// As many coefficients, the last one 0.
+/// The same number of coefficients, the last one 0.
 template <class Values>
 Values derivative_of(const Values& coefficients) {
   Values result(coefficients);
@@ -84,8 +84,8 @@ constexpr Reciprocals reciprocal_binomials = [] {
   return all;
 }();
 
-/// Bernstein's coefficients on [0, 1]: b_j = Σ_{i≤j} C(j, i)/C(n, i) a_i. By sums of neighbours:
-/// the weights are between 0 and 1, so that no digits are lost.
+/// Bernstein's coefficients on [0, 1]: b_j = Σ_{i≤j} C(j, i)/C(n, i) a_i. Sums of neighbours lose
+/// no digits: the weights are between 0 and 1.
 Coefficients bernstein_of(std::span<const double> power) {
   const std::size_t count = power.size();
   Coefficients last_first(count);
@@ -107,7 +107,7 @@ Coefficients bernstein_of(std::span<const double> power) {
   return last_first;
 }
 
-/// [i][j]: C(j, i)/C(n, i) of so many coefficients as leading terms have.
+/// [i][j]: C(j, i)/C(n, i) for n = most_leading − 1.
 constexpr auto leading_weights = [] {
   std::array<std::array<double, most_leading>, most_leading> weights{};
   for (std::size_t i = 0; i < most_leading; ++i) {
@@ -122,7 +122,7 @@ constexpr auto leading_weights = [] {
 
 using Leading = std::array<double, most_leading>;
 
-/// The same by products, which need not wait for one another.
+/// The same as products with a table, which the processor can overlap.
 Leading bernstein_of(const Leading& power) {
   using Lanes = Eigen::Array<double, sums_at_once, 1>;
   static_assert(most_leading % sums_at_once == 0);
@@ -137,7 +137,7 @@ Leading bernstein_of(const Leading& power) {
   return values;
 }
 
-/// Where, of [0, 1], the polygon of Bernstein's coefficients, which p is near, falls below 0.
+/// Where on [0, 1] the polygon of Bernstein's coefficients, an approximation of p, falls below 0.
 template <class Values>
 double where_polygon_falls(const Values& values) {
   const auto negative =
@@ -149,7 +149,7 @@ double where_polygon_falls(const Values& values) {
   return place / static_cast<double>(values.size() - 1);
 }
 
-/// A stretch of [0, 1] and the polynomial's Bernstein coefficients there.
+/// A stretch of [0, 1] with the polynomial's Bernstein coefficients on it.
 struct Stretch {
   double low;
   double high;
@@ -193,7 +193,7 @@ class Search {
       } else if (falls_once(stretch.coefficients)) {
         return exit_at(root_within(stretch));
       } else if (stretch.high - stretch.low <= narrow) {
-        // Below −uncertainty somewhere in it, and no narrower place can be told.
+        // p is below −uncertainty somewhere in this stretch, and no narrower one can be resolved.
         return exit_at(stretch.low);
       } else {
         Stretch right = split_off_right_half(stretch);
@@ -207,7 +207,7 @@ class Search {
  private:
   static constexpr double narrow = 0x1p-50;
 
-  /// What is 0 from the touch on to the exit is one with it.
+  /// A touch from which p stays 0 up to the exit is part of the exit.
   FirstExit exit_at(double place) {
     found_.at = place;
     if (found_.touch && is_zero(0.5 * (*found_.touch + place))) found_.touch.reset();
@@ -237,7 +237,7 @@ class Search {
     const double share = index / static_cast<double>(stretch.coefficients.size() - 1);
     const double place = stretch.low + share * (stretch.high - stretch.low);
     if (*lowest > uncertainty_) return;
-    // At the ends of the whole interval it is what comes before or after that touches.
+    // At an end of the whole interval the neighbouring step decides whether p touches.
     if (place > 0.0 && place < 1.0) {
       const double least = lowest_near(place);
       if (is_zero(least)) found_.touch = least;
@@ -246,7 +246,7 @@ class Search {
     if (!found_.touch && ends_at_zero) found_.touch = 1.0;
   }
 
-  /// Where p is least, by Newton's method on p′; the place itself where that leads away.
+  /// Minimum of p by Newton's method on p′, or `place` itself if that leads away.
   double lowest_near(double place) const {
     const Coefficients slope = derivative_of(power_);
     const Coefficients curvature = derivative_of(slope);
@@ -256,7 +256,7 @@ class Search {
     return x > 0.0 && x < 1.0 && std::abs(x - place) < near ? x : place;
   }
 
-  /// On a stretch on which p falls once.
+  /// Precondition: p falls once on the stretch.
   double root_within(const Stretch& stretch) const {
     if (const auto root = newtons_root(stretch)) return *root;
     const auto [low, high, bernstein] = stretch;
@@ -274,7 +274,7 @@ class Search {
     return 0.5 * (below + above);
   }
 
-  /// Nothing where a step leaves the stretch, or is not much shorter than the one before.
+  /// Empty if a step leaves the stretch, or is not much shorter than the one before.
   std::optional<double> newtons_root(const Stretch& stretch) const {
     constexpr int most = 8;
     const Coefficients derivative = derivative_of(power_);
@@ -285,7 +285,7 @@ class Search {
       const double size = std::abs(step);
       x += step;
       if (!(x >= stretch.low && x <= stretch.high) || !(size <= 0.5 * last)) return std::nullopt;
-      // What is left is some C size², of which the step before has told C.
+      // The remaining error is about C size². The size over the square of the last one estimates C.
       const double curved = std::max(16.0, size / (last * last));
       if (curved * size * size <= 0.25 * std::numeric_limits<double>::epsilon() * x) return x;
       last = size;
@@ -302,8 +302,8 @@ class Search {
 
 namespace {
 
-/// Of p on [0, 1]: the least partial sum S_k = Σ_{i≤k} a_i, as p is a mean of them,
-/// Σ_{k<n} S_k (τᵏ − τᵏ⁺¹) + S_n τⁿ.
+/// Lower bound of p on [0, 1]: the least partial sum S_k = Σ_{i≤k} a_i, because p is a mean of
+/// them, Σ_{k<n} S_k (τᵏ − τᵏ⁺¹) + S_n τⁿ.
 double lower_bound(std::span<const double> coefficients) {
   double sum = coefficients.empty() ? 0.0 : coefficients[0];
   double lowest = sum;
@@ -350,7 +350,7 @@ std::optional<RoughExit> rough_exit(std::span<const double> leading, double rest
 
 FirstExit first_exit(std::span<const double> coefficients, double uncertainty) {
   if (lower_bound(coefficients) > uncertainty) return {};
-  // The last terms are often far below what is known: without them zeros are isolated.
+  // The last terms are often far below the uncertainty. Isolating zeros is cheaper without them.
   double neglected = 0.0;
   std::size_t count = coefficients.size();
   while (count > 1) {

@@ -31,7 +31,7 @@ struct FirstExit {
 /// these stages.
 FirstExit first_exit(std::span<const double> coefficients, double uncertainty);
 
-/// Share of `uncertainty`: last terms that are together less are left out.
+/// Last terms whose sum is below this share of `uncertainty` are left out.
 inline constexpr double negligible_share = 0x1p-6;
 
 inline constexpr std::size_t most_leading = 12;

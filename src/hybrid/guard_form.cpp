@@ -48,7 +48,7 @@ double power_of(double base, int exponent) {
   return power;
 }
 
-/// Of a coefficient of an order, as a share of the size of its terms.
+/// Rounding of the coefficient of an order, as a share of the magnitude of its terms.
 double rounding_of(std::size_t order) {
   return sum_rounding + product_rounding * static_cast<double>(order);
 }

@@ -59,7 +59,7 @@ class GuardTable {
   bool is_polynomial_;
   double length_;  ///< of the longest step
   std::size_t orders_;
-  std::size_t room_;           ///< for so many orders: in fours
+  std::size_t room_;           ///< orders rounded up to a multiple of four
   std::vector<double> rows_;   ///< by velocities, then by orders
   std::vector<double> sizes_;  ///< likewise
   std::size_t few_;

@@ -37,8 +37,8 @@ StepEnd GuardWatch::next_exit(const StepSeries& step) {
   return {};
 }
 
-/// When a guard leaves its side within the step, by its leading terms alone where `roughly` and
-/// they tell.
+/// When a guard leaves its side within the step. If `roughly`, by its leading terms alone where
+/// these decide.
 inline GuardWatch::StepExit GuardWatch::exit_of(const StepSeries& step, std::size_t guard,
                                                 bool roughly) {
   const SparseForm& form = step.mode.guards[guard];
@@ -49,7 +49,7 @@ inline GuardWatch::StepExit GuardWatch::exit_of(const StepSeries& step, std::siz
   const double farthest =
       table.reach(step.velocity, step.table_share) + unknown + table.weight() * step.remainder;
   if (sign * value > farthest) return {};
-  if (sign == 0.0 && std::abs(value) > farthest) {  // the side that it is on first is its own
+  if (sign == 0.0 && std::abs(value) > farthest) {  // its side is the one that it is on first
     sign = std::copysign(1.0, value);
     return {};
   }
@@ -60,8 +60,8 @@ inline GuardWatch::StepExit GuardWatch::exit_of(const StepSeries& step, std::siz
   return exit_by(step, table, value, unknown, sign, step.order).value_or(StepExit{});
 }
 
-/// By the terms up to an order. Nothing where it takes more of them to tell; and where there are
-/// none that count, as the motion goes on on the guard.
+/// When a guard leaves its side, by the terms up to order `last`. Empty if these do not decide, or
+/// if none of them counts because the motion stays on the guard.
 std::optional<GuardWatch::StepExit> GuardWatch::exit_by(const StepSeries& step,
                                                         const GuardTable& table, double value,
                                                         double unknown, double& sign, int last) {
@@ -92,14 +92,14 @@ std::optional<GuardWatch::StepExit> GuardWatch::exit_by(const StepSeries& step,
   const double rest = uncertainty + table.beyond_few(step.velocity, share);
   const auto rough = rough_exit(series, rest, step.order);
   if (!rough) return std::nullopt;
-  // How soon a motion that begins on the guard comes back is told by all terms better than by the
-  // state there.
+  // The time after which a motion that begins on the guard returns to it is known better from all
+  // terms than from the state there.
   if (rough->at && first > 0) return std::nullopt;
   return StepExit{{rough->at, std::nullopt}, rough->within};
 }
 
-/// The order of the first derivative that is not 0, as far as can be told; beyond the last where
-/// there is none. A start on the guard's zero is divided out by it.
+/// Order of the first derivative that is not 0 within rounding, or last + 1 if there is none.
+/// Starting the series at this order divides out a zero at the start.
 int GuardWatch::first_that_counts(const StepSeries& step, const GuardTable& table, double unknown,
                                   int last) const {
   if (std::abs(coefficients_[0]) > unknown) return 0;
@@ -110,8 +110,8 @@ int GuardWatch::first_that_counts(const StepSeries& step, const GuardTable& tabl
   return last + 1;
 }
 
-/// Of a guard that comes down to 0 as the step ends the next one says whether it leaves it on its
-/// own side. Seldom called, and so kept out of the loop over guards.
+/// If a guard comes down to 0 at the end of a step, the next step decides whether it touches or
+/// leaves its side. Not inlined, because it is rare: the loop over guards stays small.
 [[gnu::noinline]] void GuardWatch::note_touch(const StepSeries& step, std::size_t guard,
                                               const StepExit& exit) {
   if (exit.touch == 1.0) {

@@ -16,7 +16,7 @@ struct StepSeries {
   const PreparedMode& mode;
   const PreparedFlow& flow;
   const State& state;
-  const Vector& noise;       ///< what rounding has left unknown of each number
+  const Vector& noise;       ///< uncertainty of each number by rounding
   const Velocity& velocity;  ///< at the start
   double time;               ///< of the start
   double length;
@@ -26,28 +26,28 @@ struct StepSeries {
 };
 
 struct StepEnd {
-  /// Of the step, where a guard leaves its side; beyond 1 where none does.
+  /// Share of the step at which a guard leaves its side; beyond 1 if none does.
   double share = std::numeric_limits<double>::infinity();
   std::size_t guard = 0;
-  double within = 0.0;  ///< how far from `share` it may be
+  double within = 0.0;  ///< bound of the distance from `share`
 };
 
 class GuardWatch {
  public:
-  /// Each guard is to leave the side that its direction says, or the one that it is on first.
+  /// Each guard's side follows from its direction; without one it is the side that it is on first.
   void enter(const AffineMode& mode);
 
-  /// The first exit of all in the next step of the mode. One that is known roughly is enough where
-  /// there is no other beside it.
+  /// The first exit of any guard in the next step of the mode. A rough one suffices if it is the
+  /// only one.
   StepEnd next_exit(const StepSeries& step);
 
-  /// Within the step, or beyond its end.
+  /// Touches of the last step, including those after its exit.
   const std::vector<Touch>& touches() const { return touches_; }
 
  private:
-  /// As a share of the step.
+  /// Places as shares of the step.
   struct StepExit : FirstExit {
-    double within = 0.0;  ///< how far from `at` it may be
+    double within = 0.0;  ///< bound of the distance from `at`
   };
   StepExit exit_of(const StepSeries& step, std::size_t guard, bool roughly);
   std::optional<StepExit> exit_by(const StepSeries& step, const GuardTable& table, double value,
@@ -56,11 +56,11 @@ class GuardWatch {
                         int last) const;
   void note_touch(const StepSeries& step, std::size_t guard, const StepExit& exit);
 
-  std::vector<double> signs_;  ///< of the sides that guards are to leave, 0 while unknown
+  std::vector<double> signs_;  ///< of the guards' sides, 0 while unknown
   std::vector<double> coefficients_;
-  double touch_within_ = 0.0;  ///< how well the guard is known of which the last terms were asked
-  std::vector<std::size_t> zero_at_start_;  ///< guards that the step before brought down to 0
-  std::vector<std::size_t> zero_at_end_;    ///< and those that this one does
+  double touch_within_ = 0.0;  ///< uncertainty of the guard whose whole series was used last
+  std::vector<std::size_t> zero_at_start_;  ///< guards that the previous step brought down to 0
+  std::vector<std::size_t> zero_at_end_;    ///< guards that this step brings down to 0
   std::vector<Touch> touches_;
 };
 

@@ -7,7 +7,7 @@
 namespace gearlash::hybrid {
 namespace {
 
-/// Notes what is wrong, and where.
+/// Collects faults with their places.
 class Inspection {
  public:
   explicit Inspection(const HybridSystem& system) : system_(system), size_(system.size()) {}

@@ -16,7 +16,7 @@ namespace gearlash::hybrid {
 using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
-/// max |vᵢ|; 0 of no numbers.
+/// max |vᵢ|; 0 for an empty vector.
 double largest_entry(const Vector& vector);
 
 /// x′ = matrix x + offset.
@@ -50,18 +50,18 @@ struct AffineReset {
   std::vector<Quantizer> quantizers{};
 
   Vector after(const Vector& state) const;
-  /// ∂x⁺/∂x, of `size` numbers; between two steps of a quantizer its reading is constant.
+  /// ∂x⁺/∂x, of `size` numbers; a quantizer's reading counts as constant.
   Matrix slope(Eigen::Index size) const;
 };
 
-/// Another target, where all of the forms are positive after the reset.
+/// The target if all of the forms are positive after the reset.
 struct Alternative {
   std::vector<AffineForm> positive{};
   std::size_t target = 0;
 };
 
-/// Where a sequence of firings of one transition ends that come ever faster (Zeno of Elea:
-/// infinitely many in a finite time, as of a ball that bounces to rest).
+/// The end of a sequence of firings of one transition that come ever faster (Zeno of Elea:
+/// infinitely many in a finite time, as when a ball bounces to rest).
 struct Settling {
   std::size_t target = 0;                   ///< mode
   AffineReset reset{};                      ///< onto the limit, from a state just after a firing
@@ -96,35 +96,35 @@ struct AffineMode {
   std::vector<TimedTransition> timed{};
 };
 
-/// Ticks at first, first + period, first + 2 period, …; or, without a period, at `times`. Of these
-/// a motion meets those that are not before its own start.
+/// Ticks at first, first + period, first + 2 period, …; or, without a period, at `times`. A motion
+/// meets those that are not before its own start.
 struct Clock {
   std::string name{};
-  double first = 0.0;               ///< with a period
-  double period = 0.0;              ///< > 0, or 0 where there are times
+  double first = 0.0;               ///< used with a period
+  double period = 0.0;              ///< > 0, or 0 if `times` are given
   std::vector<double> times{};      ///< without a period: rising
-  std::vector<Vector> additions{};  ///< one for each of `times`, or none: what a timed transition
-                                    ///< then adds to what its reset gives
+  std::vector<Vector> additions{};  ///< one for each of `times`, or none: a timed transition adds
+                                    ///< it after its reset
 };
 
-/// States x of one size, a mode each, and what leads from one to another.
+/// Modes with affine flows of a state x of fixed size, and the transitions between them.
 ///
-/// In a mode x follows its flow. A transition fires at the first time after which its guard is on
-/// the wrong side; where it is 0 at the start, the first of its time derivatives that is not 0 says
-/// which side it is on, so that it is armed again by the motion itself; where all are 0 (the guard
-/// is 0 on an interval) it does not fire. A guard that is on the wrong side as its mode begins
-/// fires at once. Of several transitions at one instant the timed ones come first, in the order of
-/// the clocks, each clock once; then the others in their order in the mode; each is followed by the
-/// new mode's own rules. So an event is never lost and never fires twice for one reason.
+/// In a mode x follows the mode's flow. A transition fires at the first time after which its guard
+/// is on the wrong side. If the guard is 0 at the start, the first of its time derivatives that is
+/// not 0 gives its side, so the motion itself arms it again. If all are 0 (the guard is 0 on an
+/// interval), it does not fire. A guard that is on the wrong side as its mode begins fires at once.
+/// Of several transitions at one instant, the timed ones come first, in the order of the clocks,
+/// each clock once; then the others in their order in the mode. The new mode's own rules follow
+/// each. So an event is never lost and never fires twice for one reason.
 ///
-/// Modes are a list, or are made by a source when a motion first enters them.
+/// Modes are a list, or a source makes them when a motion first enters them.
 struct HybridSystem {
   std::vector<std::string> state_names{};
-  std::vector<AffineMode> modes{};  ///< none where there is a source
+  std::vector<AffineMode> modes{};  ///< empty if there is a source
   std::vector<Clock> clocks{};
   ModeSource source{};
   /// With a source: which numbers follow their own flow alone, the same in every mode, and are
-  /// changed by no event (references). None where it is empty. In a list they are found.
+  /// changed by no event (references). Empty means none. For a list of modes they are found.
   std::vector<bool> exogenous{};
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(state_names.size()); }
@@ -135,11 +135,11 @@ struct HybridSystem {
   }
 };
 
-/// Every fault: shapes that do not agree, indices out of range, numbers that are not finite, clocks
-/// that go backwards. Empty where there is none. Each names what it is of. Modes of a source are
-/// not made for it: a motion looks for their faults when it first enters them.
+/// Every fault, with its place: shapes that do not agree, indices out of range, numbers that are
+/// not finite, clocks that go backwards. Modes of a source are not made for this: a motion checks
+/// them when it first enters them.
 std::vector<Fault> faults(const HybridSystem& system);
-/// Of one mode. Precondition: index < system.mode_count().
+/// The faults of one mode. Precondition: index < system.mode_count().
 std::vector<Fault> faults_of_mode(const HybridSystem& system, std::size_t index);
 
 }  // namespace gearlash::hybrid

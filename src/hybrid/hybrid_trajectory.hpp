@@ -31,8 +31,8 @@ struct Event {
   Vector after;
 };
 
-/// A guard that came to 0 and turned back, as far as numbers can tell. A small change of the system
-/// makes it an event or avoids it (grazing).
+/// A guard that came to 0 and turned back, within rounding. A small change of the system makes it
+/// an event or avoids it (grazing).
 struct Touch {
   double time = 0.0;
   std::size_t mode = 0;
@@ -128,15 +128,13 @@ class Trajectory {
 ///
 /// Let firings of one transition alone, or up to four in turn, have intervals (from turn to turn)
 /// that shrink by a steady ratio ρ. Their limit is d ρ/(1 − ρ) after the last, with d the last
-/// interval. If that is some 1e-10 of the mode's own time (or of the first interval, if longer),
+/// interval. If that is below 1e-10 of the mode's own time (or of the first interval, if longer),
 /// they end there, by the Settling of the last transition. Without a Settling the motion cannot
 /// continue beyond that time. It stops when the intervals are too short to be distinguished
 /// (StopReason::zeno).
 ///
 /// Throws InvalidInput with all faults of the system, of the start (a mode, finite numbers of the
 /// right count) and of the options (from ≤ until, finite). Modes of a source are checked when the
-/// motion first enters them.
-/// right count) and of the options (from ≤ until, finite). Modes of a source are looked at as the
 /// motion first enters them.
 Trajectory simulate(const HybridSystem& system, const State& start,
                     const SimulationOptions& options);

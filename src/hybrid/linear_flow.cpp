@@ -9,7 +9,7 @@ namespace {
 
 constexpr int highest_order = 36;
 
-/// With how many rates each order leaves out little enough.
+/// The largest rates at which each order's remainder is at most `left_out`.
 constexpr std::array<double, highest_order + 1> permitted_rates = [] {
   std::array<double, highest_order + 1> permitted{};
   for (int order = 1; order <= highest_order; ++order) {
@@ -39,7 +39,7 @@ int order_for(double rates) {
   return static_cast<int>(std::lower_bound(first + 1, first + highest_order, rates) - first);
 }
 
-// ---- what moves, and how fast -------------------------------------------------------------------
+// ---- moving numbers and their rates -------------------------------------------------------------
 
 LinearFlow::LinearFlow(const AffineFlow& flow) {
   find_moving(flow);
@@ -68,7 +68,7 @@ void LinearFlow::find_moving(const AffineFlow& flow) {
   }
 }
 
-/// [i][j]: j acts on i, at once or through others.
+/// [i][j]: j acts on i, directly or through others.
 std::vector<std::vector<bool>> LinearFlow::reaches() const {
   std::vector<std::vector<bool>> reached(at(count()), std::vector<bool>(at(count())));
   for (int i = 0; i < count(); ++i) {
@@ -95,7 +95,7 @@ bool in_one_loop(const std::vector<std::vector<bool>>& reached, std::size_t i, s
 
 }  // namespace
 
-/// Of a row's entries that count, with the weights there are.
+/// Weighted sum of the magnitudes of a row's entries that count.
 template <class Counts>
 double LinearFlow::sum_of_row(std::size_t row, const Counts& counts) const {
   double sum = 0.0;
@@ -106,7 +106,7 @@ double LinearFlow::sum_of_row(std::size_t row, const Counts& counts) const {
   return sum;
 }
 
-/// Rows and columns alike.
+/// Balances the sums of rows and columns within each loop (Osborne 1960).
 void LinearFlow::weigh_within_loops(const std::vector<std::vector<bool>>& reached) {
   const std::size_t size = reached.size();
   constexpr int sweeps = 20;
@@ -130,7 +130,8 @@ void LinearFlow::weigh_within_loops(const std::vector<std::vector<bool>>& reache
   }
 }
 
-/// From loop to loop, those first that act on the others: what comes from without is a quarter.
+/// Loop by loop, first those that act on the others. Afterwards what comes from other loops is at
+/// most a quarter of the fastest rate.
 void LinearFlow::weigh_between_loops(const std::vector<std::vector<bool>>& reached,
                                      double fastest) {
   const std::size_t size = reached.size();
@@ -172,7 +173,7 @@ void LinearFlow::weigh() {
         std::max(fastest, sum_of_row(i, [&](std::size_t j) { return in_one_loop(reached, i, j); }));
   }
   if (fastest == 0.0) {
-    // A number that k others act on one after another is a polynomial of order k + 1.
+    // A number on which a chain of k others acts is a polynomial of order k + 1.
     for (std::size_t i = 0; i < size; ++i) {
       const auto others = std::count(reached[i].begin(), reached[i].end(), true);
       polynomial_order_ = std::max(polynomial_order_, static_cast<int>(others) + 1);

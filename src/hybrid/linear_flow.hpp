@@ -117,12 +117,12 @@ class Stride {
 
  private:
   static constexpr std::size_t lanes = 4;
-  using Rows = Eigen::Array<double, lanes, 1>;  ///< so many rows of a column
+  using Rows = Eigen::Array<double, lanes, 1>;  ///< `lanes` rows of a column
 
   double length_;
   std::size_t orders_;
   std::vector<std::size_t> acting_;  ///< the columns in which Tₖ is not 0
-  std::vector<Rows> terms_;   ///< of Tₖ, by blocks of rows, then by orders, then by these columns
+  std::vector<Rows> terms_;  ///< of Tₖ, by blocks of rows, then by orders, then by acting columns
   std::vector<Rows> change_;  ///< Σ Tₖ, by blocks of rows, then by columns
   std::vector<Rows> sizes_;   ///< Σ |Tₖ|, likewise
 };

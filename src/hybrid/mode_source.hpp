@@ -9,22 +9,22 @@ namespace gearlash::hybrid {
 
 struct AffineMode;
 
-/// Modes by number, each made when it is first asked for, and then kept. The modes of a system that
-/// is made of several small automata are the product of their states, of which a motion enters few.
-/// Copies share what has been made. May be used by several threads at a time.
+/// Modes by number, each made on first use and then kept. A system made of several small automata
+/// has the product of their states as modes, and a motion enters few of them. Copies share the
+/// modes made. Several threads may use it at a time.
 class ModeSource {
  public:
   using Make = std::function<AffineMode(std::size_t index)>;
 
   ModeSource() = default;  ///< no source
-  /// `make` is called once for a number below `count`, by several threads at a time, and must give
-  /// the same mode always.
+  /// `make` is called at most once for each number below `count`, by several threads at a time. It
+  /// must always return the same mode.
   ModeSource(std::size_t count, Make make);
 
   explicit operator bool() const { return store_ != nullptr; }
-  std::size_t count() const;  ///< of the modes that there may be
-  std::size_t made() const;   ///< how many have been asked for
-  /// Precondition: index < count(). The reference is valid as long as a copy of the source is.
+  std::size_t count() const;  ///< of all modes, made or not
+  std::size_t made() const;   ///< number of modes made so far
+  /// Precondition: index < count(). The reference is valid while any copy of the source lives.
   const AffineMode& mode(std::size_t index) const;
 
  private:

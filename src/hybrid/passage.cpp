@@ -25,7 +25,7 @@ const AffineReset& reset_of(const AffineMode& mode, const Event& event) {
   return mode.transitions[event.transition].reset;
 }
 
-/// ∂x/∂start over events, each at its own time, and the flows between.
+/// ∂x/∂start across flows and events, each event at its own disturbed time.
 class Disturbances {
  public:
   Disturbances(const HybridSystem& system, const State& start, double time)
@@ -40,7 +40,7 @@ class Disturbances {
     time_ = time;
   }
 
-  /// False where the guard is met at no speed.
+  /// False if the guard is met at no speed.
   bool meet(const Event& event) {
     const bool is_chained = event.time == last_event_;
     last_event_ = event.time;
@@ -52,8 +52,7 @@ class Disturbances {
     if (event.kind == EventKind::timed) {
       delay_.setZero();
     } else if (!is_chained) {
-      // An event that another one brings about at its own instant is not met but made: it is
-      // delayed as that one is.
+      // An event that another one causes at its own instant is delayed as that one is.
       const Vector& normal = before.transitions[event.transition].guard.normal;
       const double speed = normal.dot(flow_before);
       if (speed == 0.0) return false;
@@ -77,7 +76,7 @@ class Disturbances {
   Eigen::RowVectorXd delay_;  ///< ∂/∂start of the last event's time
 };
 
-/// The time near a guess at which the motion crosses a plane; nothing where it does not.
+/// The time near a guess at which the motion crosses a plane. Empty if it does not.
 std::optional<double> crossing_time(const AffineMode& mode, const State& start, double from,
                                     const AffineForm& plane, double guess) {
   const Eigen::Index size = start.numbers.size();

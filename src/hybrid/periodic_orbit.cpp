@@ -13,7 +13,7 @@ bool is_same_event(const Event& a, const Event& b) {
          a.mode_after == b.mode_after;
 }
 
-/// Of the intervals from one event to the next, first to last.
+/// Among the intervals between successive events from `first` to `last`.
 double middle_of_longest(const std::vector<Event>& events, std::size_t first, std::size_t last) {
   double longest = 0.0;
   double middle = events[first].time;
@@ -26,7 +26,8 @@ double middle_of_longest(const std::vector<Event>& events, std::size_t first, st
   return middle;
 }
 
-/// Whether an orbit repeats itself after so many events: a divisor of their number.
+/// Whether an orbit repeats itself after `count` events. Precondition: `count` divides their
+/// number.
 bool repeats_after(const PeriodicOrbit& orbit, std::size_t count) {
   constexpr double alike = 1e-9;
   const std::vector<Event>& events = orbit.events;
@@ -45,7 +46,7 @@ bool repeats_after(const PeriodicOrbit& orbit, std::size_t count) {
   return true;
 }
 
-/// Once around, where the orbit found goes around several times.
+/// The orbit's shortest period, if the orbit found repeats itself within its period.
 PeriodicOrbit once_around(const PreparedSystem& system, PeriodicOrbit orbit,
                           const ShootingOptions& options) {
   const std::size_t all = orbit.events.size();
@@ -92,7 +93,8 @@ std::optional<PeriodicOrbit> closing_orbit(const PreparedSystem& system, const T
     farthest = std::max({farthest, distance, largest_entry(begin.before - end.after)});
     if (distance > options.nearness * scale) continue;
     if (!is_same_event(begin, end) || !(begin.time < end.time)) continue;
-    // What has hardly moved creeps, unless it is at rest from tick to tick.
+    // A motion that has hardly moved creeps, or rests from tick to tick. The latter gets a few
+    // tries.
     if (!has_returned && tries_at_rest++ >= most_tries_at_rest) continue;
     const double start = middle_of_longest(events, last - back, last);
     auto shooting = Shooting::about(system, motion.at(start), start, end.time - begin.time, back,

@@ -49,7 +49,7 @@ std::vector<bool> exogenous_numbers(const HybridSystem& system) {
              mode.flow.offset[i] == first.offset[i] && is_untouched(mode, i, system.size());
     });
   }
-  for (bool changed = true; changed;) {  // what others act on that are none is none
+  for (bool changed = true; changed;) {  // excludes numbers on which excluded ones act
     changed = false;
     for (std::size_t n = 0; n < size; ++n) {
       for (std::size_t k = 0; is[n] && k < size; ++k) {

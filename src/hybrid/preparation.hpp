@@ -11,7 +11,7 @@
 
 namespace gearlash::hybrid {
 
-/// A reset as those rows in which it is not the identity.
+/// A reset, as the rows in which it differs from the identity.
 struct PreparedReset {
   struct Row {
     int number;
@@ -20,16 +20,17 @@ struct PreparedReset {
   std::vector<Row> rows;
 
   PreparedReset(const AffineReset& reset, Eigen::Index size);
-  /// Of numbers, and how well each is known, before; what rounding adds is not in `noise`.
+  /// Writes the state after the reset to `after`, and carries `noise`, the numbers' uncertainty,
+  /// over. The reset's own rounding is not added to `noise`.
   void apply(const AffineReset& reset, const Vector& before, Vector& after, Vector& noise,
              Vector& scratch) const;
 };
 
-/// A flow with what the guards are on it.
+/// A flow with its guards as polynomials over a step.
 struct PreparedFlow {
   LinearFlow flow;
   std::vector<GuardTable> guards;
-  std::optional<Stride> longest;  ///< where steps have a longest length
+  std::optional<Stride> longest;  ///< empty if steps may be arbitrarily long
 
   PreparedFlow(const AffineFlow& affine, const std::vector<SparseForm>& guards);
 };
@@ -59,7 +60,7 @@ class PreparedMode {
     FastDecays decays;
     PreparedFlow flow;
   };
-  /// Without its fast decays; null where there are none. Worked out when it is first asked for.
+  /// The flow without its fast decays; null if there are none. Computed on first use.
   const Slow* slow() const;
 
   std::vector<SparseForm> guards;
@@ -90,7 +91,7 @@ class Preparation {
   const HybridSystem& system() const { return *system_; }
   /// Throws InvalidInput with all faults of a mode that a source has made.
   const PreparedMode& mode(std::size_t index) const;
-  /// Which numbers follow their own flow alone in every mode, and are changed by no event.
+  /// Which numbers follow their own flow alone in every mode and are changed by no event.
   const std::vector<bool>& exogenous() const;
 
  private:

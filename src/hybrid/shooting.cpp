@@ -16,7 +16,7 @@ Vector velocity(const AffineFlow& flow, const Vector& numbers) {
   return flow.matrix * numbers + flow.offset;
 }
 
-/// Where a flow takes numbers in a time: x + ∫₀ᵗ exp(As) ds (A x + b).
+/// The state after a time: x + ∫₀ᵗ exp(As) ds (A x + b).
 Vector flown(const AffineFlow& flow, const Vector& numbers, double time) {
   const Index size = numbers.size();
   Matrix augmented = Matrix::Zero(size + 1, size + 1);
@@ -25,15 +25,15 @@ Vector flown(const AffineFlow& flow, const Vector& numbers, double time) {
   return numbers + Vector(exponential(augmented * time).topRightCorner(size, 1));
 }
 
-/// Whether a flow moves numbers, for all that rounding can tell.
+/// Whether a flow moves numbers by more than rounding.
 bool is_moved(const AffineFlow& flow, const Vector& numbers) {
   constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
   const Vector terms = flow.matrix.cwiseAbs() * numbers.cwiseAbs() + flow.offset.cwiseAbs();
   return (velocity(flow, numbers).array().abs() > rounding * terms.array()).any();
 }
 
-/// A period with which what moves by itself comes back, near the given one: Newton's method on the
-/// distance from where it was. The given one where it does not come back.
+/// The period of what moves by itself, near the given one, by Newton's method on its distance from
+/// its start. The given one if it does not return.
 double refined_period(const AffineFlow& flow, const Vector& numbers, double period) {
   double refined = period;
   for (int i = 0; i < 20; ++i) {
@@ -104,7 +104,7 @@ std::optional<Shooting> Shooting::about(const PreparedSystem& system, const Stat
     return motion.stop_reason() == StopReason::reached_end && motion.events().size() == events;
   };
   if (!is_as_expected()) return std::nullopt;
-  // From midway between the last event and the first one, about.
+  // Moves the start to about midway between the last event and the first one.
   const double first = motion.events().front().time - motion.start_time();
   const double last = motion.events().back().time - motion.start_time() - shooting.period_;
   const double aside = 0.5 * (first + last);
@@ -126,7 +126,7 @@ std::optional<Shooting> Shooting::about(const PreparedSystem& system, const Stat
 
 void Shooting::divide(const Trajectory& motion, std::size_t phases) {
   const std::vector<Event>& events = motion.events();
-  // Which events a phase starts midway after: those that the longest intervals follow.
+  // Phases start midway in the longest intervals between events; `order` holds the events before.
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i + 1 < events.size(); ++i) order.push_back(i);
   const auto interval = [&](std::size_t i) { return events[i + 1].time - events[i].time; };
@@ -145,9 +145,9 @@ void Shooting::divide(const Trajectory& motion, std::size_t phases) {
     passed.push_back(i + 1);
   }
   passed.push_back(events.size());
-  constexpr double least = 1e-100;  // whose square is not 0 either: of numbers that stay 0
+  constexpr double least = 1e-100;  // for numbers that stay 0; its square is not 0
   Vector sizes = Vector::Constant(size(), least);
-  constexpr int samples = 32;  // how large each number becomes, about
+  constexpr int samples = 32;  // to estimate each number's largest magnitude
   for (int i = 0; i < samples; ++i) {
     const double time = motion.start_time() + period_ * i / samples;
     sizes = sizes.cwiseMax(motion.at(time).numbers.cwiseAbs());
@@ -268,7 +268,7 @@ PeriodicOrbit Shooting::orbit(const Equations& solved) const {
   orbit.multipliers.assign(values.begin(), values.end());
   std::sort(orbit.multipliers.begin(), orbit.multipliers.end(),
             [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
-  // From plane to plane a shift in time counts as 0.
+  // From plane to plane the multiplier of a shift in time is 0.
   if (!is_forced && !orbit.multipliers.empty()) orbit.multipliers.pop_back();
   return orbit;
 }
@@ -276,7 +276,7 @@ PeriodicOrbit Shooting::orbit(const Equations& solved) const {
 std::optional<PeriodicOrbit> solved_by_newton(Shooting& shooting, int most_steps) {
   constexpr double good = 1e-13;
   constexpr double acceptable = 1e-10;
-  // Newton's method that does not come nearer for so long is going nowhere.
+  // Newton's method ends if its residual has not halved in this many steps.
   constexpr int patience = 6;
   double last = infinity;
   double least = infinity;

@@ -73,7 +73,7 @@ class Simulation {
  private:
   // ---- clocks -----------------------------------------------------------------------------------
 
-  /// One clock that is due, if there is one.
+  /// Fires one clock that is due. False if none is.
   bool fire_due_clocks() {
     const double now = std::min(time_, options_.until);
     for (std::size_t i = 0; i < ticks_.count(); ++i) {
@@ -122,7 +122,8 @@ class Simulation {
     if (next.share <= 1.0) fire(next.guard);
   }
 
-  /// Fast decays are looked for once they have cost some steps.
+  /// Switches to the flow without fast decays when these are over. Looks for them only after a few
+  /// steps, because finding them costs time.
   void choose_flow() {
     constexpr int patience = 8;
     if (slow_ != nullptr || ++steps_in_mode_ <= patience) return;
@@ -132,7 +133,7 @@ class Simulation {
     flow_ = &slow->flow;
   }
 
-  /// Each number's largest size since the mode was entered, at the starts of steps.
+  /// Each number's largest magnitude at the starts of steps since the mode was entered.
   const Vector& largest_in_mode() {
     if (steps_in_largest_ == 0) largest_ = Vector::Zero(state_.numbers.size());
     const std::vector<double>& starts = trajectory_.starts_;
@@ -174,9 +175,9 @@ class Simulation {
     trajectory_.starts_.insert(trajectory_.starts_.end(), numbers, numbers + state_.numbers.size());
   }
 
-  /// Over what is left of the step where an event cuts it short. What is unknown then is a share of
-  /// the whole step's terms: a state on a guard is no better known than the time that it came
-  /// there.
+  /// Advances by `length`, at most the whole step; an event may cut it short. The uncertainty is a
+  /// share of the whole step's terms even then: a state on a guard is known no better than the time
+  /// at which it got there.
   void advance(double length, double whole) {
     const LinearFlow& flow = flow_->flow;
     noise_ = state_.numbers.cwiseAbs();
@@ -190,7 +191,7 @@ class Simulation {
     if (slow_ != nullptr) slow_->decays.put_at_rest(state_.numbers);
   }
 
-  /// The state, from where its velocity is known.
+  /// Moves the state by a time from where velocity_ was taken.
   void follow(double length) {
     double* numbers = state_.numbers.data();
     if (flow_->longest) {
@@ -200,9 +201,9 @@ class Simulation {
     }
   }
 
-  /// Where the state is farther beside the guard than its numbers make necessary: a little along
-  /// the motion, until it is there, by Newton's method. Each event takes the guard for 0 as its
-  /// mode begins, so that else what is left would be there for ever.
+  /// Moves a state that misses the guard by more than rounding onto it, a little along the motion,
+  /// by Newton's method. Each event takes the guard as 0 when the next mode begins, so the misfit
+  /// would otherwise remain for ever.
   void put_on_guard(std::size_t which, double farthest, double rounding) {
     const SparseForm& guard = mode_->guards[which];
     const LinearFlow& flow = flow_->flow;
@@ -272,7 +273,7 @@ class Simulation {
     }
   }
 
-  /// Of an event that is none of a clock.
+  /// Precondition: the event is not timed.
   const Transition& transition_of(const Event& event) const {
     return preparation_.mode(event.mode).mode().transitions[event.transition];
   }
@@ -302,8 +303,8 @@ class Simulation {
     if (is_little && (is_steady || interval <= 8.0 * epsilon * time_)) settle();
   }
 
-  /// Firings that settle and come so fast that times tell no more of them apart: of faces that
-  /// hardly rebound there are too few to see a ratio.
+  /// Whether firings with a Settling come so fast that doubles no longer separate their times.
+  /// Faces that hardly rebound give too few firings for a ratio of intervals.
   bool is_over_at_once() const {
     const std::size_t turn = recurring_.recurring_turn(3);
     if (turn == 0 || recurring_.duration(turn, 0) > 8.0 * epsilon * time_) return false;
@@ -311,7 +312,8 @@ class Simulation {
     return transition_of(last).settling.has_value();
   }
 
-  /// What is short beside it is short: the mode's own time, or how long the first turn took.
+  /// The time against which an interval counts as short: the mode's own, or the first turn's if
+  /// longer.
   double own_time(std::size_t mode, std::size_t turn) const {
     const double rate = preparation_.mode(mode).whole.flow.rate();
     const double first = recurring_.duration(turn, recurring_.turns_before(turn));
@@ -344,13 +346,13 @@ class Simulation {
   const SimulationOptions& options_;
   const PreparedMode* mode_ = nullptr;
   const PreparedFlow* flow_ = nullptr;        ///< of the step
-  const PreparedMode::Slow* slow_ = nullptr;  ///< where that is the slow one
+  const PreparedMode::Slow* slow_ = nullptr;  ///< set if flow_ is the slow one
   int steps_in_mode_ = 0;
   int steps_in_largest_ = 0;
   State state_;
   double time_;
-  Vector noise_;    ///< what rounding has left unknown of each number, on the last step
-  Vector largest_;  ///< each number's size since the mode was entered
+  Vector noise_;    ///< uncertainty of each number by rounding, from the last step
+  Vector largest_;  ///< each number's largest magnitude since the mode was entered
   ClockTicks ticks_;
   GuardWatch guards_;
   Velocity velocity_;  ///< at the start of the step

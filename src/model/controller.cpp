@@ -118,7 +118,7 @@ LinearController linear(const LinearController& controller) { return controller;
 
 // ---- checks -------------------------------------------------------------------------------------
 
-/// Work and memory grow with its cube, and coefficients of a higher order have lost their digits.
+/// Work and memory grow with its cube, and coefficients of a higher order lose their digits.
 constexpr std::size_t highest_order = 64;
 
 void expect_permitted_order(RangeCheck& check, const char* field, std::size_t order) {

@@ -28,7 +28,7 @@ std::string pole_text(double radius) {
   return "a pole of modulus " + exact_text(radius) + " from sample to sample";
 }
 
-/// Whatever the numerator and the period are.
+/// Checks the poles, which do not depend on numerator and period.
 void check_poles(RangeCheck& all, const SampledTransfer& controller) {
   const SampledTransfer poles{{1.0}, controller.denominator};
   if (!validate(Controller(poles)).empty()) return;

@@ -11,7 +11,7 @@
 namespace gearlash {
 namespace {
 
-/// Paths for the names of drive::validate().
+/// The path of a parameter by its name in drive::validate().
 std::string path_of(const std::string& name) {
   static const std::vector<std::pair<std::string, std::string>> names = {
       {"motor.viscous", "motor.friction"},
@@ -80,15 +80,15 @@ void check_normal_form(RangeCheck& check, const Drive& drive) {
   }
 }
 
-/// Of a servo of 1960 that is given by a data sheet, or that no general drive can be: a side
-/// without inertia, no gap.
+/// Whether the closed form alone applies: a motor driven by a voltage, a side without inertia, or
+/// no gap.
 bool must_be_a_servo(const Drive& drive, const drive::ReducedDrive& reduced) {
   const bool has_voltage = !std::holds_alternative<TorqueControl>(drive.motor.kind);
   return has_voltage || reduced.motor.inertia == 0.0 || reduced.load.inertia == 0.0 ||
          reduced.backlash == 0.0;
 }
 
-/// What the numbers at the load's shaft are made of, for an author who has given none of them.
+/// The sources of numbers at the load's shaft, for messages to an author who gave none of these.
 struct Origin {
   std::string_view number;
   std::string_view made_of;
@@ -99,7 +99,7 @@ constexpr std::array origins = {
     Origin{"stiffness", "the motor's torque per volt * loop.error_gain * gearbox.ratio"},
     Origin{"damping", "friction/(2 sqrt(stiffness * inertia)), everything at the load"},
     Origin{"inertia_ratio", "load.inertia/(motor.inertia * gearbox.ratio^2)"}};
-/// And those that it has, by their paths.
+/// Numbers at the load's shaft that an author gives directly, by their paths.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 4> given = {
     {{"backlash", "gearbox.backlash"},
      {"restitution", "contact.restitution"},
@@ -125,14 +125,14 @@ std::vector<Fault> servo_faults(const Drivetrain& drivetrain) {
   return found;
 }
 
-/// A value within every range in the place of one that is not.
+/// Replaces a value outside its range by 0.5, which is within every range.
 void mend(Drive& drive, const Parameter& parameter) {
   const Slot slot = parameter.slot(drive);
   if (auto* const* place = std::get_if<double*>(&slot)) **place = 0.5;
   if (auto* const* place = std::get_if<std::optional<double>*>(&slot)) **place = 0.5;
 }
 
-/// Inputs are the error, or reference, position and speed.
+/// A state-space controller has one input, the error, or three: reference, position and speed.
 void check_columns(RangeCheck& check, const Drive& drive) {
   const auto* system = std::get_if<StateSpaceController>(&drive.controller.law);
   if (system == nullptr || drive.servo) return;

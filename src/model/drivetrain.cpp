@@ -30,7 +30,7 @@ std::vector<Fault> validate_masses_and_stiffness(const Drivetrain& drivetrain) {
 std::vector<Fault> validate(const Drivetrain& drivetrain) {
   RangeCheck check;
   check.include(validate_masses_and_stiffness(drivetrain));
-  // Ratios of unsound masses mean nothing; the fields that are passed on are checked all the same.
+  // Ratios of unsound inertias mean nothing. The fields that are passed on are checked in any case.
   const bool sound = check.faults().empty();
   NormalizedServo servo = sound ? normalize_sound(drivetrain) : NormalizedServo{};
   servo.backlash = drivetrain.backlash;

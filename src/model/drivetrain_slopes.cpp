@@ -37,7 +37,7 @@ Slopes slopes_of_normal_form(const NormalForm& form, std::string_view path) {
   return std::nullopt;
 }
 
-/// What the formulas are made of.
+/// The terms of the formulas.
 struct Parts {
   explicit Parts(const Drive& of) : drive(of) {
     if (of.controller.shaft == ShaftName::motor) per_output *= ratio;
@@ -106,7 +106,7 @@ Slopes slopes_of_plant(const Drive& drive, std::string_view path) {
                                     : slopes_of_controller(parts, path);
 }
 
-/// Whether the drive still has a closed form when the number is another one.
+/// Whether the drive keeps its closed form if the number changes.
 bool keeps_closed_form(Drive drive, const Parameter& parameter) {
   const Slot slot = parameter.slot(drive);
   double* place = std::get_if<double*>(&slot) ? std::get<double*>(slot) : nullptr;

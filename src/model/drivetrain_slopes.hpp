@@ -1,4 +1,4 @@
-// How the numbers of a drivetrain change with each number of its drive: exact derivatives.
+// Exact derivatives of the numbers of a drivetrain by each number of its drive.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace gearlash {
 
-/// One derivative for each number of a Drivetrain: of it, or by it.
+/// One derivative for each number of a Drivetrain, of it or by it.
 struct DrivetrainSlopes {
   double motor_inertia = 0.0;
   double load_inertia = 0.0;
@@ -25,8 +25,8 @@ struct DrivetrainSlopes {
 /// and K₁/R, K_N and K_e, 0 and 1), g and d the controller's output per error and per speed; or of
 /// the normal form,
 ///   J_M = 1/(1 + r), J_L = 1 − J_M, F_M = 2ζω_n(1 − φ), F_L = 2ζω_nφ, K = ω_n².
-/// Nothing for a parameter of which the drivetrain is no function: one that the drive has not, or
-/// that would end its closed form. Precondition: the drive has a closed form.
+/// Empty for a parameter of which the drivetrain is no function: one that the drive does not have,
+/// or one whose change would end its closed form. Precondition: the drive has a closed form.
 std::optional<DrivetrainSlopes> drivetrain_slopes(const Drive& drive, std::string_view path);
 
 }  // namespace gearlash

@@ -7,7 +7,7 @@
 namespace gearlash {
 namespace {
 
-/// What a number may be: 0 where that is permitted besides, else from least to most.
+/// Permitted values of a number: from least to most, and 0 where permitted.
 struct Range {
   double least;
   double most;

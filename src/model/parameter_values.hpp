@@ -1,4 +1,4 @@
-// Parameters of one drive by their paths: what gearlash/parameter.hpp does with them.
+// Parameters of one drive by their paths, for gearlash/parameter.hpp.
 #pragma once
 
 #include <string_view>
@@ -7,14 +7,14 @@
 
 namespace gearlash {
 
-/// The parameter of that path, aliases and indices permitted. Throws InvalidInput where there is
-/// none, or where the drive does not have it.
+/// The parameter of that path, aliases and indices permitted. Throws InvalidInput if there is none,
+/// or if the drive does not have it.
 const Parameter& parameter_of(const Drive& drive, std::string_view path);
 
-/// The other form of the parameter that has this path; nullptr where it is its own.
+/// The other form of the parameter that has this path; nullptr if the path is the parameter's own.
 const OtherForm* form_named(const Parameter& parameter, std::string_view path);
 
-/// Adds the optional part of a drive that the parameter belongs to: sampling, say.
+/// Adds the optional part of a drive that the parameter belongs to, such as sampling.
 void add_section_of(Drive& drive, std::string_view path);
 
 }  // namespace gearlash

@@ -64,7 +64,7 @@ const std::vector<Section>& all_sections() {
 }
 
 bool exists(const Parameter& parameter, const Drive& drive) {
-  // A slot only points: nothing is changed here.
+  // slot() takes a mutable drive but does not change it.
   return !std::holds_alternative<std::monostate>(parameter.slot(const_cast<Drive&>(drive)));
 }
 

@@ -6,8 +6,8 @@
 namespace gearlash::drive {
 namespace {
 
-/// The same gain for reference and position, and no state that reaches the output: an integrator
-/// without gain and a lead-lag element whose zero is its pole are proportional too.
+/// Whether gains for reference and position are equal and no state reaches the output. An
+/// integrator without gain, or a lead-lag element whose zero equals its pole, is proportional too.
 bool is_proportional(const LinearController& controller) {
   const auto is_zero = [](double gain) { return gain == 0.0; };
   return std::all_of(controller.output.begin(), controller.output.end(), is_zero) &&
@@ -49,7 +49,7 @@ std::optional<Drivetrain> proportional_drivetrain(const ReducedDrive& drive) {
   if (drive.sensing.load_share_of_position != 1.0) return std::nullopt;
   const LinearController controller = linear_controller(drive.controller);
   if (!is_proportional(controller)) return std::nullopt;
-  // The torque is the motor's: only there is it friction.
+  // The torque acts on the motor, so only feedback of the motor's speed acts as friction.
   const double feedback = -controller.direct[2];
   if (feedback != 0.0 && drive.sensing.load_share_of_speed != 0.0) return std::nullopt;
   Drivetrain drivetrain;

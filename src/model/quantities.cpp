@@ -11,7 +11,7 @@ namespace {
 
 using Value = std::optional<double>;
 
-/// The motion that is seen in practice: a cycle, or an irregular one.
+/// The motion seen in practice: a cycle, or an irregular motion.
 struct Seen {
   const Cycle* cycle = nullptr;
   const IrregularMotion* irregular = nullptr;

@@ -5,7 +5,7 @@
 namespace gearlash::drive {
 namespace {
 
-/// Euclid's, with remainders kept monic so that their coefficients stay short.
+/// Euclid's algorithm, with monic remainders so that their coefficients stay short.
 Polynomial greatest_common_divisor(Polynomial a, Polynomial b) {
   while (!b.is_zero()) {
     Polynomial remainder = a % b;
@@ -105,11 +105,11 @@ namespace {
 using Row = std::vector<Rational>;
 using Square = std::vector<Row>;
 
-/// A controller whose anti-windup, if it is to act, is one of its inputs:
-/// τ − τ_asked = τ − output z − direct u.
+/// A controller with the anti-windup, if it acts, as one of its inputs:
+///   τ − τ_asked = τ − output z − direct u.
 struct ExactController {
   Square state_matrix;
-  Square input_columns;  ///< of r, y, v and the torque given
+  Square input_columns;  ///< of r, y, v and the delivered torque
   Row output;
   Row direct;
 };

@@ -33,7 +33,7 @@ drive::ShaftFriction referred(const Friction& friction, double ratio) {
 
 // ---- controllers --------------------------------------------------------------------------------
 
-/// Columns by r, y and v, of one by the error alone.
+/// Columns for r, y and v, from a single column for the error.
 std::vector<double> of_three_inputs(const std::vector<double>& row) {
   if (row.size() == 1) return {row[0], -row[0], 0.0};
   return row;
@@ -44,7 +44,7 @@ std::vector<double> scaled(std::vector<double> numbers, double factor) {
   return numbers;
 }
 
-/// `scale`: torque at the load for one of the gains.
+/// `scale`: torque at the load per unit of a gain.
 drive::Controller reduce(const PID& pid, double scale) {
   if (pid.terms == PIDTerms::P) {
     return drive::ProportionalDerivative{.proportional = scale * pid.proportional};
@@ -97,7 +97,7 @@ drive::Controller reduce(const StateSpaceController& system, double scale) {
 
 // ---- sensors ------------------------------------------------------------------------------------
 
-/// At the load's shaft, of an encoder on a shaft that turns `ratio` times as far.
+/// Step at the load's shaft of an encoder on a shaft that turns `ratio` times as far.
 std::optional<double> step_of(const Encoder& encoder, double ratio) {
   const double referred = 1.0 / ratio;
   if (encoder.resolution) return referred * *encoder.resolution;
@@ -217,7 +217,7 @@ std::optional<Drivetrain> proportional_drivetrain(const Drive& drive) {
 
 namespace {
 
-/// Output per error and per speed sensed, of a controller that is proportional.
+/// Output per error and per sensed speed of a proportional controller.
 struct Gains {
   double error = 0.0;
   double speed = 0.0;

@@ -1,4 +1,4 @@
-// A drive with all its numbers referred to the load's shaft, and what it is to the closed form.
+// A drive with all its numbers referred to the load's shaft, and its servo for the closed form.
 #pragma once
 
 #include <optional>
@@ -20,37 +20,37 @@ struct ReferredOutput {
 /// (thesis Appendix A, steps 1 to 5; n motor turns per load turn).
 ReferredOutput refer_output(const Drive& drive);
 
-/// All at the load's shaft. Where a number is at fault the result is too: see faults().
+/// All at the load's shaft. Faulty numbers give a faulty result; see faults().
 drive::ReducedDrive reduce(const Drive& drive);
 
-/// A normal form by the numbers that it stands for: torque control, n = 1, J_M + J_L = 1 kg m². Any
-/// other drive as it is.
+/// Replaces a normal form by a drive with equivalent numbers: torque control, n = 1 and
+/// J_M + J_L = 1 kg m². Any other drive is unchanged.
 Drive physical_form(const Drive& drive);
 
 /// Whether the drive is a normal form without a natural frequency: ω_n is then 1 rad/s, and reports
 /// for people give times in units of 1/ω_n.
 bool is_normalized(const Drive& drive);
 
-/// What the closed form answers for.
+/// The servo that the closed form analyses.
 struct ClosedFormServo {
   NormalizedServo servo;
   double natural_frequency = 1.0;  ///< ω_n, rad/s
-  /// The normal form's own numbers; else they were worked out from data with units.
+  /// The normal form's own numbers; otherwise they are computed from data with units.
   bool is_as_given = false;
 };
 
-/// What a drive must be to have one, for faults.
+/// The conditions for a closed form, for faults.
 inline constexpr char permitted_with_closed_form[] =
     "must have a closed-form answer for this: proportional control of the load's position, "
     "continuous, exact and unlimited; rigid faces; no dry friction";
 
-/// The servo of 1960 that a drive is by its physics: proportional control of the load's position,
-/// continuous, exact, unlimited, rigid faces, no dry friction, a constant reference, no load
-/// torque; speed fed back from the motor is friction on it. Sides without inertia and gaps of 0 are
-/// among them. Nothing for any other drive. Precondition: every parameter is in its range.
+/// The servo of 1960 that is physically equivalent to a drive: proportional control of the load's
+/// position, continuous, exact, unlimited, rigid faces, no dry friction, a constant reference, no
+/// load torque; speed fed back from the motor is friction on it. Sides without inertia and gaps of
+/// 0 are included. Empty for any other drive. Precondition: every parameter is in its range.
 std::optional<ClosedFormServo> closed_form_servo(const Drive& drive);
 
-/// The same servo as a normal form with its natural frequency; nothing for any other drive.
+/// The same servo as a normal form with its natural frequency; empty for any other drive.
 /// Precondition as above.
 std::optional<Drive> normal_form_of(const Drive& drive);
 /// The servo that a normal form with a closed form is, without checks.
@@ -59,9 +59,9 @@ ClosedFormServo normal_form_servo(const Drive& drive);
 /// Its drivetrain, with the same conditions.
 std::optional<Drivetrain> proportional_drivetrain(const Drive& drive);
 
-/// Its drivetrain for one that is known to have a closed form, without checks: J_M = J n²,
-/// F_M = (f + E) n² + S d, K = S g (model/drivetrain_slopes.hpp); nothing is allocated where the
-/// controller is P, PD or a cascade.
+/// Its drivetrain for one that is known to have a closed form, without checks:
+///   J_M = J n²,  F_M = (f + E) n² + S d,  K = S g   (model/drivetrain_slopes.hpp).
+/// Nothing is allocated if the controller is P, PD or a cascade.
 Drivetrain referred_drivetrain(const Drive& drive);
 
 }  // namespace gearlash

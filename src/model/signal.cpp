@@ -9,7 +9,7 @@
 namespace gearlash::drive {
 namespace {
 
-/// The stretches of a signal at all times, the first of them from −∞ on; its start is not used.
+/// The stretches of a signal over all times. The first begins at −∞; its start is not used.
 using Stretches = std::vector<SignalStretch>;
 
 SignalStretch at_rest(double start, double value) { return {start, value, 0.0, 0.0}; }
@@ -28,7 +28,7 @@ Stretches all_of(const Trapezoid& move) {
   const double way = move.to < move.from ? -1.0 : 1.0;
   const double distance = std::abs(move.to - move.from);
   if (distance == 0.0) return all_of(move.to);
-  // Where the distance is too short to reach the speed it turns over at half of it.
+  // If the distance is too short to reach the speed, deceleration begins at half the distance.
   const double top = std::min(move.speed, std::sqrt(distance * move.acceleration));
   const double rising = top / move.acceleration;
   const double cruising = std::max(0.0, distance / top - rising);
@@ -55,7 +55,7 @@ Stretches all_of(const Table& table) {
   return result;
 }
 
-/// Has none.
+/// A sine has no stretches.
 Stretches all_of(const Sine&) { return {}; }
 
 Stretches all_stretches(const Signal& signal) {
@@ -68,7 +68,7 @@ SignalStretch moved_to(const SignalStretch& stretch, double start) {
           stretch.rate + after * stretch.acceleration, stretch.acceleration};
 }
 
-/// The last one that has begun, or the first.
+/// The last stretch that has begun, or the first.
 const SignalStretch& stretch_at(const Stretches& all, double time) {
   std::size_t found = 0;
   for (std::size_t i = 1; i < all.size() && all[i].start <= time; ++i) found = i;

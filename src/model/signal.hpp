@@ -24,8 +24,8 @@ std::vector<Fault> validate(const Signal& signal, const std::string& field);
 /// The other functions require that validate(signal) is empty.
 double value_at(const Signal& signal, double time);
 
-/// The signal's behaviour in the end: itself, for a sine; a ramp from time 0 on; else its final
-/// value.
+/// The signal's final behaviour: a sine itself; a ramp with its start moved to time 0; otherwise
+/// the final value.
 Signal settled(const Signal& signal);
 
 /// The time from which the signal equals settled(signal).
@@ -39,7 +39,7 @@ struct SignalStretch {
   double acceleration = 0.0;  ///< per s²
 };
 
-/// All from time 0 on, the last without end. Not for a sine, which has none.
+/// All stretches from time 0 on; the last has no end. Precondition: not a sine, which has none.
 std::vector<SignalStretch> stretches(const Signal& signal);
 
 }  // namespace gearlash::drive

@@ -19,7 +19,7 @@ struct LoadTorqueSignal {
   static constexpr std::size_t kinds = 4;
 };
 
-// The alternatives of Signal in the order of the words; load torques have some of them.
+// Indices into Signal's alternatives, in the order of the words. Load torques permit some of them.
 constexpr std::size_t reference_order[] = {0, 1, 2, 3, 4, 5};
 constexpr std::size_t load_torque_order[] = {0, 1, 3, 5};
 
@@ -89,7 +89,7 @@ struct Paths {
   std::string_view kind, value, before, after, mean, amplitude, frequency, phase, time, file;
 };
 
-/// Of both.
+/// Parameters of both kinds of signals.
 template <class Which>
 std::vector<Parameter> shared_parameters(const Paths& paths,
                                          const std::vector<std::string_view>& kinds) {

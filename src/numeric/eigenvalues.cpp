@@ -12,7 +12,7 @@ Eigensystem eigensystem(const Eigen::MatrixXd& matrix) {
 }
 
 Eigen::Vector3cd eigenvalues(const Eigen::Matrix3d& matrix) {
-  return eigenvalues(Eigen::MatrixXd(matrix));  // the same bits, and half the time to compile
+  return eigenvalues(Eigen::MatrixXd(matrix));  // the same bits in half the compile time
 }
 
 }  // namespace gearlash

@@ -19,7 +19,7 @@ Eigen::VectorXd solved_with_full_pivoting(const Eigen::MatrixXd& matrix,
   return matrix.fullPivLu().solve(right);
 }
 
-// Of three rows by the functions for any size: the same bits, and less to compile.
+// For three rows the functions for any size give the same bits with less to compile.
 
 Eigen::Vector3d solved_with_full_pivoting(const Eigen::Matrix3d& matrix,
                                           const Eigen::Vector3d& right) {

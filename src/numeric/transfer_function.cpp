@@ -37,7 +37,7 @@ PolynomialValue polynomial_at(const std::vector<double>& coefficients, const Com
   return at;
 }
 
-/// Without the zeros that lead, and without those at the end, which are roots at the origin.
+/// Without leading zeros, and without those at the end, which are roots at the origin.
 struct StrippedPolynomial {
   std::vector<double> coefficients;
   std::size_t roots_at_origin;
@@ -66,7 +66,8 @@ Eigen::MatrixXd companion_matrix(const std::vector<double>& coefficients, double
 }
 
 /// Rows and columns scaled by powers of two until their sizes are alike (Parlett and Reinsch,
-/// Numerische Mathematik 13 (1969) 293), which the eigenvalues do not notice and rounding does.
+/// Numerische Mathematik 13 (1969) 293), which leaves the eigenvalues unchanged and reduces
+/// rounding.
 void balance(Eigen::MatrixXd& matrix) {
   for (bool changed = true; changed;) {
     changed = false;
@@ -126,7 +127,8 @@ Distances distances(double imaginary, double low, double high) {
           std::max(std::abs(from), std::abs(to))};
 }
 
-/// Of −x + jd: in the right half plane for x < 0; for x > 0 in the left one, passed clockwise.
+/// Phase of −x + jd: in the right half plane for x < 0; for x > 0 in the left one, passed
+/// clockwise.
 Bounds phase_bounds(double real, const Distances& d) {
   if (real < 0.0) return {std::atan2(d.low, -real), std::atan2(d.high, -real)};
   if (real > 0.0) return {pi - std::atan2(d.high, real), pi - std::atan2(d.low, real)};

@@ -14,17 +14,17 @@ constexpr double turn = 2.0 * std::numbers::pi;
 
 // ---- the linear parts ---------------------------------------------------------------------------
 
-/// Torque taken back by θ_M and θ_L, s-functions before the delay.
+/// Feedback torque from θ_M and θ_L, as functions of s without the delay.
 struct Feedback {
   RationalFunction from_load;
   RationalFunction from_motor;
-  RationalFunction anti_windup;  ///< what the torque given adds to the torque asked for
+  RationalFunction anti_windup;  ///< from the delivered to the requested torque
   double delay = 0.0;
 
   RationalFunction whole() const { return from_load + from_motor; }
 };
 
-/// z by s, z = e^{sT} to second order.
+/// z as a function of s: e^{sT} to second order.
 RationalFunction forward_shift(double period) {
   const RationalFunction half = RationalFunction(Rational(period) / 2) * variable();
   return (RationalFunction(1.0) + half) / (RationalFunction(1.0) - half);
@@ -87,7 +87,7 @@ bool is_dry(const ReducedDrive& drive) {
   return drive.motor.friction.is_dry() || drive.load.friction.is_dry();
 }
 
-/// Whether the torque at which a shaft breaks away is more than what then slows it down.
+/// Whether a shaft's breakaway torque exceeds its Coulomb friction.
 bool has_stiction(const ReducedDrive& drive) {
   const auto sticks = [](const ShaftFriction& friction) {
     return friction.breakaway > friction.coulomb;
@@ -95,7 +95,7 @@ bool has_stiction(const ReducedDrive& drive) {
   return sticks(drive.motor.friction) || sticks(drive.load.friction);
 }
 
-/// What is left out of the drive for the part to stand alone.
+/// What is neglected so that the part stands alone.
 std::vector<Assumption> omissions(const ReducedDrive& drive, DescribedPart part,
                                   bool delay_is_rational) {
   std::vector<Assumption> found;
@@ -119,7 +119,7 @@ std::vector<Assumption> omissions(const ReducedDrive& drive, DescribedPart part,
 
 // ---- the search ---------------------------------------------------------------------------------
 
-/// Poles, zeros and where |L| is 1 on the asymptote of high frequencies.
+/// Frequencies of poles, zeros and of |L| = 1 on the high-frequency asymptote, with margins.
 Bounds searched_frequencies(const TransferFunction& loop) {
   Bounds range = natural_frequency_range(loop);
   const FactoredTransferFunction factors = factored(loop);
@@ -128,7 +128,8 @@ Bounds searched_frequencies(const TransferFunction& loop) {
   if (order > 0.0) {
     const double crossover = std::pow(std::abs(factors.gain), 1.0 / order);
     range.low = std::min(range.low, 1e-6 * crossover);
-    // A delay has its own end: past it the phase turns without end.
+    // With a delay natural_frequency_range() sets the upper end, because the phase turns without
+    // end.
     if (loop.delay == 0.0) range.high = std::max(range.high, 1e6 * crossover);
   }
   range.low *= 1e-3;

@@ -1,5 +1,5 @@
-// What describing functions predict of a drive, one nonlinearity at a time, to be put beside the
-// exact cycles.
+// What describing functions predict for a drive, one nonlinearity at a time, for comparison with
+// the exact cycles.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +13,16 @@
 
 namespace gearlash::drive {
 
-/// The nonlinearity that is described; all others of the drive are then left out.
+/// The nonlinearity that is described. All others of the drive are neglected.
 enum class DescribedPart {
   gap_load_held,      ///< from motor to load position; friction holds the load in the gap
   gap_load_coasting,  ///< likewise; the load keeps its speed in the gap
-  elastic_gap,        ///< from motor less load position to the mesh torque: a dead zone
-  torque_limit,       ///< from the torque asked for to the torque given: a saturation
+  elastic_gap,        ///< from motor minus load position to the mesh torque: a dead zone
+  torque_limit,       ///< from the requested to the delivered torque: a saturation
   coulomb_friction    ///< from the speed to the torque against it: a relay
 };
 
-/// What is taken for granted besides that the nonlinearity's input is a sine about 0.
+/// Assumptions, besides that the nonlinearity's input is a sine about 0.
 enum class Assumption {
   motor_carries_all,
   load_reacts,
@@ -46,42 +46,41 @@ struct DescribedMotion {
 struct DescribingAnalysis {
   DescribedPart part = DescribedPart::gap_load_held;
   Nonlinearity nonlinearity{};
-  /// L(s), what the nonlinearity's output makes of its input: −L; cycles are where 1 + N L = 0. The
-  /// numerator is 0 where the nonlinearity is outside of the loop.
+  /// L(s): the transfer from the nonlinearity's output to its input is −L, so cycles are where
+  /// 1 + N L = 0. The numerator is 0 if the nonlinearity is outside the loop.
   TransferFunction loop{};
   TransferFunction input_per_motor{};  ///< the nonlinearity's input, by the motor's position
-  /// The load's position by the motor's; nothing where the nonlinearity lies between them.
+  /// The load's position by the motor's; empty if the nonlinearity lies between them.
   std::optional<TransferFunction> load_per_motor{};
   std::vector<Assumption> assumptions{};
   std::vector<DescribedMotion> cycles{};  ///< by increasing amplitude of the nonlinearity's input
   std::vector<Bounds> unresolved{};       ///< frequencies, as in HarmonicBalance
 };
 
-/// The classical analyses that apply to the drive. With P(s) and V(s) the torque taken back by the
-/// position and by the speed sensed, J_M, F_M and J_L, F_L inertia and viscous friction,
-/// D = J s² + F s of either shaft and of both, p and q the load's shares of position and speed
-/// sensed,
-///   a = p P + q s V   what is fed back from the load,
-///   c = (1 − p) P + (1 − q) s V   from the motor:
+/// The classical analyses that apply to the drive. With P(s) and V(s) the feedback torque from the
+/// sensed position and speed, J_M, F_M and J_L, F_L inertia and viscous friction, D = J s² + F s
+/// for either shaft and for both, p and q the load's shares of the sensed position and speed,
+///   a = p P + q s V               the feedback from the load,
+///   c = (1 − p) P + (1 − q) s V   that from the motor:
 ///
-/// gap            θ_L = N θ_M; the motor drives all inertia and friction at all times, as textbooks
-///                have it:  L = a/(D + c).
-///                Sensors on the motor alone, a = 0: the gap is then outside of that loop, in which
-///                no cycle arises from it. What is described is the load's first harmonic as it
+/// gap            θ_L = N θ_M; the motor drives all inertia and friction at all times, as in
+///                textbooks:  L = a/(D + c).
+///                With sensors on the motor alone, a = 0, the gap is outside that loop and causes
+///                no cycle in it. The analysis then describes the load's first harmonic, which
 ///                acts back on the motor:  L = D_L/(D_M + c).
-/// elastic gap    for faces that give, stiffness k and damping d: torque N δ (1 + s d/k) of
+/// elastic gap    for compliant contact, stiffness k and damping d: torque N δ (1 + s d/k) with
 ///                δ = θ_M − θ_L, N that of a dead zone:
 ///                L = (1 + s d/k)(D_M + D_L + a + c)/((D_M + c) D_L).
-/// torque limit   both shafts as one:  L = (a + c)/D − W, W(s) what the anti-windup adds to the
-///                torque asked for by the torque given.
+/// torque limit   both shafts as one:  L = (a + c)/D − W, W(s) the anti-windup's transfer
+///                from the delivered to the requested torque.
 /// Coulomb        friction of both shafts together, as one:  L = s/(D + a + c). A breakaway torque
-///                above Coulomb's has no share in it, for a sine rests at no time: of hunting that
-///                comes of stiction the method knows nothing.
+///                above Coulomb friction has no effect, because a sine is never at rest. The method
+///                cannot predict hunting from stiction.
 ///
-/// A controller from sample to sample is taken as one in continuous time by z = (1 + sT/2)/(1 −
-/// sT/2), which is that it was made from, if by Tustin; the hold is a delay by half a period, to
-/// which the computational one is added. The delay stays one where it is a factor of L; else it is
-/// replaced by a rational function of order 4 in numerator and denominator.
+/// A sampled controller is converted to continuous time by z = (1 + sT/2)/(1 − sT/2), which gives
+/// the original controller if it was discretized by Tustin's rule. The hold counts as a delay of
+/// half a period, to which the computational delay is added. The delay is kept if it is a factor of
+/// L. Otherwise a rational function of order 4 in numerator and denominator replaces it.
 ///
 /// Linear parts are formed in exact arithmetic. All cycles are found from 1e-9 to 1e6 times the
 /// frequencies of poles, zeros and crossover (harmonic_balance()).
@@ -90,7 +89,7 @@ struct DescribingAnalysis {
 /// 1633, for the dead zone; Armstrong-Hélouvry and Amin, Automatica 32 (1996) 679, for stiction.
 std::vector<DescribingAnalysis> describing_analyses(const ReducedDrive& drive);
 
-/// Whether the nonlinearity is within a loop at all.
+/// Whether the nonlinearity is within a loop.
 bool is_in_loop(const DescribingAnalysis& analysis);
 
 /// "gap, load held by friction", …
@@ -100,22 +99,22 @@ const char* description_of(Assumption assumption);
 
 // ---- beside the exact cycle ---------------------------------------------------------------------
 
-/// Predicted by exact, less 1.
+/// Errors of a prediction: predicted over exact value, minus 1.
 struct PredictionError {
-  std::size_t exact = 0;  ///< which of the exact cycles
+  std::size_t exact = 0;  ///< index into the exact cycles
   double amplitude = std::numeric_limits<double>::quiet_NaN();
   double motor_amplitude = std::numeric_limits<double>::quiet_NaN();
   double period = std::numeric_limits<double>::quiet_NaN();
   double frequency = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// A cycle predicted of a part other than the gap is that of the whole drive where amplitude and
-/// period are within this factor; else it is another motion, and there is no error to report.
+/// A cycle predicted for a part other than the gap counts as the whole drive's cycle if amplitude
+/// and period agree within this factor. Otherwise it is another motion and no error is reported.
 inline constexpr double same_cycle_factor = 2.0;
 
-/// Against the exact cycle that is stable where the predicted one is and not where it is not, and
-/// among those the one with the least |ln amplitude ratio| + |ln period ratio|. Nothing if there is
-/// none that the part could be the cause of.
+/// Compares with the exact cycle that is stable or not, as the predicted one is, and among these
+/// has the least |ln amplitude ratio| + |ln period ratio|. Empty if the part can have caused none
+/// of them.
 std::optional<PredictionError> prediction_error(DescribedPart part,
                                                 const DescribedMotion& predicted,
                                                 const std::vector<Cycle>& exact);
@@ -125,7 +124,7 @@ inline constexpr double unseen_share = 1e-4;
 bool is_unseen(const DescribedMotion& predicted, double backlash);
 
 /// The amplitude that the nonlinearity's input would have if the exact motion of the motor were a
-/// sine: that of the exact motor for a gap.
+/// sine. For a gap, this is the motor's exact amplitude.
 double input_amplitude(const DescribingAnalysis& analysis, const Cycle& exact);
 
 }  // namespace gearlash::drive

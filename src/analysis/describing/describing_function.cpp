@@ -24,7 +24,7 @@ Overloaded(Cases...) -> Overloaded<Cases...>;
 
 double squared(double x) { return x * x; }
 
-/// x − sin x, x ≥ 0, to some epsilons: by its series where the difference would cancel.
+/// x − sin x, x ≥ 0, to a few epsilons: by its series where the difference would cancel.
 double sine_deficit(double x) {
   if (x >= 2.0) return x - std::sin(x);
   double term = x * x * x / 6.0;
@@ -45,7 +45,7 @@ double angle_of_sine_deficit(double deficit) {
   return bracketed_root(mismatch, 0.0, pi, std::cbrt(6.0 * deficit), +1.0);
 }
 
-/// The angle x in [0, π/2 and a little] with x + sin x = sum.
+/// The angle x with x + sin x = sum, from 0 to slightly above π/2.
 double angle_of_sine_sum(double sum) {
   if (sum <= 0.0) return 0.0;
   const auto mismatch = [&](double x) {
@@ -57,11 +57,11 @@ double angle_of_sine_sum(double sum) {
 // ---- Friction-controlled gap: the angle φ, and its supplement ψ = π − φ where that is the
 // smaller.
 
-/// N of the angle φ ≤ π/2.
+/// N from the angle φ ≤ π/2.
 Complex play_gain(double angle) {
   return {0.5 * sine_deficit(2.0 * angle) / pi, -squared(std::sin(angle)) / pi};
 }
-/// N of the supplement ψ ≤ π/2.
+/// N from the supplement ψ ≤ π/2.
 Complex play_gain_of_supplement(double supplement) {
   return {1.0 - 0.5 * sine_deficit(2.0 * supplement) / pi, -squared(std::sin(supplement)) / pi};
 }
@@ -85,7 +85,7 @@ Complex gain_slope(const FrictionControlledBacklash& backlash, double amplitude)
   return 4.0 * share / (pi * amplitude) * Complex{sine, -cosine};
 }
 
-/// The angle between N and the negative imaginary axis, which is what is small where A → h.
+/// The angle between N and the negative imaginary axis, which tends to 0 as A → h.
 double colag(const Complex& gain) { return std::atan2(gain.real(), -gain.imag()); }
 double lag(const Complex& gain) { return std::atan2(-gain.imag(), gain.real()); }
 
@@ -125,7 +125,7 @@ GainPoint point_in(const FrictionControlledBacklash& backlash, const Complex& di
 
 // ---- Inertia-controlled gap: the angle c from parting to contact.
 
-/// Re N towards c = π by sums of what is left of it, d = π − c, and so without a difference.
+/// Near c = π, Re N is a sum in d = π − c, without cancellation.
 Complex coasting_gain(double angle) {
   const double lagging = -4.0 * squared(squared(std::sin(0.5 * angle))) / pi;
   if (angle < half_pi) {
@@ -135,7 +135,7 @@ Complex coasting_gain(double angle) {
   return {(left + 2.0 * std::sin(left) + 0.5 * std::sin(2.0 * left)) / pi, lagging};
 }
 
-/// NaN where the other face is not met within half a period.
+/// NaN if the other face is not met within half a period.
 double coasting_angle(const InertiaControlledBacklash& backlash, double amplitude) {
   const double crossing = backlash.gap / amplitude;
   return crossing <= pi ? angle_of_sine_deficit(crossing) : not_a_number;
@@ -216,7 +216,7 @@ GainPoint point_in(const RelayWithHysteresis& relay, const Complex& direction) {
 }
 
 std::optional<double> amplitude_of(const RelayWithHysteresis& relay, double gain) {
-  return amplitude_of(Relay{relay.level}, gain);  // half_width is 0 where this is asked
+  return amplitude_of(Relay{relay.level}, gain);  // has_lag() is false, so half_width is 0
 }
 
 // ---- Saturation and dead zone: S(ρ) = (2ψ + sin 2ψ)/π, sin ψ = ρ = corner/A, and 1 − S.
@@ -230,7 +230,7 @@ double passed_share(double corner, double amplitude) {
   return sine_deficit(2.0 * std::atan2(cosine_of_ratio(corner, amplitude), ratio)) / pi;
 }
 
-/// corner/A of S and of 1 − S, the smaller of which has the digits.
+/// corner/A from S and 1 − S, of which the smaller one is the more accurate.
 double ratio_of_share(double share, double rest) {
   return share < 0.5 ? std::sin(0.5 * angle_of_sine_sum(pi * share))
                      : std::cos(0.5 * angle_of_sine_deficit(pi * rest));

@@ -15,7 +15,7 @@ using Complex = std::complex<double>;
 constexpr double pi = 3.14159265358979323846;
 constexpr double turn = 2.0 * pi;
 
-/// What is known of the solutions in a range of frequencies.
+/// The number of solutions in a range of frequencies, as far as bounds show it.
 enum class Finding { none, at_most_one, unclear, flat };
 
 // ---- Bounds
@@ -31,7 +31,7 @@ Bounds product(const Bounds& a, const Bounds& b) {
 bool holds_zero(const Bounds& bounds) { return bounds.low <= 0.0 && bounds.high >= 0.0; }
 double width(const Bounds& bounds) { return bounds.high - bounds.low; }
 
-/// Halves the exponent of wide ranges.
+/// The geometric mean: it halves the exponent of wide ranges.
 double middle(const Bounds& range) { return std::sqrt(range.low) * std::sqrt(range.high); }
 
 /// Narrowed by the mean value theorem: f = f(middle) + f′ · (ω − middle).
@@ -47,8 +47,7 @@ struct Enclosure {
   Bounds slope;
 };
 
-/// Rounding of a sum of logarithms or angles is below this; what stays within it cannot be told
-/// from 0.
+/// Rounding of a sum of logarithms or angles is below this. Values within it may be 0.
 constexpr double rounding = 1e-12;
 
 Finding finding_of(const Enclosure& enclosure) {
@@ -115,11 +114,11 @@ std::optional<PredictedCycle> cycle_without_lag(const Loop& loop, double frequen
 
 // ---- With lag: g(ω) = ln|N| + ln|G| at the lag that −G asks for.
 
-/// Lags nearer to 0 and to a quarter turn are not told from them.
+/// Lags nearer to 0 or to a quarter turn cannot be distinguished from these.
 constexpr double least_lag = 1e-13;
 constexpr double greatest_lag = 0.25 * turn - least_lag;
 
-/// The part of the range's lags that a nonlinearity can have; nothing where there is none.
+/// The part of a range's lags that a nonlinearity can have.
 struct Lags {
   Bounds bounds;
   bool has_all;  ///< nothing was cut off
@@ -172,7 +171,7 @@ Finding finding_with_lag(const Loop& loop, const Bounds& range) {
   return finding == Finding::at_most_one && !lags->has_all ? Finding::unclear : finding;
 }
 
-/// −1/G, kept in the open fourth quadrant against rounding at the ends of a range.
+/// −1/G, clamped to the open fourth quadrant, which rounding may leave at the ends of a range.
 Complex direction_of(const Complex& response) {
   const Complex direction = -1.0 / response;
   const double least = 1e-3 * least_lag * std::abs(direction);
@@ -186,8 +185,8 @@ ValueAndSlope balance_mismatch(const Loop& loop, double frequency) {
           point.log_slope * response.log_slope.imag() + response.log_slope.real()};
 }
 
-/// Moved along the curve to where 1 + NG is least. It says what the lag cannot: where that is next
-/// to 0, an epsilon of ω is many of the amplitude.
+/// Moves a point along the curve to the least |1 + NG|. The lag alone is too inaccurate where it is
+/// next to 0: an epsilon of ω is then many epsilons of the amplitude.
 GainPoint balanced(const Nonlinearity& nonlinearity, GainPoint point, const Complex& response) {
   const Complex effect = describing_gain_slope(nonlinearity, point.amplitude) * response;
   const double move = -((1.0 + point.gain * response) / effect).real();
@@ -213,8 +212,8 @@ std::optional<PredictedCycle> cycle_with_lag(const Loop& loop, double frequency)
 
 // ---- The search
 
-/// The frequency of the one solution, if the ends of its range have different signs; a zero counts
-/// as positive, so that one at the common end of two ranges is found once.
+/// The frequency of the one solution, if the ends of its range have different signs. A zero counts
+/// as positive, so that a solution at the common end of two ranges is found once.
 template <class Function>
 std::optional<double> bracketed(const Function& mismatch, const Bounds& range) {
   const bool ends_positive = mismatch(range.high).value >= 0.0;
@@ -231,7 +230,7 @@ std::optional<PredictedCycle> cycle_in(const Loop& loop, bool lags, const Bounds
   return lags ? cycle_with_lag(loop, *frequency) : cycle_without_lag(loop, *frequency);
 }
 
-/// The range without what is next to an undamped mode.
+/// The range without the neighbourhoods of undamped modes.
 std::vector<Bounds> between_undamped_modes(const FactoredTransferFunction& factors,
                                            const Bounds& range) {
   constexpr double distance = 1e-8;
@@ -261,7 +260,7 @@ void add_unresolved(HarmonicBalance& found, const Bounds& range) {
   }
 }
 
-/// By increasing frequency.
+/// Finds all solutions, by increasing frequency.
 HarmonicBalance search(const Loop& loop, std::vector<Bounds> parts) {
   constexpr double narrowest = 1e-14;
   constexpr int range_limit = 1'000'000;
@@ -301,7 +300,7 @@ void require_range(const Bounds& frequencies) {
 
 // ---- The servo
 
-/// Of the play's output, A − h = h tan²(φ/2) where A is next to h.
+/// Amplitude of the play's output, A − h; for A < 2h as h tan²(φ/2), which keeps its digits.
 double held_load_amplitude(const PredictedCycle& cycle, double half_gap) {
   if (cycle.amplitude >= 2.0 * half_gap) return cycle.amplitude - half_gap;
   const double angle = std::asin(std::sqrt(std::min(1.0, -pi * cycle.gain.imag())));
@@ -309,7 +308,8 @@ double held_load_amplitude(const PredictedCycle& cycle, double half_gap) {
   return half_gap * tangent * tangent;
 }
 
-/// The load is farthest with the input, if they have met by then, else as they meet, A sin c + h.
+/// The load is farthest at the input's turning point if they have met by then, otherwise where they
+/// meet, at A sin c + h.
 double coasting_load_amplitude(const PredictedCycle& cycle, double half_gap) {
   const double cosine = 1.0 - std::sqrt(-pi * cycle.gain.imag());
   const double sine = cosine >= 0.0 ? 1.0 : std::sqrt((1.0 - cosine) * (1.0 + cosine));

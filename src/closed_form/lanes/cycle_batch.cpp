@@ -37,7 +37,7 @@ void require_rows(const CycleColumns& cycles, std::size_t rows) {
   for (const Quantity quantity : closed_form_quantities) require(quantity, cycles[quantity].size());
 }
 
-/// The last servo fills up the last lanes.
+/// Repeats the last servo in the lanes left over.
 void load(CycleBlock& block, std::span<const NormalizedServo> servos) {
   constexpr std::size_t lanes = CycleBlock::most_lanes;
   const std::size_t rows = (servos.size() + lanes - 1) / lanes * lanes;
@@ -87,7 +87,7 @@ static_assert(properties.size() == CycleBlock::property_count);
 constexpr std::size_t period_in_block = 2;
 static_assert(properties[period_in_block] == Quantity::period);
 
-/// The rows of the block, those that are not certain included.
+/// Writes the rows of the block, including uncertain ones, which are solved again later.
 void write_from_block(const CycleColumns& cycles, std::size_t begin, const CycleBlock& block,
                       std::size_t rows) {
   for (std::size_t row = 0; row < (cycles.verdict.empty() ? 0 : rows); ++row) {
@@ -108,7 +108,7 @@ void write_from_block(const CycleColumns& cycles, std::size_t begin, const Cycle
   }
 }
 
-/// A servo that is refused is named by its row.
+/// Names the row of a servo that is refused.
 LimitCycleAnalysis analyse_row(const NormalizedServo& servo, std::size_t row) {
   try {
     return analyse_limit_cycles(servo);
@@ -136,8 +136,8 @@ bool for_kernel(const NormalizedServo& servo) {
 std::vector<VectorUnit> available_vector_units() {
   std::vector<VectorUnit> units = {VectorUnit::baseline};
 #ifdef GEARLASH_X86_VECTOR_UNITS
-  // Not xsimd's own question: it asks the processor alone, not whether the operating system saves
-  // the registers.
+  // xsimd asks the processor alone. This also asks whether the operating system saves the
+  // registers.
   if (__builtin_cpu_supports("avx2")) {
     units.push_back(VectorUnit::avx2);
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512cd") &&

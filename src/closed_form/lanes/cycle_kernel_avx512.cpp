@@ -2,7 +2,7 @@
 
 namespace gearlash::detail {
 
-// Named, because xsimd's default follows the user's compiler flags, and with it what is fused.
+// Named, because xsimd's default, and so which operations are fused, follows the compiler flags.
 GEARLASH_INLINED_WHOLE void solve_block_avx512(CycleBlock& block, std::size_t rows) {
   solve_block<Twin<xsimd::avx512bw>>(block, rows);
 }

@@ -299,8 +299,7 @@ class CycleLanes {
     return loss;
   }
 
-  /// F_M ∫ v_M² dt of a flight in which the motor all but coasts and the load all but comes to
-  /// rest:
+  /// F_M ∫ v_M² dt of a flight in which the motor almost coasts and the load almost comes to rest:
   ///   v_M = P + B e^{−Dt},  B = −v₀/(J_M D (D − c)),  Ṗ = −c P − q,  q = y∞/J_M.
   /// P is nearly straight: about the flight's middle, h from either end, with ε = c h,
   ///   P = P_m + h Ṗ_m (1 − e^{−εx})/ε,  −1 ≤ x ≤ 1,
@@ -381,7 +380,7 @@ class CycleLanes {
   /// loses the lanes that do not close.
   Real closing_error(const Real& decay, Mask<Unit>& certain) const {
     const Real acceptable = 1e-12;
-    // The angle is in (0, π]: sine and cosine of what it exceeds π/2 by.
+    // The angle is in (0, π]: sine and cosine of its excess over π/2.
     const Real excess = frequency_ * half_.engaged_time - 0.5 * std::numbers::pi;
     const Real square = excess * excess;
     const Real impulse = decay * alternating_series_lanes<Unit, 0>(square) / frequency_;
@@ -393,7 +392,7 @@ class CycleLanes {
     const Real scale = max(abs(flight_.load_position), abs(flight_.load_speed));
     const Real position_error = abs(position + flight_.load_position) / scale;
     const Real speed_error = abs(speed + flight_.load_speed) / scale;
-    // Each by itself: of a NaN and a number, xsimd's max is the number.
+    // Compared one by one, because xsimd's max of a NaN and a number is the number.
     certain = certain && position_error <= acceptable && speed_error <= acceptable;
     return max(position_error, speed_error);
   }

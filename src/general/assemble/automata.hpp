@@ -14,21 +14,21 @@ namespace gearlash::drive {
 hybrid::Transition transition(const char* name, const hybrid::AffineForm& guard,
                               hybrid::Direction direction, std::size_t target);
 
-/// Where a form that is positive (`way` +1), or negative (−1), loses its sign.
+/// Direction in which a form that is positive (`way` = +1) or negative (−1) loses its sign.
 inline hybrid::Direction falling_on(double way) {
   return way > 0.0 ? hybrid::Direction::falling : hybrid::Direction::rising;
 }
-/// Where it gains it.
+/// Direction in which it gains that sign.
 inline hybrid::Direction rising_on(double way) {
   return way > 0.0 ? hybrid::Direction::rising : hybrid::Direction::falling;
 }
 
-/// Speeds put to exactly 0.
+/// A reset that sets speeds to exactly 0.
 hybrid::AffineReset stopped(const DriveForms& forms, std::initializer_list<Eigen::Index> speeds);
 
 // ---- contact ------------------------------------------------------------------------------------
 
-/// Rigid faces that are apart: impacts, and the end of endless bounces.
+/// Rigid faces that are apart: impacts, and the end of infinite sequences of bounces.
 void add_impacts(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built);
 /// Rigid faces together: parting, and stopping and breaking away as one.
 void add_engaged(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built);
@@ -37,31 +37,30 @@ void add_compliance(const DriveForms& forms, const DriveMode& mode, hybrid::Affi
 
 // ---- friction -----------------------------------------------------------------------------------
 
-/// Of a shaft that moves by itself: stopping, and breaking away.
+/// A shaft that moves independently of the other: stopping and breaking away.
 void add_friction(const DriveForms& forms, const DriveMode& mode, Side side,
                   hybrid::AffineMode& built);
 
 // ---- actuator -----------------------------------------------------------------------------------
 
-/// Of a continuous controller; a sampled one meets the limit at its ticks.
+/// For a continuous controller. A sampled one reaches the limit at its ticks.
 void add_torque_limit(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built);
 
 // ---- sensor -------------------------------------------------------------------------------------
 
-/// Adds a multiple of a reading to numbers of the state after a tick; the reading is exact where
-/// `step` is 0.
+/// Adds a multiple of a reading to the state after a tick. The reading is exact if `step` is 0.
 void add_reading(hybrid::AffineReset& reset, const hybrid::AffineForm& measured, double step,
                  const hybrid::Vector& gain);
 
 /// An encoder under a continuous controller.
 void add_counting(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built);
 
-/// What encoders read at the start, as if the speeds had been the same before.
+/// Sets the encoders' first readings, as if the speeds had been the same before the start.
 hybrid::AffineReset first_readings(const DriveForms& forms);
 
 // ---- clocks -------------------------------------------------------------------------------------
 
-/// Numbers that a clock sets.
+/// Numbers of the state that a clock sets.
 struct Setting {
   std::size_t clock;
   Eigen::Index at;
@@ -73,7 +72,8 @@ struct Setting {
 struct DriveClocks {
   std::vector<hybrid::Clock> clocks;
   std::vector<Setting> settings;
-  std::size_t sample = 0;  ///< the clock of a sampled controller; that of its output follows
+  std::size_t sample = 0;  ///< index of a sampled controller's clock; its output's clock is the
+                           ///< next
 };
 DriveClocks drive_clocks(const DriveForms& forms);
 
@@ -84,7 +84,7 @@ void add_settings(const DriveForms& forms, const DriveClocks& clocks, const Driv
 void add_sampling(const DriveForms& forms, const DriveClocks& clocks, const DriveMode& mode,
                   hybrid::AffineMode& built);
 
-/// Whether the output of a sampled controller takes force at ticks of its own.
+/// Whether the output of a sampled controller takes effect at ticks of its own.
 bool gives_out_between_samples(const Sampling& sampling);
 
 }  // namespace gearlash::drive

@@ -35,7 +35,7 @@ AffineForm DriveForms::of(const Generator& generator, Eigen::Index at) const {
   return form;
 }
 
-// ---- what is sensed, and asked for --------------------------------------------------------------
+// ---- sensed quantities and requested torque -----------------------------------------------------
 
 AffineForm DriveForms::sensed(double load_share, Eigen::Index motor, Eigen::Index load) const {
   return load_share * number(load) + (1.0 - load_share) * number(motor);

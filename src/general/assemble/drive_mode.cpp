@@ -108,7 +108,7 @@ std::size_t DriveModes::count() const {
 }
 
 std::size_t DriveModes::index_of(const DriveMode& mode) const {
-  std::size_t first = 0;  // of the modes with a state of the contact
+  std::size_t first = 0;  // index of the first mode with this contact
   for (const ContactState contact : contacts_) {
     const std::vector<Frictions>& frictions = frictions_in(contact);
     if (contact == mode.contact) {

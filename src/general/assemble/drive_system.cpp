@@ -13,8 +13,8 @@ namespace {
 
 using hybrid::Vector;
 
-/// What each automaton adds to one mode. Of transitions at one instant the first is taken, so that
-/// their order is part of the physics.
+/// One mode, with the transitions of each automaton. Their order is part of the physics: of several
+/// at one instant the first is taken.
 hybrid::AffineMode built_mode(const DriveForms& forms, const DriveClocks& clocks,
                               const DriveMode& mode) {
   hybrid::AffineMode built;
@@ -43,8 +43,8 @@ hybrid::AffineMode built_mode(const DriveForms& forms, const DriveClocks& clocks
 
 // ---- numbers that follow their own flow alone ---------------------------------------------------
 
-/// Whether nothing but itself and numbers of that kind acts on a controller's state: one without
-/// feedback, as of a filter of the reference.
+/// Whether only exogenous numbers and the state itself act on a controller's state (no feedback),
+/// as in a filter of the reference.
 bool is_exogenous_state(const DriveForms& forms, const std::vector<bool>& exogenous,
                         std::size_t state) {
   const LinearController& controller = forms.controller();
@@ -54,7 +54,7 @@ bool is_exogenous_state(const DriveForms& forms, const std::vector<bool>& exogen
                             std::isfinite(forms.drive().torque_limit) &&
                             controller.anti_windup[state] != 0.0;
   if (is_withdrawn || inputs[1] != 0.0 || inputs[2] != 0.0) return false;
-  if (forms.drive().sampling) {  // its own ticks must leave it as it is
+  if (forms.drive().sampling) {  // the sampling ticks must not change it
     for (std::size_t j = 0; j < states.size(); ++j) {
       if (states[j] != (j == state ? 1.0 : 0.0)) return false;
     }
@@ -67,7 +67,7 @@ bool is_exogenous_state(const DriveForms& forms, const std::vector<bool>& exogen
   return true;
 }
 
-/// Signals that no clock sets, and what follows them alone.
+/// Signals that no clock sets, and controller states that follow these alone.
 std::vector<bool> exogenous_numbers(const DriveForms& forms) {
   const StateIndices& at = forms.at();
   std::vector<bool> exogenous(static_cast<std::size_t>(at.size), false);

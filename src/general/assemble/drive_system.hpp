@@ -11,11 +11,11 @@
 namespace gearlash::drive {
 
 struct DriveSystem {
-  hybrid::HybridSystem system;  ///< its modes are made when they are first entered
-  DriveModes modes;             ///< what they are
+  hybrid::HybridSystem system;  ///< modes are made when first entered
+  DriveModes modes;             ///< numbering of the modes
   StateIndices at;
-  hybrid::Vector start;                ///< of all numbers at time 0, but for the shafts' 0
-  hybrid::AffineReset first_readings;  ///< of encoders, once the shafts are where they start
+  hybrid::Vector start;                ///< all numbers at time 0; the shafts' are 0 here
+  hybrid::AffineReset first_readings;  ///< sets the encoders, given the shafts' start
   hybrid::AffineForm reference;
   hybrid::AffineForm load_torque;
   std::array<hybrid::AffineForm, 3> motor_torques;  ///< by TorqueState
@@ -35,24 +35,22 @@ struct ShaftStates {
 
 ShaftStates shafts_of(const hybrid::State& state);
 
-/// Equations of motion: with τ the motor's torque, N that of the mesh on the load, T the load
-/// torque,
+/// Equations of motion, with τ the motor torque, N the mesh torque on the load, T the load torque:
 ///   J_M ω_M′ = τ − N − friction_M,   J_L ω_L′ = N + T − friction_L.
-/// A shaft with dry friction comes to rest where its speed passes 0 and what is applied is at most
-/// its breakaway torque; then it sticks until that is exceeded. Rigid faces: impacts keep the
-/// momentum and turn the relative speed into −e of itself; engaged they move as one, and stick as
-/// one.
+/// A shaft with dry friction comes to rest where its speed passes 0 and the applied torque is at
+/// most its breakaway torque. It sticks until that is exceeded. At impacts of rigid faces momentum
+/// is kept and the relative speed is multiplied by −e. Engaged rigid faces move, and stick, as one.
 ///
-/// A sampled controller reads, computes and gives out at the ticks of clocks. An encoder under a
-/// continuous one is a number that changes by a step where the position comes half a step from it.
-/// Signals are straight or quadratic between the ticks of their clock, sines an oscillator of two
-/// numbers. Throws InvalidInput.
+/// A sampled controller reads, computes and outputs at the ticks of clocks. An encoder under a
+/// continuous controller is a number that changes by a step when the position is half a step from
+/// it. Signals are linear or quadratic between the ticks of their clock; a sine is an oscillator of
+/// two numbers. Throws InvalidInput.
 DriveSystem drive_system(const ReducedDrive& drive);
 
-/// A start at time 0 with the controller's states 0. The mode follows: faces in contact where the
-/// gap is closed (rigid ones where the shafts then move as one, else they meet at once), friction
-/// from the speeds, a dry shaft at rest sticks. Throws InvalidInput where rigid faces would be
-/// beyond each other.
+/// A start at time 0 with the controller's states 0. The mode follows from the shafts: faces are in
+/// contact if the gap is closed (rigid ones only at equal speeds; otherwise they meet at once),
+/// friction has the sign of the speed, and a dry shaft at rest sticks. Throws InvalidInput if rigid
+/// faces would penetrate each other.
 hybrid::State drive_start(const ReducedDrive& drive, const DriveSystem& system,
                           const ShaftStates& shafts);
 

@@ -1,4 +1,4 @@
-// Dry friction of a shaft that moves by itself.
+// Dry friction of a shaft that moves independently of the other.
 #include "general/assemble/automata.hpp"
 
 namespace gearlash::drive {

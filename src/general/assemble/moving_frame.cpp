@@ -74,7 +74,7 @@ class Rewriter {
 
 constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
 
-/// Whether each row's product with a vector is 0 for all that rounding can tell.
+/// Whether each row's product with a vector is 0 within rounding.
 bool is_nothing(const hybrid::Matrix& matrix, const Vector& way) {
   const Vector terms = matrix.cwiseAbs() * way.cwiseAbs();
   return ((matrix * way).array().abs() <= rounding * terms.array()).all();

@@ -23,7 +23,7 @@ DriveMode moving_as_one(const DriveMode& mode, double way) {
   return result;
 }
 
-/// Momentum is kept, relative speed turned into −e of itself.
+/// Momentum is kept. The relative speed is multiplied by −e.
 AffineReset impact(const DriveForms& forms, double restitution) {
   const double sum = forms.drive().motor.inertia + forms.drive().load.inertia;
   const double motor = forms.drive().motor.inertia / sum;
@@ -37,7 +37,7 @@ AffineReset impact(const DriveForms& forms, double restitution) {
   return reset;
 }
 
-/// The ways in which dry shafts may move after an impact, with what decides between them.
+/// The directions in which dry shafts may move after an impact, each with its conditions.
 std::vector<hybrid::Alternative> ways_after(const DriveForms& forms, const DriveMode& target) {
   std::vector<hybrid::Alternative> alternatives;
   const auto ways = [](FrictionState state) {
@@ -73,7 +73,7 @@ void add_impact(const DriveForms& forms, const DriveMode& mode, double face,
       transition(face > 0.0 ? "impact forward" : "impact backward",
                  forms.gap() - 0.5 * face * forms.drive().backlash, rising_on(face), 0);
   meets.reset = impact(forms, restitution);
-  // Where all that is dry has come to rest no alternative asks anything.
+  // The last alternative, with all dry shafts at rest, has no conditions: it is the default target.
   meets.alternatives = ways_after(forms, plastic ? engaged : mode);
   meets.target = meets.alternatives.back().target;
   meets.alternatives.pop_back();
@@ -88,7 +88,7 @@ void add_impact(const DriveForms& forms, const DriveMode& mode, double face,
   built.transitions.push_back(std::move(meets));
 }
 
-/// Where engaged faces part: one speed, and the gap as wide as it is.
+/// The state where engaged faces part: equal speeds, and the gap exactly closed on this face.
 AffineReset parting(const DriveForms& forms, double face) {
   AffineReset reset;
   reset.matrix = forms.identity();
@@ -99,8 +99,8 @@ AffineReset parting(const DriveForms& forms, double face) {
   return reset;
 }
 
-/// Both at rest, faces together: both move where all friction is overcome; one alone, away from
-/// the other, where its own is.
+/// From rest with the faces together. Both shafts move if the torque exceeds both breakaway
+/// torques. One moves alone, away from the other, if it exceeds its own.
 void add_engaged_breakaway(const DriveForms& forms, const DriveMode& mode,
                            hybrid::AffineMode& built) {
   const AffineForm motor_torque = forms.motor_torque(mode.torque);

@@ -11,7 +11,8 @@ using hybrid::AffineForm;
 using hybrid::AffineReset;
 using hybrid::Vector;
 
-/// A tick of the controller's clocks; where it gives torque out, the limit is met or left.
+/// A tick of the controller's clocks. A tick that outputs torque reaches or leaves the torque
+/// limit.
 hybrid::TimedTransition tick(const DriveForms& forms, const char* name, std::size_t clock,
                              AffineReset reset, DriveMode mode, bool gives_out) {
   hybrid::TimedTransition result;
@@ -32,8 +33,8 @@ hybrid::TimedTransition tick(const DriveForms& forms, const char* name, std::siz
   return result;
 }
 
-/// The controller's next states and torque by its states alone, and what is handed on from tick to
-/// tick; inputs are yet to be added.
+/// The controller's next states and torque from its states alone, and the queue of delayed torques
+/// shifted by one. add_inputs() adds the rest.
 AffineReset without_inputs(const DriveForms& forms, const DriveMode& mode, Eigen::Index result) {
   const StateIndices& at = forms.at();
   const LinearController& controller = forms.controller();
@@ -60,7 +61,7 @@ AffineReset without_inputs(const DriveForms& forms, const DriveMode& mode, Eigen
   return reset;
 }
 
-/// What the inputs r, y and v add.
+/// Adds the contributions of the inputs r, y and v.
 void add_inputs(const DriveForms& forms, Eigen::Index result, AffineReset& reset) {
   const LinearController& controller = forms.controller();
   const Sensing& sensing = forms.drive().sensing;

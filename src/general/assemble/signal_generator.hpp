@@ -1,4 +1,4 @@
-// Signals as numbers of a state.
+// Signals as part of a hybrid system's state.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,8 @@
 
 namespace gearlash::drive {
 
-/// s′ = flow s, with the signal output · s + offset. At the listed times s is set anew.
+/// s′ = flow s, with the signal output · s + offset. At the listed times s is set to the next
+/// setting.
 struct Generator {
   hybrid::Matrix flow;
   hybrid::Vector output;
@@ -20,7 +21,8 @@ struct Generator {
   Eigen::Index size() const { return start.size(); }
 };
 
-/// With as many derivatives as the signal has; an oscillator for a sine. Precondition: sound.
+/// s holds the signal and its nonzero derivatives, or an oscillator for a sine. Precondition:
+/// sound.
 Generator generator_of(const Signal& signal);
 
 }  // namespace gearlash::drive

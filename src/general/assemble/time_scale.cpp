@@ -18,7 +18,7 @@ using hybrid::Matrix;
 
 constexpr double turn = 2.0 * std::numbers::pi;
 
-/// The drive without what is not linear in it but the gap.
+/// The drive without its nonlinearities other than the gap.
 ReducedDrive linear_drive(ReducedDrive drive) {
   drive.reference = 0.0;
   drive.load_torque = 0.0;
@@ -31,7 +31,7 @@ ReducedDrive linear_drive(ReducedDrive drive) {
   return drive;
 }
 
-/// Of a matrix by all numbers, that by the numbers of shafts that are one.
+/// Reduces a matrix of all numbers to shafts that move as one.
 Matrix of_shafts_as_one(const Matrix& matrix) {
   const Eigen::Index left = matrix.rows() - load_position;
   Matrix as_one = matrix.bottomRightCorner(left, left);
@@ -42,8 +42,8 @@ Matrix of_shafts_as_one(const Matrix& matrix) {
   return as_one;
 }
 
-/// Eigenvalues of the loop with the faces together, per s; of a sampled one those of the flow that
-/// would do the same from sample to sample.
+/// Eigenvalues of the loop with the faces together, 1/s. For a sampled loop, those of the
+/// continuous flow with the same motion from sample to sample.
 std::vector<std::complex<double>> loop_eigenvalues(const ReducedDrive& drive) {
   const ReducedDrive linear = linear_drive(drive);
   const DriveSystem built = drive_system(linear);
@@ -70,13 +70,13 @@ std::vector<std::complex<double>> loop_eigenvalues(const ReducedDrive& drive) {
   }
   const Eigen::VectorXcd all = eigenvalues(map);
   for (const std::complex<double>& value : all) {
-    constexpr double dead_beat = 1e-12;  // gone within a sample, for all that rounding can tell
+    constexpr double dead_beat = 1e-12;  // decays below rounding within one sample
     if (std::abs(value) > dead_beat) values.push_back(std::log(value) / period);
   }
   return values;
 }
 
-/// A free number's eigenvalue is 0, to rounding.
+/// Removes the zero eigenvalues, within rounding, of numbers without a restoring action.
 std::vector<std::complex<double>> without_free_numbers(std::vector<std::complex<double>> values) {
   double fastest = 0.0;
   for (const auto& value : values) fastest = std::max(fastest, std::abs(value));
@@ -93,10 +93,11 @@ TimeScales time_scales(const ReducedDrive& drive) {
   double slowest_decay = infinity;
   for (const auto& value : without_free_numbers(loop_eigenvalues(drive))) {
     const double rate = std::abs(value);
-    constexpr double swinging = 0.1;  // of the modulus: what has less imaginary part decays
+    constexpr double swinging = 0.1;  // share of the modulus; a smaller imaginary part counts as
+                                      // decay
     if (std::abs(value.imag()) > swinging * rate) slowest_swing = std::min(slowest_swing, rate);
     slowest = std::min(slowest, rate);
-    constexpr double least_damping = 1e-3;  // what is damped less would be awaited for ever
+    constexpr double least_damping = 1e-3;  // bounds the settling time if damping is weak or absent
     slowest_decay = std::min(slowest_decay, std::max(-value.real(), least_damping * rate));
   }
   const double rate = std::isfinite(slowest_swing) ? slowest_swing : slowest;
@@ -106,7 +107,7 @@ TimeScales time_scales(const ReducedDrive& drive) {
       swing = std::max(swing, turn / sine->frequency);
     }
   }
-  constexpr double samples = 10.0;  // nothing of interest swings faster
+  constexpr double samples = 10.0;  // shortest swing of interest, in sampling periods
   if (drive.sampling) swing = std::max(swing, samples * drive.sampling->period);
   return {swing, std::isfinite(slowest_decay) ? 1.0 / slowest_decay : 0.0};
 }

@@ -21,15 +21,15 @@ using hybrid::Vector;
 
 // ---- the search ---------------------------------------------------------------------------------
 
-/// Where a motion went.
+/// Where a motion ends.
 struct Verdict {
   MotionEnd end = MotionEnd::undecided;
-  std::size_t which = 0;  ///< of the cycles
+  std::size_t which = 0;  ///< index into the cycles
   double watched = 0.0;
   std::string reason;
   double swing_ratio = std::numeric_limits<double>::quiet_NaN();
   Vector last;               ///< numbers
-  IrregularFound irregular;  ///< where it is
+  IrregularFound irregular;  ///< if `end` is irregular
 
   bool is_attracted() const { return end == MotionEnd::rest || end == MotionEnd::cycle; }
   bool is_same_end(const Verdict& other) const {
@@ -78,16 +78,17 @@ class Search {
     return result_.is_complete;
   }
 
-  /// Of a sampled drive: those of the time that a start is watched do not count as events, up to a
-  /// multiple of what does.
+  /// Ticks of a sampled drive within the watch time. They do not count as events, up to
+  /// `most_ticks` times the permitted events.
   std::size_t ticks_awaited() const {
     if (!setting_.drive.sampling) return 0;
     const double ticks = 2.0 * result_.watch_time / setting_.drive.sampling->period;  // two clocks
+                                                                                      // tick
     return static_cast<std::size_t>(
         std::min(ticks, budget_.most_ticks * static_cast<double>(options_.most_events)));
   }
 
-  /// A first motion, to learn how large numbers become.
+  /// A short first motion, which shows the magnitude of the numbers.
   Trajectory glance() const {
     const ShaftStates& start = starts_[starts_.size() / 2];
     return simulate(unscaled_.system, unscaled_.start(start),
@@ -122,7 +123,7 @@ class Search {
     }
   }
 
-  /// Motion in which hardly anything happens is waited for.
+  /// Longest time that a start is watched: more if hardly anything happens.
   double longest(const Watch& watch, const Trajectory& motion, double patience) const {
     const auto recent = [&](const std::vector<Sample>& turns) {
       return count_of_swings(turns, motion.start_time(), setting_, tolerances_.rest);
@@ -135,7 +136,7 @@ class Search {
     const bool is_slow =
         std::max(recent(turns), recent(extremes(watch.motor))) < budget_.hardly_any_swings ||
         is_small(turns, setting_, tolerances_.rest) || shrinks;
-    constexpr double rounding = 1e-9;  // of the times that stretches add up to
+    constexpr double rounding = 1e-9;  // allows for rounding of the summed stretches
     return (is_slow ? patience : 1.0) * result_.watch_time * (1.0 - rounding);
   }
 
@@ -161,8 +162,8 @@ class Search {
                        verdict);
   }
 
-  /// Whether swings shrink towards rest that they never reach. What settles as the linear loop does
-  /// is awaited.
+  /// Whether swings shrink towards a rest that they never reach. Decided only after the linear
+  /// loop's settling time.
   bool is_vanishing(const Watch& watch, const Trajectory& motion, Verdict& verdict) const {
     const double all = motion.end_time() - motion.start_time();
     const bool is_small_by_now = closing_.lately(motion, setting_.load, all).width() <
@@ -191,7 +192,7 @@ class Search {
            tolerances_.far_away * setting_.large_length;
   }
 
-  /// The one that the end of a motion is on. Unstable ones that are passed by are kept.
+  /// The cycle that the end of a motion is on. Unstable cycles passed by are kept in the result.
   std::optional<std::size_t> cycle_of(const Trajectory& motion,
                                       std::initializer_list<double> all_nearness) {
     if (const auto which = closing_.known_cycle_of(motion, result_.cycles)) return which;
@@ -205,7 +206,7 @@ class Search {
   }
 
   void give_up(const Watch& watch, const Trajectory& motion, Verdict& verdict) {
-    // A motion that is slow to come onto its cycle.
+    // The motion may approach its cycle slowly.
     const bool may_close = setting_.coordinates != Coordinates::in_place;
     if (may_close && is_on_cycle(motion, {tolerances_.cycle.widest_nearness}, verdict)) return;
     Irregularity motion_seen =
@@ -220,7 +221,7 @@ class Search {
     }
   }
 
-  // ---- what came of it --------------------------------------------------------------------------
+  // ---- the record -------------------------------------------------------------------------------
 
   void record(const ShaftStates& start, const Verdict& verdict) {
     Outcome outcome{start, verdict.end, verdict.which, verdict.watched, verdict.reason};
@@ -242,10 +243,11 @@ class Search {
     rest.error.include(-load);
     rest.motor.include(setting_.motor.value.at(verdict.last));
     ++rest.starts;
-    rest.swing_ratio = std::fmax(rest.swing_ratio, verdict.swing_ratio);  // the other of a NaN
+    rest.swing_ratio = std::fmax(rest.swing_ratio, verdict.swing_ratio);  // fmax ignores NaN
   }
 
-  /// Stable ones first, by falling amplitude; in numbers without scale.
+  /// Sorts the cycles: stable ones first, by falling amplitude. Removes the scale from their
+  /// orbits.
   void finish() {
     std::vector<std::size_t> order(result_.cycles.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -277,7 +279,7 @@ class Search {
     return {verdict.end == MotionEnd::rest ? 0 : 1, verdict.which};
   }
 
-  /// Between neighbours in the list that are attracted elsewhere, each two attractors once.
+  /// Between neighbouring starts with different attractors, once for each pair of attractors.
   void seek_edges() {
     std::set<std::pair<std::pair<int, std::size_t>, std::pair<int, std::size_t>>> sought;
     for (std::size_t i = 0; i + 1 < verdicts_.size(); ++i) {
@@ -299,8 +301,8 @@ class Search {
             mix(a.load_position, b.load_position), mix(a.load_speed, b.load_speed)};
   }
 
-  /// Bisection, until the two starts are next to each other; now and then it is tried whether the
-  /// motion already hovers long enough to be closed.
+  /// Bisects until the two starts are adjacent doubles. At intervals it tests whether the motion
+  /// hovers long enough for Newton's method to close a cycle.
   std::optional<std::size_t> cycle_between(std::size_t first, const Verdict& end_of_first) {
     const ShaftStates& a = starts_[first];
     const ShaftStates& b = starts_[first + 1];
@@ -321,7 +323,7 @@ class Search {
     return std::nullopt;
   }
 
-  /// An unstable cycle that a motion comes near for a while.
+  /// The unstable cycle near which a motion hovers. Empty if none closes.
   std::optional<std::size_t> hovered_at(const State& start) {
     for (double swings = 1.0; swings <= budget_.most_hovering_swings; swings += 1.0) {
       const Trajectory motion =
@@ -341,7 +343,7 @@ class Search {
   Progress& progress_;
   const SearchTolerances& tolerances_ = options_.tolerances;
   const SearchBudget& budget_ = options_.budget;
-  std::size_t most_events_ = 0;  ///< of a start, with the ticks of a clock
+  std::size_t most_events_ = 0;  ///< per start, including permitted ticks
   SearchSetting unscaled_;
   SearchSetting setting_;
   CycleClosing closing_{setting_, options_};

@@ -19,8 +19,8 @@ bool is_prime(int number) {
   return true;
 }
 
-/// An orbit that goes round a cycle some times, as going round it once. Multipliers are then known
-/// by their moduli.
+/// One round of an orbit that goes `times` times round a cycle. Only the moduli of its multipliers
+/// are then known.
 PeriodicOrbit divided(PeriodicOrbit orbit, int times, double mismatch) {
   orbit.period /= times;
   std::erase_if(orbit.events, [&](const Event& event) { return event.time > orbit.period; });
@@ -49,8 +49,8 @@ std::optional<PeriodicOrbit> CycleClosing::closed(const Trajectory& motion, doub
   return closing_orbit(setting_.with_turns, again, shooting);
 }
 
-/// Whether an orbit could go round a cycle so many times: with events in each round, and whole
-/// periods of the clock. What stands still is repeated after any time, however short.
+/// Whether an orbit could be `times` rounds of a cycle: each round needs an event and whole
+/// sampling periods. (A state at rest recurs after any time, however short.)
 bool CycleClosing::may_go_round(const PeriodicOrbit& orbit, int times) const {
   if (orbit.events.size() < static_cast<std::size_t>(times)) return false;
   if (!setting_.drive.sampling) return true;
@@ -58,7 +58,7 @@ bool CycleClosing::may_go_round(const PeriodicOrbit& orbit, int times) const {
   return agree(ticks, std::round(ticks), 1.0, tolerances_.whole_ticks);
 }
 
-/// The cycle itself, where an orbit goes round it several times.
+/// The shortest cycle, if an orbit goes round it several times.
 PeriodicOrbit CycleClosing::shortest(const PeriodicOrbit& orbit) const {
   for (int times = 2; times < tolerances_.most_rounds; ++times) {
     if (!is_prime(times) || !may_go_round(orbit, times)) continue;
@@ -69,8 +69,8 @@ PeriodicOrbit CycleClosing::shortest(const PeriodicOrbit& orbit) const {
     if (shorter && shorter->period < tolerances_.shorter_period * orbit.period) {
       return shortest(*shorter);
     }
-    // Rounding may make and unmake events, of faces that come to rest; then Newton's method, which
-    // counts them, closes one round and not another.
+    // When faces come to rest, rounding may add or remove events. Newton's method, which counts
+    // them, then closes some rounds and not others.
     return shortest(divided(orbit, times, mismatch));
   }
   return orbit;

@@ -28,8 +28,8 @@ void drop_nearest(std::vector<std::complex<double>>& values, double target) {
   }));
 }
 
-/// Without the multipliers of disturbances that cannot be: of rigid faces that stay together shafts
-/// that are not one, and of an encoder that is beside its own grid.
+/// Removes the multipliers of impossible disturbances: differences between shafts whose rigid faces
+/// stay together, and an encoder reading off its grid.
 PeriodicOrbit without_spare_multipliers(const SearchSetting& setting, PeriodicOrbit orbit) {
   const bool is_rigid = std::holds_alternative<RigidContact>(setting.drive.contact);
   bool parts = false;
@@ -43,8 +43,9 @@ PeriodicOrbit without_spare_multipliers(const SearchSetting& setting, PeriodicOr
   look(orbit.start.mode);
   for (const Event& event : orbit.events) look(event.mode_after);
   if (is_rigid && !parts) {
-    drop_nearest(orbit.multipliers, 1.0);                 // the difference of positions is kept
-    drop_nearest(orbit.multipliers, sticks ? 0.0 : 1.0);  // that of speeds too, but for a stop
+    drop_nearest(orbit.multipliers, 1.0);                 // the position difference persists
+    drop_nearest(orbit.multipliers, sticks ? 0.0 : 1.0);  // the speed difference too, unless a stop
+                                                          // ends it
   }
   if (setting.built.at.encoder != StateIndices::none) drop_nearest(orbit.multipliers, 1.0);
   return orbit;

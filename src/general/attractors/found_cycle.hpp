@@ -5,12 +5,12 @@
 
 namespace gearlash::drive {
 
-/// Over so many periods.
+/// The motion on an orbit over a number of periods.
 hybrid::Trajectory motion_on(const hybrid::PreparedSystem& system,
                              const hybrid::PeriodicOrbit& orbit, double periods);
 
-/// Difference between the state after a share of the period and that at the start times a sign; as
-/// a share.
+/// Difference between the state after a share of the period and `sign` times the state at the
+/// start, as a share of the latter.
 double mismatch_after(const SearchSetting& setting, const hybrid::PeriodicOrbit& orbit,
                       double share, double sign);
 
@@ -28,7 +28,7 @@ double extent_of(const FoundCycle& cycle);
 /// ones.
 bool is_one_with(FoundCycle& known, const FoundCycle& cycle, const CycleTolerances& tolerances);
 
-/// Adds it to a known one, or as a new one.
+/// Index of the known cycle that is the same and now includes this one, or of a new entry.
 std::size_t place_of(const FoundCycle& cycle, const CycleTolerances& tolerances,
                      std::vector<FoundCycle>& all);
 

@@ -16,7 +16,7 @@ std::vector<Sample> after(const std::vector<Sample>& all, double from) {
   return last;
 }
 
-/// Whether both halves go about equally far.
+/// Whether both halves have about the same range.
 bool is_steady(const std::vector<Sample>& samples, const IrregularTolerances& tolerances) {
   const double middle = 0.5 * (samples.front().time + samples.back().time);
   Extent first;
@@ -53,7 +53,7 @@ Irregularity irregularity_of(const Watch& watch, const hybrid::Trajectory& stret
   const std::vector<Sample> of_motor = after(watch.motor, from);
   Irregularity result;
   IrregularFound& found = result.found;
-  // Within the gap the motor may hunt by itself, and the load stand.
+  // Within the gap the motor may hunt alone while the load stands.
   found.is_motor_alone =
       extremes(of_load).size() < enough &&
       count_of_swings(extremes(of_motor), from, setting, tolerances.rest) >= enough;
@@ -91,7 +91,7 @@ std::size_t place_among(const std::vector<IrregularFound>& known, const Irregula
   const double share = tolerances.same_motion;
   const double extent = std::max(found.amplitude, found.motor_amplitude);
   const auto same = std::find_if(known.begin(), known.end(), [&](const IrregularFound& one) {
-    // Where the motor hunts alone the load may stand anywhere.
+    // If the motor hunts alone, the load may stand anywhere.
     const bool is_centered = found.is_motor_alone || agree(one.center, found.center, extent, share);
     return one.is_motor_alone == found.is_motor_alone && is_centered &&
            agree(one.amplitude, found.amplitude, extent, share) &&

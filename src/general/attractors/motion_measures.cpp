@@ -17,7 +17,7 @@ using hybrid::State;
 using hybrid::Trajectory;
 using hybrid::Vector;
 
-/// Each mode's flow alone, with events where a form changes its sign.
+/// The flow of each mode alone, with events where a form changes its sign.
 HybridSystem turning_system(const HybridSystem& system, const hybrid::AffineForm& speed) {
   HybridSystem result;
   result.state_names = system.state_names;
@@ -37,14 +37,14 @@ bool may_turn(const Vector& before, const Vector& after, const hybrid::AffineFor
   return speed.at(before) * speed.at(after) < 0.0;
 }
 
-/// Calls visit(mode, from, start, to, end) for each stretch between events, ends of no duration
-/// included; `end` is before what happens there.
+/// Calls visit(start, from, to, end) for each stretch between events, including those of no
+/// duration. `end` is the state before the event there.
 template <class Visit>
 void for_each_stretch(const Trajectory& motion, Visit&& visit) {
   State here = motion.at(motion.start_time());
   double time = motion.start_time();
   if (!motion.events().empty() && motion.events().front().time == time) {
-    // at() is after the events there.
+    // at() gives the state after the events.
     here = {motion.events().front().mode, motion.events().front().before};
   }
   for (const Event& event : motion.events()) {
@@ -55,7 +55,7 @@ void for_each_stretch(const Trajectory& motion, Visit&& visit) {
   visit(here, time, motion.end_time(), motion.end().numbers);
 }
 
-/// The mode's own derivative by time.
+/// The time derivative in a mode.
 Vector velocity(const HybridSystem& system, std::size_t mode, const Vector& numbers) {
   return system.mode(mode).flow.matrix * numbers + system.mode(mode).flow.offset;
 }
@@ -66,14 +66,15 @@ const hybrid::AffineReset& reset_of(const hybrid::AffineMode& mode, const Event&
   return event.kind == hybrid::EventKind::settling ? transition.settling->reset : transition.reset;
 }
 
-/// A disturbance, and by how much it delays the last event.
+/// A disturbance of the state, and the delay of the last event that it causes.
 struct Disturbance {
   Vector numbers;
   double delay = 0.0;
 };
 
-/// At an event. One that another brings about at its own instant is delayed as that one is. Where a
-/// guard is met at no speed there is no derivative; the delay is then left as it was.
+/// Carries a disturbance over an event. An event that another one causes at its own instant has
+/// that one's delay. If a guard is met at no speed there is no derivative, and the delay stays
+/// unchanged.
 void carry_over(const HybridSystem& system, const Event& event, bool is_chained,
                 Disturbance& disturbance) {
   const hybrid::AffineMode& mode = system.mode(event.mode);
@@ -139,7 +140,7 @@ std::vector<Extent> extents(const Trajectory& motion, double from) {
       result[i].include(numbers[static_cast<Eigen::Index>(i)]);
     }
   };
-  constexpr int between = 8;  // where there are no events
+  constexpr int between = 8;  // samples between events
   for (int i = 0; i <= between; ++i) {
     include(motion.at(from + (motion.end_time() - from) * i / between).numbers);
   }
@@ -202,7 +203,7 @@ double least_mismatch(const std::vector<Sample>& extremes) {
 
 double largest_exponent(const HybridSystem& system, const Trajectory& motion, Eigen::Index own) {
   Disturbance disturbance{Vector::Zero(system.size())};
-  // No way is distinguished; any growing one has a part of it.
+  // A direction with a component along any growing one.
   for (Eigen::Index i = 0; i < own; ++i) {
     disturbance.numbers[i] = 1.0 / std::sqrt(2.0 + static_cast<double>(i));
   }

@@ -82,7 +82,7 @@ std::optional<double> ratio_of_vanishing(const std::vector<Sample>& turns,
                                          const SearchSetting& setting,
                                          const RestTolerances& tolerances) {
   const bool is_dry = setting.drive.motor.friction.is_dry() || setting.drive.load.friction.is_dry();
-  if (is_dry || !is_small(turns, setting, tolerances)) return std::nullopt;  // dry comes to rest
+  if (is_dry || !is_small(turns, setting, tolerances)) return std::nullopt;  // comes to rest
   for (std::size_t count = 2; count < turns.size(); ++count) {
     const double first = swing(turns, count - 1);
     const double second = swing(turns, count - 2);

@@ -35,7 +35,7 @@ bool is_at_rest(const Watch& watch, const hybrid::Trajectory& stretch, const Sea
 std::size_t count_of_swings(const std::vector<Sample>& turns, double from,
                             const SearchSetting& setting, const RestTolerances& tolerances);
 
-/// From one turn to the next, that many before the last.
+/// Swing between two successive turns, `from_last` swings before the last.
 double swing(const std::vector<Sample>& turns, std::size_t from_last);
 
 /// Whether swings are much smaller than the gap, and shrink.
@@ -46,8 +46,8 @@ bool is_small(const std::vector<Sample>& turns, const SearchSetting& setting,
 std::vector<Sample> turns_of(const Watch& watch, const SearchSetting& setting,
                              const RestTolerances& tolerances);
 
-/// For small swings whose limit is 0, by Aitken's extrapolation of any three: many, or some that
-/// shrink fast.
+/// Ratio of the last two swings, if small swings vanish: Aitken's extrapolation of any three gives
+/// 0. Needs many swings, or a few that shrink fast. Empty otherwise.
 std::optional<double> ratio_of_vanishing(const std::vector<Sample>& turns,
                                          const SearchSetting& setting,
                                          const RestTolerances& tolerances);

@@ -32,7 +32,7 @@ ReducedDrive with_settled_signals(ReducedDrive drive) {
   return drive;
 }
 
-/// All positions by 1, and the reference where it is a number of the state.
+/// Moves all positions by 1, and the reference if it is a number of the state.
 Vector along_positions(const StateIndices& at, bool reference_moves) {
   Vector way = Vector::Zero(at.size);
   way[motor_position] = way[load_position] = 1.0;
@@ -64,7 +64,7 @@ void choose_coordinates(SearchSetting& setting) {
   }
 }
 
-/// With events where the load turns.
+/// The same system with events where the load turns.
 hybrid::HybridSystem turning(const hybrid::HybridSystem& system, const AffineForm& speed) {
   hybrid::HybridSystem result = system;
   result.source =
@@ -90,7 +90,7 @@ void look(SearchSetting& setting) {
     AffineForm position{scale[position_at] * Vector::Unit(size, position_at), 0.0};
     AffineForm speed{scale[speed_at] * Vector::Unit(size, speed_at), 0.0};
     if (const auto* ramp = std::get_if<Ramp>(&setting.drive.reference)) {
-      speed.offset = -ramp->rate;  // speeds are what they are in all coordinates
+      speed.offset = -ramp->rate;  // the numbers hold absolute speeds in all coordinates
     }
     if (setting.coordinates == Coordinates::in_place) {
       const AffineForm& reference = setting.built.reference;
@@ -106,7 +106,7 @@ void look(SearchSetting& setting) {
 
 // ---- lengths ------------------------------------------------------------------------------------
 
-/// Torque by position at once, N m/rad.
+/// Direct gain from position to torque, N m/rad.
 double direct_stiffness(const ReducedDrive& drive) {
   const LinearController controller = drive.sampling
                                           ? sampled_controller(drive.controller, *drive.sampling)

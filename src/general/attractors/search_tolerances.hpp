@@ -86,7 +86,7 @@ struct SearchTolerances {
 
 /// Duration of the search. Swing and settling times are those of the linear loop (TimeScales).
 struct SearchBudget {
-  /// Decays are negligible after this many settling times: e⁻³⁰ is some 1e-13.
+  /// Decays are negligible after this many settling times: e⁻³⁰ is about 1e-13.
   double settling_times = 30.0;
   /// Swings of the first stretch. Each next one is twice as long.
   double first_stretch = 10.0;
