@@ -13,7 +13,7 @@ int main() {
 
   const auto orbit = find_orbit(system, sticking, {0, belt}, 60.0);
   if (!orbit) return std::puts("no cycle"), 1;
-  const Bounds position = extent(system, *orbit, {{1, 0}});
+  const gearlash::Bounds position = extent(system, *orbit, {{1, 0}});
   std::printf("period %.12f, from %.12f to %.12f, residual %.2g, %s\n", orbit->period, position.low,
               position.high, orbit->residual, orbit->stable ? "stable" : "unstable");
 }
