@@ -28,7 +28,7 @@ double value_at(const Signal& signal, double time);
 /// the final value.
 Signal settled(const Signal& signal);
 
-/// The time from which the signal equals settled(signal).
+/// The time from which the signal equals settled(signal); for a ramp, but for a constant.
 double settling_time(const Signal& signal);
 
 /// A part of a signal with one second derivative.
