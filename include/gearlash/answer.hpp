@@ -30,8 +30,8 @@ enum class Verdict : std::uint8_t {
 /// How certain a statement is, from the least to the most.
 enum class Certainty : std::uint8_t {
   searched,  ///< found by a search, which may have missed something
-  computed,  ///< decided by a formula in floating point, whose rounding is not bounded
-  enclosed,  ///< proved: a theorem whose condition interval arithmetic decides
+  computed,  ///< decided by a formula in floating point; its rounding is not bounded
+  enclosed,  ///< proved: interval arithmetic verifies the condition of a theorem
   theorem    ///< proved, by exact comparisons alone
 };
 
@@ -44,7 +44,7 @@ enum class CycleKind : std::uint8_t {
 /// By the multipliers, for all possible disturbances.
 enum class Stability : std::uint8_t {
   stable,
-  neutral,  ///< one is on the unit circle to within 1e-6: one of a family, or at a fold
+  neutral,  ///< a multiplier is within 1e-6 of the unit circle: a family of cycles, or a fold
   unstable
 };
 
@@ -88,7 +88,8 @@ struct Rest {
   Bounds motor{};  ///< rad, from the reference, at the load's shaft
   Bounds error{};  ///< rad, reference − load
   std::size_t starts = 0;
-  /// For rest approached by ever smaller and slower swings: the largest ratio of two.
+  /// For rest approached by ever smaller and slower swings: the largest ratio of two successive
+  /// swings.
   std::optional<double> swing_ratio{};
 };
 
@@ -102,7 +103,7 @@ struct IrregularMotion {
   std::optional<double> amplitude_deviation{};
   std::optional<double> mean_period{};  ///< s
   std::optional<double> period_deviation{};
-  std::optional<double> mismatch{};  ///< least mean difference of swings some swings apart, a share
+  std::optional<double> mismatch{};  ///< share, least mean difference of swings a few swings apart
   std::optional<double> exponent{};  ///< 1/s, the largest Lyapunov exponent
   std::optional<double> watched{};   ///< s, duration of the measurement
   std::size_t starts = 0;
@@ -117,9 +118,9 @@ struct StartOutcome {
   std::string reason{};                ///< why it is undecided
 };
 
-/// What a search looked at.
+/// The record of a search.
 struct SearchRecord {
-  double watch_time = 0.0;  ///< s, the longest that a start is watched
+  double watch_time = 0.0;  ///< s, the longest that a start is followed
   bool is_complete = true;  ///< not stopped
   std::size_t borders = 0;  ///< searched between starts with different outcomes
   std::vector<StartOutcome> starts{};
@@ -130,7 +131,7 @@ struct SearchRecord {
 /// Proved bounds.
 struct ProvedBounds {
   Bounds growth_at_rest{};
-  bool has_cycle = false;  ///< if so, the following are its bounds
+  bool has_cycle = false;  ///< if so, the following members are its bounds
   Bounds amplitude{};      ///< rad
   Bounds period{};         ///< s
   Bounds multiplier{};
@@ -156,12 +157,12 @@ struct Answer {
   Certainty completeness = Certainty::searched;  ///< of the list of cycles
   Engine engine = Engine::general;
   std::optional<NormalFormNumbers> normal_form{};
-  std::optional<double> growth_at_rest{};  ///< of a small motion in the gap, in half a cycle
+  std::optional<double> growth_at_rest{};  ///< of a small motion in the gap, per half cycle
   std::optional<ProvedBounds> bounds{};
   bool is_dissipative = false;  ///< no restitution can make it hunt
   bool rests_engaged = false;   ///< large motions may end at rest, with the faces together
   bool neutral_swings = false;  ///< some cycles could not be separated from their neighbors
-  std::vector<Cycle> cycles{};  ///< by falling amplitude; of a search, stable ones first
+  std::vector<Cycle> cycles{};  ///< by falling amplitude; from a search, stable ones first
   std::optional<Rest> rest{};
   std::vector<IrregularMotion> irregular{};
   std::optional<SearchRecord> search{};

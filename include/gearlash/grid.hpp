@@ -16,62 +16,63 @@
 
 namespace gearlash {
 
-/// What is varied: a parameter of the drive over its values.
+/// A parameter of the drive and the values it takes.
 struct Axis {
   std::string path{};            ///< "gearbox.backlash"; aliases and inverse forms too
-  std::vector<double> values{};  ///< SI, rising; of a word the numbers of its choices, in any order
-  bool logarithmic = false;      ///< spaced, and to be drawn, so
+  std::vector<double> values{};  ///< SI, rising; of a word: its choices' numbers, in any order
+  bool logarithmic = false;      ///< logarithmic spacing, here and in pictures
 
   bool operator==(const Axis&) const = default;
 };
 
-/// `count` values from `from` to `to`, both exactly, evenly in value or in logarithm. One value
-/// only where both are the same. Throws InvalidInput, naming the path, for ends that are not finite
-/// or not in order, a logarithm of 0 or less, or a count below 2 (1) or above 1,000,000.
+/// `count` values from `from` to `to`, both exact, evenly spaced in value or in logarithm. A single
+/// value requires equal ends. Throws InvalidInput, naming the path, for ends that are not finite or
+/// not in order, a logarithm of 0 or less, or a count below 2 (equal ends: 1) or above 1,000,000.
 [[nodiscard]] Axis linear(std::string_view path, double from, double to, std::size_t count);
 [[nodiscard]] Axis logarithmic(std::string_view path, double from, double to, std::size_t count);
 
-/// A drive of which some parameters are varied: one point for each combination of the axes' values,
-/// the last axis fastest.
+/// A drive with varied parameters: one point for each combination of the axes' values, the last
+/// axis fastest.
 struct Grid {
-  Drive drive{};             ///< but for what stands on the axes
-  std::vector<Axis> axes{};  ///< their parameters are set one after the other
-  /// Verdicts of the closed form on plastic contact are proved; what a proof leaves open is
-  /// undecided.
+  Drive drive{};             ///< the axes replace its values
+  std::vector<Axis> axes{};  ///< their parameters are set in this order
+  /// Prove the closed form's verdicts on plastic contact. A verdict that the proof leaves open
+  /// becomes undecided.
   bool proved = false;
 
   [[nodiscard]] std::size_t size() const;
-  /// The drive of a point, which need not be sound: faults().
+  /// The drive of a point. It may be unsound: see faults().
   [[nodiscard]] Drive at(std::size_t index) const;
 };
 
-/// Every fault of the axes (a parameter that the drive has not or that stands on two axes, values
-/// that are not permitted), of more than 10¹⁰ points, and of the drive, if it is at fault at every
-/// combination of the axes' ends. `fields` names the axes; axis 1, … where there are none.
+/// Every fault of the axes (a parameter that the drive does not have or that two axes vary, values
+/// that are not permitted), of more than 10¹⁰ points, and of the drive, if every combination of the
+/// axes' ends is at fault. `fields` names the axes; default: axis 1, ….
 [[nodiscard]] std::vector<Fault> faults(const Grid& grid,
                                         const std::vector<std::string>& fields = {});
 
-/// Answers, a row a point and a column a quantity, in SI. Numbers are what Answer::value() has; NaN
-/// where there is none. Verdicts are always there.
+/// Answers in SI, one row per point and one column per quantity. Numbers are those of
+/// Answer::value(), NaN where it is empty. Every row has a verdict.
 class Table {
  public:
   Table() = default;
-  /// Nothing is known yet. `line`: values on the grid's last axis; 0: one line of all rows.
+  /// All values are unknown. `line`: the number of values on the grid's last axis; 0: one line of
+  /// all rows.
   Table(std::size_t rows, std::span<const Quantity> quantities, std::size_t line = 0);
 
   [[nodiscard]] std::size_t rows() const noexcept { return verdicts_.size(); }
   [[nodiscard]] bool has(Quantity quantity) const noexcept;
-  /// All rows. Throws InvalidInput for a quantity that was not asked for.
+  /// All rows. Throws InvalidInput for a quantity the table was not made for.
   [[nodiscard]] std::span<const double> operator[](Quantity quantity) const;
   [[nodiscard]] std::span<const Verdict> verdicts() const noexcept { return verdicts_; }
   [[nodiscard]] Verdict verdict(std::size_t row) const { return verdicts_.at(row); }
 
-  /// Over the last axis, the others held: line 0, 1, …
+  /// The values along the last axis, with the other axes fixed: line 0, 1, ….
   [[nodiscard]] std::span<const double> line(Quantity quantity, std::size_t number) const;
-  /// Where a line is least, of the numbers that are known; the line's length where none is.
+  /// The index of the smallest known number of a line; the line's length where none is known.
   [[nodiscard]] std::size_t smallest(Quantity quantity, std::size_t number) const;
 
-  /// To be written to; empty for a quantity that was not asked for.
+  /// For writing; empty for a quantity the table was not made for.
   [[nodiscard]] std::span<double> column(Quantity quantity) noexcept;
   [[nodiscard]] std::span<Verdict> column_of_verdicts() noexcept { return verdicts_; }
 
@@ -81,10 +82,10 @@ class Table {
   std::size_t line_ = 0;
 };
 
-/// What each drive of the grid ends in, on all cores, the same bits for any number of them. Points
-/// that are the servo of 1960 by their physics are answered in closed form, millions a second with
-/// plastic contact; others are searched, which takes seconds each. Of a combination that is no
-/// drive nothing is known, nor of what was not reached when `progress` stopped the work. Throws
+/// The answer of each drive of the grid, on all cores, with the same bits for any number of cores.
+/// Drives that are physically the servo of 1960 are answered in closed form, millions per second
+/// with plastic contact. Others are searched, which takes seconds each. Combinations that are no
+/// valid drive, and points not reached when `progress` stopped the work, stay unknown. Throws
 /// InvalidInput for a grid with faults().
 [[nodiscard]] Table evaluate(const Grid& grid, std::span<const Quantity> quantities,
                              Progress& progress = no_progress());

@@ -1,4 +1,4 @@
-// The exact motion of a drive: where everything is at any time, and what happens when. SI units.
+// The exact motion of a drive: its state at any time, and its events. SI units.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +16,9 @@
 
 namespace gearlash {
 
-// Positions, speeds and torques of the motor are those at the load's shaft: the motor's own
-// position over the gear ratio, its own torque times it. A normal form has J_M + J_L = 1 kg m²,
-// and 1 rad/s where it has no natural frequency.
+// Positions, speeds and torques of the motor are referred to the load's shaft: the motor's own
+// position is divided by the gear ratio, its own torque multiplied by it. A normal form has
+// J_M + J_L = 1 kg m², and ω_n = 1 rad/s where it has no natural frequency.
 
 /// How a motion begins, at time 0.
 struct Start {
@@ -26,16 +26,16 @@ struct Start {
   double load_speed = 0.0;     ///< rad/s
   std::optional<double>
       gap{};               ///< rad, motor less load, −b/2 … b/2 with rigid faces (to rounding);
-                           ///< on the face that the reference pulls to where not given
+                           ///< default: on the face that the reference pulls towards
   double gap_speed = 0.0;  ///< rad/s, motor less load
 
   bool operator==(const Start&) const = default;
 };
 
 struct Span {
-  double until = 0.0;                   ///< s, ≥ 0; in closed form at most 1e9/ω_n
-  std::optional<Start> start{};         ///< at rest at 0 where not given
-  std::size_t most_events = 1'000'000;  ///< the motion stops after so many, clock ticks included
+  double until = 0.0;                   ///< s, ≥ 0; closed form: at most 1e9/ω_n
+  std::optional<Start> start{};         ///< default: at rest at 0
+  std::size_t most_events = 1'000'000;  ///< the motion stops after this many, clock ticks included
 };
 
 /// Positions rad, speeds rad/s.
@@ -46,29 +46,30 @@ struct Shafts {
   double motor_speed = 0.0;
 };
 
-/// Something that happens. What a clock does alone (a computer's sample, a point of a table) is
-/// none. Texts live as long as the Motion and its copies.
+/// An event of the motion. Clock ticks (a computer's sample, a point of a table) are not events.
+/// Texts live as long as the Motion and its copies.
 struct MotionEvent {
   double time = 0.0;              ///< s
   std::string_view what{};        ///< "faces part", "impact forward", "motor stops", …
   std::string_view mode_after{};  ///< "apart", "forward; motor sticks", …
   Shafts before{};
   Shafts after{};
-  std::optional<double> energy_lost{};  ///< J, at an impact; the closed form alone has it
+  std::optional<double> energy_lost{};  ///< J, at an impact; closed form only
 };
 
-/// A moment at which rounding decides whether something happens; events() has one of the answers.
+/// A moment at which rounding decides whether an event occurs; events() has one of the two
+/// outcomes.
 struct MotionTouch {
   double time = 0.0;               ///< s
-  std::string_view what{};         ///< that happens or not
-  std::optional<double> within{};  ///< of the general engine: how far beyond its guard, in its unit
+  std::string_view what{};         ///< the event in question
+  std::optional<double> within{};  ///< how far beyond its guard, in its unit; general engine only
 };
 
 /// J, from the start: stored_at_start + supplied = stored + motor_friction + load_friction +
 /// impacts.
 struct EnergyBooks {
   double stored_at_start = 0.0;
-  double supplied = 0.0;  ///< by the loop, while the faces are apart
+  double supplied = 0.0;  ///< by the loop while the faces are apart
   double stored = 0.0;    ///< kinetic, and in the loop's virtual spring
   double motor_friction = 0.0;
   double load_friction = 0.0;
@@ -78,16 +79,16 @@ struct EnergyBooks {
 enum class MotionStop : std::uint8_t {
   reached_end,  ///< Span::until
   event_limit,  ///< Span::most_events
-  zeno,         ///< events come ever faster
-  chattering,   ///< events without end at one instant
-  diverged,     ///< numbers grow without end
-  stopped       ///< by Progress, before it began
+  zeno,         ///< events accumulate towards an instant
+  chattering,   ///< unlimited events at one instant
+  diverged,     ///< the state grows without bound
+  stopped       ///< by Progress, before the motion began
 };
 
 struct MotionSample {
   double time = 0.0;  ///< s
   Shafts shafts{};
-  double motor_torque = 0.0;  ///< N m, of the motor, without the friction of its winding
+  double motor_torque = 0.0;  ///< N m, of the motor, excluding its winding's friction
   double reference = 0.0;     ///< rad
   double load_torque = 0.0;   ///< N m
   std::string_view mode{};    ///< as MotionEvent::mode_after
@@ -109,38 +110,39 @@ struct Samples {
 /// The result of simulate(). Copies share it.
 class Motion {
  public:
-  class Source;  // what an engine made
-  /// Of no time. simulate() makes others.
+  class Source;  // what an engine computed
+  /// A motion of zero duration. simulate() makes others.
   Motion();
   explicit Motion(std::shared_ptr<const Source> source) : source_(std::move(source)) {}
 
-  /// At 0, every, 2 every, … up to the end. A short decimal step gives times as one would write
-  /// them. Throws InvalidInput unless `every` is positive.
+  /// Samples at 0, every, 2 every, … up to the end. A short decimal step gives short decimal times.
+  /// Throws InvalidInput unless `every` is positive.
   [[nodiscard]] Samples sampled(double every) const;
-  /// How many that are.
+  /// The number of those samples.
   [[nodiscard]] std::size_t sample_count(double every) const;
-  /// At any time from 0 to end_time(), clamped to it; at an event, after it. In closed form nothing
-  /// is allocated.
+  /// The state at any time from 0 to end_time(); other times are clamped. At an event: the state
+  /// after it. The closed form allocates nothing.
   [[nodiscard]] MotionSample at(double time) const;
 
   [[nodiscard]] std::span<const MotionEvent> events() const noexcept;
   [[nodiscard]] std::span<const MotionTouch> touches() const noexcept;
   [[nodiscard]] double end_time() const noexcept;  ///< s
   [[nodiscard]] MotionStop stop() const noexcept;
-  /// Why the motion ended before its time, in words; empty where it did not.
+  /// Why the motion ended early, in words; empty if it did not.
   [[nodiscard]] const std::string& stop_text() const noexcept;
   [[nodiscard]] Engine engine() const noexcept;
-  /// Of the closed form alone.
+  /// Closed form only.
   [[nodiscard]] std::optional<EnergyBooks> energy() const;
 
  private:
   std::shared_ptr<const Source> source_;
 };
 
-/// The motion under the drive's own reference and load torque. There is no step size: in closed
-/// form where the drive is the servo of 1960 and the reference is constant from 0 on, else exact
-/// but for rounding from event to event (docs/hybrid.md). Throws InvalidInput for a drive that is
-/// not sound, and for faults of the span: "until", "start.gap", ….
+/// The motion under the drive's own reference and load torque. There is no step size. The closed
+/// form answers for the servo of 1960 with a reference that is constant from 0 on. The general
+/// engine answers for every other drive, from event to event and exact except for rounding
+/// (docs/hybrid.md). Throws InvalidInput for an unsound drive and for faults of the span: "until",
+/// "start.gap", ….
 [[nodiscard]] Motion simulate(const Drive& drive, const Span& span,
                               Progress& progress = no_progress());
 

@@ -1,4 +1,4 @@
-// How the limit cycle changes with the numbers of a drive: exact derivatives.
+// How the limit cycle depends on the parameters of a drive: exact derivatives.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@
 
 namespace gearlash {
 
-/// The derivatives of quantities by parameters, in SI. What does not exist is not there: without a
-/// limit cycle there is growth at rest alone.
+/// The derivatives of quantities with respect to parameters, in SI. A quantity that does not exist
+/// is empty: without a limit cycle only growth at rest exists.
 struct Jacobian {
   std::vector<Quantity> quantities{};
   std::vector<std::string> paths{};
@@ -25,16 +25,16 @@ struct Jacobian {
 
   /// ∂ quantities[quantity]/∂ paths[parameter]. Throws std::out_of_range.
   [[nodiscard]] std::optional<double> slope(std::size_t quantity, std::size_t parameter) const;
-  /// ∂ ln quantity/∂ ln parameter, per cent for one per cent; 0 where the parameter is 0. Throws
+  /// ∂ ln quantity/∂ ln parameter: per cent per one per cent; 0 where the parameter is 0. Throws
   /// std::out_of_range.
   [[nodiscard]] std::optional<double> elasticity(std::size_t quantity, std::size_t parameter) const;
 };
 
-/// Of the limit cycle seen in practice, the largest stable one: amplitude, period, frequency,
-/// multiplier; and growth_at_rest. By forward differentiation of the closed form, not by
-/// differences; its errors are some 1e-12 of the larger of derivative and value/parameter. Throws
-/// InvalidInput for a drive that is not sound or has no closed form, for another quantity, and for
-/// a path of which the closed form is no function.
+/// Derivatives of the limit cycle seen in practice, the largest stable one (amplitude, period,
+/// frequency, multiplier), and of growth_at_rest. Computed by forward differentiation of the closed
+/// form, not by differences; errors are about 1e-12 of the larger of derivative and
+/// value/parameter. Throws InvalidInput for a drive that is unsound or has no closed form, for
+/// another quantity, and for a path that does not enter the closed form.
 [[nodiscard]] Jacobian derivatives(const Drive& drive, std::span<const Quantity> quantities,
                                    std::span<const std::string_view> paths);
 [[nodiscard]] Jacobian derivatives(const Drive& drive, std::initializer_list<Quantity> quantities,
