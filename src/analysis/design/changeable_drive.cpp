@@ -16,7 +16,7 @@ struct Name {
   std::string_view older;  ///< in 0.1
 };
 
-/// What a designer looks at first, of a drive that has it.
+/// What a designer considers first, if the drive has it.
 constexpr Name before_feedback[] = {{"servo.backlash", "backlash"},
                                     {"gearbox.backlash", "backlash"},
                                     {"gearbox.ratio", "gear_ratio"},
@@ -40,14 +40,14 @@ std::string_view older_name_of(std::string_view path) {
   return "";
 }
 
-/// Of a parameter whose slot has a number.
+/// The place of a parameter whose slot holds a number.
 double& place_of(const Parameter& parameter, Drive& drive) {
   const Slot slot = parameter.slot(drive);
   if (auto* const* number = std::get_if<double*>(&slot)) return **number;
   return std::get<std::optional<double>*>(slot)->emplace();
 }
 
-/// Another name of the same number, not of its reciprocal.
+/// Whether the name means the same number, not its reciprocal.
 bool is_alias(const Parameter& parameter, std::string_view name) {
   return parameter.path == name ||
          std::any_of(
@@ -55,12 +55,12 @@ bool is_alias(const Parameter& parameter, std::string_view name) {
              [&](const OtherForm& form) { return form.path == name && form.dimension == nullptr; });
 }
 
-/// A difference of frictions that leaves less than this share of them is taken for unsound: its
-/// rounding could not be bounded closely.
+/// A difference of frictions that leaves less than this share of them counts as unsound, because
+/// its rounding could not be bounded closely.
 constexpr double least_left = 0x1p-20;
 
-/// The sum of the sizes of what the motor's friction is made of: feedback may be negative, and the
-/// friction a difference.
+/// The sum of the absolute values of the terms of the motor's friction. With negative feedback the
+/// friction is a difference.
 double friction_terms(const Drive& drive, double friction) {
   if (drive.servo) return friction;
   const double ratio = drive.gearbox.ratio;
@@ -80,7 +80,7 @@ Drive with_closed_form(const Drive& drive) {
 DataError data_error_of(const Drive& drive, const Drivetrain& drivetrain) {
   DataError error;
   if (drive.servo && drive.servo->friction_ratio < 1.0) {
-    // 1 − φ, of a decimal φ.
+    // The error of 1 − φ for a decimal φ.
     error.motor_friction +=
         std::numeric_limits<double>::epsilon() / (1.0 - drive.servo->friction_ratio);
   }
@@ -128,7 +128,7 @@ void ChangeableDrive::add_feedback(double scale) {
   }
 }
 
-/// Present values are those of the normal form, to the bit.
+/// Present values equal those of the normal form to the bit.
 void ChangeableDrive::add_shares() {
   const Drive physical = physical_form(drive_);
   const NormalForm& form = *drive_.servo;
@@ -245,7 +245,7 @@ Bounds ChangeableDrive::range(std::string_view name) const {
   constexpr double times_critical = 10.0;
   const ChangeableNumber& of = number(name);
   const double present = of.present;
-  // From a value that is sound as far towards the other as is permitted.
+  // Moves a wanted value towards the present one, which is sound, until it is sound itself.
   const auto reach = [&](double wanted) {
     constexpr int halvings = 200;
     for (int i = 0; i < halvings && !is_sound(changed({{of, wanted}})); ++i) {
@@ -262,16 +262,17 @@ Bounds ChangeableDrive::range(std::string_view name) const {
                             std::sqrt(drivetrain_.motor_inertia + drivetrain_.load_inertia);
     return {reach(0.0), reach(times_critical * critical / friction)};
   }
-  if (present == 0.0 || std::isinf(present)) return {present, present};  // without multiples
+  if (present == 0.0 || std::isinf(present)) return {present, present};  // has no multiples
   const double low = reach(present / factor);
   const double high = reach(present * factor);
   return {std::min(low, high), std::max(low, high)};
 }
 
-/// Between two sound drives that differ in one number every number of the drivetrain is monotone in
-/// it (drivetrain_slopes() has the formulas), so that box_between() holds them all: each is linear
-/// in one of them or in its reciprocal, or goes as its square, but for the friction (f + E) n² +
-/// T n d of a ratio and feedback d < 0, which rises wherever it is not negative, and for 1/(1 + r).
+/// Between two sound drives that differ in one number, every number of the drivetrain is monotone
+/// in that number (formulas in drivetrain_slopes()), so box_between() contains all drives between
+/// them. Most are linear in the number or its reciprocal, or go as its square. The exceptions are
+/// 1/(1 + r) and the friction (f + E) n² + T n d of a ratio and feedback d < 0, which rises
+/// wherever it is not negative.
 DriveBox ChangeableDrive::box(std::string_view name, const Bounds& values) const {
   const ChangeableNumber& of = number(name);
   const Changed low = changed({{of, values.low}});

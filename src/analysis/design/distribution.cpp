@@ -13,9 +13,9 @@ namespace gearlash {
 namespace {
 
 constexpr double least_share = 0x1p-53;
-constexpr double sigmas = 3.0;  // that a range is cut off at where it has no end
+constexpr double sigmas = 3.0;  // where an unbounded range is cut off
 
-/// Without long double, which costs ten times as much and adds nothing to a tolerance.
+/// Avoids long double, which costs ten times as much and adds nothing to a tolerance.
 using NormalLaw = boost::math::normal_distribution<
     double, boost::math::policies::policy<boost::math::policies::promote_double<false>>>;
 
@@ -85,7 +85,7 @@ double sum_of_weights(const DiscreteLots& discrete) {
   return sum;
 }
 
-/// Mean and variance of a normal's sorted pieces, in its standard deviations from its mean.
+/// Mean and variance of a truncated normal, relative to its mean and in its standard deviations.
 struct StandardMoments {
   double mean = 0.0;
   double variance = 1.0;
@@ -93,7 +93,7 @@ struct StandardMoments {
 
 StandardMoments moments_between(const Bounds& ends) {
   using boost::math::quadrature::gauss;
-  if (ends.high - ends.low < 1.0) {  // where the closed form would be a difference of equals
+  if (ends.high - ends.low < 1.0) {  // the closed form would cancel
     const double half = 0.5 * (ends.high - ends.low);
     const double middle = ends.low + half;
     const auto moment = [&](double origin, int power) {

@@ -39,7 +39,7 @@ Performance DrawnCycles::performance(std::size_t row) const {
 
 DrawnCycles solve(const TolerancedDrive& drive, std::size_t rows, std::span<const double> values,
                   VectorUnit unit) {
-  const NormalizedServo stand_in{.damping = 1.0};  // where the values make no drive
+  const NormalizedServo stand_in{.damping = 1.0};  // where the values give no valid drive
   DrawnCycles cycles;
   cycles.backlash.resize(rows);
   std::vector<NormalizedServo> servos(rows);

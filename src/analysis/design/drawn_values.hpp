@@ -1,4 +1,4 @@
-// The values of the varied numbers at the points of a sampling.
+// The values of the varied parameters at the points of a sampling.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ class DrawnValues {
       quantiles_.emplace_back(varied.distribution);
   }
 
-  /// Point by point, at each all values of the first set, then of the next.
+  /// The values point by point; at each point first the whole first set, then the next.
   std::vector<double> of(const SampleBlock& block) const {
     std::vector<double> values(block.count * width_);
     points_.fill(block.replicate, block.first, values);

@@ -10,7 +10,8 @@
 namespace gearlash {
 namespace {
 
-/// One number's share of another's change.
+/// The chain rule: `by` holds the drivetrain's slopes with respect to a number, `of` a quantity's
+/// slopes with respect to the drivetrain.
 double chained(const DrivetrainSlopes& by, const DrivetrainSlopes& of) {
   return by.motor_inertia * of.motor_inertia + by.load_inertia * of.load_inertia +
          by.motor_friction * of.motor_friction + by.load_friction * of.load_friction +
@@ -31,7 +32,7 @@ DrivetrainSlopes sum(const DrivetrainSlopes& a, const DrivetrainSlopes& b) {
           a.restitution + b.restitution};
 }
 
-/// The slopes of the normalised numbers, and of ln ω_n.
+/// The slopes of the normalized parameters and of ln ω_n.
 class Normalization {
  public:
   Normalization(const Drivetrain& drive, const NormalizedServo& servo) {
@@ -108,7 +109,7 @@ DrivetrainSensitivity drivetrain_sensitivity(const Drivetrain& drive) {
 
 namespace {
 
-/// By numbers of the drive, of which each moves the drivetrain so.
+/// The Jacobian with respect to numbers of the drive, by the chain rule.
 Jacobian jacobian_of(const DrivetrainSensitivity& found, std::span<const Quantity> quantities,
                      const ChangeableDrive& drive, const std::vector<std::string>& names) {
   Jacobian jacobian;

@@ -1,4 +1,4 @@
-// The derivatives of a limit cycle by the numbers of its drivetrain, and of its drive.
+// The derivatives of a limit cycle with respect to the parameters of its drivetrain and its drive.
 #pragma once
 
 #include <array>
@@ -12,12 +12,12 @@
 
 namespace gearlash {
 
-/// What has derivatives.
+/// The quantities that have derivatives.
 inline constexpr std::array differentiable = {Quantity::amplitude, Quantity::period,
                                               Quantity::frequency, Quantity::multiplier,
                                               Quantity::growth_at_rest};
 
-/// One quantity, in SI, and its derivatives by the numbers of a drivetrain.
+/// One quantity, in SI, and its derivatives with respect to the parameters of a drivetrain.
 struct QuantitySlopes {
   Quantity quantity{};
   double value = 0.0;
@@ -26,33 +26,33 @@ struct QuantitySlopes {
 
 struct DrivetrainSensitivity {
   SensitivityOutcome outcome = SensitivityOutcome::no_cycle;
-  std::vector<QuantitySlopes> quantities{};  ///< those that exist
+  std::vector<QuantitySlopes> quantities{};  ///< only those that exist
 
-  /// nullptr: it does not exist.
+  /// nullptr if the quantity does not exist.
   const QuantitySlopes* find(Quantity quantity) const;
 };
 
-/// cycle_sensitivity() of the normalised servo and, by the chain rule, with J = J_M + J_L,
-/// F = F_M + F_L,
-///   ζ = F/(2√(KJ)),  r = J_L/J_M,  φ = F_L/F,  ω_n = √(K/J);  a period lasts 1/ω_n of its number.
+/// cycle_sensitivity() of the normalized servo, carried to the drivetrain by the chain rule.
+/// Periods are in units of 1/ω_n. With J = J_M + J_L and F = F_M + F_L,
+///   ζ = F/(2√(KJ)),  r = J_L/J_M,  φ = F_L/F,  ω_n = √(K/J).
 /// Throws InvalidInput.
 DrivetrainSensitivity drivetrain_sensitivity(const Drivetrain& drive);
 
-/// Growth at rest alone, by the numbers of a drivetrain: growth_sensitivity(). Throws InvalidInput.
+/// Growth at rest alone, with its derivatives: growth_sensitivity(). Throws InvalidInput.
 QuantitySlopes drivetrain_growth(const Drivetrain& drive);
 
 struct DriveSensitivity {
   SensitivityOutcome outcome = SensitivityOutcome::no_cycle;
-  Jacobian jacobian{};  ///< by quantities of `differentiable`, all of them as a rule
+  Jacobian jacobian{};  ///< usually of all quantities of `differentiable`
 };
 
-/// Of all quantities by the numbers of these names. Throws InvalidInput where there is none of a
-/// name.
+/// Derivatives of all quantities with respect to the named numbers. Throws InvalidInput for an
+/// unknown name.
 DriveSensitivity drive_sensitivity(const ChangeableDrive& drive,
                                    const std::vector<std::string>& names);
 
-/// By every parameter that the closed form is a function of; of a normal form by what a design
-/// looks at.
+/// Derivatives with respect to every parameter that enters the closed form; for a normal form, with
+/// respect to those that a designer considers first.
 DriveSensitivity drive_sensitivity(const ChangeableDrive& drive);
 
 }  // namespace gearlash

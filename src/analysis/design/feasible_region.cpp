@@ -25,7 +25,7 @@ double cost_of(Cost cost, const Drivetrain& drive, const Drivetrain& present) {
   return normalize(drive).damping;
 }
 
-/// At every point of the two axes, x fastest.
+/// The values at every point of the two axes, x fastest.
 template <class Value>
 std::vector<Value> at_all_points(const ParameterAxis& x, const ParameterAxis& y,
                                  const std::function<Value(const MapPoint&)>& value_at) {

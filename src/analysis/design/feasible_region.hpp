@@ -1,4 +1,4 @@
-// Where two parameters together meet a target, and what that costs.
+// The region of two parameters that meets a target, and what that costs.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@
 
 namespace gearlash {
 
-/// What a change costs, or gains.
+/// The measure of what a change costs or gains.
 enum class Cost {
-  bandwidth,  ///< ω_n, times the present one
+  bandwidth,  ///< ω_n relative to the present one
   damping,    ///< ζ
-  stiffness   ///< K, times the present one
+  stiffness   ///< K relative to the present one
 };
 
 /// "bandwidth", "damping", "stiffness".
@@ -25,16 +25,16 @@ const char* name_of(Cost cost);
 /// A parameter on an axis of a picture, in the parameter's own unit.
 struct ParameterAxis {
   std::string parameter;  ///< ChangeableNumber::name
-  Axis values;            ///< its `input` says nothing
+  Axis values;            ///< `path` is not used
 };
 
-/// `count` values of the range, by ratio where low > 0.
+/// `count` values of the range, spaced by ratio where low > 0.
 ParameterAxis parameter_axis(std::string_view parameter, const Bounds& range, std::size_t count);
 
-/// How many values an axis takes in a fraction of a second, or, with bounces, of a minute.
+/// The number of values per axis that a fraction of a second allows, or a minute with bounces.
 std::size_t values_to_draw(const ChangeableDrive& drive, std::string_view x, std::string_view y);
 
-/// A thirtieth to thirty times the present value; what may be 0, from 0 to critical damping.
+/// 1/30 to 30 times the present value. Numbers that may be 0: from 0 to critical damping.
 Bounds range_to_draw(const ChangeableDrive& drive, std::string_view parameter);
 
 struct FeasibleRegion {
@@ -44,12 +44,12 @@ struct FeasibleRegion {
   std::vector<Contour> costs;      ///< lines of equal cost at round values
 };
 
-/// What is narrower than a cell between the axes' values can be missed, as by boundary_of_region().
-/// Precondition: two different parameters, faults(target) is empty.
+/// Regions narrower than a cell of the axes' values can be missed, as with boundary_of_region().
+/// Precondition: two different parameters, and faults(target) is empty.
 FeasibleRegion feasible_region(const ChangeableDrive& drive, const ParameterAxis& x,
                                const ParameterAxis& y, const Target& target, Cost cost);
 
-/// Whether the target is met at a place, unknown where there is no such drive.
+/// Whether the target is met at a place; unknown where there is no valid drive.
 Side side_of_target(const ChangeableDrive& drive, const FeasibleRegion& region,
                     const MapPoint& place, const Target& target);
 

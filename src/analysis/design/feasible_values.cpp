@@ -15,22 +15,22 @@
 namespace gearlash {
 namespace {
 
-/// A part of the range, and what is known of it.
+/// A part of the range and its judgement.
 struct Part {
   Bounds values;
   Judgement judgement;
-  /// One of its ends, or what was met with while closing in, has no cycle that is known.
+  /// No cycle is known at one of its ends, or at a value tried between them.
   bool is_unknown = false;
 };
 
-/// A value, and what the drive does there.
+/// A value and the drive's performance there.
 struct TriedValue {
   double value = 0.0;
   Performance performance{};
 };
 
-/// Values all over a range: by ratio where that is wide, from 0 on over the last four decades; of a
-/// restitution evenly.
+/// Values spread over a range: by ratio where it is wide, over the last four decades where it
+/// begins at 0, evenly for a restitution.
 std::vector<double> spread_over(const Bounds& range, std::size_t count, bool evenly) {
   constexpr double decades = 1e-4;
   const double low = range.low > 0.0 ? range.low : decades * range.high;
@@ -75,9 +75,8 @@ class Search {
     return is_met(target_, performance_at(value));
   }
 
-  /// The range in parts, in order: proved ones, and slivers of which nothing is known. What is not
-  /// proved is halved, all of it by turns, so that a stretch that resists leaves no other
-  /// unsearched.
+  /// The range in parts, in order: proved parts and undecided slivers. Each round halves all open
+  /// parts, so that a difficult part does not leave others unsearched.
   std::vector<Part> certified(const Bounds& range) {
     std::vector<Part> proved;
     std::vector<Bounds> open = {range};
@@ -104,7 +103,7 @@ class Search {
     return proved;
   }
 
-  /// The parts of a scan: none is a sliver, and each is judged by its ends.
+  /// The parts of a scan. None is a sliver; the ends of each decide its judgement.
   std::vector<Part> scanned(const Bounds& range) {
     std::vector<Part> parts;
     const std::vector<TriedValue> tried = tried_values(range);
@@ -120,16 +119,16 @@ class Search {
     return parts;
   }
 
-  /// Of two values, the one that meets the target and one that does not, the last to meet it.
+  /// The last value that meets the target, between one that meets it and one that does not.
   struct LastMet {
     double value;
-    bool met_unknown = false;  ///< between the two there is motion of which no cycle is known
+    bool met_unknown = false;  ///< somewhere between the two no cycle is known
   };
   LastMet last_met(double met, double unmet) {
     bool met_unknown = false;
     const bool bounces = has_bounces(drive_, number_);
     if (bounces) {
-      // Growth at rest is soon worked out, and what it does not rule out is met as a rule.
+      // Growth at rest is cheap, and what it does not rule out usually meets the target.
       const double allowed = last_allowed_by_growth(met, unmet);
       if (allowed == met || is_met_at(allowed)) return {allowed};
       unmet = allowed;
@@ -142,13 +141,13 @@ class Search {
       const bool here = is_met(target_, performance);
       met_unknown = met_unknown || (bounces && !is_known(target_, performance));
       (here ? met : unmet) = value;
-      // Its size makes the way shorter, its sign alone counts.
+      // Only the sign decides; the magnitude speeds up the root finder.
       const double size = std::abs(excess(target_, performance));
       const double usable = std::clamp(std::isnan(size) ? 1.0 : size, least, 1.0);
       (here ? met_by : missed_by) = usable;
       return here ? -usable : usable;
     };
-    // A jump need not be known so well that each step to it is worth a search for cycles.
+    // At a jump higher resolution is not worth a search for cycles per step.
     const auto resolution = [&] {
       constexpr double near = 1e-3;
       const bool jumps = bounces && !(met_by < near && missed_by < near);
@@ -167,7 +166,7 @@ class Search {
     return {met, met_unknown};
   }
 
-  /// The value that comes closest to the target.
+  /// The tried value that comes closest to the target.
   double closest(const Bounds& range) {
     std::vector<TriedValue> tried = tried_values(range);
     tried.push_back(at(number_.present));
@@ -189,8 +188,8 @@ class Search {
     return low == 0.0 && high < least ? 0.5 * high : detail::middle_of(low, high);
   }
 
-  /// Undecided where there is no such drive: beside a shaft without friction a little on the other
-  /// is less than a servo may have.
+  /// Undecided where there is no valid drive: next to a shaft without friction, a small friction on
+  /// the other shaft is less than a servo may have.
   Performance performance_at(double value) const {
     if (at_present_) {
       Performance scaled = *at_present_;
@@ -210,7 +209,7 @@ class Search {
     return tried;
   }
 
-  /// All over the range, in order, and the nearer the closer a limit is.
+  /// Values over the whole range, in order, denser near a limit.
   const std::vector<TriedValue>& tried_values(const Bounds& range) {
     if (!tried_.empty()) return tried_;
     tried_ = at_all(first_values(range));
@@ -233,7 +232,7 @@ class Search {
     const bool evenly = number_.is_restitution();
     std::vector<double> values = spread_over(range, bounces ? coarse : fine, evenly);
     if (!bounces) return values;
-    // Growth at rest is soon worked out: between these values it passes 1, or a limit.
+    // Growth at rest is cheap; between these values it passes 1 or a limit.
     const std::vector<double> looked_at = spread_over(range, fine, evenly);
     std::vector<double> growths(looked_at.size());
     on_threads(0, looked_at.size(), [&](std::size_t i) { growths[i] = growth_at(looked_at[i]); });
@@ -250,15 +249,16 @@ class Search {
     return values;
   }
 
-  /// NaN where there is no such drive.
+  /// NaN where there is no valid drive.
   double growth_at(double value) const {
     const Drivetrain drive = drive_.with(number_.name, value);
     if (!validate(drive).empty()) return std::numeric_limits<double>::quiet_NaN();
     return growth_at_rest(servo_dynamics(normalize(drive)));
   }
 
-  /// The last value, from one that meets the target on, that growth at rest does not rule out; nor
-  /// is it so near 1 there that the search for cycles cannot tell rest from hunting.
+  /// The last value, starting from one that meets the target, that growth at rest does not rule
+  /// out. Growth very close to 1 is excluded too, because the search for cycles cannot distinguish
+  /// rest from hunting there.
   double last_allowed_by_growth(double met, double unmet) const {
     constexpr double told_apart = 1e-6;
     const auto is_allowed = [&](double value) {
@@ -273,9 +273,10 @@ class Search {
     }
   }
 
-  /// Between neighbours on one side of a limit of the cycle which is no farther than they, or one
-  /// of them and the next, are from each other; and beside motion of which no cycle is known, or
-  /// everywhere that it hunts: beside irregular motion there are windows of others.
+  /// The middles of intervals whose ends lie on one side of a limit of the cycle and no farther
+  /// from it than the performance changes there or in an adjacent interval; of intervals next to
+  /// motion without a known cycle; and, if `everywhere`, of all intervals that hunt, because
+  /// irregular motion has windows of other motion in it.
   std::vector<double> middles_to_try(bool everywhere) const {
     const Target of_cycles{.amplitude = target_.amplitude, .frequency = target_.frequency};
     std::vector<double> beyond;
@@ -308,7 +309,7 @@ class Search {
     return judge(target_, drive_.box(number_.name, values), guessed_flight_time(values));
   }
 
-  /// Of a servo in the middle, or at an end.
+  /// The flight time at the middle, else at an end.
   double guessed_flight_time(const Bounds& values) {
     for (const double value : {middle_of(values.low, values.high), values.low, values.high}) {
       const double time = performance_at(value).flight_time;
@@ -323,18 +324,18 @@ class Search {
   }
 
   static constexpr double least = 1e-300;
-  static constexpr std::size_t coarse = 64;  ///< with bounces a servo takes milliseconds
+  static constexpr std::size_t coarse = 64;  ///< a servo with bounces takes milliseconds
   static constexpr std::size_t fine = 1024;
 
   const ChangeableDrive& drive_;
   const ChangeableNumber& number_;
   const Target& target_;
-  std::optional<Performance> at_present_;  ///< of backlash, to which sizes are in proportion
+  std::optional<Performance> at_present_;  ///< for backlash: amplitudes are proportional to it
   std::vector<TriedValue> tried_;
   std::size_t evaluations_ = 0;
 };
 
-/// Neighbours that are judged alike are one.
+/// Joins neighbors with the same judgement.
 std::vector<Part> joined(const std::vector<Part>& parts) {
   std::vector<Part> all;
   for (const Part& part : parts) {
@@ -401,11 +402,11 @@ FeasibleValues feasible_values(const ChangeableDrive& drive, std::string_view pa
     }
     if (part.judgement == Judgement::all) add(values.low, values.high);
     if (part.judgement != Judgement::some) continue;
-    // What its ends are is what its neighbours are.
+    // The ends of a sliver belong to its neighbors, which are decided.
     const bool low_met = search.is_met_at(values.low);
     const bool high_met = search.is_met_at(values.high);
     if (low_met == high_met) {
-      if (values.low > 0.0) add_undecided(values.low, values.high);  // at 0 the range ends
+      if (values.low > 0.0) add_undecided(values.low, values.high);  // a sliver at 0 ends the range
       if (low_met) add(values.low, values.high);
     } else if (low_met) {
       const auto [last, met_unknown] = search.last_met(values.low, values.high);

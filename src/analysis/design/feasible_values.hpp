@@ -1,4 +1,4 @@
-// The values of one parameter with which a drive meets its target, all others as they are.
+// The values of one parameter for which a drive meets its target, all other parameters fixed.
 #pragma once
 
 #include <string_view>
@@ -8,21 +8,22 @@
 
 namespace gearlash {
 
-/// A feasible value is never skipped by certified search: the range is cut into boxes until the
-/// limit cycles of each are proved to keep the target all, or none (bound_cycles()), or it is too
-/// narrow to matter (1e-10, more where limits are nearly touched); between two that differ the end
-/// of the interval is closed in on with performance_of(), so that each end put back meets the
-/// target.
+/// Certified search misses no feasible value. It divides the range into boxes until the limit
+/// cycles of each box are proved to keep the target all, or none (bound_cycles()), or the box is
+/// too narrow to matter (1e-10, wider where limits are nearly touched). Between two boxes that
+/// differ it locates the end of the interval with performance_of(), so that each end returned meets
+/// the target.
 ///
-/// A scan, with bounces, tries 65 values, halves (six times at most) what lies between two of them
-/// for as long as the distance to a limit changes there by more than it is, or the cycle of one is
-/// known and that of the other not (twice everywhere that it hunts, where one is not), and follows
-/// growth at rest, which is soon worked out, at 1,025 values. It can miss what is
-/// narrower than the first of these steps; and it knows those cycles that analyse_limit_cycles()
-/// finds. Backlash is not scanned: sizes are in proportion to it, and nothing else depends on it.
+/// A scan, used with bounces, tries 65 values. It halves an interval between two of them, six times
+/// at most, while the distance to a limit changes there by more than that distance, or while the
+/// cycle at only one of its ends is known. Where a cycle is unknown it also halves every interval
+/// that hunts, twice. Growth at rest is cheap and is computed at 1,025 values. A scan can miss what
+/// is narrower than the first of these steps, and it knows only the cycles that
+/// analyse_limit_cycles() finds. Backlash is not scanned: amplitudes are proportional to it, and
+/// nothing else depends on it.
 ///
-/// Precondition: faults(target) is empty. Throws InvalidInput for a number that the drive has
-/// not.
+/// Precondition: faults(target) is empty. Throws InvalidInput for a number that the drive does not
+/// have.
 FeasibleValues feasible_values(const ChangeableDrive& drive, std::string_view parameter,
                                const Target& target);
 

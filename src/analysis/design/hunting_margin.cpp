@@ -26,7 +26,7 @@ Drivetrain changed(const Drivetrain& drive, const Change& change) {
   return result;
 }
 
-/// ln μ₀ about a drive, as a function of the change; NaN where that is no sound drive.
+/// ln μ₀ as a function of the change from a drive; NaN where the changed drive is unsound.
 class LogGrowth {
  public:
   explicit LogGrowth(const Drivetrain& drive) : drive_(drive) {}
@@ -61,7 +61,7 @@ class LogGrowth {
 constexpr double longest_change = 10.0;
 constexpr double ray_step = 0.02;
 
-/// Where ln μ₀ first changes its sign along a ray, up to `reach`.
+/// The length at which ln μ₀ first changes its sign along a ray, up to `reach`.
 std::optional<double> first_crossing(const LogGrowth& growth, const Change& direction,
                                      double reach) {
   const auto hunts_at = [&](double length) { return growth.value(length * direction) > 0.0; };
@@ -83,9 +83,9 @@ std::optional<double> first_crossing(const LogGrowth& growth, const Change& dire
   return std::nullopt;
 }
 
-/// Unit vectors along the axes, both ways, and spread evenly over the space that is left when the
-/// units of torque, (1, 1, 1, 1, 1), and of time, (2, 2, 1, 1, 0), are taken out (a spiral on the
-/// sphere with the golden angle).
+/// Unit vectors along the axes, in both directions, and 128 more (a golden-angle spiral on the
+/// sphere), evenly spread over the space orthogonal to changes of the units of torque,
+/// (1, 1, 1, 1, 1), and of time, (2, 2, 1, 1, 0).
 std::vector<Change> ray_directions() {
   Eigen::Matrix<double, 5, 3> basis;
   basis.col(0) = Change(1.0, -1.0, 0.0, 0.0, 0.0) / std::sqrt(2.0);
@@ -108,7 +108,7 @@ std::vector<Change> ray_directions() {
   return directions;
 }
 
-/// The crossings met, the nearest first; rays are followed a little beyond the nearest so far.
+/// The crossings found, the nearest first. Rays end somewhat beyond the nearest crossing so far.
 std::vector<Change> crossings(const LogGrowth& growth) {
   std::vector<Change> met;
   double nearest = longest_change;
@@ -127,8 +127,8 @@ std::vector<Change> crossings(const LogGrowth& growth) {
 
 // ---- the least change ---------------------------------------------------------------------------
 
-/// One cut-short step towards the nearest point of the linearised boundary; nothing where no step
-/// lowers ½|x|² + k|ln μ₀|.
+/// One step, shortened if necessary, towards the nearest point of the linearized boundary; empty
+/// where no step lowers ½|x|² + k|ln μ₀|.
 std::optional<Change> improved(const LogGrowth& growth, const Change& at,
                                const LogGrowth::ValueAndGradient& here) {
   const double square = here.gradient.squaredNorm();
@@ -148,7 +148,7 @@ std::optional<Change> improved(const LogGrowth& growth, const Change& at,
   return std::nullopt;
 }
 
-/// Onto the boundary, by Newton's method along the gradient.
+/// Projects onto the boundary by Newton's method along the gradient.
 std::optional<Change> on_boundary(const LogGrowth& growth, Change at) {
   constexpr double near = 1e-13;
   for (int i = 0; i < 20; ++i) {
@@ -175,8 +175,8 @@ Eigen::Matrix<double, 5, 5> curvature(const LogGrowth& growth, const Change& at)
   return 0.5 * (second + second.transpose());
 }
 
-/// Newton's method on x = λg, ln μ₀ = 0, from near a solution: where the boundary bends as much as
-/// the sphere about the present drive, the steps above go to and fro.
+/// Newton's method on x = λg, ln μ₀ = 0, from near a solution. Where the boundary is as curved as
+/// the sphere about the present drive, the steps above oscillate.
 std::optional<Change> stationary_change(const LogGrowth& growth, Change at) {
   double multiplier = not_a_number;
   for (int i = 0; i < 30; ++i) {
@@ -200,8 +200,8 @@ std::optional<Change> stationary_change(const LogGrowth& growth, Change at) {
   return std::nullopt;
 }
 
-/// A point of the boundary where it is square to the change, as next to every least one; nothing
-/// where the steps do not end in one.
+/// A point where the boundary is perpendicular to the change, which is necessary for a least
+/// change; empty if the steps do not converge.
 std::optional<Change> least_change(const LogGrowth& growth, Change at) {
   constexpr int most_steps = 30;
   for (int i = 0; i < most_steps; ++i) {

@@ -1,4 +1,4 @@
-// How far a drive is from the boundary of hunting: by each parameter alone, and by all together.
+// The distance of a drive from the boundary of hunting, by single parameters and by all together.
 #pragma once
 
 #include <string_view>
@@ -8,20 +8,21 @@
 
 namespace gearlash {
 
-/// By feasible_values() for a target of no hunting, whose ends they are.
+/// The ends of feasible_values() for a target of no hunting.
 ParameterMargin parameter_margin(const ChangeableDrive& drive, std::string_view parameter);
 
-/// OverallMargin:
+/// Solves for the OverallMargin:
 ///   min |x|  subject to  ln μ₀(J_M e^{x₁}, J_L e^{x₂}, F_M e^{x₃}, F_L e^{x₄}, K e^{x₅}) = 0.
-/// By the steps x ← g (g·x − ln μ₀)/|g|², g the exact gradient of ln μ₀, cut short where they do
-/// not lower ½|x|² + k|ln μ₀|, and at last by Newton's method on x = λg, ln μ₀ = 0 (Hasofer & Lind
-/// 1974; Rackwitz & Fiessler 1978; Zhang & Der Kiureghian 1995: it is their design point). μ₀ does
-/// not depend on the units of torque and time, so that x lies in a space of three dimensions; the
-/// search starts from no change and from the nearest eight of the first crossings of the boundary
-/// along 128 directions spread over that space and 10 along the axes. Throws InvalidInput.
+/// The steps are x ← g (g·x − ln μ₀)/|g|², where g is the exact gradient of ln μ₀. A step that does
+/// not lower ½|x|² + k|ln μ₀| is shortened. Newton's method on x = λg, ln μ₀ = 0 finishes. This is
+/// the design point of Hasofer & Lind (1974), Rackwitz & Fiessler (1978) and Zhang & Der Kiureghian
+/// (1995). μ₀ does not depend on the units of torque and time, so x lies in a space of three
+/// dimensions. The search starts from x = 0 and from the nearest eight of the first crossings of
+/// the boundary along 128 directions spread over that space and 10 along the axes. Throws
+/// InvalidInput.
 OverallMargin overall_margin(const Drivetrain& drive);
 
-/// Of ChangeableDrive::usual_names(), in their order; of restitution where there is any.
+/// The margins of ChangeableDrive::usual_names(), in their order, and of a restitution above 0.
 HuntingMargin hunting_margin(const ChangeableDrive& drive, Progress& progress = no_progress());
 
 }  // namespace gearlash

@@ -14,7 +14,7 @@
 namespace gearlash::detail {
 namespace {
 
-/// The bits of a double ≥ 0 rise with it.
+/// For doubles ≥ 0 the bits have the same order as the values.
 std::uint64_t bits_of(double value) {
   std::uint64_t bits = 0;
   std::memcpy(&bits, &value, sizeof bits);
@@ -42,7 +42,8 @@ Estimate estimate_of(double value, std::span<const double> of_replicates) {
     if (!std::isnan(one)) squares += (one - sum / count) * (one - sum / count);
   }
   const double error = std::sqrt(squares / (count * (count - 1.0)));
-  return {value, std::isnan(error) ? std::nullopt : std::optional(error)};  // infinite values
+  // An infinite value makes the error NaN.
+  return {value, std::isnan(error) ? std::nullopt : std::optional(error)};
 }
 
 std::optional<Estimate> ratio_of(std::span<const double> numerators,

@@ -11,7 +11,7 @@
 namespace gearlash {
 namespace {
 
-/// Of a function f at the points A, B and AB_i, less a constant near its mean.
+/// Sums of a function f at the points A, B and AB_i, less a constant near its mean.
 struct Sums {
   explicit Sums(std::size_t numbers = 0) : first(numbers), shift(numbers), total(numbers) {}
 
@@ -83,7 +83,7 @@ std::vector<double> mixed_values(const std::vector<double>& both_sets, std::size
   return values;
 }
 
-/// Of the drives of mixed_values(); `usual_amplitude` is subtracted from amplitudes.
+/// The sums of the drives of mixed_values(); `usual_amplitude` is subtracted from amplitudes.
 BlockSums sums_of(const detail::DrawnCycles& cycles, std::size_t numbers, double usual_amplitude) {
   BlockSums sums{Sums(numbers), Sums(numbers), 0, cycles.refused};
   for (std::size_t point = 0; point < cycles.rows(); point += numbers + 2) {
@@ -107,8 +107,7 @@ BlockSums sums_of(const detail::DrawnCycles& cycles, std::size_t numbers, double
   return sums;
 }
 
-/// Nearer to the mean amplitude than 0, so that a small variance is not a difference of large
-/// numbers.
+/// A constant near the mean amplitude; subtracting it avoids cancellation in a small variance.
 double amplitude_of_mean_drive(const TolerancedDrive& drive, VectorUnit unit) {
   std::vector<double> values;
   for (const ParameterTolerance& varied : drive.varied)
@@ -117,7 +116,7 @@ double amplitude_of_mean_drive(const TolerancedDrive& drive, VectorUnit unit) {
   return std::isfinite(size) ? size : 0.0;
 }
 
-/// The indices of one quantity, replicate by replicate; none where its variance is rounding.
+/// The indices of one quantity, from all replicates; empty where its variance is only rounding.
 class Indices {
  public:
   Indices(const std::vector<const Sums*>& replicates, double usual) : replicates_(replicates) {
@@ -194,7 +193,8 @@ SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SampleP
     return nothing;
   }
   const detail::DrawnValues values(drive, sampling, 2);
-  // A quarter of the usual number: each point is numbers + 2 drives, each block a set of sums.
+  // A quarter of the usual number, because each point needs numbers + 2 drives and each block a set
+  // of sums.
   const std::size_t at_a_time = detail::drives_at_a_time(drive) / 4;
   const double usual_amplitude = amplitude_of_mean_drive(drive, workers.unit);
   std::vector<BlockSums> blocks(detail::block_count(sampling, at_a_time),

@@ -10,7 +10,7 @@
 namespace gearlash {
 namespace {
 
-/// Of numbers that lie within `bounds`.
+/// The judgement of numbers that lie within `bounds`.
 Judgement judge(const Bounds& limits, const Bounds& bounds) {
   if (bounds.low >= limits.low && bounds.high <= limits.high) return Judgement::all;
   if (bounds.high < limits.low || bounds.low > limits.high) return Judgement::none;
@@ -22,7 +22,7 @@ bool keeps_growth(const Target& target, double growth_at_rest) {
          target.growth_at_rest.contains(growth_at_rest);
 }
 
-/// Of one quantity.
+/// The excess of one quantity.
 double excess_of(const Bounds& limits, double value) {
   const bool has_low = limits.low > 0.0;
   const bool has_high = !std::isinf(limits.high);
@@ -35,7 +35,7 @@ double excess_of(const Bounds& limits, double value) {
 Judgement both(Judgement a, Judgement b) { return std::min(a, b); }
 Judgement either(Judgement a, Judgement b) { return a == b ? a : Judgement::some; }
 
-/// Drives that hunt, if there are any.
+/// The judgement of those drives of the box that hunt.
 Judgement judge_hunting(const Target& target, const DriveBox& box, const CycleBounds& cycles) {
   if (target.no_hunting) return Judgement::none;
   const Interval amplitude = Interval(box.backlash) * Interval(cycles.amplitude);
@@ -101,7 +101,7 @@ double excess(const Target& target, const Performance& performance) {
   const bool is_quiet = performance.verdict == Verdict::cannot_hunt;
   double worst = excess_of(target.growth_at_rest, performance.growth_at_rest);
   if (target.no_hunting) {
-    // Beside a rest that is stable a cycle is as far from the target as can be said.
+    // A cycle beside a stable rest has no known distance to the target; 1 means far.
     const double growth = std::log(performance.growth_at_rest);
     const bool is_disturbed = !is_quiet && !(growth > 0.0);
     worst = std::max(worst, is_disturbed ? 1.0 : growth);

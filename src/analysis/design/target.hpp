@@ -1,4 +1,4 @@
-// How a servo does by a target.
+// The performance of a servo compared with a target.
 #pragma once
 
 #include <limits>
@@ -10,7 +10,7 @@
 
 namespace gearlash {
 
-/// What a target is compared with.
+/// The values that a target limits.
 struct Performance {
   Verdict verdict = Verdict::undecided;
   double growth_at_rest = std::numeric_limits<double>::quiet_NaN();
@@ -20,34 +20,33 @@ struct Performance {
       std::numeric_limits<double>::quiet_NaN();  ///< of half a plastic cycle, ω_n t
 };
 
-/// By analyse_limit_cycles(). Throws InvalidInput.
+/// The performance that analyse_limit_cycles() gives. Throws InvalidInput.
 Performance performance_of(const Drivetrain& drive);
 
-/// Whether a drive with backlash, of this growth at rest, misses the target whatever its cycles
-/// are.
+/// Whether a drive with backlash and this growth at rest misses the target, whatever its cycles.
 bool is_ruled_out(const Target& target, double growth_at_rest);
 
-/// As performance_of(), as far as the target asks for it: with bounces the search for cycles, which
-/// takes milliseconds, is left out where the growth at rest rules the drive out. The verdict is
-/// then `hunts` or `undecided`, and the rest NaN. Throws InvalidInput.
+/// performance_of(), computed only as far as the target needs it. With bounces, the search for
+/// cycles takes milliseconds and is skipped where the growth at rest rules the drive out. The
+/// verdict is then `hunts` or `undecided`, and the rest NaN. Throws InvalidInput.
 Performance performance_for(const Target& target, const Drivetrain& drive);
 
-/// Whether all limits are kept. What is not known keeps none.
+/// Whether all limits are kept. An unknown value keeps no limit.
 bool is_met(const Target& target, const Performance& performance);
 
-/// Whether it is known that the target is met, or missed: not where a search for cycles came to no
-/// end, or motion does not repeat.
+/// Whether it is known that the target is met or missed. It is unknown where a search for cycles
+/// did not finish, or the motion does not repeat.
 bool is_known(const Target& target, const Performance& performance);
 
-/// ln(value/limit) of the limit that is kept least, but for rounding ≤ 0 where all are kept;
-/// growth at rest stands for no-hunting, whose limit is 1. −∞ where nothing comes near a limit, ∞
-/// where a limit cannot be compared with.
+/// ln(value/limit) of the limit closest to violation, or most violated. Except for rounding it is
+/// ≤ 0 where all limits are kept. Growth at rest with the limit 1 represents no-hunting. −∞ where
+/// no value is near a limit, ∞ where a value cannot be compared with its limit.
 double excess(const Target& target, const Performance& performance);
 
-/// How many of the drives of a box keep all limits; `some`: that is not known.
+/// How many drives of a box keep all limits; `some`: unknown.
 enum class Judgement { none, some, all };
 
-/// By bound_cycles(): proved. The guess is as there.
+/// Proved, by bound_cycles(), which takes the guess.
 Judgement judge(const Target& target, const DriveBox& box, double guessed_flight_time);
 
 }  // namespace gearlash

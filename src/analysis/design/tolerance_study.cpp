@@ -15,9 +15,10 @@
 namespace gearlash {
 namespace {
 
-constexpr double no_cycle = -1.0;  // in the column of frequencies, to be sorted first
+constexpr double no_cycle = -1.0;  // in the column of frequencies; sorts first
 
-/// What is counted; counts of blocks add up the same in any order, the sum of amplitudes in theirs.
+/// Counts. Integer counts of blocks add up the same in any order; the sum of amplitudes must be
+/// added in the order of the blocks.
 struct Counts {
   std::size_t hunting = 0;
   std::size_t meeting = 0;
@@ -38,9 +39,9 @@ struct Counts {
   }
 };
 
-/// Replicate by replicate.
+/// Columns, replicate by replicate.
 struct Columns {
-  std::vector<double> amplitude;  ///< infinite where not known
+  std::vector<double> amplitude;  ///< infinite where unknown
   std::vector<double> frequency;  ///< no_cycle where there is none
 };
 
@@ -64,7 +65,7 @@ Counts count_block(const detail::DrawnCycles& cycles, const Target& target, std:
   return counts;
 }
 
-/// Each replicate's numbers put in order.
+/// Sorts the numbers of each replicate.
 detail::SortedReplicates sorted(std::vector<double>& column, const SamplePlan& sampling,
                                 std::size_t threads) {
   const auto replicate = [&](std::size_t i) {
@@ -121,7 +122,7 @@ std::optional<Estimate> share_of(const std::vector<Counts>& replicates, Quantity
   return detail::ratio_of(quantities, wholes);
 }
 
-/// What counting alone tells.
+/// The part of a study that needs only the counts.
 ToleranceStudy counted(const SamplePlan& sampling, const std::vector<Counts>& blocks) {
   std::vector<Counts> replicates(sampling.replicates);
   Counts total;

@@ -1,4 +1,4 @@
-// Studies of a production run, by given workers.
+// Studies of a production run with given workers.
 #pragma once
 
 #include <vector>
@@ -11,17 +11,18 @@ namespace gearlash {
 /// Every fault of the ranges, and of the target.
 std::vector<Fault> validate(const StudyQuestions& questions);
 
-/// As in gearlash/tolerance.hpp, by these workers.
+/// As in gearlash/tolerance.hpp, with these workers.
 ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& sampling,
                                 const StudyQuestions& questions, const Workers& workers,
                                 Progress& progress = no_progress());
 
-/// From matrices A and B, the two halves of Sobol points with twice as many coordinates as there
-/// are varied numbers, and A with one column of B's, AB_i: varied.size() + 2 drives for each point.
-///   first order  S_i = Σ (f(B) − m)(f(AB_i) − f(A))/(N V), m the mean of f(A) and f(B)
+/// Solves varied.size() + 2 drives for each point: A and B, the two halves of Sobol points with
+/// twice as many coordinates as varied parameters, and AB_i, which is A with column i of B. With m
+/// the mean and V the variance of f(A) and f(B) together,
+///   first order  S_i = Σ (f(B) − m)(f(AB_i) − f(A))/(N V)
 ///                (Saltelli et al., Comput. Phys. Commun. 181, 2010, Table 2 (b)),
-///   total        T_i = Σ (f(A) − f(AB_i))²/(2 N V) (Jansen, Comput. Phys. Commun. 117, 1999),
-/// V being the variance of f(A) and f(B) together. Throws InvalidInput, as above.
+///   total        T_i = Σ (f(A) − f(AB_i))²/(2 N V) (Jansen, Comput. Phys. Commun. 117, 1999).
+/// Throws InvalidInput, as above.
 SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SamplePlan& sampling,
                                      const Workers& workers, Progress& progress = no_progress());
 

@@ -14,7 +14,7 @@
 namespace gearlash {
 namespace {
 
-/// nullptr where it is no number of this drive.
+/// nullptr if the path is not a number of this drive.
 double* place_in(Drive& drive, std::string_view path) {
   const Parameter* parameter = find_parameter(path, drive);
   if (parameter == nullptr) return nullptr;
@@ -35,8 +35,8 @@ std::string paths_of(const Drive& drive) {
   return paths;
 }
 
-/// What may be drawn: positive, not negative, or a share. A gain makes the loop stiff, but for that
-/// of the speed.
+/// The values that may be drawn: positive, not negative, or a share. Gains must be positive,
+/// because they make the loop stiff; the speed gain may be 0.
 Permitted permitted_draws(const Parameter& parameter) {
   switch (parameter.permitted) {
     case Permitted::of_normal_form:
@@ -49,7 +49,7 @@ Permitted permitted_draws(const Parameter& parameter) {
   }
 }
 
-/// What is wrong with the values that are drawn of one parameter, taken by itself.
+/// The faults of the values drawn for one parameter, taken by itself.
 void check_range(RangeCheck& check, const ParameterTolerance& varied, Permitted permitted) {
   const Bounds range = drawn_range_of(varied.distribution);
   const Bounds support = support_of(varied.distribution);
@@ -75,13 +75,13 @@ void check_range(RangeCheck& check, const ParameterTolerance& varied, Permitted 
   }
 }
 
-/// Whether amplitudes can be per backlash: more than this is refused.
+/// Whether amplitudes are computed per rad of backlash. Larger backlashes are refused.
 bool is_taken_apart(double backlash) {
   constexpr double most_backlash = 1e6;  // rad
   return backlash > 0.0 && backlash <= most_backlash;
 }
 
-/// Corner `corner` of the box of `ranges`; bit i selects the end of parameter i.
+/// Corner number `corner` of the box of `ranges`; bit i selects the end of parameter i.
 std::vector<double> corner_of(std::span<const Bounds> ranges, std::size_t corner) {
   std::vector<double> values;
   for (const Bounds& range : ranges) {
@@ -91,7 +91,7 @@ std::vector<double> corner_of(std::span<const Bounds> ranges, std::size_t corner
   return values;
 }
 
-/// Of a drive that is no servo of the closed form.
+/// The faults of a drive, including that it has no closed form.
 std::vector<Fault> faults_of_servo(const Drive& drive) {
   std::vector<Fault> found = faults(drive);
   if (found.empty() && !closed_form_drive(drive)) {
@@ -100,7 +100,8 @@ std::vector<Fault> faults_of_servo(const Drive& drive) {
   return found;
 }
 
-/// What is wrong with the first corner that is no drive. Precondition: parameters are the drive's.
+/// The faults of the first corner that is no valid drive. Precondition: the parameters are the
+/// drive's.
 std::vector<Fault> validate_corners(const TolerancedDrive& drive, std::span<const Bounds> ranges) {
   detail::DrawnDrive drawn(drive);
   for (std::size_t corner = 0; corner < std::size_t{1} << ranges.size(); ++corner) {
@@ -122,7 +123,7 @@ std::vector<Fault> validate_corners(const TolerancedDrive& drive, std::span<cons
   return {};
 }
 
-/// Each varied parameter by itself.
+/// The faults of each varied parameter, taken by itself.
 std::vector<Fault> validate_one_by_one(const TolerancedDrive& drive) {
   RangeCheck check;
   std::set<std::string_view> seen;
@@ -143,15 +144,16 @@ std::vector<Fault> validate_one_by_one(const TolerancedDrive& drive) {
   return check.faults();
 }
 
-/// The nominal values of what does not vary: a sound value stands in for the others.
+/// The faults of the nominal values of the fixed parameters. A sound value replaces each varied
+/// one.
 std::vector<Fault> validate_nominal(const TolerancedDrive& drive) {
   Drive nominal = drive.nominal;
   for (const ParameterTolerance& varied : drive.varied) {
-    constexpr double possible = 0.5;  // for every parameter
+    constexpr double possible = 0.5;  // is valid for every parameter
     if (double* place = place_in(nominal, varied.path)) *place = possible;
   }
   std::vector<Fault> found = faults_of_servo(nominal);
-  // What follows from stand-ins says nothing.
+  // Faults of derived quantities come from the replaced values and mean nothing.
   std::erase_if(found, [](const Fault& fault) {
     return fault.path != "drive" && fault.path.find('.') == std::string::npos;
   });
@@ -165,7 +167,7 @@ std::vector<Fault> faults(const TolerancedDrive& given) {
   TolerancedDrive drive = given;
   const std::vector<Fault> of_nominal = validate_nominal(drive);
   if (of_nominal.empty()) drive.nominal = without_ended_signals(drive.nominal);
-  // A drive that is at fault may still have the form of a servo; its tolerances are then looked at.
+  // A faulty drive may still have the form of a servo; then its tolerances are checked too.
   if (of_nominal.empty() || drive::proportional_drivetrain(reduce(drive.nominal))) {
     check.include(validate_one_by_one(drive));
   }

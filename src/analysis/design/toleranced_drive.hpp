@@ -1,4 +1,4 @@
-// A drive of which some numbers differ from sample to sample of a production run.
+// A drive in which some parameters vary from sample to sample of a production run.
 #pragma once
 
 #include <cstddef>
@@ -14,36 +14,37 @@
 
 namespace gearlash {
 
-/// "gearbox.backlash", or of a normal form "servo.backlash".
+/// "gearbox.backlash"; "servo.backlash" for a normal form.
 std::string_view path_of_backlash(const Drive& drive);
-/// Which of the drive's varied parameters is its backlash, if any is.
+/// The index of the backlash among the varied parameters; empty if it does not vary.
 std::optional<std::size_t> place_of_backlash(const TolerancedDrive& drive);
-/// The unit of a parameter of the drive, "1" where it is a bare number.
+/// The unit of a parameter of the drive; "1" for a pure number.
 std::string_view unit_of(const Drive& drive, std::string_view path);
 
-/// The servo that the drive is with `values` of the varied parameters, in their order. Throws
-/// InvalidInput where it is none, and std::invalid_argument where there are not as many values.
+/// The servo of the drive with `values` of the varied parameters, in their order. Throws
+/// InvalidInput where the drive has no closed form, and std::invalid_argument for another number of
+/// values.
 ClosedFormServo drive_with(const TolerancedDrive& drive, std::span<const double> values);
 
 namespace detail {
 
-/// A drawn drive whose backlash is taken apart: amplitudes are in proportion to it.
+/// A drawn drive with its backlash separated, because amplitudes are proportional to it.
 struct DrivePerBacklash {
   ClosedFormServo drive{};  ///< with a backlash of 1 rad, if it has any
   double backlash = 0.0;    ///< rad
 };
 
-/// A drive of which the varied parameters are written again and again, each place looked up once.
-/// Precondition: the parameters are the drive's, and numbers.
+/// A drive whose varied parameters are set repeatedly; each place is looked up once. Precondition:
+/// the parameters are numbers of the drive.
 class DrawnDrive {
  public:
   explicit DrawnDrive(const TolerancedDrive& toleranced);
   DrawnDrive(const DrawnDrive&) = delete;
   DrawnDrive& operator=(const DrawnDrive&) = delete;
 
-  /// The drive with these values, as many as there are varied parameters.
+  /// The drive with these values, one per varied parameter.
   const Drive& with(std::span<const double> values);
-  /// Its backlash taken apart; nothing where the values make no servo.
+  /// The drive with its backlash separated; empty where the values give no servo.
   std::optional<DrivePerBacklash> per_backlash(std::span<const double> values);
 
  private:

@@ -15,7 +15,7 @@
 namespace gearlash {
 namespace {
 
-constexpr double never = -1.0;  // met: in the column of the largest max
+constexpr double never = -1.0;  // the target is met for no max
 
 double lowest_backlash(const TolerancedDrive& drive, const BacklashDemand& demand) {
   if (demand.min) return *demand.min;
@@ -26,7 +26,7 @@ double lowest_backlash(const TolerancedDrive& drive, const BacklashDemand& deman
   return std::isinf(support) ? drawn_range_of(distribution).low : support;
 }
 
-/// The drive whose backlash is the coordinate u itself.
+/// The drive with the coordinate u itself as backlash.
 TolerancedDrive with_unit_backlash(TolerancedDrive drive) {
   const auto place = place_of_backlash(drive);
   if (!place) {
@@ -36,8 +36,8 @@ TolerancedDrive with_unit_backlash(TolerancedDrive drive) {
   return drive;
 }
 
-/// The largest max with which a piece meets the target; `never` where it does not even with max =
-/// min.
+/// The largest max for which a sample meets the target; `never` where it misses it even with
+/// max = min.
 double largest_max(const Target& target, const detail::DrawnCycles& cycles, std::size_t row,
                    double min) {
   Performance performance = cycles.performance(row);
@@ -50,7 +50,7 @@ double largest_max(const Target& target, const detail::DrawnCycles& cycles, std:
     return min + std::max(0.0, target.amplitude.high / size - min) / cycles.backlash[row];
   }
   if (min > 0.0 || performance.verdict == Verdict::undamped) return never;
-  // A piece without any backlash does not hunt.
+  // A sample without backlash does not hunt.
   return is_met(target, {.verdict = Verdict::cannot_hunt,
                          .growth_at_rest = performance.growth_at_rest,
                          .amplitude = 0.0})
@@ -58,7 +58,7 @@ double largest_max(const Target& target, const detail::DrawnCycles& cycles, std:
              : never;
 }
 
-/// The largest max of each piece, in order within each replicate.
+/// The largest max of each sample, sorted within each replicate.
 class LargestMaxima {
  public:
   LargestMaxima(std::vector<double> column, const SamplePlan& sampling, std::size_t threads)
@@ -77,7 +77,7 @@ class LargestMaxima {
   std::optional<double> with_yield(double yield) const {
     const auto count = static_cast<double>(all_.size());
     const double share = std::clamp(yield, 0.0, 1.0);
-    constexpr double rounding = 1e-12;  // of the product, which is a whole number as a rule
+    constexpr double rounding = 1e-12;  // of the product, which is usually a whole number
     const auto meeting = std::max<std::size_t>(
         1, static_cast<std::size_t>(std::ceil(share * count * (1.0 - rounding))));
     const detail::SortedReplicates met = all_.above(never);

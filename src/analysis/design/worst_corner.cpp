@@ -16,11 +16,11 @@ namespace {
 
 using Values = std::vector<double>;
 
-/// How bad a drive is: by its amplitude where it hunts, which is worse than any that does not, and
-/// by its growth at rest.
+/// The order of drives from good to bad: by amplitude, where any drive that hunts is worse than one
+/// that does not, then by growth at rest.
 struct Badness {
-  double amplitude = -1.0;  ///< −1 where it does not hunt, −2 where that is not known
-  double growth = -1.0;     ///< of one that does not hunt
+  double amplitude = -1.0;  ///< −1 where it does not hunt, −2 where unknown
+  double growth = -1.0;     ///< of a drive that does not hunt
 
   bool operator<(const Badness& other) const {
     return amplitude != other.amplitude ? amplitude < other.amplitude : growth < other.growth;
@@ -42,10 +42,10 @@ Badness badness_of(const detail::DrawnCycles& cycles, std::size_t row) {
   return std::isnan(size) ? Badness{-2.0, -1.0} : Badness{size, 0.0};
 }
 
-/// Where one number may be.
+/// The possible values of one parameter.
 struct Coordinate {
   Bounds range;
-  Values choices;  ///< of lots, rising; empty where all of the range is possible
+  Values choices;  ///< of lots, rising; empty where the whole range is possible
 
   double width() const { return range.high - range.low; }
 };
@@ -154,7 +154,7 @@ class Climb {
     return badness;
   }
 
-  /// The first `starts` of them, from the worst on.
+  /// The worst `starts` of them, in falling order.
   std::vector<Candidate> worst_of(const std::vector<Values>& all) {
     const std::vector<Badness> badness = evaluate(all);
     std::vector<std::size_t> order(all.size());
@@ -197,7 +197,7 @@ class Climb {
     }
   }
 
-  /// Lots stay as they are.
+  /// The displacement between two candidates; lots keep their values.
   Values way_from(const Candidate& before, const Candidate& now) const {
     Values way(coordinates_.size(), 0.0);
     for (std::size_t i = 0; i < way.size(); ++i) {
@@ -206,8 +206,8 @@ class Climb {
     return way;
   }
 
-  /// Steepest rise, each number measured in widths of its range; what leads out of the box is left
-  /// out.
+  /// The direction of steepest rise, with each parameter in units of its range. Components that
+  /// lead out of the box are 0.
   Values slope_at(const Candidate& top) {
     constexpr double step = 1e-5;
     const std::size_t width = coordinates_.size();
@@ -237,7 +237,7 @@ class Climb {
     return slope;
   }
 
-  /// The worst point of the line through the top, over its whole length in the box.
+  /// Moves to the worst point of the line through `top` within the box.
   void try_line(Candidate& top, const Values& along) {
     Bounds reach{-infinity, infinity};
     for (std::size_t i = 0; i < along.size(); ++i) {
@@ -251,11 +251,11 @@ class Climb {
     refine_line(top, along, reach);
   }
 
-  /// Zooms in on the worst place known, again and again.
+  /// Zooms in repeatedly on the worst point found.
   void refine_line(Candidate& top, const Values& along, const Bounds& reach) {
     constexpr int points = 17;
     constexpr int most_refinements = 14;
-    constexpr int enough_at_end = 6;  // of them, after which the worst place is taken to be the end
+    constexpr int enough_at_end = 6;  // refinements at an end of the line before stopping there
     const Values origin = top.values;
     double worst_way = 0.0;
     Bounds part = reach;
