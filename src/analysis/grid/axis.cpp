@@ -17,7 +17,7 @@ namespace {
 
 bool is_word(const Parameter& parameter) { return !parameter.choices.empty(); }
 
-/// Whether it stands for one value: a number, an element of a list, or a word.
+/// Whether the parameter has one value: a number, an element of a list, or a word.
 bool is_single(const Axis& axis, const Parameter& parameter, const Drive& drive) {
   Drive copy = drive;
   add_section_of(copy, axis.path);
@@ -28,7 +28,7 @@ bool is_single(const Axis& axis, const Parameter& parameter, const Drive& drive)
          (!is_list || axis.path.find('[') != std::string::npos);
 }
 
-/// Rules for this one number, whatever the others are.
+/// The rules for this one number, whatever the other parameters are.
 std::vector<Fault> faults_of_value(const Axis& axis, const Parameter& parameter, double value) {
   RangeCheck check;
   if (is_word(parameter)) {
@@ -90,7 +90,7 @@ Axis spaced_axis(std::string_view field, std::string path, double from, double t
   const double steps = std::max(1.0, static_cast<double>(count) - 1.0);
   for (std::size_t i = 0; i < count; ++i) {
     const auto step = static_cast<double>(i);
-    // By powers of ten, so that whole ones are met exactly.
+    // Powers of ten make whole powers exact.
     const double exponent = (std::log10(from) * (steps - step) + std::log10(to) * step) / steps;
     axis.values.push_back(is_logarithmic ? std::pow(10.0, exponent)
                                          : from + step / steps * (to - from));

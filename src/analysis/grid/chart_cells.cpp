@@ -40,13 +40,14 @@ struct Box {
   }
 };
 
-/// Parts of an interval, the points between which are compared. Beyond the first and the last there
-/// is no cell whose error would tell of one that is by chance small half-way.
+/// The number of parts into which an interval is divided for comparison. The end intervals have
+/// four: an error that happens to be small half-way would not show in a cell beyond, because there
+/// is none.
 std::size_t parts_of(std::size_t interval, std::size_t intervals) {
   return interval == 0 || interval + 1 == intervals ? 4 : 2;
 }
 
-/// Where an interval begins among the points of its axis, or the last one ends.
+/// The index of a node among the points of its axis.
 std::size_t point_of_node(std::size_t node, std::size_t intervals) {
   if (node == 0) return 0;
   return 2 * node + (node < intervals ? 2 : 4);
@@ -76,18 +77,18 @@ double half_way(double one, double next, bool logarithmic) {
   return logarithmic ? std::sqrt(one) * std::sqrt(next) : 0.5 * one + 0.5 * next;
 }
 
-/// The values that divide an interval into two parts or four.
+/// The values that divide an interval into two or four parts.
 std::vector<double> values_between(double one, double next, std::size_t parts, bool logarithmic) {
   const double middle = half_way(one, next, logarithmic);
   if (parts == 2) return {middle};
   return {half_way(one, middle, logarithmic), middle, half_way(middle, next, logarithmic)};
 }
 
-/// As ChartAnswer::error has it; both the error, not negative, and the value are straightened.
+/// The error as in ChartAnswer::error. `error` (not negative) and `value` are straightened.
 double relative_error(Quantity quantity, double error, double value) {
   if (error == 0.0) return 0.0;
   if (quantity != Quantity::growth_at_rest) return error / value;
-  // Growth is 1/value − 1. Too small a value errs more than too large a one.
+  // Growth is 1/value − 1, so a value too small causes a larger error than one too large.
   const double too_small = value - error;
   if (too_small <= 0.0) return infinity;
   const double error_of_growth = error / (too_small * value);
@@ -98,16 +99,16 @@ struct Range {
   double least = infinity;
   double greatest = -infinity;
 
-  /// Any number; NaN adds nothing.
+  /// Adds a number; NaN is ignored.
   void add(double value) {
     least = std::fmin(least, value);
     greatest = std::fmax(greatest, value);
   }
-  /// 0 where there are numbers of either sign.
+  /// 0 if there are numbers of both signs.
   double least_magnitude() const { return std::max({least, -greatest, 0.0}); }
 };
 
-/// What the points of a cell have in common, seen one after the other.
+/// Whether the points of a cell, added one after the other, are similar.
 class Likeness {
  public:
   void add(Verdict verdict, double growth_at_rest, double value) {
@@ -130,7 +131,8 @@ class Likeness {
  private:
   bool all_or_none(std::size_t count) const { return count == 0 || count == points_; }
 
-  /// Farther than growth at rest varies: nowhere between the points does hunting end.
+  /// Whether growth at rest is farther from 1 than it varies, so that hunting ends nowhere between
+  /// the points.
   bool far_from_end_of_hunting() const {
     constexpr double end = 0.5;
     const double distance = std::max(place_.least - end, end - place_.greatest);
@@ -139,13 +141,13 @@ class Likeness {
 
   std::size_t points_ = 0;
   std::size_t values_ = 0;
-  std::size_t zeros_ = 0;  // where growth at rest ends, no derivative need tell of it
+  std::size_t zeros_ = 0;  // no derivative need show where growth at rest reaches 0
   Verdict verdict_ = Verdict::undecided;
   bool same_verdict_ = true;
   Range place_;  // of growth at rest, straightened
 };
 
-/// Compares a table with the points of its cells, one cell at a time.
+/// Compares a table with the solved points of its cells, one cell at a time.
 class CellExamination {
  public:
   CellExamination(const CubicTable& table, const Grid& refined_grid, Quantity quantity,
@@ -156,14 +158,15 @@ class CellExamination {
         solved_(solved),
         points_(points_of(refined_grid)) {}
 
-  /// The largest error found in the cell, as if the least value in it had it: an error is largest
-  /// about half-way, and relative to the value it may be many times larger towards a corner where
-  /// the value is small. Infinite where the points are not alike, NaN where a value is missing.
+  /// The largest error found in the cell, relative to the least value in it. An error is largest
+  /// about half-way, but the value may be many times smaller towards a corner, and the error
+  /// relatively larger there. Infinite where the points are not similar, NaN where a value is
+  /// missing.
   ChartCell examined(const Position& cell) const {
     const Box points = points_of_cell(cell);
     Likeness likeness;
     Range values;          // straightened
-    double largest = 0.0;  // error of what is interpolated
+    double largest = 0.0;  // error of the straightened value
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Position offset = points.position_of(i);
       const Position point = point_at(cell, offset);
@@ -174,13 +177,13 @@ class CellExamination {
       values.add(exact);
       if (is_node(offset, points) || std::isnan(exact) || std::isnan(largest)) continue;
       const double error = std::abs(interpolated(cell, point) - exact);
-      largest = error <= largest ? largest : error;  // NaN, too
+      largest = error <= largest ? largest : error;  // NaN propagates
     }
     const double error = relative_error(quantity_, largest, values.least_magnitude());
     return {likeness.all_alike() ? error : infinity, likeness.verdict(), likeness.has_value()};
   }
 
-  /// Those compared in a cell.
+  /// The number of points compared in a cell.
   std::size_t checked_points(const Position& cell) const {
     const Box points = points_of_cell(cell);
     return points.size() - (std::size_t{1} << points.sizes.size());
@@ -227,8 +230,7 @@ class CellExamination {
   Box points_;
 };
 
-/// For each cell the largest of its own error and those of the two beside it on one axis, as far as
-/// they are known.
+/// For each cell the largest error of itself and its two neighbors on one axis, of those known.
 std::vector<double> largest_beside(const std::vector<double>& errors, const Box& cells,
                                    std::size_t axis) {
   std::size_t stride = 1;
@@ -242,9 +244,10 @@ std::vector<double> largest_beside(const std::vector<double>& errors, const Box&
   return largest;
 }
 
-/// The error stated of each cell, from the largest found in it and in those that touch it. A smooth
-/// quantity's is nowhere much more than 1.3 times as large; the factor is that of a quantity whose
-/// slope jumps, at the worst of places, in the first or last cell of an axis.
+/// The stated error of each cell, from the largest error found in it and in the cells that touch
+/// it. The error of a smooth quantity is nowhere much more than 1.3 times as large. The factor
+/// below covers a quantity whose slope jumps at the worst place in the first or last cell of an
+/// axis.
 std::vector<double> stated_errors(const std::vector<ChartCell>& found, const Box& cells) {
   constexpr double safety = 3.2;
   std::vector<double> errors;
@@ -257,7 +260,7 @@ std::vector<double> stated_errors(const std::vector<ChartCell>& found, const Box
   return errors;
 }
 
-/// The median; 0 of none.
+/// The median; 0 if there are no errors.
 double typical(std::vector<double> errors) {
   if (errors.empty()) return 0.0;
   const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
@@ -265,7 +268,8 @@ double typical(std::vector<double> errors) {
   return *middle;
 }
 
-/// Of cells whose servos are solved where the error is NaN; `found` are the errors found in them.
+/// The accuracy of a chart. Cells with a NaN error are solved; `found` has the errors measured in
+/// the cells.
 ChartAccuracy accuracy_of(const std::vector<ChartCell>& cells, const std::vector<ChartCell>& found,
                           const CellExamination& examination, const Box& box) {
   ChartAccuracy accuracy;

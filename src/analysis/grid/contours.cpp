@@ -13,11 +13,11 @@
 namespace gearlash {
 namespace {
 
-/// For a picture: 2⁻²⁴ of the plane.
+/// Accurate enough for a picture: 2⁻²⁴ of the plane.
 constexpr CurveAccuracy picture_accuracy{
     .halvings = 24, .straightness = 3e-4, .shortest_chord = 4e-3};
 
-/// The cell's first point on an axis, and how far a value is on its way to the next.
+/// The cell's first point on an axis, and the fraction of the way to the next point.
 struct CellPlace {
   std::size_t first;
   double share;
@@ -30,7 +30,7 @@ CellPlace cell_of(const Axis& axis, double value) {
   return {first, std::clamp((position_on(axis, value) - from) / (to - from), 0.0, 1.0)};
 }
 
-/// Between the four points round a place; NaN where one of them has none.
+/// Interpolates between the four points around a place; NaN where one of them has no value.
 double interpolated(const Grid& grid, const std::vector<double>& values, const MapPoint& point) {
   const Axis& x_axis = grid.axes[1];
   const CellPlace y = cell_of(grid.axes[0], point.y);
@@ -51,7 +51,7 @@ double limit_beside(const NormalizedServo& servo, Quantity quantity) {
   return limit_where_hunting_ends(quantity, servo.backlash).value_or(not_a_number);
 }
 
-/// The quantity at a place with plastic contact, or its limit where the servo does not hunt.
+/// The quantity at a place with plastic contact, or its limit if the servo does not hunt.
 double worked_out(const GridPoints& points, Quantity quantity, const MapPoint& place) {
   const PointAnswer answer = answer_at(points, std::array{place.y, place.x}, quantity);
   const double value = of_motion(quantity, answer.verdict, answer.value);
@@ -68,7 +68,7 @@ Side side_of(double value, double level) {
 constexpr std::array coarse_digits = {1.0, 2.0, 5.0};
 constexpr std::array fine_digits = {1.0, 1.5, 2.0, 3.0, 5.0, 7.0};
 
-/// One of the digits times a power of ten, the first that is not below `number`.
+/// The smallest product of one of the digits and a power of ten that is not below `number`.
 double round_number_from(double number, std::span<const double> digits) {
   const double power = std::pow(10.0, std::floor(std::log10(number) + 1e-9));
   for (const double digit : digits) {
@@ -97,7 +97,7 @@ std::vector<double> levels_by_factors(double low, double high, std::span<const d
 
 constexpr std::size_t most_levels = 12;
 
-/// Every second, fourth, … of them if need be.
+/// Every second, fourth, … level as needed.
 std::vector<double> thinned_out(std::vector<double> levels) {
   while (levels.size() > most_levels) {
     std::vector<double> fewer;

@@ -1,4 +1,4 @@
-// Lines of equal quantity over a map.
+// Contours of a quantity on a map.
 #pragma once
 
 #include <vector>
@@ -10,20 +10,20 @@ namespace gearlash {
 
 struct Contour {
   double level = 0.0;
-  std::vector<MapCurve> curves = {};  ///< what is above the level lies on their left
+  std::vector<MapCurve> curves = {};  ///< values above the level lie on their left
 };
 
-/// Some six to twelve round numbers within the bulk of the values, of those that are finite and
-/// positive, rising: in steps of 1, 2 or 5 times a power of ten, or by factors of about 1.5 where
-/// the values span more than a factor of 12, of about 2 or more where that would be too many. None
-/// where all values are the same.
+/// About six to twelve rising round numbers within the bulk of the values, of which only finite
+/// positive ones count. Steps are 1, 2 or 5 times a power of ten. Where the values span more than a
+/// factor of 12, levels rise by factors of about 1.5, or of 2 and more where those would be too
+/// many. Empty where all values are equal.
 std::vector<double> round_levels(std::vector<double> values);
 
-/// Where the quantity has these levels. With plastic contact each point of the curves is worked
-/// out, to 1e-6 of the picture, and beyond the end of hunting the quantity has its limit there:
-/// contours of the amplitude run on to the hunting-free boundary. Where faces bounce,
+/// The contours of the quantity at these levels. With plastic contact each point of the curves is
+/// solved, to 1e-6 of the picture. Beyond the end of hunting the quantity is replaced by its limit
+/// there, so contours of the amplitude continue to the hunting-free boundary. Where faces bounce,
 /// and where drives are searched, the quantity is interpolated between the grid's points.
-/// Precondition: `table` is the grid's, whose two axes are y, x.
+/// Precondition: `table` belongs to the grid, whose two axes are y, x.
 std::vector<Contour> contours_of(const Grid& grid, const Table& table, Quantity quantity,
                                  const std::vector<double>& levels);
 

@@ -6,7 +6,7 @@
 namespace gearlash {
 namespace {
 
-/// Of the four values for an interval between the first and the last of an axis.
+/// The first of the four values for an interval, kept within the axis.
 std::size_t first_of_four(std::size_t interval, std::size_t values) {
   const std::size_t before = interval == 0 ? 0 : interval - 1;
   return std::min(before, values - 4);
@@ -20,7 +20,7 @@ double inverse_span(const std::array<double, 4>& places, std::size_t k) {
   return 1.0 / span;
 }
 
-/// To within what a place may stand beside its interval without harm.
+/// Even to within a tolerance: a place slightly outside its interval does no harm.
 bool evenly_spaced(const std::vector<double>& places) {
   constexpr double tolerance = 1e-9;
   const double step = (places.back() - places.front()) / (static_cast<double>(places.size()) - 1.0);
@@ -31,7 +31,7 @@ bool evenly_spaced(const std::vector<double>& places) {
   return true;
 }
 
-/// Over the values of the cubics on this axis and on those after it; the last one's stride is 1.
+/// The sum over this axis and those after it; the last axis has stride 1.
 template <std::size_t axes>
 double cubic_sum(const double* first, const CubicPlace* place, const std::size_t* stride) {
   std::array<double, 4> terms;

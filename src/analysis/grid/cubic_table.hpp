@@ -1,4 +1,4 @@
-// A table over one or more axes, with cubics between its values.
+// Cubic interpolation in a table over one or more axes.
 #pragma once
 
 #include <array>
@@ -10,33 +10,32 @@
 
 namespace gearlash {
 
-/// The cubic through four neighbouring values of an axis, at one place: Σ weights[k] f[first + k].
+/// The cubic through four neighboring values of an axis, at one place: Σ weights[k] f[first + k].
 struct CubicPlace {
-  std::size_t interval;  ///< the place stands between value number `interval` and the next
-  std::size_t first;     ///< of the four values
+  std::size_t interval;  ///< the place lies between value number `interval` and the next
+  std::size_t first;     ///< the first of the four values
   std::array<double, 4> weights;
 };
 
 /// Lagrange's cubic in s, which is the parameter's value or, on a logarithmic axis, its logarithm:
 ///   weights[k] = Π_{j≠k} (s − s_j)/(s_k − s_j),
-/// over two values on either side of the place, or the four at an end of the axis. The interval is
-/// found at once where the values are evenly spaced in s, else by bisection.
+/// with two values on either side of the place, or the four at an end of the axis. The interval is
+/// computed directly where the values are evenly spaced in s, else found by bisection.
 class CubicAxis {
  public:
   static constexpr std::size_t fewest_values = 4;
 
-  /// Precondition: rising; fewest_values or more, finite, positive where
-  /// logarithmic.
+  /// Precondition: rising; fewest_values or more, finite, positive where logarithmic.
   explicit CubicAxis(const Axis& axis);
 
   std::size_t intervals() const { return intervals_.size(); }
 
-  /// Between the ends of the axis, both included; false for NaN.
+  /// Whether the value lies between the ends of the axis, including them; false for NaN.
   bool contains(double value) const { return value >= lowest_ && value <= highest_; }
 
   /// Precondition: contains(value).
   CubicPlace at(double value) const;
-  /// By the cubic of that interval, whether the value stands in it or not.
+  /// The cubic of that interval, whether or not the value lies in it.
   CubicPlace at(double value, std::size_t interval) const;
 
  private:
@@ -53,24 +52,24 @@ class CubicAxis {
   bool even_;
   double lowest_;
   double highest_;
-  double intervals_a_place_;  ///< where even
+  double intervals_a_place_;  ///< for even spacing
   std::vector<double> places_;
   std::vector<Interval> intervals_;
 };
 
-/// Tensor product of the axes' cubics: 4ⁿ values for n axes.
+/// The tensor product of the axes' cubics: 4ⁿ values for n axes.
 class CubicTable {
  public:
   static constexpr std::size_t most_axes = 5;
 
   CubicTable() = default;
-  /// Precondition: 1 to most_axes axes as CubicAxis wants them; a value for each combination, the
-  /// last axis fastest.
+  /// Precondition: 1 to most_axes axes as CubicAxis requires them; one value for each combination,
+  /// the last axis fastest.
   CubicTable(const std::vector<Axis>& axes, std::vector<double> values);
 
   const std::vector<CubicAxis>& axes() const { return axes_; }
 
-  /// NaN where one of the 4ⁿ values is. Precondition: one place for each axis.
+  /// NaN where one of the 4ⁿ values is NaN. Precondition: one place for each axis.
   double at(std::span<const CubicPlace> places) const;
 
  private:

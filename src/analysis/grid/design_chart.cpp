@@ -11,10 +11,10 @@
 namespace gearlash {
 namespace {
 
-/// A chart is held in memory, with the points compared between the values of its axes.
+/// A chart is held in memory, including the points compared between the values of its axes.
 constexpr std::size_t most_points = 100'000'000;
 
-/// What a cubic asks for, beyond what a grid does.
+/// The requirements of a cubic beyond those of a grid.
 void check_axis(RangeCheck& check, const Axis& axis, const std::string& name) {
   if (axis.values.size() < CubicAxis::fewest_values) {
     check.refuse(name, std::to_string(axis.values.size()) + " values",
@@ -54,7 +54,7 @@ void require_sound(const Grid& grid, double tolerance) {
                      ", those between the values included: a chart is held in memory");
   }
   require_none(check.within("tolerance", tolerance, 0.0, 1.0).faults());
-  // Half-way to a damping of 0 may be a damping that is refused.
+  // A value half-way to a damping of 0 may be refused.
   require_none(faults(detail::refined(grid)));
 }
 
@@ -102,8 +102,7 @@ DesignChart::Cells::Cells(Grid sound_grid, Quantity of, const DesignChartOptions
   accuracy = examined.accuracy;
 }
 
-// There is one object to be returned, so that none is copied: that would take longer than the
-// cubic.
+// All paths return one object, so that none is copied. A copy would take longer than the cubic.
 ChartAnswer DesignChart::Cells::look_up(std::span<const double> place) const {
   ChartAnswer answer;
   const std::vector<CubicAxis>& axes = table_.axes();

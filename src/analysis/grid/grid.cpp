@@ -10,10 +10,10 @@
 namespace gearlash {
 namespace {
 
-/// What is wrong with the drive at the ends of the axes, if it is so at every combination of them:
-/// a combination may be none (a massless load without friction) where others are drives.
+/// The faults of the drive at the ends of the axes, if every combination of ends has faults. Single
+/// combinations may be no valid drive (a massless load without friction) where others are.
 std::vector<Fault> faults_of_corners(const Grid& grid, bool are_axes_sound) {
-  if (!are_axes_sound) return {};  // what they vary may be at fault in the drive
+  if (!are_axes_sound) return {};  // they cannot replace faulty values of the drive
   std::vector<Fault> found;
   for (const std::vector<double>& corner : corners_of(grid)) {
     Drive drive = grid.drive;
@@ -24,7 +24,7 @@ std::vector<Fault> faults_of_corners(const Grid& grid, bool are_axes_sound) {
   return found;
 }
 
-/// Whether two axes vary the same number.
+/// Whether two axes vary the same parameter.
 bool are_same(const Axis& one, const Axis& other, const Drive& drive) {
   if (one.path.find('[') != std::string::npos) return one.path == other.path;
   const Parameter* parameter = parameter_of(one, drive);

@@ -12,8 +12,8 @@
 namespace gearlash {
 namespace {
 
-/// Points that a thread works out at a time: some tenths of a millisecond where nothing bounces,
-/// some tens of milliseconds where it does, and one search.
+/// The number of points that a thread solves at a time: some tenths of a millisecond without
+/// bounces, some tens of milliseconds with them, or one search.
 std::size_t points_at_a_time(const EnginesNeeded& engines) {
   if (engines.search) return 1;
   return engines.bounces ? 8 : 4096;
@@ -40,7 +40,7 @@ void write(const CycleColumns& columns, std::size_t row, const Answer& answer) {
   }
 }
 
-/// A row from the normal form to SI.
+/// Scales a row from the normal form to SI.
 void scale(const CycleColumns& columns, std::size_t row, double natural_frequency,
            double stiffness) {
   const auto by = [&](Quantity quantity, double factor) {
@@ -62,7 +62,7 @@ void scale(const CycleColumns& columns, std::size_t row, const FinalServo& servo
   scale(columns, row, servo.closed_form.natural_frequency, servo.stiffness.value_or(not_a_number));
 }
 
-/// What Answer::value() says of drives that come to rest, and of the verdict.
+/// Fills in what Answer::value() gives for drives that come to rest, and for the verdict.
 void complete(const CycleColumns& columns, std::size_t row) {
   const Verdict verdict = columns.verdict[row];
   const std::span<double> words = columns[Quantity::verdict];
@@ -73,8 +73,8 @@ void complete(const CycleColumns& columns, std::size_t row) {
   }
 }
 
-/// The points of a grid one after another: at() divides once an axis and point, which is felt
-/// beside the kernel.
+/// The points of a grid in order. Stepping avoids the division per axis and point of at(), which is
+/// noticeable next to the kernel.
 class GridWalk {
  public:
   GridWalk(const Grid& grid, std::size_t first)
@@ -103,7 +103,7 @@ class GridWalk {
   std::vector<double> values_;
 };
 
-/// Goes into searches, several at a time: they learn whether the whole goes on.
+/// The progress of several simultaneous searches, through which they learn of a stop.
 class ProgressOfSearches : public Progress {
  public:
   ProgressOfSearches(Progress& whole, std::size_t points)
@@ -127,7 +127,8 @@ class ProgressOfSearches : public Progress {
   std::atomic<bool> stopped_ = false;
 };
 
-/// Some points one after another: those in closed form as a batch, the others by a search each.
+/// A run of consecutive points: those in closed form are solved as a batch, the others searched one
+/// by one.
 class Part {
  public:
   Part(const GridPoints& points, const CycleColumns& columns)
@@ -140,7 +141,7 @@ class Part {
     }
     GridCount count;
     count.solved = find_limit_cycles(servos_, columns_, unit);
-    count.solved.one_by_one -= refused_.size() + searched_.size();  // stand-ins have no gap
+    count.solved.one_by_one -= refused_.size() + searched_.size();  // less the stand-ins
     if (proved) count.unproved = keep_proved(servos_, columns_);
     bring_to_si();
     for (const auto& [row, drive] : searched_) {
@@ -161,7 +162,7 @@ class Part {
   struct Scale {
     std::size_t row;
     double natural_frequency;
-    double stiffness;  ///< NaN where it is not known
+    double stiffness;  ///< NaN where unknown
   };
 
   static NormalizedServo stand_in() { return {.damping = 1.0}; }
@@ -169,7 +170,7 @@ class Part {
   void place(std::size_t row, const NormalizedServo& servo) {
     servos_[row] = servo;
     const bool two_masses = servo.inertia_ratio > 0.0 && std::isfinite(servo.inertia_ratio);
-    if (two_masses || validate(servo).empty()) return;  // all else the axes have settled
+    if (two_masses || validate(servo).empty()) return;  // the axes were checked for the rest
     servos_[row] = stand_in();
     refused_.push_back(row);
   }
@@ -187,7 +188,7 @@ class Part {
     }
   }
 
-  /// From the normal form to SI.
+  /// Scales all rows from the normal form to SI.
   void bring_to_si() {
     if (!points_.are_of_normal_form()) {
       for (const Scale& one : scales_) {
@@ -265,7 +266,7 @@ double of_motion(const Table& table, Quantity quantity, std::size_t row) {
 }
 
 std::size_t box_length(const Grid& grid, std::size_t first, std::size_t most) {
-  std::size_t whole = 1;  // points of the axes that the box takes whole
+  std::size_t whole = 1;  // points of the axes that the box contains entirely
   for (auto axis = grid.axes.rbegin(); axis != grid.axes.rend(); ++axis) {
     const std::size_t values = axis->values.size();
     const std::size_t left = values - first / whole % values;

@@ -1,4 +1,4 @@
-// The points of a grid answered on all cores, in columns.
+// Evaluation of the points of a grid on all cores, into columns.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +10,9 @@
 
 namespace gearlash {
 
-/// Who works.
+/// The threads and the vector unit to use.
 struct Workers {
-  std::size_t threads = 0;  ///< 0: as many as the machine has cores
+  std::size_t threads = 0;  ///< 0: one per core
   VectorUnit unit = widest_vector_unit();
 };
 
@@ -20,18 +20,18 @@ struct Workers {
 struct GridCount {
   BatchCount solved{};       ///< in closed form
   std::size_t searched = 0;  ///< by the general engine
-  std::size_t refused = 0;   ///< combinations that are no drive: verdict undecided, all else NaN
-  std::size_t unproved = 0;  ///< undecided because the proof that was asked for left them open
+  std::size_t refused = 0;   ///< no valid drive: verdict undecided, numbers NaN
+  std::size_t unproved = 0;  ///< undecided because the requested proof left them open
   bool stopped = false;      ///< before all points were done
 
   std::size_t points() const {
     return solved.side_by_side + solved.one_by_one + searched + refused;
   }
-  /// Of other points: how they were answered.
+  /// Adds the counts of other points.
   void add(const GridCount& others);
 };
 
-/// `count` points from `first` on, into the columns' rows 0 … count − 1; see evaluate() in
+/// Evaluates `count` points from `first` on into the columns' rows 0 … count − 1; see evaluate() in
 /// gearlash/grid.hpp. Precondition: faults(grid) is empty, the points are the grid's, first + count
 /// ≤ size(), the verdict is among the columns.
 GridCount evaluate(const Grid& grid, const GridPoints& points, std::size_t first, std::size_t count,
@@ -41,25 +41,25 @@ GridCount evaluate(const Grid& grid, const GridPoints& points, std::size_t first
 /// The table's own columns.
 CycleColumns columns_of(Table& table);
 
-/// Of the quantities that a grid of this kind can have: the closed form knows fewer than a search.
+/// The quantities that a grid of this kind can have: the closed form gives fewer than a search.
 std::span<const Quantity> quantities_known(const EnginesNeeded& engines);
 
-/// A number of a motion: NaN where the drive comes to rest, which for amplitudes a table says by 0.
+/// A quantity of the motion: NaN where the drive comes to rest, where a table has amplitude 0.
 double of_motion(const Table& table, Quantity quantity, std::size_t row);
 double of_motion(Quantity quantity, Verdict verdict, double value);
 
-/// Of one place between the points: undecided and NaN where there is no drive.
+/// The answer at one place between the points; undecided and NaN where there is no valid drive.
 struct PointAnswer {
   Verdict verdict = Verdict::undecided;
   double value = std::numeric_limits<double>::quiet_NaN();
   bool is_drive = true;
 };
-/// As evaluate(); nothing is allocated for a normal form that is solved in a lane.
+/// As evaluate(). Allocates nothing for a normal form that is solved in a vector lane.
 PointAnswer answer_at(const GridPoints& points, std::span<const double> place, Quantity quantity);
 
-/// How many points from `first` on, `most` at most, are a box of the grid: some values of one axis
-/// with all values of the axes after it. Precondition: `first` is 0, or where such a box ended;
-/// most > 0.
+/// The number of points from `first` on, `most` at most, that form a box of the grid: some values
+/// of one axis with all values of the axes after it. Precondition: `first` is 0 or the end of such
+/// a box; most > 0.
 std::size_t box_length(const Grid& grid, std::size_t first, std::size_t most);
 
 }  // namespace gearlash

@@ -11,7 +11,7 @@
 namespace gearlash {
 namespace {
 
-/// How many points are worked out and handed on at a time.
+/// The number of points in the next piece.
 class PieceLength {
  public:
   PieceLength(const EnginesNeeded& engines, std::size_t longest, const Stopwatch& seconds)
@@ -35,12 +35,12 @@ class PieceLength {
 
  private:
   std::size_t longest_;
-  std::size_t shortest_;  ///< what evaluate() gives to all cores at a time
+  std::size_t shortest_;  ///< what evaluate() distributes to all cores at a time
   std::size_t points_;
   bool may_change_;
 };
 
-/// Of two threads: that which works, and that which takes.
+/// Serializes the progress of two threads, the one that computes and the one that takes.
 class OneAtATime : public Progress {
  public:
   explicit OneAtATime(Progress& progress) : progress_(progress) {}
@@ -78,11 +78,11 @@ GridCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantit
   }
   PieceLength length(grid_points.engines(), longest, seconds);
   const auto now = [&] { return seconds ? seconds() : 0.0; };
-  // Into a table of as many rows as the piece has points.
+  // Computes a piece into a table with one row per point.
   const auto work_out = [&](std::size_t begin, Table& table) {
     const std::size_t count = box_length(grid, begin, length.points());
     if (table.rows() != count) table = Table(count, quantities);
-    // Where no thread can be had, the piece is worked out when it is asked for.
+    // Without a free thread the piece is computed when it is needed.
     return std::async(std::launch::async | std::launch::deferred, [&, begin, count] {
       const double start = now();
       ProgressPart part(heard, share_of(begin), share_of(begin + count));
@@ -91,7 +91,7 @@ GridCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantit
     });
   };
   std::array<Table, 2> tables;
-  std::future<WorkedOut> working;  // after what it works on, so that it ends first
+  std::future<WorkedOut> working;  // declared after its data, so that it is destroyed first
   if (first < points) working = work_out(first, tables[0]);
   for (std::size_t index = 0; first < points; index = 1 - index) {
     const WorkedOut piece = working.get();
@@ -104,7 +104,7 @@ GridCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantit
     take({first, table, piece.count});
     total.add(piece.count);
     first = next;
-    // A piece that a core works out at one go ends without asking.
+    // A piece that one core computes in one step ends without calling progress.
     total.stopped = is_stopped();
     if (total.stopped) break;
   }

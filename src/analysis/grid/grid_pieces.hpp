@@ -1,4 +1,4 @@
-// Grids of any size, worked out piece by piece in little memory.
+// Evaluation of grids of any size, piece by piece in little memory.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace gearlash {
 
-/// What was worked out: as many points from `first` on as the table has rows, a box of the grid
-/// (see box_length()).
+/// A computed piece: as many points from `first` on as the table has rows. They form a box of the
+/// grid (see box_length()).
 struct GridPiece {
   std::size_t first;
   const Table& table;
@@ -17,18 +17,19 @@ struct GridPiece {
 };
 using GridSink = std::function<void(const GridPiece&)>;
 
-/// A clock of the caller's, s: the library looks at none.
+/// A clock of the caller, in s. The library itself reads no clock.
 using Stopwatch = std::function<double()>;
 
-/// Works out the points from `first` on, on all cores, and gives them to `take` in their order:
-/// while it has one piece, which it may write to a file, the next is worked out. `take` is called
-/// in the calling thread; what it throws ends the work, and is thrown on.
+/// Evaluates the points from `first` on, on all cores, and passes the pieces to `take` in order.
+/// While `take` has one piece, which it may write to a file, the next one is computed. `take` is
+/// called in the calling thread; an exception from it ends the work and is rethrown.
 ///
-/// A piece has `longest` points at most; where faces bounce or drives are searched, as many as
-/// take about a second by `seconds`, which is found by and by; without it a few for each core. Two
-/// of them are held in memory. `progress` hears the share of the whole grid before the work and now
-/// and then; it stops it after a piece or in one that is then lost, and the count says so.
-/// Precondition: as in evaluate(), longest > 0, `first` is 0 or where a box ended.
+/// A piece has at most `longest` points. Where faces bounce or drives are searched, its length
+/// adapts until a piece takes about a second by `seconds`; without a clock it is a few points for
+/// each core. Two pieces are held in memory. `progress` receives the share of the whole grid,
+/// before the work and now and then. It can stop the work after a piece or within one, which is
+/// then lost; the count reports the stop. Precondition: as in evaluate(), longest > 0, `first` is 0
+/// or the end of a box.
 GridCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantities,
                              std::size_t first, std::size_t longest, const GridSink& take,
                              Progress& progress = no_progress(), const Stopwatch& seconds = {});

@@ -3,7 +3,7 @@
 namespace gearlash {
 namespace {
 
-/// Nothing where an axis is not a number of the normal form.
+/// Empty if an axis is not a number of the normal form.
 std::vector<double NormalizedServo::*> members_of(const std::vector<Axis>& axes) {
   std::vector<double NormalizedServo::*> members;
   for (const Axis& axis : axes) {
@@ -44,7 +44,7 @@ GridPoints::GridPoints(const Grid& grid) : drive_(grid.drive) {
   for (const Axis& axis : grid.axes) axes_.push_back({axis.path, {}, axis.logarithmic});
   members_ = members_of(axes_);
   if (drive_.servo && members_.size() == axes_.size()) {
-    Drive any = drive_;  // whose own numbers may be at fault
+    Drive any = drive_;  // because the drive's own numbers may be at fault
     any.servo = NormalForm{.damping = 0.5,
                            .inertia_ratio = 1.0,
                            .friction_ratio = 0.5,

@@ -14,22 +14,22 @@ namespace {
 
 using SideAt = std::function<Side(const MapPoint&)>;
 
-/// A place in shares of the axes: the plane as it is drawn, but for its width and height.
+/// A place in shares of the axes: the drawn plane except for its width and height.
 struct Place {
   double along = 0.0;
   double up = 0.0;
 };
 
-/// An edge of the grid, by its first point, x fastest, and its direction.
+/// An edge of the grid, numbered by its first point (x fastest) and its direction.
 using EdgeId = std::size_t;
 
-/// From the edge where the boundary enters a cell to that where it leaves it.
+/// The boundary within a cell, from the edge where it enters to the edge where it leaves.
 struct Crossing {
   EdgeId enters;
   EdgeId leaves;
 };
 
-/// Finite axes have scales; a logarithmic one is positive.
+/// Whether both ends lie on a finite scale; a logarithmic axis is always positive.
 bool is_drawable(const Axis& axis) {
   return axis.values.size() > 1 && std::isfinite(axis.values.front()) &&
          std::isfinite(axis.values.back());
@@ -75,8 +75,8 @@ class BoundaryFinder {
     return {value_at(x_, place.along), value_at(y_, place.up)};
   }
 
-  /// Where the boundary is between a place inside and one outside, just inside; nothing where the
-  /// other side turns out to be what is unknown.
+  /// The boundary between a place inside and one outside, just inside; empty where the other side
+  /// turns out to be unknown.
   template <class At>
   std::optional<double> between(const At& at, double inside, double outside) const {
     const SideChange change = bisect_sides([&](double place) { return side_at_(at(place)); },
@@ -100,8 +100,8 @@ void BoundaryFinder::find_crossings() {
   }
 }
 
-/// Once round the cell against the clock: the boundary, with the inside on its left, enters where
-/// the inside is left, and leaves where it is found again.
+/// Goes around the cell counterclockwise. The boundary has the inside on its left, so it enters the
+/// cell where the corners change from inside to outside and leaves where they change back.
 void BoundaryFinder::cross_cell(std::size_t column, std::size_t row) {
   const std::array corners = {corner(column, row), corner(column + 1, row),
                               corner(column + 1, row + 1), corner(column, row + 1)};
@@ -115,8 +115,8 @@ void BoundaryFinder::cross_cell(std::size_t column, std::size_t row) {
     if (corners[i] == Side::inside && next == Side::outside) enters.push_back(edges[i]);
     if (corners[i] == Side::outside && next == Side::inside) leaves.push_back(edges[i]);
   }
-  // Of four crossings each way in is joined to the way out that follows it, round a corner that is
-  // outside, or to the one before it, round a corner inside.
+  // With four crossings, each entry is joined to the exit that follows it, around an outside
+  // corner, or to the exit before it, around an inside corner.
   const bool four = enters.size() == 2;
   const bool follows = corners[0] == Side::inside;
   const bool turn = four && (middle_of_cell(column, row) == Side::inside) != follows;
@@ -188,7 +188,7 @@ std::vector<MapCurve> BoundaryFinder::joined() const {
   for (const Crossing& crossing : crossings_) {
     if (!is_left.contains(crossing.enters)) follow(crossing.enters);
   }
-  for (const Crossing& crossing : crossings_) {  // what is left over are rings
+  for (const Crossing& crossing : crossings_) {  // the remaining crossings form rings
     if (next.contains(crossing.enters)) follow(crossing.enters);
   }
   return curves;
@@ -209,7 +209,8 @@ MapCurve BoundaryFinder::refined(const MapCurve& curve) const {
 }
 
 void BoundaryFinder::divide(const Place& from, const Place& to, MapCurve& points) const {
-  // A longer chord may cross the boundary in its middle and yet leave it on both sides.
+  // A longer chord may cross the boundary at its middle although the boundary deviates to both
+  // sides.
   constexpr double longest_chord = 0.03;
   const double length = std::hypot(to.along - from.along, to.up - from.up);
   if (!(length > accuracy_.shortest_chord)) return;
@@ -223,8 +224,8 @@ void BoundaryFinder::divide(const Place& from, const Place& to, MapCurve& points
   divide(*between, to, points);
 }
 
-/// The boundary on the line through the chord's middle at right angles to it, at most half the
-/// chord away. The region is on the left of the chord.
+/// The boundary on the perpendicular through the chord's middle, at most half the chord's length
+/// away. The region is on the left of the chord.
 std::optional<Place> BoundaryFinder::across_middle(const Place& from, const Place& to) const {
   const Place middle{0.5 * (from.along + to.along), 0.5 * (from.up + to.up)};
   const Side side = side_at_(point_at(middle));

@@ -6,12 +6,12 @@
 namespace gearlash {
 
 struct SideChange {
-  double place = 0.0;           ///< the last that is inside
-  Side beyond = Side::outside;  ///< what comes after it
+  double place = 0.0;           ///< the last place inside
+  Side beyond = Side::outside;  ///< the side beyond it
 };
 
-/// By so many halvings, or as many as numbers permit. Whatever lies between, the side changes at
-/// the place that is found.
+/// Bisects `halvings` times, or until neighboring numbers are reached. Whatever lies between, the
+/// side changes at the place found.
 template <class SideAt>
 SideChange bisect_sides(const SideAt& side_at, double inside, double outside, int halvings) {
   Side beyond = Side::outside;
