@@ -45,7 +45,7 @@ Cycle cycle_of(const LimitCycle& found, Certainty certainty, double time_unit,
   return cycle;
 }
 
-/// What an enclosure in the normal form is to be multiplied by, with the error of the data.
+/// Factors from the normal form to SI, with the error of the data.
 struct Scales {
   Interval backlash;
   Interval time_unit;
@@ -53,7 +53,7 @@ struct Scales {
 
 Scales scales_of(const ClosedFormServo& servo, const DriveBox& box) {
   if (!servo.is_as_given) return {Interval(box.backlash), Interval(box.time_unit)};
-  // A decimal is within its neighbours; 1 is exact.
+  // A decimal lies between the neighbors of its double; 1 is exact.
   const auto decimal = [](double number) {
     return number == 1.0 ? Interval(1.0) : Interval(outward::below(number), outward::above(number));
   };
@@ -74,7 +74,7 @@ ProvedBounds bounds_of(const CycleBounds& bounds, const Scales& scales) {
   return proved;
 }
 
-/// The data that the servo's numbers stand for decide what is proved of it.
+/// Proofs are about the data that the servo's numbers stand for.
 LimitCycleAnalysis closed_analysis(const ClosedFormServo& servo, const DriveBox& box,
                                    const Wanted& wanted) {
   if (!wanted.proofs) return analyse_limit_cycles(servo.servo);
@@ -172,13 +172,13 @@ StartOutcome outcome_of(const drive::Outcome& found) {
   return outcome;
 }
 
-/// Whether a reference or a load torque swings for ever: what repeats is then no hunting by itself.
+/// Whether a sine reference or load torque drives the oscillation, which then is not hunting.
 bool is_driven(const drive::ReducedDrive& reduced) {
   return std::holds_alternative<drive::Sine>(drive::settled(reduced.reference)) ||
          std::holds_alternative<drive::Sine>(drive::settled(reduced.load_torque));
 }
 
-/// By where the starts led.
+/// The verdict that follows from the outcomes of the starts.
 Verdict verdict_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced) {
   const bool rests = search.count(drive::MotionEnd::rest) > 0;
   const bool cycles = search.count(drive::MotionEnd::cycle) > 0;
@@ -189,7 +189,7 @@ Verdict verdict_of(const drive::AttractorSearch& search, const drive::ReducedDri
   if (cycles) return Verdict::hunts;
   if (swings) return Verdict::hunts_irregularly;
   if (diverges) return rests ? Verdict::runs_away_if_disturbed : Verdict::runs_away;
-  // Starts of which nothing is known could hunt.
+  // An undecided start could hunt.
   const bool all_rest =
       rests && search.count(drive::MotionEnd::undecided) == 0 && search.is_complete;
   return all_rest ? Verdict::comes_to_rest : Verdict::undecided;
@@ -218,7 +218,7 @@ std::vector<Note> notes_of(const drive::AttractorSearch& search) {
   return notes;
 }
 
-/// Hunting does not depend on what the signals were before.
+/// Hunting does not depend on the earlier course of the signals.
 drive::ReducedDrive settled(drive::ReducedDrive reduced) {
   reduced.reference = drive::settled(reduced.reference);
   reduced.load_torque = drive::settled(reduced.load_torque);

@@ -1,4 +1,4 @@
-// The question and its answer: the closed form where the drive is its servo, else a search.
+// Analysis of a drive: by the closed form where it applies, else by a search.
 #pragma once
 
 #include <optional>
@@ -10,26 +10,26 @@
 
 namespace gearlash {
 
-/// An answer with what its engine worked it out from, for pictures.
+/// An answer with its engine's intermediate results, for pictures.
 struct Analysis {
   Answer answer{};
   drive::ReducedDrive reduced{};           ///< with its signals settled
-  std::optional<ClosedFormServo> servo{};  ///< of the closed form
+  std::optional<ClosedFormServo> servo{};  ///< closed form only
   std::optional<LimitCycleAnalysis> closed{};
   std::optional<drive::AttractorSearch> search{};
 };
 
-/// What the drive ends in. Of references and load torques only the final value, ramp or sine
-/// matters. Throws InvalidInput for a drive that is not sound.
+/// Answers for a drive. Only the final value, ramp or sine of a reference or load torque matters.
+/// Throws InvalidInput for an unsound drive.
 Analysis analyse_in_full(const Drive& drive, const Wanted& wanted = {},
                          Progress& progress = no_progress());
 
-/// The answer to a servo in the normal form, in SI. `stiffness`: K, N m/rad; where it is not known
-/// there are no energies. Proved bounds, which need the error of the data, are left out.
+/// The answer for a servo in the normal form, in SI. `stiffness`: K, N m/rad; without it there are
+/// no energies. Proved bounds are left out, because they need the error of the data.
 Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& servo,
                  std::optional<double> stiffness);
 
-/// The answer that a search amounts to. `reduced`: the drive that was searched.
+/// The answer that follows from a search. `reduced`: the searched drive.
 Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced);
 
 }  // namespace gearlash

@@ -27,7 +27,7 @@ std::optional<FinalServo> final_servo(const Drive& drive) {
   if (!at_rest) return std::nullopt;
   FinalServo found{*closed_form_servo(*at_rest), *drive::proportional_drivetrain(reduce(*at_rest)),
                    std::nullopt};
-  // A normal form with a natural frequency has no inertia, hence no stiffness.
+  // A normal form with a natural frequency has no inertia and therefore no stiffness.
   const bool is_known = !drive.servo || !drive.servo->natural_frequency;
   if (is_known) found.stiffness = found.drivetrain.stiffness;
   return found;

@@ -1,4 +1,4 @@
-// The servo that a drive is to the closed form.
+// The normal-form servo equivalent to a drive.
 #pragma once
 
 #include <optional>
@@ -9,20 +9,20 @@
 
 namespace gearlash {
 
-/// What a drive is to the closed form once its signals stay where they end.
+/// The closed form of a drive whose signals have settled.
 struct FinalServo {
   ClosedFormServo closed_form{};
   Drivetrain drivetrain{};
-  /// K, N m/rad; not known of a normal form with a natural frequency.
+  /// K, N m/rad; unknown for a normal form with a natural frequency.
   std::optional<double> stiffness{};
 };
-/// Nothing where the general engine must answer. Precondition: the drive is sound.
+/// Empty where the general engine must answer. Precondition: the drive is sound.
 std::optional<FinalServo> final_servo(const Drive& drive);
-/// The drive without a reference that stays somewhere in the end, on which hunting does not depend,
-/// and without a load torque that ends at 0. Precondition: its signals are sound.
+/// The drive without a reference that ends constant (hunting does not depend on it) and without a
+/// load torque that ends at 0. Precondition: its signals are sound.
 Drive without_ended_signals(Drive drive);
-/// The same where the closed form then answers for it; nothing for any other drive. Precondition:
-/// it is sound.
+/// without_ended_signals() if the closed form answers for the result; empty for any other drive.
+/// Precondition: the drive is sound.
 std::optional<Drive> closed_form_drive(Drive drive);
 
 }  // namespace gearlash

@@ -40,7 +40,7 @@ const char* text_of(const Event& event) {
   return is_forward ? "impact forward (settled)" : "impact backward (settled)";
 }
 
-/// In units of 1/ω_n inside.
+/// The trajectory's unit of time is 1/ω_n.
 class ClosedFormMotion : public Motion::Source {
  public:
   ClosedFormMotion(const ClosedFormServo& servo, const drive::ReducedDrive& reduced,
@@ -89,8 +89,7 @@ class ClosedFormMotion : public Motion::Source {
     return sample;
   }
 
-  /// The account says where the energy is at the end and went since the start; an impact at the
-  /// very start is part of what went.
+  /// An impact at time 0 is among the losses, so the energy at the start includes it.
   std::optional<EnergyBooks> energy() const override {
     const EnergyAccount from = trajectory_.energy_at(0.0);
     const EnergyAccount to = trajectory_.energy_at(trajectory_.end_time());
@@ -216,9 +215,9 @@ class GeneralMotion : public Motion::Source {
   std::set<std::string> texts_;
 };
 
-// ---- what is asked ------------------------------------------------------------------------------
+// ---- the request --------------------------------------------------------------------------------
 
-/// A reference that is constant from 0 on, as the closed form wants it.
+/// Replaces a reference that is constant from 0 on by its final value, as the closed form needs it.
 Drive with_constant_signals(Drive drive) {
   const auto simplify = [](std::optional<Signal>& signal) {
     if (!signal || drive::settling_time(*signal) > 0.0) return;
@@ -230,7 +229,7 @@ Drive with_constant_signals(Drive drive) {
   return drive;
 }
 
-/// A gap that misses a face by rounding alone is on it.
+/// Moves a gap that misses a face by rounding onto that face.
 double gap_of(const Start& start, const drive::ReducedDrive& reduced, RangeCheck& check) {
   constexpr double rounding = 1e-12;
   const double half = 0.5 * reduced.backlash;

@@ -1,4 +1,4 @@
-// What a Motion is made of, by either engine.
+// The source of a Motion, for either engine.
 #pragma once
 
 #include <limits>
@@ -20,15 +20,15 @@ class Motion::Source {
 
   std::vector<MotionEvent> events;
   std::vector<MotionTouch> touches;
-  double asked_until = 0.0;  ///< s: the last sample of a motion that reached its end is there
+  double asked_until = 0.0;  ///< s, the last sample of a motion that reached its end
   double end_time = 0.0;
   MotionStop stop = MotionStop::reached_end;
   std::string stop_text;
   Engine engine = Engine::closed_form;
 };
 
-/// A motion that the general engine has made of a drive, begun at any time; times of the result are
-/// from there on. Forms of `system` that have another size than its state are taken to be 0.
+/// A motion computed by the general engine. It may begin at any time; the result's times are
+/// relative to that. Forms of `system` whose size differs from its state's are taken as 0.
 Motion motion_of(drive::DriveSystem system, hybrid::Trajectory trajectory,
                  double until = std::numeric_limits<double>::infinity());
 

@@ -17,7 +17,7 @@ struct Point {
   double position;  ///< of the load, along the step
 };
 
-/// The load's path: all its turning points, and samples between.
+/// The load's path: all its turning points, with samples between them.
 class Path {
  public:
   Path(const hybrid::Trajectory& motion, double way) : motion_(motion), way_(way) {
@@ -35,7 +35,7 @@ class Path {
 
   const std::vector<Point>& points() const { return points_; }
 
-  /// The first time at which the level is passed, in either direction.
+  /// The first time at which the path crosses the level, in either direction.
   std::optional<double> first_passing(double level) const {
     for (std::size_t i = 1; i < points_.size(); ++i) {
       if ((points_[i - 1].position < level) != (points_[i].position < level)) {
@@ -45,8 +45,7 @@ class Path {
     return std::nullopt;
   }
 
-  /// The last time at which the path comes into the band about a level, to stay; nothing where it
-  /// ends outside.
+  /// The time from which the path stays within the band about a level; empty if it ends outside.
   std::optional<double> time_into_band(double level, double band) const {
     const auto outside = [&](const Point& point) {
       return std::abs(point.position - level) > band;
@@ -101,7 +100,8 @@ void measure(const Path& path, StepResponse& response) {
   const std::optional<double> high = path.first_passing(0.9 * step);
   if (low && high) response.rise_time = *high - *low;
   const double late = 0.8 * path.points().back().time;
-  // A swing that goes on passes the band: that it ends there does not mean that it stays.
+  // A sustained oscillation may end within the band by chance. It has settled only if it stays
+  // there for the whole last fifth.
   const std::optional<double> settled = path.time_into_band(step, response.band);
   if (settled && *settled <= late) response.settling_time = *settled;
   double highest = 0.0;
@@ -119,7 +119,7 @@ void measure(const Path& path, StepResponse& response) {
   response.ripple = 0.5 * (last_highest - last_lowest);
 }
 
-/// The motion that a response is measured on.
+/// The motion whose response is measured.
 hybrid::Trajectory step_motion(ReducedDrive drive, double step, double until) {
   RangeCheck check;
   if (!(std::isfinite(step) && step != 0.0)) {
