@@ -44,12 +44,12 @@ class DistributionCheck {
     if (normal.min && *normal.min >= normal.mean + reach) {
       check_.refuse("min", exact_text(*normal.min),
                     "must be below mean + 3 standard deviations, " +
-                        exact_text(normal.mean + reach) + ": it leaves next to nothing");
+                        exact_text(normal.mean + reach) + ": almost no samples remain");
     }
     if (normal.max && *normal.max <= normal.mean - reach) {
       check_.refuse("max", exact_text(*normal.max),
                     "must be above mean - 3 standard deviations, " +
-                        exact_text(normal.mean - reach) + ": it leaves next to nothing");
+                        exact_text(normal.mean - reach) + ": almost no samples remain");
     }
     if (normal.min && normal.max && *normal.min >= *normal.max) {
       check_.refuse("max", exact_text(*normal.max),

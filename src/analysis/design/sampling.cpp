@@ -16,7 +16,7 @@ std::vector<Fault> validate(const SamplePlan& sampling) {
   if (sampling.points < 1) check.refuse("points", "0", "must be at least 1");
   if (sampling.replicates < 2) {
     check.refuse("replicates", std::to_string(sampling.replicates),
-                 "must be at least 2: their scatter tells the error");
+                 "must be at least 2: their scatter gives the error");
   }
   if (sampling.replicates > 0 && sampling.points > most_samples / sampling.replicates) {
     check.refuse(

@@ -140,7 +140,7 @@ std::vector<Fault> faults(const Target& target) {
   if (target.no_hunting && target.growth_at_rest.low > 1.0) {
     check.refuse("target",
                  "no-hunting and growth-at-rest >= " + exact_text(target.growth_at_rest.low),
-                 "must not contradict itself: a servo hunts whose growth at rest is above 1");
+                 "must not contradict itself: a servo with a growth at rest above 1 hunts");
   }
   return check.faults();
 }

@@ -221,7 +221,7 @@ DrawnDrive::DrawnDrive(const TolerancedDrive& toleranced)
   for (const ParameterTolerance& varied : toleranced.varied) {
     places_.push_back(place_in(drive_, varied.path));
     if (places_.back() == nullptr) {
-      throw std::invalid_argument(varied.path + " is no number of this drive");
+      throw std::invalid_argument(varied.path + " is not a number of this drive");
     }
   }
 }

@@ -109,7 +109,7 @@ std::vector<Fault> validate(const BacklashDemand& demand) {
   check.include(faults(demand.target));
   if (demand.target.amplitude.low > 0.0) {
     check.refuse("target", "amplitude >= " + exact_text(demand.target.amplitude.low),
-                 "must have no lower limit of amplitude: more backlash then would be better");
+                 "must have no lower limit of amplitude: more backlash would then be better");
   }
   if (!(demand.yield > 0.0 && demand.yield <= 1.0)) {
     check.refuse("yield", exact_text(demand.yield), "must be above 0, to 1");

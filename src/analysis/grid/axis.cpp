@@ -151,8 +151,7 @@ std::vector<Fault> faults_of_axis(const Axis& axis, const Drive& drive, std::str
   RangeCheck check;
   const Parameter* parameter = parameter_of(axis, drive);
   if (parameter == nullptr) {
-    return check.refuse(field, axis.path, "must name a number or a word that the drive has")
-        .faults();
+    return check.refuse(field, axis.path, "must be a number or a word of the drive").faults();
   }
   if (axis.values.empty()) check.refuse(field, "no value", "must be at least one");
   const auto refused = [&](double value) {

@@ -17,9 +17,9 @@ constexpr std::size_t most_points = 100'000'000;
 /// The requirements of a cubic beyond those of a grid.
 void check_axis(RangeCheck& check, const Axis& axis, const std::string& name) {
   if (axis.values.size() < CubicAxis::fewest_values) {
-    check.refuse(name, std::to_string(axis.values.size()) + " values",
-                 "must be at least " + std::to_string(CubicAxis::fewest_values) +
-                     ": a cubic goes through so many");
+    check.refuse(
+        name, std::to_string(axis.values.size()) + " values",
+        "must be at least " + std::to_string(CubicAxis::fewest_values) + ": a cubic needs them");
     return;
   }
   if (std::isinf(axis.values.back())) {

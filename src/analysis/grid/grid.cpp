@@ -87,7 +87,7 @@ std::span<const double> Table::operator[](Quantity quantity) const {
   const std::vector<double>& column = columns_[static_cast<std::size_t>(quantity)];
   if (column.empty() && rows() > 0) {
     require_none({{"quantity", std::string(name_of(quantity)),
-                   "must be one of those that the table was worked out for", ""}});
+                   "must be one of the quantities of the table", ""}});
   }
   return column;
 }

@@ -119,10 +119,10 @@ TEST(EdgeDistribution, EveryFaultIsNamed) {
               ElementsAre("load.inertia.max = 1.1: must be above min, 1.2"));
   EXPECT_THAT(faults_of(Normal{1.0, 0.5, 3.0, {}}),
               ElementsAre("load.inertia.min = 3: must be below mean + 3 standard deviations, 2.5: "
-                          "it leaves next to nothing"));
+                          "almost no samples remain"));
   EXPECT_THAT(faults_of(Normal{1.0, 0.5, {}, -1.0}),
               ElementsAre("load.inertia.max = -1: must be above mean - 3 standard deviations, "
-                          "-0.5: it leaves next to nothing"));
+                          "-0.5: almost no samples remain"));
   EXPECT_THAT(
       faults_of(DiscreteLots{}),
       ElementsAre("load.inertia.lots is missing: must be at least one value with a weight"));

@@ -379,7 +379,7 @@ TEST(EdgeToleranceStudy, EveryFaultIsNamed) {
       faults_of([&] { (void)study_tolerances(drive, {.points = 0, .replicates = 1}, questions); }),
       ElementsAre("motor.friction = uniform from -1 to 1: must not fall below zero",
                   "sampling.points = 0: must be at least 1",
-                  "sampling.replicates = 1: must be at least 2: their scatter tells the "
+                  "sampling.replicates = 1: must be at least 2: their scatter gives the "
                   "error",
                   "target = amplitude >= 0 and amplitude <= -1: must not contradict itself",
                   "quantile = 1.5: must be from 0 to 1",

@@ -282,9 +282,9 @@ TEST(Grid, OptionalPartsAndInverseFormsStandOnAxes) {
     return to_string(faults(Grid{joint(), {{path, std::move(values)}}}, {"--x"}).at(0));
   };
   EXPECT_EQ(fault("gearbox.weight", {1.0}),
-            "--x = gearbox.weight: must name a number or a word that the drive has");
+            "--x = gearbox.weight: must be a number or a word of the drive");
   EXPECT_EQ(fault("servo.damping", {1.0}),
-            "--x = servo.damping: must name a number or a word that the drive has");
+            "--x = servo.damping: must be a number or a word of the drive");
   EXPECT_EQ(fault("gearbox.ratio", {-1.0, 2.0}),
             "--x = -1: gearbox.ratio must be positive and finite");
   EXPECT_EQ(fault("sensor.position", {1.0, 1.0}),
