@@ -1,7 +1,7 @@
-# One word for each thing that people do here. The builds themselves are CMake presets.
+# One target for each task. The builds themselves are CMake presets.
 
 FUZZ_SECONDS ?= 30
-# An optimised compilation takes up to 1 GB of memory: say JOBS=2 where that is scarce.
+# An optimised compilation takes up to 1 GB of memory; set JOBS=2 if memory is scarce.
 JOBS ?= $(shell nproc)
 
 RELEASE := build/release
@@ -23,8 +23,8 @@ demo: tool  ## build the tool; does the servo of the thesis hunt? with its pictu
 	$(TOOL) limit-cycle $(EXAMPLE).toml --plot phase=$(EXAMPLE).svg
 	@echo "Picture: $(EXAMPLE).svg"
 
-# Tests are left out of a first build, whose user need not have their packages, and left alone in
-# one that has them.
+# A first build leaves out the tests, because their packages may be missing. A build that has tests
+# keeps them.
 tool:  ## build the tool alone: build/release/gearlash
 	@$(INSTALL) run
 	@test -f $(RELEASE)/build.ninja || cmake --preset release -DGEARLASH_BUILD_TESTS=OFF
@@ -48,17 +48,17 @@ clang:  ## build everything with clang 16, warnings being errors, and run every 
 	$(BUILD) clang-16
 	ctest --preset clang-16
 
-# Left out: what reads sources, builds other programs or runs scripts, where nothing is watched; what
-# prints the pages again, which the tests of the command line run too; and the oracles of seventy
-# digits, whose time goes into Boost.
+# Left out: tests that read sources, build other programs or run scripts, where the sanitizers watch
+# nothing; the tests of the documents' output, which repeat those of the command line; and the
+# oracles of seventy digits, whose time is spent in Boost.
 sanitize:  ## clang 16 with AddressSanitizer and UndefinedBehaviorSanitizer, warnings being errors
 	@$(INSTALL) test clang
 	cmake --preset asan-ubsan
 	$(BUILD) asan-ubsan
 	ctest --preset asan-ubsan
 
-# New inputs that libFuzzer finds go to the first folder, in the build; the corpus in the sources is
-# only read. The build is that of `make sanitize`.
+# libFuzzer writes new inputs to the first folder, in the build, and only reads the corpus in the
+# sources. The build is that of `make sanitize`.
 FUZZED := build/asan-ubsan/fuzz
 fuzz:  ## feed random bytes to the readers for FUZZ_SECONDS (30)
 	@$(INSTALL) test clang
@@ -110,14 +110,14 @@ format-check:  ## is all C++ laid out so?
 	@$(INSTALL) lint
 	$(FORMAT) --dry-run --Werror {} +
 
-# Of all product files it takes ten processor-minutes; in CI TIDIED names those that changed.
+# All product files take ten processor-minutes; CI sets TIDIED to the changed ones.
 TIDIED ?= $(shell find src apps -name '*.cpp')
 tidy: tool  ## clang-tidy with the checks of .clang-tidy over the libraries and the tool
 	@$(INSTALL) lint
 	echo $(TIDIED) | xargs -r -n 1 -P $(JOBS) clang-tidy-16 -p $(RELEASE) --quiet
 
-# All that is packed is dated by the last commit, or else by the changelog: the same sources make the
-# same bytes.
+# Packed files have the date of the last commit, or of the changelog without git, so that the same
+# sources give the same bytes.
 package: export SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct 2>/dev/null || \
                                              stat --format=%Y CHANGELOG.md)
 package:  ## the tool and the library as Debian packages: build/*.deb

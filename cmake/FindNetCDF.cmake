@@ -1,7 +1,7 @@
-# NetCDF is loaded when a program writes its first file, not linked: what is wanted is its header and
-# the name under which the library is found at run time. Defines NetCDF_FOUND, NetCDF_VERSION (where
-# pkg-config knows it), NetCDF_SONAME (libnetcdf.so.19), NetCDF_PACKAGE (Debian's: libnetcdf19) and
-# the target NetCDF::headers.
+# NetCDF is not linked but loaded when a program writes its first file. This needs its header and
+# the library's name at run time. Defines NetCDF_FOUND, NetCDF_VERSION (if pkg-config knows it),
+# NetCDF_SONAME (libnetcdf.so.19), NetCDF_PACKAGE (Debian's: libnetcdf19) and the target
+# NetCDF::headers.
 
 find_package(PkgConfig QUIET)
 if(PkgConfig_FOUND)

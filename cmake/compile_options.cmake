@@ -1,6 +1,6 @@
-# Options for everything compiled in this tree, and for nothing else: third-party packages come in
-# as imported targets, whose headers CMake treats as system headers (no warnings from them), and a
-# project that embeds Gearlash is not below this directory.
+# Options for everything compiled in this tree and nothing else. Third-party packages are imported
+# targets, whose headers CMake treats as system headers (without warnings). A project that embeds
+# Gearlash is not below this directory.
 
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -9,32 +9,33 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ON)  # static libraries can go into a shared
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)    # for clang-tidy and editors
 
 # Gearlash promises the same bits from every build. A compiler may otherwise contract a*b + c into
-# one fused operation where the machine has it, gcc across statements, clang within expressions, so
-# that two compilers, or two machines, round differently. For the same reason never -ffast-math:
-# it also breaks the infinities and NaNs by which degenerate servos are told.
+# one fused operation if the machine has it (gcc across statements, clang within expressions), so
+# that two compilers or two machines round differently. -ffast-math is excluded for the same reason;
+# it also breaks the infinities and NaNs that mark degenerate servos.
 add_compile_options(-ffp-contract=off)
 
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
                     -Wold-style-cast)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # False alarm on every `"text" + std::string` (gcc bug 105651, mended in gcc 13).
+  # False alarm on every `"text" + std::string` (gcc bug 105651, fixed in gcc 13).
   add_compile_options(-Wno-restrict)
 endif()
 if(GEARLASH_WARNINGS_AS_ERRORS)
   add_compile_options(-Werror)
 endif()
 
-# Heavy headers of others, read once for all files of a target. Not with gcc 12: it saves half a
-# second a file (<Eigen/Core> or gmock), its optimiser then warns of the standard library's own
-# strings, and ccache keeps nothing that was compiled with a precompiled header.
+# Precompiles heavy third-party headers for all files of a target. Not with gcc 12: it would save
+# only half a second for each file (<Eigen/Core> or gmock), its optimiser then warns of the standard
+# library's strings, and ccache keeps nothing that was compiled with a precompiled header.
 function(gearlash_read_once target)
   if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
     target_precompile_headers(${target} PRIVATE ${ARGN})
   endif()
 endfunction()
 
-# What reads, words and writes waits for a disk, a terminal or a plotter, not for its loops: optimised
-# a little it runs as fast and compiles a quarter sooner; its tests need no optimiser at all.
+# Code that reads and writes waits for a disk, a terminal or a plotter, not for its loops. With
+# little optimisation it runs as fast and compiles in three quarters of the time. Its tests need no
+# optimisation.
 function(gearlash_optimise target level)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O${level}>)
 endfunction()

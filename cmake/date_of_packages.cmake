@@ -1,5 +1,5 @@
-# Run by cpack between installing into its own folder and packing: no file is younger than the
-# sources.
+# cpack runs this between installing into its own folder and packing, so that no file is younger
+# than the sources.
 if(DEFINED ENV{SOURCE_DATE_EPOCH})
   execute_process(
     COMMAND find "${CPACK_TEMPORARY_DIRECTORY}" -exec touch --no-dereference

@@ -1,4 +1,4 @@
-# What `cmake --install` lays down, so that another project can say
+# The rules of `cmake --install`. Another project then uses
 #   find_package(gearlash 0.1 CONFIG REQUIRED)                  # the numerics
 #   find_package(gearlash 0.1 CONFIG REQUIRED COMPONENTS files) # also readers, reports, pictures
 #   target_link_libraries(... gearlash::gearlash)               # or gearlash::files with them
@@ -7,12 +7,12 @@
 include(CMakePackageConfigHelpers)
 set(gearlash_package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/gearlash")
 set(gearlash_pkgconfig_dir "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
-set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)  # of all but the tool
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)  # for everything but the tool
 
-# The file by which pkg-config knows static libraries, given from the ground up.
+# Writes the pkg-config file of static libraries, which are given in the order of the rooms.
 function(gearlash_install_pkgconfig name)
   set(libraries ${ARGN})
-  list(REVERSE libraries)  # a linker looks for what is missing to the right
+  list(REVERSE libraries)  # a linker searches for missing symbols to the right
   list(TRANSFORM libraries PREPEND -l)
   list(JOIN libraries " " libraries)
   string(REGEX REPLACE "[^/]+" ".." prefix "${gearlash_pkgconfig_dir}")
@@ -30,7 +30,7 @@ gearlash_install_pkgconfig(gearlash ${numerics})
 install(EXPORT gearlash_numerics NAMESPACE gearlash:: FILE gearlashTargets.cmake
         DESTINATION "${gearlash_package_dir}")
 
-# A set of their own: users of the numerics alone need not have the packages that these link.
+# A separate set, because users of the numerics alone may not have the packages that these link.
 if(GEARLASH_BUILD_IO)
   set(files gearlash_input gearlash_output gearlash_picture)
   install(TARGETS gearlash_files ${files} EXPORT gearlash_files)
@@ -52,7 +52,7 @@ install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT license)
 configure_package_config_file(
   cmake/gearlashConfig.cmake.in "${PROJECT_BINARY_DIR}/gearlashConfig.cmake"
   INSTALL_DESTINATION "${gearlash_package_dir}")
-# Below 1.0 a minor version may break its users, so 0.1 must not be taken for 0.2.
+# Below 1.0 a minor version may break its users, so 0.2 must not satisfy a request for 0.1.
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/gearlashConfigVersion.cmake"
                                  COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/gearlashConfig.cmake"

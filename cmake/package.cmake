@@ -1,11 +1,11 @@
 # Two Debian packages by CPack: gearlash, the tool with its man pages, completions and documents,
-# and libgearlash-dev, the library. `make package` dates all that is in them by SOURCE_DATE_EPOCH:
-# the same sources make the same bytes.
+# and libgearlash-dev, the library. `make package` dates their contents by SOURCE_DATE_EPOCH, so
+# that the same sources give the same bytes.
 
 set(pages "${PROJECT_BINARY_DIR}/pages")
 set(scripts "${PROJECT_SOURCE_DIR}/scripts")
 file(MAKE_DIRECTORY "${pages}")
-# Always made anew: which man pages there are is known to the tool alone.
+# Always rebuilt, because only the tool knows which man pages there are.
 add_custom_target(
   pages ALL
   COMMAND "${scripts}/man-pages" "$<TARGET_FILE:gearlash_tool>" "${pages}/man1"
@@ -52,8 +52,8 @@ set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 set(CPACK_DEBIAN_TOOL_PACKAGE_NAME gearlash)
 set(CPACK_DEBIAN_TOOL_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_TOOL_PACKAGE_SHLIBDEPS ON)  # what is linked
-set(CPACK_DEBIAN_TOOL_PACKAGE_DEPENDS "${NetCDF_PACKAGE}")  # which is loaded
+set(CPACK_DEBIAN_TOOL_PACKAGE_SHLIBDEPS ON)  # linked libraries
+set(CPACK_DEBIAN_TOOL_PACKAGE_DEPENDS "${NetCDF_PACKAGE}")  # loaded at run time
 set(CPACK_DEBIAN_TOOL_PACKAGE_RECOMMENDS "gnuplot-nox | gnuplot")
 set(CPACK_DEBIAN_TOOL_DESCRIPTION "limit cycles of geared servos with backlash
 Gearlash reads a data sheet and answers whether the servo hunts, how big and

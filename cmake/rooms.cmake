@@ -1,9 +1,9 @@
 # gearlash_add_room(<room> [USES <room>...] [OFFERS <target>...] [LINKS <target>...]
 #                   [HEADER_USES <target>...])
 #
-# The library gearlash_<room>, also gearlash::<room>, of src/<room> and its sub-rooms. Rooms are
-# internal: users link gearlash::gearlash or gearlash::files, which pass on neither the headers of
-# rooms nor what these need.
+# Adds the library gearlash_<room>, also gearlash::<room>, of src/<room> and its sub-rooms. Rooms
+# are internal: users link gearlash::gearlash or gearlash::files, which pass on neither the headers
+# of rooms nor the packages that these need.
 #   USES         rooms whose headers it includes
 #   OFFERS       header-only packages that its headers include, so that later rooms need them too
 #   LINKS        packages that its .cpp files use and link; users of a static library link them too
@@ -33,9 +33,9 @@ function(gearlash_add_room room)
   endforeach()
 endfunction()
 
-# gearlash_add_face(<library> <room>...): what users link, gearlash_<name> or gearlash itself. It has
-# the public headers, and links the rooms without what they compile with: Eigen's private name above
-# all must not reach the program that links us.
+# gearlash_add_face(<library> <room>...) adds the library that users link, gearlash_<name> or
+# gearlash itself. It has the public headers and links the rooms without their compile options. In
+# particular, Eigen's private name must not reach the user's program.
 function(gearlash_add_face library)
   add_library(${library} INTERFACE)
   target_compile_features(${library} INTERFACE cxx_std_20)

@@ -17,7 +17,7 @@ namespace {
 
 constexpr char forms[] = "must be PATH=FROM:TO:COUNT, PATH=FROM:TO:COUNT:log or PATH=A,B,C";
 
-/// What the drive has, and the short names.
+/// The drive's parameters and the short names.
 std::string known_text(const Drive& drive, std::string_view name) {
   std::vector<std::string> known;
   for (const ParameterInfo& parameter : parameters_of(drive)) {
@@ -77,7 +77,7 @@ Axis read_axis(const AxisText& text, const Drive& drive) {
   Axis axis{.path = path_named(text.name, drive)};
   const Parameter* parameter = parameter_of(axis, drive);
   if (parameter == nullptr) refuse(text.field, text.name, known_text(drive, text.name));
-  Drive with_part = drive;  // whose units are known
+  Drive with_part = drive;  // has the units of the axis's section
   add_section_of(with_part, axis.path);
   const auto value_of = [&](std::string_view value) {
     return read_value(text, axis.path, *parameter, with_part, value);

@@ -10,7 +10,7 @@
 
 namespace gearlash {
 
-/// An axis whose values are not read yet: they depend on the drive.
+/// An axis whose values are still text, because their units depend on the drive.
 struct AxisText {
   std::string field;   ///< "--x"
   std::string name;    ///< a path, or a short name of the normal form
@@ -20,13 +20,13 @@ struct AxisText {
 /// Throws InvalidInput, naming `field`, for a text without a name or values.
 AxisText split_axis(std::string_view field, std::string_view text);
 
-/// The drive that the axes vary: in its normal form where one of them is a number of that which a
-/// data sheet does not have, as `damping`. The natural frequency stays.
+/// The drive that the axes vary. It is reduced to its normal form, natural frequency kept, if an
+/// axis varies a number that only the normal form has, such as `damping`.
 Drive drive_of_axes(const Drive& drive, const std::vector<AxisText>& axes);
 
-/// Numbers may be fractions and may have their unit; without one they are in SI. Words stand for
-/// the choices of a parameter. Throws InvalidInput, naming the field, for a parameter that the
-/// drive does not have, for what cannot be read, and for faults_of_axis().
+/// Reads numbers, fractions and numbers with units; a bare number is in SI. Words name the choices
+/// of a parameter. Throws InvalidInput, naming the field, for a parameter that the drive does not
+/// have, for unreadable values, and for faults_of_axis().
 Axis read_axis(const AxisText& text, const Drive& drive);
 
 }  // namespace gearlash

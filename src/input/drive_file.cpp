@@ -19,7 +19,7 @@ bool is_section(std::string_view name) {
                      [&](const Section& section) { return section.name == name; });
 }
 
-/// A section, or a key by whatever name it has.
+/// Removes a section, or a key under any of its names.
 void take_out(TomlDocument& document, const std::string& path) {
   if (is_section(path)) return document.remove_section(path);
   const Parameter& parameter = *find_parameter(path);
@@ -27,7 +27,7 @@ void take_out(TomlDocument& document, const std::string& path) {
   for (const OtherForm& form : parameter.other_forms) document.remove(form.path);
 }
 
-/// In the place of what the document says of that parameter, by whatever name.
+/// Replaces the parameter's value, under whatever name the document gives it.
 void apply(TomlDocument& document, const Setting& setting) {
   if (setting.text == nothing) return take_out(document, setting.path);
   const Parameter& parameter = *find_parameter(setting.path);
@@ -44,7 +44,7 @@ void apply(TomlDocument& document, const Setting& setting) {
   for (const OtherForm& form : parameter.other_forms) {
     take_out(form.path, form.dimension == nullptr);
   }
-  // All that is no list is text, which the reader of the key takes: "30 arcmin", "0.25".
+  // Everything but a list becomes text, which the key's reader parses: "30 arcmin", "0.25".
   if (const std::optional<toml::array> list = list_in(setting.text)) {
     document.set(place, *list);
   } else {

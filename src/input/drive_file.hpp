@@ -13,15 +13,15 @@
 
 namespace gearlash {
 
-/// What a file says of a drive.
+/// The contents of a drive file.
 struct WrittenDrive {
-  Drive drive;      ///< sound
-  AngleUnit angle;  ///< in which the file gives the backlash
-  /// Parameters with tolerances, in the order of the file; the drive has their nominal values.
+  Drive drive;      ///< valid
+  AngleUnit angle;  ///< unit of the backlash in the file
+  /// Parameters with tolerances, in the order of the file; the drive holds their nominal values.
   std::vector<ParameterTolerance> tolerances;
 };
 
-/// One parameter by its path, as text: a number with its unit, a word, a TOML list.
+/// One parameter's path and its value as text: a number with its unit, a word or a TOML list.
 struct Setting {
   std::string path;
   std::string text;
@@ -29,26 +29,25 @@ struct Setting {
 
 inline constexpr std::size_t largest_drive_file = 1024 * 1024;  ///< bytes
 
-/// Reads TOML text of at most largest_drive_file bytes. The keys, their units and defaults are in
-/// docs/drives.md. `source_name` is what error lines call the text; `settings` take the place of
-/// what it says, and their faults are located at "--set". Tables of signals are files beside the
-/// text, in `folder`.
+/// Reads TOML text of at most largest_drive_file bytes. docs/drives.md lists the keys, their units
+/// and defaults. Error lines call the text `source_name`. `settings` replace values of the text;
+/// their faults are located at "--set". Signal tables are read from files in `folder`.
 ///
-/// Throws InvalidInput, and nothing else but std::bad_alloc. It lists every fault, in the order
-/// of the file, each located at the value at fault, or at the header of the section where a key is
-/// missing: unknown sections and keys (with the nearest known one), missing ones, values of another
-/// type, units or dimension, values out of range. Text that is not TOML, not UTF-8 or too long is
-/// one fault.
+/// Throws only InvalidInput and std::bad_alloc. InvalidInput lists every fault in the order of the
+/// file: unknown sections and keys (with the nearest known one), missing ones, and values of the
+/// wrong type, unit, dimension or range. Each fault is located at the value at fault; a missing key
+/// is located at its section's header. Text that is not TOML, not UTF-8 or too long counts as one
+/// fault.
 WrittenDrive parse_drive(std::string_view toml, std::string_view source_name,
                          const std::filesystem::path& folder,
                          const std::vector<Setting>& settings = {});
 
-/// Whether the text gives the servo in its normal form: it has the section [servo]. Throws
+/// Whether the text gives the servo in its normal form, that is, has the section [servo]. Throws
 /// InvalidInput for text that is not TOML.
 bool has_normal_form(std::string_view toml, std::string_view source_name);
 
-/// "PATH=VALUE"; "PATH=none" takes a key, or "SECTION=none" a section, out of the file. Throws
-/// InvalidInput for text without "=" and for a path of no parameter, with the nearest one.
+/// Reads "PATH=VALUE". "PATH=none" removes a key, "SECTION=none" a section. Throws InvalidInput for
+/// text without "=", and for an unknown path, with the nearest known one.
 Setting read_setting(const std::string& text);
 
 /// "load", "motor", "both".

@@ -14,14 +14,14 @@
 namespace gearlash {
 namespace {
 
-/// What the normal form stands for.
+/// The sections that the normal form replaces.
 constexpr std::array plant_sections = {"motor", "gearbox", "load", "loop", "controller"};
 /// A data sheet's name for [controller] of kind "P".
 constexpr char loop[] = "loop";
 
 bool is_choice(const Slot& slot) { return std::holds_alternative<Choice>(slot); }
 
-/// Whether a value may be given by its reciprocal too.
+/// The form that gives the parameter's reciprocal; nullptr if there is none.
 const OtherForm* inverse_form(const Parameter& parameter) {
   for (const OtherForm& form : parameter.other_forms) {
     if (form.dimension != nullptr) return &form;
@@ -57,7 +57,7 @@ class DriveReader {
 
   // ---- sections ---------------------------------------------------------------------------------
 
-  /// [servo] may be left out where everything that it must give is varied.
+  /// [servo] may be left out if all its required keys are varied.
   bool leaves_nothing_to_give() const {
     return is_varied("servo.damping") && is_varied("servo.inertia_ratio") &&
            is_varied("servo.friction_ratio");
@@ -66,7 +66,7 @@ class DriveReader {
     return !has("motor") && (has("servo") || (leaves_nothing_to_give() && !has_plant()));
   }
 
-  /// A file without motor and normal form has one fault, not one for each section.
+  /// A file with neither motor nor normal form has one fault, not one for each section.
   bool has_anything() {
     if (drive().servo || has_plant()) return true;
     findings_.missing(
@@ -127,7 +127,7 @@ class DriveReader {
     read_keys(name, is_required, contents);
   }
 
-  /// Faces with a stiffness are compliant without being called so.
+  /// A contact with a stiffness and no kind is compliant.
   void infer_kind_of_contact() {
     const toml::table* table = document_.root()["contact"].as_table();
     if (table == nullptr || table->contains("kind")) return;
@@ -141,7 +141,7 @@ class DriveReader {
   /// One way in which a section gives a parameter.
   struct Key {
     const Parameter* parameter;
-    const OtherForm* form;  ///< nullptr: by its own name
+    const OtherForm* form;  ///< nullptr: the parameter's own name
     std::string name;
   };
 
@@ -188,7 +188,7 @@ class DriveReader {
     if (kind_is_known) section.refuse_other_keys();
   }
 
-  /// Whether --set has given the kind: the file's keys may be those of another one.
+  /// Whether --set gives the kind. The file's keys may then belong to another kind.
   bool is_kind_set(const std::string& name) const {
     const toml::node* kind = document_.root()[name]["kind"].node();
     return kind != nullptr && kind->source().begin.line == 0;
@@ -200,7 +200,7 @@ class DriveReader {
     }
   }
 
-  /// The first of the keys that the section has; of several the others are refused.
+  /// The first of the keys that the section has; any further ones are refused.
   Key key_given(SectionReader& section, const std::vector<Key>& keys) {
     const Key* given = nullptr;
     for (const Key& key : keys) {
@@ -215,7 +215,7 @@ class DriveReader {
     return given == nullptr ? keys.front() : *given;
   }
 
-  /// Keys that another one, given beside them, has taken out of the drive.
+  /// Refuses keys whose parameter the drive has lost because of another key.
   void refuse_rivals(SectionReader& section, const std::string& name) {
     if (name == "sensor") {
       for (const char* prefix : {"", "speed_"}) {
@@ -277,7 +277,7 @@ class DriveReader {
     if (auto* const* place = std::get_if<std::optional<double>*>(&slot)) **place = number;
   }
 
-  /// Where sizes are per backlash.
+  /// Amplitudes are then per backlash.
   bool may_be_left_out(const Parameter& parameter) const {
     return !variation_.section.empty() && parameter.path == "servo.backlash";
   }
@@ -315,7 +315,7 @@ class DriveReader {
     return value.si;
   }
 
-  /// A value of a kind that could not be read: that it is one at all, and within its range.
+  /// Checks a value of an unreadable kind: whether it is readable and within its range.
   void check_value(SectionReader& section, const Parameter& parameter, const Key& key) {
     const Dimension* dimension = parameter.dimension(drive());
     if (dimension == nullptr || parameter.section() == "controller") return;
@@ -356,7 +356,7 @@ class DriveReader {
     if (findings_.none()) check_tolerances();
   }
 
-  /// Without numbers that would only cause faults elsewhere.
+  /// The drive without numbers that would only cause faults elsewhere.
   Drive sanitized() const {
     Drive copy = file_.drive;
     for (std::optional<Signal>* signal : {&copy.reference, &copy.load_torque}) {
@@ -371,7 +371,7 @@ class DriveReader {
     for (ParameterTolerance& tolerance : file_.tolerances) {
       tolerance.path = std::string(find_parameter(tolerance.path)->path);
     }
-    // "gearbox.backlash.min" is found at "gearbox.backlash".
+    // "gearbox.backlash.min" is located at "gearbox.backlash".
     const auto name_of = [&](const std::string& field) {
       return name_in_file(field.substr(0, field.find('.', field.find('.') + 1)));
     };

@@ -1,4 +1,4 @@
-// The one reader of drives: every key of a file is a parameter (model/parameters.hpp).
+// The reader of drives: every key of a file is a parameter (model/parameters.hpp).
 #pragma once
 
 #include <filesystem>
@@ -11,14 +11,15 @@
 
 namespace gearlash {
 
-/// What a file varies besides describing a drive: its section, and the paths that it varies.
+/// The part of a file that varies the drive: its section and the varied paths.
 struct Variation {
   std::string section = {};
   std::set<std::string> paths = {};
 };
 
-/// The drive; sound where nothing was found at fault. A file may not give what it varies, for which
-/// stand-ins are returned; the backlash of the normal form is then 1 where it is left out.
+/// Reads the drive, which is valid if no fault was found. A file must leave out the parameters that
+/// it varies; the drive holds placeholders for them. The normal form's backlash may then be left
+/// out too, and is 1.
 WrittenDrive read_drive(const TomlDocument& document, Findings& findings,
                         const std::filesystem::path& folder, const Variation& variation = {});
 

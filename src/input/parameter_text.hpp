@@ -1,4 +1,4 @@
-// One value of a parameter as text.
+// Reading one value of a parameter from text.
 #pragma once
 
 #include <string_view>
@@ -7,12 +7,13 @@
 
 namespace gearlash {
 
-/// A number in SI, as set() takes it under that path. Throws InvalidInput, naming the path, for
-/// text that is none in the parameter's dimension.
+/// The number in SI, as set() takes it for that path. Throws InvalidInput, naming the path, for
+/// text that is not a number in the parameter's dimension.
 double number_of(const Parameter& parameter, const Drive& drive, std::string_view path,
                  std::string_view text);
 
-/// The number of a word among the parameter's choices. Throws InvalidInput likewise.
+/// The index of a word among the parameter's choices. Throws InvalidInput, naming the path, for any
+/// other word.
 std::size_t choice_of(const Parameter& parameter, std::string_view path, std::string_view text);
 
 }  // namespace gearlash

@@ -9,11 +9,11 @@
 namespace gearlash {
 namespace {
 
-// In range for every key, so that they cause no findings of their own.
+// These are in range for every key and cause no faults of their own.
 constexpr double placeholder_quantity = 1.0;
 constexpr double placeholder_number = 0.5;
 
-/// Levenshtein's: insertions, deletions and replacements that turn one into the other.
+/// Levenshtein distance: the least number of insertions, deletions and replacements.
 std::size_t edit_distance(std::string_view from, std::string_view to) {
   std::vector<std::size_t> row(to.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -50,7 +50,7 @@ std::optional<std::string> nearest(const std::vector<std::string>& known,
   return best;
 }
 
-/// A number without unit: of TOML, or in text (a fraction).
+/// A number without unit: a TOML number, or text (a fraction).
 double exact_number(const std::string& field, const toml::node& value) {
   if (const auto* integer = value.as_integer()) return static_cast<double>(integer->get());
   if (const auto* floating = value.as_floating_point()) {

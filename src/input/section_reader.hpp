@@ -1,4 +1,4 @@
-// Reading the keys of one section of a TOML file, and noting everything that is wrong with it.
+// Reading the keys of one section of a TOML file and collecting its faults.
 #pragma once
 
 #include <functional>
@@ -17,23 +17,24 @@
 
 namespace gearlash {
 
-/// The faults of one file. A field is reported once, whoever finds it at fault first.
+/// The faults of one file. Only the first fault of a field is kept.
 class Findings {
  public:
   explicit Findings(const TomlDocument& document) : document_(document) {}
 
-  /// A value that is missing, at the place where it should have been.
+  /// Records a missing value; `place` is where it belongs.
   void missing(Place place, const std::string& field, const std::string& permitted);
-  /// A value at fault, in its author's writing.
+  /// Records a value at fault, quoted as its author wrote it.
   void refuse(const std::string& field, const toml::node& value, const std::string& permitted);
   void refuse(Place place, const std::string& field, const std::string& value,
               const std::string& permitted);
 
-  /// Notes where the value of `field` stands, in case validate() finds fault with it.
+  /// Records where the value of `field` stands, to locate a fault that validate() may find in it.
   void remember(const std::string& field, const toml::node& value) { values_[field] = &value; }
-  /// Takes what validate() found, each at the value remembered under the name that `field_of` gives
-  /// it. Findings about no value of the file follow from several: they are told at `otherwise`, and
-  /// only where every value could be read, since placeholders could have caused them.
+  /// Adds the faults that validate() found. Each is located at the value remembered under the name
+  /// that `field_of` returns. A fault of no single value follows from several: it is located at
+  /// `otherwise`, and is added only if every value could be read, because placeholders could have
+  /// caused it.
   void take(const std::vector<Fault>& faults,
             const std::function<std::string(const std::string&)>& field_of, Place otherwise);
 
@@ -53,51 +54,52 @@ class Findings {
   std::set<std::string> fields_;  ///< of found_
 };
 
-/// One section. Each reading function returns a placeholder within every range where it has noted a
-/// finding, so that reading can go on and find the rest.
+/// One section. A reading function that records a fault returns a placeholder within every range,
+/// so that reading continues and finds the other faults.
 class SectionReader {
  public:
-  /// The section `name` of the document. A section that is `required` and missing is noted, with
-  /// `contents` saying what belongs there; its keys are not.
+  /// The section `name` of the document. A missing section that is `required` is recorded as one
+  /// fault, its keys are not; `contents` describes what belongs there.
   SectionReader(const TomlDocument& document, Findings& findings, std::string name, bool required,
                 std::string contents);
 
-  /// From now on a quantity may be a bare number, in its dimension's SI unit.
+  /// From now on quantities may be bare numbers, in the SI unit of their dimension.
   void accept_bare_numbers() { bare_numbers_ = true; }
 
-  /// From now on numbers may carry tolerances, which are added to `tolerances` by their keys.
+  /// From now on numbers may carry tolerances, which are added to `tolerances` under their keys.
   void collect_tolerances(std::vector<ParameterTolerance>& tolerances) {
     tolerances_ = &tolerances;
   }
 
-  /// A key of this section that is not given.
+  /// Accepts a key of this section without reading it.
   void know(const std::string& key);
-  /// Whether the key has a quantity of that dimension.
+  /// Whether the key holds a quantity of that dimension.
   bool is_of(const std::string& key, const Dimension& dimension);
 
-  /// A number with a unit, in text.
+  /// A number with its unit, given as text.
   Measured quantity(const std::string& key, const Dimension& expected);
   std::optional<Measured> optional_quantity(const std::string& key, const Dimension& expected);
-  /// A number without unit: of TOML, or in text (a fraction). Where it is missing, `permitted` says
-  /// what it must be.
+  /// A number without unit: a TOML number, or text (a fraction). `permitted` describes the number
+  /// in the fault of a missing key.
   double number(const std::string& key, const std::string& permitted);
-  /// One of `choices`. Empty, and noted, for anything else; a missing key is noted if `required`.
+  /// One of `choices`. Anything else is recorded as a fault and gives nothing; a missing key is a
+  /// fault if `required`.
   std::optional<std::string> choice(const std::string& key, const std::vector<std::string>& choices,
                                     bool required);
 
-  /// A list of texts, each under the name "key[0]", "key[1]", … in findings; empty where it is
-  /// missing, which is noted if `permitted` says what it must be.
+  /// A list of texts; faults name them "key[0]", "key[1]", …. Empty if the key is missing, which is
+  /// a fault unless `permitted`, the description of what it must be, is empty.
   std::vector<std::string> texts(const std::string& key, const std::string& permitted = "");
-  /// A text; empty where it is missing, which is noted if `permitted` says what it must be.
+  /// A text, by the same rule.
   std::string text(const std::string& key, const std::string& permitted);
-  /// A list of numbers; empty where it is missing, which is noted.
+  /// A list of numbers; empty if the key is missing, which is a fault.
   std::vector<double> numbers(const std::string& key, const std::string& permitted);
-  /// A list of such lists.
+  /// A list of lists of numbers, by the same rule.
   std::vector<std::vector<double>> rows(const std::string& key, const std::string& permitted);
-  /// Notes the key, and the name it is told by, where it is given.
+  /// Records a fault if the key is given.
   void refuse(const std::string& key, const std::string& permitted);
 
-  /// Notes every key that has not been read.
+  /// Records a fault for every key that has not been read.
   void refuse_other_keys();
 
   bool has(const std::string& key) const { return table_ != nullptr && table_->contains(key); }
@@ -124,7 +126,7 @@ class SectionReader {
   std::vector<std::string> known_;
 };
 
-/// " (did you mean b?)", or nothing where none is near.
+/// " (did you mean b?)", or "" if no known name is near.
 std::string guess_of(const std::vector<std::string>& known, std::string_view written);
 
 /// "a, b or c".

@@ -10,12 +10,13 @@
 
 namespace gearlash {
 
-/// CSV of two columns, times and `values`, whose first row names them with their units; lines that
-/// begin with # are remarks. Throws InvalidInput with one fault, located in `name` by its line.
+/// Parses CSV with two columns, times and `values`. The first row names the columns with their
+/// units; lines that begin with # are remarks. Throws InvalidInput with one fault, located by line
+/// in `name`.
 TableSignal parse_signal_table(std::string_view text, const std::string& name,
                                const Dimension& values);
 
-/// The same of a file; the fault is of "file" where it cannot be read.
+/// parse_signal_table() of a file. If the file cannot be read, the fault's field is "file".
 TableSignal read_signal_table(const std::filesystem::path& path, const Dimension& values);
 
 }  // namespace gearlash

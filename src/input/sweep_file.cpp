@@ -20,7 +20,7 @@ std::string numbered(const char* key, std::size_t number) {
 
 std::string same_field(const std::string& field) { return field; }
 
-/// The number that an axis varies, under each path that a file may give it by.
+/// Adds the axis's parameter under each path that a file may use for it.
 void add_paths(const AxisText& axis, std::set<std::string>& paths) {
   for (const Drive& drive : {Drive{}, normal_form(0.5, 1.0, 0.5)}) {
     const std::string path = path_named(axis.name, drive);
@@ -49,7 +49,7 @@ class SweepReader {
     file.quantities = read_quantities(section);
     file.grid.proved = section.choice("verdicts", {"computed", "proved"}, false) == "proved";
     section.refuse_other_keys();
-    findings_.require_none();  // else it is not known what the drive has to give
+    findings_.require_none();  // the drive's required keys depend on the axes
     file.grid.drive =
         drive_of_axes(read_drive(document_, findings_, folder_, variation).drive, axes);
     std::vector<std::string> fields;
@@ -64,7 +64,7 @@ class SweepReader {
   }
 
  private:
-  /// Notes what `work` throws.
+  /// Runs `work` and records the faults that it throws.
   template <class Work>
   void note(const SectionReader& section, const Work& work) {
     try {
@@ -74,8 +74,8 @@ class SweepReader {
     }
   }
 
-  /// The file's drive whatever is wrong with it, so that axes know their units: faults of axes are
-  /// reported first.
+  /// The file's drive with all its faults ignored. Axes need it for their units, and their faults
+  /// are reported first.
   Drive likely_drive(const Variation& variation) const {
     Findings ignored(document_);
     const Drive drive = read_drive(document_, ignored, folder_, variation).drive;

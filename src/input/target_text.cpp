@@ -83,7 +83,7 @@ class TargetReader {
     restrict(*limits, parts.is_at_most != is_period, is_period ? 1.0 / limit : limit);
   }
 
-  /// nullptr where a target has none. A period is a frequency.
+  /// The target's limits of a quantity; nullptr if it has none. A period limits the frequency.
   Bounds* limits_of(Quantity quantity) {
     switch (quantity) {
       case Quantity::amplitude:

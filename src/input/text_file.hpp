@@ -7,11 +7,12 @@
 
 namespace gearlash {
 
-/// What the file holds. Throws InvalidInput for a file that is missing, unreadable, a directory, or
-/// longer than `largest` bytes, of which no more is read than that: it may be an endless device.
+/// The file's contents. Throws InvalidInput for a file that is missing, unreadable, a directory, or
+/// longer than `largest` bytes. Reading stops at that length, because the file may be an endless
+/// device.
 std::string read_text_file(const std::filesystem::path& path, std::size_t largest);
 
-/// The same of standard input.
+/// read_text_file() of standard input.
 std::string read_standard_input(std::size_t largest);
 
 }  // namespace gearlash

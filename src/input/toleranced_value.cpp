@@ -68,7 +68,7 @@ class TolerancedReader {
     return end == std::string::npos ? "" : std::string(trimmed(std::string_view(text).substr(end)));
   }
 
-  /// In SI: a share of the nominal value, or a value of its own.
+  /// The tolerance in SI, given as a share of the nominal value or as a value.
   double spread(const std::string& text, double nominal) const {
     if (!is_percent(text)) return not_negative(text, exact(text).si);
     constexpr double percent = 0.01;

@@ -10,12 +10,13 @@
 namespace gearlash {
 namespace {
 
-/// Deeper dotted keys nest as many tables, whose destructors recurse until the stack is full.
-/// toml++ bounds the nesting of brackets and braces (256), not of keys.
+/// The bound on the depth of dotted keys. Each dot nests a table, and the tables' destructors
+/// recurse until the stack is full. toml++ bounds the nesting of brackets and braces (256), but not
+/// of keys.
 constexpr int deepest_key = 16;
 
 std::string named_place(const std::string& source_name, Place place) {
-  // The parser leaves the place of a table that no header announces at 0.
+  // The parser gives a table without a header the place 0.
   return source_name + ":" + std::to_string(std::max(place.line, 1U)) + ":" +
          std::to_string(std::max(place.column, 1U));
 }
@@ -46,9 +47,10 @@ void require_text(std::string_view text, const std::string& source_name) {
   }
 }
 
-/// Where the string that begins with `quotes` at the start of `text` ends: behind its closing
-/// quotes. 0 where it has none, on its line unless it is a multi-line string; and where toml++
-/// looks for blanks within it (see unparsable_at), behind a backslash of a multi-line one.
+/// The length of the string at the start of `text`, including its opening and closing `quotes`. 0
+/// if it does not close; a string must close on its line unless it is a multi-line string. Also 0
+/// if toml++ would look for blanks within it (see unparsable_at), which it does behind a backslash
+/// in a multi-line string.
 std::size_t end_of_string(std::string_view text, std::string_view quotes) {
   const bool multi_line = quotes.size() == 3;
   bool after_backslash = false;
@@ -68,8 +70,9 @@ std::size_t end_of_string(std::string_view text, std::string_view quotes) {
   return 0;
 }
 
-/// The text with comments and strings painted over, newlines kept. Of a string that follows a word
-/// without a blank, in which toml++ looks for the end of the word, signs beyond ASCII are kept too.
+/// The text with comments and strings blanked out and newlines kept. A string that follows a word
+/// without a blank keeps its non-ASCII characters too, because toml++ looks for the end of the word
+/// in it.
 std::string structure_of(std::string_view text) {
   std::string result(text);
   for (std::size_t at = 0; at < text.size();) {
@@ -79,7 +82,7 @@ std::string structure_of(std::string_view text) {
     for (const std::string_view quotes : {"'", "\"", "'''", "\"\"\""}) {
       if (!rest.starts_with(quotes)) continue;
       length = end_of_string(rest, quotes);
-      if (length == 0 && quotes.size() == 3) return result;  // nothing behind it can be told apart
+      if (length == 0 && quotes.size() == 3) return result;  // nothing after it can be told apart
     }
     const bool stands_alone =
         rest[0] == '#' || at == 0 ||
@@ -92,9 +95,9 @@ std::string structure_of(std::string_view text) {
   return result;
 }
 
-/// The column (from 0) of what toml++ 3.3 should not see: keys nested too deep, and signs beyond
-/// ASCII outside strings and comments, where TOML has none (its test for blanks among them runs
-/// into code declared unreachable).
+/// The column (from 0) of input that toml++ 3.3 mishandles: keys nested too deep, and non-ASCII
+/// characters outside strings and comments. TOML permits none there, and toml++'s test for blanks
+/// among them reaches code declared unreachable.
 std::optional<std::size_t> unparsable_at(std::string_view structure) {
   int dots = 0;
   for (std::size_t at = 0; at < structure.size(); ++at) {
@@ -222,7 +225,7 @@ std::optional<toml::array> list_in(std::string_view text) {
     const toml::table table = toml::parse("value = " + std::string(text));
     const toml::array* list = table["value"].as_array();
     if (list != nullptr && table.size() == 1) return *list;
-  } catch (const toml::parse_error&) {  // then it is none
+  } catch (const toml::parse_error&) {  // not a list
   }
   return std::nullopt;
 }

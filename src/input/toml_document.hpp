@@ -1,4 +1,4 @@
-// A TOML text with the places of its values, guarded against what the parser should not see.
+// A TOML text with the places of its values, checked for input that the parser mishandles.
 #pragma once
 
 #include <toml++/toml.h>
@@ -25,17 +25,17 @@ class TomlDocument {
 
   const toml::table& root() const { return root_; }
 
-  /// Gives the key `path`, "section.key", another value, which stands nowhere in the text.
+  /// Sets the key `path`, "section.key", to a value that has no place in the text.
   void set(std::string_view path, const toml::node& value);
-  /// Takes the key out of its section, and a section that is then empty; whether it was there.
+  /// Removes the key, and its section if that is then empty. Returns whether the key was there.
   bool remove(std::string_view path);
   void remove_section(std::string_view name) { root_.erase(name); }
 
-  /// "servo.toml:3:11"; "--set" for what set() has given.
+  /// "servo.toml:3:11"; "--set" for values from set().
   std::string where(Place place) const;
 
-  /// A value as its author wrote it: the characters of a string, the source text of anything else;
-  /// fit for one line.
+  /// A value as its author wrote it: the characters of a string, the source text of any other
+  /// value; fit for one line.
   std::string written(const toml::node& node) const;
 
  private:
@@ -46,7 +46,7 @@ class TomlDocument {
   toml::table root_;
 };
 
-/// The list that a text is in TOML, "[1, 2.5]"; nothing where it is none.
+/// Reads a TOML list such as "[1, 2.5]"; nothing for any other text.
 std::optional<toml::array> list_in(std::string_view text);
 
 }  // namespace gearlash

@@ -14,7 +14,7 @@ namespace {
 
 struct NamedUnit {
   std::string_view word;
-  Unit unit;  ///< factor 0: none that a factor alone converts (degC, dB)
+  Unit unit;  ///< factor 0: no factor alone converts it (degC, dB)
 };
 
 struct Prefix {
@@ -22,7 +22,7 @@ struct Prefix {
   double factor;
 };
 
-/// A spelling that runs units together, as data sheets do. The first may carry a prefix.
+/// A spelling that runs units together, as in data sheets. The first may carry a prefix.
 struct RunTogether {
   std::string_view word;
   std::array<std::string_view, 3> parts;
@@ -33,10 +33,10 @@ struct RunTogether {
 //   symbol_prefixes (the longest first), run_together, run_together_prefixes
 #include "input/unit_table.inc"
 
-/// As near to 1 UDUNITS-2 takes a factor for 1, which rounding alone has kept from it.
+/// UDUNITS-2 takes a factor this near to 1 for 1, since only rounding makes the difference.
 constexpr double almost_one = 10 * std::numeric_limits<double>::epsilon();
 
-/// As names compare in UDUNITS-2: by ASCII alone, whatever the locale.
+/// Lowers ASCII letters only, in every locale, as UDUNITS-2 compares names.
 std::string in_lower_case(std::string_view word) {
   std::string result(word);
   for (char& c : result) {
@@ -59,8 +59,9 @@ const Prefix* find_prefix(std::span<const Prefix> prefixes, std::string_view wor
   return found != prefixes.end() ? &*found : nullptr;
 }
 
-/// UDUNITS-2's rule: of the whole word, and then of what is left behind each prefix, first the name
-/// whatever its case, then the symbol. Any number of prefixes that are names, one that is a symbol.
+/// UDUNITS-2's rule: look up the whole word, then the remainder after each prefix, each first as a
+/// name in any case and then as a symbol. A word may have any number of name prefixes and one
+/// symbol prefix.
 std::optional<Unit> find_single(std::string_view word) {
   const std::string lower = in_lower_case(word);
   std::string_view name = lower;

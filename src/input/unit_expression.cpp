@@ -16,8 +16,8 @@ constexpr std::size_t longest_unit = 100;  // bytes; bounds the depth of parenth
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// A letter of a unit's word. Bytes of other than ASCII are: what is no letter among them has been
-/// spelled in ASCII before.
+/// Whether `c` is a letter of a unit's word. Non-ASCII bytes are letters: in_ascii_signs() has
+/// replaced the other signs.
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
          static_cast<unsigned char>(c) >= 0x80;
@@ -46,7 +46,7 @@ std::string_view ascii_spelling(char32_t code_point) {
   return {};
 }
 
-/// The typographer's signs in ASCII: "N·m⁻¹" to "N*m^-1".
+/// Replaces typographic signs by ASCII: "N·m⁻¹" becomes "N*m^-1".
 std::string in_ascii_signs(std::string_view text) {
   std::string result;
   while (!text.empty()) {
@@ -71,7 +71,7 @@ class UnitReader {
 
   Unit whole() {
     skip_blanks();
-    // "1/s": nothing but a divisor.
+    // "1/s" has only a divisor.
     const bool is_reciprocal = rest_.starts_with("1/") || rest_.starts_with("1 /");
     const Unit unit = product(is_reciprocal);
     if (!rest_.empty()) throw NotAUnit("a \")\" has no \"(\"");
@@ -119,7 +119,8 @@ class UnitReader {
     return result;
   }
 
-  /// The word's unit and its power, which is that of the last where several are run together.
+  /// The word's unit with its power. If several units are run together, the power applies to the
+  /// last.
   Unit word() {
     std::size_t length = 0;
     while (length < rest_.size() && is_letter(rest_[length])) ++length;

@@ -8,7 +8,7 @@
 
 namespace gearlash {
 
-/// Why a text is no unit, to follow "must be …; " in an error line.
+/// Why a text is not a unit; the text follows "must be …; " in an error line.
 class NotAUnit : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -25,7 +25,7 @@ class NotAUnit : public std::runtime_error {
 Unit read_unit(std::string_view text);
 
 /// The length of the decimal number that `text` begins with: [+-] digits [. digits] [e [+-] digits]
-/// with a digit on either side of the point. 0 where there is none.
+/// with a digit on either side of the point. 0 if there is none.
 std::size_t number_length(std::string_view text);
 
 }  // namespace gearlash

@@ -14,7 +14,7 @@
 namespace gearlash {
 namespace {
 
-/// A number that is the whole of `text`. Empty where it is none, NaN where no double holds it.
+/// The number that is the whole of `text`. Nothing for other text, NaN if no double holds it.
 std::optional<double> decimal(std::string_view text) {
   if (text.empty() || number_length(text) != text.size()) return std::nullopt;
   if (text[0] == '+') text.remove_prefix(1);
@@ -35,7 +35,7 @@ bool angle_fits(const UnitPowers& powers, const Dimension& expected) {
   return expected.angle == AngleRule::optional && powers.radian == 0;
 }
 
-/// The mistakes that data sheets invite, where the dimension is off by just what they make.
+/// Advice on mistakes that data sheets invite, recognised by the difference in dimension.
 std::string advice(std::string_view unit, const UnitPowers& powers, const Dimension& expected) {
   const int metre = powers.metre - expected.metre;
   const int second = powers.second - expected.second;
@@ -76,7 +76,7 @@ void require_dimension(std::string_view field, std::string_view text, std::strin
   }
 }
 
-/// Length of the text of a control character or another that would break or disguise a line.
+/// Whether `c` is a control character or another one that would break or disguise a line.
 bool is_unfit_for_line(char32_t c) {
   return c < 0x20 || (c >= 0x7F && c < 0xA0) || c == 0x2028 || c == 0x2029 ||
          (c >= 0x200B && c <= 0x200F) || (c >= 0x202A && c <= 0x202E) ||

@@ -6,8 +6,9 @@
 
 namespace gearlash {
 
-/// Takes the first code point off `text`. Empty, with nothing taken, where the bytes are not UTF-8
-/// (truncated, overlong, a surrogate, above U+10FFFF) or there are none.
+/// Removes and returns the first code point of `text`. Returns nothing and leaves `text` unchanged
+/// if it is empty or does not begin with valid UTF-8 (truncated, overlong, a surrogate, above
+/// U+10FFFF).
 std::optional<char32_t> take_code_point(std::string_view& text);
 
 }  // namespace gearlash

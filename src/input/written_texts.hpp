@@ -7,9 +7,9 @@
 
 namespace gearlash {
 
-/// "motor.inertia" -> "0.61 oz in2", "reference.file" -> "steps.csv": every text value of a
-/// section. Empty for a pipe, which can be read only once, and where the file cannot be read: its
-/// own reader reports what is wrong with it.
+/// "motor.inertia" -> "0.61 oz in2", "reference.file" -> "steps.csv": the text values of all
+/// sections. Empty for a pipe, which can be read only once, and for a file that cannot be read,
+/// which its own reader reports.
 std::map<std::string, std::string> written_texts(const std::filesystem::path& toml);
 
 }  // namespace gearlash

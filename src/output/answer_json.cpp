@@ -68,7 +68,7 @@ Json json_rest(const std::optional<Rest>& rest) {
           {"starts", rest->starts}};
 }
 
-/// How many starts ran away; null where nothing was searched.
+/// The number of diverging starts; null without a search.
 Json json_runaway(const Answer& answer) {
   if (!answer.search) return nullptr;
   return {{"starts", answer.search->count("diverges")}};

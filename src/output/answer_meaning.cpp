@@ -39,7 +39,7 @@ std::string persistence(const Answer& answer) {
                            : "The load does not come to rest. ";
 }
 
-/// Other starts may end elsewhere; empty where none was seen to.
+/// Other starts that end in irregular motion; empty if none was found.
 std::string other_motion(const AnswerReport& report) {
   if (report.answer.irregular.empty()) return "";
   return "Other starts end in a motion that was not seen to repeat, up to " +
@@ -129,7 +129,7 @@ std::string meaning_of_closed_form(const AnswerReport& report) {
   }
 }
 
-// ---- what was searched --------------------------------------------------------------------------
+// ---- the search ---------------------------------------------------------------------------------
 
 /// "24 to a cycle, 12 to rest".
 std::string ends_text(const SearchRecord& search) {

@@ -1,4 +1,4 @@
-// What an answer means, in sentences.
+// The meaning of an answer, in sentences.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace gearlash {
 
-/// What follows from the verdict and how sure it is; of a search, what was searched.
+/// What follows from the verdict and how certain it is; for a search also its extent.
 std::string meaning_text(const AnswerReport& report);
 
 /// "1 start", "36 starts".

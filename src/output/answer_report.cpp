@@ -35,7 +35,7 @@ double backlash_of(const AnswerReport& report) {
   return report.drive.servo ? report.drive.servo->backlash : report.drive.gearbox.backlash;
 }
 
-/// Times and speeds as the report gives them: in units of 1/ω_n without a natural frequency.
+/// The report's times and speeds: in units of 1/ω_n without a natural frequency.
 struct Units {
   explicit Units(const AnswerReport& report) : is_normalized(report.is_normalized) {}
 
@@ -54,7 +54,7 @@ struct Units {
 std::string range_text(const AnswerReport& report, const Bounds& range) {
   const double low = report.angle.from_radians(range.low);
   const double high = report.angle.from_radians(range.high);
-  constexpr double unseen = 1e-9;  // of the larger: one number, not two
+  constexpr double unseen = 1e-9;  // relative to the larger; closer ends print as one number
   if (high - low <= unseen * std::max(std::abs(low), std::abs(high))) {
     return angle_text(range.low, report.angle, table_digits);
   }
@@ -99,7 +99,7 @@ std::string motion_text(const AnswerReport& report) {
   return "up to " + amplitude(motion.amplitude) + at;
 }
 
-/// μ₀ with as many digits as it takes to see on which side of 1 it lies.
+/// μ₀ with enough digits to show on which side of 1 it lies.
 std::string growth_text(double growth) {
   int digits = headline_digits;
   while (digits < 17 && growth != 1.0 && significant(growth, digits) == "1") ++digits;
@@ -115,7 +115,7 @@ std::string growth_beside_one(const Answer& answer) {
 
 // ---- cycles, rest, irregular motion -------------------------------------------------------------
 
-/// Where the enclosure is too wide for the digits of the table, what is proved.
+/// Adds the proved range if the enclosure is too wide for the table's digits.
 void add_range(Rows& rows, const Bounds& range, double scale, const std::string& unit) {
   constexpr double unseen = 1e-6;
   if (range.high - range.low <= unseen * range.high) return;
@@ -124,7 +124,8 @@ void add_range(Rows& rows, const Bounds& range, double scale, const std::string&
        fmt::format("{} … {} {}", number(range.low / scale), number(range.high / scale), unit), ""});
 }
 
-/// Only its order matters: a bound that no change of rounding moves.
+/// A power of ten above the residual: only its order matters, and rounding does not change the
+/// text.
 std::string residual_text(double residual) {
   if (std::isnan(residual)) return "not known";
   double bound = 1e-15;
@@ -204,7 +205,7 @@ std::string cycle_text(const AnswerReport& report, const Cycle& cycle) {
          table_text(rows);
 }
 
-/// Cycles that are seen with all their properties, then the unstable ones in a line each.
+/// The observable cycles with all their properties, then the unstable ones with one line each.
 std::string cycle_tables(const AnswerReport& report) {
   std::string text;
   Rows unstable;
@@ -224,12 +225,12 @@ std::string cycle_tables(const AnswerReport& report) {
 }
 
 std::string irregular_text(const AnswerReport& report, const IrregularMotion& motion) {
-  if (!motion.mean_period) return "";  // its extent is in the headline or in the meaning
+  if (!motion.mean_period) return "";  // the headline or the meaning states its extent
   const Units units(report);
   const auto spread = [](double mean, double deviation) {
     return fmt::format("spread {:.2g} %", 100.0 * deviation / mean);
   };
-  constexpr double chaotic = 10.0;  // factors of e by which neighbours part while watched
+  constexpr double chaotic = 10.0;  // e-foldings of the separation of neighbouring motions
   const bool is_chaotic = *motion.exponent * *motion.watched > chaotic;
   const std::string title = motion.is_motor_alone
                                 ? "The motor hunts within the gap, while the load hardly moves"
@@ -265,7 +266,7 @@ std::string rest_text(const AnswerReport& report) {
 
 // ---- the drive ----------------------------------------------------------------------------------
 
-/// The servo of 1960 that the drive is.
+/// The drive as a servo of 1960.
 std::string normal_form_table(const AnswerReport& report) {
   const NormalFormNumbers& form = *report.answer.normal_form;
   Rows rows;
@@ -288,7 +289,7 @@ std::string normal_form_table(const AnswerReport& report) {
   return "\nServo\n" + table_text(rows);
 }
 
-/// How to get what was not asked for.
+/// Hints at results that further options add.
 std::string offer_text(const AnswerReport& report) {
   std::string text;
   if (!report.margin) text += "--margins adds how far each parameter is from the limit of hunting";
@@ -306,7 +307,7 @@ std::string starts_text(std::size_t count) {
 }
 
 bool is_of_motor_alone(const Cycle& cycle) {
-  constexpr double unseen = 1e-9;  // of the motor's: rounding moves the load no more
+  constexpr double unseen = 1e-9;  // of the motor amplitude; rounding moves the load by less
   return cycle.amplitude <= unseen * cycle.motor_amplitude;
 }
 

@@ -1,4 +1,4 @@
-// The one report of an answer: in text and in JSON, whichever engine answered.
+// The report of an answer, as text and as JSON, for both engines.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -21,7 +21,7 @@ struct AnswerReport {
   /// The normal form without a natural frequency: text has times in units of 1/ω_n.
   bool is_normalized = false;
   Provenance provenance{};
-  /// On request: what margins and sensitivities are of.
+  /// The drive of `margin` and `sensitivity`; all three on request only.
   std::optional<ChangeableDrive> changeable{};
   std::optional<HuntingMargin> margin{};
   std::optional<DriveSensitivity> sensitivity{};
@@ -30,24 +30,24 @@ struct AnswerReport {
 /// A report without margins and sensitivities.
 AnswerReport report_of(const Drive& drive, const Answer& answer, const AngleUnit& angle,
                        const Provenance& provenance);
-/// In radians, and made by this version.
+/// The same in radians, made by this version.
 AnswerReport report_of(const Drive& drive, const Answer& answer);
 
-/// Whether the motor swings within the gap while the load stands.
+/// Whether the motor swings within the gap and the load stands still.
 bool is_of_motor_alone(const Cycle& cycle);
 
-/// The answer in one line, numbers and all: "hunts: ±0.0819 rad (4.69°) at 2.26 Hz", "cannot hunt:
+/// The answer in one line with its numbers: "hunts: ±0.0819 rad (4.69°) at 2.26 Hz", "cannot hunt:
 /// growth at rest 0.43 < 1".
 std::string headline(const AnswerReport& report);
 
-/// The headline, every cycle, rest and irregular motion with their numbers, what the drive is, and
-/// what the answer means. Ends with a newline.
+/// The headline; every cycle, rest and irregular motion with its numbers; the drive; and the
+/// meaning of the answer. Ends with a newline.
 std::string answer_text(const AnswerReport& report);
 
-/// The contract of docs/command-line.md ("gearlash/limit-cycle/2"), in SI. Ends with a newline.
+/// "gearlash/limit-cycle/2", specified in docs/command-line.md, in SI. Ends with a newline.
 std::string answer_json(const AnswerReport& report);
 
-/// One of its cycles.
+/// One cycle of the report.
 nlohmann::ordered_json json_cycle(const Cycle& cycle);
 
 }  // namespace gearlash

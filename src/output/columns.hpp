@@ -7,13 +7,13 @@
 
 namespace gearlash {
 
-/// Columns that the text takes: bytes that continue a UTF-8 character take none.
+/// The number of columns that the text takes; bytes that continue a UTF-8 character take none.
 std::size_t width_in_columns(const std::string& text);
 
-/// Rows of cells, their columns lined up, two blanks before each; no blanks at the ends of lines.
+/// Rows of cells in aligned columns, two blanks before each, no blanks at the ends of lines.
 std::string table_text(const std::vector<std::vector<std::string>>& rows);
 
-/// The lines of a paragraph, at most 92 columns each, broken between words; ends with a new line.
+/// The paragraph broken between words into lines of at most 92 columns; ends with a newline.
 std::string wrapped(const std::string& paragraph);
 
 }  // namespace gearlash

@@ -27,7 +27,7 @@ std::string time(const ComparisonReport& report, double seconds) {
   return time_text(seconds, first_of(report).is_normalized, digits);
 }
 
-// ---- one cell each ------------------------------------------------------------------------------
+// ---- cells --------------------------------------------------------------------------------------
 
 std::string amplitude_text(const ComparisonReport& report, const SensorCase& one) {
   const Answer& answer = one.report.answer;
@@ -59,7 +59,7 @@ std::string static_error(const ComparisonReport& report, const SensorCase& one) 
   const double low = answer.rest->error.low;
   const double high = answer.rest->error.high;
   const double size = std::max(std::abs(low), std::abs(high));
-  // Rest at one place is one number.
+  // Rest at a single place prints as one number.
   if (high - low <= 1e-6 * size) return angle(report, low);
   const AngleUnit& unit = first_of(report).angle;
   return significant(unit.from_radians(low), digits) + " … " + angle(report, high);

@@ -1,4 +1,4 @@
-// The same drive with its sensor before and after the gap, side by side.
+// One drive with its sensor before and after the gap, side by side.
 #pragma once
 
 #include <string>
@@ -21,10 +21,10 @@ struct ComparisonReport {
   Provenance provenance = {};
 };
 
-/// A column each: hunting, static error at the load, step response. Ends with a newline.
+/// One column for each case: hunting, static error at the load, step response. Ends with a newline.
 std::string comparison_text(const ComparisonReport& report);
 
-/// As docs/command-line.md lays down.
+/// The JSON that docs/command-line.md specifies.
 std::string comparison_json(const ComparisonReport& report);
 
 }  // namespace gearlash

@@ -1,4 +1,4 @@
-// Tables as CSV that pandas, a spreadsheet and gnuplot open as they are.
+// Tables as CSV that pandas, spreadsheets and gnuplot open directly.
 #pragma once
 
 #include <concepts>
@@ -12,26 +12,26 @@
 
 namespace gearlash {
 
-/// A row of column names, then rows of cells, with nothing above or below them (RFC 4180, lines end
-/// with "\n"). Names have the unit at their end, "time_s". Each row goes to the sink as it ends: a
+/// A row of column names, then rows of cells, and nothing else (RFC 4180, lines end with "
+/// "). Names end with the unit, as "time_s". Each row goes to the sink when it ends, so that a
 /// table of ten million rows is never held in memory.
 class CsvTable {
  public:
   /// Writes the row of names. Precondition: at least one.
   CsvTable(TextSink sink, const std::vector<std::string>& columns);
 
-  /// The shortest number that reads back exactly; "inf"; empty for NaN, which is "not known".
+  /// The shortest number that reads back exactly; "inf"; empty for NaN, which means "not known".
   CsvTable& cell(double value);
   CsvTable& cell(const std::optional<double>& value);
   CsvTable& cell(std::integral auto value) { return plain(std::to_string(value)); }
-  /// In quotes where it has to be.
+  /// The text, quoted if CSV requires it.
   CsvTable& cell(std::string_view text);
   CsvTable& cell(const char* text) { return cell(std::string_view(text)); }
 
-  /// Throws std::logic_error where the row has not as many cells as there are columns.
+  /// Throws std::logic_error if the row's number of cells is not the number of columns.
   void end_row();
 
-  /// A whole row.
+  /// Writes a whole row.
   template <class... Cells>
   void row(const Cells&... cells) {
     (cell(cells), ...);
@@ -44,7 +44,7 @@ class CsvTable {
   TextSink sink_;
   std::string line_;
   std::size_t columns_ = 0;
-  std::size_t cells_ = 0;  ///< of the row under way
+  std::size_t cells_ = 0;  ///< of the current row
 };
 
 }  // namespace gearlash

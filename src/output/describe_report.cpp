@@ -53,7 +53,7 @@ Cells error_row(const PredictionError& error) {
 
 bool is_forced(const DescribeReport& report) { return report.answer.verdict == Verdict::forced; }
 
-/// Where no exact cycle is near a predicted one that is stable.
+/// The text for a stable predicted cycle without an exact cycle near it.
 std::string without_exact(const DescribeReport& report) {
   if (report.answer.verdict == Verdict::undecided) return "undecided";
   const bool has_stable =
@@ -62,7 +62,7 @@ std::string without_exact(const DescribeReport& report) {
   return has_stable ? "no stable cycle near it" : "no stable cycle";
 }
 
-/// What was predicted, each beside the exact cycle that it is a prediction of.
+/// Each predicted cycle beside the exact cycle that it predicts.
 std::string cycle_table(const DescribingAnalysis& analysis, const DescribeReport& report) {
   std::vector<Cells> rows = {{"", "amplitude", "motor", "period", "frequency"}};
   for (const DescribedMotion& cycle : analysis.cycles) {
@@ -105,7 +105,7 @@ std::string polynomial_text(const std::vector<double>& coefficients) {
   return text.empty() ? "0" : text;
 }
 
-/// "= 25/(s² + 5 s)", or how long it is.
+/// "= 25/(s² + 5 s)", or the order of a function too long to print.
 std::string transfer_text(const TransferFunction& transfer) {
   constexpr std::size_t longest = 6;
   if (transfer.denominator.size() > longest) {

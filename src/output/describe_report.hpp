@@ -1,4 +1,4 @@
-// What describing functions predict of a drive beside what is exact, for a person and a program.
+// The report of describing functions: predictions beside the exact answer, as text and as JSON.
 #pragma once
 
 #include <string>
@@ -14,19 +14,19 @@ namespace gearlash {
 struct DescribeReport {
   std::vector<drive::DescribingAnalysis> analyses = {};
   Drive drive = {};
-  Answer answer = {};          ///< what is exact; of a drive that a sine drives nothing predicts it
-  double backlash = 0.0;       ///< rad; predictions that are too small beside it are left out
-  AngleUnit angle = {};        ///< in which the author gave the backlash
+  Answer answer = {};          ///< exact; has no predictions if a sine drives the drive
+  double backlash = 0.0;       ///< rad; predictions too small beside it are left out
+  AngleUnit angle = {};        ///< unit of the author's backlash
   bool is_normalized = false;  ///< text has times in units of 1/ω_n
   Provenance provenance = {};
 };
 
-/// What is exact in a line; for each analysis a table of what is predicted, what is exact and the
-/// error in per cent, the loop and what is assumed. Ends with a newline.
+/// The exact answer in one line. Then for each analysis a table of predicted and exact values with
+/// the error in per cent, the loop and the assumptions. Ends with a newline.
 std::string describe_text(const DescribeReport& report);
 
-/// The contract of docs/schemas/describe.schema.json ("gearlash/describe/2"), in SI, ending with a
-/// newline; numbers read back exactly.
+/// "gearlash/describe/2", specified in docs/schemas/describe.schema.json, in SI. Numbers read back
+/// exactly. Ends with a newline.
 std::string describe_json(const DescribeReport& report);
 
 }  // namespace gearlash

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int digits = 6;
 
-/// A limit in so few digits that it lies on the wanted side of the exact one.
+/// The limit in few digits, rounded to the wanted side of the exact value.
 std::string rounded(double value, bool up) {
   std::string text = significant(value, digits);
   const double read = std::stod(text);
@@ -25,7 +25,7 @@ std::string rounded(double value, bool up) {
   return significant(read + (up ? unit : -unit), digits);
 }
 
-/// In the unit in which the author thinks of the backlash, else as it is.
+/// The unit of a parameter in text: the author's unit of angles for the backlash, else SI.
 struct ShownUnit {
   std::string name;
   double size = 1.0;
@@ -48,7 +48,7 @@ std::string interval_text(const Bounds& interval, const Bounds& searched, const 
   return low + " to " + high + unit.name;
 }
 
-/// Nothing where there was none of it.
+/// The relative change; empty if the present value is 0.
 std::string change_text(double value, double present) {
   if (value == present) return "0 %";
   return present == 0.0 ? "" : gearlash::change_text(value / present);
@@ -73,7 +73,7 @@ std::vector<std::string> header() {
   return {"parameter", "now", "meets the target", "change", "ω_n", "ζ", "K", "result"};
 }
 
-/// The first of a parameter names it, the others are further ways.
+/// The first row of a parameter names it; further rows are alternatives.
 std::vector<std::string> interval_row(const DesignReport& report, const FeasibleValues& values,
                                       std::size_t index) {
   const std::string& parameter = values.parameter;
@@ -93,7 +93,7 @@ std::vector<std::string> interval_row(const DesignReport& report, const Feasible
           performance_text(performance_of(changed), report)};
 }
 
-/// Why no value does it, as far as one line can say.
+/// One line on why no value meets the target.
 std::string reason(const DesignReport& report, const FeasibleValues& values) {
   const ShownUnit unit = shown_unit(report, values.parameter);
   const auto shown = [&](double value) {
@@ -114,7 +114,7 @@ std::string reason(const DesignReport& report, const FeasibleValues& values) {
                             significant(closest.growth_at_rest, 3));
 }
 
-/// Bounds close in on a limit to a billionth of a value as a rule; wider parts are worth a word.
+/// Bounds usually enclose a limit to 1e-9 of its value; wider undecided parts are reported.
 bool is_worth_naming(const FeasibleValues& answer) {
   constexpr double narrow = 1e-6;
   return std::any_of(answer.undecided.begin(), answer.undecided.end(), [&](const Bounds& part) {
@@ -122,7 +122,7 @@ bool is_worth_naming(const FeasibleValues& answer) {
   });
 }
 
-/// The parts of the range of which nothing is known, of all parameters that were searched so.
+/// The undecided parts of the range of all parameters with this kind of search.
 std::string undecided_parts(const DesignReport& report, SearchKind kind) {
   std::string parts;
   for (const FeasibleValues& answer : report.answers) {
@@ -174,7 +174,7 @@ Json json_loop(const Drivetrain& drive) {
           {"stiffness", json_number(drive.stiffness)}};
 }
 
-/// A value of the parameter and what the drive does with it.
+/// A value of the parameter and the drive's behaviour with it.
 Json json_value(const DesignReport& report, const FeasibleValues& values, double value) {
   const Drivetrain changed = report.drive.with(values.parameter, value);
   const double change = values.present == 0.0 ? std::numeric_limits<double>::quiet_NaN()
@@ -200,7 +200,8 @@ Json json_answer(const DesignReport& report, const FeasibleValues& values) {
           {"closest", nearest ? Json(nullptr) : json_value(report, values, *values.closest)}};
 }
 
-/// Whether the target is met at present: with plastic contact as far as that is proved of the data.
+/// Whether the present drive meets the target; with plastic contact only as far as proved for the
+/// data.
 Judgement judge_present(const DesignReport& report, const Performance& present) {
   const Drivetrain& drive = report.drive.drivetrain();
   if (servo_dynamics(normalize(drive)).plastic_contact()) {

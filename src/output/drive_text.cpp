@@ -12,7 +12,7 @@ namespace gearlash {
 namespace {
 
 std::string toml_text(std::string_view text) {
-  // TOML's basic strings escape as JSON's do.
+  // TOML's basic strings have JSON's escapes.
   return Json(std::string(text)).dump();
 }
 
@@ -32,7 +32,7 @@ std::string number_text(double value, const Dimension* dimension) {
   return toml_text(exact_text(value) + " " + std::string(dimension->unit));
 }
 
-/// The value as TOML; empty for one that is not given and has no default.
+/// The value as TOML; empty if it is not given and has no default.
 std::string value_text(const Parameter& parameter, const Drive& drive) {
   const Slot slot = parameter.slot(const_cast<Drive&>(drive));
   if (const auto* choice = std::get_if<Choice>(&slot)) {
@@ -63,7 +63,7 @@ Json value_json(const Parameter& parameter, const Drive& drive) {
   return number ? json_number(*number) : Json(nullptr);
 }
 
-/// A drive with the same parts and kinds, and nothing else given.
+/// A drive with the same parts and kinds, and defaults for everything else.
 Drive with_defaults(const Drive& drive) {
   Drive fresh;
   if (drive.servo) fresh.servo.emplace();

@@ -18,7 +18,7 @@ namespace {
 
 constexpr char verdict_name[] = "verdict";
 
-/// "cannot_hunt", "hunts", …: by the number of each verdict.
+/// "cannot_hunt", "hunts", … in the order of the enumeration.
 std::vector<std::string> verdict_words() {
   std::vector<std::string> words;
   for (int number = 0; number <= static_cast<int>(Verdict::undecided); ++number) {
@@ -28,7 +28,7 @@ std::vector<std::string> verdict_words() {
   return words;
 }
 
-/// Consecutive points as a box: where it starts on each axis, and how far it extends.
+/// Consecutive points as a box: its start and extent on each axis.
 struct GridBox {
   std::vector<std::size_t> start;
   std::vector<std::size_t> extent;
@@ -47,7 +47,7 @@ GridBox box_of(const Grid& grid, std::size_t first, std::size_t count) {
   return box;
 }
 
-/// A number of the drive that stands on no axis.
+/// A number of the drive that is not on an axis.
 struct FixedNumber {
   std::string name;
   std::string meaning;
@@ -57,7 +57,7 @@ struct FixedNumber {
 
 std::vector<FixedNumber> fixed_numbers(const Grid& grid) {
   std::vector<FixedNumber> fixed;
-  const Json parameters = fixed_parameters(grid);  // which items() only refers to
+  const Json parameters = fixed_parameters(grid);  // a variable, because items() refers to it
   for (const auto& [path, value] : parameters.items()) {
     if (!value.is_number() && value != "inf") continue;
     const Axis axis{.path = path};
@@ -67,7 +67,7 @@ std::vector<FixedNumber> fixed_numbers(const Grid& grid) {
   return fixed;
 }
 
-/// The words of an axis by their numbers: "load motor".
+/// The words of an axis in the order of their numbers: "load motor".
 std::string words_of(const Axis& axis, const Drive& drive) {
   const Parameter& parameter = *parameter_of(axis, drive);
   std::string words;
@@ -110,7 +110,7 @@ void describe_axis(NetcdfFile& file, const Axis& axis, const Grid& grid,
   if (unit.empty()) file.set_attribute(variable, "words", words_of(axis, grid.drive));
 }
 
-/// Their names, with blanks between.
+/// Declares the fixed numbers as variables. Returns their names, separated by blanks.
 std::string describe_fixed_numbers(NetcdfFile& file, const Grid& grid) {
   std::string names;
   for (const FixedNumber& number : fixed_numbers(grid)) {
@@ -129,7 +129,7 @@ void write_parameters(NetcdfFile& file, const Grid& grid) {
   }
 }
 
-/// By axis: y, x.
+/// The coordinates by axis: y, x.
 std::array<std::vector<double>, 2> columns_of(const std::vector<MapCurve>& curves) {
   constexpr double gap = std::numeric_limits<double>::quiet_NaN();
   std::array<std::vector<double>, 2> columns;
@@ -185,7 +185,7 @@ void GridNetcdf::find_variables() {
 
 bool GridNetcdf::describes(const GridContents& contents) const {
   for (const auto& [name, text] : attributes_of_file(contents)) {
-    const bool is_free = name == "history";  // the command may spell its files in another way
+    const bool is_free = name == "history";  // the command may spell its file names differently
     if (!is_free && file_.attribute_of_file(name) != text) return false;
   }
   return std::all_of(grid_.axes.begin(), grid_.axes.end(), [&](const Axis& axis) {
@@ -195,9 +195,9 @@ bool GridNetcdf::describes(const GridContents& contents) const {
   });
 }
 
-/// One value of each variable is written. The library then gives the whole variable its place, and
-/// what is written later leaves the file's structure as it is: a program that is killed leaves it
-/// readable.
+/// Writes one value of each variable. The library then allocates the whole variable, and later
+/// writes do not change the file's structure, so that the file stays readable if the program is
+/// killed.
 void GridNetcdf::claim_places() {
   find_variables();
   const std::vector<std::size_t> one(grid_.axes.size(), 1);
@@ -210,8 +210,8 @@ void GridNetcdf::claim_places() {
   }
 }
 
-/// Keeps the disk at work while the next points are worked out; seldom enough that it has long
-/// pieces of each variable to take.
+/// Keeps the disk busy while the next points are computed. The interval is long enough to write
+/// long stretches of each variable.
 void GridNetcdf::begin_flush_now_and_then(const GridPiece& piece) {
   constexpr std::size_t often_enough = std::size_t{1} << 18U;
   const std::size_t written = piece.first + piece.table.rows();

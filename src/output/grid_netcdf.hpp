@@ -1,4 +1,4 @@
-// The answers of a grid as a NetCDF-4 file, written whole or piece by piece.
+// The answers of a grid as a NetCDF-4 file, written whole or in parts.
 #pragma once
 
 #include <filesystem>
@@ -14,39 +14,42 @@
 
 namespace gearlash {
 
-/// What a file of a grid says.
+/// The description that a grid's file holds.
 struct GridContents {
   Grid grid;
-  std::vector<Quantity> quantities;  ///< beside the verdict
+  std::vector<Quantity> quantities;  ///< besides the verdict
   Provenance provenance;
-  std::string source_text = {};  ///< of the file that asked for it; empty when there was none
+  std::string source_text = {};  ///< of the sweep file; empty without one
 };
 
-/// A file that is being written. One dimension an axis, named as its column (column_name()), with
-/// the axis's values, or the words of its choices; the drive's other numbers; the verdict as flags
-/// and each quantity over all dimensions, NaN where it is not known, each with its long_name and
-/// with SI units as UDUNITS knows them; the drive as TOML; the command and the version of Gearlash.
-/// The boundary is a list of points, with NaN between curves. CF conventions 1.8; the same grid
-/// gives the same bytes, in whatever pieces it is written.
+/// A file that is being written. Each axis is a dimension, named as its column (column_name()),
+/// with the axis's values or the words of its choices. Over all dimensions the file has the verdict
+/// as flags and each quantity, NaN where it is not known. It also has the drive's other numbers,
+/// the drive as TOML, and the command and version of Gearlash. Variables have a long_name and SI
+/// units as UDUNITS spells them. The boundary is a list of points with NaN between curves. The file
+/// follows the CF conventions 1.8. The same grid gives the same bytes, however the writing is
+/// divided.
 ///
-/// Every member throws OutputError, naming the file as `shown_name`, where it cannot be written.
+/// Every member throws OutputError, naming the file as `shown_name`, if the file cannot be written.
 class GridNetcdf {
  public:
-  /// A new file in which every value has its place and none is written yet.
+  /// Makes a file in which every value has its place and no point is written yet.
   static GridNetcdf create(const std::filesystem::path& path, const std::string& shown_name,
                            const GridContents& contents);
-  /// A file that create() made of the same contents, to go on with. OutputError too where its
-  /// attributes or axes are not those of `contents`.
+  /// Reopens a file that create() made with the same contents, to resume writing. Throws
+  /// OutputError also if its attributes or axes are not those of `contents`.
   static GridNetcdf reopen(const std::filesystem::path& path, const std::string& shown_name,
                            const GridContents& contents);
 
   void write(const GridPiece& piece);
-  /// Of points that were written, from `first` on as many as the table has rows (a box of the
-  /// grid), what the file holds; the columns of other quantities stay.
+  /// Fills the table with the file's values of written points: as many as the table has rows, from
+  /// `first` on, which must be a box of the grid. Columns of quantities that the file does not have
+  /// stay unchanged.
   void read(std::size_t first, Table& table) const;
-  /// Of a map, whose axes are y and x, once; no curve: nothing is written.
+  /// Writes the boundary of a map with the axes y and x. Call it once. Without a curve it writes
+  /// nothing.
   void write_boundary(const std::vector<MapCurve>& boundary);
-  /// Brings what was written to the disk (fsync).
+  /// Writes everything to the disk (fsync).
   void flush() { file_.flush(); }
   void close() { file_.close(); }
 
@@ -54,7 +57,7 @@ class GridNetcdf {
   GridNetcdf(NetcdfFile file, const GridContents& contents)
       : file_(std::move(file)), grid_(contents.grid), quantities_(contents.quantities) {}
   void describe(const GridContents& contents);
-  /// Whether the file says of the grid what describe() wrote.
+  /// Whether the file describes the grid as describe() wrote it.
   bool describes(const GridContents& contents) const;
   void find_variables();
   void claim_places();
@@ -69,7 +72,7 @@ class GridNetcdf {
   std::size_t flushed_ = 0;  ///< points written before the last begin_flush()
 };
 
-/// Bytes that the values of such a file take.
+/// The number of bytes of the values in such a file.
 std::size_t netcdf_bytes(const GridContents& contents);
 
 }  // namespace gearlash

@@ -7,7 +7,7 @@
 namespace gearlash {
 namespace {
 
-/// "[[[x, y], …], …]", a curve a line.
+/// "[[[x, y], …], …]" with one line for each curve.
 void write_curves(const std::vector<MapCurve>& curves, const TextSink& sink) {
   sink("[");
   for (std::size_t i = 0; i < curves.size(); ++i) {
@@ -31,7 +31,7 @@ void write_list(const Values& values, const Convert& convert, const TextSink& si
   sink("]");
 }
 
-/// A word where the axis has words.
+/// The word if the axis has words, else the number.
 Json json_value(const Axis& axis, const Drive& drive, double value) {
   return unit_of(axis, drive).empty() ? Json(text_of(axis, drive, value)) : json_number(value);
 }
@@ -126,7 +126,7 @@ void write_grid_json(const GridTable& table, const std::string& verb, const Text
   header["defaults"] = std::move(defaults);
   header["axes"] = json_axes(grid);
   std::string text = header.dump(2);
-  text.resize(text.rfind("\n}"));  // reopened: the columns follow, number by number
+  text.resize(text.rfind("\n}"));  // reopens the object: the columns follow, number by number
   sink(text + ",\n  \"columns\": ");
   write_columns(table.table, sink);
   if (table.hunting_boundary) {

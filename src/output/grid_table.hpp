@@ -13,28 +13,28 @@
 
 namespace gearlash {
 
-/// A grid worked out, a row a point.
+/// A computed grid, with one row for each point.
 struct GridTable {
   Grid grid{};
   Table table{};
   Provenance provenance{};
-  std::optional<std::vector<MapCurve>> hunting_boundary{};      ///< of a map
-  std::optional<std::vector<MapCurve>> dissipative_boundary{};  ///< likewise
+  std::optional<std::vector<MapCurve>> hunting_boundary{};      ///< for a map only
+  std::optional<std::vector<MapCurve>> dissipative_boundary{};  ///< for a map only
 };
 
-/// How sure the verdicts on the grid's drives are: "computed", "enclosed", "searched", or two of
-/// them with what each is said of.
+/// The certainty of the grid's verdicts: "computed", "enclosed", "searched", or two of them with
+/// the drives that each applies to.
 std::string certainty_of(const Grid& grid);
 
-/// drive_json() without what stands on the axes.
+/// drive_json() without the parameters of the axes.
 nlohmann::ordered_json fixed_parameters(const Grid& grid);
 
-/// A line a point: the values of the axes, the verdict and every quantity, in SI; empty where not
-/// known.
+/// One line for each point: the values of the axes, the verdict and every quantity, in SI; empty if
+/// not known.
 void write_grid_csv(const GridTable& table, const TextSink& sink);
 
-/// As docs/schemas has it: axes, and each quantity as an array with the last axis fastest; null
-/// where not known. A map's boundary as a list of curves, each a list of points [x, y]. `verb`:
+/// The JSON of docs/schemas: the axes, and each quantity as an array with the last axis fastest,
+/// null if not known. A map's boundary is a list of curves, each a list of points [x, y]. `verb`:
 /// "chart" or "map".
 void write_grid_json(const GridTable& table, const std::string& verb, const TextSink& sink);
 

@@ -1,4 +1,4 @@
-// How Gearlash's own types are written in JSON.
+// Writing Gearlash's types as JSON.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace gearlash {
 
-using Json = nlohmann::ordered_json;  ///< keys stay in the order in which they are documented
+using Json = nlohmann::ordered_json;  ///< keys stay in the documented order
 
 /// A number that reads back exactly; infinity as "inf" or "-inf", NaN (not computed) as null.
 inline Json json_number(double value) {
@@ -23,7 +23,7 @@ inline Json json_optional(const std::optional<double>& number) {
   return number ? json_number(*number) : Json(nullptr);
 }
 
-/// What `convert` makes of each element.
+/// The list of convert(element).
 template <class List, class Convert>
 Json json_list(const List& list, const Convert& convert) {
   Json json = Json::array();
@@ -42,7 +42,7 @@ inline Json json_performance(const Performance& performance) {
           {"frequency", json_number(performance.frequency)}};
 }
 
-/// Of NormalFormNumbers or a NormalizedServo.
+/// `Form` is NormalFormNumbers or NormalizedServo.
 template <class Form>
 Json json_normal_form(const Form& form, double natural_frequency) {
   return {{"damping", json_number(form.damping)},

@@ -57,14 +57,14 @@ Json json_energy(const Motion& motion) {
           {"impacts", json_number(energy->impacts)}};
 }
 
-/// Before what happens at once.
+/// The start, before any event at time 0.
 Shafts start_of(const Motion& motion) {
   const auto events = motion.events();
   const bool is_at_once = !events.empty() && events.front().time == 0.0;
   return is_at_once ? events.front().before : motion.at(0.0).shafts;
 }
 
-/// All that is known without a table.
+/// The fields without a table.
 Json json_header(const MotionReport& report) {
   const Motion& motion = report.motion;
   Json json = json_head("simulate", report.drive, report.provenance);
@@ -123,7 +123,7 @@ void write_events_csv(const MotionReport& report, const TextSink& sink) {
 
 void write_motion_json(const MotionReport& report, const TextSink& sink, Progress& progress) {
   std::string header = json_header(report).dump(2);
-  header.resize(header.rfind("\n}"));  // reopened: the tables follow, row by row
+  header.resize(header.rfind("\n}"));  // reopens the object: the tables follow, row by row
   sink(header + ",\n  \"events\": [");
   const char* separator = "\n    ";
   for (const MotionEvent& event : report.motion.events()) {

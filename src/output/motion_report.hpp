@@ -1,4 +1,4 @@
-// The motion of a drive as CSV and JSON, whichever engine made it.
+// The motion of a drive as CSV and JSON, for both engines.
 #pragma once
 
 #include "gearlash/motion.hpp"
@@ -10,22 +10,22 @@ namespace gearlash {
 struct MotionReport {
   Drive drive{};
   Motion motion{};
-  double until = 0.0;  ///< s, asked for
-  double every = 0.0;  ///< s, between samples, > 0
+  double until = 0.0;  ///< s, requested end
+  double every = 0.0;  ///< s, sampling interval, > 0
   Provenance provenance{};
 };
 
-/// A row a sample, at 0, every, 2 every, … up to the end: time_s, load_position_rad,
+/// One row for each sample, at 0, every, 2 every, … up to the end: time_s, load_position_rad,
 /// load_speed_rad_per_s, motor_position_rad, motor_speed_rad_per_s, motor_torque_N_m,
 /// reference_rad, load_torque_N_m, mode.
 void write_samples_csv(const MotionReport& report, const TextSink& sink,
                        Progress& progress = no_progress());
 
-/// A row an event: time_s, what, mode_after, energy_lost_J (empty where it is not known), and the
-/// shafts before and after.
+/// One row for each event: time_s, what, mode_after, energy_lost_J (empty if not known), and the
+/// shafts' positions and speeds before and after.
 void write_events_csv(const MotionReport& report, const TextSink& sink);
 
-/// The contract of docs/command-line.md ("gearlash/simulate/2"), row by row.
+/// "gearlash/simulate/2", specified in docs/command-line.md. Rows go to the sink one by one.
 void write_motion_json(const MotionReport& report, const TextSink& sink,
                        Progress& progress = no_progress());
 

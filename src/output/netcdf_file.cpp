@@ -17,9 +17,9 @@ namespace {
 
 constexpr int closed = -1;
 
-/// A function of NetCDF's library, which is loaded with the first call: with the forty libraries
-/// that it needs in turn this takes longer than most commands. It is never unloaded: HDF5 does not
-/// bear it. Throws OutputError where the library is not there.
+/// A function of NetCDF's library. The library is loaded at the first call, because loading it and
+/// the forty libraries that it needs takes longer than most commands. It is never unloaded, because
+/// HDF5 does not support that. Throws OutputError if the library is missing.
 void* function_of_library(const char* name) {
   static void* const library = dlopen(GEARLASH_NETCDF_SONAME, RTLD_NOW | RTLD_LOCAL);
   void* const function = library == nullptr ? nullptr : dlsym(library, name);
@@ -27,7 +27,7 @@ void* function_of_library(const char* name) {
     throw OutputError(std::string("NetCDF files cannot be written without ") +
                       GEARLASH_NETCDF_SONAME + " (Debian: " + GEARLASH_NETCDF_PACKAGE + ")");
   }
-  errno = 0;  // whatever loading has left there
+  errno = 0;  // loading may have set it
   return function;
 }
 
@@ -41,7 +41,7 @@ struct Loaded {
   }
 };
 
-// By the names of the header's declarations, which these hide.
+// These hide the header's declarations of the same names.
 constexpr Loaded<decltype(::nc_strerror)> nc_strerror{"nc_strerror"};
 constexpr Loaded<decltype(::nc_create)> nc_create{"nc_create"};
 constexpr Loaded<decltype(::nc_open)> nc_open{"nc_open"};
@@ -64,8 +64,8 @@ constexpr Loaded<decltype(::nc_inq_attlen)> nc_inq_attlen{"nc_inq_attlen"};
 constexpr Loaded<decltype(::nc_get_att_text)> nc_get_att_text{"nc_get_att_text"};
 constexpr Loaded<decltype(::nc_sync)> nc_sync{"nc_sync"};
 
-/// "No space left on device", where the system said so, is clearer than "NetCDF: HDF error", and
-/// truer than "Permission denied", which stands for every file that HDF5 cannot make.
+/// The system's reason, such as "No space left on device", is clearer than "NetCDF: HDF error". It
+/// is also more exact than "Permission denied", the status of every file that HDF5 cannot create.
 [[noreturn]] void refuse(const std::string& shown_name, int status, int system_error) {
   const bool is_of_the_system = status == NC_EHDFERR || status == EACCES;
   const std::string reason = is_of_the_system && system_error != 0
@@ -206,7 +206,8 @@ void NetcdfFile::begin_flush() const {
 #ifdef SYNC_FILE_RANGE_WRITE  // Linux
   const int descriptor = open(path_.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return;
-  static_cast<void>(sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE));  // to the end
+  // A length of 0 stands for the whole file.
+  static_cast<void>(sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE));
   ::close(descriptor);
 #endif
 }

@@ -1,4 +1,4 @@
-// A NetCDF-4 file being written: dimensions, variables and attributes by name, errors thrown.
+// Writing a NetCDF-4 file: dimensions, variables and attributes by name, errors as exceptions.
 #pragma once
 
 #include <cstddef>
@@ -13,28 +13,29 @@ namespace gearlash {
 using NetcdfDimension = int;
 using NetcdfVariable = int;
 
-/// Every member throws OutputError, naming the file as `shown_name`, where the library refuses
-/// (disk full, no permission, a file of another layout).
+/// Every member throws OutputError, naming the file as `shown_name`, if the library reports an
+/// error (disk full, no permission, a file of another layout).
 class NetcdfFile {
  public:
-  /// A new file, or an empty one, to be described and then filled.
+  /// Makes a new file, or opens an empty one, to be described and then filled.
   static NetcdfFile create(const std::filesystem::path& path, std::string shown_name);
-  /// A file that was created here, to be filled further.
+  /// Reopens a file of create() to fill it further.
   static NetcdfFile reopen(const std::filesystem::path& path, std::string shown_name);
   ~NetcdfFile();
   NetcdfFile(NetcdfFile&& other) noexcept;
   NetcdfFile& operator=(NetcdfFile&&) = delete;
 
-  // Description, before the first values, or after resume_description().
+  // The description comes before the first values or after resume_description().
   NetcdfDimension add_dimension(const std::string& name, std::size_t length);
-  /// Doubles; one number without dimensions. Values are stored without gaps in the order of the
-  /// indices: the file does not depend on the pieces in which it is written.
+  /// A variable of doubles; without dimensions a single number. Values are stored contiguously in
+  /// the order of the indices, so that the file does not depend on how the writing is divided.
   NetcdfVariable add_numbers(const std::string& name,
                              const std::vector<NetcdfDimension>& dimensions,
                              const std::string& long_name, const std::string& units);
-  /// Of numbers: that NaN stands for none. (Of coordinates there are all.)
+  /// Declares NaN as the missing value of a variable of numbers. Coordinates need none: all are
+  /// known.
   void declare_nan_missing(NetcdfVariable variable);
-  /// Whole numbers from 0 on that stand for words (the conventions' "flags").
+  /// A variable of whole numbers from 0 on that stand for words (the CF conventions' "flags").
   NetcdfVariable add_flags(const std::string& name, const std::vector<NetcdfDimension>& dimensions,
                            const std::string& long_name, const std::vector<std::string>& meanings);
   void set_attribute(NetcdfVariable variable, const std::string& name, const std::string& text);
@@ -43,23 +44,23 @@ class NetcdfFile {
   void resume_description();
 
   NetcdfVariable variable(const std::string& name) const;
-  /// The values of a box of indices, the last index fastest.
+  /// Writes the values of a box of indices, the last index fastest.
   void write(NetcdfVariable variable, const std::vector<std::size_t>& start,
              const std::vector<std::size_t>& extent, std::span<const double> values);
   void write(NetcdfVariable variable, const std::vector<std::size_t>& start,
              const std::vector<std::size_t>& extent, std::span<const signed char> flags);
 
-  // What was written, read back.
+  // Reads values back.
   void read(NetcdfVariable variable, const std::vector<std::size_t>& start,
             const std::vector<std::size_t>& extent, std::span<double> values) const;
   void read(NetcdfVariable variable, const std::vector<std::size_t>& start,
             const std::vector<std::size_t>& extent, std::span<signed char> flags) const;
   std::string attribute_of_file(const std::string& name) const;
 
-  /// Lets the system begin to bring to the disk what was written, and does not wait for it: what
-  /// is left to flush(), or to another fsync, is then short. No more than an advice.
+  /// Advises the system to begin writing to the disk, without waiting. This shortens a later
+  /// flush() or fsync.
   void begin_flush() const;
-  /// Brings everything to the disk (fsync).
+  /// Writes everything to the disk (fsync).
   void flush();
   void close();
 
@@ -73,7 +74,7 @@ class NetcdfFile {
   NetcdfVariable define(const std::string& name, int type,
                         const std::vector<NetcdfDimension>& dimensions);
 
-  int id_;  ///< the library's; negative when closed
+  int id_;  ///< the library's identifier; negative when closed
   std::filesystem::path path_;
   std::string shown_name_;
 };

@@ -20,10 +20,10 @@ namespace {
 
 constexpr std::size_t buffer_size = std::size_t{1} << 16U;
 
-/// Names of hidden files, where a signal handler finds them without allocating or locking.
+/// A hidden file's name, stored so that a signal handler reads it without allocating or locking.
 struct UnfinishedOutput {
   std::atomic<bool> taken = false;
-  std::atomic<bool> exists = false;  ///< `name` is complete and is that of a file
+  std::atomic<bool> exists = false;  ///< `name` is complete and the file exists
   std::array<char, PATH_MAX> name{};
 };
 std::array<UnfinishedOutput, 8> unfinished_outputs;
@@ -39,7 +39,8 @@ UnfinishedOutput& output_in(int slot) { return unfinished_outputs[static_cast<st
 
 std::string system_message(int error) { return std::generic_category().message(error); }
 
-/// No signal is heard while this lives: a file is made and noted for removal in one.
+/// Blocks signals while it lives, so that making a file and recording it for removal are not
+/// separated.
 class SignalsHeld {
  public:
   SignalsHeld() {
@@ -62,15 +63,15 @@ bool is_regular_or_new(const std::filesystem::path& path) {
          status.type() == std::filesystem::file_type::not_found;
 }
 
-/// /dev/stdout and its like may lead to a regular file, which the shell has opened and goes on
-/// using: renaming another over it would lose what else is written there.
+/// /dev/stdout and similar names may lead to a regular file that the shell has opened and keeps
+/// using. Renaming another file over it would lose the shell's other output.
 bool names_open_descriptor(const std::filesystem::path& path) {
   const std::string text = path.string();
   return text == "/dev/stdout" || text == "/dev/stderr" || text.starts_with("/dev/fd/") ||
          text.starts_with("/proc/");
 }
 
-/// Permissions of the file to be replaced, or those that a new file is given.
+/// Permissions of the file to be replaced, or those of a new file.
 mode_t permissions_of(const std::filesystem::path& target) {
   struct stat existing {};
   if (stat(target.c_str(), &existing) == 0) return existing.st_mode & 0777U;
@@ -79,13 +80,13 @@ mode_t permissions_of(const std::filesystem::path& target) {
   return 0666U & ~mask;
 }
 
-/// No other name is taken for that of a hidden file.
+/// Every hidden file of `target` begins with this name; no other file is taken for one.
 std::string beginning_of_hidden(const std::filesystem::path& target) {
   return "." + target.filename().string() + ".gearlash-";
 }
 constexpr std::string_view random_end = "XXXXXX";
 
-/// A hidden file that no program holds was left by one that was killed.
+/// Removes the hidden file if no program holds it: a killed program left it then.
 void remove_if_left_behind(const std::filesystem::path& hidden) {
   const int descriptor = open(hidden.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -111,8 +112,8 @@ void remove_left_behind(const std::filesystem::path& target) {
   }
 }
 
-/// Whether a hidden file just made is this program's: another may have taken it for one left behind
-/// before it was locked.
+/// Whether a new hidden file is still this program's. Before it was locked, another program may
+/// have taken it for one left behind.
 bool is_held(int descriptor) {
   struct stat file {};
   return lock_file(descriptor) != FileLock::elsewhere &&
@@ -132,7 +133,7 @@ OutputFile::OutputFile(const std::filesystem::path& path)
   buffer_.reserve(buffer_size);
   try {
     open_path(path);
-  } catch (...) {  // no destructor will run
+  } catch (...) {  // the destructor will not run
     abandon();
     throw;
   }

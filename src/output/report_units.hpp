@@ -1,4 +1,4 @@
-// The units in which results are told: those of the servo's author where they are known.
+// The units of results: those of the servo's author if they are known.
 #pragma once
 
 #include <optional>
@@ -8,13 +8,13 @@
 
 namespace gearlash {
 
-/// What made a file: enough to make it again.
+/// How a file was made, with enough detail to make it again.
 struct Provenance {
-  std::string command = {};  ///< as it could be typed into a shell, on one line
+  std::string command = {};  ///< on one line, as typed into a shell
   std::string version = {};  ///< of Gearlash
 };
 
-/// At most `digits` significant ones, for a person to read: "0.0814", "1.2e-05", "inf".
+/// The number with at most `digits` significant digits: "0.0814", "1.2e-05", "inf".
 std::string significant(double value, int digits);
 
 /// A change by this ratio: "+12.3 %", "−40 %", "×26".
@@ -23,12 +23,12 @@ std::string change_text(double ratio);
 /// "12.3 arcmin".
 std::string angle_text(double radians, const AngleUnit& unit, int digits);
 
-/// "0.54 s"; of a normal form without a natural frequency "6.456 / ω_n".
+/// "0.54 s"; for a normal form without a natural frequency "6.456 / ω_n".
 std::string time_text(double seconds, bool is_normalized, int digits);
-/// "1.85 Hz"; likewise "ω = 0.973 ω_n".
+/// "1.85 Hz"; for a normal form without a natural frequency "ω = 0.973 ω_n".
 std::string frequency_text(double period, bool is_normalized, int digits);
 
-/// A size, the author's unit first: "±12.3 arcmin (0.00358 rad)", "±0.0814 rad (4.67°)".
+/// An amplitude, the author's unit first: "±12.3 arcmin (0.00358 rad)", "±0.0814 rad (4.67°)".
 std::string swing_text(double amplitude, const AngleUnit& unit, int digits);
 
 }  // namespace gearlash

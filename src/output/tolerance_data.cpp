@@ -12,7 +12,7 @@
 namespace gearlash {
 namespace {
 
-// What is not there is not a number in a file.
+// The estimate's value; NaN without an estimate.
 double value_of(const std::optional<Estimate>& estimate) {
   return estimate ? estimate->value : not_a_number;
 }
@@ -20,7 +20,7 @@ double error_of(const std::optional<Estimate>& estimate) {
   return estimate ? estimate->standard_error.value_or(not_a_number) : not_a_number;
 }
 
-/// A quantity estimated at several shares, and what it is.
+/// A quantity estimated at several shares, and its description.
 struct QuantileSeries {
   const char* name;
   const char* long_name;
@@ -40,7 +40,7 @@ std::vector<QuantileSeries> quantile_series(const ToleranceReport& report) {
   return series;
 }
 
-/// An index of every number, and what it is.
+/// A sensitivity index of every parameter, and its description.
 struct IndexSeries {
   const char* name;
   const char* long_name;
@@ -77,7 +77,7 @@ std::vector<std::pair<const char*, std::optional<Estimate>>> single_estimates(
 
 // --- NetCDF ---
 
-/// Describes variables now and writes their values when all are described.
+/// Describes variables at once and writes their values after the last description.
 class TwoPassFile {
  public:
   explicit TwoPassFile(NetcdfFile file) : file_(std::move(file)) {}

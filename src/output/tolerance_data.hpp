@@ -1,4 +1,4 @@
-// What a production run will do, as data for other programs.
+// The behaviour of a production run, as data for other programs.
 #pragma once
 
 #include "output/output_file.hpp"
@@ -6,13 +6,15 @@
 
 namespace gearlash {
 
-/// A row an estimate: what it is, of what (a share of samples, a parameter's path, a step of the
-/// histogram), its value and its standard error; amplitudes in rad, frequencies in Hz.
+/// One row for each estimate: the quantity, its argument (a share of samples, a parameter's path, a
+/// bin of the histogram), its value and its standard error. Amplitudes are in rad, frequencies in
+/// Hz.
 void write_tolerance_csv(const ToleranceReport& report, const TextSink& sink);
 
-/// NetCDF-4, in place of output.write(): quantiles over `share`, indices over `number` (whose names
-/// are its flag_meanings), the histogram over `bin` with its edges, each with its standard error as
-/// a variable NAME_standard_error; CF conventions 1.8 and provenance. Throws OutputError.
+/// Writes NetCDF-4 instead of calling output.write(): quantiles over `share`, indices over `number`
+/// (its flag_meanings are the parameters' names), and the histogram over `bin` with its edges. Each
+/// has its standard error in a variable NAME_standard_error. The file follows the CF conventions
+/// 1.8 and holds the provenance. Throws OutputError.
 void write_tolerance_netcdf(const ToleranceReport& report, const OutputFile& output);
 
 }  // namespace gearlash

@@ -14,12 +14,12 @@ namespace gearlash {
 namespace {
 
 constexpr int digits = 4;
-/// Two standard errors: about 95 % of such intervals hold the truth.
+/// Two standard errors: about 95 % of such intervals contain the true value.
 constexpr double bar = 2.0;
 
 using Row = std::vector<std::string>;
 
-/// In text: a normal form without a natural frequency has no time of its own.
+/// Whether text has frequencies: a normal form without a natural frequency has none.
 bool has_frequency(const ToleranceReport& report) { return !is_normalized(report.drive.nominal); }
 
 /// "12.3 ± 0.2 %": a probability with two standard errors.
@@ -68,10 +68,11 @@ std::vector<Row> quantile_rows(const ToleranceReport& report) {
 std::string index_text(const std::optional<SensitivityIndices>& indices,
                        Estimate SensitivityIndices::*index) {
   if (!indices) return "–";
-  return fmt::format("{:.3f}", std::max(0.0, ((*indices).*index).value));  // below 0 by its error
+  // The error of the estimate may make it negative.
+  return fmt::format("{:.3f}", std::max(0.0, ((*indices).*index).value));
 }
 
-/// Angles in the author's unit, all else in its own.
+/// The number with its unit; angles are in the author's unit.
 std::string number_text(const std::string& path, double value, const ToleranceReport& report) {
   const std::string unit(unit_of(report.drive.nominal, path));
   if (unit == "rad") return angle_text(value, report);

@@ -1,4 +1,4 @@
-// What a production run will do, for a person and for a program.
+// The behaviour of a production run, as text and as JSON.
 #pragma once
 
 #include <optional>
@@ -13,21 +13,21 @@ namespace gearlash {
 
 struct ToleranceReport {
   TolerancedDrive drive;
-  std::string target_text;  ///< as its author wrote it; empty where there was none
+  std::string target_text;  ///< as its author wrote it; empty without a target
   double demanded_yield = 0.0;
   ToleranceStudy study = {};
   SensitivityStudy sensitivities = {};
   WorstCorner worst = {};
-  std::optional<WidestBacklash> backlash = {};  ///< where a yield was demanded and can be had
+  std::optional<WidestBacklash> backlash = {};  ///< if a yield was demanded and can be reached
   AngleUnit angle = {};                         ///< of text
   Provenance provenance = {};
 };
 
-/// Probabilities with their error bars, quantiles, what decides, and the worst sample. Ends with a
-/// newline.
+/// Probabilities with their error bars, quantiles, the deciding parameters, and the worst sample.
+/// Ends with a newline.
 std::string tolerance_text(const ToleranceReport& report);
 
-/// "gearlash/tolerance/2" (docs/schemas), in SI, ending with a newline; numbers read back exactly.
+/// "gearlash/tolerance/2" (docs/schemas), in SI. Numbers read back exactly. Ends with a newline.
 std::string tolerance_json(const ToleranceReport& report);
 
 }  // namespace gearlash

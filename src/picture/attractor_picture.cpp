@@ -13,8 +13,8 @@ namespace {
 
 constexpr int digits = 3;
 
-/// The search's positions are from the reference, and its states may have other numbers than the
-/// drive's.
+/// The motion of one cycle. The search's positions are measured from the reference, and its states
+/// may be numbered differently from the drive's.
 Motion motion_of_cycle(const drive::ReducedDrive& reduced, const drive::AttractorSearch& search,
                        const drive::FoundCycle& cycle) {
   drive::DriveSystem system = drive::drive_system(reduced);
@@ -28,7 +28,7 @@ Motion motion_of_cycle(const drive::ReducedDrive& reduced, const drive::Attracto
   return motion_of(std::move(system), std::move(trajectory));
 }
 
-/// Some of its mean periods, as far on as it was watched.
+/// The last few mean periods of the watched motion.
 Motion motion_of_irregular(const drive::ReducedDrive& reduced,
                            const drive::IrregularFound& irregular, const drive::Outcome& outcome) {
   constexpr double periods = 5.0;
@@ -43,7 +43,7 @@ Motion motion_of_irregular(const drive::ReducedDrive& reduced,
   return motion_of(std::move(system), std::move(last));
 }
 
-/// Two cycles of a picture differ in it.
+/// A name with enough numbers to distinguish the cycles of a picture.
 std::string name_of_cycle(const drive::FoundCycle& cycle, const AngleUnit& angle) {
   const bool is_of_load = cycle.amplitude > 0.0;
   return fmt::format(

@@ -1,4 +1,4 @@
-// The cycles of a drive, and motion that does not repeat, as a picture in the phase plane.
+// The cycles and irregular motion of a drive as a picture in the phase plane.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace gearlash {
 
-/// Of what a search found in `reduced`, which is `drive` with its signals settled. Positions are
-/// from the reference.
+/// Draws the results of a search in `reduced`, which is `drive` with its signals settled. Positions
+/// are measured from the reference.
 MotionPicture attractor_picture(const std::string& title, const Drive& drive,
                                 const drive::ReducedDrive& reduced,
                                 const drive::AttractorSearch& search, const AngleUnit& angle);

@@ -11,7 +11,7 @@
 namespace gearlash {
 namespace {
 
-constexpr double half_width = 0.36;  ///< of a bar; they are 1 apart
+constexpr double half_width = 0.36;  ///< of a bar; bars are 1 apart
 
 /// Boxes from 0 to each value, the first bar on top.
 template <class Value>

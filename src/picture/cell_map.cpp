@@ -42,7 +42,7 @@ Cells cells_of(const CellPanel& panel, const std::string& name) {
 
 std::string draw_cell_map(const CellMap& map, PictureFormat format) {
   const std::size_t panels_a_line = std::min<std::size_t>(3, map.panels.size());
-  const bool is_one = map.panels.size() == 1;  // with room for longer numbers
+  const bool is_one = map.panels.size() == 1;  // has room for longer numbers
   std::string data;
   std::string plots;
   for (std::size_t i = 0; i < map.panels.size(); ++i) {

@@ -11,7 +11,7 @@ namespace gearlash {
 struct CellPanel {
   std::string title;
   std::vector<std::vector<double>> values;  ///< [row][column]; NaN leaves a cell empty,
-                                            ///< infinity has a dot in place of a number
+                                            ///< infinity shows a dot, not a number
 };
 
 struct CellMap {
@@ -21,13 +21,13 @@ struct CellMap {
   std::string y_label = {};
   std::vector<std::string> columns = {};
   std::vector<std::string> rows = {};  ///< the lowest first
-  std::vector<CellPanel> panels = {};  ///< up to six, three a line
+  std::vector<CellPanel> panels = {};  ///< up to six, three in a line
   double largest = 1.0;                ///< colours run from −largest to largest
   std::string number_format = "%+.1f";
 };
 
-/// Bytes of the picture; the same map gives the same SVG. Throws OutputError where gnuplot is
-/// missing or fails.
+/// Returns the bytes of the picture; the same map gives the same SVG. Throws OutputError if gnuplot
+/// is missing or fails.
 std::string draw_cell_map(const CellMap& map, PictureFormat format);
 
 }  // namespace gearlash

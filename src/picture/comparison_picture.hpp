@@ -1,4 +1,4 @@
-// The step responses of a drive with its sensor here and there.
+// The step responses of a drive for each place of its sensor.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace gearlash {
 
-/// The load over time, a curve for each place of the sensor. Throws OutputError.
+/// Draws the load over time, one curve for each place of the sensor. Throws OutputError.
 std::string draw_comparison(const ComparisonReport& report, PictureFormat format);
 
 }  // namespace gearlash

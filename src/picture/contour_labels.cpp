@@ -10,7 +10,7 @@
 namespace gearlash {
 namespace {
 
-/// A line by the way along it.
+/// Points of a line by the distance along it.
 class Way {
  public:
   explicit Way(const PaperLine& line) : line_(line) {
@@ -66,7 +66,7 @@ double distance_from(const PaperPoint& point, const PaperLine& line) {
 
 }  // namespace
 
-/// How far away the nearest other thing is; negative where the number would touch it.
+/// The distance to the nearest edge, number or other line; negative if the number would touch it.
 double LabelPlacer::clearance(const PaperPoint& centre, const PaperLine& contour,
                               double half_width) const {
   double clear =

@@ -9,29 +9,29 @@
 
 namespace gearlash {
 
-/// A number in a gap of its contour, along the contour.
+/// A number that stands in a gap of its contour and follows its direction.
 struct ContourLabel {
   std::string text = {};
   PaperPoint centre = {};
-  double slope = 0.0;  ///< degrees, above −90 and at most 90
+  double slope = 0.0;  ///< degrees, in (−90, 90]
 };
 
-/// Lengths on paper of the letters of a picture.
+/// The size of a picture's letters on paper.
 struct LetterSize {
   double width = 0.0;
   double height = 0.0;
 };
 
-/// Finds places for numbers one after the other: where a contour is straight, away from the edges,
-/// from the lines given and from the numbers before.
+/// Finds places for numbers one by one: where a contour is straight and far from the edges, the
+/// given lines and the earlier numbers.
 class LabelPlacer {
  public:
   LabelPlacer(std::vector<PaperLine> lines, LetterSize letter)
       : lines_(std::move(lines)), letter_(letter) {}
 
   struct Labelled {
-    std::optional<ContourLabel> label;  ///< nothing where there is no good place
-    std::vector<PaperLine> pieces;      ///< the contour but for the gap
+    std::optional<ContourLabel> label;  ///< nothing if there is no good place
+    std::vector<PaperLine> pieces;      ///< the contour without the gap
   };
   Labelled place(const PaperLine& contour, const std::string& text);
 

@@ -17,9 +17,9 @@ namespace {
 constexpr double unseen = 1.5e-3;  ///< on paper: a seventh of an SVG's pixel
 
 constexpr double label_scale = 0.85;
-constexpr double shortest_drawn = 0.35;  ///< scraps of contours say nothing
+constexpr double shortest_drawn = 0.35;  ///< shorter contours would be clutter
 
-/// Of the numbers on contours.
+/// The size of the numbers on contours.
 LetterSize letter_size(PictureFormat format) {
   const double letters_a_line = format == PictureFormat::svg   ? 54.0
                                 : format == PictureFormat::png ? 75.0
@@ -35,7 +35,7 @@ std::string inner_boundary_style() { return line_style(1.5, "#606060") + " dasht
 std::string mark_style() { return "pointtype 7 pointsize 1 linecolor rgb '#000000'"; }
 std::string hatching_style() { return line_style(0.6, "#a8a8a8"); }
 
-/// From light to dark blue.
+/// A colour from light to dark blue.
 std::string colour_of(std::size_t number, std::size_t count) {
   const double share =
       count < 2 ? 1.0 : static_cast<double>(number) / (static_cast<double>(count) - 1.0);
@@ -68,7 +68,7 @@ std::string label_command(const ContourLabel& label, const Paper& paper) {
                      quoted(label.text, "/*0.85"), place.x, place.y, label.slope);
 }
 
-/// What is drawn and where, bottom to top.
+/// The commands and layers of the picture, bottom to top.
 struct Drawing {
   std::string commands = {};
   std::vector<std::string> layers = {};
@@ -80,7 +80,7 @@ struct Drawing {
   }
 };
 
-/// Each contour with numbers in its longer pieces.
+/// Adds the contours, with numbers in their longer parts.
 void add_contours(const ContourMap& map, const Paper& paper, PictureFormat format,
                   Drawing& drawing) {
   std::vector<std::vector<PaperLine>> contours;
@@ -116,13 +116,13 @@ std::string screen_line(double from_right, double from_up, double to_right, doub
                      from_right, from_up, to_right, to_up, style);
 }
 
-/// A sample of each kind of line with its meaning, side by side below the axis: gnuplot's own
-/// legend knows no hatching that is the same in all its kinds of picture.
+/// A sample of each kind of line with its meaning, side by side below the axis. gnuplot's own
+/// legend has no hatching that looks the same in all formats.
 std::string legend(const ContourMap& map, PictureFormat format) {
   constexpr double sample = 0.05;  // shares of the picture's width
   constexpr double space = 0.012;
   constexpr double between = 0.05;
-  constexpr double middle = 0.04;  // and of its height
+  constexpr double middle = 0.04;  // shares of its height
   constexpr double half_height = 0.013;
   constexpr double slant = 2.0 * half_height * 7.0 / 9.0;
   const double letter = letter_size(format).width / label_scale / 9.0;

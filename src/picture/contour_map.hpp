@@ -1,4 +1,4 @@
-// Maps of contours, with the hunting-free boundary and hatching, drawn by gnuplot.
+// Contour maps with the hunting-free boundary and hatching, drawn by gnuplot.
 #pragma once
 
 #include <optional>
@@ -10,28 +10,28 @@
 
 namespace gearlash {
 
-/// Curves are in the axes' own values. Both axes have their ends.
+/// Curves are in the values of the axes. Both axes have their ends.
 struct ContourMap {
   std::string title = {};
   std::string subtitle = {};
   ChartAxis x = {};
   ChartAxis y = {};
-  std::vector<Contour> contours = {};   ///< by rising level: from light to dark, with their numbers
-  std::vector<MapCurve> boundary = {};  ///< bold
-  std::vector<MapCurve> hatching = {};  ///< thin
+  std::vector<Contour> contours = {};         ///< by rising level, from light to dark, numbered
+  std::vector<MapCurve> boundary = {};        ///< bold
+  std::vector<MapCurve> hatching = {};        ///< thin
   std::vector<MapCurve> inner_boundary = {};  ///< dashed
-  std::vector<MapCurve> inner_hatching = {};  ///< between the lines of the other
+  std::vector<MapCurve> inner_hatching = {};  ///< between the lines of `hatching`
   std::optional<MapPoint> mark = std::nullopt;
-  std::string contour_meaning = {};  ///< told in the legend, like the others
+  std::string contour_meaning = {};  ///< for the legend, as are the next four
   std::string boundary_meaning = {};
   std::string hatching_meaning = {};
   std::string inner_meaning = {};
   std::string mark_meaning = {};
 };
 
-/// Bytes of the picture; the same map gives the same SVG. Curves are thinned out as far as no eye
-/// can see, so that the finest grid makes a small file. Throws OutputError where gnuplot is missing
-/// or fails.
+/// Returns the bytes of the picture; the same map gives the same SVG. Curves are thinned by less
+/// than is visible, so that the finest grid gives a small file. Throws OutputError if gnuplot is
+/// missing or fails.
 std::string draw_contour_map(const ContourMap& map, PictureFormat format);
 
 }  // namespace gearlash

@@ -7,7 +7,7 @@
 namespace gearlash {
 namespace {
 
-/// Of the extent of the picture: a sixth of a line's width, at which no corner shows.
+/// Relative to the picture's extent: a sixth of a line's width, which shows no corners.
 constexpr double chord_tolerance = 4e-4;
 constexpr int deepest_bisection = 12;
 constexpr double panels_in_a_period = 12.0;
@@ -35,7 +35,7 @@ class CurveTracer {
     speed_ = std::max({speed_, std::abs(point.load_speed), std::abs(point.motor_speed)});
   }
 
-  /// The ends of the first panels of a piece; the last lies just before what ends it.
+  /// The ends of the initial panels of a piece; the last lies just before the event that ends it.
   std::vector<double> panels(double from, double to) const {
     const double last = std::max(from, std::nextafter(to, from));
     const int count = std::max(1, static_cast<int>(std::ceil((to - from) / longest_panel_)));
@@ -55,7 +55,8 @@ class CurveTracer {
   }
 
  private:
-  /// Adds the points after `start` up to `end`, halving where the middle is off the chord.
+  /// Adds the points after `start` up to `end`. An interval is halved if its middle is off the
+  /// chord.
   void refine(const DrawnPoint& start, const DrawnPoint& end, int depth,
               std::vector<DrawnPoint>& points) const {
     const DrawnPoint middle = point(0.5 * (start.time + end.time));
@@ -89,15 +90,15 @@ bool is_impact(const MotionEvent& event) {
   return event.what.starts_with("impact") || event.what.starts_with("faces meet");
 }
 
-/// What happens, without whether that was the last of infinitely many.
+/// The kind of event, without the remark that it was the last of infinitely many.
 std::string_view kind_of(const MotionEvent& event) {
   return event.what.substr(0, event.what.find(" ("));
 }
 
-/// What parts the curve, and where.
+/// An interruption of the curve.
 struct Break {
   double time;
-  const MotionEvent* event;  ///< nullptr: a leap of the reference, or the end
+  const MotionEvent* event;  ///< nullptr: a jump of the reference, or the end
 };
 
 std::vector<Break> breaks_of(const Motion& motion, const std::vector<double>& leaps) {

@@ -1,4 +1,4 @@
-// A motion as the few points that a picture needs.
+// A motion reduced to the few points that a picture needs.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace gearlash {
 
-/// In the units of the picture.
+/// Positions and speeds are in the picture's unit of angles; time is in s.
 struct DrawnPoint {
   double time = 0.0;
   double load_position = 0.0;
@@ -19,17 +19,17 @@ struct DrawnPoint {
   double reference = 0.0;
 };
 
-/// From one event, or leap of the reference, to the next.
+/// The motion from one event or jump of the reference to the next.
 struct DrawnPiece {
   bool is_apart = false;
   bool is_bounce = false;  ///< from a face back to it after a rebound
   bool ends_with_impact = false;
-  std::vector<DrawnPoint> points{};  ///< both ends included; the last one is before what ends it
+  std::vector<DrawnPoint> points{};  ///< both ends included; the last is before the event
 };
 
-/// Points so dense that the chords between them depart from the motion by less than the width of a
-/// line, at least twelve in a period of the loop (s). `leaps`: times at which the reference leaps,
-/// rising.
+/// Chords between the points deviate from the motion by less than the width of a line. At least
+/// twelve points lie in each `period` of the loop (s). `leaps`: rising times at which the reference
+/// jumps (s).
 std::vector<DrawnPiece> drawn_motion(const Motion& motion, const AngleUnit& angle, double period,
                                      const std::vector<double>& leaps);
 

@@ -34,7 +34,7 @@ using File = std::unique_ptr<std::FILE, FileCloser>;
 
 std::string system_message() { return std::generic_category().message(errno); }
 
-/// A file in `folder` that has no name, so that nothing is left of it.
+/// Opens a nameless file in `folder`, of which nothing is left behind.
 int open_nameless(const std::filesystem::path& folder) {
 #ifdef O_TMPFILE
   const int descriptor = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR);
@@ -86,7 +86,7 @@ Pipe open_pipe() {
 
 // ---- the program --------------------------------------------------------------------------------
 
-/// This program's environment without what changes gnuplot's pictures or words.
+/// This program's environment without the variables that change gnuplot's pictures or messages.
 std::vector<std::string> plain_environment() {
   std::vector<std::string> variables = {"LC_ALL=C.UTF-8"};
   for (char** variable = environ; *variable != nullptr; ++variable) {
@@ -98,7 +98,7 @@ std::vector<std::string> plain_environment() {
   return variables;
 }
 
-/// Redirections and signals of the child; the child must die of a closed pipe as usual.
+/// Redirections and signals of the child. A closed pipe must end the child as usual.
 class SpawnSetup {
  public:
   SpawnSetup(std::FILE* in, std::FILE* out, std::FILE* messages) {
@@ -155,7 +155,7 @@ pid_t spawn(std::FILE* in, std::FILE* out, std::FILE* messages) {
 
 // ---- the picture --------------------------------------------------------------------------------
 
-/// gnuplot's exit status is 0 even where nothing that it wrote has arrived.
+/// Checks the picture's end, because gnuplot's exit status is 0 even if its output was lost.
 bool is_whole(std::string_view picture) {
   while (picture.ends_with('\n')) picture.remove_suffix(1);
   if (picture.starts_with("<?xml")) return picture.ends_with("</svg>");
@@ -163,7 +163,8 @@ bool is_whole(std::string_view picture) {
   return picture.starts_with("\x89PNG") && picture.ends_with("IEND\xAE\x42\x60\x82");
 }
 
-/// The same picture has the same bytes. Blanks keep all else of a PDF at its offset.
+/// Overwrites the time of day, so that the same picture has the same bytes. Blanks keep the other
+/// parts of a PDF at their offsets.
 void blank_time_of_day(std::string& picture) {
   if (!picture.starts_with("%PDF-")) return;
   const std::size_t begin = picture.rfind("/CreationDate (D:");

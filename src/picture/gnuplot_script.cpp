@@ -14,8 +14,8 @@ namespace {
 
 constexpr double rounding = 1e-9;
 
-/// How many letters from `place` on are a subscript: "n" after "ω_", or what follows a capital that
-/// stands by itself and "_", as in J_L and F_Total. None in names such as "my_servo".
+/// The number of letters from `place` on that are a subscript: "n" after "ω_", or the letters after
+/// a single capital and "_", as in J_L and F_Total. Names such as "my_servo" have none.
 std::size_t subscript_length(const std::string& text, std::size_t place) {
   const auto is_letter = [&](std::size_t i) {
     return i < text.size() && std::isalpha(static_cast<unsigned char>(text[i])) != 0;
@@ -30,13 +30,13 @@ std::size_t subscript_length(const std::string& text, std::size_t place) {
   return length;
 }
 
-/// What gnuplot labels of a logarithmic axis: powers of ten.
+/// The number of gnuplot's labels on a logarithmic axis: powers of ten.
 int decades_between(double low, double high) {
   return static_cast<int>(std::floor(std::log10(high) + rounding)) -
          static_cast<int>(std::ceil(std::log10(low) - rounding)) + 1;
 }
 
-/// In one line, or in two where the page is too narrow, broken after a comma or a blank.
+/// The subtitle in one line, or in two if the page is too narrow, broken after a comma or a blank.
 std::vector<std::string> subtitle_lines(const std::string& subtitle) {
   constexpr std::size_t page = 112;
   if (width_in_columns(subtitle) <= page) return {subtitle};
@@ -46,7 +46,7 @@ std::vector<std::string> subtitle_lines(const std::string& subtitle) {
   return {subtitle.substr(0, place + 1), subtitle.substr(place + 2)};
 }
 
-/// Whether gnuplot would write out so many zeros that the numbers run into one another.
+/// Whether gnuplot's numbers would have so many zeros that they overlap.
 bool needs_powers(const ChartAxis& axis) {
   if (!axis.tics.empty() || !axis.low || !axis.high) return false;
   return axis.logarithmic ? *axis.low < 0.99e-4 || *axis.high > 1.01e6 : *axis.high < 0.99e-4;
@@ -56,7 +56,7 @@ std::string tics_command(char name, const std::vector<std::string>& tics) {
   return fmt::format("set {}tics ({})\n", name, fmt::join(tics, ", "));
 }
 
-/// Of 1, 2 or 5 times a power of ten, for no more than six of them.
+/// The smallest step of 1, 2 or 5 times a power of ten that divides `length` into at most six.
 double round_step(double length) {
   const double least = length / 6.0;
   const double power = std::pow(10.0, std::floor(std::log10(least)));
@@ -66,8 +66,8 @@ double round_step(double length) {
   return 10.0 * power;
 }
 
-/// Equal steps, numbered as multiples of the same power of ten. Beside the right end of an axis
-/// there is no room for half a number.
+/// Equal steps, numbered as multiples of the same power of ten. The right end of an x axis has no
+/// number, because half of it would not fit.
 std::string even_tics(char name, double low, double high) {
   const int power = static_cast<int>(std::floor(std::log10(high)));
   const double step = round_step(high - low);
@@ -81,8 +81,8 @@ std::string even_tics(char name, double low, double high) {
   return tics_command(name, tics);
 }
 
-/// Powers of ten with their numbers, as many as there is room for, and short tics between them;
-/// less than two decades also have their 2 and 5.
+/// Powers of ten, as many numbered as there is room for, and short tics between them; less than two
+/// decades also show 2 and 5.
 std::string power_tics(char name, double low, double high) {
   constexpr int most_numbers = 9;
   const int first = static_cast<int>(std::floor(std::log10(low)));
@@ -106,7 +106,7 @@ std::string power_tics(char name, double low, double high) {
   return numbers < 2 ? even_tics(name, low, high) : tics_command(name, tics);
 }
 
-/// Of an axis that is too short for two powers of ten: 1, 2 and 5, else even steps.
+/// Tics of an axis too short for two powers of ten: 1, 2 and 5, else even steps.
 std::string short_log_tics(char name, double low, double high) {
   std::vector<std::string> tics;
   const auto add = [&](double value) {
@@ -178,8 +178,8 @@ std::string heading(const std::string& title, const std::string& subtitle) {
          "set tics nomirror out\nset border linewidth 0.8\n";
 }
 
-/// Widths in letters as gnuplot lays them out, no more columns than it finds room for: else there
-/// were more rows. Heights in shares of the picture's.
+/// Widths are in letters as gnuplot lays them out, heights in shares of the picture's height. More
+/// columns than gnuplot has room for would give more rows.
 Legend legend_below(const std::vector<std::string>& names, PictureFormat format, double scale) {
   struct Page {
     double width;

@@ -29,7 +29,7 @@ ChartCurve curve_of(const GridTable& table, const GridPoints& points, std::size_
   std::vector<CurveServo> servos;
   for (std::size_t i = 0; i < x.values.size(); ++i) {
     const Verdict verdict = table.table.verdict(first + i);
-    // Rest is a number where drives are searched: 0 for an amplitude.
+    // For searched drives rest has a value: an amplitude of 0.
     CurveServo servo{x.values[i], points.engines().search
                                       ? table.table[quantity][first + i]
                                       : of_motion(table.table, quantity, first + i)};
@@ -40,7 +40,7 @@ ChartCurve curve_of(const GridTable& table, const GridPoints& points, std::size_
   return curve_to_hunting_ends(servos, servo_at, limit);
 }
 
-/// Why nothing of these rows of the table is drawn.
+/// The reason why these rows of the table have nothing to draw.
 std::string word_for_nothing(const GridTable& table, std::size_t first, std::size_t count,
                              Quantity quantity) {
   bool all_rest = true;
@@ -52,7 +52,8 @@ std::string word_for_nothing(const GridTable& table, std::size_t first, std::siz
   return all_rest ? "rests" : "not known";
 }
 
-/// A line of one point does not show, and between searched ones it is a guess.
+/// Adds marks, because a line of one point is invisible, and a line between searched points is a
+/// guess.
 void mark_points(ChartCurve& curve, bool are_all_marked) {
   const auto is_drawn = [&](std::size_t i) {
     return i < curve.line.size() && std::isfinite(curve.line[i].y);

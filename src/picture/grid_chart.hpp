@@ -6,10 +6,10 @@
 
 namespace gearlash {
 
-/// The quantity over the last axis, a curve for each value of the first, or one curve where there
-/// is one axis. With plastic contact the curves of what vanishes with the cycle are drawn on to
-/// where hunting ends. A drive without neighbours is a mark, as is each one on an axis of words.
-/// Precondition: one axis or two.
+/// The quantity over the last axis: one curve for each value of the first of two axes, one curve
+/// for a single axis. With plastic contact, curves of quantities that vanish with the cycle
+/// continue to the end of hunting. A point without neighbours is a mark, as is every point on an
+/// axis of words. Precondition: one axis or two.
 LineChart chart_of(const GridTable& table, Quantity quantity);
 
 }  // namespace gearlash

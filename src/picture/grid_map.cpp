@@ -19,7 +19,7 @@ std::vector<double> levels_of(const GridTable& table, Quantity quantity) {
     motions[row] = of_motion(table.table, quantity, row);
   }
   std::vector<double> levels = round_levels(std::move(motions));
-  // The boundary itself: its growth is 1, and so is the multiplier beside it.
+  // Level 1 is the boundary itself: growth at rest and the multiplier beside it are 1 there.
   if (quantity == Quantity::growth_at_rest) std::erase(levels, 1.0);
   return levels;
 }
@@ -55,7 +55,7 @@ ContourMap map_of(const GridTable& table, Quantity quantity) {
 
 namespace {
 
-/// A cell a point: its number, infinity (a dot) where the drive comes to rest.
+/// One cell for each point: its number, or infinity (a dot) if the drive comes to rest.
 CellMap cells_of(const GridTable& table, Quantity quantity) {
   const Grid& grid = table.grid;
   const Axis& y = grid.axes[0];
@@ -87,7 +87,7 @@ CellMap cells_of(const GridTable& table, Quantity quantity) {
 }  // namespace
 
 std::string draw_grid_map(const GridTable& table, Quantity quantity, PictureFormat format) {
-  constexpr std::size_t most_cells = 12;  // in a line, with their numbers
+  constexpr std::size_t most_cells = 12;  // in a line with numbers
   const Grid& grid = table.grid;
   bool any_words = false;
   bool is_small = true;

@@ -9,13 +9,13 @@
 namespace gearlash {
 
 /// Contours of the quantity, the hunting-free boundary, and hatching where there is no limit cycle.
-/// Precondition: two axes, y and x, each with two finite values or more; the table has its
+/// Precondition: two axes, y and x, each with at least two finite values; the table has its
 /// boundary.
 ContourMap map_of(const GridTable& table, Quantity quantity);
 
-/// The picture: contours of what is known in closed form. Where drives are searched, or words stand
-/// on an axis, each point is a cell with its number, as far as there is room for one; a dot stands
-/// for rest. Precondition: two axes, y and x, of two values or more.
+/// The picture: contours of closed-form answers. If drives are searched or an axis has words, each
+/// point is a cell instead, with its number if there is room; a dot stands for rest. Precondition:
+/// two axes, y and x, each with at least two values.
 std::string draw_grid_map(const GridTable& table, Quantity quantity, PictureFormat format);
 
 }  // namespace gearlash

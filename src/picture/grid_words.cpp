@@ -23,7 +23,7 @@ bool in_backlashes(const Grid& grid) {
          !is_varied(grid, "servo.backlash");
 }
 
-/// Those of a picture: in backlashes, and with ω_n and K where these are 1.
+/// The unit in a picture: backlashes, or with ω_n and K if these are 1.
 std::string unit_of(Quantity quantity, const Grid& grid) {
   const std::string unit(info_of(quantity).unit);
   const bool is_free = in_backlashes(grid);
@@ -36,7 +36,8 @@ std::string unit_of(Quantity quantity, const Grid& grid) {
   return unit;
 }
 
-/// Where gnuplot, which has one a power of ten, would set fewer than two: 1, 2, 5, or all digits.
+/// Tics at 1, 2 and 5, or at all digits, if gnuplot's one for each power of ten would give fewer
+/// than two.
 std::vector<std::pair<std::string, double>> logarithmic_tics(double low, double high) {
   if (!(low > 0.0)) return {};
   constexpr double more = 1.0 + 1e-9;

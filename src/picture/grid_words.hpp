@@ -1,4 +1,4 @@
-// What charts and maps of a grid call its parameters and quantities.
+// The names of a grid's parameters and quantities in charts and maps.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace gearlash {
 
-/// "damping 0.1, backlash 0.3": the numbers of a normal form that are on no axis; empty for
-/// another drive, which has too many. Of one that is searched, how sure the verdicts are.
+/// "damping 0.1, backlash 0.3": the numbers of a normal form that are not on an axis; empty for
+/// other drives, which have too many. For searched drives the certainty of the verdicts.
 std::string subtitle_of(const Grid& grid);
 
 /// "inertia ratio" for servo.inertia_ratio, "gearbox backlash" for gearbox.backlash.
@@ -18,22 +18,22 @@ std::string in_words(const std::string& path);
 /// "Amplitude of the load".
 std::string title_of(Quantity quantity);
 
-/// " (rad)", nothing for a bare number. Of a normal form with the backlash 1 and on no axis angles
-/// are in backlashes, and of one without a natural frequency times in units of 1/ω_n.
+/// " (rad)"; empty for a pure number. For a normal form with a fixed backlash of 1, angles are in
+/// backlashes; for one without a natural frequency, times are in units of 1/ω_n.
 std::string unit_in_brackets(Quantity quantity, const Grid& grid);
 
 /// "amplitude (rad)".
 std::string label_of(Quantity quantity, const Grid& grid);
 
-/// Whether words stand on the axis.
+/// Whether the axis has words instead of numbers.
 bool has_words(const Axis& axis, const Drive& drive);
 
-/// A value for a person to read: "0.1", "load".
+/// A short value: "0.1", "load".
 std::string short_text(const Axis& axis, const Drive& drive, double value);
 /// "5e-05 kg m2".
 std::string text_with_unit(const Axis& axis, const Drive& drive, double value);
 
-/// The axis as it is drawn; one value in the middle.
+/// The axis for a chart; a single value stands in the middle.
 ChartAxis chart_axis(const Axis& axis, const Drive& drive);
 
 }  // namespace gearlash

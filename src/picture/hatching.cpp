@@ -9,10 +9,10 @@
 namespace gearlash {
 namespace {
 
-constexpr double spacing = 0.13;  ///< of the lines, up the paper
-constexpr double step = 0.02;     ///< along them, to the right
+constexpr double spacing = 0.13;  ///< between lines, vertically
+constexpr double step = 0.02;     ///< along lines, horizontally
 
-/// A line up = right + offset, and where it may begin or end.
+/// A line up = right + offset, and the places where a stretch of it may begin or end.
 struct Diagonal {
   double offset;
   std::vector<double> rights;
@@ -20,7 +20,7 @@ struct Diagonal {
   PaperPoint at(double right) const { return {right, right + offset}; }
 };
 
-/// All diagonals, each from side to side of the paper and with its crossings of the boundary.
+/// All diagonals across the paper, each with its ends and its crossings of the boundary.
 std::vector<Diagonal> diagonals(const std::vector<MapCurve>& boundary, const Paper& paper,
                                 HatchLines which) {
   const double shift = which == HatchLines::second ? 0.5 * spacing : 0.0;
@@ -52,8 +52,8 @@ std::vector<Diagonal> diagonals(const std::vector<MapCurve>& boundary, const Pap
   return sorted;
 }
 
-/// Whether the cell round a place that is at rest speaks for it: all its points are known, some are
-/// at rest, and those have no limit cycle.
+/// Whether the corners of the cell around a point confirm rest: all are known, some are at rest,
+/// and those have no limit cycle.
 bool is_at_rest_for_good(const GridTable& table, const MapPoint& point) {
   const Axis& x = table.grid.axes[1];
   const std::size_t row = interval_of(table.grid.axes[0], point.y) * x.values.size();
@@ -70,7 +70,7 @@ bool is_at_rest_for_good(const GridTable& table, const MapPoint& point) {
   return any;
 }
 
-/// The parts from `begin` to `end`, which the boundary does not cross.
+/// Hatches the stretch from `begin` to `end`, which does not cross the boundary.
 void hatch(const Hatched& hatched, const Paper& paper, const Diagonal& line, double begin,
            double end, std::vector<MapCurve>& lines) {
   const auto map_at = [&](double right) { return paper.point_on_map(line.at(right)); };

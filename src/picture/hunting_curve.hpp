@@ -1,4 +1,4 @@
-// A curve through servos of which some hunt, drawn on to where hunting ends.
+// A curve through servos that continues to the place where hunting ends.
 #pragma once
 
 #include <functional>
@@ -10,17 +10,17 @@
 
 namespace gearlash {
 
-/// A servo on the way along the curve.
+/// A servo on the curve.
 struct CurveServo {
   double place = 0.0;
-  double value = 0.0;                        ///< NaN where there is none
-  std::optional<bool> hunts = std::nullopt;  ///< nothing: no end is sought next to it
+  double value = 0.0;                        ///< NaN if there is none
+  std::optional<bool> hunts = std::nullopt;  ///< nothing: no end of hunting is sought next to it
 };
 
-/// The line through the servos, whose places rise. Between two neighbours of which one hunts and
-/// the other does not, the value goes to `limit` at the place where hunting ends, which bisection
-/// finds and `ends` lists. Precondition: plastic contact where an end is sought, and a value that
-/// has this limit there.
+/// The line through the servos, which are in the order of rising places. If only one of two
+/// neighbours hunts, bisection finds the place between them where hunting ends; the value goes to
+/// `limit` there, and `ends` lists the point. Precondition: if an end is sought, contact is plastic
+/// and the value has this limit.
 ChartCurve curve_to_hunting_ends(const std::vector<CurveServo>& servos,
                                  const std::function<NormalizedServo(double place)>& servo_at,
                                  double limit);

@@ -13,7 +13,7 @@
 namespace gearlash {
 namespace {
 
-// Colours that the colour-blind tell apart (Okabe and Ito), dashes and marks that say the same in
+// Colours that colour-blind readers distinguish (Okabe and Ito); dashes and marks do the same in
 // grey.
 constexpr std::array colours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                 "#000000", "#56b4e9", "#e69f00"};
@@ -50,7 +50,7 @@ struct Drawing {
 
 void add_curve(const ChartCurve& curve, std::size_t number, double mark_size, Drawing& drawing) {
   const std::size_t style = number % colours.size();
-  // Past the last colour the same ones come with other dashes.
+  // After the last colour, colours repeat with other dashes.
   const std::size_t dash = (number + number / colours.size()) % dashes.size();
   const auto add = [&](const std::string& part, const std::vector<ChartPoint>& data,
                        const std::string& how, const std::string& title) {
@@ -71,14 +71,14 @@ void add_curve(const ChartCurve& curve, std::size_t number, double mark_size, Dr
   add("_ends", curve.ends, "with points pointtype 6 pointsize 1.1", "notitle");
 }
 
-/// With both its ends: gnuplot has no data to take them from.
+/// The axis with both ends, because gnuplot has no data to take them from.
 ChartAxis bounded(ChartAxis axis) {
   if (!axis.low) axis.low = axis.logarithmic ? 0.5 * axis.high.value_or(2.0) : 0.0;
   if (!axis.high) axis.high = axis.logarithmic ? 2.0 * *axis.low : *axis.low + 1.0;
   return axis;
 }
 
-/// A logarithmic axis with the ends of its data: its labels depend on them.
+/// A logarithmic axis gets the ends of its data, because its labels depend on them.
 ChartAxis spanned(const LineChart& chart, char name) {
   ChartAxis axis = name == 'x' ? chart.x : chart.y;
   if (!axis.logarithmic || (axis.low && axis.high)) return axis;
@@ -101,13 +101,13 @@ ChartAxis spanned(const LineChart& chart, char name) {
   return axis;
 }
 
-/// The axes alone, for which gnuplot wants a curve.
+/// Draws only the axes, for which gnuplot needs a curve.
 void add_nothing(const std::string& meaning, Drawing& drawing) {
   drawing.layers.emplace_back("1/0 notitle");
   drawing.data = "set label 2 " + quoted(meaning) + " at graph 0.5, graph 0.5 center\n";
 }
 
-/// What lines, marks and circles are, without a curve of their own.
+/// Legend entries for lines, marks and circles, without curves.
 void add_meanings(const LineChart& chart, std::vector<std::string>& layers) {
   if (!chart.line_meaning.empty()) {
     layers.push_back("keyentry with lines linewidth 1.8 linecolor rgb '#555555' title " +

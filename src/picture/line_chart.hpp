@@ -17,15 +17,15 @@ struct ChartPoint {
 struct ChartAxis {
   std::string label = {};
   bool logarithmic = false;
-  std::optional<double> low = std::nullopt;  ///< as the data have it where not given
+  std::optional<double> low = std::nullopt;  ///< nothing: the data's end
   std::optional<double> high = std::nullopt;
-  std::vector<std::pair<std::string, double>> tics = {};  ///< gnuplot's own where empty
+  std::vector<std::pair<std::string, double>> tics = {};  ///< empty: gnuplot's own
 };
 
-/// One curve: a line, marks on it that belong to it, and open circles where it ends.
+/// One curve: a line, marks that belong to it, and open circles at its ends.
 struct ChartCurve {
-  std::string name = {};              ///< in the legend
-  std::vector<ChartPoint> line = {};  ///< what is not finite parts it
+  std::string name = {};              ///< for the legend
+  std::vector<ChartPoint> line = {};  ///< interrupted at points that are not finite
   std::vector<ChartPoint> marks = {};
   std::vector<ChartPoint> ends = {};
 };
@@ -36,15 +36,15 @@ struct LineChart {
   ChartAxis x = {};
   ChartAxis y = {};
   std::vector<ChartCurve> curves = {};
-  std::string line_meaning = {};  ///< what lines, marks and open circles are, told in the legend
+  std::string line_meaning = {};  ///< for the legend: lines, marks, open circles
   std::string mark_meaning = {};
   std::string end_meaning = {};
-  std::string empty_meaning = {};  ///< told amid the axes where there is nothing to draw
+  std::string empty_meaning = {};  ///< text between the axes if there is no curve
   double mark_size = 0.8;          ///< in gnuplot's units
 };
 
-/// Bytes of the picture; the same chart gives the same SVG. Curves differ in colour, dash and mark.
-/// Throws OutputError where gnuplot is missing or fails.
+/// Returns the bytes of the picture; the same chart gives the same SVG. Curves differ in colour,
+/// dash and mark. Throws OutputError if gnuplot is missing or fails.
 std::string draw_line_chart(const LineChart& chart, PictureFormat format);
 
 }  // namespace gearlash

@@ -19,7 +19,7 @@ std::string range_of(const Bounds& extent, double margin) {
 }
 
 void ImpactMarks::add(double x, double y) {
-  constexpr double smallest_distance = 0.004;  // of the extent: a fraction of a mark
+  constexpr double smallest_distance = 0.004;  // of the extent; less than a mark
   if (std::abs(x - x_) < smallest_distance * x_extent_ &&
       std::abs(y - y_) < smallest_distance * y_extent_) {
     return;

@@ -1,4 +1,4 @@
-// What both pictures of a motion share.
+// The style and the parts that both pictures of a motion share.
 #pragma once
 
 #include <string>
@@ -11,15 +11,15 @@
 
 namespace gearlash {
 
-// Colours that the colour-blind tell apart (Okabe and Ito) and that differ in grey; dashes and
-// widths say the same once more.
+// Colours that colour-blind readers distinguish (Okabe and Ito) and that differ in grey. Dashes and
+// widths repeat the distinction.
 inline constexpr char load_colour[] = "#0072b2";
 inline constexpr char motor_colour[] = "#d55e00";
 
-/// The extent of an axis as gnuplot wants it: with a margin, and never empty.
+/// The range of an axis for gnuplot: with a margin, and never empty.
 std::string range_of(const Bounds& extent, double margin = 0.05);
 
-/// Impacts, each unless it would cover the one before it.
+/// Marks of impacts; an impact that would cover the one before it is left out.
 class ImpactMarks {
  public:
   ImpactMarks(std::string name, double x_extent, double y_extent)
@@ -36,10 +36,10 @@ class ImpactMarks {
   double y_ = std::numeric_limits<double>::infinity();
 };
 
-/// Curves of a motion of the picture. Throws InvalidInput where they could not be read.
+/// The curves of one motion of the picture. Throws InvalidInput if there are too many to read.
 std::vector<DrawnPiece> legible_curve(const MotionPicture& picture, const Motion& motion);
 
-/// "backlash 10 arcmin, sensor on the load, …": what the drive is.
+/// The drive in one line: "backlash 10 arcmin, sensor on the load, …".
 std::string numbers_line(const MotionPicture& picture);
 
 }  // namespace gearlash

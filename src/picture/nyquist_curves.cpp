@@ -12,8 +12,8 @@ namespace {
 
 using Curve = std::function<Complex(double parameter)>;
 
-/// Appends what lies between two points, so dense that within the window (and a little beyond) no
-/// chord is longer than a hundredth of its height. Parameters are halved by their ratio.
+/// Appends points between two points until no chord in or near the window is longer than a
+/// hundredth of its height. Intervals of the parameter are split at their geometric mean.
 void refine(const Curve& curve, const Window& window, const TracePoint& from, const TracePoint& to,
             int depth, Trace& trace) {
   constexpr double near = 0.3;
@@ -97,10 +97,10 @@ Complex inverse_gain(const Nonlinearity& nonlinearity, double amplitude) {
 
 Trace traced_inverse_gain(const Nonlinearity& nonlinearity, const Window& window) {
   const AmplitudeScale scale = scale_of(nonlinearity);
-  // Without a least amplitude −1/N is proportional to it.
+  // Without a least amplitude, −1/N is proportional to the amplitude.
   const double size =
       scale.least > 0.0 ? scale.least : window.height / std::abs(inverse_gain(nonlinearity, 1.0));
-  // The parameter is what the amplitude exceeds the least one by.
+  // The parameter is the amplitude's excess over the least one.
   Trace trace =
       traced([&](double excess) { return inverse_gain(nonlinearity, scale.least + excess); },
              window, 1e-8 * size, 1e6 * size);

@@ -1,4 +1,4 @@
-// Curves of a Nyquist picture: the loop's gain and −1/N, traced within a window.
+// The curves of a Nyquist picture, loop gain and −1/N, traced within a window.
 #pragma once
 
 #include <complex>
@@ -12,11 +12,12 @@ namespace gearlash {
 
 using Complex = std::complex<double>;
 
-/// Both scales are the same; lengths on paper are in heights of the frame.
+/// The visible part of the complex plane. Both axes have the same scale. Lengths on paper are in
+/// heights of the frame.
 struct Window {
-  Complex corner;  ///< left and below
+  Complex corner;  ///< lower left
   double height = 1.0;
-  double aspect = 1.0;  ///< width by height
+  double aspect = 1.0;  ///< width divided by height
 
   Complex on_paper(const Complex& point) const { return (point - corner) / height; }
   bool holds(const Complex& point, double margin = 0.0) const {
@@ -26,7 +27,7 @@ struct Window {
   }
 };
 
-/// Around the points, with a margin about them, and more of the left, where L comes from.
+/// The window around the points with a margin, larger on the left, where L comes from.
 Window window_around(const std::vector<Complex>& points, double aspect);
 
 struct TracePoint {
@@ -40,17 +41,17 @@ Complex loop_at(const TransferFunction& loop, double frequency);
 /// The parameter is the frequency, rad/s.
 Trace traced_loop(const TransferFunction& loop, const Window& window);
 
-/// What marks of amplitudes count in, and where the curve −1/N begins.
+/// The unit of amplitude marks and the amplitude at which the curve −1/N begins.
 struct AmplitudeScale {
   double unit;
   const char* name;
-  double least;      ///< below it there is no N, or N is 0, or always the same
-  bool is_relative;  ///< marks are multiples that matter, else round numbers
+  double least;      ///< below it N is undefined, 0 or constant
+  bool is_relative;  ///< marks are typical multiples of the unit, else round numbers
 };
 
 AmplitudeScale scale_of(const Nonlinearity& nonlinearity);
 
-/// −1/N. Not finite where N is 0 or there is none.
+/// −1/N. Not finite if N is 0 or undefined.
 Complex inverse_gain(const Nonlinearity& nonlinearity, double amplitude);
 
 /// The parameter is the amplitude.

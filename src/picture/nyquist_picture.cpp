@@ -27,14 +27,14 @@ using drive::DescribingAnalysis;
 constexpr double turn = 2.0 * std::numbers::pi;
 constexpr int digits = 3;
 
-// Of terminal() and heading(), shares of the picture; and the picture's own proportions.
+// The frame of terminal() and heading(), in shares of the picture; then this picture's proportions.
 constexpr double frame_left = 0.11;
 constexpr double frame_width = 0.97 - frame_left;
 constexpr double frame_top = 0.88;
 constexpr double paper_width = 9.0;
 constexpr double paper_height = 7.0;
 
-// ---- the points that matter ---------------------------------------------------------------------
+// ---- key points ---------------------------------------------------------------------------------
 
 enum class Mark { stable, unstable, exact_frequency, exact_amplitude };
 
@@ -51,7 +51,7 @@ std::string motion_text(double size, double period, const NyquistPicture& pictur
   return swing + ", " + frequency_text(period, false, digits);
 }
 
-/// What tells analyses of one loop apart, after a comma; nothing of one alone.
+/// The text after a comma that distinguishes analyses of one loop; empty for a single one.
 std::string distinction(const NyquistPicture& picture, const DescribingAnalysis& analysis) {
   if (picture.analyses.size() < 2) return "";
   return analysis.part == DescribedPart::gap_load_held       ? ", held"
@@ -93,7 +93,7 @@ bool is_finite(const Complex& point) {
   return std::isfinite(point.real()) && std::isfinite(point.imag());
 }
 
-/// Where −1/N comes to in the linear limit; nothing for a relay.
+/// The linear limit of −1/N; nothing for a relay.
 std::optional<Complex> linear_end(const Nonlinearity& nonlinearity) {
   if (std::holds_alternative<Saturation>(nonlinearity)) {
     return -1.0 / std::get<Saturation>(nonlinearity).slope;
@@ -106,7 +106,7 @@ std::optional<Complex> linear_end(const Nonlinearity& nonlinearity) {
   return is_gap ? std::optional<Complex>(-1.0) : std::nullopt;
 }
 
-/// The greatest |L| among frequencies of poles and zeros, which on a bounded loop is all of it.
+/// The largest |L| at the frequencies of poles and zeros: the extent of a bounded loop.
 double extent_of(const TransferFunction& loop) {
   double extent = 0.0;
   const FactoredTransferFunction factors = factored(loop);
@@ -118,15 +118,15 @@ double extent_of(const TransferFunction& loop) {
   return extent > 0.0 && std::isfinite(extent) ? extent : 1.0;
 }
 
-/// The origin, the linear end of −1/N, stable cycles and the exact frequency; of the rest what does
-/// not make these small.
+/// The window with the origin, the linear end of −1/N, stable cycles and the exact frequency. Other
+/// points are included up to three times as far from the origin.
 Window critical_window(const NyquistPicture& picture, const std::vector<KeyPoint>& points,
                        double aspect) {
   std::vector<Complex> shown = {0.0};
   for (const DescribingAnalysis& analysis : picture.analyses) {
     if (const auto end = linear_end(analysis.nonlinearity)) {
       shown.push_back(*end);
-      shown.push_back(1.6 * *end);  // and some of the way to it
+      shown.push_back(1.6 * *end);  // shows some of the curve towards it
     }
   }
   const bool has_stable = std::any_of(points.begin(), points.end(), [](const KeyPoint& point) {
@@ -165,7 +165,7 @@ bool is_clear(const Complex& place, const std::vector<Complex>& taken, double di
                       [&](const Complex& other) { return std::abs(place - other) < distance; });
 }
 
-/// Takes the candidates that lie in the window with room about them, in their order.
+/// Takes candidates in their order if they lie in the window with room around them.
 class MarkChooser {
  public:
   MarkChooser(const Window& window, std::vector<Complex> taken)
@@ -185,7 +185,7 @@ class MarkChooser {
   std::vector<Complex> taken_;
 };
 
-/// 1, 2 and 5 times powers of ten, the roundest first.
+/// 1, 2, 5, 3, 1.5 and 7 times powers of ten, the roundest first.
 std::vector<double> round_numbers() {
   std::vector<double> numbers;
   for (const double digit : {1.0, 2.0, 5.0, 3.0, 1.5, 7.0}) {
@@ -240,7 +240,7 @@ struct CurveStyle {
   const char* colour;
   const char* dash;
 };
-// Colours that the colour-blind tell apart (Okabe and Ito), dashes that say the same in grey.
+// Colours that colour-blind readers distinguish (Okabe and Ito); dashes do the same in grey.
 constexpr CurveStyle loop_style = {"#0072b2", "1"};
 constexpr std::array inverse_styles = {CurveStyle{"#d55e00", "(10,4)"},
                                        CurveStyle{"#009e73", "(4,3)"},
@@ -292,7 +292,7 @@ class NyquistDrawing {
     }
   }
 
-  /// What the marks of amplitude are in.
+  /// The unit of the amplitude marks.
   static std::string meaning(const DescribingAnalysis& analysis, bool is_normalized) {
     switch (analysis.part) {
       case DescribedPart::torque_limit:
@@ -305,7 +305,7 @@ class NyquistDrawing {
   }
 
   void choose_marks(const NyquistPicture& picture) {
-    std::vector<Complex> taken = {window_.on_paper(0.0)};  // where marks without number gather
+    std::vector<Complex> taken = {window_.on_paper(0.0)};  // where unnumbered marks crowd
     for (const KeyPoint& point : points_) {
       if (is_finite(point.at)) taken.push_back(window_.on_paper(point.at));
     }
@@ -344,7 +344,7 @@ class NyquistDrawing {
     draw_arrow(curve);
   }
 
-  /// To where the parameter grows, in the middle of what is seen of the curve.
+  /// Draws an arrow towards a growing parameter, in the middle of the visible curve.
   void draw_arrow(const DrawnCurve& curve) {
     std::vector<Complex> seen;
     for (const TracePoint& point : curve.trace) {
@@ -473,7 +473,7 @@ std::string draw_nyquist(const NyquistPicture& picture, PictureFormat format) {
       std::string("cycles are predicted where L(jω) = −1/N(A)") +
       (has_exact ? "; were that exact, the diamonds would be one point" : "");
   constexpr double letters = 0.72;
-  // How high the frame is depends on the legend, and that a little on what the frame shows.
+  // The frame's height depends on the legend, which depends slightly on the frame's contents.
   constexpr double usual_aspect = 1.7;
   const Legend first =
       legend_below(NyquistDrawing(picture, format, usual_aspect).legend(), format, letters);

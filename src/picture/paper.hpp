@@ -1,4 +1,4 @@
-// A map's curves as lengths on paper, where straightness, distance and slope are what the eye sees.
+// A map's curves in lengths on paper, so that straightness, distance and slope are those seen.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace gearlash {
 
-/// In ninths of a picture's width, to the right and up from the corner of the axes.
+/// Distances to the right of and above the corner of the axes, in ninths of the picture's width.
 struct PaperPoint {
   double right = 0.0;
   double up = 0.0;
@@ -17,7 +17,7 @@ using PaperLine = std::vector<PaperPoint>;
 
 double distance(const PaperPoint& one, const PaperPoint& other);
 
-/// From the nearest point between `from` and `to`.
+/// The distance to the nearest point between `from` and `to`.
 double distance_from_chord(const PaperPoint& point, const PaperPoint& from, const PaperPoint& to);
 
 double length_of(const PaperLine& line);
@@ -44,7 +44,7 @@ class Paper {
   Axis y_;
 };
 
-/// With as few of its points as keep it within `tolerance` (Douglas and Peucker, 1973).
+/// The line reduced to few of its points, within `tolerance` (Douglas and Peucker, 1973).
 PaperLine thinned(const PaperLine& line, double tolerance);
 
 }  // namespace gearlash

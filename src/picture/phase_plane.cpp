@@ -1,4 +1,4 @@
-// The pictures in the phase plane.
+// Drawing motions in the phase plane.
 #include <fmt/format.h>
 
 #include <array>
@@ -11,7 +11,7 @@
 namespace gearlash {
 namespace {
 
-constexpr char between_colour[] = "#f5d9a8";  ///< load and motor
+constexpr char between_colour[] = "#f5d9a8";  ///< between load and motor
 
 struct Colours {
   const char* load;
@@ -24,7 +24,7 @@ constexpr std::array<Colours, 4> colours = {
 /// One motion of the picture.
 class PlaneCurve {
  public:
-  /// `place` in the picture, and `subject` among those that are not its background.
+  /// `place` is the index in the picture, `subject` the index among the motions in the foreground.
   PlaneCurve(const DrawnMotion& drawn, std::size_t place, std::size_t subject)
       : drawn_(drawn),
         name_(fmt::format("motion{}", place)),
@@ -43,7 +43,7 @@ class PlaneCurve {
       speeds.include(point.motor_speed);
     }
     if (!piece.is_apart || drawn_.is_background) return;
-    if (piece.is_bounce) {  // many of them would hide one another
+    if (piece.is_bounce) {  // many bounces would hide one another
       leaves_out_bounces_ = true;
       return;
     }
@@ -108,14 +108,15 @@ class PlaneCurve {
  private:
   const DrawnMotion& drawn_;
   std::string name_;
-  std::size_t number_;  ///< among the subjects: its colours
+  std::size_t number_;  ///< among the foreground; gives the colours
   DataBlock curve_;     ///< load position, load speed, motor position, motor speed
-  DataBlock gaps_;      ///< closed outlines, but for bounces
+  DataBlock gaps_;      ///< closed outlines, without bounces
   bool leaves_out_bounces_ = false;
   std::string impacts_;
 };
 
-/// A cycle that starts after an impact ends before it.
+/// The pieces of a motion. A cycle is closed: if it starts just after an impact, it ends with that
+/// impact.
 std::vector<DrawnPiece> curve_of(const MotionPicture& picture, const DrawnMotion& drawn) {
   std::vector<DrawnPiece> pieces = legible_curve(picture, drawn.motion);
   if (!drawn.is_cycle) return pieces;
@@ -138,7 +139,7 @@ std::string axes(const MotionPicture& picture, const Extent& positions, const Ex
          "\nset xzeroaxis linetype -1 linewidth 0.7\nset yzeroaxis linetype -1 linewidth 0.7\n";
 }
 
-/// The gap's width, to compare with.
+/// A bar of the gap's width, for comparison.
 std::string gap_bar(const MotionPicture& picture, const Extent& positions, const Extent& speeds) {
   const double gap = picture.angle.from_radians(reduce(picture.drive).backlash);
   if (!(gap > 0.0) || gap > positions.width()) return "";

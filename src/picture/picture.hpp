@@ -1,4 +1,4 @@
-// The kinds of files that pictures are written to.
+// The file formats of pictures.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@ namespace gearlash {
 
 enum class PictureFormat { svg, png, pdf };
 
-/// By the ending of the file's name, .svg, .png or .pdf in small or capital letters. Throws
-/// InvalidInput, with `field` at fault, for any other.
+/// The format by the file name's ending: .svg, .png or .pdf, in small or capital letters. Throws
+/// InvalidInput, naming `field`, for any other.
 PictureFormat picture_format(const std::string& field, const std::filesystem::path& path);
 
 }  // namespace gearlash

@@ -5,7 +5,7 @@
 namespace gearlash {
 namespace {
 
-/// In the author's unit of angles where it is one.
+/// The author's unit of angles for a backlash, else 1.
 double unit_of_axis(const RegionMapTask& task, const std::string& parameter) {
   return task.drive.number(parameter).is_backlash() ? task.angle.radians : 1.0;
 }

@@ -1,4 +1,4 @@
-// A picture of where two parameters meet a target.
+// A map of the values of two parameters that meet a target.
 #pragma once
 
 #include <string>
@@ -9,17 +9,17 @@
 
 namespace gearlash {
 
-/// What is drawn, and how its author calls it.
+/// The subject of the map, and the author's words for it.
 struct RegionMapTask {
   ChangeableDrive drive;
   Target target;
   std::string target_text;
   Cost cost = Cost::bandwidth;
-  AngleUnit angle = {};  ///< of a backlash on an axis
+  AngleUnit angle = {};  ///< unit of a backlash on an axis
 };
 
-/// The region bold, hatched where the target is missed, over lines of equal cost; a point where the
-/// drive is now.
+/// Lines of equal cost, the region's boundary in bold, hatching where the target is missed, and a
+/// mark at the present drive.
 ContourMap map_of(const RegionMapTask& task, const ParameterAxis& x, const ParameterAxis& y);
 
 }  // namespace gearlash

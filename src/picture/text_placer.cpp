@@ -14,7 +14,7 @@ using Complex = std::complex<double>;
 
 constexpr double turn = 2.0 * std::numbers::pi;
 
-/// In letters, without the marks of subscripts.
+/// The width in letters, without the "_" of subscripts.
 std::size_t width_of(const std::string& text) {
   const auto marks = std::count(text.begin(), text.end(), '_');
   return width_in_columns(text) - static_cast<std::size_t>(marks);

@@ -1,4 +1,4 @@
-// Places for texts beside points of a picture.
+// Placing texts beside points of a picture.
 #pragma once
 
 #include <complex>
@@ -9,14 +9,15 @@
 
 namespace gearlash {
 
-/// Puts texts beside their points where they hide least of curves, marks and other texts. Lengths
-/// are in heights of the frame, which is `aspect` wide; `letter` is the mean width of a letter.
+/// Places texts beside their points where they cover least of the curves, marks and other texts.
+/// Lengths are in heights of the frame, whose width is `aspect`; `letter` is the mean width of a
+/// letter.
 class TextPlacer {
  public:
   TextPlacer(std::vector<std::complex<double>> obstacles, double letter, double aspect)
       : obstacles_(std::move(obstacles)), letter_(letter), aspect_(aspect) {}
 
-  /// The center of the text; nothing where it would cover another one, unless it must be there.
+  /// The center of the text. Nothing if the text would cover another one, unless `must` is set.
   std::optional<std::complex<double>> place(const std::complex<double>& point,
                                             const std::string& text, bool must);
 

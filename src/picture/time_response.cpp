@@ -1,4 +1,4 @@
-// The pictures over time: position, its end enlarged, the gap, the torque.
+// Drawing motions over time: position, its end enlarged, gap, torque.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,19 +17,19 @@ constexpr char gap_colour[] = "#dcdcdc";
 constexpr char apart_colour[] = "#fdf3dd";
 constexpr char limit_colour[] = "#aa0000";
 
-/// Where the end begins, as a share of the time.
+/// The share of the time after which the end begins.
 constexpr double end_share = 2.0 / 3.0;
 
 struct Response {
-  /// time, load, motor, gap's edges about the load (2), gap, torque, reference, and load, motor and
-  /// gap's edges from the reference.
+  /// time, load, motor, the gap's edges around the load (2), gap, torque, reference; then load,
+  /// motor and the gap's edges relative to the reference.
   DataBlock curve{"curve"};
   std::string apart;  ///< commands: rectangles behind the grid
   std::string impacts;
   double end_time = 0.0;
   double half_gap = 0.0;
   Extent positions;
-  Extent last_load;   ///< from the reference, at the end
+  Extent last_load;   ///< relative to the reference, at the end
   Extent last_motor;  ///< likewise
   Extent gaps;
   Extent torques;
@@ -53,7 +53,7 @@ void add_point(const DrawnPoint& point, Response& response) {
   response.last_motor.include(motor_error);
 }
 
-/// Intervals with the faces apart; those too near to tell apart are one.
+/// Adds the intervals with separated faces; intervals too close to distinguish are merged.
 void add_apart(const std::vector<DrawnPiece>& pieces, Response& response) {
   const double smallest = response.end_time / 2000.0;
   double from = -1.0;
@@ -96,7 +96,8 @@ Response response_of(const MotionPicture& picture) {
   return response;
 }
 
-/// Whether the motion ends in swings, or an error, too small for the axis of all of it.
+/// Whether the motion ends in oscillations, or an error, too small for the axis of the whole
+/// motion.
 bool has_small_end(const Response& response) {
   constexpr double small = 0.2;
   constexpr double nothing = 0.01;  // of the gap
@@ -171,7 +172,7 @@ Panel gap_panel(const MotionPicture& picture, const Response& response) {
   return panel;
 }
 
-/// The limit where the torque comes near it; else only its name.
+/// Draws the limit if the torque comes near it, else only names it.
 Panel torque_panel(const MotionPicture& picture, const Response& response) {
   constexpr double near = 0.4;
   Extent torques = response.torques;
@@ -194,7 +195,7 @@ Panel torque_panel(const MotionPicture& picture, const Response& response) {
   return panel;
 }
 
-/// What the panels below the first draw, for the legend of all.
+/// Legend entries for the curves of the panels below the first.
 std::vector<std::string> more_in_legend(const MotionPicture& picture, const Response& response) {
   const auto entry = [](const std::string& how, const std::string& title) {
     return "keyentry with " + how + " title " + quoted(title);
@@ -227,11 +228,11 @@ std::string end_line(const MotionPicture& picture, const Response& response) {
          swing(response.last_motor);
 }
 
-/// In pixels, from the top.
+/// Lengths in pixels.
 constexpr double heading_height = 118.0;
 constexpr double gap_between = 12.0;
 
-/// With the axis above it, for so many names in two columns.
+/// The height of the legend of `names` names in two columns, with the axis above it.
 double legend_height(std::size_t names) {
   constexpr double axis = 72.0;
   constexpr double row = 27.0;

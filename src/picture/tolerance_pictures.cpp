@@ -23,7 +23,7 @@ ChartAxis amplitude_axis(const ToleranceReport& report) {
           .high = unit.from_radians(report.study.histogram.edges.back())};
 }
 
-/// Per cent of all pieces in each bin, of those that hunt.
+/// The samples that hunt in each bin, in per cent of all samples.
 LineChart distribution_of(const ToleranceReport& report) {
   const AmplitudeHistogram& histogram = report.study.histogram;
   const double all = static_cast<double>(report.study.sampling.samples());

@@ -1,4 +1,4 @@
-// Pictures of what a production run will do.
+// Pictures of a production run.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@
 namespace gearlash {
 
 enum class TolerancePicture {
-  distribution,  ///< how many pieces have which size
-  yield,         ///< what share has at most which size
-  indices        ///< what share of the variance of the size goes with each number
+  distribution,  ///< share of samples over amplitude
+  yield,         ///< share of samples with at most an amplitude
+  indices        ///< share of the amplitude's variance for each parameter
 };
 
-/// Bytes of the picture. Throws OutputError where gnuplot is missing or fails, and InvalidInput
-/// where there is nothing to draw: no piece hunts.
+/// Returns the bytes of the picture. Throws OutputError if gnuplot is missing or fails, and
+/// InvalidInput if no sample hunts, because then there is nothing to draw.
 std::string draw_tolerances(const ToleranceReport& report, TolerancePicture picture,
                             PictureFormat format);
 

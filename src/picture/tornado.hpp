@@ -1,4 +1,4 @@
-// What the limit cycle depends on, as bars.
+// The sensitivities of the limit cycle as bars.
 #pragma once
 
 #include "analysis/design/drive_sensitivity.hpp"
@@ -6,7 +6,7 @@
 
 namespace gearlash {
 
-/// The elasticities of the amplitude, or without a limit cycle of growth at rest, the longest on
+/// The elasticities of the amplitude, or of growth at rest without a limit cycle, the longest on
 /// top.
 BarChart tornado_of(const DriveSensitivity& sensitivity);
 

@@ -138,7 +138,8 @@ class Assembler {
     return (*operation << operation_place) | (designator << designator_place) | operand;
   }
 
-  /// A number in octal, a name, "/" for here, each with a number added or taken away.
+  /// An octal number, a name, or "/" for the current address, each with a number added or
+  /// subtracted.
   unsigned value(const Statement& statement, const std::string& written) {
     const std::string text = without_blanks(written);
     const std::size_t sign = text.find_first_of("+-", 1);

@@ -1,4 +1,4 @@
-// The assembler "AR" of the school, as far as Table I and our RUNGE need it.
+// The parts of the school's assembler "AR" that Table I and our RUNGE need.
 #pragma once
 
 #include <map>
@@ -17,26 +17,27 @@ struct Statement {
   std::string designator;
   std::string operand;  ///< number (octal; decimal after DEC), name, name+number, "/-1"
   std::string remark;
-  std::size_t line = 0;  ///< of the file it stands in
+  std::size_t line = 0;  ///< in its file
 
-  /// What is assembled, on one line.
+  /// The assembled code on one line.
   std::string text() const;
 };
 
 struct Assembly {
   std::map<unsigned, Word> words;  ///< by address
   std::map<std::string, unsigned> symbols;
-  std::map<unsigned, std::string> sources;  ///< what each word is made of, "upper | lower"
+  std::map<unsigned, std::string> sources;  ///< the source of each word, "upper | lower"
 };
 
-/// Two passes: addresses of labels, then words. Instructions fill words from the upper half; a
-/// label, a number, or the end of the program begins a new word, what is left of the old one being
-/// filled with ENI 0 0. DEC with a point is a floating-point number, cut off to 36 bits; without,
-/// an integer. "/" is the address of the word it stands in. Throws std::invalid_argument with the
-/// line at fault.
+/// Assembles in two passes: addresses of labels, then words. Instructions fill words from the upper
+/// half. A label, a number, or the end of the program begins a new word, and ENI 0 0 fills the rest
+/// of the old one. DEC with a point is a floating-point number, truncated to 36 bits; without a
+/// point it is an integer. "/" is the address of its own word. Throws std::invalid_argument with
+/// the line at fault.
 Assembly assemble(const std::vector<Statement>& program);
 
-/// Columns parted by tabs: label, operation, designator, operand, remark; "#" begins a comment.
+/// Reads columns separated by tabs: label, operation, designator, operand, remark; "#" begins a
+/// comment.
 std::vector<Statement> read_program(std::string_view text);
 
 }  // namespace gearlash::thesis

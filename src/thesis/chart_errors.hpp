@@ -1,4 +1,4 @@
-// How far the charts of 1960 are off, over the whole of their grid.
+// The errors of the charts of 1960 over their whole grid.
 #pragma once
 
 #include <functional>
@@ -12,18 +12,17 @@
 
 namespace gearlash::thesis {
 
-/// The grid of figures 2, 3 and 7 to 11: friction ratios 0.04 … 1 (0.04 only where these figures
-/// have it: damping 0.1, or inertia ratio 1), damping 0.1 … 0.6, inertia ratios 1/9 … 9; backlash
-/// 0.3.
+/// The grid of figures 2, 3 and 7 to 11: friction ratios 0.04 … 1 (0.04 only for damping 0.1 or
+/// inertia ratio 1, as in these figures), damping 0.1 … 0.6, inertia ratios 1/9 … 9; backlash 0.3.
 std::vector<NormalizedServo> charted_servos();
 
-/// Sizes are empty where there is no limit cycle.
+/// Amplitudes in rad; nothing without a limit cycle.
 struct ChartError {
   NormalizedServo servo;
   std::optional<double> program;
   std::optional<double> exact;
 
-  /// program/exact − 1 where both hunt.
+  /// program/exact − 1 if both hunt.
   std::optional<double> relative() const {
     if (!program || !exact) return std::nullopt;
     return *program / *exact - 1.0;
@@ -35,7 +34,7 @@ std::vector<ChartError> chart_errors(
     const std::function<SettledCycle(const ProgramParameters&)>& cycle_of,
     Progress& progress = no_progress());
 
-/// The errors as a map, a panel for each friction ratio, in per cent.
+/// The errors in per cent as a map with a panel for each friction ratio.
 CellMap error_map(const std::vector<ChartError>& errors);
 
 }  // namespace gearlash::thesis

@@ -35,8 +35,8 @@ std::vector<DesignChart1960> make_charts() {
   return charts;
 }
 
-/// A smooth curve through the five points of a damping, over the logarithm of the inertia ratio, as
-/// a French curve draws it: makima's, which does not overshoot.
+/// A smooth curve through the five points of a damping over the logarithm of the inertia ratio.
+/// Makima interpolation resembles a French curve and does not overshoot.
 double read_curve(const std::vector<double>& inertia_ratios, std::vector<double> amplitudes,
                   double inertia_ratio) {
   std::vector<double> places;
@@ -46,7 +46,7 @@ double read_curve(const std::vector<double>& inertia_ratios, std::vector<double>
                            std::move(places), std::move(amplitudes))(place));
 }
 
-/// Between the curves of two dampings, in proportion to the damping.
+/// Linear interpolation in the damping between two curves.
 double between(const std::array<double, 2>& dampings, const std::array<double, 2>& amplitudes,
                double damping) {
   const double share = (damping - dampings[0]) / (dampings[1] - dampings[0]);
@@ -67,7 +67,7 @@ ChartReading read_chart(const NormalizedServo& servo) {
   RangeCheck check;
   check.within("damping", servo.damping, charts.front().dampings.front(),
                charts.front().dampings.back());
-  // Numbers that are typed as decimals may miss 1/9 by their rounding.
+  // Typed decimals may miss 1/9 by their rounding.
   constexpr double rounding = 1e-3;
   if (!(servo.inertia_ratio >= ratios.front() * (1.0 - rounding) &&
         servo.inertia_ratio <= ratios.back() * (1.0 + rounding))) {

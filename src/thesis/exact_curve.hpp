@@ -1,4 +1,4 @@
-// The exact answer beside which everything of 1960 is put.
+// The exact amplitudes, for comparison with those of 1960.
 #pragma once
 
 #include <functional>
@@ -10,12 +10,12 @@
 
 namespace gearlash::thesis {
 
-/// Size of the largest stable limit cycle, rad; nothing where there is none.
+/// Amplitude of the largest stable limit cycle, rad; nothing if there is none.
 std::optional<double> exact_amplitude(const NormalizedServo& servo);
 
-/// The size through a continuum of servos, at places which rise: NaN where there is no cycle or no
-/// such servo, 0 without a gap. Bisection finds the ends, where the cycle begins or ends.
-/// Precondition: plastic contact, for which a cycle ends at one place between two neighbours.
+/// The amplitude over a continuum of servos at rising places: NaN without a cycle or for an
+/// impossible servo, 0 without a gap. Bisection finds the places where the cycle begins or ends.
+/// Precondition: plastic contact, with which a cycle ends at a single place between two neighbours.
 ChartCurve exact_curve(const std::vector<double>& places,
                        const std::function<NormalizedServo(double place)>& servo_at);
 

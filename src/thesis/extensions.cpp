@@ -21,8 +21,8 @@ ChartCurve named_curve(std::string name, const std::vector<double>& places,
   return curve;
 }
 
-/// With bounces: steady swings as marks joined by a line, parted where one leaps to the next, and
-/// the extent of those that do not repeat as open circles.
+/// With bounces: limit cycles are marks joined by a line, which is interrupted where the amplitude
+/// jumps. Open circles show the extent of irregular motion.
 ChartCurve bouncing_curve(std::string name, const std::vector<double>& places,
                           const std::function<NormalizedServo(double)>& servo_at) {
   constexpr double leap = 0.08;

@@ -1,4 +1,4 @@
-// Recommendations 2 to 4 of the thesis: the charts it could not draw.
+// The charts that recommendations 2 to 4 of the thesis ask for.
 #pragma once
 
 #include <string>
@@ -10,15 +10,15 @@
 namespace gearlash::thesis {
 
 struct Extension {
-  int number;          ///< of the recommendation, 2 … 4
-  std::string wish;    ///< what the thesis recommends
-  std::string lesson;  ///< what a designer learns
+  int number;          ///< number of the recommendation, 2 … 4
+  std::string wish;    ///< the recommendation
+  std::string lesson;  ///< the conclusion for a designer
   LineChart chart;
 };
 
 /// 2: zero friction and zero inertia on either side; 3: inertia ratios from 10⁻³ to 10³; 4: contact
-/// from plastic to elastic. Works the chart out, some seconds for 4, and calls
-/// `done(share)` now and then. Precondition: 2 … 4.
+/// from plastic to elastic. Computes the chart, which takes some seconds for 4, and reports
+/// `progress`. Precondition: number in 2 … 4.
 Extension extension(int number, Progress& progress = no_progress());
 
 }  // namespace gearlash::thesis

@@ -81,7 +81,7 @@ std::vector<Figure> make_figures() {
           design_chart(11, 1.0)};
 }
 
-/// Where the continuum is looked at: from end to end of the grid.
+/// The places of the continuum, from end to end of the grid.
 std::vector<double> places(const Figure& figure) {
   constexpr int count = 400;
   const double low = figure.along == Along::backlash ? 0.0 : figure.grid.front();
@@ -155,7 +155,7 @@ void add_exact(const PhaseFigure& figure, PhaseCurves& curves) {
     const int points = std::max(1, static_cast<int>((segment.end - segment.start) / spacing));
     for (int i = 0; i <= points; ++i) {
       const double share = static_cast<double>(i) / points;
-      // Just short of the end, where the state is already that after the event.
+      // The last point is just before the end, where the state is already that after the event.
       const double time =
           segment.start + (i == points ? 1.0 - 1e-12 : share) * (segment.end - segment.start);
       const ServoState state = motion.at(time);

@@ -1,5 +1,4 @@
-// Figures 2 to 15 of the thesis: its charts and phase trajectories, from the program of 1960 and
-// exactly.
+// Figures 2 to 15 of the thesis: charts and phase trajectories, by the program of 1960 and exact.
 #pragma once
 
 #include <array>
@@ -18,19 +17,19 @@ inline constexpr int charted_dampings = 6;       ///< 0.1 … 0.6
 inline constexpr std::array charted_inertia_ratios = {1.0 / 9.0, 1.0 / 4.0, 1.0, 4.0, 9.0};
 inline constexpr std::array charted_friction_ratios = {0.04, 0.1, 0.2, 0.4, 0.6, 1.0};
 
-/// What a figure has along its axis.
+/// The parameter of a figure's axis.
 enum class Along { friction_ratio, backlash, inertia_ratio };
 
 struct FigureCurve {
   std::string name;
-  NormalizedServo servo;  ///< but for what stands along the axis
+  NormalizedServo servo;  ///< apart from the parameter of the axis
 };
 
 struct Figure {
   int number;
   std::string caption;  ///< as in the thesis
   Along along;
-  std::vector<double> grid;  ///< at which the program was run
+  std::vector<double> grid;  ///< values at which the program was run
   std::vector<FigureCurve> curves;
 };
 
@@ -40,27 +39,27 @@ const std::vector<Figure>& thesis_figures();
 /// The servo of a curve at one place of the axis.
 NormalizedServo servo_at(const Figure& figure, const FigureCurve& curve, double place);
 
-/// A curve worked out: exact_curve() with the program's sizes as marks at the grid, where it hunts.
-/// Sizes are half peak-to-peak of the load, rad.
+/// Computes a curve: exact_curve(), with the program's amplitudes as marks at the grid if it hunts.
+/// Amplitudes are half the load's peak-to-peak, rad.
 ChartCurve work_out(const Figure& figure, const FigureCurve& curve,
                     Progress& progress = no_progress());
 
-/// The figure as a chart to be drawn, with all its curves worked out.
+/// The figure as a chart with all its curves.
 LineChart chart_of(const Figure& figure, Progress& progress = no_progress());
 
-/// Figures 12 … 15: the step response in the phase plane, motor and load apart in the gap.
+/// Figures 12 … 15: the step response in the phase plane, motor and load separate in the gap.
 struct PhaseFigure {
   int number;
   std::string caption;
   NormalizedServo servo;
   double until;      ///< s, ω_n = 1
-  double mark_size;  ///< of the program's points, which lie close in a small cycle
+  double mark_size;  ///< of the program's points, dense in a small cycle
 };
 
 const std::vector<PhaseFigure>& thesis_phase_figures();
 
 /// The exact trajectories, and marks where the program prints, every 0.08 s. In the thesis's
-/// coordinate the motor is where the load is while they are together, whichever the face.
+/// coordinate the motor and load positions are equal during contact on either face.
 LineChart chart_of(const PhaseFigure& figure);
 
 }  // namespace gearlash::thesis

@@ -19,7 +19,7 @@ constexpr std::int64_t least_fraction = std::int64_t{1} << (fraction_bits - 1);
 
 WideInteger magnitude(WideInteger value) { return value < 0 ? -value : value; }
 
-/// Of a value ≥ 0.
+/// The number of bits of a value ≥ 0.
 int bit_length(WideInteger value) {
   const auto high = static_cast<std::uint64_t>(value >> 64);
   const auto low = static_cast<std::uint64_t>(value);
@@ -28,7 +28,7 @@ int bit_length(WideInteger value) {
 
 }  // namespace
 
-/// fraction · 2^(exponent − 36), brought to 36 bits.
+/// fraction · 2^(exponent − 36), reduced to 36 bits.
 Float1604 normalized(WideInteger fraction, int exponent, bool round) {
   if (fraction == 0) return {};
   WideInteger length = magnitude(fraction);
@@ -114,7 +114,7 @@ Float1604 product(const Float1604& one, const Float1604& other, LengthRule rule)
 
 Float1604 quotient(const Float1604& dividend, const Float1604& divisor, LengthRule rule) {
   if (divisor.is_zero()) throw std::domain_error("divide fault of the CDC 1604");
-  // So many bits of the quotient that what is cut off cannot bring it to a half by itself.
+  // Enough bits of the quotient that the truncated remainder cannot decide the rounding.
   constexpr int further_bits = 48;
   const WideInteger scaled = static_cast<WideInteger>(dividend.fraction_) << further_bits;
   return normalized(scaled / divisor.fraction_,

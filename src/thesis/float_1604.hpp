@@ -1,4 +1,4 @@
-// Floating-point numbers of the CDC 1604, and the candidate rules by which its arithmetic rounds.
+// Floating-point numbers of the CDC 1604, with candidate rules for its rounding.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,19 @@ using Word = std::uint64_t;
 inline constexpr Word word_bits = (Word{1} << 48U) - 1U;
 inline constexpr Word sign_bit = Word{1} << 47U;
 
-/// Of gcc and clang: holds the product of two fractions exactly.
+/// An extension of gcc and clang that holds the product of two fractions exactly.
 __extension__ typedef __int128 WideInteger;  // NOLINT: `using` takes no __extension__
 
 constexpr Word complement(Word word) { return ~word & word_bits; }
 constexpr bool is_negative(Word word) { return (word & sign_bit) != 0; }
 
-/// How FAD and FSB bring a sum down to 36 bits of fraction.
+/// How FAD and FSB reduce a sum to 36 bits of fraction.
 enum class SumRule {
-  no_guard_digits,  ///< the smaller operand is shifted right and cut off before the addition
-  exact_truncated,  ///< the exact sum, cut off
-  exact_rounded     ///< the exact sum, to the nearest
+  no_guard_digits,  ///< the smaller operand is shifted right and truncated before the addition
+  exact_truncated,  ///< the exact sum, truncated
+  exact_rounded     ///< the exact sum, rounded to nearest
 };
-/// The same of FMU and FDV.
+/// How FMU and FDV reduce a product and a quotient.
 enum class LengthRule { truncated, rounded };
 
 struct FloatRules {
@@ -41,11 +41,11 @@ class Float1604 {
  public:
   constexpr Float1604() = default;
 
-  /// A double cut off to 36 bits of fraction, towards zero, as the listing's constants are. Throws
-  /// std::overflow_error beyond ±2^1023; below 2^-1024 it is zero.
+  /// A double truncated to 36 bits of fraction, as the listing's constants are. Throws
+  /// std::overflow_error beyond ±2^1023; zero below 2^-1024.
   static Float1604 truncated(double value);
-  /// What a word means. Words that no normalised number has are taken by the same formula and
-  /// normalised.
+  /// The number that a word stands for. Words that are not normalised numbers are evaluated by the
+  /// same formula and then normalised.
   static Float1604 of(Word word);
 
   Word word() const;
@@ -69,14 +69,14 @@ class Float1604 {
   int exponent_ = 0;
 };
 
-/// Results beyond ±2^1023 throw std::overflow_error (the exponent fault of the machine), those
+/// Throws std::overflow_error for results beyond ±2^1023 (the machine's exponent fault). Results
 /// below 2^-1024 are zero.
 Float1604 sum(const Float1604& one, const Float1604& other, SumRule rule);
 Float1604 product(const Float1604& one, const Float1604& other, LengthRule rule);
-/// Throws std::domain_error for a divisor of zero (the divide fault).
+/// Also throws std::domain_error for a divisor of zero (the divide fault).
 Float1604 quotient(const Float1604& dividend, const Float1604& divisor, LengthRule rule);
 
-/// A Float1604 with the arithmetic of one set of rules, to be used like a double.
+/// A Float1604 with the arithmetic of one set of rules, for use like a double.
 template <FloatRules rules>
 class Number1604 {
  public:

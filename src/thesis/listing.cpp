@@ -27,8 +27,8 @@ bool is_pseudo(const std::string& operation) {
          operation == "EQU";
 }
 
-/// The symbolic columns: label, operation, designator, operand, remark. The scan lets those of
-/// pseudo-operations slip to the left or right.
+/// The symbolic columns: label, operation, designator, operand, remark. Columns of
+/// pseudo-operations may be shifted to the left or right in the scan.
 Statement statement_of(const std::vector<std::string>& cells, std::size_t line) {
   Statement statement;
   statement.line = line;
@@ -46,7 +46,7 @@ Statement statement_of(const std::vector<std::string>& cells, std::size_t line) 
   statement.designator = cells[4];
   statement.operand = cells[5];
   statement.remark = cells[6];
-  // A remark that the scan has run together with the operand: names are in capitals.
+  // The scan has run a remark together with the operand. Names are in capitals, remarks are not.
   const std::size_t small = statement.operand.find_first_of("abcdefghijklmnopqrstuvwxyz");
   if (small != std::string::npos) {
     const std::size_t blank = statement.operand.rfind(' ', small);

@@ -1,4 +1,4 @@
-// Table I of the thesis: its symbolic code, its octal words, and where they differ.
+// Table I of the thesis: its symbolic code, its octal words, and their differences.
 #pragma once
 
 #include <map>
@@ -14,10 +14,10 @@ struct Listing {
   std::map<unsigned, Word> octal;  ///< the octal column, by address
 };
 
-/// Table I as transcribed from the thesis (src/thesis/data/table-1.txt), errors and all.
+/// Table I as transcribed from the thesis (src/thesis/data/table-1.txt), with its errors.
 const Listing& thesis_table_1();
 
-/// A word that the symbolic column does not assemble to what the octal column has.
+/// A word for which the assembled symbolic column differs from the octal column.
 struct ListingDifference {
   unsigned address;
   Word listed;
@@ -27,7 +27,7 @@ struct ListingDifference {
   bool operator==(const ListingDifference&) const = default;
 };
 
-/// All of them, by address.
+/// All differences, by address.
 std::vector<ListingDifference> differences_of_listing();
 
 /// Our RUNGE, assembled (src/thesis/data/runge.ar).

@@ -96,7 +96,7 @@ void Machine1604::advance() {
   registers_.in_lower = !registers_.in_lower;
 }
 
-/// The full exit of an upper instruction skips the lower one, the half exit does not.
+/// The full exit of an upper instruction skips the lower one; the half exit does not.
 void Machine1604::exit_fully_if(bool condition) {
   if (registers_.in_lower) fault("the exits of a skip in the lower half are not known");
   condition ? jump(registers_.p + 1U) : advance();

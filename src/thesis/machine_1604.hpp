@@ -1,4 +1,4 @@
-// A CDC 1604, as far as the program of the thesis and its library routine need one.
+// The parts of a CDC 1604 that the program of the thesis and its library routine need.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ namespace gearlash::thesis {
 
 inline constexpr std::size_t memory_words = 32768;
 
-/// An instruction: operation (6 bits), designator b (3), operand m (15). Two make a word, the upper
-/// one first.
+/// An instruction: operation (6 bits), designator b (3), operand m (15). A word holds two, the
+/// upper one first.
 struct Instruction {
   unsigned operation = 0;
   unsigned designator = 0;
@@ -33,16 +33,16 @@ struct Mnemonic {
   std::string_view name;
   unsigned operation;
 };
-/// The instructions that this machine knows.
+/// The instructions of this machine.
 inline constexpr Mnemonic mnemonics[] = {
     {"ARS", 001}, {"ALS", 005}, {"ENA", 010}, {"INA", 011}, {"LDA", 012},
     {"LAC", 013}, {"ADD", 014}, {"SUB", 015}, {"STA", 020}, {"AJP", 022},
     {"FAD", 030}, {"FSB", 031}, {"FMU", 032}, {"FDV", 033}, {"SSK", 036},
     {"ENI", 050}, {"INI", 051}, {"LIU", 052}, {"LIL", 053}, {"ISK", 054},
     {"IJP", 055}, {"SIU", 056}, {"SIL", 057}, {"RAO", 072}, {"SLJ", 075}};
-/// "LDA", or the operation's number in octal where this machine does not know it.
+/// "LDA", or the operation's octal number if this machine lacks it.
 std::string mnemonic(unsigned operation);
-/// The operation of a mnemonic; nothing where this machine does not know it.
+/// The operation of a mnemonic; nothing if this machine lacks it.
 constexpr std::optional<unsigned> operation_of(std::string_view mnemonic) {
   for (const Mnemonic& known : mnemonics) {
     if (known.name == mnemonic) return known.operation;
@@ -52,21 +52,22 @@ constexpr std::optional<unsigned> operation_of(std::string_view mnemonic) {
 
 struct Registers {
   Word a = 0;                       ///< accumulator
-  unsigned p = 0;                   ///< address of the word under way
-  bool in_lower = false;            ///< which of its instructions comes next
+  unsigned p = 0;                   ///< address of the current word
+  bool in_lower = false;            ///< whether the lower instruction is next
   std::array<unsigned, 7> index{};  ///< B1 … B6; [0] stays zero
-  std::size_t executed = 0;         ///< instructions so far
+  std::size_t executed = 0;         ///< number of instructions so far
 };
 
-/// Thrown for what the machine would stop at, or what is not known of it; names the address.
+/// An instruction that stops the machine, or whose effect is not known; the message names the
+/// address.
 class MachineFault : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 /// Memory, registers, and the instructions of docs/thesis.md. Integers are one's complement with a
-/// subtractive adder (x − x is +0); floating point is that of `rules`. A return jump writes P+1
-/// into the upper address of the word it goes to and goes on with that word's lower instruction.
+/// subtractive adder (x − x is +0); floating point follows `rules`. A return jump writes P+1 into
+/// the upper address of its target word and continues with that word's lower instruction.
 class Machine1604 {
  public:
   explicit Machine1604(FloatRules rules = {}) : rules_(rules), memory_(memory_words, 0) {}
@@ -76,17 +77,17 @@ class Machine1604 {
   void write(unsigned address, Word word) { memory_[address % memory_words] = word & word_bits; }
   const Registers& registers() const { return registers_; }
 
-  /// A routine of the host, entered by a return jump to `address`; it is given the address of the
-  /// word after the jump and gives the address to return to.
+  /// A routine of the host, entered by a return jump to `address`. It receives the address of the
+  /// word after the jump and returns the address at which to continue.
   using HostRoutine = std::function<unsigned(Machine1604&, unsigned return_address)>;
   void provide(unsigned address, HostRoutine routine);
 
-  /// Before each instruction, for the curious.
+  /// Called before each instruction.
   using Trace = std::function<void(const Registers&, const Instruction&)>;
   void set_trace(Trace trace) { trace_ = std::move(trace); }
 
   void start_at(unsigned address);
-  /// One instruction.
+  /// Executes one instruction.
   void step();
 
  private:
@@ -97,7 +98,7 @@ class Machine1604 {
   void exit_fully_if(bool condition);
   unsigned& index_register(unsigned designator);
   void execute(const Instruction& instruction);
-  /// Nothing where the instruction is not one of the accumulator's.
+  /// Nothing if the instruction does not concern the accumulator.
   std::optional<Word> accumulator_after(const Instruction& instruction) const;
   bool execute_index(const Instruction& instruction);
   bool execute_jump(const Instruction& instruction);

@@ -1,4 +1,4 @@
-// What each property of the program of 1960 does: the program with one of them put right.
+// The effect of each property of the program of 1960: the program with that property corrected.
 #pragma once
 
 #include <string>
@@ -13,16 +13,17 @@ struct NamedMending {
   Mending mending;
 };
 
-/// The program as it was, each of its properties 1 to 4 put right by itself, the two that a swing
-/// under light damping grows by together, and θ_M in place of θ_L in the motor's equation.
+/// The original program; the program with each of its properties 1 to 4 corrected; with both
+/// properties that make a lightly damped oscillation grow corrected; and with θ_M instead of θ_L in
+/// the motor's equation.
 const std::vector<NamedMending>& mendings();
 
-/// How many of the 190 numbers of Table II come out within one unit of their eighth digit, in
+/// How many of the 190 numbers of Table II are reproduced within one unit of their eighth digit, in
 /// double precision.
 int numbers_reproduced(const Mending& mending);
 
-/// Error of the program's size against the exact one, relative; NaN where the program does not
-/// hunt. Precondition: the exact servo does.
+/// Relative error of the program's amplitude; NaN if the program does not hunt. Precondition: the
+/// exact servo hunts.
 double amplitude_error(const NormalizedServo& servo, const Mending& mending);
 
 }  // namespace gearlash::thesis

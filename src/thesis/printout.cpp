@@ -44,14 +44,14 @@ std::vector<PrintedRow> read_table_2() {
   return rows;
 }
 
-/// Adds a row, of line `line` counted from 0.
+/// Adds the comparison of one row. `line` counts from 0.
 void compare(const PrintedRow& printed, const PrintedRow& now, std::size_t line,
              Reproduction& result) {
   constexpr std::array names = {"time", "motor speed", "motor position", "load speed",
                                 "load position"};
   for (std::size_t k = 0; k < printed.size(); ++k) {
     const bool same = printed[k] == now[k];
-    // 99999999 and 1.0000000 are neighbours though their exponents differ.
+    // 99999999 and 1.0000000 are neighbours although their exponents differ.
     const double value = now[k].digits * std::pow(10.0, now[k].exponent - digits_printed);
     constexpr double one_and_rounding = 1.0 + 1e-6;
     const bool neighbours = std::abs(units_apart(value, printed[k])) <= one_and_rounding;
@@ -68,7 +68,7 @@ void compare(const PrintedRow& printed, const PrintedRow& now, std::size_t line,
 
 PrintedNumber printed_number(double value) {
   if (value == 0.0) return {};
-  // More digits than a 36-bit fraction's, so that cutting them off is cutting off the number.
+  // More digits than a 36-bit fraction has, so that truncating them truncates the exact number.
   const std::string exact = fmt::format("{:.40e}", std::abs(value));  // d.ddd…e±xx
   const std::string digits = exact.substr(0, 1) + exact.substr(2, digits_printed - 1);
   const int exponent = std::stoi(exact.substr(exact.find('e') + 1)) + 1;

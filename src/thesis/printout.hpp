@@ -17,9 +17,9 @@ struct PrintedNumber {
   bool operator==(const PrintedNumber&) const = default;
 };
 
-/// The number cut off after eight digits, towards zero, from its exact value.
+/// The exact value truncated to eight digits.
 PrintedNumber printed_number(double value);
-/// As in Table II: "77040630- 1", "15278417", "10086982 1"; signs of numbers stand before them.
+/// As in Table II: "77040630- 1", "15278417", "10086982 1"; a number's sign stands before it.
 std::string printed_text(const PrintedNumber& number);
 /// The distance of a value from a printed number, in units of its eighth digit.
 double units_apart(double value, const PrintedNumber& printed);
@@ -31,8 +31,8 @@ PrintedRow printed_row(const PrintedLine& line);
 /// The 38 lines of Table II as transcribed from the thesis (src/thesis/data/table-2.txt).
 const std::vector<PrintedRow>& thesis_table_2();
 
-/// How many numbers of a printout have the digits of 1960, and how many are within one unit of the
-/// eighth; the others in words.
+/// The counts of a printout's numbers that equal those of 1960 and that are within one unit of the
+/// eighth digit, and descriptions of the differing ones.
 struct Reproduction {
   int exact = 0;
   int within_one = 0;
@@ -40,7 +40,7 @@ struct Reproduction {
   std::vector<std::string> others = {};  ///< farther off
 };
 
-/// Of the first lines of a printout, as many as Table II has at most.
+/// Compares the first lines of a printout, at most as many as Table II has.
 Reproduction reproduction_of(const std::vector<PrintedLine>& lines);
 
 /// The first lines that the program prints with these parameters.

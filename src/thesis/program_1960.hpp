@@ -1,19 +1,18 @@
-// The program of Table I (1960) as a readable port: the scheme that drew the thesis's charts.
+// A readable port of the program of Table I (1960), which computed the thesis's charts.
 //
-// Five properties make its numbers what they are; each is named where it stands, with the address
-// in Table I that shows it:
-//   1. Runge–Kutta–Gill with h = 0.01, whose first stage uses the derivative that the previous
+// Five properties determine its numbers. Each is marked in the code and has its address in Table I:
+//   1. Runge–Kutta–Gill with h = 0.01. Its first stage uses the derivative that the previous
 //      evaluation left. At t = 0 that is zero, not 1 (20026, UDOT, is assembled as zero).
 //   2. In combined motion the load is set equal to the motor at every step, its stored derivative
-//      included, and integrated alone for one step, to see whether it would run ahead (20001,
+//      included, and integrated alone for one step, to test whether it would run ahead (20001,
 //      20063 RESET, 20061 TEST1).
 //   3. In the gap the motor's step holds the load's position at the step before (20054 DERM reads
-//      THETAL, which LOAD2 at 20015 moves only afterwards).
-//   4. Contact is seen only at the end of a step, on the far face only (20073 TEST2); then the
+//      THETAL, which LOAD2 at 20015 updates only afterwards).
+//   4. Contact is detected only at the end of a step, on the far face only (20073 TEST2). Then the
 //      motor's position jumps to the load's (20150), after its stored derivative has been formed
 //      with the old position (20145).
-//   5. Every eighth step is printed, and every contact (20130 COUNT, "TEN" being octal; 20153).
-// The arithmetic is that of `Number`: double, or the machine's own (Number1604).
+//   5. Every eighth step is printed, and every contact (20130 COUNT, "TEN" is octal; 20153).
+// `Number` is the arithmetic: double or the machine's own (Number1604).
 #pragma once
 
 #include <array>
@@ -38,23 +37,22 @@ struct ProgramParameters {
   bool operator==(const ProgramParameters&) const = default;
 };
 
-/// The parameters that stand in the listing, and that Table II was run with.
+/// The parameters of the listing and of Table II.
 inline constexpr ProgramParameters listed_parameters{};
 
-/// J_M + J_L = 1 and F_M + F_L = B, as the thesis scales every servo. Needs two masses
-/// (the program divides by E, its parameters by H) and plastic contact. Throws InvalidInput
-/// otherwise.
+/// Scales the servo as the thesis does, J_M + J_L = 1 and F_M + F_L = B. Throws InvalidInput unless
+/// both inertias are positive (the program divides by E, its parameters by H) and contact is
+/// plastic.
 ProgramParameters program_parameters(const NormalizedServo& servo);
 
-/// What a later hand could put right in the program, to see what each property does. As it was:
-/// nothing.
+/// Corrections to the program that show the effect of each property. The original has none.
 struct Mending {
-  bool fresh_first_stage = false;        ///< 1: derivatives formed anew at the start of a step
+  bool fresh_first_stage = false;        ///< 1: derivatives computed at the start of a step
   bool load_derivative_its_own = false;  ///< 2: after RESET, of the load alone
   bool shafts_together = false;          ///< 3: motor and load in one step in the gap
-  bool contact_interpolated = false;     ///< 4: back along the step to where the faces meet
+  bool contact_interpolated = false;     ///< 4: back along the step to the contact
   bool new_position_at_contact = false;  ///< 4: in the motor's derivative
-  bool motor_position_in_gap = false;    ///< θ_M in the motor's equation, as section 2 writes it
+  bool motor_position_in_gap = false;    ///< θ_M in the motor's equation, as in section 2
 
   bool operator==(const Mending&) const = default;
 };
@@ -81,8 +79,8 @@ class Program1960 {
         load_inertia_(parameters.load_inertia),
         backlash_(parameters.backlash) {}
 
-  /// One pass of the loop: a step of 0.01 of motor and load, the tests, and `print(line)` for what
-  /// is printed in it (nothing, the eighth step, the contact, or both).
+  /// One pass of the loop: a step of 0.01 of motor and load, the tests, and `print(line)` for each
+  /// printed line (none, the eighth step, the contact, or both).
   template <class Print>
   void step(const Print& print) {
     combined_ ? step_combined(print) : step_apart(print);
@@ -111,7 +109,7 @@ class Program1960 {
     Variable position;
   };
 
-  /// RUNGE: four stages, each from the derivatives as they stand (property 1).
+  /// RUNGE: four stages, each with the current derivatives (property 1).
   template <class Derivatives>
   void gill(std::initializer_list<Shaft*> shafts, const Derivatives& derivatives) {
     static const Number step{0.01};
@@ -191,13 +189,13 @@ class Program1960 {
     load_.position.derivative = load_.speed.value;
   }
 
-  /// How far the load is beyond the far face, with the sign of the direction.
+  /// The load's distance beyond the far face, with the sign of the direction.
   Number beyond_face() const {
     const Number ahead = load_.position.value - motor_.position.value;
     return forward_ ? ahead - backlash_ : ahead + backlash_;
   }
 
-  /// Along straight lines from the step before to where the faces meet.
+  /// Goes back along straight lines between the previous and the present step to the contact.
   void go_back_to_contact(const Program1960& before) {
     const Number start = before.beyond_face();
     const Number share = start / (start - beyond_face());
@@ -232,7 +230,7 @@ class Program1960 {
     combined_ = true;
   }
 
-  /// AJP 2 takes zero for positive, AJP 3, after SWITCH, does not take it for negative.
+  /// AJP 2 treats zero as positive; AJP 3, used after SWITCH, does not treat zero as negative.
   bool is_ahead(const Number& difference) const {
     const auto value = double(difference);
     return forward_ ? value >= 0.0 : value < 0.0;

@@ -18,10 +18,10 @@ struct Cycle {
   double amplitude;
 };
 
-/// Gathers the cycles of a running program: each ends at every second contact.
+/// Collects the cycles of a running program. A cycle ends at every second contact.
 class Cycles {
  public:
-  /// After each step: where the load is, and whether there has been a contact.
+  /// Takes a step's result and whether a contact occurred in it.
   void take(const PrintedLine& now, bool contact) {
     time_ = now.time;
     motor_position_ = now.motor_position;
@@ -36,7 +36,7 @@ class Cycles {
   }
 
   const std::vector<Cycle>& all() const { return cycles_; }
-  /// A servo at rest, hunting or swinging out stays within some backlashes and steps.
+  /// A servo at rest, hunting or coming to rest stays within a few backlashes and steps.
   bool out_of_bounds() const {
     constexpr double bound = 1e12;
     return !(std::abs(motor_position_) < bound) || !(std::abs(load_position_) < bound);
@@ -81,7 +81,7 @@ void describe(const std::vector<Cycle>& cycles, SettledCycle& result) {
   result.cycles = window;
 }
 
-/// step(cycles) goes on by one step; false where the arithmetic has come to its end.
+/// step(cycles) advances by one step. It returns false if the arithmetic has overflowed.
 template <class Step>
 SettledCycle settle(const Step& step) {
   constexpr double longest_run = 20'000.0;

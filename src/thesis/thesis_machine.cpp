@@ -14,13 +14,14 @@ constexpr unsigned load_speed = 020044;
 constexpr unsigned load_position = 020047;
 constexpr unsigned first_parameter = 020156;
 constexpr unsigned backlash_address = 020166;
-constexpr unsigned print_from_contact = 020154;  ///< where PRINT returns to from 20153
+constexpr unsigned print_from_contact = 020154;  ///< return address of PRINT from 20153
 constexpr unsigned print = 020120;
 constexpr unsigned separation_test = 020061;  // TEST1
 constexpr unsigned contact_test = 020073;     // TEST2
 constexpr unsigned deco = 071000;
 
-/// Where a return jump to `routine` came from, less one: the upper address of its first word.
+/// The return address of `routine`, which a return jump leaves in the upper address of its first
+/// word.
 unsigned return_address_of(const Machine1604& machine, unsigned routine) {
   return upper_instruction(machine.read(routine)).operand;
 }
@@ -40,7 +41,7 @@ ThesisMachine::ThesisMachine(FloatRules rules) : machine_(rules) {
              number_at(buffer + 4), return_address_of(machine, print) == print_from_contact};
     printed_ = true;
     contact_printed_ = contact_printed_ || line_.at_contact;
-    return return_address + 1;  // behind the word that tells the buffer and the line's number
+    return return_address + 1;  // after the word with the buffer and the line's number
   });
   machine_.start_at(start);
 }
