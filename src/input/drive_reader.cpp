@@ -277,7 +277,7 @@ class DriveReader {
     if (auto* const* place = std::get_if<std::optional<double>*>(&slot)) **place = number;
   }
 
-  /// Amplitudes are then per backlash.
+  /// A sweep may omit the normal form's backlash; amplitudes are then in backlashes.
   bool may_be_left_out(const Parameter& parameter) const {
     return !variation_.section.empty() && parameter.path == "servo.backlash";
   }

@@ -87,8 +87,8 @@ class SectionReader {
   std::optional<std::string> choice(const std::string& key, const std::vector<std::string>& choices,
                                     bool required);
 
-  /// A list of texts; faults name them "key[0]", "key[1]", …. Empty if the key is missing, which is
-  /// a fault unless `permitted`, the description of what it must be, is empty.
+  /// A list of texts; faults name them "key[0]", "key[1]", …. Empty if the key is missing; that is
+  /// a fault if `permitted`, the description of the list, is not empty.
   std::vector<std::string> texts(const std::string& key, const std::string& permitted = "");
   /// A text, by the same rule.
   std::string text(const std::string& key, const std::string& permitted);

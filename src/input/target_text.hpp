@@ -15,8 +15,8 @@ enum class TimeScale { known, unknown };
 /// limit. Quantities have their names and older names (gearlash/quantity.hpp): amplitude (an angle;
 /// a bare number is in radians), frequency ("5 Hz", "30 rad/s"), period ("0.2 s") and
 /// growth-at-rest (a number). A servo that comes to rest meets any condition on frequency or
-/// period. < permits the limit itself, as <= does. Throws InvalidInput, naming `field`, with every
-/// fault: unknown quantities, wrong units, contradictions (faults(Target)).
+/// period. The sign < permits the limit itself, as <= does. Throws InvalidInput, naming `field`,
+/// with every fault: unknown quantities, wrong units, contradictions (faults(Target)).
 Target read_target(std::string_view field, std::string_view text, TimeScale time_scale);
 
 }  // namespace gearlash

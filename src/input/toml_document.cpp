@@ -82,7 +82,7 @@ std::string structure_of(std::string_view text) {
     for (const std::string_view quotes : {"'", "\"", "'''", "\"\"\""}) {
       if (!rest.starts_with(quotes)) continue;
       length = end_of_string(rest, quotes);
-      if (length == 0 && quotes.size() == 3) return result;  // nothing after it can be told apart
+      if (length == 0 && quotes.size() == 3) return result;  // the rest is all string
     }
     const bool stands_alone =
         rest[0] == '#' || at == 0 ||

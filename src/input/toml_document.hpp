@@ -18,8 +18,8 @@ using Place = toml::source_position;
 
 class TomlDocument {
  public:
-  /// Parses `text`, which must outlive the document. Throws InvalidInput with one fault for a
-  /// text that is longer than `largest` bytes, holds NUL or is not UTF-8, nests too deep, or is not
+  /// Parses `text`, which must outlive the document. Throws InvalidInput with one fault for a text
+  /// that is longer than `largest` bytes, holds NUL or is not UTF-8, nests too deep, or is not
   /// TOML.
   TomlDocument(std::string_view text, std::string_view source_name, std::size_t largest);
 

@@ -12,9 +12,9 @@
 
 namespace gearlash {
 
-/// A row of column names, then rows of cells, and nothing else (RFC 4180, lines end with "
-/// "). Names end with the unit, as "time_s". Each row goes to the sink when it ends, so that a
-/// table of ten million rows is never held in memory.
+/// A row of column names, then rows of cells, and nothing else (RFC 4180, lines end with "\n").
+/// Names end with the unit, as "time_s". Each row goes to the sink when it ends, so that a table of
+/// ten million rows is never held in memory.
 class CsvTable {
  public:
   /// Writes the row of names. Precondition: at least one.

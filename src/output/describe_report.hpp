@@ -14,7 +14,7 @@ namespace gearlash {
 struct DescribeReport {
   std::vector<drive::DescribingAnalysis> analyses = {};
   Drive drive = {};
-  Answer answer = {};          ///< exact; has no predictions if a sine drives the drive
+  Answer answer = {};          ///< exact; not predicted if a sine drives the drive
   double backlash = 0.0;       ///< rad; predictions too small beside it are left out
   AngleUnit angle = {};        ///< unit of the author's backlash
   bool is_normalized = false;  ///< text has times in units of 1/ω_n

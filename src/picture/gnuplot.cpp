@@ -34,7 +34,7 @@ using File = std::unique_ptr<std::FILE, FileCloser>;
 
 std::string system_message() { return std::generic_category().message(errno); }
 
-/// Opens a nameless file in `folder`, of which nothing is left behind.
+/// Opens a nameless file in `folder`, so that nothing is left behind.
 int open_nameless(const std::filesystem::path& folder) {
 #ifdef O_TMPFILE
   const int descriptor = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR);

@@ -36,7 +36,7 @@ struct LineChart {
   ChartAxis x = {};
   ChartAxis y = {};
   std::vector<ChartCurve> curves = {};
-  std::string line_meaning = {};  ///< for the legend: lines, marks, open circles
+  std::string line_meaning = {};  ///< for the legend, as are the next two
   std::string mark_meaning = {};
   std::string end_meaning = {};
   std::string empty_meaning = {};  ///< text between the axes if there is no curve

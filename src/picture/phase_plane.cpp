@@ -115,8 +115,8 @@ class PlaneCurve {
   std::string impacts_;
 };
 
-/// The pieces of a motion. A cycle is closed: if it starts just after an impact, it ends with that
-/// impact.
+/// The pieces of a motion. A cycle is closed; if it starts just after an impact, it ends with that
+/// one.
 std::vector<DrawnPiece> curve_of(const MotionPicture& picture, const DrawnMotion& drawn) {
   std::vector<DrawnPiece> pieces = legible_curve(picture, drawn.motion);
   if (!drawn.is_cycle) return pieces;

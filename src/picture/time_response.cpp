@@ -30,7 +30,7 @@ struct Response {
   double half_gap = 0.0;
   Extent positions;
   Extent last_load;   ///< relative to the reference, at the end
-  Extent last_motor;  ///< likewise
+  Extent last_motor;  ///< relative to the reference, at the end
   Extent gaps;
   Extent torques;
 };
