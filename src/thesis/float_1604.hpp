@@ -36,7 +36,7 @@ struct FloatRules {
 /// The value fraction · 2^(exponent − 36), normalised: |fraction| from 2^35 to 2^36 − 1, or zero
 /// with exponent 0. As a word: sign (1 bit), exponent (11), |fraction| (36); the exponent field is
 /// 2000₈ + E for E ≥ 0 and 1777₈ + E for E < 0 (1777₈ itself is never used), and a negative number
-/// is the complement of its opposite. Source: the listing's constants, CDC-1604.md.
+/// is the complement of its opposite. Source: the listing's constants, which decode exactly.
 class Float1604 {
  public:
   constexpr Float1604() = default;
