@@ -37,7 +37,7 @@ void add_thesis_command(Command& app, Action& action);
 /// Makes `run(*options, provenance)` the action of the command.
 template <class Options, class Run>
 void set_action(Command& command, Action& action, const std::shared_ptr<Options>& options,
-                const Run& run) {
+                Run run) {
   command.callback([options, &action, run] {
     action = [options, run](const Provenance& provenance) { return run(*options, provenance); };
   });
