@@ -112,7 +112,7 @@ std::vector<Fault> validate(const BacklashDemand& demand) {
                  "must have no lower limit of amplitude: more backlash would then be better");
   }
   if (!(demand.yield > 0.0 && demand.yield <= 1.0)) {
-    check.refuse("yield", exact_text(demand.yield), "must be above 0, to 1");
+    check.refuse("yield", exact_text(demand.yield), "must be above 0 and at most 1");
   }
   if (demand.min) check.not_negative("min", *demand.min, "rad");
   return check.faults();

@@ -130,8 +130,8 @@ TEST(EdgeWidestBacklash, EveryFaultIsNamed) {
   EXPECT_THAT(lines,
               testing::ElementsAre(
                   "target = amplitude >= 0.5: must have no lower limit of amplitude: more backlash "
-                  "then would be better",
-                  "yield = 0: must be above 0, to 1",
+                  "would then be better",
+                  "yield = 0: must be above 0 and at most 1",
                   "min = -1 rad: must be zero or positive, and finite"));
   EXPECT_THROW((void)widest_backlash(toleranced({}), demand, sampling), InvalidInput);
 }
