@@ -123,7 +123,7 @@ void Findings::require_none() {
 }
 
 SectionReader::SectionReader(const TomlDocument& document, Findings& findings, std::string name,
-                             bool required, std::string contents)
+                             bool required, const std::string& contents)
     : document_(document), findings_(findings), name_(std::move(name)) {
   const toml::node* node = document.root().get(name_);
   if (node == nullptr) {
@@ -159,7 +159,7 @@ std::optional<std::string> SectionReader::choice(const std::string& key,
                                                  bool required) {
   const toml::node* value = required ? require(key, one_of(choices, "")) : find(key);
   if (value == nullptr) return std::nullopt;
-  const std::optional<std::string> text = value->value_exact<std::string>();
+  std::optional<std::string> text = value->value_exact<std::string>();
   if (text && std::find(choices.begin(), choices.end(), *text) != choices.end()) {
     findings_.remember(field(key), *value);
     return text;

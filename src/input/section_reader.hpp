@@ -61,7 +61,7 @@ class SectionReader {
   /// The section `name` of the document. A missing section that is `required` is recorded as one
   /// fault, its keys are not; `contents` describes what belongs there.
   SectionReader(const TomlDocument& document, Findings& findings, std::string name, bool required,
-                std::string contents);
+                const std::string& contents);
 
   /// From now on quantities may be bare numbers, in the SI unit of their dimension.
   void accept_bare_numbers() { bare_numbers_ = true; }
