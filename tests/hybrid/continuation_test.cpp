@@ -32,11 +32,23 @@ HybridSystem driven_towards_stop(double amplitude) {
   return {.state_names = {"x", "speed", "force", "force's rate"}, .modes = {free}, .clocks = {}};
 }
 
+std::optional<PeriodicOrbit> driven_orbit(double amplitude) {
+  const HybridSystem system = driven_towards_stop(amplitude);
+  return closing_orbit(system, simulate(system, {0, (Vector(4) << 0.0, 0.5, 1.0, 0.0).finished()},
+                                        {.until = 400.0}));
+}
+
+TEST(Continuation, ABranchEndsAtTheSideOfItsRangeThatItLeaves) {
+  const auto orbit = driven_orbit(0.05);
+  ASSERT_TRUE(orbit);
+  const Branch branch =
+      continue_orbit(driven_towards_stop, 0.05, *orbit, {.low = 0.01, .high = 0.07});
+  EXPECT_EQ(branch.end, BranchEnd::left_range);
+  EXPECT_EQ(branch.points.back().parameter, 0.07);
+}
+
 TEST(OracleContinuation, TheDrivenOscillatorGrazesItsStopAtATenth) {
-  const HybridSystem system = driven_towards_stop(0.05);
-  const Trajectory motion =
-      simulate(system, {0, (Vector(4) << 0.0, 0.5, 1.0, 0.0).finished()}, {.until = 400.0});
-  const auto orbit = closing_orbit(system, motion);
+  const auto orbit = driven_orbit(0.05);
   ASSERT_TRUE(orbit);
   EXPECT_NEAR(orbit->period, 2.0 * std::numbers::pi, 1e-12);
   const Branch branch = continue_orbit(driven_towards_stop, 0.05, *orbit, {.high = 1.0});
