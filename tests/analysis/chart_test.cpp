@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/faults_of.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
 
@@ -72,16 +73,7 @@ TEST(Chart, WhereThereIsNoAnswerItIsEmpty) {
   }
 }
 
-template <class Call>
-std::vector<std::string> faults_of(Call call) {
-  std::vector<std::string> lines;
-  try {
-    call();
-  } catch (const InvalidInput& error) {
-    for (const Fault& fault : error.faults()) lines.push_back(to_string(fault));
-  }
-  return lines;
-}
+using test::faults_of;
 
 TEST(EdgeChart, BadInputIsAFault) {
   const auto built = [](const Grid& grid, double tolerance = 1e-3) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/faults_of.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
 
@@ -116,16 +117,7 @@ TEST(Design, AMarginThatIsStoppedSaysSo) {
   EXPECT_TRUE(margin.overall.change);
 }
 
-template <class Call>
-std::vector<std::string> faults_of(Call call) {
-  std::vector<std::string> lines;
-  try {
-    call();
-  } catch (const InvalidInput& error) {
-    for (const Fault& fault : error.faults()) lines.push_back(to_string(fault));
-  }
-  return lines;
-}
+using test::faults_of;
 
 TEST(EdgeDesign, BadInputIsAFault) {
   const auto asked = [](const Drive& drive, std::string_view path, const Target& target) {

@@ -9,6 +9,7 @@
 
 #include "analysis/design/feasible_values.hpp"
 #include "analysis/design/target.hpp"
+#include "analysis/faults_of.hpp"
 #include "base/seeded_draws.hpp"
 #include "toleranced_samples.hpp"
 
@@ -360,16 +361,7 @@ TEST(EdgeToleranceStudy, CanBeStopped) {
   EXPECT_TRUE(study_sensitivities(widely_toleranced(), sampling, {.threads = 1}, stop).stopped);
 }
 
-template <class Call>
-std::vector<std::string> faults_of(const Call& call) {
-  std::vector<std::string> lines;
-  try {
-    call();
-  } catch (const InvalidInput& error) {
-    for (const Fault& fault : error.faults()) lines.push_back(to_string(fault));
-  }
-  return lines;
-}
+using test::faults_of;
 
 TEST(EdgeToleranceStudy, EveryFaultIsNamed) {
   using testing::ElementsAre;
