@@ -2,7 +2,9 @@
 # targets, whose headers CMake treats as system headers (without warnings). A project that embeds
 # Gearlash is not below this directory.
 
-set(CMAKE_CXX_STANDARD 20)
+if(NOT CMAKE_CXX_STANDARD GREATER_EQUAL 20)  # a project around this one may ask for a later one
+  set(CMAKE_CXX_STANDARD 20)
+endif()
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)  # static libraries can go into a shared Python module
