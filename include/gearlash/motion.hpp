@@ -121,7 +121,7 @@ class Motion {
   /// The number of those samples.
   [[nodiscard]] std::size_t sample_count(double every) const;
   /// The state at any time from 0 to end_time(); other times are clamped. At an event: the state
-  /// after it. The closed form allocates nothing.
+  /// after it. Nothing is allocated after a thread's first call.
   [[nodiscard]] MotionSample at(double time) const;
 
   [[nodiscard]] std::span<const MotionEvent> events() const noexcept;

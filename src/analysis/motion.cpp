@@ -185,7 +185,8 @@ class GeneralMotion : public Motion::Source {
   }
 
   MotionSample at(double time) const override {
-    const hybrid::State state = trajectory_.at(trajectory_.start_time() + time);
+    thread_local hybrid::State state;
+    trajectory_.at(trajectory_.start_time() + time, state);
     const auto value = [&](const hybrid::AffineForm& form) {
       return form.normal.size() == state.numbers.size() ? form.at(state.numbers) : 0.0;
     };

@@ -65,7 +65,11 @@ bool FastDecays::are_over(const Vector& state, const Vector& largest) const {
   return (off.array() <= rounding * size.array()).all();
 }
 
-void FastDecays::put_at_rest(Vector& state) const { state -= projector * state - rest; }
+void FastDecays::put_at_rest(Vector& state) const {
+  thread_local Vector fast;
+  fast.noalias() = projector * state;
+  state -= fast - rest;
+}
 
 /// P = V (WᵀV)⁻¹ Wᵀ of the right and left eigenvectors V, W of the fast decays.
 std::optional<FastDecays> fast_decays(const AffineFlow& flow) {

@@ -11,24 +11,32 @@ const HybridSystem& PreparedSystem::system() const { return preparation_->system
 const std::vector<bool>& PreparedSystem::exogenous() const { return preparation_->exogenous(); }
 
 State Trajectory::at(double time) const {
-  if (steps_.empty() || time >= end_time_) return end_;
+  State state;
+  at(time, state);
+  return state;
+}
+
+void Trajectory::at(double time, State& state) const {
+  if (steps_.empty() || time >= end_time_) {
+    state = end_;
+    return;
+  }
   const auto after =
       std::upper_bound(steps_.begin(), steps_.end(), time,
                        [](double wanted, const Step& step) { return wanted < step.time; });
   const auto step = after == steps_.begin() ? after : after - 1;
   const auto size = end_.numbers.size();
   const double* start = &starts_[static_cast<std::size_t>((step - steps_.begin()) * size)];
-  State state{step->mode, Eigen::Map<const Vector>(start, size)};
+  state.mode = step->mode;
+  state.numbers = Eigen::Map<const Vector>(start, size);
   const PreparedMode& mode = preparation_->mode(step->mode);
   const PreparedMode::Slow* slow = step->is_slow ? mode.slow() : nullptr;
   const LinearFlow& flow = slow != nullptr ? slow->flow.flow : mode.whole.flow;
-  const Vector exact = Vector::Zero(size);
-  Velocity velocity;
-  std::vector<double> scratch;
-  flow.velocity_at(start, exact.data(), velocity);
+  thread_local Velocity velocity;
+  thread_local std::vector<double> scratch;
+  flow.velocity_at(start, velocity);
   flow.advance(velocity, std::max(0.0, time - step->time), state.numbers.data(), scratch);
   if (slow != nullptr) slow->decays.put_at_rest(state.numbers);
-  return state;
 }
 
 }  // namespace gearlash::hybrid

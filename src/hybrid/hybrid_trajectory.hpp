@@ -91,6 +91,8 @@ class Trajectory {
 
   /// At any time from start_time() to end_time() (clamped to it). At an event: the state after it.
   State at(double time) const;
+  /// The same, written to `state`: nothing is allocated after a thread's first call.
+  void at(double time, State& state) const;
 
  private:
   friend class Simulation;

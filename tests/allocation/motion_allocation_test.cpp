@@ -1,0 +1,73 @@
+// What a program calls thousands of times a second allocates nothing. This program counts its own
+// allocations: those of `new`, which it replaces, and those of malloc, which the linker leads here
+// (--wrap=malloc; Eigen's).
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+#include "gearlash/motion.hpp"
+
+namespace {
+
+std::atomic<std::size_t> allocations{0};
+
+}  // namespace
+
+extern "C" {
+void* __real_malloc(std::size_t size);   // NOLINT: the linker's name
+void* __wrap_malloc(std::size_t size) {  // NOLINT: the linker's name
+  ++allocations;
+  return __real_malloc(size);
+}
+}
+
+void* operator new(std::size_t size) {
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace gearlash {
+namespace {
+
+Drive geared_drive() {
+  Drive drive = normal_form(0.19, 2.0, 0.1, 0.3);
+  drive.reference = 1.0;
+  return drive;
+}
+
+std::size_t allocations_of_samples(const Motion& motion) {
+  double sum = motion.at(0.5 * motion.end_time()).motor_torque;  // the thread's first call
+  const std::size_t before = allocations;
+  for (int i = 0; i <= 1000; ++i) sum += motion.at(i * 0.001 * motion.end_time()).motor_torque;
+  EXPECT_NE(sum, 0.0);
+  return allocations - before;
+}
+
+TEST(Allocation, IsCounted) {
+  const std::size_t before = allocations;
+  const Motion motion = simulate(geared_drive(), {.until = 1.0});
+  EXPECT_GT(allocations, before);
+}
+
+TEST(Allocation, IsNotMadeByAMotionOfTheClosedForm) {
+  const Motion motion = simulate(geared_drive(), {.until = 10.0});
+  ASSERT_EQ(motion.engine(), Engine::closed_form);
+  EXPECT_EQ(allocations_of_samples(motion), 0U);
+}
+
+TEST(Allocation, IsNotMadeByAMotionOfTheGeneralEngine) {
+  Drive drive = geared_drive();
+  drive.sampling = Sampling{.period = 0.01};
+  drive.contact = CompliantContact{.stiffness = 1e4, .damping = 1e3};  // with fast decays
+  const Motion motion = simulate(drive, {.until = 10.0});
+  ASSERT_EQ(motion.engine(), Engine::general);
+  EXPECT_EQ(allocations_of_samples(motion), 0U);
+}
+
+}  // namespace
+}  // namespace gearlash
