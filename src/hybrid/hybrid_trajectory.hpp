@@ -24,7 +24,7 @@ enum class EventKind {
 struct Event {
   double time = 0.0;
   EventKind kind = EventKind::transition;
-  std::size_t mode = 0;        ///< before
+  std::size_t mode = 0;        ///< before; of a settling, that of the last firing
   std::size_t transition = 0;  ///< among the mode's transitions, or its timed ones
   std::size_t mode_after = 0;
   Vector before;

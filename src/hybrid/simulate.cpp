@@ -82,7 +82,8 @@ class Simulation {
       const std::vector<TimedTransition>& timed = mode_->mode().timed;
       for (std::size_t k = 0; k < timed.size(); ++k) {
         if (timed[k].clock != i) continue;
-        change(EventKind::timed, k, timed[k].reset, mode_->timed[k], timed[k].target, addition);
+        change(EventKind::timed, state_.mode, k, timed[k].reset, mode_->timed[k], timed[k].target,
+               addition);
         break;
       }
       return true;
@@ -222,16 +223,17 @@ class Simulation {
 
   void fire(std::size_t which) {
     const Transition& transition = mode_->mode().transitions[which];
-    change(EventKind::transition, which, transition.reset, mode_->transitions[which],
+    change(EventKind::transition, state_.mode, which, transition.reset, mode_->transitions[which],
            transition.target);
     if (!stopped_) follow_sequence();
   }
 
-  void change(EventKind kind, std::size_t transition, const AffineReset& reset,
+  /// `mode` has the transition: the present one or, of a settling, that of the last firing.
+  void change(EventKind kind, std::size_t mode, std::size_t transition, const AffineReset& reset,
               const PreparedJump& jump, std::size_t otherwise, const Vector* addition = nullptr) {
     std::vector<Event>& events = trajectory_.events_;
     Event& event = events.emplace_back(
-        Event{time_, kind, state_.mode, transition, otherwise, state_.numbers, state_.numbers});
+        Event{time_, kind, mode, transition, otherwise, state_.numbers, state_.numbers});
     jump.reset.apply(reset, event.before, event.after, noise_, noise_before_);
     if (addition != nullptr) event.after += *addition;
     state_.numbers = event.after;
@@ -323,7 +325,7 @@ class Simulation {
   void settle() {
     const Event last = trajectory_.events_.back();
     const Settling& settling = *transition_of(last).settling;
-    change(EventKind::settling, last.transition, settling.reset,
+    change(EventKind::settling, last.mode, last.transition, settling.reset,
            *preparation_.mode(last.mode).settlings[last.transition], settling.target);
   }
 

@@ -98,6 +98,33 @@ TEST(Motion, OfAStepAtTheStartHasAClosedForm) {
             simulate(sample_drive(), {.until = 1.0}).at(1.0).shafts.load_position);
 }
 
+/// Bounces settle while the load's speed passes 0 between two of them: the last firing has led to
+/// another mode than the one whose faces settle.
+TEST(Motion, NamesASettlingThatChangesTheModeTwice) {
+  Drive drive;
+  drive.motor = {.kind = TorqueControl{},
+                 .inertia = 0.22604871219172623,
+                 .friction = {.viscous = 0.19875536782470948}};
+  drive.load = {.inertia = 0.7739512878082737,
+                .friction = {.viscous = 0.015601170534170438, .coulomb = 0.017854820486427173}};
+  drive.gearbox = {.ratio = 1.0, .backlash = 0.1};
+  drive.contact = RigidContact{.restitution = 0.4};
+  drive.controller.law = PID{.terms = PIDTerms::PID,
+                             .proportional = 1.0,
+                             .integral = 0.039052346908240186,
+                             .derivative = 0.1651237817355332,
+                             .filter = 0.034846518159327045};
+  drive.reference = 0.0008660245662213129;
+  const Motion motion = simulate(drive, {.until = 31.0, .start = Start{.load_position = 1.0}});
+  std::size_t settled = 0;
+  for (const MotionEvent& event : motion.events()) {
+    EXPECT_THAT(std::string(event.what), AnyOf(HasSubstr("impact"), HasSubstr("faces"),
+                                               HasSubstr("stop"), HasSubstr("break")));
+    settled += event.what.ends_with("(settled)") ? 1 : 0;
+  }
+  EXPECT_GT(settled, 0U);
+}
+
 TEST(Motion, HasNoTicksAmongItsEvents) {
   Drive drive = general_drive();
   drive.sampling = Sampling{.period = 0.01};
