@@ -190,10 +190,8 @@ void write_table(const GridTask& task, const GridTable& table, const GridCount& 
   const auto sink = [&](std::string_view text) { output.write(text); };
   if (ending_of(task.table) == ".csv") return write_grid_csv(table, sink);
   if (ending_of(task.table) == ".json") return write_grid_json(table, task.verb, sink);
-  const auto known = quantities_known(GridPoints(task.grid).engines());
-  GridNetcdf file =
-      GridNetcdf::create(output.hidden_file(), output.shown_name(),
-                         {task.grid, {known.begin(), known.end()}, table.provenance, ""});
+  GridNetcdf file = GridNetcdf::create(output.hidden_file(), output.shown_name(),
+                                       {task.grid, quantities_of(task), table.provenance, ""});
   file.write({0, table.table, count});
   if (table.hunting_boundary) file.write_boundary(*table.hunting_boundary);
   file.close();
@@ -263,8 +261,7 @@ namespace {
 GridCount write_netcdf(const GridTask& task, const Provenance& provenance, const OutputFile& output,
                        Progress& progress) {
   constexpr std::size_t points_at_a_time = std::size_t{1} << 15U;  // 3 MB, which caches hold
-  const std::span<const Quantity> known = quantities_known(GridPoints(task.grid).engines());
-  const std::vector<Quantity> quantities(known.begin(), known.end());
+  const std::vector<Quantity> quantities = quantities_of(task);
   GridNetcdf file =
       GridNetcdf::create(output.hidden_file(), output.shown_name(),
                          {.grid = task.grid, .quantities = quantities, .provenance = provenance});

@@ -15,6 +15,7 @@
 #include "output/change_report.hpp"
 #include "output/output_file.hpp"
 #include "picture/attractor_picture.hpp"
+#include "picture/ceiling_picture.hpp"
 #include "picture/tornado.hpp"
 #include "plot_option.hpp"
 #include "servo_options.hpp"
@@ -138,8 +139,19 @@ std::string draw_tornado(const Work& work, PictureFormat format) {
   return draw_bar_chart(chart, format);
 }
 
+std::string draw_ceiling(const Work& work, PictureFormat format) {
+  const Ceiling& ceiling = *work.report.answer.ceiling;
+  if (ceiling.terms.empty()) {
+    const std::string why =
+        ceiling.load ? "this drive has no gap, dry friction or encoder" : ceiling.reason;
+    throw InvalidInput({{"--plot", "ceiling", "must be left out: " + why, ""}});
+  }
+  return draw_bar_chart(ceiling_bars(work.report), format);
+}
+
 std::string draw(const Work& work, const Plot& plot) {
   if (plot.kind == "tornado") return draw_tornado(work, plot.format);
+  if (plot.kind == "ceiling") return draw_ceiling(work, plot.format);
   return draw_phase_plane(
       work.analysis.closed
           ? servo_picture(work)
@@ -181,7 +193,7 @@ Work analysed(const WrittenDrive& written, const Provenance& provenance) {
   Work work;
   {
     TerminalProgress progress("Searching");
-    work.analysis = analyse_in_full(written.drive, {}, progress);
+    work.analysis = analyse_in_full(written.drive, {.ceiling = true}, progress);
   }
   work.report = report_of(written.drive, work.analysis.answer, written.angle, provenance);
   return work;
@@ -206,7 +218,8 @@ std::string printed(const Work& work, const LimitCycleOptions& options) {
 ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "json"});
-  const std::vector<Plot> plots = read_plots(options.plots, {"phase", "tornado"}, faults);
+  const std::vector<Plot> plots =
+      read_plots(options.plots, {"phase", "tornado", "ceiling"}, faults);
   faults.require_distinct({"DRIVE.toml", options.servo.file}, files_of(plots));
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
   if (written && !closed_form_drive(written->drive)) {
@@ -241,8 +254,9 @@ void add_limit_cycle_command(Command& app, Action& action) {
   command->add_flag("--brief", options->brief, "Print the headline alone");
   add_plot_option(*command, options->plots,
                   "Draw phase=FILE, the limit cycles in the phase plane (with a closed\n"
-                  "form also a step response that leads to them), or tornado=FILE,\n"
-                  "the sensitivities of the amplitude;");
+                  "form also a step response that leads to them), tornado=FILE, the\n"
+                  "sensitivities of the amplitude, or ceiling=FILE, what the proved\n"
+                  "bound of every motion is made of;");
   command->add_flag("--margins", options->margins,
                     "Add how far each parameter may change before hunting ends or begins;\n"
                     "with bounces this takes a minute or more");

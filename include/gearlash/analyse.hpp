@@ -11,6 +11,8 @@ struct Wanted {
   /// Proofs by interval arithmetic where the closed form answers. Without them the verdict is only
   /// computed.
   bool proofs = true;
+  /// The ceiling: Answer::ceiling.
+  bool ceiling = false;
 };
 
 /// Uses the closed form if the drive is the servo of 1960 by its physics. Otherwise it simulates

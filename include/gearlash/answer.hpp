@@ -145,6 +145,40 @@ struct NormalFormNumbers {
   std::optional<double> stiffness{};  ///< N m/rad; unknown for a normal form with a frequency
 };
 
+/// What one source contributes to a ceiling.
+struct CeilingTerm {
+  std::string source{};  ///< "gap", "motor friction", "load friction", "encoder", "speed encoder",
+                         ///< "load torque"
+  double size = 0.0;     ///< half the gap, rad; half an encoder step, rad; a friction torque, N m
+  double load = 0.0;     ///< rad
+  double motor = 0.0;    ///< rad
+  std::optional<double> effort{};  ///< N m
+};
+
+/// A proved bound of every motion in the end, hunting of any kind included: how far it can be from
+/// the motion of the loop with the gap closed, without dry friction and encoder, under the same
+/// reference and load torque; a sine of the load torque is not part of that motion but a term. Each
+/// bound is the sum of its terms (docs/mathematics.md, "The ceiling").
+struct Ceiling {
+  std::optional<double> load{};   ///< rad; empty if there is none
+  std::optional<double> motor{};  ///< rad, at the load's shaft
+  /// N m of the motor's torque at the load's shaft; empty if there is none.
+  std::optional<double> effort{};
+  std::string reason{};         ///< why there is none
+  std::string effort_reason{};  ///< why there is none for the effort
+  /// The motor's torque is limited, and motion that reaches the limit ever again is not bounded.
+  bool is_below_limit = false;
+  /// Whether a motion can stay off the limit: effort and holding torque together are below it.
+  /// Empty if the effort has no ceiling, there is no limit, or the signals move.
+  std::optional<bool> meets_limit{};
+  std::vector<CeilingTerm> terms{};
+
+  /// The largest backlash, rad, with which the ceiling of the load is at most `amplitude`, rad. The
+  /// term of the gap is proportional to it. Empty if the other terms exceed it or there is no
+  /// ceiling. `backlash`: the drive's own.
+  [[nodiscard]] std::optional<double> widest_backlash(double amplitude, double backlash) const;
+};
+
 /// Something a reader should know. `code` is for programs.
 struct Note {
   std::string code{};
@@ -159,10 +193,11 @@ struct Answer {
   std::optional<NormalFormNumbers> normal_form{};
   std::optional<double> growth_at_rest{};  ///< of a small motion in the gap, per half cycle
   std::optional<ProvedBounds> bounds{};
-  bool is_dissipative = false;  ///< no restitution can make it hunt
-  bool rests_engaged = false;   ///< large motions may end at rest, with the faces together
-  bool neutral_swings = false;  ///< some cycles could not be separated from their neighbors
-  std::vector<Cycle> cycles{};  ///< by falling amplitude; from a search, stable ones first
+  std::optional<Ceiling> ceiling{};  ///< if wanted
+  bool is_dissipative = false;       ///< no restitution can make it hunt
+  bool rests_engaged = false;        ///< large motions may end at rest, with the faces together
+  bool neutral_swings = false;       ///< some cycles could not be separated from their neighbors
+  std::vector<Cycle> cycles{};       ///< by falling amplitude; from a search, stable ones first
   std::optional<Rest> rest{};
   std::vector<IrregularMotion> irregular{};
   std::optional<SearchRecord> search{};

@@ -26,9 +26,13 @@ enum class Quantity : std::uint8_t {
   load_friction_loss,
   impact_loss,
   residual,
-  static_error
+  static_error,
+  ceiling,
+  motor_ceiling,
+  effort_ceiling
 };
-inline constexpr std::size_t quantity_count = static_cast<std::size_t>(Quantity::static_error) + 1;
+inline constexpr std::size_t quantity_count =
+    static_cast<std::size_t>(Quantity::effort_ceiling) + 1;
 
 enum class QuantityScope : std::uint8_t {
   answer,  ///< of the drive as a whole

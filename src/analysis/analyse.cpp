@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "analysis/ceiling/ceiling.hpp"
 #include "analysis/design/changeable_drive.hpp"
 #include "analysis/final_servo.hpp"
 #include "base/interval.hpp"
@@ -218,13 +219,6 @@ std::vector<Note> notes_of(const drive::AttractorSearch& search) {
   return notes;
 }
 
-/// Hunting does not depend on the earlier course of the signals.
-drive::ReducedDrive settled(drive::ReducedDrive reduced) {
-  reduced.reference = drive::settled(reduced.reference);
-  reduced.load_torque = drive::settled(reduced.load_torque);
-  return reduced;
-}
-
 }  // namespace
 
 Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& servo,
@@ -288,7 +282,9 @@ Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive
 Analysis analyse_in_full(const Drive& drive, const Wanted& wanted, Progress& progress) {
   require_none(faults(drive));
   Analysis analysis;
-  analysis.reduced = settled(reduce(drive));
+  analysis.reduced = reduce_settled(drive);
+  std::optional<Ceiling> ceiling;
+  if (wanted.ceiling) ceiling = ceiling_of(analysis.reduced);
   if (const std::optional<FinalServo> found = final_servo(drive)) {
     const Drivetrain& drivetrain = found->drivetrain;
     const DriveBox box = box_between(drivetrain, drivetrain, data_error_of(drive, drivetrain));
@@ -299,10 +295,11 @@ Analysis analyse_in_full(const Drive& drive, const Wanted& wanted, Progress& pro
       const Scales scales = scales_of(*analysis.servo, box);
       analysis.answer.bounds = bounds_of(*analysis.closed->bounds, scales);
     }
-    return analysis;
+  } else {
+    analysis.search = drive::find_attractors(analysis.reduced, {}, progress);
+    analysis.answer = answer_of(*analysis.search, analysis.reduced);
   }
-  analysis.search = drive::find_attractors(analysis.reduced, {}, progress);
-  analysis.answer = answer_of(*analysis.search, analysis.reduced);
+  analysis.answer.ceiling = std::move(ceiling);
   return analysis;
 }
 

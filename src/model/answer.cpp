@@ -18,6 +18,17 @@ const Cycle* Answer::largest_stable() const noexcept {
   return largest;
 }
 
+std::optional<double> Ceiling::widest_backlash(double amplitude, double backlash) const {
+  if (!load) return std::nullopt;
+  double gap = 0.0;
+  double others = 0.0;
+  for (const CeilingTerm& term : terms) (term.source == "gap" ? gap : others) += term.load;
+  constexpr double rounding = 1e-12;  // of the sums
+  const double left = (1.0 - rounding) * amplitude - (1.0 + rounding) * others;
+  if (!(left > 0.0) || gap == 0.0) return std::nullopt;
+  return (1.0 - rounding) * (left / gap * backlash);
+}
+
 const char* name_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::cannot_hunt:

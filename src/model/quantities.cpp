@@ -80,6 +80,11 @@ Value static_error_of(const Answer& answer) {
   return std::max(std::abs(answer.rest->error.low), std::abs(answer.rest->error.high));
 }
 
+template <auto member>
+Value of_ceiling(const Answer& answer) {
+  return answer.ceiling ? (*answer.ceiling).*member : std::nullopt;
+}
+
 constexpr auto of_answer = QuantityScope::answer;
 constexpr auto of_motion = QuantityScope::motion;
 constexpr auto number = QuantityKind::number;
@@ -147,7 +152,21 @@ constexpr std::array entries = {
         .info = {Quantity::static_error, "static_error", "rad",
                  "largest error at rest that was found, reference minus load", of_answer, number},
         .dimension = &dimensions::angle,
-        .value = static_error_of}};
+        .value = static_error_of},
+    QuantityEntry{.info = {Quantity::ceiling, "ceiling", "rad",
+                           "proved bound of the load's motion in the end", of_answer, number},
+                  .dimension = &dimensions::angle,
+                  .value = of_ceiling<&Ceiling::load>},
+    QuantityEntry{.info = {Quantity::motor_ceiling, "motor_ceiling", "rad",
+                           "proved bound of the motor's motion in the end, at the load's shaft",
+                           of_answer, number},
+                  .dimension = &dimensions::angle,
+                  .value = of_ceiling<&Ceiling::motor>},
+    QuantityEntry{.info = {Quantity::effort_ceiling, "effort_ceiling", "N m",
+                           "proved bound of the motor's torque in the end, at the load's shaft",
+                           of_answer, number},
+                  .dimension = &dimensions::torque,
+                  .value = of_ceiling<&Ceiling::effort>}};
 
 constexpr bool are_in_order() {
   for (std::size_t i = 0; i < entries.size(); ++i) {

@@ -195,6 +195,13 @@ drive::ReducedDrive reduce(const Drive& drive) {
   return reduced;
 }
 
+drive::ReducedDrive reduce_settled(const Drive& drive) {
+  drive::ReducedDrive reduced = reduce(drive);
+  reduced.reference = drive::settled(reduced.reference);
+  reduced.load_torque = drive::settled(reduced.load_torque);
+  return reduced;
+}
+
 Drive physical_form(const Drive& drive) {
   if (!drive.servo) return drive;
   const Drivetrain drivetrain = drivetrain_of(*drive.servo, restitution_of(drive));

@@ -22,6 +22,8 @@ ReferredOutput refer_output(const Drive& drive);
 
 /// All at the load's shaft. Faulty numbers give a faulty result; see faults().
 drive::ReducedDrive reduce(const Drive& drive);
+/// With the final course of its signals, on which hunting depends.
+drive::ReducedDrive reduce_settled(const Drive& drive);
 
 /// Replaces a normal form by a drive with equivalent numbers: torque control, n = 1 and
 /// J_M + J_L = 1 kg m². Any other drive is unchanged.

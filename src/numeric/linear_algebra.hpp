@@ -29,6 +29,15 @@ Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix);
 Eigen::VectorXd solved_with_full_pivoting(const Eigen::MatrixXd& matrix,
                                           const Eigen::VectorXd& right);
 
+/// An orthonormal basis of the columns' span, by Householder reflections.
+Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns);
+
+/// An orthonormal basis of what is orthogonal to the columns' span.
+Eigen::MatrixXd complement(const Eigen::MatrixXd& columns);
+
+/// Upper triangular U with UᵀU = matrix (Cholesky); empty unless it is positive definite.
+Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& matrix);
+
 // ---- matrices of a fixed size -------------------------------------------------------------------
 
 Eigen::Vector3cd eigenvalues(const Eigen::Matrix3d& matrix);

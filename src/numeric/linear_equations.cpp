@@ -1,4 +1,6 @@
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 #include "numeric/linear_algebra.hpp"
 
@@ -17,6 +19,24 @@ Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix) { return matrix.partialPi
 Eigen::VectorXd solved_with_full_pivoting(const Eigen::MatrixXd& matrix,
                                           const Eigen::VectorXd& right) {
   return matrix.fullPivLu().solve(right);
+}
+
+Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
+  return columns.householderQr().householderQ() *
+         Eigen::MatrixXd::Identity(columns.rows(), columns.cols());
+}
+
+Eigen::MatrixXd complement(const Eigen::MatrixXd& columns) {
+  const Eigen::Index rows = columns.rows();
+  const Eigen::MatrixXd all =
+      columns.householderQr().householderQ() * Eigen::MatrixXd::Identity(rows, rows);
+  return all.rightCols(rows - columns.cols());
+}
+
+Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& matrix) {
+  const Eigen::LLT<Eigen::MatrixXd> decomposition(matrix);
+  if (decomposition.info() != Eigen::Success) return {};
+  return decomposition.matrixU();
 }
 
 // For three rows the functions for any size give the same bits with less to compile.

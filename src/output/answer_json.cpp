@@ -2,6 +2,7 @@
 
 #include "gearlash/output.hpp"
 #include "output/answer_report.hpp"
+#include "output/ceiling_report.hpp"
 #include "output/change_report.hpp"
 #include "output/drive_text.hpp"
 #include "output/json_values.hpp"
@@ -126,6 +127,7 @@ std::string answer_json(const AnswerReport& report) {
   json["normal_form"] = json_normal_form(answer.normal_form);
   json["growth_at_rest"] = json_optional(answer.growth_at_rest);
   json["bounds"] = json_bounds(answer.bounds);
+  json["ceiling"] = ceiling_json(answer.ceiling);
   json["dissipative"] = answer.is_dissipative;
   json["rests_engaged"] = answer.rests_engaged;
   json["neutral_swings"] = answer.neutral_swings;

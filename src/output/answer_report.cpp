@@ -13,6 +13,7 @@
 #include "gearlash/version.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/answer_meaning.hpp"
+#include "output/ceiling_report.hpp"
 #include "output/change_report.hpp"
 #include "output/columns.hpp"
 
@@ -359,6 +360,7 @@ std::string answer_text(const AnswerReport& report) {
   std::string text = headline(report) + "\n" + cycle_tables(report);
   for (const IrregularMotion& motion : answer.irregular) text += irregular_text(report, motion);
   if (answer.rest) text += rest_text(report);
+  text += ceiling_text(report);
   if (answer.normal_form) text += normal_form_table(report);
   text += "\n";
   if (report.margin) {

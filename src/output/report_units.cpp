@@ -9,6 +9,12 @@ namespace gearlash {
 
 std::string significant(double value, int digits) { return fmt::format("{:.{}g}", value, digits); }
 
+double rounded_up(double bound, int digits) {
+  if (!(bound > 0.0) || !std::isfinite(bound)) return bound;
+  const double unit = std::pow(10.0, std::floor(std::log10(bound)) - (digits - 1));
+  return std::ceil(bound / unit) * unit;
+}
+
 std::string change_text(double ratio) {
   constexpr double most_told_in_percent = 10.0;
   if (ratio > most_told_in_percent) return "×" + significant(ratio, 3);
@@ -36,6 +42,11 @@ std::string swing_text(double amplitude, const AngleUnit& unit, int digits) {
   }
   const double degrees = amplitude * 180.0 / std::numbers::pi;
   return fmt::format("±{} ({}°)", radians, significant(degrees, digits));
+}
+
+std::string swing_bound_text(double amplitude, const AngleUnit& unit, int digits) {
+  return fmt::format(
+      "±{} {}", significant(rounded_up(unit.from_radians(amplitude), digits), digits), unit.name);
 }
 
 }  // namespace gearlash

@@ -17,6 +17,9 @@ struct Provenance {
 /// The number with at most `digits` significant digits: "0.0814", "1.2e-05", "inf".
 std::string significant(double value, int digits);
 
+/// An upper bound: the next number of `digits` significant digits that is not below it.
+double rounded_up(double bound, int digits);
+
 /// A change by this ratio: "+12.3 %", "−40 %", "×26".
 std::string change_text(double ratio);
 
@@ -30,5 +33,7 @@ std::string frequency_text(double period, bool is_normalized, int digits);
 
 /// An amplitude, the author's unit first: "±12.3 arcmin (0.00358 rad)", "±0.0814 rad (4.67°)".
 std::string swing_text(double amplitude, const AngleUnit& unit, int digits);
+/// An upper bound of an amplitude in the author's unit, rounded up: "±12.4 arcmin".
+std::string swing_bound_text(double amplitude, const AngleUnit& unit, int digits);
 
 }  // namespace gearlash

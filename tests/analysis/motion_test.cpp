@@ -120,7 +120,7 @@ TEST(Motion, NamesASettlingThatChangesTheModeTwice) {
   for (const MotionEvent& event : motion.events()) {
     EXPECT_THAT(std::string(event.what), AnyOf(HasSubstr("impact"), HasSubstr("faces"),
                                                HasSubstr("stop"), HasSubstr("break")));
-    settled += event.what.ends_with("(settled)") ? 1 : 0;
+    settled += event.what.ends_with("(settled)") ? 1U : 0U;
   }
   EXPECT_GT(settled, 0U);
 }

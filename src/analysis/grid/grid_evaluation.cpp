@@ -1,21 +1,33 @@
 #include "analysis/grid/grid_evaluation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <mutex>
 
+#include "analysis/ceiling/ceiling.hpp"
 #include "base/on_threads.hpp"
 #include "base/special_numbers.hpp"
 #include "gearlash/analyse.hpp"
+#include "model/reduced_drive.hpp"
 
 namespace gearlash {
 namespace {
 
+constexpr std::array ceilings = {Quantity::ceiling, Quantity::motor_ceiling,
+                                 Quantity::effort_ceiling};
+
+bool has_ceilings(const CycleColumns& columns) {
+  return std::any_of(ceilings.begin(), ceilings.end(),
+                     [&](Quantity quantity) { return !columns[quantity].empty(); });
+}
+
 /// The number of points that a thread solves at a time: some tenths of a millisecond without
-/// bounces, some tens of milliseconds with them, or one search.
-std::size_t points_at_a_time(const EnginesNeeded& engines) {
+/// bounces, some tens of milliseconds with them or with ceilings, or one search.
+std::size_t points_at_a_time(const EnginesNeeded& engines, const CycleColumns& columns) {
   if (engines.search) return 1;
+  if (has_ceilings(columns)) return 16;
   return engines.bounces ? 8 : 4096;
 }
 
@@ -60,6 +72,16 @@ void scale(const CycleColumns& columns, std::size_t row, double natural_frequenc
 
 void scale(const CycleColumns& columns, std::size_t row, const FinalServo& servo) {
   scale(columns, row, servo.closed_form.natural_frequency, servo.stiffness.value_or(not_a_number));
+}
+
+/// Ceilings need no search.
+void write_ceilings(const CycleColumns& columns, std::size_t row, const Drive& drive) {
+  Answer answer;
+  if (faults(drive).empty()) answer.ceiling = ceiling_of(reduce_settled(drive));
+  for (const Quantity quantity : ceilings) {
+    if (columns[quantity].empty()) continue;
+    columns[quantity][row] = answer.value(quantity).value_or(not_a_number);
+  }
 }
 
 /// Fills in what Answer::value() gives for drives that come to rest, and for the verdict.
@@ -135,6 +157,7 @@ class Part {
       : points_(points), columns_(columns), servos_(columns.verdict.size()) {}
 
   GridCount work_out(GridWalk walk, bool proved, VectorUnit unit, Progress& progress) {
+    GridWalk walk_of_ceilings = walk;
     for (std::size_t row = 0; row < servos_.size(); ++row, walk.go_on()) {
       points_.are_of_normal_form() ? place(row, points_.normal_form_at(walk.values()))
                                    : place(row, points_.drive_at(walk.values()));
@@ -149,6 +172,11 @@ class Part {
     }
     for (const std::size_t row : refused_) write(columns_, row, Answer{});
     for (std::size_t row = 0; row < servos_.size(); ++row) complete(columns_, row);
+    if (has_ceilings(columns_)) {
+      for (std::size_t row = 0; row < servos_.size(); ++row, walk_of_ceilings.go_on()) {
+        write_ceilings(columns_, row, points_.drive_at(walk_of_ceilings.values()));
+      }
+    }
     count.searched = searched_.size();
     count.refused = refused_.size();
     return count;
@@ -249,6 +277,7 @@ PointAnswer answer_at(const GridPoints& points, std::span<const double> place, Q
     find_limit_cycles({&servo->closed_form.servo, 1}, columns);
     scale(columns, 0, *servo);
     complete(columns, 0);
+    if (has_ceilings(columns)) write_ceilings(columns, 0, points.drive_at(place));
     return answer;
   }
   const Drive drive = points.drive_at(place);
@@ -258,7 +287,8 @@ PointAnswer answer_at(const GridPoints& points, std::span<const double> place, Q
 }
 
 double of_motion(Quantity quantity, Verdict verdict, double value) {
-  return is_at_rest(verdict) && quantity != Quantity::growth_at_rest ? not_a_number : value;
+  const bool is_absent = is_at_rest(verdict) && info_of(quantity).scope == QuantityScope::motion;
+  return is_absent ? not_a_number : value;
 }
 
 double of_motion(const Table& table, Quantity quantity, std::size_t row) {
@@ -278,7 +308,7 @@ std::size_t box_length(const Grid& grid, std::size_t first, std::size_t most) {
 
 GridCount evaluate(const Grid& grid, const GridPoints& points, std::size_t first, std::size_t count,
                    const CycleColumns& columns, Progress& progress, const Workers& workers) {
-  const std::size_t part = points_at_a_time(points.engines());
+  const std::size_t part = points_at_a_time(points.engines(), columns);
   GridCount total;
   std::mutex adding;
   ProgressOfSearches searches(progress, count);

@@ -1,0 +1,54 @@
+// How far bounded disturbances can move the loop of a drive whose controller is linear, whatever
+// its contact does (docs/mathematics.md, "The ceiling").
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "base/interval.hpp"
+#include "model/drive.hpp"
+#include "numeric/decaying_motion.hpp"
+
+namespace gearlash {
+
+/// What disturbs the loop.
+enum class Disturbance {
+  gap,               ///< rad, the motor less the load
+  torque_on_motor,   ///< N m
+  torque_on_load,    ///< N m
+  position_reading,  ///< rad, error of the position that the controller receives
+  speed_reading,     ///< rad, error of the position whose differences are the speed
+  both_readings      ///< rad, of both, from one encoder
+};
+
+/// Upper bounds per unit of the largest disturbance.
+struct LoopGain {
+  double load = infinity;          ///< rad of the load's position
+  double motor = infinity;         ///< rad of the motor's position, at the load's shaft
+  std::optional<double> effort{};  ///< N m of the motor's torque; empty if none is known
+};
+
+/// A loop that is proved to decay with the gap closed, or with its springs connected.
+class DisturbedLoop {
+ public:
+  virtual ~DisturbedLoop() = default;
+  virtual LoopGain gain(Disturbance disturbance) const = 0;
+};
+
+/// Numbers made from a drive's data, which rounding has changed by at most this many units in the
+/// last place.
+inline Interval datum(double value) {
+  constexpr double units = 64.0;
+  const double error = units * 0x1p-53 * std::abs(value);
+  return {outward::below(value - error), outward::above(value + error)};
+}
+
+/// Null if it is not proved that the loop decays. Preconditions: a continuous controller; rigid
+/// faces, or compliant ones without damping.
+std::unique_ptr<DisturbedLoop> continuous_loop(const drive::ReducedDrive& drive);
+
+/// The same for a sampled controller and rigid faces. Precondition: no speed from a tachometer,
+/// unless the controller ignores it.
+std::unique_ptr<DisturbedLoop> sampled_loop(const drive::ReducedDrive& drive);
+
+}  // namespace gearlash

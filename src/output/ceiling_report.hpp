@@ -1,0 +1,16 @@
+// The ceiling in reports.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "output/answer_report.hpp"
+
+namespace gearlash {
+
+/// A table of the ceiling with its terms, or why there is none. Empty if it was not computed.
+std::string ceiling_text(const AnswerReport& report);
+
+/// Null if it was not computed.
+nlohmann::ordered_json ceiling_json(const std::optional<Ceiling>& ceiling);
+
+}  // namespace gearlash
