@@ -28,14 +28,16 @@ std::vector<Eigen::Index> by_size(const Spectrum& values) {
 }
 
 /// Number of the largest eigenvalues that all decay and have the widest gap, by ratio, to the next.
-/// 0 if no gap is wide enough.
+/// 0 if no gap is wide enough. Eigenvalues that rounding alone keeps from 0 do not decay.
 std::size_t count_of_fast(const Spectrum& values, const std::vector<Eigen::Index>& order) {
   std::size_t count = 0;
   double widest = least_gap;
+  constexpr double rounding = 1e-10;
+  const double least = order.empty() ? 0.0 : rounding * std::abs(values[order.front()]);
   for (std::size_t i = 0; i + 1 < order.size(); ++i) {
     constexpr double least_damping = 1e-3;
     const std::complex<double> here = values[order[i]];
-    if (!(-here.real() > least_damping * std::abs(here))) break;
+    if (!(-here.real() > least_damping * std::abs(here) && std::abs(here) > least)) break;
     const double gap = std::abs(here) / std::abs(values[order[i + 1]]);
     if (gap > widest) {
       widest = gap;
@@ -87,7 +89,8 @@ std::optional<FastDecays> fast_decays(const AffineFlow& flow) {
   const Matrix commuted = matrix * projector - projector * matrix;
   const bool is_projector = (projector * projector - projector).norm() <= acceptable * size;
   const bool is_invariant = commuted.norm() <= acceptable * size * matrix.norm();
-  if (!projector.allFinite() || !is_projector || !is_invariant) return std::nullopt;
+  constexpr double largest = 1e12;  // of a projector that separates more than rounding
+  if (!(size < largest) || !is_projector || !is_invariant) return std::nullopt;
   // A P z = −P b, z = P z: A with the slow part replaced by the identity can be inverted.
   const Matrix identity = Matrix::Identity(matrix.rows(), matrix.cols());
   const Matrix invertible = matrix * projector + (identity - projector);

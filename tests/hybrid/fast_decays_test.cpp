@@ -1,0 +1,47 @@
+// Which decays are fast, and what is left without them.
+#include "hybrid/fast_decays.hpp"
+
+#include <gtest/gtest.h>
+
+namespace gearlash::hybrid {
+namespace {
+
+/// Both shafts of a drive as one, in its load's and its motor's own numbers: the gap and its speed
+/// are eigenvectors of 0, to which rounding gives some 1e-17. It is no decay, however small the
+/// other is.
+TEST(FastDecays, LeaveOutWhatRoundingAloneKeepsFromZero) {
+  const double friction = 0.91477945294240459;
+  const double of_load = 0.3790779330608402;
+  const double torque = 0.045978005724789134;
+  AffineFlow flow{Matrix::Zero(4, 4), Vector::Zero(4)};
+  flow.matrix << 0.0, 1.0, 0.0, 0.0,   //
+      -1.0, -friction, 0.0, -of_load,  //
+      0.0, 0.0, 0.0, 1.0,              //
+      -1.0, -friction, 0.0, -of_load;
+  flow.offset << 0.0, torque, 0.0, torque;
+  const auto decays = fast_decays(flow);
+  Vector rest(4);
+  rest << torque, 0.0, torque + 0.05, 0.0;
+  if (!decays) return;  // allowed: nothing is then put at rest
+  EXPECT_LT(decays->projector.norm(), 10.0);
+  Vector state = rest;
+  decays->put_at_rest(state);
+  EXPECT_LT((state - rest).norm(), 1e-14);
+}
+
+TEST(FastDecays, AreThoseWithTheWidestGap) {
+  AffineFlow flow{Matrix::Zero(3, 3), Vector::Zero(3)};
+  flow.matrix.diagonal() << -1e4, -1.0, -0.9;
+  flow.offset << 2e4, 1.0, 0.9;
+  const auto decays = fast_decays(flow);
+  ASSERT_TRUE(decays);
+  Vector state(3);
+  state << 7.0, 5.0, 4.0;
+  decays->put_at_rest(state);
+  EXPECT_NEAR(state[0], 2.0, 1e-12);
+  EXPECT_NEAR(state[1], 5.0, 1e-12);
+  EXPECT_NEAR(state[2], 4.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace gearlash::hybrid
