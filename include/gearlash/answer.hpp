@@ -14,7 +14,7 @@
 namespace gearlash {
 
 enum class Verdict : std::uint8_t {
-  cannot_hunt,             ///< every motion tends to the reference
+  cannot_hunt,             ///< every motion comes to rest
   comes_to_rest,           ///< from every start that was searched
   hunts,                   ///< rest is unstable, or no start led to it; a stable cycle was found
   hunts_if_disturbed,      ///< rest is stable, and so is a limit cycle beside it
@@ -82,7 +82,8 @@ struct Cycle {
   [[nodiscard]] double frequency() const { return 1.0 / period; }  ///< Hz
 };
 
-/// Equilibria found. With dry friction, or in the gap, they are a set.
+/// Equilibria found, or computed from the equations (no starts). With dry friction, or in the gap,
+/// they are a set.
 struct Rest {
   Bounds load{};   ///< rad, from the reference
   Bounds motor{};  ///< rad, from the reference, at the load's shaft

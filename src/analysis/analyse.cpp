@@ -7,6 +7,8 @@
 
 #include "analysis/ceiling/ceiling.hpp"
 #include "analysis/design/changeable_drive.hpp"
+#include "analysis/energy/absence_by_energy.hpp"
+#include "analysis/energy/computed_rest.hpp"
 #include "analysis/final_servo.hpp"
 #include "base/interval.hpp"
 #include "base/range_check.hpp"
@@ -219,6 +221,18 @@ std::vector<Note> notes_of(const drive::AttractorSearch& search) {
   return notes;
 }
 
+/// Proved, without a search.
+Answer answer_by_energy(const drive::ReducedDrive& reduced) {
+  Answer answer;
+  answer.verdict = Verdict::cannot_hunt;
+  answer.certainty = Certainty::enclosed;
+  answer.completeness = Certainty::enclosed;
+  answer.engine = Engine::general;
+  answer.is_dissipative = true;
+  answer.rest = computed_rest(reduced);
+  return answer;
+}
+
 }  // namespace
 
 Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& servo,
@@ -295,6 +309,9 @@ Analysis analyse_in_full(const Drive& drive, const Wanted& wanted, Progress& pro
       const Scales scales = scales_of(*analysis.servo, box);
       analysis.answer.bounds = bounds_of(*analysis.closed->bounds, scales);
     }
+  } else if (is_absent_by_energy(analysis.reduced)) {
+    analysis.search = drive::AttractorSearch{};
+    analysis.answer = answer_by_energy(analysis.reduced);
   } else {
     analysis.search = drive::find_attractors(analysis.reduced, {}, progress);
     analysis.answer = answer_of(*analysis.search, analysis.reduced);

@@ -21,7 +21,7 @@ std::string certainty_text(const Answer& answer) {
       return "This is computed, not proved.";
     case Certainty::enclosed:
       return "This is proved: interval arithmetic decides the condition of a theorem for this "
-             "servo.";
+             "drive.";
     case Certainty::theorem:
       return "This is proved.";
   }
@@ -129,6 +129,12 @@ std::string meaning_of_closed_form(const AnswerReport& report) {
   }
 }
 
+std::string meaning_by_energy(const Answer& answer) {
+  return "Every motion comes to rest. The contact and the dry frictions only take energy, whatever "
+         "the restitution, and so does everything else. No search was needed. " +
+         certainty_text(answer);
+}
+
 // ---- the search ---------------------------------------------------------------------------------
 
 /// "24 to a cycle, 12 to rest".
@@ -181,7 +187,8 @@ std::string search_text(const AnswerReport& report) {
 
 std::string meaning_text(const AnswerReport& report) {
   if (report.answer.engine == Engine::closed_form) return meaning_of_closed_form(report);
-  return report.answer.search ? search_text(report) : "";
+  if (report.answer.search) return search_text(report);
+  return report.answer.verdict == Verdict::cannot_hunt ? meaning_by_energy(report.answer) : "";
 }
 
 }  // namespace gearlash

@@ -257,7 +257,8 @@ std::string rest_text(const AnswerReport& report) {
   const Rest& rest = *report.answer.rest;
   Rows rows = {{"load, from the reference", range_text(report, rest.load), ""},
                {"motor, from the reference", range_text(report, rest.motor), ""},
-               {"reached from", starts_text(rest.starts), ""}};
+               {rest.starts > 0 ? "reached from" : "computed",
+                rest.starts > 0 ? starts_text(rest.starts) : "from the equilibria", ""}};
   if (rest.swing_ratio) {
     rows.push_back(
         {"approached by swings, ratio", number(*rest.swing_ratio), "never quite reached"});
@@ -346,6 +347,9 @@ std::string headline(const AnswerReport& report) {
       return fmt::format("{} from all {}", verdict, starts_text(answer.search->starts.size()));
     case Verdict::cannot_hunt:
       if (backlash_of(report) == 0.0) return verdict + ": no backlash";
+      if (answer.engine == Engine::general) {
+        return verdict + ": everything outside the gap only takes energy";
+      }
       return verdict + ": " + growth_beside_one(answer);
     case Verdict::undecided:
       return answer.engine == Engine::closed_form ? verdict + ": " + growth_beside_one(answer)

@@ -54,7 +54,8 @@ std::string pace_text(const ComparisonReport& report, const SensorCase& one) {
 
 std::string static_error(const ComparisonReport& report, const SensorCase& one) {
   const Answer& answer = one.report.answer;
-  const bool is_known = answer.search && answer.search->count("undecided") == 0;
+  const bool is_known = answer.verdict == Verdict::cannot_hunt ||
+                        (answer.search && answer.search->count("undecided") == 0);
   if (!answer.rest) return is_known ? "never at rest" : "not known";
   const double low = answer.rest->error.low;
   const double high = answer.rest->error.high;

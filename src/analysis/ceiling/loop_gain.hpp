@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "base/interval.hpp"
+#include "base/datum.hpp"
 #include "model/drive.hpp"
 #include "numeric/decaying_motion.hpp"
 
@@ -34,14 +34,6 @@ class DisturbedLoop {
   virtual ~DisturbedLoop() = default;
   virtual LoopGain gain(Disturbance disturbance) const = 0;
 };
-
-/// Numbers made from a drive's data, which rounding has changed by at most this many units in the
-/// last place.
-inline Interval datum(double value) {
-  constexpr double units = 64.0;
-  const double error = units * 0x1p-53 * std::abs(value);
-  return {outward::below(value - error), outward::above(value + error)};
-}
 
 /// Null if it is not proved that the loop decays. Preconditions: a continuous controller; rigid
 /// faces, or compliant ones without damping.

@@ -1,0 +1,178 @@
+// Proofs that a drive cannot hunt, and where it then rests, beside the closed form and motion.
+#include "analysis/energy/absence_by_energy.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "analysis/energy/computed_rest.hpp"
+#include "base/seeded_draws.hpp"
+#include "closed_form/energy_balance.hpp"
+#include "gearlash/analyse.hpp"
+#include "gearlash/motion.hpp"
+#include "model/reduced_drive.hpp"
+#include "numeric/positive_polynomial.hpp"
+
+namespace gearlash {
+namespace {
+
+TEST(OraclePositivePolynomial, IsDecidedByItsRoots) {
+  const auto quadratic = [](double constant, double linear, double square) {
+    return is_positive({constant, linear, square});
+  };
+  EXPECT_TRUE(quadratic(1.0, -1.999, 1.0));
+  EXPECT_FALSE(quadratic(1.0, -2.0, 1.0));  // touches 0 at 1
+  EXPECT_FALSE(quadratic(1.0, -2.001, 1.0));
+  EXPECT_FALSE(quadratic(-1.0, 5.0, 1.0));
+  EXPECT_TRUE(quadratic(1e12, -1.9e6, 1.0));
+  EXPECT_TRUE(is_positive({0.0, 0.0, 2.0}));  // x²
+  EXPECT_FALSE(is_positive({}));
+  EXPECT_FALSE(is_positive({Interval(-1e-9, 1.0), 1.0}));
+}
+
+/// B ≥ 0 of docs/mathematics.md, which is_dissipative() decides in rational numbers.
+TEST(OracleAbsenceByEnergy, OfTheServoIsItsOwnTheorem) {
+  SeededDraws draws(20261123);
+  int proved = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const NormalizedServo servo{.damping = draws.log_uniform(0.1, 20.0),
+                                .inertia_ratio = draws.log_uniform(0.02, 50.0),
+                                .friction_ratio = draws.uniform(0.01, 0.99),
+                                .backlash = 1.0};
+    const double f = servo.friction_ratio;
+    const double r = servo.inertia_ratio;
+    const double margin =
+        4.0 * servo.damping * servo.damping * f * (1.0 - f) * (1.0 + r) - f - (1.0 - f) * r;
+    if (std::abs(margin) < 1e-9 * (f + r)) continue;  // rounding of the referred numbers decides
+    const bool found = is_absent_by_energy(
+        reduce(normal_form(servo.damping, servo.inertia_ratio, servo.friction_ratio)));
+    EXPECT_EQ(found, is_dissipative(servo)) << "case " << i;
+    proved += found ? 1 : 0;
+  }
+  EXPECT_GT(proved, 500);
+}
+
+Drive motor_drive(const PID& pid) {
+  Drive drive;
+  drive.motor = {.kind = TorqueControl{},
+                 .inertia = 0.4,
+                 .friction = {.viscous = 0.2, .coulomb = 0.03, .breakaway = 0.05}};
+  drive.load = {.inertia = 0.6, .friction = {.viscous = 0.3, .coulomb = 0.01}};
+  drive.gearbox = {.ratio = 1.0, .backlash = 0.1};
+  drive.sensor.position = SensorPlace::motor;
+  drive.controller.law = pid;
+  return drive;
+}
+
+TEST(AbsenceByEnergy, IsProvedForAMotorThatHoldsItselfWithAnyFriction) {
+  Drive drive = motor_drive({.terms = PIDTerms::PD, .proportional = 1.0, .derivative = 0.3});
+  EXPECT_TRUE(is_absent_by_energy(reduce(drive)));
+  drive.contact = RigidContact{0.9};
+  EXPECT_TRUE(is_absent_by_energy(reduce(drive)));
+  drive.contact = CompliantContact{.stiffness = 50.0, .damping = 2.0};
+  EXPECT_TRUE(is_absent_by_energy(reduce(drive)));
+}
+
+TEST(AbsenceByEnergy, IsNotProvedWhereTheTheoremSaysNothing) {
+  const PID proportional{.terms = PIDTerms::PD, .proportional = 1.0, .derivative = 0.3};
+  Drive on_load = motor_drive(proportional);
+  on_load.sensor.position = SensorPlace::load;
+  EXPECT_FALSE(is_absent_by_energy(reduce(on_load)));
+  EXPECT_FALSE(is_absent_by_energy(reduce(motor_drive(
+      {.terms = PIDTerms::PID, .proportional = 1.0, .integral = 0.1, .derivative = 0.3}))));
+  EXPECT_FALSE(is_absent_by_energy(reduce(motor_drive({.proportional = -1.0}))));
+  Drive sampled = motor_drive(proportional);
+  sampled.sampling = Sampling{.period = 1e-3};
+  EXPECT_FALSE(is_absent_by_energy(reduce(sampled)));
+  Drive limited = motor_drive(proportional);
+  limited.motor.limit = 1.0;
+  EXPECT_FALSE(is_absent_by_energy(reduce(limited)));
+  Drive coarse = motor_drive(proportional);
+  coarse.sensor.encoder.resolution = 0.01;
+  EXPECT_FALSE(is_absent_by_energy(reduce(coarse)));
+}
+
+/// PD and lead-lag controllers, every sensor, every contact, with dry friction or without.
+Drive random_drive(SeededDraws& draws) {
+  const double inertia_ratio = draws.log_uniform(0.2, 5.0);
+  const double motor_inertia = 1.0 / (1.0 + inertia_ratio);
+  const bool is_dry = draws.happens(0.3);
+  const auto friction = [&] {
+    const double coulomb = is_dry ? draws.log_uniform(1e-3, 3e-2) : 0.0;
+    return Friction{.viscous = draws.log_uniform(0.1, 2.0),
+                    .coulomb = coulomb,
+                    .breakaway = coulomb * draws.one_of({1.0, 1.5})};
+  };
+  Drive drive;
+  drive.motor = {.kind = TorqueControl{}, .inertia = motor_inertia, .friction = friction()};
+  drive.load = {.inertia = 1.0 - motor_inertia, .friction = friction()};
+  drive.gearbox = {.ratio = 1.0, .backlash = 0.1};
+  if (draws.happens(0.4)) {
+    drive.contact = CompliantContact{.stiffness = draws.log_uniform(5.0, 100.0),
+                                     .damping = draws.log_uniform(0.1, 5.0)};
+  } else {
+    drive.contact = RigidContact{draws.one_of({0.0, 0.5, 0.9})};
+  }
+  drive.sensor.position = draws.happens(0.5) ? SensorPlace::load : SensorPlace::motor;
+  if (draws.happens(0.5)) {
+    drive.controller.law =
+        PID{.terms = PIDTerms::PD, .proportional = 1.0, .derivative = draws.log_uniform(0.05, 1.0)};
+  } else {
+    const double zero = draws.log_uniform(0.3, 3.0);
+    drive.controller.law =
+        LeadLagController{.gain = 1.0, .zero = zero, .pole = zero * draws.log_uniform(1.0, 30.0)};
+  }
+  drive.load_torque = draws.happens(0.3) ? draws.uniform(-0.05, 0.05) : 0.0;
+  return drive;
+}
+
+/// No drive of the region keeps swinging, and all end where rest is computed to be.
+TEST(PropertyAbsenceByEnergy, DrivesOfTheRegionComeToTheComputedRest) {
+  SeededDraws draws(1960);
+  int proved = 0;
+  int dry = 0;
+  for (int i = 0; i < 600; ++i) {
+    const Drive drive = random_drive(draws);
+    const drive::ReducedDrive reduced = reduce(drive);
+    if (!is_absent_by_energy(reduced)) continue;
+    ++proved;
+    dry += drive.motor.friction.coulomb > 0.0 ? 1 : 0;
+    SCOPED_TRACE("drive " + std::to_string(i));
+    const std::optional<Rest> rest = computed_rest(reduced);
+    ASSERT_TRUE(rest);
+    constexpr double until = 400.0;
+    const Motion motion = simulate(drive, {.until = until, .start = Start{.load_position = 0.7}});
+    if (motion.stop() != MotionStop::reached_end) continue;
+    double least = infinity;
+    double most = -infinity;
+    for (int k = 0; k <= 400; ++k) {
+      const double load = motion.at(until * (0.9 + 0.1 * k / 400.0)).shafts.load_position;
+      least = std::min(least, load);
+      most = std::max(most, load);
+    }
+    EXPECT_LE(most - least, 2e-2 * 0.1);  // small against the gap, and still falling
+    EXPECT_GE(least, rest->load.low - 2e-3);
+    EXPECT_LE(most, rest->load.high + 2e-3);
+  }
+  EXPECT_GT(proved, 100);
+  EXPECT_GT(dry, 20);
+}
+
+TEST(AbsenceByEnergy, IsTheVerdictWithoutASearch) {
+  const Answer answer =
+      analyse(motor_drive({.terms = PIDTerms::PD, .proportional = 1.0, .derivative = 0.3}));
+  EXPECT_EQ(answer.verdict, Verdict::cannot_hunt);
+  EXPECT_EQ(answer.certainty, Certainty::enclosed);
+  EXPECT_TRUE(answer.is_dissipative);
+  EXPECT_FALSE(answer.search);
+  ASSERT_TRUE(answer.rest);
+  // The motor rests within 0.05 + 0.01 N m over 1 N m/rad, the load within half the gap of it.
+  EXPECT_NEAR(answer.rest->motor.high, 0.06, 1e-12);
+  EXPECT_NEAR(answer.rest->load.high, 0.06 + 0.05, 1e-12);
+  EXPECT_EQ(answer.value(Quantity::amplitude), 0.0);
+}
+
+}  // namespace
+}  // namespace gearlash
