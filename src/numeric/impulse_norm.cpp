@@ -26,8 +26,16 @@ struct Piece {
   double span;
 
   Interval factor(const Interval& s, std::size_t i) const {
-    return (s - step * static_cast<double>(i)) / span;
+    return step == 0.0 ? s : (s - step * static_cast<double>(i)) / span;
   }
+};
+
+/// What is integrated over a piece.
+struct Integrand {
+  Series series;
+  Series slope;       ///< of series, or what one more step adds
+  Series integrated;  ///< series with its terms divided by k + 1
+  Piece piece;
 };
 
 Interval value(const Series& series, const Interval& s, const Piece& piece) {
@@ -37,39 +45,40 @@ Interval value(const Series& series, const Interval& s, const Piece& piece) {
 }
 
 /// ∫ from 0 to s; or the sum of the values at 0 … s − 1.
-Interval integral(const Series& series, double s, const Piece& piece) {
+Interval integral(const Integrand& integrand, double s) {
   Interval sum = 0.0;
   for (std::size_t k = order; k-- > 0;) {
-    sum = sum * piece.factor(s, k + 1) + series[k] / Interval(static_cast<double>(k + 1));
+    sum = sum * integrand.piece.factor(s, k + 1) + integrand.integrated[k];
   }
   return sum * s;
 }
 
-/// The derivative; or what one more step adds.
-Series slope_of(const Series& series, const Piece& piece) {
-  Series slope;
-  for (std::size_t k = 1; k < order; ++k) {
-    slope[k - 1] = static_cast<double>(k) * series[k] / Interval(piece.span);
+Integrand integrand_of(const Series& series, const Piece& piece) {
+  Integrand result{.series = series, .slope = {}, .integrated = {}, .piece = piece};
+  for (std::size_t k = 0; k < order; ++k) {
+    const Interval next = static_cast<double>(k + 1);
+    result.integrated[k] = series[k] / next;
+    if (k + 1 < order) result.slope[k] = next * series[k + 1] / Interval(piece.span);
   }
-  slope[order - 1] = 0.0;
-  return slope;
+  return result;
 }
 
 /// ∫|series| from `from` to `to`; or Σ|series| over from … to − 1.
-Interval integral_of_size(const Series& series, const Series& slope, double from, double to,
-                          int halvings_left, const Piece& piece) {
+Interval integral_of_size(const Integrand& integrand, double from, double to, int halvings_left) {
+  const Piece& piece = integrand.piece;
   const bool is_stepwise = piece.step > 0.0;
-  if (is_stepwise && to - from == 1.0) return abs(value(series, from, piece));
+  if (is_stepwise && to - from == 1.0) return abs(value(integrand.series, from, piece));
   double middle = 0.5 * (from + to);  // exact: a multiple of a power of 2
   if (is_stepwise) middle = std::floor(middle);
-  const Interval range = value(series, middle, piece) + value(slope, Interval(from, to), piece) *
-                                                            Interval(from - middle, to - middle);
+  const Interval range =
+      value(integrand.series, middle, piece) +
+      value(integrand.slope, Interval(from, to), piece) * Interval(from - middle, to - middle);
   if (range.low >= 0.0 || range.high <= 0.0) {
-    return not_negative(abs(integral(series, to, piece) - integral(series, from, piece)));
+    return not_negative(abs(integral(integrand, to) - integral(integrand, from)));
   }
   if (halvings_left == 0) return {0.0, (Interval(to - from) * abs(range)).high};
-  return integral_of_size(series, slope, from, middle, halvings_left - 1, piece) +
-         integral_of_size(series, slope, middle, to, halvings_left - 1, piece);
+  return integral_of_size(integrand, from, middle, halvings_left - 1) +
+         integral_of_size(integrand, middle, to, halvings_left - 1);
 }
 
 double size_of(const IntervalVector& vector) {
@@ -234,8 +243,7 @@ Interval DecayingMotion::impulse_norm(const IntervalVector& input,
     }
     const bool is_continuous = kind_ == TimeKind::continuous;
     const Piece own = is_continuous ? Piece{0.0, 1.0} : Piece{1.0, length};
-    const Interval size_here =
-        integral_of_size(series, slope_of(series, own), 0.0, own.span, halvings, own);
+    const Interval size_here = integral_of_size(integrand_of(series, own), 0.0, own.span, halvings);
     sum = sum + (is_continuous ? length * size_here : size_here);
   }
   for (const Part& part : parts) {

@@ -225,8 +225,8 @@ TEST(OracleCeiling, OfAFastComputerIsThatOfAContinuousController) {
 TEST(PropertyCeiling, IsAboveEveryCycleOfTheServo) {
   SeededDraws draws(20261123);
   int hunting = 0;
-  for (int i = 0; i < 2000; ++i) {
-    const NormalizedServo servo{.damping = draws.log_uniform(0.02, 2.0),
+  for (int i = 0; i < 600; ++i) {
+    const NormalizedServo servo{.damping = draws.log_uniform(0.05, 2.0),
                                 .inertia_ratio = draws.log_uniform(0.01, 100.0),
                                 .friction_ratio = draws.uniform(0.0, 1.0),
                                 .backlash = 1.0};
@@ -239,7 +239,7 @@ TEST(PropertyCeiling, IsAboveEveryCycleOfTheServo) {
       EXPECT_LE(cycle.motor_amplitude, *ceiling.motor);
     }
   }
-  EXPECT_GT(hunting, 500);
+  EXPECT_GT(hunting, 200);
 }
 
 struct RandomDrive {
@@ -288,7 +288,7 @@ TEST(PropertyCeiling, IsNotExceededByMotionThatIsFollowedForLong) {
   SeededDraws draws(7);
   int bounded = 0;
   double largest_share = 0.0;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 120; ++i) {
     const RandomDrive random = random_drive(draws);
     const Ceiling ceiling = ceiling_of(reduce(random.drive));
     if (!ceiling.load) continue;
@@ -312,7 +312,7 @@ TEST(PropertyCeiling, IsNotExceededByMotionThatIsFollowedForLong) {
     EXPECT_LE(std::max(most - reference, reference - least), load * 1.05 + 1e-3);
     largest_share = std::max(largest_share, 0.5 * (most - least) / load);
   }
-  EXPECT_GT(bounded, 200);
+  EXPECT_GT(bounded, 80);
   EXPECT_GT(largest_share, 0.5);  // some come near it
 }
 
