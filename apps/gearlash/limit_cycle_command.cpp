@@ -7,6 +7,7 @@
 #include "analysis/analyse.hpp"
 #include "analysis/design/hunting_margin.hpp"
 #include "analysis/final_servo.hpp"
+#include "base/special_numbers.hpp"
 #include "command.hpp"
 #include "gearlash/motion.hpp"
 #include "input/units.hpp"
@@ -37,6 +38,7 @@ struct LimitCycleOptions {
   ServoOptions servo;
   std::string format = "text";
   std::vector<std::string> plots;
+  std::string time_limit;
   bool brief = false;
   bool margins = false;
   bool sensitivities = false;
@@ -162,6 +164,7 @@ std::string draw(const Work& work, const Plot& plot) {
 
 /// A verdict of hunting is undecided if the search found no amplitude.
 bool is_decided(const Answer& answer) {
+  if (answer.search && !answer.search->is_complete) return false;
   switch (answer.verdict) {
     case Verdict::hunts:
     case Verdict::hunts_if_disturbed:
@@ -189,10 +192,11 @@ void add_changes(Work& work, const Drive& drive, bool wants_margins, bool wants_
   }
 }
 
-Work analysed(const WrittenDrive& written, const Provenance& provenance) {
+Work analysed(const WrittenDrive& written, double time_limit, const Provenance& provenance) {
   Work work;
   {
     TerminalProgress progress("Searching");
+    progress.stop_after(time_limit);
     work.analysis = analyse_in_full(written.drive, {.ceiling = true}, progress);
   }
   work.report = report_of(written.drive, work.analysis.answer, written.angle, provenance);
@@ -225,9 +229,13 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   if (written && !closed_form_drive(written->drive)) {
     refuse_without_closed_form(options, plots, faults);
   }
+  double time_limit = infinity;
+  if (!options.time_limit.empty()) {
+    time_limit = read_time("--time-limit", options.time_limit, faults);
+  }
   faults.require_none();
 
-  Work work = analysed(*written, provenance);
+  Work work = analysed(*written, time_limit, provenance);
   const bool wants_sensitivities = options.sensitivities || has_kind(plots, "tornado");
   if (options.margins || wants_sensitivities) {
     add_changes(work, written->drive, options.margins, wants_sensitivities);
@@ -252,6 +260,11 @@ void add_limit_cycle_command(Command& app, Action& action) {
   command->add_option("--format", options->format, "Choose the format: text (default) or json")
       ->type_name("FORMAT");
   command->add_flag("--brief", options->brief, "Print the headline alone");
+  command
+      ->add_option("--time-limit", options->time_limit,
+                   "Stop a search after this time and print what is known by then, with\n"
+                   "exit status 1: \"30 s\"")
+      ->type_name("TIME");
   add_plot_option(*command, options->plots,
                   "Draw phase=FILE, the limit cycles in the phase plane (with a closed\n"
                   "form also a step response that leads to them), tornado=FILE, the\n"

@@ -276,6 +276,12 @@ WrittenDrive read_drive_as_typed(const ServoOptions& options, std::vector<Settin
 
 }  // namespace
 
+double read_time(const char* field, const std::string& text, Faults& faults) {
+  const double time = faults.collect([&] { return read_si(field, text, dimensions::time); }, 1.0);
+  if (!(time > 0.0)) faults.add({field, shown(text), "must be positive, in s", ""});
+  return time;
+}
+
 std::optional<WrittenDrive> resolve_drive(const ServoOptions& options, Faults& faults) {
   std::vector<Setting> settings = settings_of(options, faults);
   if (options.file.empty() && options.sensor) {

@@ -74,6 +74,9 @@ class Faults {
 /// A number in SI, or one with its unit ("50 ms"). Throws InvalidInput; "inf" is none.
 double read_si(std::string_view field, std::string_view text, const Dimension& dimension);
 
+/// A positive time of an option, in s or with its unit; a fault otherwise.
+double read_time(const char* field, const std::string& text, Faults& faults);
+
 /// The drive as its user has it: the file, or the normal form of the options, with the settings of
 /// --set. Adds faults to `faults`. Without faults there is a result, and it is valid.
 std::optional<WrittenDrive> resolve_drive(const ServoOptions& options, Faults& faults);

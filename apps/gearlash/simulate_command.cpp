@@ -104,12 +104,6 @@ double period_of_loop(const Drive& drive) {
   return drive::time_scales(reduce(drive)).swing;
 }
 
-double read_time(const char* field, const std::string& text, Faults& faults) {
-  const double time = faults.collect([&] { return read_si(field, text, dimensions::time); }, 1.0);
-  if (!(time > 0.0)) faults.add({field, shown(text), "must be positive, in s", ""});
-  return time;
-}
-
 /// The default end is ten periods of the loop plus twice the settling time of the signals. `drive`
 /// is nullptr if it has faults.
 void read_times(const SimulateOptions& options, const Drive* drive, Task& task, Faults& faults) {

@@ -66,6 +66,7 @@ bool TerminalProgress::go_on(double share, std::size_t /*bytes*/) {
   if (!has_begun_) begun_ = share;
   has_begun_ = true;
   const Clock::time_point now = Clock::now();
+  if (now >= end_) return false;
   if (!is_watched_ || now < next_) return true;
   next_ = now + refresh;
   const double seconds = std::chrono::duration<double>(now - start_).count();
@@ -76,6 +77,12 @@ bool TerminalProgress::go_on(double share, std::size_t /*bytes*/) {
   fmt::print(stderr, "\r{}", line);
   std::fflush(stderr);
   return true;
+}
+
+void TerminalProgress::stop_after(double seconds) {
+  constexpr double longest = 1e9;  // s; more would overflow the clock
+  end_ = start_ + std::chrono::duration_cast<Clock::duration>(
+                      std::chrono::duration<double>(std::min(seconds, longest)));
 }
 
 TerminalProgress::~TerminalProgress() {

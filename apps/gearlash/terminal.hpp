@@ -33,6 +33,8 @@ class TerminalProgress : public Progress {
 
   /// A first call before any work gives what was done earlier.
   bool go_on(double share, std::size_t bytes = 0) override;
+  /// The work stops this many seconds after it began.
+  void stop_after(double seconds);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -45,6 +47,7 @@ class TerminalProgress : public Progress {
   std::size_t width_ = 0;   ///< of the line that is shown
   Clock::time_point start_;
   Clock::time_point next_;
+  Clock::time_point end_ = Clock::time_point::max();
 };
 
 }  // namespace gearlash::cli

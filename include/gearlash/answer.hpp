@@ -21,7 +21,7 @@ enum class Verdict : std::uint8_t {
   hunts_irregularly,       ///< bounded motion that did not repeat
   grows_without_bound,     ///< no friction at all: the oscillation has no bound
   runs_away,               ///< no start stays bounded
-  runs_away_if_disturbed,  ///< some starts do not stay bounded
+  runs_away_if_disturbed,  ///< some starts do not stay bounded; others do, or are undecided
   forced,                  ///< a sine reference or load torque drives the oscillation
   undamped,                ///< neither friction nor backlash: any amplitude persists
   undecided

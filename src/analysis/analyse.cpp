@@ -187,15 +187,14 @@ Verdict verdict_of(const drive::AttractorSearch& search, const drive::ReducedDri
   const bool cycles = search.count(drive::MotionEnd::cycle) > 0;
   const bool swings = cycles || search.count(drive::MotionEnd::irregular) > 0;
   const bool diverges = search.count(drive::MotionEnd::diverges) > 0;
+  const bool is_open = search.count(drive::MotionEnd::undecided) > 0 || !search.is_complete;
   if (swings && is_driven(reduced)) return Verdict::forced;
   if (swings && rests) return Verdict::hunts_if_disturbed;
   if (cycles) return Verdict::hunts;
   if (swings) return Verdict::hunts_irregularly;
-  if (diverges) return rests ? Verdict::runs_away_if_disturbed : Verdict::runs_away;
-  // An undecided start could hunt.
-  const bool all_rest =
-      rests && search.count(drive::MotionEnd::undecided) == 0 && search.is_complete;
-  return all_rest ? Verdict::comes_to_rest : Verdict::undecided;
+  // An undecided start may stay bounded, or hunt.
+  if (diverges) return rests || is_open ? Verdict::runs_away_if_disturbed : Verdict::runs_away;
+  return rests && !is_open ? Verdict::comes_to_rest : Verdict::undecided;
 }
 
 std::vector<Note> notes_of(const drive::AttractorSearch& search) {

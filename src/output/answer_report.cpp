@@ -326,7 +326,25 @@ AnswerReport report_of(const Drive& drive, const Answer& answer) {
   return report_of(drive, answer, {}, {.command = "", .version = version});
 }
 
-std::string headline(const AnswerReport& report) {
+namespace {
+
+/// What a search leaves open or has found besides: "; 2 of 28 starts run away, 3 undecided".
+std::string besides(const Answer& answer) {
+  if (!answer.search) return "";
+  const bool is_verdict_on_runaway =
+      answer.verdict == Verdict::runs_away || answer.verdict == Verdict::runs_away_if_disturbed;
+  const std::size_t away = is_verdict_on_runaway ? 0 : answer.search->count("diverges");
+  const std::size_t open = answer.search->count("undecided");
+  std::string text = answer.search->is_complete ? "" : "; stopped early";
+  if (away + open == 0) return text;
+  const std::string of_all = fmt::format(" of {}", starts_text(answer.search->starts.size()));
+  if (away > 0) text += fmt::format("; {}{} run away", away, of_all);
+  if (open > 0)
+    text += fmt::format("{}{}{} undecided", away > 0 ? ", " : "; ", open, away > 0 ? "" : of_all);
+  return text;
+}
+
+std::string headline_of_verdict(const AnswerReport& report) {
   const Answer& answer = report.answer;
   std::string verdict = name_of(answer.verdict);
   switch (answer.verdict) {
@@ -357,6 +375,12 @@ std::string headline(const AnswerReport& report) {
     default:
       return verdict;
   }
+}
+
+}  // namespace
+
+std::string headline(const AnswerReport& report) {
+  return headline_of_verdict(report) + besides(report.answer);
 }
 
 std::string answer_text(const AnswerReport& report) {

@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
+
+#include "analysis/analyse.hpp"
+#include "model/reduced_drive.hpp"
 
 namespace gearlash {
 namespace {
@@ -35,6 +39,26 @@ TEST(EdgeAnalyse, BoundsCoverTheDataWhereTheFrictionIsADifference) {
     EXPECT_LE(answer.bounds->growth_at_rest.low, growth);
     EXPECT_GE(answer.bounds->growth_at_rest.high, growth);
   }
+}
+
+/// A verdict on all starts needs all of them decided.
+TEST(Analyse, IsNoVerdictOnStartsThatAreUndecided) {
+  const drive::ReducedDrive drive = reduce(almost_undamped_motor(0.5));
+  const auto verdict = [&](std::vector<drive::MotionEnd> ends, bool is_complete = true) {
+    drive::AttractorSearch search;
+    search.outcomes.resize(ends.size());
+    for (std::size_t i = 0; i < ends.size(); ++i) search.outcomes[i].end = ends[i];
+    search.is_complete = is_complete;
+    return answer_of(search, drive).verdict;
+  };
+  using enum drive::MotionEnd;
+  EXPECT_EQ(verdict({diverges, diverges}), Verdict::runs_away);
+  EXPECT_EQ(verdict({diverges, undecided}), Verdict::runs_away_if_disturbed);
+  EXPECT_EQ(verdict({diverges}, false), Verdict::runs_away_if_disturbed);
+  EXPECT_EQ(verdict({diverges, rest}), Verdict::runs_away_if_disturbed);
+  EXPECT_EQ(verdict({rest, rest}), Verdict::comes_to_rest);
+  EXPECT_EQ(verdict({rest, undecided}), Verdict::undecided);
+  EXPECT_EQ(verdict({rest}, false), Verdict::undecided);
 }
 
 }  // namespace

@@ -127,6 +127,23 @@ TEST(LimitCycleCommand, EnergyProvesWhatNoSearchCan) {
   EXPECT_EQ(printed["certainty"]["verdict"], "theorem");
 }
 
+TEST(LimitCycleCommand, PrintsWhatIsKnownAtItsTimeLimit) {
+  const Outcome run = run_tool(
+      {"limit-cycle", "examples/robot-joint.toml", "--format", "json", "--time-limit", "1 ms"});
+  EXPECT_EQ(run.status, 1) << run.err;
+  const json answer = json::parse(run.out);
+  EXPECT_FALSE(answer["search"]["complete"].get<bool>());
+  EXPECT_THAT(run.err, HasSubstr("stopped early"));
+  EXPECT_LT(answer["search"]["starts"].size(), 10U);
+}
+
+TEST(LimitCycleCommand, RefusesATimeLimitThatIsNone) {
+  const Outcome run =
+      run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--time-limit", "0 s"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("--time-limit = 0 s: must be positive, in s"));
+}
+
 TEST(LimitCycleCommand, BouncingContactHasItsCyclesInJsonToo) {
   const json printed = parsed(
       run_tool(with_sample_servo({"limit-cycle", "--format", "json", "--restitution", "0.3"})));

@@ -115,6 +115,10 @@ class Search {
       verdict.watched = watch.time;
       verdict.last = watch.here.numbers;
       if (is_decided(watch, motion, verdict)) return verdict;
+      if (!goes_on()) {
+        verdict.reason = "the search was stopped";
+        return verdict;
+      }
       if (watch.events >= most_events_ || watch.time >= longest(watch, motion, patience)) {
         give_up(watch, motion, verdict);
         return verdict;
