@@ -145,45 +145,92 @@ double Part::advance(double length, Series& sum) {
   return (output_size * (length * left_out + jump / rate)).high;
 }
 
+/// Input and output in the coordinates ξ: b = S(start + start_error), cS = output + output_error.
+struct Transformed {
+  Eigen::VectorXd start;
+  Eigen::VectorXd output;
+  IntervalVector start_error;  ///< but for the error of the inverse
+  IntervalVector output_error;
+};
+
+double middle(const Interval& number) { return 0.5 * (number.low + number.high); }
+
+Transformed transformed(const Matrix& basis, const Matrix& inverse, const IntervalVector& input,
+                        const IntervalVector& output) {
+  const Index size = basis.rows();
+  const auto at = [](Index index) { return static_cast<std::size_t>(index); };
+  Transformed result{Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size),
+                     IntervalVector(at(size), Interval(0.0)), IntervalVector(at(size))};
+  for (Index i = 0; i < size; ++i) {
+    for (Index k = 0; k < size; ++k) {
+      result.start[i] += inverse(i, k) * middle(input[at(k)]);
+      result.output[i] += middle(output[at(k)]) * basis(k, i);
+    }
+  }
+  IntervalVector rest(at(size));  // b − S start
+  for (Index i = 0; i < size; ++i) {
+    rest[at(i)] = input[at(i)];
+    result.output_error[at(i)] = -Interval(result.output[i]);
+    for (Index k = 0; k < size; ++k) {
+      rest[at(i)] = rest[at(i)] - Interval(basis(i, k)) * result.start[k];
+      result.output_error[at(i)] = result.output_error[at(i)] + output[at(k)] * basis(k, i);
+    }
+  }
+  for (Index i = 0; i < size; ++i) {
+    for (Index k = 0; k < size; ++k) {
+      result.start_error[at(i)] = result.start_error[at(i)] + inverse(i, k) * rest[at(k)];
+    }
+  }
+  return result;
+}
+
+/// Ends the parts that hardly matter any more and gives the size of the fastest other one; 0 if
+/// there is none. Adds what is left of those that end to `error`.
+double fastest_of(std::vector<Part>& parts, double so_far, Interval& error) {
+  double fastest = 0.0;
+  for (Part& part : parts) {
+    if (part.is_over) continue;
+    const double rest = part.rest();
+    if (rest <= negligible * so_far) {
+      error = error + rest;
+      part.is_over = true;
+    } else {
+      fastest = std::max(fastest, part.size);
+    }
+  }
+  return fastest;
+}
+
+/// ∫ or Σ of |Σ output · state| of all parts, for the block diagonal motion.
+Interval integral_of(std::vector<Part>& parts, TimeKind kind) {
+  const bool is_continuous = kind == TimeKind::continuous;
+  Interval sum = 0.0;
+  Interval error = 0.0;
+  for (std::size_t i = 0; i < most_pieces; ++i) {
+    const double fastest = fastest_of(parts, sum.low, error);
+    if (fastest == 0.0) break;
+    // Beyond 2⁵⁰ steps numbers are no longer whole.
+    const double length =
+        is_continuous ? stretch / fastest : std::clamp(std::floor(stretch / fastest), 1.0, 0x1p50);
+    Series series;
+    for (Part& part : parts) {
+      if (!part.is_over) error = error + part.advance(length, series);
+    }
+    const Piece own = is_continuous ? Piece{0.0, 1.0} : Piece{1.0, length};
+    const Interval here = integral_of_size(integrand_of(series, own), 0.0, own.span, halvings);
+    sum = sum + (is_continuous ? length * here : here);
+  }
+  for (const Part& part : parts) {
+    if (!part.is_over) error = error + part.rest();
+  }
+  return {(sum - error).low, (sum + error).high};
+}
+
 }  // namespace
 
 Interval DecayingMotion::impulse_norm(const IntervalVector& input,
                                       const IntervalVector& output) const {
-  const Index size = basis_.rows();
-  const auto at = [](Index index) { return static_cast<std::size_t>(index); };
-  // b = S(b̂ + error), with b̂ = Rb in doubles; c S = ĉ + error.
-  Eigen::VectorXd start(size);
-  Eigen::VectorXd seen(size);
-  for (Index i = 0; i < size; ++i) {
-    double sum_of_start = 0.0;
-    double sum_of_seen = 0.0;
-    for (Index k = 0; k < size; ++k) {
-      sum_of_start += inverse_(i, k) * 0.5 * (input[at(k)].low + input[at(k)].high);
-      sum_of_seen += 0.5 * (output[at(k)].low + output[at(k)].high) * basis_(k, i);
-    }
-    start[i] = sum_of_start;
-    seen[i] = sum_of_seen;
-  }
-  IntervalVector rest_of_input(at(size));
-  IntervalVector rest_of_output(at(size));
-  for (Index i = 0; i < size; ++i) {
-    Interval in = input[at(i)];
-    Interval out = -Interval(seen[i]);
-    for (Index k = 0; k < size; ++k) {
-      in = in - Interval(basis_(i, k)) * start[k];
-      out = out + output[at(k)] * basis_(k, i);
-    }
-    rest_of_input[at(i)] = in;
-    rest_of_output[at(i)] = out;
-  }
-  IntervalVector start_error(at(size));
-  for (Index i = 0; i < size; ++i) {
-    Interval sum = 0.0;
-    for (Index k = 0; k < size; ++k) sum = sum + inverse_(i, k) * rest_of_input[at(k)];
-    start_error[at(i)] = sum;
-  }
-  const Interval spread = inverse_error_ * Interval(size_of(start_error));
-
+  const Transformed seen = transformed(basis_, inverse_, input, output);
   std::vector<Part> parts;
   for (const Block& block : blocks_) {
     Part& part = parts.emplace_back();
@@ -191,14 +238,14 @@ Interval DecayingMotion::impulse_norm(const IntervalVector& input,
     part.kind = kind_;
     part.size = block.size;
     part.rate = block.rate;
-    part.state.assign(start.data() + block.first, start.data() + end_of(block));
-    part.output.assign(seen.data() + block.first, seen.data() + end_of(block));
+    part.state.assign(seen.start.data() + block.first, seen.start.data() + end_of(block));
+    part.output.assign(seen.output.data() + block.first, seen.output.data() + end_of(block));
     part.output_size = size_of({part.output.begin(), part.output.end()});
   }
-
-  // What the block diagonal flow leaves out.
-  const std::vector<double> start_errors = norms(start_error);
-  const std::vector<double> output_errors = norms(rest_of_output);
+  // What the block diagonal motion leaves out.
+  const Interval spread = inverse_error_ * Interval(size_of(seen.start_error));
+  const std::vector<double> start_errors = norms(seen.start_error);
+  const std::vector<double> output_errors = norms(seen.output_error);
   std::vector<Interval> durations;  // ≥ ∫‖ξ̂‖ dt of each block
   for (const Part& part : parts) {
     durations.push_back(Interval(size_of({part.state.begin(), part.state.end()})) / part.rate);
@@ -213,43 +260,13 @@ Interval DecayingMotion::impulse_norm(const IntervalVector& input,
   }
   const std::optional<std::vector<double>> differences = integrals(sources);
   if (!differences) return {0.0, infinity};
-  Interval error = 0.0;
+  Interval left_out = 0.0;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    error = error + (parts[i].output_size + Interval(output_errors[i])) * (*differences)[i] +
-            output_errors[i] * durations[i];
+    left_out = left_out + (parts[i].output_size + Interval(output_errors[i])) * (*differences)[i] +
+               output_errors[i] * durations[i];
   }
-
-  Interval sum = 0.0;
-  for (std::size_t i = 0; i < most_pieces; ++i) {
-    double fastest = 0.0;
-    for (Part& part : parts) {
-      if (part.is_over) continue;
-      const double rest = part.rest();
-      if (rest <= negligible * sum.low) {
-        error = error + rest;
-        part.is_over = true;
-      } else {
-        fastest = std::max(fastest, part.size);
-      }
-    }
-    if (fastest == 0.0) break;
-    // Beyond 2⁵⁰ steps numbers are no longer whole.
-    const double length = kind_ == TimeKind::continuous
-                              ? stretch / fastest
-                              : std::clamp(std::floor(stretch / fastest), 1.0, 0x1p50);
-    Series series;
-    for (Part& part : parts) {
-      if (!part.is_over) error = error + part.advance(length, series);
-    }
-    const bool is_continuous = kind_ == TimeKind::continuous;
-    const Piece own = is_continuous ? Piece{0.0, 1.0} : Piece{1.0, length};
-    const Interval size_here = integral_of_size(integrand_of(series, own), 0.0, own.span, halvings);
-    sum = sum + (is_continuous ? length * size_here : size_here);
-  }
-  for (const Part& part : parts) {
-    if (!part.is_over) error = error + part.rest();
-  }
-  return {std::max(0.0, (sum - error).low), (sum + error).high};
+  const Interval sum = integral_of(parts, kind_);
+  return {std::max(0.0, (sum - left_out).low), (sum + left_out).high};
 }
 
 }  // namespace gearlash
