@@ -1,6 +1,5 @@
 #include "analysis/ceiling/ceiling.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -31,11 +30,7 @@ std::string obstacle(const ReducedDrive& drive) {
   if (faces != nullptr) return "compliant faces under a sampled controller: no bound is known";
   const drive::LinearController controller =
       drive::sampled_controller(drive.controller, *drive.sampling);
-  const bool uses_speed =
-      controller.direct[2] != 0.0 ||
-      std::any_of(controller.input_matrix.begin(), controller.input_matrix.end(),
-                  [](const std::vector<double>& row) { return row[2] != 0.0; });
-  if (uses_speed && !drive.sampling->speed_by_differences) {
+  if (uses_speed(controller) && !drive.sampling->speed_by_differences) {
     return "a sampled tachometer: it reads the speed of the gap, which has no bound here";
   }
   return {};

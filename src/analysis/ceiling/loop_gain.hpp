@@ -35,6 +35,9 @@ class DisturbedLoop {
   virtual LoopGain gain(Disturbance disturbance) const = 0;
 };
 
+/// Whether the controller's torque depends on the sensed speed.
+bool uses_speed(const drive::LinearController& controller);
+
 /// Null if it is not proved that the loop decays. Preconditions: a continuous controller; rigid
 /// faces, or compliant ones without damping.
 std::unique_ptr<DisturbedLoop> continuous_loop(const drive::ReducedDrive& drive);

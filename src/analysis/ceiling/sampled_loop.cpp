@@ -145,12 +145,6 @@ class SampledLoop : public DisturbedLoop {
   std::optional<DecayingMotion> motion_;
 };
 
-bool uses_speed(const LinearController& controller) {
-  return controller.direct[2] != 0.0 ||
-         std::any_of(controller.input_matrix.begin(), controller.input_matrix.end(),
-                     [](const std::vector<double>& row) { return row[2] != 0.0; });
-}
-
 SampledLoop::SampledLoop(const ReducedDrive& drive)
     : period_in_doubles_(drive.sampling->period),
       delay_(drive::split_delay(*drive.sampling)),
@@ -346,6 +340,12 @@ LoopGain SampledLoop::gain(Disturbance disturbance) const {
 }
 
 }  // namespace
+
+bool uses_speed(const LinearController& controller) {
+  return controller.direct[2] != 0.0 ||
+         std::any_of(controller.input_matrix.begin(), controller.input_matrix.end(),
+                     [](const std::vector<double>& row) { return row[2] != 0.0; });
+}
 
 std::unique_ptr<DisturbedLoop> sampled_loop(const ReducedDrive& drive) {
   auto loop = std::make_unique<SampledLoop>(drive);

@@ -136,8 +136,8 @@ bool is_absent_by_energy(const ReducedDrive& drive) {
   const bool is_dry = drive.motor.friction.is_dry() || drive.load.friction.is_dry();
   if (!is_dry) return has_positive_real_part(product(shaft(drive.load), motor), closed);
   // Ports of motor and load are apart only where nothing is measured on the load.
-  const bool measures_load = drive.sensing.load_share_of_position != 0.0 ||
-                             (drive.sensing.load_share_of_speed != 0.0 && !loop.speed.empty());
+  const bool measures_load =
+      drive.sensing.load_share_of_position != 0.0 || drive.sensing.load_share_of_speed != 0.0;
   return !measures_load && drive.load.friction.viscous > 0.0 &&
          has_positive_real_part(motor, product(s, loop.denominator));
 }
