@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "base/special_numbers.hpp"
@@ -25,6 +26,42 @@ class ClockTicks {
   }
 
   std::size_t count() const { return ticks_.size(); }
+  /// Whether the clock's ticks are all alike: periodic, and none adds anything.
+  bool is_regular(std::size_t clock) const {
+    return clocks_[clock].period > 0.0 && clocks_[clock].additions.empty();
+  }
+  /// Whether all clocks are, or have no more ticks.
+  bool are_regular() const {
+    for (std::size_t i = 0; i < ticks_.size(); ++i) {
+      if (!is_regular(i) && std::isfinite(ticks_[i].time)) return false;
+    }
+    return true;
+  }
+  /// The period of all clocks that still tick. 0 if they have several. Precondition: are_regular().
+  double common_period() const {
+    double period = 0.0;
+    for (std::size_t i = 0; i < ticks_.size(); ++i) {
+      if (!std::isfinite(ticks_[i].time)) continue;
+      if (period != 0.0 && clocks_[i].period != period) return 0.0;
+      period = clocks_[i].period;
+    }
+    return period;
+  }
+  /// Passes over this many ticks of every clock. Precondition: are_regular().
+  void pass_over(std::size_t count) {
+    for (std::size_t i = 0; i < ticks_.size(); ++i) {
+      if (!std::isfinite(ticks_[i].time)) continue;
+      ticks_[i].count += count;
+      ticks_[i].time = clocks_[i].first + static_cast<double>(ticks_[i].count) * clocks_[i].period;
+    }
+  }
+  /// Moves all clocks past their ticks before a time. Precondition: are_regular().
+  void pass_before(double time) {
+    for (std::size_t i = 0; i < ticks_.size(); ++i) {
+      if (!std::isfinite(ticks_[i].time)) continue;
+      ticks_[i] = first_tick(clocks_[i], std::max(time, ticks_[i].time));
+    }
+  }
   bool is_due(std::size_t clock, double time) const { return ticks_[clock].time <= time; }
 
   /// Moves past the next tick. Returns what it adds to the state, or null.

@@ -37,6 +37,16 @@ StepEnd GuardWatch::next_exit(const StepSeries& step) {
   return {};
 }
 
+bool GuardWatch::are_clear(const PreparedMode& mode, const double* numbers,
+                           const double* noise) const {
+  for (std::size_t i = 0; i < mode.guards.size(); ++i) {
+    if (!(signs_[i] * mode.guards[i].at(numbers) > mode.guards[i].noise_at(numbers, noise))) {
+      return false;
+    }
+  }
+  return true;
+}
+
 /// When a guard leaves its side within the step. If `roughly`, by its leading terms alone where
 /// these decide.
 inline GuardWatch::StepExit GuardWatch::exit_of(const StepSeries& step, std::size_t guard,

@@ -41,6 +41,9 @@ class GuardWatch {
   /// only one.
   StepEnd next_exit(const StepSeries& step);
 
+  /// Whether every guard is on its side by more than rounding, in a state that does not move.
+  bool are_clear(const PreparedMode& mode, const double* numbers, const double* noise) const;
+
   /// Touches of the last step, including those after its exit.
   const std::vector<Touch>& touches() const { return touches_; }
 

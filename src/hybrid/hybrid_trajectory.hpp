@@ -56,6 +56,28 @@ struct SimulationOptions {
   std::size_t event_limit = 1'000'000;  ///< the motion stops just after this many events
 };
 
+/// Receives a motion piece by piece, so that nothing of it need be kept.
+class MotionObserver {
+ public:
+  MotionObserver() = default;
+  MotionObserver(const MotionObserver&) = delete;
+  MotionObserver& operator=(const MotionObserver&) = delete;
+  virtual ~MotionObserver() = default;
+  /// The motion went from one state to another, without an event between them. Pieces follow each
+  /// other in time. They are at most as long as a step of the series, so that a number and its
+  /// derivative at both ends describe the number well.
+  virtual void moved(double from, double to, const Vector& before, const Vector& after) = 0;
+};
+
+/// What remains of a motion that was observed.
+struct Observed {
+  double time = 0.0;  ///< of the end
+  State end{};
+  StopReason stop_reason = StopReason::reached_end;
+  std::string culprit{};   ///< as Trajectory::culprit()
+  std::size_t events = 0;  ///< without the ticks of a drive that stands
+};
+
 class Preparation;  // how modes are kept ready
 class Trajectory;
 
@@ -74,6 +96,8 @@ class PreparedSystem {
  private:
   friend Trajectory simulate(const PreparedSystem& system, const State& start,
                              const SimulationOptions& options);
+  friend Observed observe(const PreparedSystem& system, const State& start,
+                          const SimulationOptions& options, MotionObserver& observer);
   std::shared_ptr<const Preparation> preparation_;
 };
 
@@ -143,5 +167,11 @@ Trajectory simulate(const HybridSystem& system, const State& start,
 /// The same, but checks only the start and the options.
 Trajectory simulate(const PreparedSystem& system, const State& start,
                     const SimulationOptions& options);
+
+/// The same motion, which `observer` receives. Nothing is kept of it. While nothing moves between
+/// ticks, these are repeated without counting as events, until one of them leads to another mode or
+/// brings a guard near 0. Ticks that change nothing at all are passed over.
+Observed observe(const PreparedSystem& system, const State& start, const SimulationOptions& options,
+                 MotionObserver& observer);
 
 }  // namespace gearlash::hybrid

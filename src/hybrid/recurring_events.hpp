@@ -24,6 +24,13 @@ class RecurringEvents {
     }
   }
 
+  /// Only this many of the last events are still there.
+  void limit(std::size_t most) {
+    for (std::size_t turn = 1; turn <= longest_turn; ++turn) {
+      recurrences_[turn - 1] = std::min(recurrences_[turn - 1], most - 2 * turn);
+    }
+  }
+
   /// Duration of the turn that ended this many turns ago.
   double duration(std::size_t turn, std::size_t ago) const {
     const std::size_t last = events_.size() - 1 - ago * turn;

@@ -40,10 +40,11 @@ std::vector<Fault> faults_of(const HybridSystem& system, const State& start,
 class Simulation {
  public:
   Simulation(std::shared_ptr<const Preparation> preparation, const State& start,
-             const SimulationOptions& options)
+             const SimulationOptions& options, MotionObserver* observer = nullptr)
       : preparation_(*preparation),
         system_(preparation_.system()),
         options_(options),
+        observer_(observer),
         state_(start),
         time_(options.from),
         ticks_(system_.clocks, options.from) {
@@ -62,6 +63,7 @@ class Simulation {
     if (options_.event_limit == 0) stop(StopReason::event_limit);
     while (!stopped_) {
       if (fire_due_clocks()) continue;
+      if (observer_ != nullptr) stand();
       if (time_ >= options_.until) break;
       step();
     }
@@ -70,7 +72,131 @@ class Simulation {
     return std::move(trajectory_);
   }
 
+  /// Of a motion that an observer has received.
+  Observed observed() {
+    Trajectory rest = run();
+    return {rest.end_time_, std::move(rest.end_), rest.stop_reason_, std::move(rest.culprit_),
+            rest.events_.size() + forgotten_};
+  }
+
  private:
+  // ---- standing ---------------------------------------------------------------------------------
+
+  /// Repeats the ticks of a mode in which nothing moves, while they lead back to it and leave its
+  /// guards clear. The clocks fire before the next step, so none is due here.
+  void stand() {
+    if (ticks_.count() == 0 || !ticks_.are_regular()) return;
+    const double period = ticks_.common_period();
+    Rounds rounds;
+    double round_ends = time_;
+    std::size_t unchanged = 0;
+    while (ticks_.next() < options_.until && stands_clear()) {
+      standing_ = state_.numbers;
+      if (!repeat_ticks(ticks_.next())) {
+        state_.numbers = standing_;
+        return;
+      }
+      unchanged = state_.numbers == standing_ ? unchanged + 1 : 0;
+      // Each clock has ticked at least once in this many instants.
+      if (unchanged > 2 * ticks_.count()) ticks_.pass_before(options_.until);
+      if (period == 0.0 || time_ < round_ends) continue;
+      round_ends = time_ + (1.0 - 1e-6) * period;
+      rounds.add(state_.numbers);
+      if (rounds.are_alike()) pass_over_rounds(rounds, period);
+    }
+  }
+
+  /// Rounds of all clocks that each change the numbers in the same way.
+  struct Rounds {
+    Vector last;
+    Vector change;          ///< in the last round
+    std::size_t alike = 0;  ///< rounds before it with the same change, within rounding
+
+    void add(const Vector& numbers) {
+      if (last.size() == 0) {
+        last = numbers;
+        change = Vector::Zero(numbers.size());
+        return;
+      }
+      constexpr double rounding = 8.0 * epsilon;
+      bool is_alike = true;
+      for (Eigen::Index i = 0; i < numbers.size(); ++i) {
+        const double step = numbers[i] - last[i];
+        const double size = std::abs(numbers[i]) + std::abs(last[i]);
+        is_alike = is_alike && std::abs(step - change[i]) <= rounding * size;
+        change[i] = step;
+      }
+      last = numbers;
+      alike = is_alike ? alike + 1 : 0;
+    }
+    bool are_alike() const { return alike > 2; }
+  };
+
+  /// Passes over rounds that change the numbers alike, up to some before a guard or an alternative
+  /// comes near 0. The ticks are affine and nothing that is read moves, so a change that has
+  /// repeated goes on repeating.
+  void pass_over_rounds(Rounds& rounds, double period) {
+    constexpr double margin =
+        8.0;  // rounds; between the ticks of one the numbers differ from these
+    const double left = (options_.until - time_) / period;
+    double most = left;
+    const auto keep = [&](const SparseForm& form) {
+      const double change =
+          form.at(rounds.last.data()) - form.at((rounds.last - rounds.change).eval().data());
+      const double value = form.at(state_.numbers.data());
+      if (change * value < 0.0) most = std::min(most, -value / change);
+    };
+    for (const SparseForm& guard : mode_->guards) keep(guard);
+    for (const PreparedJump& jump : mode_->timed) {
+      for (const PreparedAlternative& alternative : jump.alternatives) {
+        for (const SparseForm& form : alternative.positive) keep(form);
+      }
+    }
+    if (!(most > 2.0 * margin)) return;
+    const double passed = std::floor(most - margin);
+    standing_ = state_.numbers;
+    state_.numbers += passed * rounds.change;
+    const double now = time_ + passed * period;
+    ticks_.pass_over(static_cast<std::size_t>(passed));
+    observer_->moved(time_, now, standing_, state_.numbers);
+    time_ = now;
+    noise_ = sum_rounding * state_.numbers.cwiseAbs();
+    rounds = {};
+  }
+
+  /// Whether nothing moves and no guard is near 0.
+  bool stands_clear() {
+    flow_->flow.velocity_at(state_.numbers.data(), velocity_);
+    return std::all_of(velocity_.values.begin(), velocity_.values.end(),
+                       [](double value) { return value == 0.0; }) &&
+           guards_.are_clear(*mode_, state_.numbers.data(), noise_.data());
+  }
+
+  /// Applies the ticks at an instant. False, with the state spoilt, if they do not lead back to the
+  /// mode or to a guard's side.
+  bool repeat_ticks(double now) {
+    const std::vector<TimedTransition>& timed = mode_->mode().timed;
+    for (std::size_t i = 0; i < ticks_.count(); ++i) {
+      if (!ticks_.is_due(i, now)) continue;
+      for (std::size_t k = 0; k < timed.size(); ++k) {
+        if (timed[k].clock != i) continue;
+        ticked_ = state_.numbers;
+        mode_->timed[k].reset.apply(timed[k].reset, ticked_, state_.numbers, noise_, noise_before_);
+        if (target_among(mode_->timed[k].alternatives, timed[k].target) != state_.mode)
+          return false;
+        break;
+      }
+    }
+    noise_ = sum_rounding * state_.numbers.cwiseAbs();
+    if (!stands_clear()) return false;
+    for (std::size_t i = 0; i < ticks_.count(); ++i) {
+      if (ticks_.is_due(i, now)) ticks_.pass(i);
+    }
+    observer_->moved(time_, now, standing_, state_.numbers);
+    time_ = now;
+    return true;
+  }
+
   // ---- clocks -----------------------------------------------------------------------------------
 
   /// Fires one clock that is due. False if none is.
@@ -103,6 +229,8 @@ class Simulation {
     const double share = std::min(next.share, 1.0);
     if (share > 0.0) {
       record_step();
+      const double from = time_;
+      if (observer_ != nullptr) standing_ = state_.numbers;
       advance(share * length, length);
       const double end = share < 1.0 || length < limit - time_ ? time_ + share * length : limit;
       if (!(end > time_) && next.share > 1.0) return stop(StopReason::zeno);
@@ -114,6 +242,7 @@ class Simulation {
           put_on_guard(next.guard, 0x1p-20 * share * length, sum_rounding);
         }
       }
+      if (observer_ != nullptr) observer_->moved(from, time_, standing_, state_.numbers);
     }
     for (const Touch& touch : guards_.touches()) {
       if (touch.time < time_) trajectory_.touches_.push_back(touch);
@@ -243,7 +372,22 @@ class Simulation {
     count_at_instant();
     recurring_.note();
     enter_mode();
-    if (events.size() >= options_.event_limit) stop(StopReason::event_limit);
+    if (events.size() + forgotten_ >= options_.event_limit) stop(StopReason::event_limit);
+    if (observer_ != nullptr) forget();
+  }
+
+  /// Of a motion that is observed only the last events are kept, which show what recurs at an
+  /// instant or ever faster.
+  void forget() {
+    trajectory_.steps_.clear();
+    trajectory_.starts_.clear();
+    trajectory_.touches_.clear();
+    constexpr std::size_t kept = 256;
+    std::vector<Event>& events = trajectory_.events_;
+    if (events.size() < 2 * kept) return;
+    forgotten_ += events.size() - kept;
+    events.erase(events.begin(), events.end() - kept);
+    recurring_.limit(kept);
   }
 
   std::size_t target_among(const std::vector<PreparedAlternative>& alternatives,
@@ -346,6 +490,7 @@ class Simulation {
   const Preparation& preparation_;
   const HybridSystem& system_;
   const SimulationOptions& options_;
+  MotionObserver* observer_;
   const PreparedMode* mode_ = nullptr;
   const PreparedFlow* flow_ = nullptr;        ///< of the step
   const PreparedMode::Slow* slow_ = nullptr;  ///< set if flow_ is the slow one
@@ -360,8 +505,11 @@ class Simulation {
   Velocity velocity_;  ///< at the start of the step
   std::vector<double> scratch_;
   Vector noise_before_;
+  Vector standing_;  ///< numbers at the start of a piece that is observed
+  Vector ticked_;
   bool stopped_ = false;
   std::size_t at_instant_ = 0;
+  std::size_t forgotten_ = 0;  ///< events no longer kept
   Trajectory trajectory_;
   RecurringEvents recurring_{trajectory_.events_};
 };
@@ -383,6 +531,12 @@ Trajectory simulate(const PreparedSystem& system, const State& start,
                     const SimulationOptions& options) {
   require_none(faults_of(system.system(), start, options));
   return Simulation(system.preparation_, start, options).run();
+}
+
+Observed observe(const PreparedSystem& system, const State& start, const SimulationOptions& options,
+                 MotionObserver& observer) {
+  require_none(faults_of(system.system(), start, options));
+  return Simulation(system.preparation_, start, options, &observer).observed();
 }
 
 }  // namespace gearlash::hybrid

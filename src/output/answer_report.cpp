@@ -231,26 +231,27 @@ std::string irregular_text(const AnswerReport& report, const IrregularMotion& mo
   const auto spread = [](double mean, double deviation) {
     return fmt::format("spread {:.2g} %", 100.0 * deviation / mean);
   };
-  constexpr double chaotic = 10.0;  // e-foldings of the separation of neighbouring motions
-  const bool is_chaotic = *motion.exponent * *motion.watched > chaotic;
   const std::string title = motion.is_motor_alone
                                 ? "The motor hunts within the gap, while the load hardly moves"
                                 : "Motion that was not seen to repeat";
-  return "\n" + title + "\n" +
-         table_text(
-             {amplitude_row(report, "amplitude, load", motion.amplitude),
-              amplitude_row(report, "amplitude, motor", *motion.motor_amplitude),
-              {"center, from the reference", angle_text(motion.center, report.angle, table_digits),
-               ""},
-              {"mean amplitude", swing_text(*motion.mean_amplitude, report.angle, table_digits),
-               spread(*motion.mean_amplitude, *motion.amplitude_deviation)},
-              {"mean period", units.time(*motion.mean_period),
-               spread(*motion.mean_period, *motion.period_deviation)},
-              {"swings repeat to within", fmt::format("{:.2g} %", 100.0 * *motion.mismatch), ""},
-              {"neighboring motions part at", units.rate(*motion.exponent),
-               is_chaotic ? "chaotic" : ""},
-              {"followed for", units.time(*motion.watched), ""},
-              {"reached from", starts_text(motion.starts), ""}});
+  Rows rows = {
+      {amplitude_row(report, "amplitude, load", motion.amplitude)},
+      {amplitude_row(report, "amplitude, motor", *motion.motor_amplitude)},
+      {"center, from the reference", angle_text(motion.center, report.angle, table_digits), ""},
+      {"mean amplitude", swing_text(*motion.mean_amplitude, report.angle, table_digits),
+       spread(*motion.mean_amplitude, *motion.amplitude_deviation)},
+      {"mean period", units.time(*motion.mean_period),
+       spread(*motion.mean_period, *motion.period_deviation)},
+      {"swings repeat to within", fmt::format("{:.2g} %", 100.0 * *motion.mismatch), ""}};
+  if (motion.exponent) {
+    constexpr double chaotic = 10.0;  // e-foldings of the separation of neighbouring motions
+    const bool is_chaotic = *motion.exponent * *motion.watched > chaotic;
+    rows.push_back(
+        {"neighboring motions part at", units.rate(*motion.exponent), is_chaotic ? "chaotic" : ""});
+  }
+  rows.push_back({"followed for", units.time(*motion.watched), ""});
+  rows.push_back({"reached from", starts_text(motion.starts), ""});
+  return "\n" + title + "\n" + table_text(rows);
 }
 
 std::string rest_text(const AnswerReport& report) {

@@ -126,7 +126,7 @@ TEST(OracleAttractors, ChaosIsMeasured) {
   const IrregularFound& motion = found.irregular.front();
   EXPECT_EQ(motion.starts, found.outcomes.size());
   EXPECT_NEAR(motion.amplitude, exact.irregular_amplitude, 0.005);
-  EXPECT_GT(motion.exponent * motion.period, 0.3);
+  EXPECT_GT(motion.exponent.value() * motion.period, 0.3);
   EXPECT_GT(motion.mismatch, 0.01);
   EXPECT_GT(motion.period_deviation, 0.01);
   for (const FoundCycle& cycle : found.cycles) {
@@ -219,7 +219,7 @@ TEST(OracleAttractors, AClockThatNothingLocksToIsNoChaos) {
   ASSERT_EQ(found.irregular.size(), 1U);
   const IrregularFound& motion = found.irregular.front();
   EXPECT_EQ(motion.starts, 2U);
-  EXPECT_LT(std::abs(motion.exponent) * motion.period, 0.02);
+  EXPECT_LT(std::abs(motion.exponent.value()) * motion.period, 0.02);
   EXPECT_LT(motion.period_deviation, 1e-3);
   EXPECT_GT(motion.amplitude, 0.2416);  // the delay of half a period and 0.02 takes damping away
 }

@@ -62,7 +62,7 @@ class Search {
       record(start, verdicts_.back());
       ++done_;
     }
-    if (result_.is_complete) seek_edges();
+    if (result_.is_complete && !setting_.drive.sampling) seek_edges();
     if (result_.is_complete) progress_.go_on(1.0);
     finish();
     return std::move(result_);
@@ -101,36 +101,37 @@ class Search {
   Verdict watch(const State& start, double patience) {
     Watch watch{.here = start, .starts_at_rest = setting_.load.speed.at(start.numbers) == 0.0};
     double length = budget_.first_stretch * setting_.swing_time;
+    std::optional<IrregularFound> before;  // what the stretch before was, if it was steady
     while (true) {
-      const double until = setting_.between_ticks(watch.time + length);
-      const Trajectory motion =
-          simulate(setting_.system, watch.here,
-                   {.from = watch.time,
-                    .until = until,
-                    .event_limit = std::max<std::size_t>(1, most_events_ - watch.events)});
-      watch.time = motion.end_time();
-      watch.events += motion.events().size();
-      watch.here = motion.end();
+      const Stretch stretch = next_stretch(watch, setting_.between_ticks(watch.time + length));
       Verdict verdict;
       verdict.watched = watch.time;
       verdict.last = watch.here.numbers;
-      if (is_decided(watch, motion, verdict)) return verdict;
+      if (is_decided(watch, stretch, verdict)) return verdict;
+      if (!stretch.motion && is_steady(watch, stretch, before, verdict)) return verdict;
       if (!goes_on()) {
         verdict.reason = "the search was stopped";
         return verdict;
       }
-      if (watch.events >= most_events_ || watch.time >= longest(watch, motion, patience)) {
-        give_up(watch, motion, verdict);
+      if (watch.events >= most_events_ || watch.time >= longest(watch, stretch, patience)) {
+        give_up(watch, stretch, verdict);
         return verdict;
       }
       length *= 2.0;
     }
   }
 
+  /// The ticks of a sampled drive are too many to be kept.
+  Stretch next_stretch(Watch& watch, double until) const {
+    const std::size_t most = std::max<std::size_t>(1, most_events_ - watch.events);
+    if (setting_.drive.sampling) return observe(watch, until, most, setting_);
+    return follow(watch, until, most, setting_, budget_.short_stretch * setting_.swing_time);
+  }
+
   /// Longest time that a start is watched: more if hardly anything happens.
-  double longest(const Watch& watch, const Trajectory& motion, double patience) const {
+  double longest(const Watch& watch, const Stretch& stretch, double patience) const {
     const auto recent = [&](const std::vector<Sample>& turns) {
-      return count_of_swings(turns, motion.start_time(), setting_, tolerances_.rest);
+      return count_of_swings(turns, stretch.from, setting_, tolerances_.rest);
     };
     const std::vector<Sample> turns = turns_of(watch, setting_, tolerances_.rest);
     // Swings that still shrink may end in rest.
@@ -141,36 +142,69 @@ class Search {
         std::max(recent(turns), recent(extremes(watch.motor))) < budget_.hardly_any_swings ||
         is_small(turns, setting_, tolerances_.rest) || shrinks;
     constexpr double rounding = 1e-9;  // allows for rounding of the summed stretches
-    return (is_slow ? patience : 1.0) * result_.watch_time * (1.0 - rounding);
+    const double more = is_slow ? patience : 1.0;
+    const double times = setting_.drive.sampling ? more * budget_.patience_at_ticks : more;
+    return times * result_.watch_time * (1.0 - rounding);
   }
 
-  bool is_decided(Watch& watch, const Trajectory& motion, Verdict& verdict) {
-    include_ranges(watch, motion);
-    if (motion.stop_reason() == StopReason::diverged || has_run_away(motion)) {
+  bool is_decided(const Watch& watch, const Stretch& stretch, Verdict& verdict) {
+    if (stretch.stop_reason == StopReason::diverged || has_run_away(stretch)) {
       verdict.end = MotionEnd::diverges;
       return true;
     }
-    if (motion.stop_reason() == StopReason::zeno ||
-        motion.stop_reason() == StopReason::chattering) {
-      verdict.reason = "events without end: " + motion.culprit();
+    if (stretch.stop_reason == StopReason::zeno || stretch.stop_reason == StopReason::chattering) {
+      verdict.reason = "events without end: " + stretch.culprit;
       return true;
     }
-    include_turns(watch, motion, setting_, budget_.short_stretch * setting_.swing_time);
     if (setting_.coordinates == Coordinates::in_place) return false;
-    if (is_at_rest(watch, motion, setting_, tolerances_.rest) ||
-        is_vanishing(watch, motion, verdict)) {
+    if (is_at_rest(watch, stretch, setting_, tolerances_.rest) ||
+        is_vanishing(watch, stretch, verdict)) {
       verdict.end = MotionEnd::rest;
       return true;
     }
-    return is_on_cycle(motion, {tolerances_.cycle.nearness, tolerances_.cycle.wide_nearness},
-                       verdict);
+    return stretch.motion &&
+           is_on_cycle(*stretch.motion,
+                       {tolerances_.cycle.nearness, tolerances_.cycle.wide_nearness}, verdict);
+  }
+
+  /// Whether a sampled drive's motion is one that is known, or has repeated its statistics from one
+  /// stretch to the next, which is twice as long. Motion that repeats may be a cycle.
+  bool is_steady(const Watch& watch, const Stretch& stretch, std::optional<IrregularFound>& before,
+                 Verdict& verdict) {
+    const IrregularTolerances& tolerances = tolerances_.irregular;
+    Irregularity seen = irregularity_of(watch, stretch, setting_, tolerances_, false);
+    if (!seen.reason.empty()) {
+      before.reset();
+      return false;
+    }
+    const bool is_repeated = before && is_alike(*before, seen.found, setting_, tolerances);
+    before = seen.found;
+    if (!is_repeated || seen.found.swings < tolerances.enough_swings) return false;
+    if (setting_.coordinates != Coordinates::in_place &&
+        seen.found.mismatch < tolerances.repeating) {
+      const Trajectory motion = recorded(watch, seen.found, budget_.closing_periods);
+      if (is_on_cycle(motion, {tolerances_.cycle.nearness, tolerances_.cycle.wide_nearness},
+                      verdict)) {
+        return true;
+      }
+    }
+    take(watch, seen.found, verdict);
+    return true;
+  }
+
+  /// A sampled drive's motion from here on, over a few periods, kept.
+  Trajectory recorded(const Watch& watch, const IrregularFound& found, double periods) const {
+    const double period = std::isfinite(found.period) ? found.period : setting_.swing_time;
+    return simulate(setting_.system, watch.here,
+                    {.from = watch.time,
+                     .until = setting_.between_ticks(watch.time + periods * period),
+                     .event_limit = budget_.recorded_events});
   }
 
   /// Whether swings shrink towards a rest that they never reach. Decided only after the linear
   /// loop's settling time.
-  bool is_vanishing(const Watch& watch, const Trajectory& motion, Verdict& verdict) const {
-    const double all = motion.end_time() - motion.start_time();
-    const bool is_small_by_now = closing_.lately(motion, setting_.load, all).width() <
+  bool is_vanishing(const Watch& watch, const Stretch& stretch, Verdict& verdict) const {
+    const bool is_small_by_now = extent_of(after(watch.load, stretch.from)).width() <
                                  tolerances_.rest.small_motion * setting_.small_length;
     const double awaited =
         std::min(result_.watch_time, budget_.settling_times * setting_.settling_time);
@@ -190,9 +224,9 @@ class Search {
     return true;
   }
 
-  bool has_run_away(const Trajectory& motion) const {
+  bool has_run_away(const Stretch& stretch) const {
     if (setting_.coordinates == Coordinates::in_place) return false;
-    return std::abs(setting_.load.value.at(motion.end().numbers)) >
+    return std::abs(setting_.load.value.at(stretch.end.numbers)) >
            tolerances_.far_away * setting_.large_length;
   }
 
@@ -209,20 +243,31 @@ class Search {
     return std::nullopt;
   }
 
-  void give_up(const Watch& watch, const Trajectory& motion, Verdict& verdict) {
+  void give_up(const Watch& watch, const Stretch& stretch, Verdict& verdict) {
     // The motion may approach its cycle slowly.
-    const bool may_close = setting_.coordinates != Coordinates::in_place;
-    if (may_close && is_on_cycle(motion, {tolerances_.cycle.widest_nearness}, verdict)) return;
-    Irregularity motion_seen =
-        irregularity_of(watch, motion, setting_, tolerances_, watch.events >= most_events_);
-    verdict.reason = motion_seen.reason;
-    if (!verdict.reason.empty()) return;
+    const bool may_close = stretch.motion && setting_.coordinates != Coordinates::in_place;
+    if (may_close && is_on_cycle(*stretch.motion, {tolerances_.cycle.widest_nearness}, verdict))
+      return;
+    const Irregularity seen =
+        irregularity_of(watch, stretch, setting_, tolerances_, watch.events >= most_events_);
+    verdict.reason = seen.reason;
+    if (verdict.reason.empty()) take(watch, seen.found, verdict, &stretch);
+  }
+
+  /// Takes the motion as irregular.
+  void take(const Watch& watch, const IrregularFound& found, Verdict& verdict,
+            const Stretch* stretch = nullptr) {
     verdict.end = MotionEnd::irregular;
-    verdict.irregular = motion_seen.found;
-    if (place_among(result_.irregular, verdict.irregular, tolerances_.irregular) ==
-        result_.irregular.size()) {
-      verdict.irregular.exponent = largest_exponent(setting_.system.system(), motion, setting_.own);
-    }
+    verdict.irregular = found;
+    const bool is_known =
+        place_among(result_.irregular, found, tolerances_.irregular) != result_.irregular.size();
+    const Sensing& sensing = setting_.drive.sensing;
+    if (is_known || sensing.resolution > 0.0 || sensing.resolution_of_speed > 0.0) return;
+    const bool is_kept = stretch != nullptr && stretch->motion;
+    verdict.irregular.exponent = largest_exponent(
+        setting_.system.system(),
+        is_kept ? *stretch->motion : recorded(watch, found, budget_.compared_periods),
+        setting_.own);
   }
 
   // ---- the record -------------------------------------------------------------------------------

@@ -77,9 +77,11 @@ struct IrregularFound {
   /// The least mean difference of swings and those some swings later, as a share: 0 if they repeat.
   double mismatch = 0.0;
   /// 1/s, mean rate at which neighbours part (largest Lyapunov exponent), by the variational
-  /// equations with saltation: above 0 for chaos, about 0 for quasi-periodic motion.
-  double exponent = 0.0;
-  double watched = 0.0;  ///< s, duration of the measurement
+  /// equations with saltation: above 0 for chaos, about 0 for quasi-periodic motion. Empty behind
+  /// an encoder, whose steps have no derivative.
+  std::optional<double> exponent;
+  double watched = 0.0;    ///< s, duration of the measurement
+  std::size_t swings = 0;  ///< from extreme to extreme, measured
   std::size_t starts = 0;
 };
 

@@ -8,14 +8,6 @@
 namespace gearlash::drive {
 namespace {
 
-std::vector<Sample> after(const std::vector<Sample>& all, double from) {
-  std::vector<Sample> last;
-  for (const Sample& sample : all) {
-    if (sample.time >= from) last.push_back(sample);
-  }
-  return last;
-}
-
 /// Whether both halves have about the same range.
 bool is_steady(const std::vector<Sample>& samples, const IrregularTolerances& tolerances) {
   const double middle = 0.5 * (samples.front().time + samples.back().time);
@@ -44,10 +36,10 @@ Spread spread_of_half_swings(const std::vector<Sample>& turns) {
 
 }  // namespace
 
-Irregularity irregularity_of(const Watch& watch, const hybrid::Trajectory& stretch,
+Irregularity irregularity_of(const Watch& watch, const Stretch& stretch,
                              const SearchSetting& setting, const SearchTolerances& tolerances,
                              bool is_out_of_events) {
-  const double from = stretch.start_time();
+  const double from = stretch.from;
   const std::size_t enough = tolerances.irregular.least_turns;
   const std::vector<Sample> of_load = after(watch.load, from);
   const std::vector<Sample> of_motor = after(watch.motor, from);
@@ -74,16 +66,34 @@ Irregularity irregularity_of(const Watch& watch, const hybrid::Trajectory& stret
   found.amplitude = 0.5 * range.width();
   found.motor_amplitude = 0.5 * extent_of(of_motor).width();
   found.center = range.middle();
-  found.watched = stretch.end_time() - from;
-  const Spread period =
-      spread_of_periods(upward_passings(stretch, watched, last, extent_of(last).middle(), from));
+  found.watched = stretch.to - from;
+  const double middle = extent_of(last).middle();
+  const Spread period = spread_of_periods(
+      stretch.motion ? upward_passings(*stretch.motion, watched, last, middle, from)
+                     : upward_passings(turns, middle));
   found.period = period.mean;
   found.period_deviation = period.deviation;
   const Spread half_swing = spread_of_half_swings(turns);
   found.half_swing = half_swing.mean;
   found.half_swing_deviation = half_swing.deviation;
   found.mismatch = least_mismatch(turns);
+  found.swings = turns.empty() ? 0 : turns.size() - 1;
   return result;
+}
+
+bool is_alike(const IrregularFound& one, const IrregularFound& other, const SearchSetting& setting,
+              const IrregularTolerances& tolerances) {
+  const auto same = [&](double a, double b, double scale) {
+    return agree(a, b, 1.0,
+                 std::max(tolerances.steady_statistics * scale,
+                          tolerances.steady_steps * setting.drive.sensing.resolution));
+  };
+  const double extent = std::max(other.amplitude, other.motor_amplitude);
+  return one.is_motor_alone == other.is_motor_alone &&
+         same(one.amplitude, other.amplitude, extent) &&
+         same(one.motor_amplitude, other.motor_amplitude, extent) &&
+         same(one.half_swing, other.half_swing, extent) &&
+         agree(one.period, other.period, other.period, tolerances.steady_statistics);
 }
 
 std::size_t place_among(const std::vector<IrregularFound>& known, const IrregularFound& found,

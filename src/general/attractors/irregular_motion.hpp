@@ -14,9 +14,13 @@ struct Irregularity {
   IrregularFound found{};
   std::string reason{};  ///< empty if it is irregular
 };
-Irregularity irregularity_of(const Watch& watch, const hybrid::Trajectory& stretch,
+Irregularity irregularity_of(const Watch& watch, const Stretch& stretch,
                              const SearchSetting& setting, const SearchTolerances& tolerances,
                              bool is_out_of_events);
+
+/// Whether two stretches of a motion have the same statistics.
+bool is_alike(const IrregularFound& one, const IrregularFound& other, const SearchSetting& setting,
+              const IrregularTolerances& tolerances);
 
 /// Index of a known one that is nearly the same; their count if there is none.
 std::size_t place_among(const std::vector<IrregularFound>& known, const IrregularFound& found,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <map>
+#include <numbers>
 #include <utility>
 
 #include "numeric/linear_algebra.hpp"
@@ -127,6 +129,13 @@ std::vector<Sample> extremes(const std::vector<Sample>& samples) {
   return result;
 }
 
+std::vector<Sample> after(const std::vector<Sample>& all, double from) {
+  // Times rise.
+  const auto first = std::partition_point(all.begin(), all.end(),
+                                          [&](const Sample& sample) { return sample.time < from; });
+  return {first, all.end()};
+}
+
 Extent extent_of(const std::vector<Sample>& samples) {
   Extent range;
   for (const Sample& sample : samples) range.include(sample.value);
@@ -184,22 +193,60 @@ std::vector<double> upward_passings(const Trajectory& motion, const Watched& wat
   return times;
 }
 
-double least_mismatch(const std::vector<Sample>& extremes) {
-  std::vector<double> swings;
+std::vector<double> upward_passings(const std::vector<Sample>& extremes, double level) {
+  std::vector<double> times;
   for (std::size_t i = 0; i + 1 < extremes.size(); ++i) {
+    const Sample& low = extremes[i];
+    const Sample& high = extremes[i + 1];
+    if (low.value >= level || high.value < level) continue;
+    const double share = (level - low.value) / (high.value - low.value);
+    times.push_back(low.time +
+                    (high.time - low.time) * std::acos(1.0 - 2.0 * share) / std::numbers::pi);
+  }
+  return times;
+}
+
+double least_mismatch(const std::vector<Sample>& extremes) {
+  constexpr std::size_t most = 1000;  // the comparison takes the square of this
+  std::vector<double> swings;
+  for (std::size_t i = extremes.size() > most ? extremes.size() - most : 0; i + 1 < extremes.size();
+       ++i) {
     swings.push_back(std::abs(extremes[i + 1].value - extremes[i].value));
   }
   double least = std::numeric_limits<double>::quiet_NaN();
+  const double mean_swing = spread_of(swings).mean;
   for (std::size_t lag = 1; 2 * lag <= swings.size(); ++lag) {
     double sum = 0.0;
     for (std::size_t i = 0; i + lag < swings.size(); ++i) {
       sum += std::abs(swings[i + lag] - swings[i]);
     }
-    const double mean = sum / static_cast<double>(swings.size() - lag) / spread_of(swings).mean;
+    const double mean = sum / static_cast<double>(swings.size() - lag) / mean_swing;
     if (!(mean >= least)) least = mean;
   }
   return least;
 }
+
+namespace {
+
+/// Exponentials of the modes' flows, kept for times that recur, as between the ticks of a clock.
+class Exponentials {
+ public:
+  /// Times that differ by less than `apart` count as one.
+  Exponentials(const HybridSystem& system, double apart) : system_(system), apart_(apart) {}
+
+  const Matrix& of(std::size_t mode, double time) {
+    const auto [place, is_new] = kept_.try_emplace({mode, std::llround(time / apart_)});
+    if (is_new) place->second = exponential(system_.mode(mode).flow.matrix * time);
+    return place->second;
+  }
+
+ private:
+  const HybridSystem& system_;
+  double apart_;
+  std::map<std::pair<std::size_t, long long>, Matrix> kept_;
+};
+
+}  // namespace
 
 double largest_exponent(const HybridSystem& system, const Trajectory& motion, Eigen::Index own) {
   Disturbance disturbance{Vector::Zero(system.size())};
@@ -210,10 +257,12 @@ double largest_exponent(const HybridSystem& system, const Trajectory& motion, Ei
   double logarithm = 0.0;
   std::size_t next = 0;
   const std::vector<Event>& events = motion.events();
+  constexpr double share = 1e-9;  // of the mean time between events
+  const double duration = motion.end_time() - motion.start_time();
+  Exponentials exponentials(system, share * duration / static_cast<double>(events.size() + 1));
   for_each_stretch(motion, [&](const State& start, double from, double to, const Vector&) {
     if (to > from) {
-      disturbance.numbers =
-          exponential(system.mode(start.mode).flow.matrix * (to - from)) * disturbance.numbers;
+      disturbance.numbers = exponentials.of(start.mode, to - from) * disturbance.numbers;
     }
     if (next == events.size()) return;
     const bool is_chained = next > 0 && events[next].time == events[next - 1].time;
@@ -226,7 +275,7 @@ double largest_exponent(const HybridSystem& system, const Trajectory& motion, Ei
   });
   const double last = disturbance.numbers.norm();
   if (last == 0.0) return -std::numeric_limits<double>::infinity();
-  return (logarithm + std::log(last)) / (motion.end_time() - motion.start_time());
+  return (logarithm + std::log(last)) / duration;
 }
 
 }  // namespace gearlash::drive

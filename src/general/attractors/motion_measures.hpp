@@ -34,6 +34,9 @@ std::vector<Sample> samples(const hybrid::Trajectory& motion, const Watched& wat
 /// Highs and lows, alternating.
 std::vector<Sample> extremes(const std::vector<Sample>& samples);
 
+/// Those not before a time.
+std::vector<Sample> after(const std::vector<Sample>& all, double from);
+
 Extent extent_of(const std::vector<Sample>& samples);
 
 /// The range of every number of the state over events, start and end.
@@ -50,8 +53,13 @@ Spread spread_of(const std::vector<double>& values);
 std::vector<double> upward_passings(const hybrid::Trajectory& motion, const Watched& watched,
                                     const std::vector<Sample>& samples, double level, double after);
 
+/// The same for a value of which only the extremes are known. Between two of them it is taken to go
+/// like a cosine.
+std::vector<double> upward_passings(const std::vector<Sample>& extremes, double level);
+
 /// Compares swings from one extreme to the next with those some swings later. Returns the least
-/// mean difference as a share of the mean swing; 0 for a repeating motion.
+/// mean difference as a share of the mean swing; 0 for a repeating motion. Long lists are judged by
+/// their last part.
 double least_mismatch(const std::vector<Sample>& extremes);
 
 /// The largest exponent λ by which a small disturbance grows as exp(λt), mean over the motion. The

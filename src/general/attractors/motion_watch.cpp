@@ -2,32 +2,183 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "base/special_numbers.hpp"
 
 namespace gearlash::drive {
 
-void include_ranges(Watch& watch, const hybrid::Trajectory& stretch) {
-  const std::vector<Extent> here = extents(stretch, stretch.start_time());
-  if (watch.all.empty()) watch.all = here;
-  for (std::size_t i = 0; i < here.size(); ++i) {
-    watch.all[i].include(here[i].low);
-    watch.all[i].include(here[i].high);
+namespace {
+
+void include(std::vector<Extent>& all, const hybrid::Vector& low, const hybrid::Vector& high) {
+  all.resize(static_cast<std::size_t>(low.size()));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i].include(low[static_cast<Eigen::Index>(i)]);
+    all[i].include(high[static_cast<Eigen::Index>(i)]);
   }
 }
 
-void include_turns(Watch& watch, const hybrid::Trajectory& stretch, const SearchSetting& setting,
-                   double short_time) {
-  const auto add = [&](std::vector<Sample>& all, const Watched& watched) {
-    const auto seen = samples(stretch, watched, short_time);
-    all.insert(all.end(), seen.begin(), seen.end());
+/// The range of every number.
+struct Ranges {
+  hybrid::Vector low;
+  hybrid::Vector high;
+
+  explicit Ranges(Eigen::Index size) : low(hybrid::Vector::Constant(size, infinity)), high(-low) {}
+  void add(const hybrid::Vector& numbers) {
+    low = low.cwiseMin(numbers);
+    high = high.cwiseMax(numbers);
+  }
+};
+
+/// Keeps the first value of a number, its turns and its last value.
+class Turns {
+ public:
+  Turns(const Watched& watched, std::vector<Sample>& kept) : watched_(watched), kept_(kept) {}
+
+  void moved(double from, double to, const hybrid::Vector& before, const hybrid::Vector& after) {
+    const double value = watched_.value.at(before);
+    add({from, value});
+    const double speed = watched_.speed.at(before);
+    const double next_speed = watched_.speed.at(after);
+    const double next = watched_.value.at(after);
+    if (speed * next_speed < 0.0) add(turn({from, value}, speed, {to, next}, next_speed));
+    add({to, next});
+  }
+
+  void end() {
+    if (!is_first_) kept_.push_back(last_);
+  }
+
+ private:
+  /// Where the cubic through two samples with their speeds turns. Precondition: the speeds have
+  /// different signs.
+  static Sample turn(const Sample& start, double speed, const Sample& end, double end_speed) {
+    const double length = end.time - start.time;
+    const double rise = end.value - start.value;
+    const double a = length * speed;
+    const double b = length * end_speed;
+    // value(s) = start + a s + c s² + d s³, with s from 0 to 1
+    const double c = 3.0 * rise - 2.0 * a - b;
+    const double d = a + b - 2.0 * rise;
+    const double root = std::sqrt(std::max(0.0, c * c - 3.0 * a * d));
+    const double s = a / (-c + std::copysign(root, a));  // the zero of a + 2cs + 3ds² in [0, 1]
+    if (!(s >= 0.0 && s <= 1.0)) return start;
+    return {start.time + s * length, start.value + s * (a + s * (c + s * d))};
+  }
+
+  void add(const Sample& sample) {
+    if (is_first_) {
+      is_first_ = false;
+      kept_.push_back(sample);
+    } else if (sample.value != last_.value) {
+      const double way = sample.value > last_.value ? 1.0 : -1.0;
+      if (way_ * way < 0.0) kept_.push_back(last_);
+      way_ = way;
+    }
+    last_ = sample;
+  }
+
+  const Watched& watched_;
+  std::vector<Sample>& kept_;
+  bool is_first_ = true;
+  Sample last_;
+  double way_ = 0.0;
+};
+
+class StretchObserver : public hybrid::MotionObserver {
+ public:
+  StretchObserver(Watch& watch, double until, const SearchSetting& setting)
+      : middle_(0.5 * (watch.time + until)),
+        all_(watch.here.numbers.size()),
+        last_(all_),
+        load_(setting.load, watch.load),
+        motor_(setting.motor, watch.motor) {}
+
+  void moved(double from, double to, const hybrid::Vector& before,
+             const hybrid::Vector& after) override {
+    all_.add(before);
+    all_.add(after);
+    if (to > middle_) {
+      last_.add(before);
+      last_.add(after);
+      is_in_last_ = true;
+    }
+    load_.moved(from, to, before, after);
+    motor_.moved(from, to, before, after);
+  }
+
+  void end(Watch& watch, Stretch& stretch) {
+    load_.end();
+    motor_.end();
+    include(watch.all, all_.low, all_.high);
+    if (is_in_last_) include(stretch.last, last_.low, last_.high);
+  }
+
+ private:
+  double middle_;
+  Ranges all_;
+  Ranges last_;
+  bool is_in_last_ = false;
+  Turns load_;
+  Turns motor_;
+};
+
+void move_on(Watch& watch, const Stretch& stretch) {
+  watch.time = stretch.to;
+  watch.events += stretch.events;
+  watch.here = stretch.end;
+}
+
+}  // namespace
+
+Stretch follow(Watch& watch, double until, std::size_t event_limit, const SearchSetting& setting,
+               double short_time) {
+  Stretch stretch{.from = watch.time};
+  stretch.motion = simulate(setting.system, watch.here,
+                            {.from = watch.time, .until = until, .event_limit = event_limit});
+  const hybrid::Trajectory& motion = *stretch.motion;
+  stretch.to = motion.end_time();
+  stretch.end = motion.end();
+  stretch.stop_reason = motion.stop_reason();
+  stretch.culprit = motion.culprit();
+  stretch.events = motion.events().size();
+  const std::vector<Extent> all = extents(motion, motion.start_time());
+  if (watch.all.empty()) watch.all = all;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    watch.all[i].include(all[i].low);
+    watch.all[i].include(all[i].high);
+  }
+  stretch.last = extents(motion, 0.5 * (motion.start_time() + motion.end_time()));
+  const auto add = [&](std::vector<Sample>& kept, const Watched& watched) {
+    const auto seen = samples(motion, watched, short_time);
+    kept.insert(kept.end(), seen.begin(), seen.end());
   };
   add(watch.load, setting.load);
   add(watch.motor, setting.motor);
+  move_on(watch, stretch);
+  return stretch;
 }
 
-bool is_at_rest(const Watch& watch, const hybrid::Trajectory& stretch, const SearchSetting& setting,
+Stretch observe(Watch& watch, double until, std::size_t event_limit, const SearchSetting& setting) {
+  Stretch stretch{.from = watch.time};
+  StretchObserver observer(watch, until, setting);
+  hybrid::Observed seen =
+      observe(setting.system, watch.here,
+              {.from = watch.time, .until = until, .event_limit = event_limit}, observer);
+  stretch.to = seen.time;
+  stretch.end = std::move(seen.end);
+  stretch.stop_reason = seen.stop_reason;
+  stretch.culprit = std::move(seen.culprit);
+  stretch.events = seen.events;
+  observer.end(watch, stretch);
+  move_on(watch, stretch);
+  return stretch;
+}
+
+bool is_at_rest(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
                 const RestTolerances& tolerances) {
-  const std::vector<Extent> last =
-      extents(stretch, 0.5 * (stretch.start_time() + stretch.end_time()));
+  const std::vector<Extent>& last = stretch.last;
+  if (last.empty()) return false;
   const hybrid::Vector& scale = setting.frame.scale;
   const double positions =
       std::max({watch.all[motor_position].width(), watch.all[load_position].width(),

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "general/attractors/search_setting.hpp"
 
 namespace gearlash::drive {
 
-/// Observations of a motion while it is watched.
 struct Watch {
   hybrid::State here;
   double time = 0.0;
@@ -19,16 +19,29 @@ struct Watch {
   bool starts_at_rest = false;
 };
 
-/// Adds the next stretch to the ranges of all numbers.
-void include_ranges(Watch& watch, const hybrid::Trajectory& stretch);
+/// A stretch of a watched motion.
+struct Stretch {
+  double from = 0.0;
+  double to = 0.0;
+  hybrid::State end{};
+  hybrid::StopReason stop_reason = hybrid::StopReason::reached_end;
+  std::string culprit{};
+  std::size_t events = 0;
+  std::vector<Extent> last{};  ///< of each number in the last half; empty if it did not get there
+  std::optional<hybrid::Trajectory> motion{};  ///< empty if it was observed and not kept
+};
 
-/// Adds the turns of load and motor on the next stretch.
-void include_turns(Watch& watch, const hybrid::Trajectory& stretch, const SearchSetting& setting,
-                   double short_time);
+/// Watches a motion from `watch.here` until a time or a number of events: adds its ranges and turns
+/// to `watch`, and moves that to its end. The motion is kept.
+Stretch follow(Watch& watch, double until, std::size_t event_limit, const SearchSetting& setting,
+               double short_time);
+/// The same, but nothing is kept of the motion. Suits sampled drives, whose ticks are many. Turns
+/// between ticks are those of the cubic through both ends of a step.
+Stretch observe(Watch& watch, double until, std::size_t event_limit, const SearchSetting& setting);
 
 /// Whether no number has moved in the last half of a stretch by more than a share of its total
 /// movement.
-bool is_at_rest(const Watch& watch, const hybrid::Trajectory& stretch, const SearchSetting& setting,
+bool is_at_rest(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
                 const RestTolerances& tolerances);
 
 /// Swings after a time, without negligible ones.

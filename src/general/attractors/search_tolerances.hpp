@@ -74,6 +74,14 @@ struct IrregularTolerances {
   double steadiness = 0.2;
   /// Motions whose amplitudes, swings and centres agree to this share of their amplitude are one.
   double same_motion = 0.1;
+  /// A sampled drive's motion is steady once this many swings ...
+  std::size_t enough_swings = 40;
+  /// ... have the statistics of those before them, to this share ...
+  double steady_statistics = 0.03;
+  /// ... or to this share of the encoder's step.
+  double steady_steps = 0.5;
+  /// Swings that repeat to this share may be a cycle.
+  double repeating = 1e-3;
 };
 
 struct SearchTolerances {
@@ -92,6 +100,8 @@ struct SearchBudget {
   double first_stretch = 10.0;
   /// A motion in which hardly anything happens is watched this many times as long ...
   double patience = 20.0;
+  /// ... and this many times longer if it is sampled, because standing costs nothing ...
+  double patience_at_ticks = 20.0;
   /// ... or this many times, between two starts with different outcomes.
   double patience_at_edges = 2.0;
   /// Hardly anything happens if a stretch has fewer swings than this ...
@@ -105,6 +115,11 @@ struct SearchBudget {
   /// Swings and events of the first glance, which shows the magnitude of the numbers.
   double glance_swings = 5.0;
   std::size_t glance_events = 5000;
+  /// Mean periods of a sampled drive's motion that are kept to close a cycle ...
+  double closing_periods = 5.0;
+  /// ... or to see whether neighbours part.
+  double compared_periods = 200.0;
+  std::size_t recorded_events = 20'000;
   /// Bisections between two starts; a double has 52 bits.
   int bisections = 52;
   /// After this many of them each time a test shows whether the motion hovers at a cycle ...
