@@ -11,6 +11,8 @@ struct ShaftReadings {
   double motor_speed = 0.0;
   double load_position = 0.0;
   double load_speed = 0.0;
+
+  bool operator==(const ShaftReadings&) const = default;
 };
 
 /// At each sample the computer reads, computes a torque and its next state. The torque takes effect

@@ -48,7 +48,9 @@ std::size_t passings_in(const std::vector<Sample>& trace, std::size_t from, doub
   return passings;
 }
 
-/// One start, carried forward; its trace grows.
+/// One start, carried forward; its trace grows. It runs away where it is a million gaps or encoder
+/// steps from the reference, and a hundred times the start's own distance and the way in which the
+/// highest torque stops it.
 class Run {
  public:
   Run(const PlainDrive& drive, const ShaftReadings& start, const EndingOptions& options)
@@ -60,8 +62,11 @@ class Run {
         period_(drive.period > 0.0 ? drive.period : options.trace_period) {
     kept_every_ = std::max<std::size_t>(
         1, static_cast<std::size_t>(std::lround(options.trace_period / period_)));
-    const double step = drive.small_length();
-    far_away_ = 1e6 * std::max({drive.backlash, step, std::abs(start.load_position)});
+    const double speed = std::max(std::abs(start.load_speed), std::abs(start.motor_speed));
+    const double inertia = drive.motor.inertia + drive.load.inertia;
+    const double way_to_stop = 0.5 * inertia * speed * speed / drive.limit + speed * unit_time;
+    far_away_ = std::max({1e6 * drive.backlash, 1e6 * drive.step,
+                          100.0 * (std::abs(start.load_position) + way_to_stop)});
   }
 
   void go_on(double until) {
@@ -110,12 +115,13 @@ class Run {
   /// All numbers as one period ago, three times: for ever.
   void note_rest(const ShaftReadings& before) {
     const ShaftReadings& now = mechanism_.shafts();
-    const bool is_same = mechanism_.stands() && now.motor_position == before.motor_position &&
-                         now.load_position == before.load_position && computer_ == last_;
+    const bool is_same = now == before && computer_ == last_;
     last_ = computer_;
     same_periods_ = is_same ? same_periods_ + 1 : 0;
     if (same_periods_ >= 3) is_at_rest_ = true;
   }
+
+  static constexpr double unit_time = 1.0;  // s, of a drive without a limit
 
   PlainDrive drive_;
   EndingOptions options_;
@@ -176,11 +182,11 @@ Measured measured(const Run& run, const PlainDrive& drive) {
   return result;
 }
 
+/// Standstill is rest only without an integral, which may still break the shafts away.
 bool is_fading(const Ending& ending, const PlainDrive& drive) {
   const double least = 1e-9 * drive.small_length();
-  if (ending.motor_amplitude < least && ending.amplitude < least &&
-      ending.earlier_motor_amplitude < least) {
-    return drive.controller.integral == 0.0;
+  if (ending.motor_amplitude < least && ending.amplitude < least) {
+    return drive.controller.integral == 0.0 && ending.earlier_motor_amplitude < least;
   }
   const double small = 0.1 * drive.small_length();
   return ending.amplitude < small && ending.motor_amplitude < small &&

@@ -228,6 +228,10 @@ double Mechanism::cut_step(double remaining, double step, const AppliedTorque& t
 }
 
 void Mechanism::advance(double step, const AppliedTorque& torque) {
+  if (motor_way_ == 0 && load_way_ == 0) {
+    break_away(torque);
+    if (motor_way_ == 0 && load_way_ == 0) return;  // nothing changes as long as the torque holds
+  }
   double remaining = step;
   // A chain of bounces is over after some dozens of cuts. More of them would be events at one point
   // of time that take turns; the rest of the step is then left out.
