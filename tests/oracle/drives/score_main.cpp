@@ -77,6 +77,7 @@ void print_start(const ScoredStart& scored) {
                 scored.frequency);
   }
   if (!start.reason.empty()) std::printf(" (%s)", start.reason.c_str());
+  std::printf(" watched %.3g s", start.watched);
   std::printf(" | simulator %s", text_of(scored.ending).c_str());
   if (scored.agreement == Agreement::no_measure) {
     std::printf(" | half step %s", text_of(scored.ending_of_half_step).c_str());
