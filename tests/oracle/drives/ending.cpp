@@ -84,6 +84,8 @@ class Run {
 
   [[nodiscard]] bool is_at_rest() const { return is_at_rest_; }
   [[nodiscard]] bool is_far() const { return is_far_; }
+  /// More of the time was left out than rounding explains.
+  [[nodiscard]] bool has_gaps() const { return mechanism_.left_out() > 1e-4 * elapsed_; }
   [[nodiscard]] double time() const { return elapsed_; }
   [[nodiscard]] const std::vector<Sample>& trace() const { return trace_; }
   [[nodiscard]] const ShaftReadings& shafts() const { return mechanism_.shafts(); }
@@ -229,6 +231,7 @@ Ending ending_of(const PlainDrive& drive, const ShaftReadings& start,
   Run run(drive, start, options);
   for (double until = options.first_time;; until *= 2.0) {
     run.go_on(until);
+    if (run.has_gaps()) return {.kind = EndKind::unclear, .time = run.time()};
     if (run.is_at_rest() || run.is_far()) {
       Ending ending;
       ending.kind = run.is_at_rest() ? EndKind::rest : EndKind::runs_away;

@@ -95,17 +95,18 @@ Mechanism::Accelerations Mechanism::accelerations(const ShaftReadings& at,
   return rate;
 }
 
+/// Both first: a load that its own torque moves away is still pushed by a motor that follows.
 void Mechanism::break_away_together(double torque) {
-  const double away = -face_;
-  if (torque * away > drive_.motor.breakaway) {  // the motor leaves the load
+  const int both =
+      way_of_break(torque + drive_.load_torque, drive_.motor.breakaway + drive_.load.breakaway);
+  if (both != 0) {
+    motor_way_ = load_way_ = both;
+  } else if (-torque * face_ > drive_.motor.breakaway) {  // the motor leaves the load
     motor_way_ = -face_;
     face_ = 0;
   } else if (drive_.load_torque * face_ > drive_.load.breakaway) {  // the load leaves the motor
     load_way_ = face_;
     face_ = 0;
-  } else {
-    motor_way_ = load_way_ =
-        way_of_break(torque + drive_.load_torque, drive_.motor.breakaway + drive_.load.breakaway);
   }
 }
 
@@ -238,8 +239,9 @@ void Mechanism::advance(double step, const AppliedTorque& torque) {
   constexpr int most_cuts = 400;
   for (int cuts = 0; remaining > 0.0 && cuts < most_cuts; ++cuts) {
     remaining -= cut_step(remaining, step, torque);
-    if (remaining < 1e-12 * step) break;
+    if (remaining < 1e-12 * step) return;
   }
+  left_out_ += remaining;
 }
 
 }  // namespace gearlash::oracle

@@ -29,6 +29,8 @@ class Mechanism {
 
   [[nodiscard]] const ShaftReadings& shafts() const { return now_; }
   [[nodiscard]] bool stands() const { return now_.motor_speed == 0.0 && now_.load_speed == 0.0; }
+  /// s: ends of steps that had more cuts than are followed.
+  [[nodiscard]] double left_out() const { return left_out_; }
   /// Extremes since the last call of forget_extremes().
   [[nodiscard]] double lowest_load() const { return lowest_load_; }
   [[nodiscard]] double highest_load() const { return highest_load_; }
@@ -63,6 +65,7 @@ class Mechanism {
   int motor_way_ = 0;  ///< direction of the dry friction; 0: sticks
   int load_way_ = 0;
   int face_ = 0;  ///< of rigid faces in contact
+  double left_out_ = 0.0;
   double lowest_load_ = 0.0, highest_load_ = 0.0, lowest_motor_ = 0.0, highest_motor_ = 0.0;
 };
 

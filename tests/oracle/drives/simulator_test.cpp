@@ -138,6 +138,30 @@ TEST(OracleMechanism, BouncesComeToAnEndAtTheirLimit) {
   EXPECT_NEAR(mechanism.shafts().load_position, 1.0, 1e-9);
 }
 
+TEST(OracleMechanism, AMotorThatFollowsKeepsPushingALoadThatItsOwnTorqueMoves) {
+  PlainDrive drive;
+  drive.motor = {.inertia = 1.0, .coulomb = 1.0, .breakaway = 2.0};
+  drive.load = {.inertia = 3.0, .coulomb = 1.0, .breakaway = 2.0};
+  drive.backlash = 0.1;
+  drive.load_torque = -5.0;
+  Mechanism mechanism(drive, {-0.05, 0.0, 0.0, 0.0});
+  for (int i = 0; i < 1000; ++i) mechanism.advance(1e-3, {.held = -21.0});
+  EXPECT_NEAR(mechanism.shafts().load_speed, -6.0, 1e-9);  // −(21 + 5 − 2)/4
+  EXPECT_NEAR(mechanism.shafts().motor_speed, -6.0, 1e-9);
+  EXPECT_EQ(mechanism.left_out(), 0.0);
+}
+
+TEST(OracleMechanism, AMotorPulledBackLeavesTheLoadBehind) {
+  PlainDrive drive;
+  drive.motor = {.inertia = 1.0, .coulomb = 1.0, .breakaway = 2.0};
+  drive.load = {.inertia = 3.0, .coulomb = 1.0, .breakaway = 2.0};
+  drive.backlash = 10.0;
+  Mechanism mechanism(drive, {5.0, 0.0, 0.0, 0.0});
+  for (int i = 0; i < 1000; ++i) mechanism.advance(1e-3, {.held = -7.0});
+  EXPECT_EQ(mechanism.shafts().load_speed, 0.0);
+  EXPECT_NEAR(mechanism.shafts().motor_speed, -6.0, 1e-9);
+}
+
 PlainDrive sampled_drive() {
   PlainDrive drive;
   drive.controller.proportional = 2.0;
