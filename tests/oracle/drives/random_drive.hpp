@@ -1,0 +1,19 @@
+// Random industrial servo drives: one seed, one drive, on every machine.
+#pragma once
+
+#include <cstdint>
+
+#include "gearlash/drive.hpp"
+
+namespace gearlash::oracle {
+
+/// A torque-controlled motor with a sampled controller, drawn as its engineer would tune it for the
+/// mechanics with the gap closed:
+///   cascade of position P and speed PI with anti-windup, or PID, at 1 … 20 kHz, with a delay of
+///   half a period to one; encoders of 10 … 20 bit on load, motor or both; faces rigid and plastic,
+///   bouncing (restitution up to 0.7) or compliant (10 … 80 Hz with the motor held); backlash 0.5 …
+///   10 arcmin; inertia ratio 0.2 … 10; Coulomb friction 1 … 10 % of the rated torque, with and
+///   without a higher breakaway torque; a constant load torque for a quarter of them.
+[[nodiscard]] Drive random_drive(std::uint64_t seed);
+
+}  // namespace gearlash::oracle
