@@ -37,6 +37,12 @@ struct Verdict {
   }
 };
 
+/// A stretch that was steady.
+struct Steady {
+  IrregularFound found;
+  std::vector<Extent> ranges;  ///< of each number
+};
+
 class Search {
  public:
   Search(const ReducedDrive& drive, const AttractorOptions& options, Progress& progress)
@@ -52,7 +58,8 @@ class Search {
     result_.settling_time = setting_.settling_time;
     const double swings = options.swing_times * setting_.swing_time;
     result_.watch_time = swings + std::min(swings, budget_.settling_times * setting_.settling_time);
-    most_events_ = options.most_events + ticks_awaited();
+    most_events_ = options.most_events;
+    if (setting_.drive.sampling) most_events_ += budget_.most_ticks * options.most_events;
   }
 
   AttractorSearch run() {
@@ -78,16 +85,6 @@ class Search {
     return result_.is_complete;
   }
 
-  /// Ticks of a sampled drive within the watch time. They do not count as events, up to
-  /// `most_ticks` times the permitted events.
-  std::size_t ticks_awaited() const {
-    if (!setting_.drive.sampling) return 0;
-    const double ticks = 2.0 * result_.watch_time / setting_.drive.sampling->period;  // two clocks
-                                                                                      // tick
-    return static_cast<std::size_t>(
-        std::min(ticks, budget_.most_ticks * static_cast<double>(options_.most_events)));
-  }
-
   /// A short first motion, which shows the magnitude of the numbers.
   Trajectory glance() const {
     const ShaftStates& start = starts_[starts_.size() / 2];
@@ -101,7 +98,7 @@ class Search {
   Verdict watch(const State& start, double patience) {
     Watch watch{.here = start, .starts_at_rest = setting_.load.speed.at(start.numbers) == 0.0};
     double length = budget_.first_stretch * setting_.swing_time;
-    std::optional<IrregularFound> before;  // what the stretch before was, if it was steady
+    std::optional<Steady> before;
     while (true) {
       const Stretch stretch = next_stretch(watch, setting_.between_ticks(watch.time + length));
       Verdict verdict;
@@ -139,6 +136,7 @@ class Search {
     const bool shrinks =
         count > 2 && swing(turns, 0) < budget_.still_shrinking * swing(turns, count - 2);
     const bool is_slow =
+        setting_.drive.sampling ||
         std::max(recent(turns), recent(extremes(watch.motor))) < budget_.hardly_any_swings ||
         is_small(turns, setting_, tolerances_.rest) || shrinks;
     constexpr double rounding = 1e-9;  // allows for rounding of the summed stretches
@@ -169,7 +167,7 @@ class Search {
 
   /// Whether a sampled drive's motion is one that is known, or has repeated its statistics from one
   /// stretch to the next, which is twice as long. Motion that repeats may be a cycle.
-  bool is_steady(const Watch& watch, const Stretch& stretch, std::optional<IrregularFound>& before,
+  bool is_steady(const Watch& watch, const Stretch& stretch, std::optional<Steady>& before,
                  Verdict& verdict) {
     const IrregularTolerances& tolerances = tolerances_.irregular;
     Irregularity seen = irregularity_of(watch, stretch, setting_, tolerances_, false);
@@ -177,8 +175,10 @@ class Search {
       before.reset();
       return false;
     }
-    const bool is_repeated = before && is_alike(*before, seen.found, setting_, tolerances);
-    before = seen.found;
+    const bool is_repeated =
+        before && is_alike(before->found, seen.found, setting_, tolerances) &&
+        are_alike(before->ranges, stretch.last, setting_.own, tolerances.same_ranges);
+    before = Steady{seen.found, stretch.last};
     if (!is_repeated || seen.found.swings < tolerances.enough_swings) return false;
     if (setting_.coordinates != Coordinates::in_place &&
         seen.found.mismatch < tolerances.repeating) {

@@ -20,6 +20,19 @@ bool is_steady(const std::vector<Sample>& samples, const IrregularTolerances& to
                tolerances.steadiness);
 }
 
+/// Whether the swings of the last half are smaller than those of the first.
+bool shrink(const std::vector<Sample>& turns) {
+  const std::size_t half = (turns.size() - 1) / 2;
+  double last = 0.0;
+  double first = 0.0;
+  for (std::size_t i = 0; i < half; ++i) {
+    last += swing(turns, i);
+    first += swing(turns, i + half);
+  }
+  constexpr double clearly = 0.9;
+  return last < clearly * first;
+}
+
 Spread spread_of_periods(const std::vector<double>& passings) {
   std::vector<double> periods;
   for (std::size_t i = 0; i + 1 < passings.size(); ++i) {
@@ -56,7 +69,7 @@ Irregularity irregularity_of(const Watch& watch, const Stretch& stretch,
   if (!is_in_place && turns.size() < enough) {
     result.reason =
         is_out_of_events ? "as many events as were permitted" : "still on its way at the end";
-  } else if (is_small(turns, setting, tolerances.rest)) {
+  } else if (is_small(turns, setting, tolerances.rest) && shrink(turns)) {
     result.reason = "swings shrink at the end, towards what is not certain";
   } else if (!is_in_place && !is_steady(last, tolerances.irregular)) {
     result.reason = "swings still grow or shrink at the end";
@@ -94,6 +107,22 @@ bool is_alike(const IrregularFound& one, const IrregularFound& other, const Sear
          same(one.motor_amplitude, other.motor_amplitude, extent) &&
          same(one.half_swing, other.half_swing, extent) &&
          agree(one.period, other.period, other.period, tolerances.steady_statistics);
+}
+
+bool are_alike(const std::vector<Extent>& ranges, const std::vector<Extent>& others,
+               Eigen::Index count, double share) {
+  if (ranges.empty() || others.empty()) return false;
+  constexpr double rounding = 1e-9;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    const double width = std::max(ranges[i].width(), others[i].width());
+    const double apart =
+        share * width + rounding * std::max(std::abs(others[i].low), std::abs(others[i].high));
+    if (!agree(ranges[i].low, others[i].low, 1.0, apart) ||
+        !agree(ranges[i].high, others[i].high, 1.0, apart)) {
+      return false;
+    }
+  }
+  return true;
 }
 
 std::size_t place_among(const std::vector<IrregularFound>& known, const IrregularFound& found,

@@ -22,6 +22,11 @@ Irregularity irregularity_of(const Watch& watch, const Stretch& stretch,
 bool is_alike(const IrregularFound& one, const IrregularFound& other, const SearchSetting& setting,
               const IrregularTolerances& tolerances);
 
+/// Whether the first `count` numbers cover the same ranges, to a share of their widths: nothing
+/// drifts.
+bool are_alike(const std::vector<Extent>& ranges, const std::vector<Extent>& others,
+               Eigen::Index count, double share);
+
 /// Index of a known one that is nearly the same; their count if there is none.
 std::size_t place_among(const std::vector<IrregularFound>& known, const IrregularFound& found,
                         const IrregularTolerances& tolerances);

@@ -80,6 +80,8 @@ struct IrregularTolerances {
   double steady_statistics = 0.03;
   /// ... or to this share of the encoder's step.
   double steady_steps = 0.5;
+  /// All numbers must then cover the ranges that they covered before, to this share.
+  double same_ranges = 0.15;
   /// Swings that repeat to this share may be a cycle.
   double repeating = 1e-3;
 };
@@ -111,7 +113,7 @@ struct SearchBudget {
   /// Turns are sought between events that are farther apart than this share of a swing time.
   double short_stretch = 0.05;
   /// Ticks of a clock do not count as events, up to this many times the events.
-  double most_ticks = 10.0;
+  std::size_t most_ticks = 20;
   /// Swings and events of the first glance, which shows the magnitude of the numbers.
   double glance_swings = 5.0;
   std::size_t glance_events = 5000;
