@@ -43,6 +43,13 @@ struct Steady {
   std::vector<Extent> ranges;  ///< of each number
 };
 
+/// What a sampled drive's start led to.
+struct Known {
+  Steady motion;
+  MotionEnd end;      ///< irregular or cycle
+  std::size_t which;  ///< index into the cycles
+};
+
 class Search {
  public:
   Search(const ReducedDrive& drive, const AttractorOptions& options, Progress& progress)
@@ -169,27 +176,39 @@ class Search {
   /// stretch to the next, which is twice as long. Motion that repeats may be a cycle.
   bool is_steady(const Watch& watch, const Stretch& stretch, std::optional<Steady>& before,
                  Verdict& verdict) {
-    const IrregularTolerances& tolerances = tolerances_.irregular;
-    Irregularity seen = irregularity_of(watch, stretch, setting_, tolerances_, false);
+    const Irregularity seen = irregularity_of(watch, stretch, setting_, tolerances_, false);
     if (!seen.reason.empty()) {
       before.reset();
       return false;
     }
-    const bool is_repeated =
-        before && is_alike(before->found, seen.found, setting_, tolerances) &&
-        are_alike(before->ranges, stretch.last, setting_.own, tolerances.same_ranges);
-    before = Steady{seen.found, stretch.last};
-    if (!is_repeated || seen.found.swings < tolerances.enough_swings) return false;
-    if (setting_.coordinates != Coordinates::in_place &&
-        seen.found.mismatch < tolerances.repeating) {
-      const Trajectory motion = recorded(watch, seen.found, budget_.closing_periods);
-      if (is_on_cycle(motion, {tolerances_.cycle.nearness, tolerances_.cycle.wide_nearness},
-                      verdict)) {
-        return true;
-      }
+    const Steady now{seen.found, stretch.last};
+    for (const Known& known : known_) {
+      if (!is_same(known.motion, now)) continue;
+      verdict.end = known.end;
+      verdict.which = known.which;
+      verdict.irregular = now.found;
+      return true;
     }
-    take(watch, seen.found, verdict);
+    const bool is_repeated = before && is_same(*before, now);
+    before = now;
+    if (!is_repeated || now.found.swings < tolerances_.irregular.enough_swings) return false;
+    if (!closes(watch, now.found, verdict)) take(watch, now.found, verdict);
+    known_.push_back({now, verdict.end, verdict.which});
     return true;
+  }
+
+  bool is_same(const Steady& one, const Steady& other) const {
+    const IrregularTolerances& tolerances = tolerances_.irregular;
+    return is_alike(one.found, other.found, setting_, tolerances) &&
+           are_alike(one.ranges, other.ranges, setting_.own, tolerances.same_ranges);
+  }
+
+  /// Whether Newton's method closes a cycle on a sampled drive's motion.
+  bool closes(const Watch& watch, const IrregularFound& found, Verdict& verdict) {
+    if (setting_.coordinates == Coordinates::in_place) return false;
+    if (!(found.mismatch < tolerances_.irregular.repeating)) return false;
+    return is_on_cycle(recorded(watch, found, budget_.closing_periods),
+                       {tolerances_.cycle.nearness, tolerances_.cycle.wide_nearness}, verdict);
   }
 
   /// A sampled drive's motion from here on, over a few periods, kept.
@@ -398,6 +417,7 @@ class Search {
   CycleClosing closing_{setting_, options_};
   std::vector<ShaftStates> starts_;
   std::vector<Verdict> verdicts_;
+  std::vector<Known> known_;
   std::size_t done_ = 0;
   AttractorSearch result_;
 };
