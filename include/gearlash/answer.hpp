@@ -92,6 +92,9 @@ struct Rest {
   /// For rest approached by ever smaller and slower swings: the largest ratio of two successive
   /// swings.
   std::optional<double> swing_ratio{};
+  /// Of the starts: they creep to rest by ever longer standstills and ever smaller moves, as
+  /// integral action against dry friction does.
+  std::size_t creeping_starts = 0;
 };
 
 /// Bounded motion that was not seen to repeat. An empty member was not measured.

@@ -279,7 +279,8 @@ Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive
                        .motor = search.rest->motor,
                        .error = search.rest->error,
                        .starts = search.rest->starts,
-                       .swing_ratio = known(search.rest->swing_ratio)};
+                       .swing_ratio = known(search.rest->swing_ratio),
+                       .creeping_starts = search.rest->creeping_starts};
   }
   answer.search = SearchRecord{.watch_time = search.watch_time,
                                .is_complete = search.is_complete,

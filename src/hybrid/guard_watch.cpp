@@ -37,12 +37,15 @@ StepEnd GuardWatch::next_exit(const StepSeries& step) {
   return {};
 }
 
-bool GuardWatch::are_clear(const PreparedMode& mode, const double* numbers,
-                           const double* noise) const {
+bool GuardWatch::are_clear(const PreparedMode& mode, const double* numbers, const double* noise,
+                           const Vector& quiet) const {
   for (std::size_t i = 0; i < mode.guards.size(); ++i) {
-    if (!(signs_[i] * mode.guards[i].at(numbers) > mode.guards[i].noise_at(numbers, noise))) {
-      return false;
-    }
+    const double value = mode.guards[i].at(numbers);
+    const double unknown = mode.guards[i].noise_at(numbers, noise);
+    if (signs_[i] * value > unknown) continue;
+    const bool is_quiet =
+        quiet.size() > 0 && std::abs(value) <= unknown && value == mode.guards[i].at(quiet.data());
+    if (!is_quiet) return false;
   }
   return true;
 }

@@ -41,8 +41,11 @@ class GuardWatch {
   /// only one.
   StepEnd next_exit(const StepSeries& step);
 
-  /// Whether every guard is on its side by more than rounding, in a state that does not move.
-  bool are_clear(const PreparedMode& mode, const double* numbers, const double* noise) const;
+  /// Whether no guard leaves its side in a state that does not move: each is on its side by more
+  /// than rounding, or is 0 within rounding and was the same in `quiet` numbers, in which none left
+  /// it. These may be empty.
+  bool are_clear(const PreparedMode& mode, const double* numbers, const double* noise,
+                 const Vector& quiet) const;
 
   /// Touches of the last step, including those after its exit.
   const std::vector<Touch>& touches() const { return touches_; }

@@ -164,12 +164,17 @@ class Simulation {
     rounds = {};
   }
 
-  /// Whether nothing moves and no guard is near 0.
+  /// Whether nothing moves, and no guard leaves its side.
   bool stands_clear() {
     flow_->flow.velocity_at(state_.numbers.data(), velocity_);
+    if (quiet_mode_ != state_.mode) quiet_.resize(0);
+    return is_standing() && guards_.are_clear(*mode_, state_.numbers.data(), noise_.data(), quiet_);
+  }
+
+  /// By the velocity at the state.
+  bool is_standing() const {
     return std::all_of(velocity_.values.begin(), velocity_.values.end(),
-                       [](double value) { return value == 0.0; }) &&
-           guards_.are_clear(*mode_, state_.numbers.data(), noise_.data());
+                       [](double value) { return value == 0.0; });
   }
 
   /// Applies the ticks at an instant. False, with the state spoilt, if they do not lead back to the
@@ -226,6 +231,10 @@ class Simulation {
     flow.velocity_at(state_.numbers.data(), noise_.data(), velocity_);
     const double length = std::min(longest_step(), limit - time_);
     const StepEnd next = guards_.next_exit(series_of(length));
+    if (observer_ != nullptr && next.share > 1.0 && is_standing()) {
+      quiet_mode_ = state_.mode;
+      quiet_ = state_.numbers;
+    }
     const double share = std::min(next.share, 1.0);
     if (share > 0.0) {
       record_step();
@@ -438,7 +447,7 @@ class Simulation {
     const Event& last = trajectory_.events_.back();
     const Transition& transition = transition_of(last);
     if (!transition.settling) {
-      if (left <= 8.0 * epsilon * time_) stop(StopReason::zeno);
+      if (left <= 8.0 * epsilon * time_) settle_by_one_of(turn);
       return;
     }
     constexpr double little = 1e-10;
@@ -466,8 +475,21 @@ class Simulation {
     return rate > 0.0 ? std::max(first, 1.0 / rate) : first;
   }
 
-  void settle() {
-    const Event last = trajectory_.events_.back();
+  /// Ends a sequence whose times doubles no longer separate, by the last firing of its turn that
+  /// has a Settling.
+  void settle_by_one_of(std::size_t turn) {
+    for (std::size_t ago = 0; ago < turn; ++ago) {
+      if (transition_of(event_before(ago)).settling) return settle(ago);
+    }
+    stop(StopReason::zeno);
+  }
+
+  const Event& event_before(std::size_t ago) const {
+    return trajectory_.events_[trajectory_.events_.size() - 1 - ago];
+  }
+
+  void settle(std::size_t ago = 0) {
+    const Event last = event_before(ago);
     const Settling& settling = *transition_of(last).settling;
     change(EventKind::settling, last.mode, last.transition, settling.reset,
            *preparation_.mode(last.mode).settlings[last.transition], settling.target);
@@ -507,6 +529,8 @@ class Simulation {
   Vector noise_before_;
   Vector standing_;  ///< numbers at the start of a piece that is observed
   Vector ticked_;
+  Vector quiet_;  ///< numbers at which nothing moved and no guard left its side; or empty
+  std::size_t quiet_mode_ = 0;
   bool stopped_ = false;
   std::size_t at_instant_ = 0;
   std::size_t forgotten_ = 0;  ///< events no longer kept

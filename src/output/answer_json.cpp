@@ -62,11 +62,10 @@ Json json_irregular(const IrregularMotion& motion) {
 
 Json json_rest(const std::optional<Rest>& rest) {
   if (!rest) return nullptr;
-  return {{"load", json_range(rest->load)},
-          {"motor", json_range(rest->motor)},
-          {"error", json_range(rest->error)},
-          {"swing_ratio", json_optional(rest->swing_ratio)},
-          {"starts", rest->starts}};
+  return {
+      {"load", json_range(rest->load)},           {"motor", json_range(rest->motor)},
+      {"error", json_range(rest->error)},         {"swing_ratio", json_optional(rest->swing_ratio)},
+      {"creeping_starts", rest->creeping_starts}, {"starts", rest->starts}};
 }
 
 /// The number of diverging starts; null without a search.

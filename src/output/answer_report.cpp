@@ -260,6 +260,10 @@ std::string rest_text(const AnswerReport& report) {
                {"motor, from the reference", range_text(report, rest.motor), ""},
                {rest.starts > 0 ? "reached from" : "computed",
                 rest.starts > 0 ? starts_text(rest.starts) : "from the equilibria", ""}};
+  if (rest.creeping_starts > 0) {
+    rows.push_back({"creeps to it", starts_text(rest.creeping_starts),
+                    "by ever longer standstills and smaller moves"});
+  }
   if (rest.swing_ratio) {
     rows.push_back(
         {"approached by swings, ratio", number(*rest.swing_ratio), "never quite reached"});

@@ -28,6 +28,7 @@ struct Verdict {
   double watched = 0.0;
   std::string reason;
   double swing_ratio = std::numeric_limits<double>::quiet_NaN();
+  bool is_creeping = false;  ///< to rest
   Vector last;               ///< numbers
   IrregularFound irregular;  ///< if `end` is irregular
 
@@ -165,6 +166,11 @@ class Search {
     if (is_at_rest(watch, stretch, setting_, tolerances_.rest) ||
         is_vanishing(watch, stretch, verdict)) {
       verdict.end = MotionEnd::rest;
+      return true;
+    }
+    if (is_creeping(watch, setting_, tolerances_.rest)) {
+      verdict.end = MotionEnd::rest;
+      verdict.is_creeping = true;
       return true;
     }
     return stretch.motion &&
@@ -311,6 +317,7 @@ class Search {
     rest.error.include(-load);
     rest.motor.include(setting_.motor.value.at(verdict.last));
     ++rest.starts;
+    if (verdict.is_creeping) ++rest.creeping_starts;
     rest.swing_ratio = std::fmax(rest.swing_ratio, verdict.swing_ratio);  // fmax ignores NaN
   }
 

@@ -195,6 +195,36 @@ bool is_at_rest(const Watch& watch, const Stretch& stretch, const SearchSetting&
   return true;
 }
 
+namespace {
+
+/// When the last value was first had, but for less than `small`.
+double standing_since(const std::vector<Sample>& samples, double small) {
+  const double last = samples.back().value;
+  std::size_t first = samples.size() - 1;
+  while (first > 0 && std::abs(samples[first - 1].value - last) <= small) --first;
+  return samples[first].time;
+}
+
+bool has_stiction(const Shaft& shaft) { return shaft.friction.breakaway > shaft.friction.coulomb; }
+
+}  // namespace
+
+bool is_creeping(const Watch& watch, const SearchSetting& setting,
+                 const RestTolerances& tolerances) {
+  const ReducedDrive& drive = setting.drive;
+  if (has_stiction(drive.motor) || has_stiction(drive.load)) return false;
+  // Rounding may leave a shaft that sticks a speed of some 1e-30.
+  const double small = tolerances.no_move * setting.small_length;
+  for (const Watched* shaft : {&setting.motor, &setting.load}) {
+    const double speed = shaft->speed.at(watch.here.numbers);
+    if (std::abs(speed) * setting.swing_time > small) return false;
+  }
+  const double since =
+      std::max(standing_since(watch.load, small), standing_since(watch.motor, small));
+  const double before = since - watch.load.front().time;
+  return before > 0.0 && watch.time - since > tolerances.creeping * before;
+}
+
 std::size_t count_of_swings(const std::vector<Sample>& turns, double from,
                             const SearchSetting& setting, const RestTolerances& tolerances) {
   std::size_t count = 0;

@@ -26,6 +26,11 @@ struct RestTolerances {
   std::size_t vanishing_swings = 7;
   /// ... or fewer, where the last is below this share of the first.
   double vanishing_fast = 0.1;
+  /// A drive without stiction creeps to rest if it has stood this many times as long as all its
+  /// motion before took.
+  double creeping = 10.0;
+  /// Below this share of the small length nothing has moved.
+  double no_move = 1e-12;
 };
 
 /// What counts as a cycle, and as the same cycle.
