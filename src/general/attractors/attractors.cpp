@@ -168,14 +168,16 @@ class Search {
       verdict.end = MotionEnd::rest;
       return true;
     }
-    if (is_creeping(watch, setting_, tolerances_.rest)) {
-      verdict.end = MotionEnd::rest;
-      verdict.is_creeping = true;
-      return true;
-    }
+    if (creeps(watch, stretch, tolerances_.rest.creeping, verdict)) return true;
     return stretch.motion &&
            is_on_cycle(*stretch.motion,
                        {tolerances_.cycle.nearness, tolerances_.cycle.wide_nearness}, verdict);
+  }
+
+  bool creeps(const Watch& watch, const Stretch& stretch, double times, Verdict& verdict) const {
+    verdict.is_creeping = is_creeping(watch, stretch, setting_, tolerances_.rest, times);
+    if (verdict.is_creeping) verdict.end = MotionEnd::rest;
+    return verdict.is_creeping;
   }
 
   /// Whether a sampled drive's motion is one that is known, or has repeated its statistics from one
@@ -269,6 +271,7 @@ class Search {
   }
 
   void give_up(const Watch& watch, const Stretch& stretch, Verdict& verdict) {
+    if (creeps(watch, stretch, 1.0, verdict)) return;
     // The motion may approach its cycle slowly.
     const bool may_close = stretch.motion && setting_.coordinates != Coordinates::in_place;
     if (may_close && is_on_cycle(*stretch.motion, {tolerances_.cycle.widest_nearness}, verdict))

@@ -28,7 +28,7 @@ struct RestTolerances {
   double vanishing_fast = 0.1;
   /// A drive without stiction creeps to rest if it has stood this many times as long as all its
   /// motion before took.
-  double creeping = 10.0;
+  double creeping = 5.0;
   /// Below this share of the small length nothing has moved.
   double no_move = 1e-12;
 };
