@@ -447,7 +447,9 @@ class Simulation {
     const Event& last = trajectory_.events_.back();
     const Transition& transition = transition_of(last);
     if (!transition.settling) {
-      if (left <= 8.0 * epsilon * time_) settle_by_one_of(turn);
+      // A single pair of events at one instant is no sequence.
+      constexpr double tiny = 1e-8;
+      if (left <= 8.0 * epsilon * time_ && before <= tiny * time_) settle_by_one_of(turn);
       return;
     }
     constexpr double little = 1e-10;

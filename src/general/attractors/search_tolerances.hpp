@@ -30,7 +30,7 @@ struct RestTolerances {
   /// motion before took.
   double creeping = 5.0;
   /// Below this share of the small length nothing has moved.
-  double no_move = 1e-12;
+  double no_move = 1e-9;
 };
 
 /// What counts as a cycle, and as the same cycle.
