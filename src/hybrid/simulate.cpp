@@ -110,11 +110,12 @@ class Simulation {
   struct Rounds {
     Vector last;
     Vector change;          ///< in the last round
-    std::size_t alike = 0;  ///< rounds before it with the same change, within rounding
+    Vector begin;           ///< before the first of those alike
+    std::size_t alike = 0;  ///< rounds with the same change, within rounding
 
     void add(const Vector& numbers) {
       if (last.size() == 0) {
-        last = numbers;
+        begin = last = numbers;
         change = Vector::Zero(numbers.size());
         return;
       }
@@ -126,25 +127,28 @@ class Simulation {
         is_alike = is_alike && std::abs(step - change[i]) <= rounding * size;
         change[i] = step;
       }
+      if (!is_alike) begin = last;
+      alike = is_alike ? alike + 1 : 1;
       last = numbers;
-      alike = is_alike ? alike + 1 : 0;
     }
-    bool are_alike() const { return alike > 2; }
+    /// The mean of many has less rounding than one.
+    bool are_alike() const { return alike > 16; }
+    Vector mean_change() const { return (last - begin) / static_cast<double>(alike); }
   };
 
   /// Passes over rounds that change the numbers alike, up to some before a guard or an alternative
   /// comes near 0. The ticks are affine and nothing that is read moves, so a change that has
   /// repeated goes on repeating.
   void pass_over_rounds(Rounds& rounds, double period) {
-    constexpr double margin =
-        8.0;  // rounds; between the ticks of one the numbers differ from these
-    const double left = (options_.until - time_) / period;
-    double most = left;
+    // In rounds. Between the ticks of one the numbers differ from those at its end.
+    constexpr double margin = 8.0;
+    const Vector change = rounds.mean_change();
+    const Vector next = state_.numbers + change;
+    double most = (options_.until - time_) / period;
     const auto keep = [&](const SparseForm& form) {
-      const double change =
-          form.at(rounds.last.data()) - form.at((rounds.last - rounds.change).eval().data());
       const double value = form.at(state_.numbers.data());
-      if (change * value < 0.0) most = std::min(most, -value / change);
+      const double rate = form.at(next.data()) - value;
+      if (rate * value < 0.0) most = std::min(most, -value / rate);
     };
     for (const SparseForm& guard : mode_->guards) keep(guard);
     for (const PreparedJump& jump : mode_->timed) {
@@ -155,7 +159,7 @@ class Simulation {
     if (!(most > 2.0 * margin)) return;
     const double passed = std::floor(most - margin);
     standing_ = state_.numbers;
-    state_.numbers += passed * rounds.change;
+    state_.numbers += passed * change;
     const double now = time_ + passed * period;
     ticks_.pass_over(static_cast<std::size_t>(passed));
     observer_->moved(time_, now, standing_, state_.numbers);
