@@ -18,6 +18,8 @@ struct ArmatureControl {
   double torque_constant = 0.0;    ///< K₁, N m/A, > 0
   double back_emf_constant = 0.0;  ///< K₂, V s/rad, ≥ 0
   double resistance = 0.0;         ///< Ω, > 0
+  /// L, H, ≥ 0. The current follows the voltage with the time constant L/resistance; 0: at once.
+  double inductance = 0.0;
 
   bool operator==(const ArmatureControl&) const = default;
 };
@@ -61,6 +63,9 @@ struct Motor {
   /// Limit of the controller's output, > 0: N m for a torque-controlled motor, else V. None: no
   /// limit.
   std::optional<double> limit{};
+  /// A, ≥ 0, of a motor with direct current through its armature. It replaces friction.coulomb: see
+  /// coulomb_torque().
+  std::optional<double> no_load_current{};
 
   bool operator==(const Motor&) const = default;
 };
@@ -68,6 +73,10 @@ struct Motor {
 struct Gearbox {
   double ratio = 1.0;     ///< motor turns per load turn, > 0
   double backlash = 0.0;  ///< rad at the load's shaft, face to face, ≥ 0
+  double inertia = 0.0;   ///< kg m² at the motor's shaft, ≥ 0: added to the motor's
+  /// 0 … 1, as printed. Not modelled: losses in proportion to the transmitted torque are left out,
+  /// which every answer notes.
+  std::optional<double> efficiency{};
 
   bool operator==(const Gearbox&) const = default;
 };

@@ -7,6 +7,7 @@
 
 #include "analysis/ceiling/ceiling.hpp"
 #include "analysis/design/changeable_drive.hpp"
+#include "analysis/drive_notes.hpp"
 #include "analysis/energy/absence_by_energy.hpp"
 #include "analysis/energy/computed_rest.hpp"
 #include "analysis/final_servo.hpp"
@@ -317,6 +318,8 @@ Analysis analyse_in_full(const Drive& drive, const Wanted& wanted, Progress& pro
     analysis.answer = answer_of(*analysis.search, analysis.reduced);
   }
   analysis.answer.ceiling = std::move(ceiling);
+  std::vector<Note> notes = notes_on(drive);
+  analysis.answer.notes.insert(analysis.answer.notes.begin(), notes.begin(), notes.end());
   return analysis;
 }
 

@@ -217,6 +217,16 @@ class DriveReader {
 
   /// Refuses keys whose parameter the drive has lost because of another key.
   void refuse_rivals(SectionReader& section, const std::string& name) {
+    if (name == "motor" && motor_is_known_ && section.has("no_load_current")) {
+      if (section.has("coulomb")) {
+        section.refuse("no_load_current",
+                       "must not stand beside coulomb: it gives it, times torque_constant");
+      } else if (!takes_no_load_current(drive().motor)) {
+        section.refuse("no_load_current",
+                       "must stand beside the torque_constant of a motor with direct current "
+                       "through its armature: the product is its dry friction");
+      }
+    }
     if (name == "sensor") {
       for (const char* prefix : {"", "speed_"}) {
         const std::string counts = std::string(prefix) + "counts_per_turn";
@@ -237,12 +247,11 @@ class DriveReader {
 
   bool read_choice(SectionReader& section, const Parameter& parameter, const Key& key,
                    const Choice& choice) {
-    const std::vector<std::string> words(parameter.choices.begin(), parameter.choices.end());
     const bool is_required = parameter.is_required && key.form == nullptr;
-    const std::optional<std::string> word = section.choice(key.name, words, is_required);
+    const std::optional<std::string> word =
+        section.choice(key.name, words_of(parameter), is_required);
     if (!word) return !is_required;
-    const auto place = std::find(words.begin(), words.end(), *word) - words.begin();
-    choice.choose(drive(), static_cast<std::size_t>(place));
+    choice.choose(drive(), *choice_named(parameter, *word));
     return true;
   }
 
@@ -301,18 +310,31 @@ class DriveReader {
       return 1.0;
     }
     if (key.form != nullptr && key.form->dimension != nullptr) {
-      return key.form->inverse / section.quantity(key.name, *key.form->dimension).si;
+      return read_inverse(section, key.name, *key.form);
     }
-    if (dimension == nullptr) return section.number(key.name, wanted_text(parameter));
+    if (dimension == nullptr) {
+      const std::string wanted = wanted_text(parameter);
+      return parameter.permitted == Permitted::share ? section.share(key.name, wanted)
+                                                     : section.number(key.name, wanted);
+    }
     const OtherForm* inverse = inverse_form(parameter);
-    if (inverse != nullptr && section.is_of(key.name, *inverse->dimension)) {
-      return inverse->inverse / section.quantity(key.name, *inverse->dimension).si;
+    if (inverse != nullptr && !section.is_of(key.name, *dimension) &&
+        section.is_of(key.name, *inverse->dimension)) {
+      return read_inverse(section, key.name, *inverse);
     }
     const Measured value = section.quantity(key.name, *dimension);
     if (parameter.path == "gearbox.backlash" || parameter.path == "servo.backlash") {
       file_.angle = {.name = value.unit, .radians = value.unit_in_si};
     }
     return value.si;
+  }
+
+  static double read_inverse(SectionReader& section, const std::string& key,
+                             const OtherForm& form) {
+    const double number = section.quantity(key, *form.dimension).si;
+    if (number != 0.0) return form.inverse / number;
+    section.refuse(key, "must not be 0: it is taken as a reciprocal");
+    return 1.0;
   }
 
   /// Checks a value of an unreadable kind: whether it is readable and within its range.

@@ -48,7 +48,8 @@ double number_of(const Parameter& parameter, const Drive& drive, std::string_vie
                  std::string_view text) {
   const Dimension* dimension = parameter.dimension(drive);
   if (dimension == nullptr || path.find('[') != std::string_view::npos) {
-    return read_number(path, text);
+    return parameter.permitted == Permitted::share ? read_share(path, text)
+                                                   : read_number(path, text);
   }
   const OtherForm* inverse = inverse_form(parameter, path);
   if (inverse != nullptr && inverse->path == path) return to_si(path, text, *inverse->dimension);
@@ -61,12 +62,9 @@ double number_of(const Parameter& parameter, const Drive& drive, std::string_vie
 }
 
 std::size_t choice_of(const Parameter& parameter, std::string_view path, std::string_view text) {
-  const auto word = std::find(parameter.choices.begin(), parameter.choices.end(), text);
-  if (word == parameter.choices.end()) {
-    const std::vector<std::string> words(parameter.choices.begin(), parameter.choices.end());
-    refuse(path, text, one_of(words, text));
-  }
-  return static_cast<std::size_t>(word - parameter.choices.begin());
+  const std::optional<std::size_t> choice = choice_named(parameter, text);
+  if (!choice) refuse(path, text, one_of(words_of(parameter), text));
+  return *choice;
 }
 
 void set(Drive& drive, std::string_view path, std::string_view text) {

@@ -51,12 +51,13 @@ std::optional<std::string> nearest(const std::vector<std::string>& known,
 }
 
 /// A number without unit: a TOML number, or text (a fraction).
-double exact_number(const std::string& field, const toml::node& value) {
+double exact_number(const std::string& field, const toml::node& value,
+                    double (*read_text)(std::string_view, std::string_view) = read_number) {
   if (const auto* integer = value.as_integer()) return static_cast<double>(integer->get());
   if (const auto* floating = value.as_floating_point()) {
     return floating->get() + 0.0;  // no negative zero
   }
-  if (const auto* text = value.as_string()) return read_number(field, text->get());
+  if (const auto* text = value.as_string()) return read_text(field, text->get());
   throw InvalidInput({{field, "", "must be a number without unit, such as 0.25 or \"1/9\"", ""}});
 }
 
@@ -151,7 +152,12 @@ std::optional<Measured> SectionReader::optional_quantity(const std::string& key,
 
 double SectionReader::number(const std::string& key, const std::string& permitted) {
   const toml::node* value = require(key, "must be " + permitted);
-  return value != nullptr ? read(key, *value) : placeholder_number;
+  return value != nullptr ? read(key, *value, read_number) : placeholder_number;
+}
+
+double SectionReader::share(const std::string& key, const std::string& permitted) {
+  const toml::node* value = require(key, "must be " + permitted);
+  return value != nullptr ? read(key, *value, read_share) : placeholder_number;
 }
 
 std::optional<std::string> SectionReader::choice(const std::string& key,
@@ -289,7 +295,8 @@ const toml::node* SectionReader::require(const std::string& key, const std::stri
 Measured SectionReader::read(const std::string& key, const toml::node& value,
                              const Dimension& expected) {
   const auto read_exact = [&](const std::string& name, const toml::node& node) -> Measured {
-    if (bare_numbers_ && node.is_number()) {
+    const bool is_zero = node.is_number() && exact_number(name, node) == 0.0;  // in every unit
+    if (is_zero || (bare_numbers_ && node.is_number())) {
       return {.si = exact_number(name, node), .unit = std::string(expected.unit)};
     }
     const std::optional<std::string> text = node.value_exact<std::string>();
@@ -305,9 +312,9 @@ Measured SectionReader::read(const std::string& key, const toml::node& value,
   return read(key, value, read_exact, placeholder_quantity);
 }
 
-double SectionReader::read(const std::string& key, const toml::node& value) {
-  const auto read_exact = [](const std::string& name, const toml::node& node) -> Measured {
-    return {.si = exact_number(name, node)};
+double SectionReader::read(const std::string& key, const toml::node& value, NumberText read_text) {
+  const auto read_exact = [&](const std::string& name, const toml::node& node) -> Measured {
+    return {.si = exact_number(name, node, read_text)};
   };
   return read(key, value, read_exact, placeholder_number).si;
 }

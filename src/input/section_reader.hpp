@@ -82,6 +82,8 @@ class SectionReader {
   /// A number without unit: a TOML number, or text (a fraction). `permitted` describes the number
   /// in the fault of a missing key.
   double number(const std::string& key, const std::string& permitted);
+  /// number() of a share, which may be in percent.
+  double share(const std::string& key, const std::string& permitted);
   /// One of `choices`. Anything else is recorded as a fault and gives nothing; a missing key is a
   /// fault if `required`.
   std::optional<std::string> choice(const std::string& key, const std::vector<std::string>& choices,
@@ -107,10 +109,12 @@ class SectionReader {
   Place place() const;
 
  private:
+  /// Reads the text of a number without unit; as read_number().
+  using NumberText = double (*)(std::string_view field, std::string_view text);
   const toml::node* find(const std::string& key);
   const toml::node* require(const std::string& key, const std::string& permitted);
   Measured read(const std::string& key, const toml::node& value, const Dimension& expected);
-  double read(const std::string& key, const toml::node& value);
+  double read(const std::string& key, const toml::node& value, NumberText read_text);
   std::vector<double> read_list(const std::string& name, const toml::node& value,
                                 const std::string& permitted);
   Measured read(const std::string& key, const toml::node& value, const ExactReader& read_exact,

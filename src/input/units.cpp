@@ -102,6 +102,9 @@ Measured read_quantity(std::string_view field, std::string_view text, const Dime
   const std::string_view trimmed_text = trimmed(text);
   const std::size_t length = number_length(trimmed_text);
   const std::string_view name = trimmed(trimmed_text.substr(length));
+  if (length > 0 && name.empty() && decimal(trimmed_text) == 0.0) {
+    return {.si = 0.0, .unit = std::string(expected.unit)};  // in every unit
+  }
   if (length == 0 || name.empty()) {
     refuse(field, text, "must be a number and a unit of " + expectation(expected));
   }
@@ -165,6 +168,13 @@ double read_number(std::string_view field, std::string_view text) {
   const double value = *numerator / *denominator;
   if (!std::isfinite(value)) refuse(field, text, "must be a number from -1e308 to 1e308");
   return value + 0.0;
+}
+
+double read_share(std::string_view field, std::string_view text) {
+  const std::string_view trimmed_text = trimmed(text);
+  if (!trimmed_text.ends_with('%')) return read_number(field, text);
+  constexpr double percent = 100.0;
+  return read_number(field, trimmed_text.substr(0, trimmed_text.size() - 1)) / percent;
 }
 
 std::optional<double> bare_number(std::string_view text) {

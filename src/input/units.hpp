@@ -18,9 +18,9 @@ struct Measured {
   std::string unit = {};    ///< the unit as the author wrote it
 };
 
-/// Reads "<number> <unit>". The number is decimal with a point, in every locale. The unit is a
-/// product or quotient of powers of UDUNITS-2's units and the aliases of docs/data-sheets.md ("oz
-/// in2", "oz-in^2", "N·m/A", "mNm/A", "V/(rad/s)", "V/krpm").
+/// Reads "<number> <unit>", or a plain 0, which needs no unit. The number is decimal with a point,
+/// in every locale. The unit is a product or quotient of powers of UDUNITS-2's units and the
+/// aliases of docs/data-sheets.md ("oz in2", "oz-in^2", "N·m/A", "mNm/A", "V/(rad/s)", "V/krpm").
 ///
 /// Differences from UDUNITS: oz is the avoirdupois ounce (a mass), Hz is 2π rad/s (cycles per
 /// second), and reciprocals, offsets and logarithms are not converted. A dimension that may omit
@@ -37,6 +37,9 @@ double to_si(std::string_view field, std::string_view text, const Dimension& exp
 /// "inf". Throws InvalidInput with one fault, of `field`, for anything else (NaN, hexadecimal,
 /// 1e999, 1/0).
 double read_number(std::string_view field, std::string_view text);
+
+/// read_number() of a share, which may be in percent: "0.72", "72 %".
+double read_share(std::string_view field, std::string_view text);
 
 /// read_number(), but nothing for text that is not a number or has a unit.
 std::optional<double> bare_number(std::string_view text);

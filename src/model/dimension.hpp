@@ -79,6 +79,10 @@ inline constexpr Dimension resistance{.name = "electrical resistance",
                                       .second = -3,
                                       .ampere = -2};
 
+inline constexpr Dimension inductance{
+    .name = "inductance", .unit = "H", .metre = 2, .kilogram = 1, .second = -2, .ampere = -2};
+inline constexpr Dimension current{.name = "current", .unit = "A", .ampere = 1};
+
 inline constexpr Dimension torque{
     .name = "torque", .unit = "N m", .metre = 2, .kilogram = 1, .second = -2};
 inline constexpr Dimension torque_per_angle{.name = "torque per angle",

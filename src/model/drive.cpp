@@ -90,6 +90,8 @@ std::vector<Fault> validate(const ReducedDrive& drive) {
   if (!(drive.torque_limit > 0.0)) {
     all.refuse("torque_limit", exact_text(drive.torque_limit), "must be positive, N m");
   }
+  all.not_negative("winding.time_constant", drive.winding.time_constant, "s");
+  all.not_negative("winding.back_emf", drive.winding.back_emf, "N m s/rad");
   all.not_negative("sensing.resolution", drive.sensing.resolution, "rad");
   if (drive.sensing.resolution_of_speed != drive.sensing.resolution) {  // else it is one encoder
     all.not_negative("sensing.resolution_of_speed", drive.sensing.resolution_of_speed, "rad");

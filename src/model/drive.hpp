@@ -27,6 +27,13 @@ struct Shaft {
   ShaftFriction friction{};
 };
 
+/// The winding of a motor that is driven by a voltage. Its torque τ lags behind the requested one:
+/// time_constant τ′ = τ_requested − back_emf ω_M − τ.
+struct Winding {
+  double time_constant = 0.0;  ///< s, ≥ 0. At 0, back_emf is part of the motor's viscous friction
+  double back_emf = 0.0;       ///< N m s/rad, ≥ 0
+};
+
 /// Rigid faces: impacts.
 struct RigidContact {
   double restitution = 0.0;  ///< 0 … 1
@@ -68,7 +75,9 @@ struct ReducedDrive {
   Contact contact{};
   Sensing sensing{};
   Controller controller{};
-  double torque_limit = std::numeric_limits<double>::infinity();  ///< N m, > 0
+  /// Of the requested torque, before the winding. N m, > 0.
+  double torque_limit = std::numeric_limits<double>::infinity();
+  Winding winding{};
   std::optional<Sampling> sampling{};  ///< without it the controller is continuous
   Signal reference{};                  ///< rad
   Signal load_torque{};                ///< N m, on the load, forward

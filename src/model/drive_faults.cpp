@@ -18,6 +18,8 @@ std::string path_of(const std::string& name) {
       {"load.viscous", "load.friction"},
       {"backlash", "gearbox.backlash"},
       {"torque_limit", "motor.torque_limit"},
+      {"winding.time_constant", "motor.inductance"},
+      {"winding.back_emf", "motor.back_emf_constant"},
       {"sensing.resolution", "sensor.resolution"},
       {"sensing.resolution_of_speed", "sensor.speed_resolution"},
       {"controller.numerator", "controller.num"},
@@ -58,11 +60,27 @@ void check_number(RangeCheck& check, const Parameter& parameter, double value,
 
 namespace {
 
-void check_breakaway(RangeCheck& check, const Friction& friction, const std::string& shaft) {
-  if (!friction.breakaway || *friction.breakaway >= friction.coulomb) return;
-  check.refuse(shaft + ".breakaway", exact_text(*friction.breakaway) + " N m",
-               "must be at least " + shaft +
-                   ".coulomb: a shaft at rest is not easier to move than a moving one");
+void check_breakaway(RangeCheck& check, const Friction& friction, double coulomb,
+                     const std::string& shaft, const std::string& least) {
+  if (!friction.breakaway || *friction.breakaway >= coulomb) return;
+  check.refuse(
+      shaft + ".breakaway", exact_text(*friction.breakaway) + " N m",
+      "must be at least " + least + ": a shaft at rest is not easier to move than a moving one");
+}
+
+void check_dry_friction(RangeCheck& check, const Drive& drive) {
+  const Motor& motor = drive.motor;
+  const double coulomb = coulomb_torque(motor);
+  const bool is_by_current = motor.no_load_current && takes_no_load_current(motor);
+  check_breakaway(check, motor.friction, coulomb, "motor",
+                  is_by_current ? "motor.torque_constant * motor.no_load_current, " +
+                                      exact_text(coulomb) + " N m"
+                                : "motor.coulomb");
+  check_breakaway(check, drive.load.friction, drive.load.friction.coulomb, "load", "load.coulomb");
+  if (is_by_current && motor.friction.coulomb != 0.0) {
+    check.refuse("motor.coulomb", exact_text(motor.friction.coulomb) + " N m",
+                 "must be 0 beside motor.no_load_current, which gives it");
+  }
 }
 
 void check_normal_form(RangeCheck& check, const Drive& drive) {
@@ -94,11 +112,11 @@ struct Origin {
   std::string_view made_of;
 };
 constexpr std::array origins = {
-    Origin{"motor_inertia", "motor.inertia * gearbox.ratio^2"},
+    Origin{"motor_inertia", "(motor.inertia + gearbox.inertia) * gearbox.ratio^2"},
     Origin{"motor_friction", "(motor.friction + electrical friction) * gearbox.ratio^2"},
     Origin{"stiffness", "the motor's torque per volt * loop.error_gain * gearbox.ratio"},
     Origin{"damping", "friction/(2 sqrt(stiffness * inertia)), everything at the load"},
-    Origin{"inertia_ratio", "load.inertia/(motor.inertia * gearbox.ratio^2)"}};
+    Origin{"inertia_ratio", "load.inertia/((motor.inertia + gearbox.inertia) * gearbox.ratio^2)"}};
 /// Numbers at the load's shaft that an author gives directly, by their paths.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 4> given = {
     {{"backlash", "gearbox.backlash"},
@@ -173,8 +191,7 @@ std::vector<Fault> faults(const Drive& drive) {
     check_number(check, parameter, *value, dimension == nullptr ? "" : dimension->unit);
     if (check.faults().size() > before) mend(mended, parameter);
   }
-  check_breakaway(check, drive.motor.friction, "motor");
-  check_breakaway(check, drive.load.friction, "load");
+  check_dry_friction(check, drive);
   check_columns(check, drive);
   if (drive.servo) check_normal_form(check, drive);
   std::vector<Fault> found = check.faults();

@@ -100,6 +100,9 @@ Slopes slopes_of_plant(const Drive& drive, std::string_view path) {
              .stiffness = power * parts.drivetrain.stiffness / parts.ratio}};
   }
   if (path == "gearbox.backlash") return {{.backlash = 1.0}};
+  if (path == "gearbox.inertia" && drive.gearbox.inertia != 0.0) {
+    return {{.motor_inertia = parts.ratio * parts.ratio}};
+  }
   if (path == "load.inertia") return {{.load_inertia = 1.0}};
   if (path == "load.friction") return {{.load_friction = 1.0}};
   return path.starts_with("motor.") ? slopes_of_motor(parts, path)

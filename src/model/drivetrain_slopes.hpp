@@ -20,13 +20,15 @@ struct DrivetrainSlopes {
 };
 
 /// ∂/∂(the parameter) of proportional_drivetrain(drive), by the formulas
-///   J_M = J n²,  F_M = (f + E) n² + S d,  K = S g,  S = T n, or T n² with gains per motor angle,
+///   J_M = (J + J_G) n²,  F_M = (f + E) n² + S d,  K = S g,  S = T n, or T n² with gains per motor
+///   angle,
 /// E the winding's friction and T the torque per output at the motor's shaft (K₁K₂/R and K₁/R, 0
 /// and K₁/R, K_N and K_e, 0 and 1), g and d the controller's output per error and per speed; or of
 /// the normal form,
 ///   J_M = 1/(1 + r), J_L = 1 − J_M, F_M = 2ζω_n(1 − φ), F_L = 2ζω_nφ, K = ω_n².
 /// Empty for a parameter of which the drivetrain is no function: one that the drive does not have,
-/// or one whose change would end its closed form. Precondition: the drive has a closed form.
+/// one whose change would end its closed form, or an inertia of the gears that is 0 as by default.
+/// Precondition: the drive has a closed form.
 std::optional<DrivetrainSlopes> drivetrain_slopes(const Drive& drive, std::string_view path);
 
 }  // namespace gearlash

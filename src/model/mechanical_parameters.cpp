@@ -1,6 +1,7 @@
 #include <limits>
 
 #include "model/parameter_list.hpp"
+#include "model/reduced_drive.hpp"
 
 namespace gearlash {
 namespace {
@@ -13,6 +14,11 @@ bool has_voltage(const Drive& drive) {
 
 const Dimension* limit_dimension(const Drive& drive) {
   return has_voltage(drive) ? &voltage : &torque;
+}
+
+/// Whether the motor's no-load current gives its dry friction.
+bool is_given_by_current(const Drive& drive) {
+  return drive.motor.no_load_current && takes_no_load_current(drive.motor);
 }
 
 /// A slot that a drive in the normal form does not have.
@@ -96,7 +102,16 @@ std::vector<Parameter> motor_constants() {
            .meaning = "resistance of the controlled winding",
            .permitted = Permitted::positive,
            .is_required = true,
-           .usual = {0.01, 1000.0}}};
+           .usual = {0.01, 1000.0}},
+          {.path = "motor.inductance",
+           .slot =
+               [](Drive& d) {
+                 return d.servo ? Slot{} : slot_of(d.motor.kind, &ArmatureControl::inductance);
+               },
+           .dimension = &always<inductance>,
+           .meaning = "inductance of the armature; 0: the current follows the voltage at once",
+           .permitted = Permitted::not_negative,
+           .usual = {1e-6, 1.0}}};
 }
 
 std::vector<Parameter> two_phase_constants() {
@@ -141,7 +156,8 @@ Parameter motor_kind() {
               },
           .meaning = "kind of motor: the controller outputs volts to a winding, or torque",
           .is_required = true,
-          .choices = {"armature-controlled", "field-controlled", "two-phase", "torque-controlled"}};
+          .choices = {"armature-controlled", "field-controlled", "two-phase", "torque-controlled"},
+          .other_words = {{"brushed-dc", 0}}};
 }
 
 std::vector<Parameter> motor_parameters() {
@@ -166,11 +182,26 @@ std::vector<Parameter> motor_parameters() {
   }
   const std::vector<Parameter> dry = {
       {.path = "motor.coulomb",
-       .slot = [](Drive& d) { return of_plant(d, d.motor.friction.coulomb); },
+       .slot =
+           [](Drive& d) {
+             return is_given_by_current(d) ? Slot{} : of_plant(d, d.motor.friction.coulomb);
+           },
        .dimension = &always<torque>,
        .meaning = "dry friction of the motor while it moves",
        .permitted = Permitted::not_negative,
        .usual = {1e-5, 1.0}},
+      {.path = "motor.no_load_current",
+       .slot =
+           [](Drive& d) {
+             const bool is_free = d.motor.friction.coulomb == 0.0 || is_given_by_current(d);
+             return !d.servo && is_free && takes_no_load_current(d.motor)
+                        ? Slot{&d.motor.no_load_current}
+                        : Slot{};
+           },
+       .dimension = &always<current>,
+       .meaning = "current without load; times the torque constant it is the dry friction",
+       .permitted = Permitted::not_negative,
+       .usual = {1e-3, 10.0}},
       {.path = "motor.breakaway",
        .slot = [](Drive& d) { return of_plant(d, d.motor.friction.breakaway); },
        .dimension = &always<torque>,
@@ -209,6 +240,18 @@ std::vector<Parameter> transmission_parameters() {
            .permitted = Permitted::not_negative,
            .is_required = true,
            .usual = {1e-5, 0.1}},
+          {.path = "gearbox.inertia",
+           .slot = [](Drive& d) { return of_plant(d, d.gearbox.inertia); },
+           .dimension = &always<inertia>,
+           .meaning = "moment of inertia of the gears, at the motor's shaft",
+           .permitted = Permitted::not_negative,
+           .usual = {1e-9, 1e-2}},
+          {.path = "gearbox.efficiency",
+           .slot = [](Drive& d) { return of_plant(d, d.gearbox.efficiency); },
+           .meaning = "efficiency as printed; not modelled, which every answer notes",
+           .permitted = Permitted::share,
+           .wanted = "a number from 0 to 1, or in percent",
+           .usual = {0.3, 1.0, false}},
           {.path = "load.inertia",
            .slot = [](Drive& d) { return of_plant(d, d.load.inertia); },
            .dimension = &always<inertia>,

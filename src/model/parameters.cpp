@@ -68,6 +68,22 @@ bool exists(const Parameter& parameter, const Drive& drive) {
   return !std::holds_alternative<std::monostate>(parameter.slot(const_cast<Drive&>(drive)));
 }
 
+std::vector<std::string> words_of(const Parameter& parameter) {
+  std::vector<std::string> words(parameter.choices.begin(), parameter.choices.end());
+  for (const OtherWord& other : parameter.other_words) words.emplace_back(other.word);
+  return words;
+}
+
+std::optional<std::size_t> choice_named(const Parameter& parameter, std::string_view word) {
+  for (std::size_t i = 0; i < parameter.choices.size(); ++i) {
+    if (parameter.choices[i] == word) return i;
+  }
+  for (const OtherWord& other : parameter.other_words) {
+    if (other.word == word) return other.choice;
+  }
+  return std::nullopt;
+}
+
 std::optional<double> number_in(const Parameter& parameter, const Drive& drive) {
   const Slot slot = parameter.slot(const_cast<Drive&>(drive));
   if (const auto* number = std::get_if<double*>(&slot)) return **number;

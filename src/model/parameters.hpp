@@ -46,6 +46,12 @@ struct OtherForm {
   double inverse = 1.0;
 };
 
+/// Another word for one of a parameter's choices.
+struct OtherWord {
+  std::string_view word;  ///< "brushed-dc"
+  std::size_t choice = 0;
+};
+
 /// The range for designs and sliders if nothing else is known.
 struct UsualRange {
   double low = 0.0;
@@ -69,6 +75,7 @@ struct Parameter {
   /// The text for a fault if a number without a unit is missing.
   std::string_view wanted{};
   std::vector<std::string_view> choices{};  ///< for a choice, in the order of Choice::chosen
+  std::vector<OtherWord> other_words{};
   std::vector<OtherForm> other_forms{};
   UsualRange usual{};
 
@@ -96,6 +103,12 @@ const std::vector<Section>& all_sections();
 
 /// Whether the drive has this parameter.
 bool exists(const Parameter& parameter, const Drive& drive);
+
+/// All words for the parameter's choices, its own first.
+std::vector<std::string> words_of(const Parameter& parameter);
+
+/// The index of the choice that a word names; empty for any other word.
+std::optional<std::size_t> choice_named(const Parameter& parameter, std::string_view word);
 
 /// Notes a value that the parameter must not have, in `unit`.
 void check_number(RangeCheck& check, const Parameter& parameter, double value,

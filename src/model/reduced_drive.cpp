@@ -25,10 +25,23 @@ Drivetrain drivetrain_of(const NormalForm& form, double restitution) {
   return drivetrain;
 }
 
-drive::ShaftFriction referred(const Friction& friction, double ratio) {
+/// A shaft that turns `ratio` times as far as the load's.
+drive::ShaftFriction referred(const Friction& friction, double coulomb, double ratio) {
   return {.viscous = friction.viscous * (ratio * ratio),
-          .coulomb = friction.coulomb * ratio,
-          .breakaway = friction.breakaway.value_or(friction.coulomb) * ratio};
+          .coulomb = coulomb * ratio,
+          .breakaway = friction.breakaway.value_or(coulomb) * ratio};
+}
+
+/// Of the motor's shaft, at the load.
+double motor_inertia_of(const Drive& drive) {
+  const double ratio = drive.gearbox.ratio;
+  return (drive.motor.inertia + drive.gearbox.inertia) * (ratio * ratio);
+}
+
+/// The lag of the winding, s.
+double electrical_time_of(const Motor& motor) {
+  const auto* armature = std::get_if<ArmatureControl>(&motor.kind);
+  return armature == nullptr ? 0.0 : armature->inductance / armature->resistance;
 }
 
 // ---- controllers --------------------------------------------------------------------------------
@@ -144,9 +157,15 @@ drive::ReducedDrive reduced_plant(const Drive& drive) {
   const double ratio = drive.gearbox.ratio;
   const ReferredOutput output = refer_output(drive);
   drive::ReducedDrive reduced;
-  reduced.motor = {drive.motor.inertia * (ratio * ratio), referred(drive.motor.friction, ratio)};
-  reduced.motor.friction.viscous += output.friction;
-  reduced.load = {drive.load.inertia, referred(drive.load.friction, 1.0)};
+  reduced.motor = {motor_inertia_of(drive),
+                   referred(drive.motor.friction, coulomb_torque(drive.motor), ratio)};
+  if (const double time = electrical_time_of(drive.motor); time != 0.0) {
+    reduced.winding = {.time_constant = time, .back_emf = output.friction};
+  } else {
+    reduced.motor.friction.viscous += output.friction;
+  }
+  reduced.load = {drive.load.inertia,
+                  referred(drive.load.friction, drive.load.friction.coulomb, 1.0)};
   reduced.backlash = drive.gearbox.backlash;
   if (drive.motor.limit) reduced.torque_limit = output.torque * *drive.motor.limit;
   const double scale = output.torque * (drive.controller.shaft == ShaftName::motor ? ratio : 1.0);
@@ -163,6 +182,18 @@ drive::Sampling reduce(const Sampling& sampling) {
 }
 
 }  // namespace
+
+std::optional<double> torque_constant_of(const Motor& motor) {
+  const auto* armature = std::get_if<ArmatureControl>(&motor.kind);
+  return armature == nullptr ? std::nullopt : std::optional(armature->torque_constant);
+}
+
+bool takes_no_load_current(const Motor& motor) { return torque_constant_of(motor).has_value(); }
+
+double coulomb_torque(const Motor& motor) {
+  if (!motor.no_load_current || !takes_no_load_current(motor)) return motor.friction.coulomb;
+  return *torque_constant_of(motor) * *motor.no_load_current;
+}
 
 ReferredOutput refer_output(const Drive& drive) {
   const double ratio = drive.gearbox.ratio;
@@ -253,7 +284,7 @@ Drivetrain referred_drivetrain(const Drive& drive) {
   const double per_output =
       output.torque * (drive.controller.shaft == ShaftName::motor ? ratio : 1.0);
   const Gains gains = gains_of(drive.controller);
-  return {.motor_inertia = drive.motor.inertia * square,
+  return {.motor_inertia = motor_inertia_of(drive),
           .load_inertia = drive.load.inertia,
           .motor_friction =
               drive.motor.friction.viscous * square + output.friction + per_output * gains.speed,

@@ -16,6 +16,17 @@ struct ReferredOutput {
   double friction = 0.0;  ///< N m s/rad
 };
 
+/// The torque per current of the motor's armature, N m/A, if it is known.
+std::optional<double> torque_constant_of(const Motor& motor);
+
+/// Whether the motor's dry friction may be given by its no-load current.
+bool takes_no_load_current(const Motor& motor);
+
+/// The dry friction of the moving motor at its own shaft, N m: friction.coulomb, or
+/// torque_constant · no_load_current. Part of the no-load current balances friction that grows with
+/// speed, so this is an upper bound.
+double coulomb_torque(const Motor& motor);
+
 /// Armature: K₁n/R and K₁K₂n²/R; field: K₁n/R and 0; two-phase: K_e n and K_N n²; torque: n and 0
 /// (thesis Appendix A, steps 1 to 5; n motor turns per load turn).
 ReferredOutput refer_output(const Drive& drive);
@@ -62,7 +73,7 @@ ClosedFormServo normal_form_servo(const Drive& drive);
 std::optional<Drivetrain> proportional_drivetrain(const Drive& drive);
 
 /// Its drivetrain for one that is known to have a closed form, without checks:
-///   J_M = J n²,  F_M = (f + E) n² + S d,  K = S g   (model/drivetrain_slopes.hpp).
+///   J_M = (J + J_G) n²,  F_M = (f + E) n² + S d,  K = S g   (model/drivetrain_slopes.hpp).
 /// Nothing is allocated if the controller is P, PD or a cascade.
 Drivetrain referred_drivetrain(const Drive& drive);
 

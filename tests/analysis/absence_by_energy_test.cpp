@@ -94,6 +94,22 @@ TEST(AbsenceByEnergy, IsNotProvedWhereTheTheoremSaysNothing) {
   EXPECT_FALSE(is_absent_by_energy(reduce(coarse)));
 }
 
+/// With D fed back from the motor, the winding's lag T leaves friction wherever
+/// F_M + (E + D − K T)/(1 + ω²T²) > 0.
+TEST(OracleAbsenceByEnergy, OfALaggingWindingEndsWhereItsFrictionDoes) {
+  drive::ReducedDrive reduced =
+      reduce(motor_drive({.terms = PIDTerms::PD, .proportional = 1.0, .derivative = 0.3}));
+  reduced.motor.friction.viscous = 0.1;
+  reduced.winding.back_emf = 0.1;
+  const auto is_proved_with = [&](double time_constant) {
+    reduced.winding.time_constant = time_constant;
+    return is_absent_by_energy(reduced);
+  };
+  EXPECT_TRUE(is_proved_with(1e-6));
+  EXPECT_TRUE(is_proved_with(0.499));
+  EXPECT_FALSE(is_proved_with(0.501));
+}
+
 /// PD and lead-lag controllers, every sensor, every contact, with dry friction or without.
 Drive random_drive(SeededDraws& draws) {
   const double inertia_ratio = draws.log_uniform(0.2, 5.0);

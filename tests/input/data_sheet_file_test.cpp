@@ -266,7 +266,7 @@ restitution = 1.5
           "speed, such as V s/rad",
           "s.toml:4:1: motor.inertai = 3 kg m2: is not a key of [motor]: must be one of kind, "
           "inertia, friction, torque_constant, back_emf_constant, speed_constant, resistance, "
-          "coulomb, breakaway, voltage_limit (did you mean inertia?)",
+          "inductance, coulomb, no_load_current, breakaway, voltage_limit (did you mean inertia?)",
           "s.toml:5:11: motor.inertia = -0.61 oz in2: must be zero or positive, and finite",
           "s.toml:6:12: motor.friction = 3: must be a text with a number and a unit of torque "
           "per angular speed, such as \"1 N m s/rad\"",
@@ -329,9 +329,10 @@ TEST(ServoFileRefusal, OneFormOfServo) {
 TEST(ServoFileRefusal, KindOfMotor) {
   EXPECT_THAT(
       refusals(replaced(sample, "\"armature-controlled\"", "\"armature controlled\"")),
-      ElementsAre("s.toml:2:8: motor.kind = armature controlled: must be one of "
-                  "armature-controlled, field-controlled, two-phase, torque-controlled (did "
-                  "you mean armature-controlled?)"));
+      ElementsAre(
+          "s.toml:2:8: motor.kind = armature controlled: must be one of "
+          "armature-controlled, field-controlled, two-phase, torque-controlled, brushed-dc (did "
+          "you mean armature-controlled?)"));
   EXPECT_THAT(refusals(replaced(sample, "\"armature-controlled\"", "3")),
               ElementsAre(StartsWith("s.toml:2:8: motor.kind = 3: must be one of ")));
   EXPECT_THAT(
@@ -354,7 +355,7 @@ TEST(ServoFileRefusal, OtherFaultsBesideAnUnknownKind) {
 TEST(ServoFileRefusal, NumbersAtTheLoadSayWhatTheyAreMadeOf) {
   EXPECT_THAT(refusals(replaced(sample, "ratio = 1", "ratio = 1e200")),
               Contains("s.toml:1:1: motor_inertia = inf kg m2: must be zero or positive, and "
-                       "finite; it is motor.inertia * gearbox.ratio^2"));
+                       "finite; it is (motor.inertia + gearbox.inertia) * gearbox.ratio^2"));
 }
 
 /// The sample with another value in place of its resistance.

@@ -44,6 +44,8 @@ std::vector<Drive> drives_of_all_kinds() {
     std::get<Choice>(slot).choose(drives.back(), 3 + law);
   }
   drives.push_back(joint());
+  drives.back().motor = {.kind = ArmatureControl{0.1, 0.1, 1.0}, .no_load_current = 0.1};
+  drives.push_back(joint());
   drives.back().contact = CompliantContact{500.0, 1.0};
   for (const Signal& signal :
        {Signal(1.0), Signal(StepSignal{}), Signal(RampSignal{}), Signal(SineSignal{}),
@@ -145,6 +147,20 @@ TEST(Parameters, BreakawayIsCoulombFrictionWhereItIsNotGiven) {
   EXPECT_EQ(get(drive, "motor.breakaway"), 3e-3);
   set(drive, "motor.breakaway", 5e-3);
   EXPECT_EQ(get(drive, "motor.breakaway"), 5e-3);
+}
+
+TEST(Parameters, DryFrictionAndNoLoadCurrentExcludeEachOther) {
+  Drive drive = joint();
+  drive.motor = {.kind = ArmatureControl{0.1, 0.1, 1.0}, .inertia = 2e-4};
+  set(drive, "motor.no_load_current", 0.2);
+  EXPECT_DOUBLE_EQ(coulomb_torque(drive.motor), 0.02);
+  EXPECT_THROW(set(drive, "motor.coulomb", 0.01), InvalidInput);
+  drive.motor.friction.coulomb = 0.01;
+  ASSERT_EQ(faults(drive).size(), 1U);
+  EXPECT_EQ(faults(drive)[0].path, "motor.coulomb");
+  drive.motor.no_load_current.reset();
+  EXPECT_DOUBLE_EQ(coulomb_torque(drive.motor), 0.01);
+  EXPECT_THROW(set(drive, "motor.no_load_current", 0.2), InvalidInput);
 }
 
 TEST(FaultsOfDrives, ASoundDriveHasNone) { EXPECT_TRUE(faults(joint()).empty()); }

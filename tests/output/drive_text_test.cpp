@@ -65,6 +65,20 @@ TEST(DriveText, EveryKindOfControllerAndSignalReadsBack) {
   }
 }
 
+TEST(DriveText, APrintedSheetReadsBack) {
+  const Drive drive = read(
+      "[motor]\nkind = \"brushed-dc\"\ninertia = \"142 g cm²\"\nfriction = 0\n"
+      "torque_constant = \"30.2 mNm/A\"\nspeed_constant = \"317 rpm/V\"\n"
+      "resistance = \"0.299 Ω\"\ninductance = \"0.082 mH\"\nno_load_current = \"137 mA\"\n"
+      "[gearbox]\nratio = \"43:1\"\nbacklash = \"0.8°\"\nefficiency = \"72 %\"\n"
+      "inertia = \"15 gcm²\"\n[load]\ninertia = \"0.05 kgm²\"\nfriction = \"0\"\n"
+      "[controller]\nkind = \"PID\"\nkp = \"20 V/deg\"\nki = \"1 V/(deg s)\"\n"
+      "kd = \"0\"\n[sampling]\nrate = \"1 kHz\"\n");
+  EXPECT_EQ(to_toml(read(to_toml(drive))), to_toml(drive));
+  EXPECT_EQ(drive_json(read(to_toml(drive))), drive_json(drive));
+  EXPECT_EQ(drive.sampling->period, 1e-3);
+}
+
 TEST(DriveText, DefaultsAreNamed) {
   const Drive drive = read(read_text_file(examples / "elinco-fd162.toml", largest_drive_file));
   const std::vector<std::string> defaults = defaults_taken(drive);

@@ -26,6 +26,9 @@ std::string obstacle(const ReducedDrive& drive) {
   if (faces != nullptr && faces->damping > 0.0) {
     return "faces with damping: it can be exceeded (docs/mathematics.md)";
   }
+  if (drive.winding.time_constant > 0.0) {
+    return "a winding with inductance: no bound is known";
+  }
   if (!drive.sampling) return {};
   if (faces != nullptr) return "compliant faces under a sampled controller: no bound is known";
   const drive::LinearController controller =

@@ -30,6 +30,12 @@ RationalFunction forward_shift(double period) {
   return (RationalFunction(1.0) + half) / (RationalFunction(1.0) - half);
 }
 
+/// 1 + T s of a winding that lags.
+RationalFunction lag_of(const Winding& winding) {
+  return RationalFunction(1.0) + RationalFunction(Rational(winding.time_constant)) * variable();
+}
+
+/// Of the torque as the winding gives it; of the requested torque where that may be limited.
 Feedback feedback_of(const ReducedDrive& drive, TorqueGiven torque) {
   const bool is_sampled = drive.sampling.has_value();
   const LinearController controller = is_sampled
@@ -50,6 +56,10 @@ Feedback feedback_of(const ReducedDrive& drive, TorqueGiven torque) {
     delay = 0.5 * drive.sampling->period + drive.sampling->delay;
   }
   const RationalFunction minus(-1.0);
+  if (torque == TorqueGiven::as_asked) {
+    transfer.position = transfer.position / lag_of(drive.winding);
+    transfer.speed = transfer.speed / lag_of(drive.winding);
+  }
   const RationalFunction position = minus * transfer.position;
   const RationalFunction speed = minus * transfer.speed * speed_by_position;
   const RationalFunction one(1.0);
@@ -68,9 +78,16 @@ RationalFunction plant_of(const Shaft& shaft) {
   return inertia_and_friction(Rational(shaft.inertia), Rational(shaft.friction.viscous));
 }
 
-RationalFunction plant_of(const ReducedDrive& drive) {
-  return plant_of(drive.motor) + plant_of(drive.load);
+/// With the back-EMF of a winding that lags.
+RationalFunction motor_of(const ReducedDrive& drive) {
+  if (drive.winding.time_constant == 0.0) return plant_of(drive.motor);
+  return plant_of(drive.motor) +
+         RationalFunction(Rational(drive.winding.back_emf)) * variable() / lag_of(drive.winding);
 }
+
+RationalFunction load_of(const ReducedDrive& drive) { return plant_of(drive.load); }
+
+RationalFunction plant_of(const ReducedDrive& drive) { return motor_of(drive) + load_of(drive); }
 
 // ---- assumptions --------------------------------------------------------------------------------
 
@@ -179,8 +196,7 @@ LinearLoop gap_loop(const ReducedDrive& drive, const Feedback& feedback) {
   const RationalFunction delay = delay_approximation(feedback.delay);
   const bool is_rational = feedback.delay > 0.0;
   if (feedback.from_load.is_zero()) {
-    return {rounded(plant_of(drive.load) / (plant_of(drive.motor) + feedback.from_motor * delay)),
-            is_rational};
+    return {rounded(load_of(drive) / (motor_of(drive) + feedback.from_motor * delay)), is_rational};
   }
   return {rounded(feedback.from_load * delay / (plant_of(drive) + feedback.from_motor * delay)),
           is_rational};
@@ -209,8 +225,8 @@ DescribingAnalysis described_elastic_gap(const ReducedDrive& drive,
   const Feedback feedback = feedback_of(drive, TorqueGiven::as_asked);
   const RationalFunction delay = delay_approximation(feedback.delay);
   const RationalFunction from_load = feedback.from_load * delay;
-  const RationalFunction motor = plant_of(drive.motor) + feedback.from_motor * delay;
-  const RationalFunction load = plant_of(drive.load);
+  const RationalFunction motor = motor_of(drive) + feedback.from_motor * delay;
+  const RationalFunction load = load_of(drive);
   const RationalFunction damping =
       RationalFunction(1.0) +
       RationalFunction(Rational(contact.damping) / Rational(contact.stiffness)) * variable();
@@ -229,7 +245,7 @@ DescribingAnalysis described_elastic_gap(const ReducedDrive& drive,
 DescribingAnalysis described_torque_limit(const ReducedDrive& drive) {
   const Feedback feedback = feedback_of(drive, TorqueGiven::limited);
   const bool winds_back = !feedback.anti_windup.is_zero();
-  const RationalFunction plant = plant_of(drive);
+  const RationalFunction plant = lag_of(drive.winding) * plant_of(drive);
   const RationalFunction delay =
       winds_back ? delay_approximation(feedback.delay) : RationalFunction(1.0);
   const RationalFunction loop = feedback.whole() * delay / plant - feedback.anti_windup;

@@ -113,7 +113,11 @@ bool is_absent_by_energy(const ReducedDrive& drive) {
       controller.order() > highest_order) {
     return false;
   }
-  const ControllerPolynomials loop = polynomials_of(controller);
+  const ControllerPolynomials requested = polynomials_of(controller);
+  ControllerPolynomials loop = requested;
+  const drive::Winding& winding = drive.winding;
+  const bool lags = winding.time_constant > 0.0;
+  if (lags) loop.denominator = product({1.0, datum(winding.time_constant)}, loop.denominator);
   const Interval of_position = drive.sensing.load_share_of_position;
   const Interval of_speed = drive.sensing.load_share_of_speed;
   const Polynomial s{0.0, 1.0};
@@ -125,9 +129,11 @@ bool is_absent_by_energy(const ReducedDrive& drive) {
   };
   // Times s and the controller's denominator.
   const Polynomial position_and_speed = sum(loop.position, product(s, loop.speed));
-  const Polynomial motor = sum(product(product(s, shaft(drive.motor)), loop.denominator),
-                               sum(scaled(1.0 - of_position, loop.position),
-                                   scaled(1.0 - of_speed, product(s, loop.speed))));
+  const Polynomial electrical = scaled(datum(winding.back_emf), product(s, requested.denominator));
+  Polynomial motor = sum(product(product(s, shaft(drive.motor)), loop.denominator),
+                         sum(scaled(1.0 - of_position, loop.position),
+                             scaled(1.0 - of_speed, product(s, loop.speed))));
+  if (lags) motor = sum(motor, electrical);
   const Polynomial closed =
       sum(motor,
           sum(product(product(s, shaft(drive.load)), loop.denominator),

@@ -74,6 +74,10 @@ AffineForm DriveForms::asked_torque() const {
 }
 
 AffineForm DriveForms::motor_torque(TorqueState state) const {
+  return at_.winding == StateIndices::none ? limited_torque(state) : number(at_.winding);
+}
+
+AffineForm DriveForms::limited_torque(TorqueState state) const {
   if (state == TorqueState::highest) return constant(drive_.torque_limit);
   if (state == TorqueState::lowest) return constant(-drive_.torque_limit);
   return asked_torque();
@@ -81,7 +85,7 @@ AffineForm DriveForms::motor_torque(TorqueState state) const {
 
 AffineForm DriveForms::withdrawal(const DriveMode& mode, std::size_t state) const {
   if (controller_.anti_windup.empty() || mode.torque == TorqueState::linear) return constant(0.0);
-  return controller_.anti_windup[state] * (motor_torque(mode.torque) - asked_torque());
+  return controller_.anti_windup[state] * (limited_torque(mode.torque) - asked_torque());
 }
 
 // ---- torques ------------------------------------------------------------------------------------
@@ -145,6 +149,11 @@ hybrid::AffineFlow DriveForms::flow(const DriveMode& mode) const {
   set(motor_speed, acceleration(mode, Side::motor));
   set(load_position, number(load_speed));
   set(load_speed, acceleration(mode, Side::load));
+  if (at_.winding != StateIndices::none) {
+    set(at_.winding, 1.0 / drive_.winding.time_constant *
+                         (limited_torque(mode.torque) -
+                          drive_.winding.back_emf * number(motor_speed) - number(at_.winding)));
+  }
   generate(reference_generator_, at_.reference);
   generate(load_generator_, at_.load_torque);
   for (std::size_t i = 0; !drive_.sampling && i < controller_.order(); ++i) {

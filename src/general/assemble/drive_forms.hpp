@@ -55,6 +55,9 @@ class DriveForms {
   /// Σ factors of the controller's states.
   hybrid::AffineForm of_controller(const std::vector<double>& factors) const;
   hybrid::AffineForm asked_torque() const;
+  /// The requested torque within its limit.
+  hybrid::AffineForm limited_torque(TorqueState state) const;
+  /// On the motor: the same, or the winding's that lags behind it.
   hybrid::AffineForm motor_torque(TorqueState state) const;
   /// Anti-windup, of one of the controller's states.
   hybrid::AffineForm withdrawal(const DriveMode& mode, std::size_t state) const;

@@ -46,8 +46,8 @@ AffineReset without_inputs(const DriveForms& forms, const DriveMode& mode, Eigen
   for (std::size_t i = 0; i < controller.order(); ++i) {
     AffineForm next = forms.of_controller(controller.state_matrix[i]);
     if (!controller.anti_windup.empty() && mode.torque != TorqueState::linear) {
-      next = next +
-             controller.anti_windup[i] * (forms.motor_torque(mode.torque) - forms.number(at.held));
+      next = next + controller.anti_windup[i] *
+                        (forms.limited_torque(mode.torque) - forms.number(at.held));
     }
     set(controller_states + static_cast<Eigen::Index>(i), next);
   }

@@ -18,6 +18,7 @@ StateIndices state_indices(const ReducedDrive& drive, Eigen::Index controller_or
   } else if (drive.sensing.resolution > 0.0) {
     indices.encoder = next++;
   }
+  if (drive.winding.time_constant > 0.0) indices.winding = next++;
   indices.reference = next;
   indices.reference_size = reference.size();
   indices.load_torque = next + reference.size();
@@ -50,6 +51,7 @@ std::vector<std::string> state_names(const StateIndices& indices) {
   }
   name(indices.last_reading, "last reading");
   name(indices.encoder, "encoder");
+  name(indices.winding, "torque of the winding");
   name_all(indices.reference, indices.reference_size, "reference");
   name_all(indices.load_torque, indices.load_torque_size, "load torque");
   return names;

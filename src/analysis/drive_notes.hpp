@@ -1,0 +1,15 @@
+// What a drive's file says that an answer takes in a way its reader should know, or leaves out.
+#pragma once
+
+#include <vector>
+
+#include "gearlash/answer.hpp"
+#include "gearlash/drive.hpp"
+
+namespace gearlash {
+
+/// Codes: "no-load-current" (the dry friction that it gives), "efficiency" (left out).
+/// Precondition: a sound drive.
+std::vector<Note> notes_on(const Drive& drive);
+
+}  // namespace gearlash
