@@ -118,7 +118,11 @@ class Search {
         verdict.reason = "the search was stopped";
         return verdict;
       }
-      if (watch.events >= most_events_ || watch.time >= longest(watch, stretch, patience)) {
+      const double most = longest(watch, stretch, patience);
+      if (watch.time >= most && creeps(watch, verdict)) return verdict;
+      const bool may_creep = stands(watch.here, setting_, tolerances_.rest);
+      const double times = may_creep ? budget_.patience_at_standstill : 1.0;
+      if (watch.events >= most_events_ || watch.time >= times * most) {
         give_up(watch, stretch, verdict);
         return verdict;
       }
@@ -168,14 +172,13 @@ class Search {
       verdict.end = MotionEnd::rest;
       return true;
     }
-    if (creeps(watch, stretch, tolerances_.rest.creeping, verdict)) return true;
     return stretch.motion &&
            is_on_cycle(*stretch.motion,
                        {tolerances_.cycle.nearness, tolerances_.cycle.wide_nearness}, verdict);
   }
 
-  bool creeps(const Watch& watch, const Stretch& stretch, double times, Verdict& verdict) const {
-    verdict.is_creeping = is_creeping(watch, stretch, setting_, tolerances_.rest, times);
+  bool creeps(const Watch& watch, Verdict& verdict) const {
+    verdict.is_creeping = is_creeping(watch, setting_, tolerances_.rest);
     if (verdict.is_creeping) verdict.end = MotionEnd::rest;
     return verdict.is_creeping;
   }
@@ -271,7 +274,6 @@ class Search {
   }
 
   void give_up(const Watch& watch, const Stretch& stretch, Verdict& verdict) {
-    if (creeps(watch, stretch, 1.0, verdict)) return;
     // The motion may approach its cycle slowly.
     const bool may_close = stretch.motion && setting_.coordinates != Coordinates::in_place;
     if (may_close && is_on_cycle(*stretch.motion, {tolerances_.cycle.widest_nearness}, verdict))

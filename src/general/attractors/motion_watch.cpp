@@ -209,32 +209,26 @@ bool has_stiction(const Shaft& shaft) { return shaft.friction.breakaway > shaft.
 
 }  // namespace
 
-bool stands(const Stretch& stretch, const SearchSetting& setting,
+bool stands(const hybrid::State& state, const SearchSetting& setting,
             const RestTolerances& tolerances) {
   // Rounding may leave a shaft that sticks a speed of some 1e-30.
   const double small = tolerances.no_move * setting.small_length;
   const auto is_slow = [&](const Watched& shaft) {
-    return std::abs(shaft.speed.at(stretch.end.numbers)) * setting.swing_time <= small;
+    return std::abs(shaft.speed.at(state.numbers)) * setting.swing_time <= small;
   };
-  const auto has_not_moved = [&](Eigen::Index position) {
-    const Extent& range = stretch.last[static_cast<std::size_t>(position)];
-    return range.width() * setting.frame.scale[position] <= small;
-  };
-  return is_slow(setting.motor) && is_slow(setting.load) && !stretch.last.empty() &&
-         has_not_moved(motor_position) && has_not_moved(load_position);
+  return is_slow(setting.motor) && is_slow(setting.load);
 }
 
-bool is_creeping(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
-                 const RestTolerances& tolerances, double times) {
+bool is_creeping(const Watch& watch, const SearchSetting& setting,
+                 const RestTolerances& tolerances) {
   const ReducedDrive& drive = setting.drive;
   if (has_stiction(drive.motor) || has_stiction(drive.load)) return false;
-  if (!stands(stretch, setting, tolerances)) return false;
+  if (!stands(watch.here, setting, tolerances)) return false;
   const double small = tolerances.no_move * setting.small_length;
   const double since =
       std::max(standing_since(watch.load, small), standing_since(watch.motor, small));
   const double before = since - watch.load.front().time;
-  if (times > 1.0 && !(before > 0.0)) return false;  // it has not moved yet
-  return watch.time - since > times * before;
+  return watch.time - since > tolerances.creeping * before;
 }
 
 std::size_t count_of_swings(const std::vector<Sample>& turns, double from,

@@ -44,15 +44,16 @@ Stretch observe(Watch& watch, double until, std::size_t event_limit, const Searc
 bool is_at_rest(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
                 const RestTolerances& tolerances);
 
-/// Whether nothing has moved on a stretch, which may still change the controller's numbers.
-bool stands(const Stretch& stretch, const SearchSetting& setting, const RestTolerances& tolerances);
+/// Whether neither shaft of a state moves.
+bool stands(const hybrid::State& state, const SearchSetting& setting,
+            const RestTolerances& tolerances);
 
-/// Whether integral action moves a drive ever less and ever later: it has moved, and has stood
-/// since for so many times as long as all its motion took. Holds only where friction at rest is
-/// that of motion, so that a standstill stores nothing: such a drive has no cycle of standstills
-/// (Armstrong-Hélouvry & Amin 1996; Ruderman, arXiv 2006.08977).
-bool is_creeping(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
-                 const RestTolerances& tolerances, double times);
+/// Whether a drive has stood for `creeping` times as long as all its motion took, at the end of its
+/// watch: integral action moves it ever less and ever later. Holds only where friction at rest is
+/// that of motion, so that a standstill stores nothing (Armstrong-Hélouvry & Amin 1996; Ruderman,
+/// arXiv 2006.08977).
+bool is_creeping(const Watch& watch, const SearchSetting& setting,
+                 const RestTolerances& tolerances);
 
 /// Swings after a time, without negligible ones.
 std::size_t count_of_swings(const std::vector<Sample>& turns, double from,

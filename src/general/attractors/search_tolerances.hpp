@@ -26,9 +26,9 @@ struct RestTolerances {
   std::size_t vanishing_swings = 7;
   /// ... or fewer, where the last is below this share of the first.
   double vanishing_fast = 0.1;
-  /// A drive without stiction creeps to rest if it has stood this many times as long as all its
-  /// motion before took.
-  double creeping = 5.0;
+  /// A drive without stiction creeps to rest if at the end of its watch it has stood this many
+  /// times as long as all its motion before took.
+  double creeping = 1.0;
   /// Below this share of the small length nothing has moved.
   double no_move = 1e-9;
 };
@@ -111,6 +111,8 @@ struct SearchBudget {
   double patience_at_ticks = 200.0;
   /// ... or this many times, between two starts with different outcomes.
   double patience_at_edges = 2.0;
+  /// ... and this many times longer while it stands.
+  double patience_at_standstill = 10.0;
   /// Hardly anything happens if a stretch has fewer swings than this ...
   std::size_t hardly_any_swings = 12;
   /// ... or if the last swing is below this share of the stretch's first.
