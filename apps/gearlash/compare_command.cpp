@@ -1,6 +1,7 @@
 // gearlash compare: the same drive with its sensor before and after the gap.
 #include <algorithm>
 #include <memory>
+#include <numbers>
 #include <sstream>
 
 #include "analysis/analyse.hpp"
@@ -55,12 +56,13 @@ struct Step {
   double until = 0.0;
 };
 
-/// Ten times the backlash, and twenty periods of the loop.
+/// Ten times the backlash, or a degree without one, and twenty periods of the loop.
 Step read_step(const CompareOptions& options, const WrittenDrive& written, Faults& faults) {
   constexpr double backlashes = 10.0;
   constexpr double periods = 20.0;
   const drive::ReducedDrive reduced = reduce(written.drive);
-  Step step{backlashes * reduced.backlash, 1.0};
+  constexpr double degree = std::numbers::pi / 180.0;
+  Step step{reduced.backlash > 0.0 ? backlashes * reduced.backlash : degree, 1.0};
   if (options.step) {
     step.size = faults.collect([&] { return read_angle("--step", *options.step).si; }, step.size);
     if (step.size == 0.0) {
@@ -150,7 +152,7 @@ void add_compare_command(Command& app, Action& action) {
   command
       ->add_option("--step", options->step,
                    "Set the step of the reference, in rad or with a unit; default ten\n"
-                   "times the backlash")
+                   "times the backlash, or 1 deg without one")
       ->type_name("ANGLE");
   command
       ->add_option("--until", options->until,

@@ -82,6 +82,9 @@ struct Controller {
       law{};
   /// The gains are per angle of this shaft. The output is the motor's in either case.
   ShaftName shaft = ShaftName::load;
+  /// The gains are torque at the load per angle of the load, as robots give them; `shaft` does not
+  /// matter then. For torque-controlled motors only.
+  bool is_at_joint = false;
 
   bool operator==(const Controller&) const = default;
 };

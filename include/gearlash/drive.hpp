@@ -42,6 +42,9 @@ struct TwoPhase {
 
 /// An amplifier controls the current: the controller's output is the torque.
 struct TorqueControl {
+  /// N m/A, > 0. It turns currents of the motor into torques.
+  std::optional<double> torque_constant{};
+
   bool operator==(const TorqueControl&) const = default;
 };
 
@@ -66,6 +69,9 @@ struct Motor {
   /// A, ≥ 0, of a motor with direct current through its armature. It replaces friction.coulomb: see
   /// coulomb_torque().
   std::optional<double> no_load_current{};
+  /// A, > 0, of a torque-controlled motor with a torque constant. It replaces `limit`: see
+  /// output_limit().
+  std::optional<double> current_limit{};
 
   bool operator==(const Motor&) const = default;
 };
@@ -84,6 +90,10 @@ struct Gearbox {
 struct Load {
   double inertia = 0.0;  ///< kg m², ≥ 0
   Friction friction{};
+  /// m g l of the load: the torque of its weight while its centre of mass is level with its axis,
+  /// N m. It pulls backward, by −gravity · cos(angle above the horizontal).
+  double gravity = 0.0;
+  double gravity_angle = 0.0;  ///< rad above the horizontal at position 0
 
   bool operator==(const Load&) const = default;
 };

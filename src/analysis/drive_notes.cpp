@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <numbers>
 #include <string>
 
 #include "model/reduced_drive.hpp"
@@ -35,6 +36,15 @@ std::vector<Note> notes_on(const Drive& drive) {
                            " is not modelled: losses in proportion to the transmitted torque are "
                            "left out. Give friction that does not depend on it as motor.coulomb or "
                            "load.coulomb."});
+  }
+  if (drive.load.gravity != 0.0) {
+    const drive::Gravity gravity = reduce(drive).gravity;
+    constexpr double degrees = 180.0 / std::numbers::pi;
+    notes.push_back({"gravity", "Gravity is linearised about " +
+                                    text_of((drive.load.gravity_angle + gravity.angle) * degrees) +
+                                    "° above the horizontal, where the reference ends: torque " +
+                                    text_of(gravity.torque) + " N m, stiffness " +
+                                    text_of(gravity.stiffness) + " N m/rad."});
   }
   return notes;
 }

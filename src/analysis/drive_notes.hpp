@@ -8,8 +8,8 @@
 
 namespace gearlash {
 
-/// Codes: "no-load-current" (the dry friction that it gives), "efficiency" (left out).
-/// Precondition: a sound drive.
+/// Codes: "no-load-current" (the dry friction that it gives), "efficiency" (left out), "gravity"
+/// (its torque and stiffness where the reference ends). Precondition: a sound drive.
 std::vector<Note> notes_on(const Drive& drive);
 
 }  // namespace gearlash

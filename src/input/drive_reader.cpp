@@ -227,6 +227,16 @@ class DriveReader {
                        "through its armature: the product is its dry friction");
       }
     }
+    if (name == "motor" && motor_is_known_ && section.has("current_limit")) {
+      if (section.has("torque_limit")) {
+        section.refuse("current_limit",
+                       "must not stand beside torque_limit: it gives it, times torque_constant");
+      } else if (!takes_current_limit(drive().motor)) {
+        section.refuse("current_limit",
+                       "must stand beside the torque_constant of a torque-controlled motor: the "
+                       "product is its torque limit");
+      }
+    }
     if (name == "sensor") {
       for (const char* prefix : {"", "speed_"}) {
         const std::string counts = std::string(prefix) + "counts_per_turn";

@@ -96,6 +96,7 @@ const Dimension* speed_gain_dimension(const Drive& drive) {
   return is_torque(drive) ? &torque_per_speed : &voltage_per_speed;
 }
 
+constexpr std::size_t joint = 2;    // in the list of shafts
 constexpr std::size_t cascade = 4;  // in the list of kinds, after P, PD, PI, PID
 
 /// The alternative of that index, with its defaults.
@@ -138,14 +139,19 @@ Parameter controller_shaft() {
               [](Drive& d) {
                 if (d.servo) return Slot{};
                 return Slot{Choice{[](const Drive& drive) {
-                                     return static_cast<std::size_t>(drive.controller.shaft);
+                                     return drive.controller.is_at_joint
+                                                ? joint
+                                                : static_cast<std::size_t>(drive.controller.shaft);
                                    },
                                    [](Drive& drive, std::size_t choice) {
-                                     drive.controller.shaft = static_cast<ShaftName>(choice);
+                                     drive.controller.is_at_joint = choice == joint;
+                                     drive.controller.shaft = choice == joint
+                                                                  ? ShaftName::load
+                                                                  : static_cast<ShaftName>(choice);
                                    }}};
               },
-          .meaning = "shaft to which the angles in the gains refer",
-          .choices = {"load", "motor"}};
+          .meaning = "shaft of the angles in the gains; joint: both torque and angle of the load",
+          .choices = {"load", "motor", "joint"}};
 }
 
 template <class Law, class Member>

@@ -75,7 +75,12 @@ std::vector<Fault> validate(const ReducedDrive& drive) {
   RangeCheck all;
   check(all, "motor", drive.motor);
   check(all, "load", drive.load);
-  all.positive("backlash", drive.backlash, "rad");
+  if (drive.backlash == 0.0 && !is_joined(drive)) {
+    all.refuse("backlash", "0 rad",
+               "must be positive and finite; without a gap the faces need a contact.stiffness");
+  } else {
+    all.not_negative("backlash", drive.backlash, "rad");
+  }
   std::visit(Overloaded{[&](const RigidContact& rigid) {
                           all.within("contact.restitution", rigid.restitution, 0.0, 1.0);
                         },
@@ -98,6 +103,8 @@ std::vector<Fault> validate(const ReducedDrive& drive) {
   }
   all.include(validate(drive.reference, "reference"));
   all.include(validate(drive.load_torque, "load_torque"));
+  all.finite("gravity.torque", drive.gravity.torque);
+  all.finite("gravity.stiffness", drive.gravity.stiffness);
   check_sampling(all, drive);
   return all.faults();
 }

@@ -34,6 +34,16 @@ struct Winding {
   double back_emf = 0.0;       ///< N m s/rad, ≥ 0
 };
 
+/// The weight of the load, linearised: the torque −stiffness (θ_L − angle) beside the one that it
+/// has at `angle`, which is part of the load torque.
+struct Gravity {
+  double torque = 0.0;     ///< N m, at `angle`; part of ReducedDrive::load_torque
+  double stiffness = 0.0;  ///< N m/rad; negative where the load would tip over
+  double angle = 0.0;      ///< rad
+
+  bool is_absent() const { return torque == 0.0 && stiffness == 0.0; }
+};
+
 /// Rigid faces: impacts.
 struct RigidContact {
   double restitution = 0.0;  ///< 0 … 1
@@ -48,7 +58,9 @@ enum class ContactDamping {
   full
 };
 
-/// Compliant faces: torque stiffness · δ + damping · δ̇, where δ is the compression.
+/// Compliant faces: torque stiffness · δ + damping · δ̇, where δ is the compression. Without a gap
+/// they are joined: stiffness · u + damping · u̇ in both directions, where u is the motor less the
+/// load, by either law.
 struct CompliantContact {
   double stiffness = 0.0;  ///< N m/rad, > 0
   double damping = 0.0;    ///< N m s/rad, ≥ 0
@@ -71,7 +83,7 @@ struct Sensing {
 struct ReducedDrive {
   Shaft motor{};
   Shaft load{};
-  double backlash = 0.0;  ///< rad, > 0, face to face
+  double backlash = 0.0;  ///< rad, face to face; > 0, or 0 with compliant faces
   Contact contact{};
   Sensing sensing{};
   Controller controller{};
@@ -81,7 +93,13 @@ struct ReducedDrive {
   std::optional<Sampling> sampling{};  ///< without it the controller is continuous
   Signal reference{};                  ///< rad
   Signal load_torque{};                ///< N m, on the load, forward
+  Gravity gravity{};
 };
+
+/// Whether the shafts are joined by a spring without a gap.
+inline bool is_joined(const ReducedDrive& drive) {
+  return drive.backlash == 0.0 && std::holds_alternative<CompliantContact>(drive.contact);
+}
 
 /// Every fault in the ranges above.
 std::vector<Fault> validate(const ReducedDrive& drive);

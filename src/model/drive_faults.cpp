@@ -68,7 +68,8 @@ void check_breakaway(RangeCheck& check, const Friction& friction, double coulomb
       "must be at least " + least + ": a shaft at rest is not easier to move than a moving one");
 }
 
-void check_dry_friction(RangeCheck& check, const Drive& drive) {
+/// Of dry friction and torque limit, each is given once.
+void check_torques(RangeCheck& check, const Drive& drive) {
   const Motor& motor = drive.motor;
   const double coulomb = coulomb_torque(motor);
   const bool is_by_current = motor.no_load_current && takes_no_load_current(motor);
@@ -77,6 +78,10 @@ void check_dry_friction(RangeCheck& check, const Drive& drive) {
                                       exact_text(coulomb) + " N m"
                                 : "motor.coulomb");
   check_breakaway(check, drive.load.friction, drive.load.friction.coulomb, "load", "load.coulomb");
+  if (motor.limit && motor.current_limit && takes_current_limit(motor)) {
+    check.refuse("motor.torque_limit", exact_text(*motor.limit) + " N m",
+                 "must be left out beside motor.current_limit, which gives it");
+  }
   if (is_by_current && motor.friction.coulomb != 0.0) {
     check.refuse("motor.coulomb", exact_text(motor.friction.coulomb) + " N m",
                  "must be 0 beside motor.no_load_current, which gives it");
@@ -104,6 +109,23 @@ bool must_be_a_servo(const Drive& drive, const drive::ReducedDrive& reduced) {
   const bool has_voltage = !std::holds_alternative<TorqueControl>(drive.motor.kind);
   return has_voltage || reduced.motor.inertia == 0.0 || reduced.load.inertia == 0.0 ||
          reduced.backlash == 0.0;
+}
+
+void check_joint(RangeCheck& check, const Drive& drive) {
+  const bool has_torque = std::holds_alternative<TorqueControl>(drive.motor.kind);
+  if (drive.servo || has_torque || !drive.controller.is_at_joint) return;
+  check.refuse("controller.shaft", "joint",
+               "must be load or motor: gains at the joint are torques, and this motor is driven by "
+               "a voltage");
+}
+
+void check_gravity(RangeCheck& check, const Drive& drive) {
+  if (drive.servo || drive.load.gravity == 0.0 || !drive.reference) return;
+  if (!drive::validate(*drive.reference, "reference").empty()) return;
+  if (!std::holds_alternative<RampSignal>(drive::settled(*drive.reference))) return;
+  check.refuse("load.gravity", exact_text(drive.load.gravity) + " N m",
+               "must be 0 with a reference that is a ramp: gravity is linearised about the angle "
+               "where the reference ends");
 }
 
 /// The sources of numbers at the load's shaft, for messages to an author who gave none of these.
@@ -191,7 +213,9 @@ std::vector<Fault> faults(const Drive& drive) {
     check_number(check, parameter, *value, dimension == nullptr ? "" : dimension->unit);
     if (check.faults().size() > before) mend(mended, parameter);
   }
-  check_dry_friction(check, drive);
+  check_torques(check, drive);
+  check_joint(check, drive);
+  check_gravity(check, drive);
   check_columns(check, drive);
   if (drive.servo) check_normal_form(check, drive);
   std::vector<Fault> found = check.faults();

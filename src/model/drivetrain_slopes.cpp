@@ -40,14 +40,13 @@ Slopes slopes_of_normal_form(const NormalForm& form, std::string_view path) {
 /// The terms of the formulas.
 struct Parts {
   explicit Parts(const Drive& of) : drive(of) {
-    if (of.controller.shaft == ShaftName::motor) per_output *= ratio;
     feedback = -drive::linear_controller(reduce(of).controller).direct[2];
   }
 
   const Drive& drive;
   double ratio = drive.gearbox.ratio;
   ReferredOutput output = refer_output(drive);
-  double per_output = output.torque;  ///< S
+  double per_output = gain_scale(drive);  ///< S
   Drivetrain drivetrain = referred_drivetrain(drive);
   double feedback = 0.0;  ///< S d
 };
@@ -60,6 +59,7 @@ Slopes slopes_of_motor(const Parts& parts, std::string_view path) {
   if (path == "motor.friction" || path == "motor.torque_per_speed") {
     return {{.motor_friction = square}};
   }
+  if (std::holds_alternative<TorqueControl>(parts.drive.motor.kind)) return std::nullopt;
   const double value = get(parts.drive, path);
   if (path == "motor.torque_constant") {
     return {{.motor_friction = electrical / value, .stiffness = stiffness / value}};
@@ -92,7 +92,9 @@ Slopes slopes_of_controller(const Parts& parts, std::string_view path) {
 Slopes slopes_of_plant(const Drive& drive, std::string_view path) {
   const Parts parts(drive);
   if (path == "gearbox.ratio") {
-    const double power = drive.controller.shaft == ShaftName::motor ? 2.0 : 1.0;
+    const Controller& controller = drive.controller;
+    const double at_shaft = controller.shaft == ShaftName::motor ? 2.0 : 1.0;
+    const double power = controller.is_at_joint ? 0.0 : at_shaft;
     return {{.motor_inertia = 2.0 * parts.drivetrain.motor_inertia / parts.ratio,
              .motor_friction = (2.0 * (parts.drivetrain.motor_friction - parts.feedback) +
                                 power * parts.feedback) /

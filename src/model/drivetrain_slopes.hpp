@@ -20,8 +20,8 @@ struct DrivetrainSlopes {
 };
 
 /// ∂/∂(the parameter) of proportional_drivetrain(drive), by the formulas
-///   J_M = (J + J_G) n²,  F_M = (f + E) n² + S d,  K = S g,  S = T n, or T n² with gains per motor
-///   angle,
+///   J_M = (J + J_G) n²,  F_M = (f + E) n² + S d,  K = S g,  S = T n, 1 with gains at the joint, or
+///   T n² with gains per motor angle,
 /// E the winding's friction and T the torque per output at the motor's shaft (K₁K₂/R and K₁/R, 0
 /// and K₁/R, K_N and K_e, 0 and 1), g and d the controller's output per error and per speed; or of
 /// the normal form,

@@ -77,6 +77,15 @@ std::vector<Parameter> motor_constants() {
            .permitted = Permitted::positive,
            .is_required = true,
            .usual = {1e-3, 10.0}},
+          {.path = "motor.torque_constant",
+           .slot =
+               [](Drive& d) {
+                 return d.servo ? Slot{} : slot_of(d.motor.kind, &TorqueControl::torque_constant);
+               },
+           .dimension = &always<torque_per_current>,
+           .meaning = "torque per current, which turns currents of the motor into torques",
+           .permitted = Permitted::positive,
+           .usual = {1e-3, 10.0}},
           {.path = "motor.back_emf_constant",
            .slot =
                [](Drive& d) {
@@ -216,11 +225,27 @@ std::vector<Parameter> motor_parameters() {
        .permitted = Permitted::positive,
        .usual = {1.0, 1000.0}},
       {.path = "motor.torque_limit",
-       .slot = [](Drive& d) { return d.servo || has_voltage(d) ? Slot{} : Slot{&d.motor.limit}; },
+       .slot =
+           [](Drive& d) {
+             const bool is_by_current = d.motor.current_limit && takes_current_limit(d.motor);
+             return d.servo || has_voltage(d) || is_by_current ? Slot{} : Slot{&d.motor.limit};
+           },
        .dimension = &limit_dimension,
        .meaning = "the largest torque that the motor can give, at its own shaft",
        .permitted = Permitted::positive,
-       .usual = {1e-3, 1000.0}}};
+       .usual = {1e-3, 1000.0}},
+      {.path = "motor.current_limit",
+       .slot =
+           [](Drive& d) {
+             const bool is_free = !d.motor.limit || d.motor.current_limit;
+             return !d.servo && is_free && takes_current_limit(d.motor)
+                        ? Slot{&d.motor.current_limit}
+                        : Slot{};
+           },
+       .dimension = &always<current>,
+       .meaning = "the largest current; times the torque constant it is the torque limit",
+       .permitted = Permitted::positive,
+       .usual = {0.1, 100.0}}};
   list.insert(list.end(), dry.begin(), dry.end());
   return list;
 }
@@ -278,7 +303,17 @@ std::vector<Parameter> transmission_parameters() {
            .meaning = "torque that moves the load from rest, at least its dry friction",
            .permitted = Permitted::not_negative,
            .otherwise = "load.coulomb",
-           .usual = {1e-4, 100.0}}};
+           .usual = {1e-4, 100.0}},
+          {.path = "load.gravity",
+           .slot = [](Drive& d) { return of_plant(d, d.load.gravity); },
+           .dimension = &always<torque>,
+           .meaning = "torque of the load's weight while its center of mass is level with its axis",
+           .usual = {1e-3, 1e3}},
+          {.path = "load.gravity_angle",
+           .slot = [](Drive& d) { return of_plant(d, d.load.gravity_angle); },
+           .dimension = &always<angle>,
+           .meaning = "angle of the load's center of mass above the horizontal at position 0",
+           .usual = {-1.5, 1.5, false}}};
 }
 
 std::vector<Parameter> contact_parameters() {

@@ -17,7 +17,7 @@ bool is_proportional(const LinearController& controller) {
 bool is_undisturbed(const ReducedDrive& drive) {
   const auto* load_torque = std::get_if<double>(&drive.load_torque);
   return std::holds_alternative<double>(drive.reference) && load_torque != nullptr &&
-         *load_torque == 0.0;
+         *load_torque == 0.0 && drive.gravity.is_absent();
 }
 
 bool is_smooth(const ReducedDrive& drive) {

@@ -1,6 +1,7 @@
 #include "model/reduced_drive.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/overloaded.hpp"
@@ -167,11 +168,24 @@ drive::ReducedDrive reduced_plant(const Drive& drive) {
   reduced.load = {drive.load.inertia,
                   referred(drive.load.friction, drive.load.friction.coulomb, 1.0)};
   reduced.backlash = drive.gearbox.backlash;
-  if (drive.motor.limit) reduced.torque_limit = output.torque * *drive.motor.limit;
-  const double scale = output.torque * (drive.controller.shaft == ShaftName::motor ? ratio : 1.0);
+  if (const auto limit = output_limit(drive.motor)) reduced.torque_limit = output.torque * *limit;
+  const double scale = gain_scale(drive);
   reduced.controller =
       std::visit([&](const auto& law) { return reduce(law, scale); }, drive.controller.law);
   return reduced;
+}
+
+/// Linearised about the angle where the reference ends.
+drive::Gravity gravity_of(const Drive& drive, const Signal& reference) {
+  if (drive.servo || drive.load.gravity == 0.0) return {};
+  if (!drive::validate(reference, "reference").empty()) return {};  // such as an empty table
+  const double at = drive::middle_of(drive::settled(reference));
+  const double angle = drive.load.gravity_angle + at;
+  constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+  const auto rounded = [&](double share) { return std::abs(share) <= rounding ? 0.0 : share; };
+  return {.torque = -drive.load.gravity * rounded(std::cos(angle)),
+          .stiffness = -drive.load.gravity * rounded(std::sin(angle)),
+          .angle = at};
 }
 
 drive::Sampling reduce(const Sampling& sampling) {
@@ -184,6 +198,9 @@ drive::Sampling reduce(const Sampling& sampling) {
 }  // namespace
 
 std::optional<double> torque_constant_of(const Motor& motor) {
+  if (const auto* controlled = std::get_if<TorqueControl>(&motor.kind)) {
+    return controlled->torque_constant;
+  }
   const auto* armature = std::get_if<ArmatureControl>(&motor.kind);
   return armature == nullptr ? std::nullopt : std::optional(armature->torque_constant);
 }
@@ -193,6 +210,22 @@ bool takes_no_load_current(const Motor& motor) { return torque_constant_of(motor
 double coulomb_torque(const Motor& motor) {
   if (!motor.no_load_current || !takes_no_load_current(motor)) return motor.friction.coulomb;
   return *torque_constant_of(motor) * *motor.no_load_current;
+}
+
+bool takes_current_limit(const Motor& motor) {
+  return std::holds_alternative<TorqueControl>(motor.kind) && torque_constant_of(motor);
+}
+
+std::optional<double> output_limit(const Motor& motor) {
+  if (!motor.current_limit || !takes_current_limit(motor)) return motor.limit;
+  return *torque_constant_of(motor) * *motor.current_limit;
+}
+
+double gain_scale(const Drive& drive) {
+  const bool has_torque = std::holds_alternative<TorqueControl>(drive.motor.kind);
+  if (drive.controller.is_at_joint && has_torque) return 1.0;
+  const double ratio = drive.gearbox.ratio;
+  return refer_output(drive).torque * (drive.controller.shaft == ShaftName::motor ? ratio : 1.0);
 }
 
 ReferredOutput refer_output(const Drive& drive) {
@@ -222,7 +255,11 @@ drive::ReducedDrive reduce(const Drive& drive) {
   reduced.sensing = reduce(drive.sensor, drive.servo ? 1.0 : drive.gearbox.ratio);
   if (drive.sampling) reduced.sampling = reduce(*drive.sampling);
   reduced.reference = drive.reference.value_or(0.0);
+  reduced.gravity = gravity_of(drive, reduced.reference);
   reduced.load_torque = drive.load_torque.value_or(0.0);
+  if (reduced.gravity.torque != 0.0) {
+    reduced.load_torque = drive::shifted(reduced.load_torque, reduced.gravity.torque);
+  }
   return reduced;
 }
 
@@ -281,8 +318,7 @@ Drivetrain referred_drivetrain(const Drive& drive) {
   const double ratio = drive.gearbox.ratio;
   const double square = ratio * ratio;
   const ReferredOutput output = refer_output(drive);
-  const double per_output =
-      output.torque * (drive.controller.shaft == ShaftName::motor ? ratio : 1.0);
+  const double per_output = gain_scale(drive);
   const Gains gains = gains_of(drive.controller);
   return {.motor_inertia = motor_inertia_of(drive),
           .load_inertia = drive.load.inertia,

@@ -27,6 +27,17 @@ bool takes_no_load_current(const Motor& motor);
 /// speed, so this is an upper bound.
 double coulomb_torque(const Motor& motor);
 
+/// The limit of the controller's output: motor.limit, or torque_constant · current_limit.
+std::optional<double> output_limit(const Motor& motor);
+
+/// Whether the motor's torque limit may be given by its current limit.
+bool takes_current_limit(const Motor& motor);
+
+/// Torque at the load per unit of a gain, N m per V or N m, for angles of the load: with output
+/// torque S and n motor turns per load turn, S for gains per angle of the load, S n per angle of
+/// the motor, and 1 for gains at the joint.
+double gain_scale(const Drive& drive);
+
 /// Armature: K₁n/R and K₁K₂n²/R; field: K₁n/R and 0; two-phase: K_e n and K_N n²; torque: n and 0
 /// (thesis Appendix A, steps 1 to 5; n motor turns per load turn).
 ReferredOutput refer_output(const Drive& drive);
@@ -73,7 +84,8 @@ ClosedFormServo normal_form_servo(const Drive& drive);
 std::optional<Drivetrain> proportional_drivetrain(const Drive& drive);
 
 /// Its drivetrain for one that is known to have a closed form, without checks:
-///   J_M = (J + J_G) n²,  F_M = (f + E) n² + S d,  K = S g   (model/drivetrain_slopes.hpp).
+///   J_M = (J + J_G) n²,  F_M = (f + E) n² + S d,  K = S g,  S = gain_scale()
+///   (model/drivetrain_slopes.hpp).
 /// Nothing is allocated if the controller is P, PD or a cascade.
 Drivetrain referred_drivetrain(const Drive& drive);
 

@@ -138,6 +138,29 @@ double value_at(const Signal& signal, double time) {
   return moved_to(stretch_at(all_stretches(signal), time), time).value;
 }
 
+Signal shifted(Signal signal, double by) {
+  std::visit(Overloaded{[&](double& value) { value += by; },
+                        [&](StepSignal& step) {
+                          step.before += by;
+                          step.after += by;
+                        },
+                        [&](Ramp& ramp) { ramp.value += by; }, [&](Sine& sine) { sine.mean += by; },
+                        [&](Trapezoid& move) {
+                          move.from += by;
+                          move.to += by;
+                        },
+                        [&](Table& table) {
+                          for (double& value : table.values) value += by;
+                        }},
+             signal);
+  return signal;
+}
+
+double middle_of(const Signal& settled_signal) {
+  if (const auto* sine = std::get_if<Sine>(&settled_signal)) return sine->mean;
+  return value_at(settled_signal, 0.0);
+}
+
 Signal settled(const Signal& signal) {
   if (std::holds_alternative<Sine>(signal)) return signal;
   if (const auto* ramp = std::get_if<Ramp>(&signal); ramp != nullptr && ramp->rate != 0.0) {

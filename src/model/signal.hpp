@@ -28,6 +28,12 @@ double value_at(const Signal& signal, double time);
 /// the final value.
 Signal settled(const Signal& signal);
 
+/// The signal plus a constant.
+Signal shifted(Signal signal, double by);
+
+/// The mean of a settled signal in the end: of a sine its mean, of a ramp its value at time 0.
+double middle_of(const Signal& settled_signal);
+
 /// The time from which the signal equals settled(signal); for a ramp, but for a constant.
 double settling_time(const Signal& signal);
 

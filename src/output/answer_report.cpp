@@ -11,6 +11,7 @@
 
 #include "gearlash/output.hpp"
 #include "gearlash/version.hpp"
+#include "model/gains.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/answer_meaning.hpp"
 #include "output/ceiling_report.hpp"
@@ -64,8 +65,9 @@ std::string range_text(const AnswerReport& report, const Bounds& range) {
 
 std::vector<std::string> amplitude_row(const AnswerReport& report, std::string name,
                                        double amplitude) {
+  const double backlash = backlash_of(report);
   return {std::move(name), swing_text(amplitude, report.angle, table_digits),
-          number(amplitude / backlash_of(report)) + " of the backlash"};
+          backlash == 0.0 ? "" : number(amplitude / backlash) + " of the backlash"};
 }
 
 // ---- headline -----------------------------------------------------------------------------------
@@ -296,6 +298,18 @@ std::string normal_form_table(const AnswerReport& report) {
   return "\nServo\n" + table_text(rows);
 }
 
+/// The gains of a torque-controlled drive at both shafts.
+std::string gains_table(const AnswerReport& report) {
+  Rows rows;
+  for (const PlacedGain& gain : placed_gains(report.drive)) {
+    const std::string unit = " " + std::string(gain.unit);
+    rows.push_back({std::string(gain.path.substr(gain.path.find('.') + 1)),
+                    number(gain.at_joint) + unit + " at the joint",
+                    number(gain.at_motor) + unit + " at the motor"});
+  }
+  return rows.empty() ? "" : "\nGains, as torque per angle of the same shaft\n" + table_text(rows);
+}
+
 /// Hints at results that further options add.
 std::string offer_text(const AnswerReport& report) {
   std::string text;
@@ -369,10 +383,10 @@ std::string headline_of_verdict(const AnswerReport& report) {
     case Verdict::comes_to_rest:
       return fmt::format("{} from all {}", verdict, starts_text(answer.search->starts.size()));
     case Verdict::cannot_hunt:
-      if (backlash_of(report) == 0.0) return verdict + ": no backlash";
       if (answer.engine == Engine::general) {
         return verdict + ": everything outside the gap only takes energy";
       }
+      if (backlash_of(report) == 0.0) return verdict + ": no backlash";
       return verdict + ": " + growth_beside_one(answer);
     case Verdict::undecided:
       return answer.engine == Engine::closed_form ? verdict + ": " + growth_beside_one(answer)
@@ -395,6 +409,7 @@ std::string answer_text(const AnswerReport& report) {
   if (answer.rest) text += rest_text(report);
   text += ceiling_text(report);
   if (answer.normal_form) text += normal_form_table(report);
+  text += gains_table(report);
   text += "\n";
   if (report.margin) {
     text += margin_text(*report.changeable, *report.margin, report.angle) + "\n";

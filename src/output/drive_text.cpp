@@ -2,10 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <sstream>
+
+#include "analysis/drive_notes.hpp"
 #include "base/range_check.hpp"
 #include "general/assemble/time_scale.hpp"
+#include "model/gains.hpp"
 #include "model/parameters.hpp"
 #include "model/reduced_drive.hpp"
+#include "output/columns.hpp"
 #include "output/json_values.hpp"
 
 namespace gearlash {
@@ -134,6 +139,31 @@ Json json_head(const char* name, const Drive& drive, const Provenance& provenanc
   return json;
 }
 
+namespace {
+
+/// Text as lines of comments.
+std::string remark_of(const std::string& text) {
+  std::istringstream lines(wrapped(text));
+  std::string remark;
+  for (std::string line; std::getline(lines, line);) remark += "# " + line + "\n";
+  return remark;
+}
+
+/// The gains at both shafts, and what the drive's answers note.
+std::string further_remarks(const Drive& drive) {
+  std::string gains;
+  for (const PlacedGain& gain : placed_gains(drive)) {
+    gains += fmt::format("{} {} {:.4g} {} at the joint, {:.4g} {} at the motor",
+                         gains.empty() ? "Gains:" : ";", gain.path.substr(gain.path.find('.') + 1),
+                         gain.at_joint, gain.unit, gain.at_motor, gain.unit);
+  }
+  std::string remarks = gains.empty() ? "" : remark_of(gains + ".");
+  for (const Note& note : notes_on(drive)) remarks += remark_of(note.text);
+  return remarks;
+}
+
+}  // namespace
+
 std::string show_text(const Drive& drive) {
   std::string remark;
   if (const auto closed = closed_form_servo(drive)) {
@@ -149,7 +179,7 @@ std::string show_text(const Drive& drive) {
         "s.\n",
         scales.swing, scales.settling);
   }
-  return remark + to_toml(drive);
+  return remark + further_remarks(drive) + to_toml(drive);
 }
 
 std::string show_json(const Drive& drive, const Provenance& provenance) {
@@ -162,6 +192,17 @@ std::string show_json(const Drive& drive, const Provenance& provenance) {
     const drive::TimeScales scales = drive::time_scales(reduce(drive));
     json["linear_loop"] = {{"slowest_swing", json_number(scales.swing)},
                            {"settling", json_number(scales.settling)}};
+  }
+  json["gains"] = Json::array();
+  for (const PlacedGain& gain : placed_gains(drive)) {
+    json["gains"].push_back({{"path", gain.path},
+                             {"unit", gain.unit},
+                             {"at_joint", json_number(gain.at_joint)},
+                             {"at_motor", json_number(gain.at_motor)}});
+  }
+  json["notes"] = Json::array();
+  for (const Note& note : notes_on(drive)) {
+    json["notes"].push_back({{"code", note.code}, {"text", note.text}});
   }
   return json.dump(2) + "\n";
 }

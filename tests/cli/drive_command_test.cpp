@@ -139,6 +139,52 @@ TEST_F(DriveCommand, SimulateTakesTheReferenceOfTheFile) {
   EXPECT_GT(all["events"].size(), 0U);
 }
 
+TEST_F(DriveCommand, GainsArePrintedAtBothShafts) {
+  const std::string drive = file(std::string(mechanics) + with_speed);
+  const Outcome shown = run_tool({"show", drive});
+  EXPECT_THAT(shown.out, HasSubstr("# Gains: proportional 25 N m/rad at the joint, 0.01 N m/rad at "
+                                   "the motor; derivative 5 N m\n# s/rad at the joint, 0.002 N m "
+                                   "s/rad at the motor.\n"));
+  const Outcome answer = run_tool({"limit-cycle", drive});
+  EXPECT_THAT(answer.out, HasSubstr("Gains, as torque per angle of the same shaft\n"
+                                    "  proportional  25 N m/rad at the joint   0.01 N m/rad at the "
+                                    "motor\n"));
+  const json found = json::parse(run_tool({"show", drive, "--format", "json"}).out);
+  EXPECT_EQ(found["gains"][0]["path"], "controller.proportional");
+  EXPECT_DOUBLE_EQ(found["gains"][0]["at_joint"].get<double>(), 25.0);
+}
+
+TEST_F(DriveCommand, NotesAreRemarksOfShowAndPartOfAnswers) {
+  const std::string drive = file(std::string(mechanics) + with_speed);
+  const std::vector<std::string> set = {"--set", "gearbox.efficiency=80 %"};
+  const Outcome shown = run_tool({"show", drive, set[0], set[1]});
+  EXPECT_THAT(shown.out, HasSubstr("# gearbox.efficiency = 0.8 is not modelled: losses"));
+  EXPECT_THAT(run_tool({"limit-cycle", drive, set[0], set[1]}).out,
+              HasSubstr("gearbox.efficiency = 0.8 is not modelled: losses"));
+  const json found = json::parse(run_tool({"show", drive, set[0], set[1], "--format", "json"}).out);
+  EXPECT_EQ(found["notes"][0]["code"], "efficiency");
+}
+
+/// Every command takes a drive without a gap.
+TEST_F(DriveCommand, ShaftsMayBeJoinedBySprings) {
+  const std::string drive = file(
+      std::string(mechanics) + with_speed +
+      "filter = \"1 ms\"\n[contact]\nstiffness = \"2e4 N m/rad\"\ndamping = \"9 N m s/rad\"\n");
+  const std::string none = "gearbox.backlash=0";
+  const Outcome answer = run_tool({"limit-cycle", drive, "--set", none});
+  EXPECT_EQ(answer.status, 0) << answer.err;
+  EXPECT_THAT(answer.out, StartsWith("comes to rest"));
+  EXPECT_THAT(answer.out, HasSubstr("Ceiling: "));
+  for (const std::string command : {"simulate", "describe", "compare", "show"}) {
+    const Outcome run = run_tool({command, drive, "--set", none});
+    EXPECT_EQ(run.status, 0) << command << run.err;
+  }
+  const Outcome rigid = run_tool({"show", drive, "--set", none, "--set", "contact=none"});
+  EXPECT_EQ(rigid.status, 2);
+  EXPECT_THAT(rigid.err, HasSubstr("gearbox.backlash = 0: must be positive and finite; without a "
+                                   "gap the faces need a contact.stiffness"));
+}
+
 TEST_F(DriveCommand, SimulateDrawsDrives) {
   const std::string drive = file(std::string(mechanics) + with_speed);
   for (const std::string kind : {"time", "phase"}) {

@@ -119,7 +119,7 @@ TEST(OracleDriveSystem, DryFrictionStopsAnOscillatorInHalfSwings) {
 
 TEST(EdgeDriveSystem, FaultsAreToldAllAtOnce) {
   ReducedDrive drive = modelica_backlash(ContactDamping::full);
-  drive.backlash = 0.0;
+  drive.backlash = -1.0;
   drive.motor.friction = {.coulomb = 1.0, .breakaway = 0.5};
   drive.torque_limit = -1.0;
   try {
@@ -128,6 +128,11 @@ TEST(EdgeDriveSystem, FaultsAreToldAllAtOnce) {
   } catch (const InvalidInput& fault) {
     EXPECT_EQ(fault.faults().size(), 3U) << fault.what();
   }
+  ReducedDrive without_gap = modelica_backlash(ContactDamping::full);
+  without_gap.backlash = 0.0;
+  EXPECT_TRUE(validate(without_gap).empty());
+  without_gap.contact = RigidContact{};
+  EXPECT_EQ(validate(without_gap).size(), 1U);
 }
 
 }  // namespace

@@ -46,6 +46,8 @@ std::vector<Drive> drives_of_all_kinds() {
   drives.push_back(joint());
   drives.back().motor = {.kind = ArmatureControl{0.1, 0.1, 1.0}, .no_load_current = 0.1};
   drives.push_back(joint());
+  drives.back().motor = {.kind = TorqueControl{0.03}, .current_limit = 6.0};
+  drives.push_back(joint());
   drives.back().contact = CompliantContact{500.0, 1.0};
   for (const Signal& signal :
        {Signal(1.0), Signal(StepSignal{}), Signal(RampSignal{}), Signal(SineSignal{}),

@@ -23,13 +23,16 @@ struct Source {
 /// Why no theorem applies; empty if one does.
 std::string obstacle(const ReducedDrive& drive) {
   const auto* faces = std::get_if<drive::CompliantContact>(&drive.contact);
-  if (faces != nullptr && faces->damping > 0.0) {
+  if (faces != nullptr && faces->damping > 0.0 && !drive::is_joined(drive)) {
     return "faces with damping: it can be exceeded (docs/mathematics.md)";
   }
   if (drive.winding.time_constant > 0.0) {
     return "a winding with inductance: no bound is known";
   }
   if (!drive.sampling) return {};
+  if (drive.gravity.stiffness != 0.0) {
+    return "the stiffness of gravity under a sampled controller: no bound is known";
+  }
   if (faces != nullptr) return "compliant faces under a sampled controller: no bound is known";
   const drive::LinearController controller =
       drive::sampled_controller(drive.controller, *drive.sampling);
@@ -64,10 +67,12 @@ std::vector<Source> sources_of(const ReducedDrive& drive) {
   return sources;
 }
 
-/// The motor's torque at rest, or while following a ramp; empty where the signals swing.
+/// The motor's torque at rest, or while following a ramp; empty where the signals swing, or where
+/// gravity makes it depend on the position.
 std::optional<Interval> holding_torque(const ReducedDrive& drive) {
   const auto* load_torque = std::get_if<double>(&drive.load_torque);
-  if (load_torque == nullptr || !std::holds_alternative<double>(drive.reference)) {
+  if (load_torque == nullptr || drive.gravity.stiffness != 0.0 ||
+      !std::holds_alternative<double>(drive.reference)) {
     return std::nullopt;
   }
   return -datum(*load_torque);

@@ -2,12 +2,13 @@
 //
 // Rigid faces. The sum of both shafts' equations has no mesh torque. With u the gap, J = J_M + J_L,
 // F = F_M + F_L, κ = J_M/J, z = θ_L + κu, sensed position z + αu and speed ż + βu̇,
-//   J z̈ = τ − F ż + (Fκ − F_M) u̇ + w.
+//   J z̈ = τ − F ż + (Fκ − F_M) u̇ − k_g (z − κu) + w,
+// with the stiffness k_g of gravity, whose torque at the reference is part of the load torque.
 // The numbers z, s = J ż − c u with c = Fκ − F_M + D_v β, and x̃ = x − B_v β u, x of the controller,
 // obey a linear flow in which u appears and u̇ does not.
 //
 // Compliant faces without damping. Torque k (u − sat u), |sat u| ≤ b/2: both shafts joined by the
-// spring, and driven by ±k sat u.
+// spring, and driven by ±k sat u. Without a gap the spring may be damped.
 #include <variant>
 
 #include "analysis/ceiling/loop_gain.hpp"
@@ -72,10 +73,11 @@ Model rigid_model(const ReducedDrive& drive) {
   }
   auto& rows = model.flow.rows;
   rows[0][1] = 1.0 / inertia;
-  rows[1][0] = controller.position();
+  const Interval weight = datum(drive.gravity.stiffness);
+  rows[1][0] = controller.position() - weight;
   rows[1][1] = damping / inertia;
   model.gap.input[0] = lead / inertia;
-  model.gap.input[1] = controller.position() * alpha + damping * lead / inertia;
+  model.gap.input[1] = controller.position() * alpha + weight * share + damping * lead / inertia;
   model.reading.input[1] = controller.position();
   model.effort = none;
   model.effort[0] = controller.position();
@@ -109,12 +111,23 @@ Model rigid_model(const ReducedDrive& drive) {
   return model;
 }
 
+enum Sprung : std::size_t { motor, motor_speed, load, load_speed, states };
+
+/// Damping between both shafts.
+void join(std::vector<IntervalVector>& rows, const Interval& damping, const Interval& per_motor,
+          const Interval& per_load) {
+  rows[motor_speed][motor_speed] = rows[motor_speed][motor_speed] - per_motor * damping;
+  rows[motor_speed][load_speed] = rows[motor_speed][load_speed] + per_motor * damping;
+  rows[load_speed][motor_speed] = rows[load_speed][motor_speed] + per_load * damping;
+  rows[load_speed][load_speed] = rows[load_speed][load_speed] - per_load * damping;
+}
+
 Model sprung_model(const ReducedDrive& drive) {
-  enum : std::size_t { motor, motor_speed, load, load_speed, states };
   const Data controller(drive);
   const std::size_t order = controller.order();
   const std::size_t size = order + states;
-  const Interval stiffness = datum(std::get<drive::CompliantContact>(drive.contact).stiffness);
+  const auto& faces = std::get<drive::CompliantContact>(drive.contact);
+  const Interval stiffness = datum(faces.stiffness);
   const Interval per_motor = 1.0 / datum(drive.motor.inertia);
   const Interval per_load = 1.0 / datum(drive.load.inertia);
   const Interval position_share = datum(drive.sensing.load_share_of_position);
@@ -147,6 +160,8 @@ Model sprung_model(const ReducedDrive& drive) {
   rows[load_speed][motor] = per_load * stiffness;
   rows[load_speed][load] = -(per_load * stiffness);
   rows[load_speed][load_speed] = -(per_load * datum(drive.load.friction.viscous));
+  rows[load_speed][load] = rows[load_speed][load] - per_load * datum(drive.gravity.stiffness);
+  if (faces.damping > 0.0) join(rows, datum(faces.damping), per_motor, per_load);
   for (std::size_t i = 0; i < order; ++i) {
     rows[i + states] = sensed(controller.of_position(i), controller.of_speed(i));
     for (std::size_t j = 0; j < order; ++j) rows[i + states][j + states] = controller.state(i, j);

@@ -85,7 +85,9 @@ RationalFunction motor_of(const ReducedDrive& drive) {
          RationalFunction(Rational(drive.winding.back_emf)) * variable() / lag_of(drive.winding);
 }
 
-RationalFunction load_of(const ReducedDrive& drive) { return plant_of(drive.load); }
+RationalFunction load_of(const ReducedDrive& drive) {
+  return plant_of(drive.load) + RationalFunction(Rational(drive.gravity.stiffness));
+}
 
 RationalFunction plant_of(const ReducedDrive& drive) { return motor_of(drive) + load_of(drive); }
 
@@ -278,11 +280,13 @@ DescribingAnalysis described_coulomb_friction(const ReducedDrive& drive) {
 
 std::vector<DescribingAnalysis> describing_analyses(const ReducedDrive& drive) {
   require_none(validate(drive));
-  std::vector<DescribingAnalysis> analyses = {
-      described_gap(drive, DescribedPart::gap_load_held),
-      described_gap(drive, DescribedPart::gap_load_coasting)};
-  if (const auto* compliant = std::get_if<CompliantContact>(&drive.contact)) {
-    analyses.push_back(described_elastic_gap(drive, *compliant));
+  std::vector<DescribingAnalysis> analyses;
+  if (drive.backlash > 0.0) {
+    analyses = {described_gap(drive, DescribedPart::gap_load_held),
+                described_gap(drive, DescribedPart::gap_load_coasting)};
+    if (const auto* compliant = std::get_if<CompliantContact>(&drive.contact)) {
+      analyses.push_back(described_elastic_gap(drive, *compliant));
+    }
   }
   if (std::isfinite(drive.torque_limit)) analyses.push_back(described_torque_limit(drive));
   if (coulomb_of(drive) > 0.0) analyses.push_back(described_coulomb_friction(drive));

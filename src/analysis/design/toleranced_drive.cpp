@@ -29,7 +29,7 @@ double* place_in(Drive& drive, std::string_view path) {
 std::string paths_of(const Drive& drive) {
   std::string paths;
   for (const Parameter& parameter : all_parameters_of_drives()) {
-    if (!drivetrain_slopes(drive, parameter.path)) continue;
+    if (!exists(parameter, drive) || !drivetrain_slopes(drive, parameter.path)) continue;
     paths += (paths.empty() ? "" : ", ") + std::string(parameter.path);
   }
   return paths;

@@ -134,17 +134,26 @@ bool is_absent_by_energy(const ReducedDrive& drive) {
                          sum(scaled(1.0 - of_position, loop.position),
                              scaled(1.0 - of_speed, product(s, loop.speed))));
   if (lags) motor = sum(motor, electrical);
-  const Polynomial closed =
-      sum(motor,
-          sum(product(product(s, shaft(drive.load)), loop.denominator),
-              sum(scaled(of_position, loop.position), scaled(of_speed, product(s, loop.speed)))));
+  const Interval weight = datum(drive.gravity.stiffness);
+  const bool is_weighed = drive.gravity.stiffness != 0.0;
+  Polynomial load = product(s, shaft(drive.load));
+  if (is_weighed) load = sum(load, {weight});
+  const Polynomial closed = sum(
+      motor, sum(product(load, loop.denominator), sum(scaled(of_position, loop.position),
+                                                      scaled(of_speed, product(s, loop.speed)))));
   if (!is_stable(closed)) return false;
+  // The mesh torque over the gap's speed has a pole at 0, whose residue must not be negative.
+  const Interval residue = weight * (1.0 - of_position) * loop.position[0];
+  if (is_weighed && residue.low < 0.0) return false;
   const bool is_dry = drive.motor.friction.is_dry() || drive.load.friction.is_dry();
-  if (!is_dry) return has_positive_real_part(product(shaft(drive.load), motor), closed);
+  if (!is_dry) {  // Re of the mesh torque over the gap's speed, load·motor/(s·closed)
+    return is_weighed ? has_positive_real_part(product(load, motor), product(s, closed))
+                      : has_positive_real_part(product(shaft(drive.load), motor), closed);
+  }
   // Ports of motor and load are apart only where nothing is measured on the load.
   const bool measures_load =
       drive.sensing.load_share_of_position != 0.0 || drive.sensing.load_share_of_speed != 0.0;
-  return !measures_load && drive.load.friction.viscous > 0.0 &&
+  return !measures_load && drive.load.friction.viscous > 0.0 && drive.gravity.stiffness >= 0.0 &&
          has_positive_real_part(motor, product(s, loop.denominator));
 }
 

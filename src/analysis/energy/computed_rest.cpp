@@ -57,7 +57,7 @@ std::optional<Rest> computed_rest(const ReducedDrive& drive) {
   const auto* reference = std::get_if<double>(&drive.reference);
   const auto* load_torque = std::get_if<double>(&drive.load_torque);
   if (drive.sampling || drive.sensing.resolution > 0.0 || std::isfinite(drive.torque_limit) ||
-      reference == nullptr || load_torque == nullptr) {
+      reference == nullptr || load_torque == nullptr || drive.gravity.stiffness != 0.0) {
     return std::nullopt;
   }
   const auto gains = static_gains(drive::linear_controller(drive.controller));

@@ -23,6 +23,7 @@ ContactState letting_go(double face) {
 }  // namespace
 
 void add_compliance(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built) {
+  if (mode.contact == ContactState::joined) return;
   const bool damped = forms.compliant().damping > 0.0;
   const bool limited = damped && forms.compliant().law == ContactDamping::limited;
   const auto add = [&](const char* name, const hybrid::AffineForm& guard,

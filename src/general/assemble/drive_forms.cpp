@@ -101,6 +101,7 @@ AffineForm DriveForms::mesh_torque(const DriveMode& mode) const {
   switch (mode.contact) {
     case ContactState::forward:
     case ContactState::backward:
+    case ContactState::joined:
       return spring_torque(face) + damping_torque();
     case ContactState::forward_limited:
     case ContactState::backward_limited:
@@ -110,9 +111,15 @@ AffineForm DriveForms::mesh_torque(const DriveMode& mode) const {
   }
 }
 
+AffineForm DriveForms::torque_on_load() const {
+  const Gravity& gravity = drive_.gravity;
+  if (gravity.stiffness == 0.0) return load_torque();
+  return load_torque() - gravity.stiffness * (number(load_position) - gravity.angle);
+}
+
 AffineForm DriveForms::applied_torque(const DriveMode& mode, Side side) const {
   return side == Side::motor ? motor_torque(mode.torque) - mesh_torque(mode)
-                             : mesh_torque(mode) + load_torque();
+                             : mesh_torque(mode) + torque_on_load();
 }
 
 AffineForm DriveForms::friction_torque(Side side, FrictionState state) const {
@@ -123,7 +130,7 @@ AffineForm DriveForms::friction_torque(Side side, FrictionState state) const {
 AffineForm DriveForms::engaged_acceleration(const DriveMode& mode) const {
   if (sticks_as_one(mode)) return constant(0.0);
   const double inertia = drive_.motor.inertia + drive_.load.inertia;
-  const AffineForm torque = motor_torque(mode.torque) + load_torque() -
+  const AffineForm torque = motor_torque(mode.torque) + torque_on_load() -
                             friction_torque(Side::motor, mode.motor) -
                             friction_torque(Side::load, mode.load);
   return 1.0 / inertia * torque;

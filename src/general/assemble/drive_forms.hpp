@@ -68,6 +68,8 @@ class DriveForms {
   /// On the load, for compliant or separated faces.
   hybrid::AffineForm mesh_torque(const DriveMode& mode) const;
 
+  /// From outside: the load torque and gravity.
+  hybrid::AffineForm torque_on_load() const;
   /// Without friction.
   hybrid::AffineForm applied_torque(const DriveMode& mode, Side side) const;
   hybrid::AffineForm friction_torque(Side side, FrictionState state) const;

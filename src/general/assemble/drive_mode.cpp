@@ -8,13 +8,14 @@ namespace gearlash::drive {
 namespace {
 
 const char* text_of(ContactState contact) {
-  constexpr std::array<const char*, 7> names = {"apart",
+  constexpr std::array<const char*, 8> names = {"apart",
                                                 "forward",
                                                 "backward",
                                                 "forward, damping limited",
                                                 "backward, damping limited",
                                                 "forward, letting go",
-                                                "backward, letting go"};
+                                                "backward, letting go",
+                                                "joined"};
   return names[static_cast<std::size_t>(contact)];
 }
 
@@ -23,8 +24,10 @@ const char* text_of(FrictionState friction) {
   return names[static_cast<std::size_t>(friction)];
 }
 
-std::vector<ContactState> contacts_of(const Contact& contact) {
+std::vector<ContactState> contacts_of(const ReducedDrive& drive) {
   using enum ContactState;
+  if (is_joined(drive)) return {joined};
+  const Contact& contact = drive.contact;
   std::vector<ContactState> all = {apart, forward, backward};
   const auto* compliant = std::get_if<CompliantContact>(&contact);
   if (compliant == nullptr || !(compliant->damping > 0.0)) return all;
@@ -48,6 +51,10 @@ std::size_t place_in(const std::vector<State>& all, const State& state) {
 
 }  // namespace
 
+ContactState closed_contact(const ReducedDrive& drive) {
+  return is_joined(drive) ? ContactState::joined : ContactState::forward;
+}
+
 double face_of(ContactState contact) {
   switch (contact) {
     case ContactState::forward:
@@ -59,6 +66,7 @@ double face_of(ContactState contact) {
     case ContactState::backward_letting_go:
       return -1.0;
     case ContactState::apart:
+    case ContactState::joined:
       break;
   }
   return 0.0;
@@ -80,7 +88,7 @@ std::string text_of(const DriveMode& mode) {
 
 DriveModes::DriveModes(const ReducedDrive& drive)
     : is_rigid_(std::holds_alternative<RigidContact>(drive.contact)),
-      contacts_(contacts_of(drive.contact)),
+      contacts_(contacts_of(drive)),
       torques_{TorqueState::linear} {
   for (const FrictionState motor : frictions_of(drive.motor)) {
     for (const FrictionState load : frictions_of(drive.load)) {

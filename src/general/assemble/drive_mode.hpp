@@ -17,7 +17,8 @@ enum class ContactState {
   forward_limited,
   backward_limited,
   forward_letting_go,
-  backward_letting_go
+  backward_letting_go,
+  joined  ///< compliant faces without a gap
 };
 enum class FrictionState { viscous, forward, backward, sticking };
 enum class TorqueState { linear, highest, lowest };
@@ -31,7 +32,10 @@ struct DriveMode {
   bool operator==(const DriveMode&) const = default;
 };
 
-/// +1 on the forward face, −1 on the backward one, 0 apart.
+/// The contact's state with the gap closed: joined, or on the forward face.
+ContactState closed_contact(const ReducedDrive& drive);
+
+/// +1 on the forward face, −1 on the backward one, 0 apart or joined.
 double face_of(ContactState contact);
 
 /// Direction of a shaft's motion; 0 if it sticks, or if friction does not depend on it.

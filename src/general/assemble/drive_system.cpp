@@ -149,6 +149,7 @@ hybrid::State drive_start(const ReducedDrive& drive, const DriveSystem& system,
   if (is_closed && (!rigid || shafts.motor_speed == shafts.load_speed)) {
     mode.contact = gap > 0.0 ? ContactState::forward : ContactState::backward;
   }
+  if (is_joined(drive)) mode.contact = ContactState::joined;
   const auto friction = [](const Shaft& shaft, double speed) {
     if (!shaft.friction.is_dry()) return FrictionState::viscous;
     if (speed == 0.0) return FrictionState::sticking;

@@ -104,7 +104,7 @@ AffineReset parting(const DriveForms& forms, double face) {
 void add_engaged_breakaway(const DriveForms& forms, const DriveMode& mode,
                            hybrid::AffineMode& built) {
   const AffineForm motor_torque = forms.motor_torque(mode.torque);
-  const AffineForm applied = motor_torque + forms.load_torque();
+  const AffineForm applied = motor_torque + forms.torque_on_load();
   for (const double way : {1.0, -1.0}) {
     built.transitions.push_back(
         transition(way > 0.0 ? "both break away forward" : "both break away backward",
@@ -118,7 +118,7 @@ void add_engaged_breakaway(const DriveForms& forms, const DriveMode& mode,
     alone.contact = ContactState::apart;
     FrictionState& state = is_motor ? alone.motor : alone.load;
     state = moving(state, away);
-    const AffineForm torque = is_motor ? motor_torque : forms.load_torque();
+    const AffineForm torque = is_motor ? motor_torque : forms.torque_on_load();
     hybrid::Transition breaks =
         transition(is_motor ? "motor breaks away alone" : "load breaks away alone",
                    torque - away * forms.shaft(side).friction.breakaway, rising_on(away),
@@ -146,7 +146,7 @@ void add_engaged(const DriveForms& forms, const DriveMode& mode, hybrid::AffineM
   DriveMode apart = mode;
   apart.contact = ContactState::apart;
   const AffineForm mesh = forms.drive().load.inertia * forms.engaged_acceleration(mode) +
-                          forms.friction_torque(Side::load, mode.load) - forms.load_torque();
+                          forms.friction_torque(Side::load, mode.load) - forms.torque_on_load();
   hybrid::Transition parts =
       transition("faces part", mesh, falling_on(face), forms.modes().index_of(apart));
   parts.reset = parting(forms, face);
@@ -156,7 +156,7 @@ void add_engaged(const DriveForms& forms, const DriveMode& mode, hybrid::AffineM
   hybrid::Transition stops = transition("both stop", forms.number(load_speed), falling_on(way),
                                         forms.modes().index_of(moving_as_one(mode, 0.0)));
   stops.reset = stopped(forms, {motor_speed, load_speed});
-  const AffineForm applied = forms.motor_torque(mode.torque) + forms.load_torque();
+  const AffineForm applied = forms.motor_torque(mode.torque) + forms.torque_on_load();
   stops.alternatives = {{{-way * applied - forms.both_breakaway()},
                          forms.modes().index_of(moving_as_one(mode, -way))}};
   built.transitions.push_back(std::move(stops));

@@ -47,7 +47,8 @@ Matrix of_shafts_as_one(const Matrix& matrix) {
 std::vector<std::complex<double>> loop_eigenvalues(const ReducedDrive& drive) {
   const ReducedDrive linear = linear_drive(drive);
   const DriveSystem built = drive_system(linear);
-  const hybrid::AffineMode& mode = built.system.mode(built.modes.index_of({ContactState::forward}));
+  const hybrid::AffineMode& mode =
+      built.system.mode(built.modes.index_of({closed_contact(linear)}));
   const bool is_rigid = std::holds_alternative<RigidContact>(linear.contact);
   const auto reduced = [&](const Matrix& matrix) {
     return is_rigid ? of_shafts_as_one(matrix) : matrix;

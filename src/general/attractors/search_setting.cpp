@@ -43,11 +43,6 @@ Vector along_positions(const StateIndices& at, bool reference_moves) {
   return way;
 }
 
-double middle_of(const Signal& settled_signal) {
-  if (const auto* sine = std::get_if<Sine>(&settled_signal)) return sine->mean;
-  return value_at(settled_signal, 0.0);
-}
-
 void choose_coordinates(SearchSetting& setting) {
   const hybrid::HybridSystem& system = setting.built.system;
   const auto* ramp = std::get_if<Ramp>(&setting.drive.reference);
@@ -116,7 +111,9 @@ double direct_stiffness(const ReducedDrive& drive) {
 
 void measure_lengths(SearchSetting& setting, const StartTolerances& starts) {
   const ReducedDrive& drive = setting.drive;
-  setting.small_length = setting.large_length = drive.backlash;
+  constexpr double without_gap = 1e-3;  // rad, a usual backlash, for a drive that has none
+  const double gap = drive.backlash > 0.0 ? drive.backlash : without_gap;
+  setting.small_length = setting.large_length = gap;
   for (const double step : {drive.sensing.resolution, drive.sensing.resolution_of_speed}) {
     if (step > 0.0) setting.small_length = std::min(setting.small_length, step);
     setting.large_length = std::max(setting.large_length, step);
@@ -138,7 +135,7 @@ void measure_lengths(SearchSetting& setting, const StartTolerances& starts) {
   }
   for (const double length : lengths) {
     setting.large_length =
-        std::max(setting.large_length, std::min(length, starts.longest_length * drive.backlash));
+        std::max(setting.large_length, std::min(length, starts.longest_length * gap));
   }
 }
 

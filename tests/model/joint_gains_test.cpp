@@ -1,0 +1,132 @@
+// Gains at the joint and at the motor, and limits and frictions that currents give.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "gearlash/parameter.hpp"
+#include "model/drivetrain_slopes.hpp"
+#include "model/gains.hpp"
+#include "model/parameters.hpp"
+#include "model/reduced_drive.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr double ratio = 50.0;
+
+Drive joint(const PID& pid) {
+  Drive drive;
+  drive.motor = {.kind = TorqueControl{}, .inertia = 2e-4, .friction = {.viscous = 1e-4}};
+  drive.gearbox = {.ratio = ratio, .backlash = 0.0035};
+  drive.load = {.inertia = 0.02, .friction = {.viscous = 0.01}};
+  drive.controller.law = pid;
+  return drive;
+}
+
+/// Load, motor or joint.
+void choose_shaft(Drive& drive, std::size_t shaft) {
+  std::get<Choice>(find_parameter("controller.shaft")->slot(drive)).choose(drive, shaft);
+}
+
+TEST(JointGains, AreTorqueAtTheLoadPerAngleOfTheLoad) {
+  Drive drive =
+      joint({.terms = PIDTerms::PID, .proportional = 100.0, .integral = 30.0, .derivative = 2.0});
+  choose_shaft(drive, 2);
+  EXPECT_TRUE(drive.controller.is_at_joint);
+  const drive::ReducedDrive reduced = reduce(drive);
+  const auto& at_load = std::get<drive::ProportionalIntegralDerivative>(reduced.controller);
+  EXPECT_EQ(at_load.proportional, 100.0);
+  EXPECT_EQ(at_load.integral, 30.0);
+  EXPECT_EQ(at_load.derivative, 2.0);
+  // 100 N m/rad at the joint is 2 N m at the motor per rad of the joint, 0.04 N m per rad of the
+  // motor.
+  Drive mixed = joint({.proportional = 2.0});
+  Drive at_motor = joint({.proportional = 0.04});
+  at_motor.controller.shaft = ShaftName::motor;
+  for (const Drive& same : {mixed, at_motor}) {
+    EXPECT_DOUBLE_EQ(gain_scale(same) * std::get<PID>(same.controller.law).proportional, 100.0);
+    EXPECT_DOUBLE_EQ(closed_form_servo(same)->natural_frequency,
+                     std::sqrt(100.0 / (0.02 + 2e-4 * ratio * ratio)));
+  }
+}
+
+TEST(JointGains, AreReportedAtBothShafts) {
+  const Drive drive = joint({.terms = PIDTerms::PD, .proportional = 2.0, .derivative = 0.1});
+  const std::vector<PlacedGain> gains = placed_gains(drive);
+  ASSERT_EQ(gains.size(), 2U);
+  EXPECT_EQ(gains[0].path, "controller.proportional");
+  EXPECT_EQ(gains[0].unit, "N m/rad");
+  EXPECT_DOUBLE_EQ(gains[0].at_joint, 100.0);
+  EXPECT_DOUBLE_EQ(gains[0].at_motor, 0.04);
+  EXPECT_EQ(gains[1].unit, "N m s/rad");
+  EXPECT_DOUBLE_EQ(gains[1].at_joint, 5.0);
+  EXPECT_DOUBLE_EQ(gains[1].at_motor, 0.002);
+  Drive of_volts = drive;
+  of_volts.motor.kind = TwoPhase{0.1, 0.1};
+  EXPECT_TRUE(placed_gains(of_volts).empty());
+  EXPECT_TRUE(placed_gains(normal_form(0.2, 1.0, 0.2)).empty());
+}
+
+TEST(JointGains, AreRefusedOfAMotorDrivenByAVoltage) {
+  Drive drive = joint({.proportional = 2.0});
+  drive.controller.is_at_joint = true;
+  EXPECT_TRUE(faults(drive).empty());
+  drive.motor.kind = ArmatureControl{0.1, 0.1, 1.0};
+  ASSERT_EQ(faults(drive).size(), 1U);
+  EXPECT_EQ(faults(drive)[0].path, "controller.shaft");
+  EXPECT_EQ(faults(drive)[0].value, "joint");
+}
+
+/// The slopes of the drivetrain are its differences.
+TEST(PropertyJointGains, SlopesAreThoseOfTheDrivetrain) {
+  Drive drive = joint({.terms = PIDTerms::PD, .proportional = 100.0, .derivative = 2.0});
+  drive.sensor.position = SensorPlace::both;
+  drive.gearbox.inertia = 1e-5;
+  drive.motor.kind = TorqueControl{.torque_constant = 0.03};
+  for (const std::size_t shaft : {0U, 1U, 2U}) {
+    choose_shaft(drive, shaft);
+    for (const char* path :
+         {"gearbox.ratio", "gearbox.inertia", "controller.proportional", "controller.derivative"}) {
+      SCOPED_TRACE(std::to_string(shaft) + " " + path);
+      const auto slopes = drivetrain_slopes(drive, path);
+      ASSERT_TRUE(slopes);
+      const double value = get(drive, path);
+      const auto at = [&](double share) {
+        Drive changed = drive;
+        set(changed, path, value * (1.0 + share));
+        return referred_drivetrain(changed);
+      };
+      constexpr double step = 1e-5;
+      const Drivetrain high = at(step);
+      const Drivetrain low = at(-step);
+      const auto expect = [&](double slope, double upper, double lower) {
+        const double difference = (upper - lower) / (2.0 * step * value);
+        EXPECT_NEAR(slope, difference, 1e-6 * (std::abs(slope) + std::abs(upper)));
+      };
+      expect(slopes->motor_inertia, high.motor_inertia, low.motor_inertia);
+      expect(slopes->motor_friction, high.motor_friction, low.motor_friction);
+      expect(slopes->stiffness, high.stiffness, low.stiffness);
+    }
+    EXPECT_FALSE(drivetrain_slopes(drive, "motor.torque_constant"));
+  }
+}
+
+TEST(Currents, GiveLimitAndFrictionOfATorqueControlledMotor) {
+  Drive drive = joint({.proportional = 2.0});
+  EXPECT_THROW(set(drive, "motor.current_limit", 6.0), InvalidInput);  // no torque constant yet
+  set(drive, "motor.torque_constant", 0.0302);
+  set(drive, "motor.current_limit", 6.0);
+  set(drive, "motor.no_load_current", 0.137);
+  const drive::ReducedDrive reduced = reduce(drive);
+  EXPECT_DOUBLE_EQ(reduced.torque_limit, 0.0302 * 6.0 * ratio);
+  EXPECT_DOUBLE_EQ(reduced.motor.friction.coulomb, 0.0302 * 0.137 * ratio);
+  EXPECT_TRUE(faults(drive).empty());
+  EXPECT_THROW(set(drive, "motor.torque_limit", 1.0), InvalidInput);
+  drive.motor.limit = 1.0;
+  ASSERT_EQ(faults(drive).size(), 1U);
+  EXPECT_EQ(faults(drive)[0].path, "motor.torque_limit");
+}
+
+}  // namespace
+}  // namespace gearlash
