@@ -13,8 +13,8 @@ BUILD := cmake --build --parallel $(JOBS) --preset
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo tool test bench clang sanitize fuzz browser oracle million seeded-faults coverage \
-        readme format format-check tidy clean package package-check
+.PHONY: help demo tool test bench versions clang sanitize fuzz browser oracle million followed seeded-faults \
+        coverage readme format format-check tidy clean package package-check
 
 help:  ## this list
 	@awk -F':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -36,11 +36,19 @@ test:  ## build everything and run every test
 	$(BUILD) release
 	ctest --preset release
 
-bench:  ## measure the speed beside SUNDIALS CVODE and Boost.odeint
+bench:  ## measure the speed beside SUNDIALS CVODE, Boost.odeint and version 0.1
 	@$(INSTALL) bench
 	cmake --preset bench
 	$(BUILD) bench
 	$(BUILD) bench --target run_benchmarks
+	@$(MAKE) --no-print-directory versions
+
+# Builds version 0.1 from git's history; without that it says so and measures nothing.
+versions:  ## the part of bench beside version 0.1: drives, their time, memory and verdicts
+	@$(INSTALL) bench
+	cmake --preset bench
+	$(BUILD) bench --target gearlash_tool --target score_drives
+	benchmarks/beside-version-0.1 --jobs $(JOBS)
 
 clang:  ## build everything with clang 16, warnings being errors, and run every test
 	@$(INSTALL) test clang
@@ -76,7 +84,12 @@ browser: tool  ## check that what a page needs compiles with clang 14 and libc++
 oracle: programs  ## 1,000 random servos beside a slow and independent integration
 	$(RELEASE)/tests/oracle/oracle_run
 
-seeded-faults: programs  ## put 30 small faults into the code: which does no test notice?
+followed: programs  ## 2,000 random drives: no ceiling and no proof by energy is violated
+	GEARLASH_DRIVES=2000 $(RELEASE)/tests/test_analysis \
+	  --gtest_filter='PropertyCeiling*:PropertyAbsenceByEnergy*:PropertyGapSpeed*:PropertySafeStarts*'
+	$(RELEASE)/tests/oracle/drives/bound_drives --count 200 --follow
+
+seeded-faults: programs  ## put small faults into the code: which does no test notice?
 	tests/seeded_faults/run $(RELEASE)
 
 million: programs  ## 1,000,000 random servos beside the certified count of crossings

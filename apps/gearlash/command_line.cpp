@@ -156,4 +156,15 @@ std::optional<Command::Message> Command::parse(std::vector<std::string> words) {
   return std::nullopt;
 }
 
+std::optional<double> bytes_of(const std::string& size) {
+  std::string bytes = size;
+  try {
+    constexpr bool kb_is_1000 = true;
+    if (!CLI::AsSizeValue(kb_is_1000)(bytes).empty()) return std::nullopt;
+  } catch (const CLI::Error&) {
+    return std::nullopt;
+  }
+  return std::stod(bytes);
+}
+
 }  // namespace gearlash::cli

@@ -80,4 +80,7 @@ class Command {
   std::deque<Option> options_;
 };
 
+/// The bytes of a size such as "200 MB" or "1 GiB"; empty if it is none.
+std::optional<double> bytes_of(const std::string& size);
+
 }  // namespace gearlash::cli

@@ -37,6 +37,8 @@ drive::DescribedPart part_of(const std::string& name) {
   if (name == "elastic-gap") return DescribedPart::elastic_gap;
   if (name == "torque-limit") return DescribedPart::torque_limit;
   if (name == "coulomb-friction") return DescribedPart::coulomb_friction;
+  if (name == "dead-band") return DescribedPart::dead_band;
+  if (name == "relay") return DescribedPart::relay;
   return DescribedPart::gap_load_held;
 }
 
@@ -56,8 +58,9 @@ DescribedDrive described_drive(const ServoOptions& options, Faults& faults) {
 
 void check_part(const DescribeOptions& options, Faults& faults) {
   if (options.part.empty()) return;
-  faults.require_choice("--part", options.part,
-                        {"gap", "elastic-gap", "torque-limit", "coulomb-friction"});
+  faults.require_choice(
+      "--part", options.part,
+      {"gap", "elastic-gap", "torque-limit", "coulomb-friction", "dead-band", "relay"});
   if (options.plots.empty()) {
     faults.add(
         {"--part", shown(options.part), "must come with --plot: it chooses what to draw", ""});
@@ -81,6 +84,10 @@ const char* title_of(drive::DescribedPart part) {
       return "The torque limit by its describing function";
     case drive::DescribedPart::coulomb_friction:
       return "Coulomb friction by its describing function";
+    case drive::DescribedPart::dead_band:
+      return "The dead band by its describing function";
+    case drive::DescribedPart::relay:
+      return "The relay by its describing function";
     default:
       return "The gap by its describing functions";
   }
@@ -146,8 +153,9 @@ void add_describe_command(Command& app, Action& action) {
                   "Draw nyquist=FILE, the loop's gain against -1/N, with the exact\ncycle;");
   command
       ->add_option("--part", options->part,
-                   "Draw this part: gap, elastic-gap, torque-limit or\n"
-                   "coulomb-friction; default the first part in the loop")
+                   "Draw this part: gap, elastic-gap, torque-limit,\n"
+                   "coulomb-friction, dead-band or relay; default the first part in\n"
+                   "the loop")
       ->type_name("PART");
   command->footer(explanation + help_footer(examples));
   set_action(*command, action, options, run);

@@ -32,13 +32,18 @@ constexpr char examples[] =
     "  gearlash limit-cycle examples/elinco-fd162.toml --sensitivities --plot "
     "tornado=amplitude.svg\n"
     "  gearlash limit-cycle examples/normalized.toml --format json | jq .cycles[0].amplitude\n"
-    "  gearlash limit-cycle examples/robot-joint.toml --set controller.kp=\"0.8 V/deg\" --brief\n";
+    "  gearlash limit-cycle examples/robot-joint.toml --set controller.kp=\"0.8 V/deg\" --brief\n"
+    "  gearlash limit-cycle examples/elinco-fd162.toml --specification \"10 arcmin\"\n"
+    "  gearlash limit-cycle examples/robot-joint.toml --measured \"0.2 deg, 1.1 Hz\"\n";
 
 struct LimitCycleOptions {
   ServoOptions servo;
   std::string format = "text";
   std::vector<std::string> plots;
   std::string time_limit;
+  std::string memory_limit;
+  std::string specification;
+  std::string measured;
   bool brief = false;
   bool margins = false;
   bool sensitivities = false;
@@ -177,6 +182,10 @@ bool is_decided(const Answer& answer) {
   }
 }
 
+/// The memory of the tool itself, bytes, and the least that may be a limit.
+constexpr double tool_bytes = 30e6;
+constexpr double least_memory_limit = 100e6;
+
 /// Adds margins and sensitivities of a drive with a closed form.
 void add_changes(Work& work, const Drive& drive, bool wants_margins, bool wants_sensitivities) {
   const ChangeableDrive changeable(drive);
@@ -192,12 +201,25 @@ void add_changes(Work& work, const Drive& drive, bool wants_margins, bool wants_
   }
 }
 
-Work analysed(const WrittenDrive& written, double time_limit, const Provenance& provenance) {
+/// Limits of a search.
+struct Limits {
+  double seconds = infinity;
+  double bytes = infinity;  ///< of the whole tool
+};
+
+Work analysed(const WrittenDrive& written, const Limits& limits, const Provenance& provenance) {
   Work work;
   {
     TerminalProgress progress("Searching");
-    progress.stop_after(time_limit);
-    work.analysis = analyse_in_full(written.drive, {.ceiling = true}, progress);
+    progress.stop_after(limits.seconds);
+    progress.stop_above(limits.bytes);
+    Wanted wanted{.ceiling = true};
+    // A third for a motion, what is made of it included, beside the tool itself.
+    const double for_motion = (limits.bytes - tool_bytes) / 3.0;
+    if (for_motion < static_cast<double>(wanted.motion_bytes)) {
+      wanted.motion_bytes = static_cast<std::size_t>(for_motion);
+    }
+    work.analysis = analyse_in_full(written.drive, wanted, progress);
   }
   work.report = report_of(written.drive, work.analysis.answer, written.angle, provenance);
   return work;
@@ -211,6 +233,44 @@ void refuse_without_closed_form(const LimitCycleOptions& options, const std::vec
   if (options.margins) faults.add({"--margins", "given", why, ""});
   if (options.sensitivities) faults.add({"--sensitivities", "given", why, ""});
   if (has_kind(plots, "tornado")) faults.add({"--plot", "tornado", why, ""});
+}
+
+/// "200 MB", in bytes.
+double read_memory(const std::string& text) {
+  const std::optional<double> bytes = bytes_of(text);
+  if (!bytes || !(*bytes >= least_memory_limit)) {
+    refuse("--memory-limit", text, "must be a size of at least 100 MB: \"200 MB\", \"1 GiB\"");
+  }
+  return *bytes;
+}
+
+double read_specification(const std::string& text) {
+  constexpr char field[] = "--specification";
+  const double amplitude = read_angle(field, text).si;
+  if (!(amplitude > 0.0)) {
+    throw InvalidInput({{field, text, "must be above 0: an amplitude of the load", "rad"}});
+  }
+  return amplitude;
+}
+
+/// "0.2 rad, 0.9 Hz", or with a period: "0.2 rad, 1.1 s".
+MeasuredHunting read_measured(const std::string& text) {
+  constexpr char field[] = "--measured";
+  const std::vector<std::string_view> parts = split(text, ",");
+  if (parts.size() != 2) {
+    refuse(field, text, "must be an amplitude and a frequency or a period: \"0.2 rad, 0.9 Hz\"");
+  }
+  MeasuredHunting measured{.amplitude = read_angle(field, parts[0]).si};
+  try {
+    measured.frequency = 1.0 / to_si(field, parts[1], dimensions::time);
+  } catch (const InvalidInput&) {
+    measured.frequency =
+        to_si(field, parts[1], dimensions::angular_frequency) / (2.0 * std::numbers::pi);
+  }
+  if (!(measured.amplitude > 0.0) || !(measured.frequency > 0.0)) {
+    refuse(field, text, "must have an amplitude and a frequency above 0");
+  }
+  return measured;
 }
 
 std::string printed(const Work& work, const LimitCycleOptions& options) {
@@ -229,13 +289,28 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   if (written && !closed_form_drive(written->drive)) {
     refuse_without_closed_form(options, plots, faults);
   }
-  double time_limit = infinity;
+  Limits limits;
   if (!options.time_limit.empty()) {
-    time_limit = read_time("--time-limit", options.time_limit, faults);
+    limits.seconds = read_time("--time-limit", options.time_limit, faults);
+  }
+  if (!options.memory_limit.empty()) {
+    limits.bytes = faults.collect([&] { return read_memory(options.memory_limit); }, infinity);
+  }
+  std::optional<double> specification;
+  if (!options.specification.empty()) {
+    specification = faults.collect([&] { return read_specification(options.specification); },
+                                   std::optional<double>());
+  }
+  std::optional<MeasuredHunting> measured;
+  if (!options.measured.empty()) {
+    measured = faults.collect([&] { return read_measured(options.measured); },
+                              std::optional<MeasuredHunting>());
   }
   faults.require_none();
 
-  Work work = analysed(*written, time_limit, provenance);
+  Work work = analysed(*written, limits, provenance);
+  work.report.specification = specification;
+  work.report.measured = measured;
   const bool wants_sensitivities = options.sensitivities || has_kind(plots, "tornado");
   if (options.margins || wants_sensitivities) {
     add_changes(work, written->drive, options.margins, wants_sensitivities);
@@ -265,6 +340,22 @@ void add_limit_cycle_command(Command& app, Action& action) {
                    "Stop a search after this time and print what is known by then, with\n"
                    "exit status 1: \"30 s\"")
       ->type_name("TIME");
+  command
+      ->add_option("--memory-limit", options->memory_limit,
+                   "Stop a search likewise once the tool has taken this much memory, 100 MB or\n"
+                   "more: \"200 MB\"")
+      ->type_name("SIZE");
+  command
+      ->add_option("--specification", options->specification,
+                   "Add the widest backlash that provably keeps the load within this angle of\n"
+                   "the motion without a gap: \"0.5 deg\"")
+      ->type_name("ANGLE");
+  command
+      ->add_option("--measured", options->measured,
+                   "Add how far hunting that was measured at the load, half of its peak to\n"
+                   "peak and its frequency or period, is from each motion found:\n"
+                   "\"0.2 rad, 0.9 Hz\"")
+      ->type_name("AMPLITUDE,FREQUENCY");
   add_plot_option(*command, options->plots,
                   "Draw phase=FILE, the limit cycles in the phase plane (with a closed\n"
                   "form also a step response that leads to them), tornado=FILE, the\n"

@@ -19,7 +19,7 @@ constexpr char examples[] =
 bool is_data_sheet(const Drive& drive) {
   const auto* pid = std::get_if<PID>(&drive.controller.law);
   return !drive.servo && !std::holds_alternative<TorqueControl>(drive.motor.kind) &&
-         pid != nullptr && pid->terms == PIDTerms::P;
+         !drive.controller.firmware && pid != nullptr && pid->terms == PIDTerms::P;
 }
 
 ExitStatus run(const ServoOptions& options, const Provenance&) {

@@ -59,7 +59,7 @@ std::vector<Given> motor_constants(const MotorKind& kind) {
 /// Volts per radian of the load.
 double error_gain_of(const Drive& drive) {
   const double gain = std::get<PID>(drive.controller.law).proportional;
-  return drive.controller.shaft == ShaftName::motor ? gain * drive.gearbox.ratio : gain;
+  return drive.controller.shaft == GainShaft::motor ? gain * drive.gearbox.ratio : gain;
 }
 
 std::vector<Given> given_values(const Drive& drive) {

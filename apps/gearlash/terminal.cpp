@@ -1,6 +1,7 @@
 #include "terminal.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -24,6 +25,14 @@ bool takes_escapes(int descriptor) {
   const char* terminal = std::getenv("TERM");
   return isatty(descriptor) == 1 && (no_color == nullptr || *no_color == '\0') &&
          terminal != nullptr && std::string_view(terminal) != "dumb";
+}
+
+/// The most bytes of memory that the tool has taken so far.
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  constexpr double bytes_in_unit = 1024.0;
+  return bytes_in_unit * static_cast<double>(usage.ru_maxrss);
 }
 
 }  // namespace
@@ -66,7 +75,7 @@ bool TerminalProgress::go_on(double share, std::size_t /*bytes*/) {
   if (!has_begun_) begun_ = share;
   has_begun_ = true;
   const Clock::time_point now = Clock::now();
-  if (now >= end_) return false;
+  if (now >= end_ || (most_memory_ < infinity && peak_memory() > most_memory_)) return false;
   if (!is_watched_ || now < next_) return true;
   next_ = now + refresh;
   const double seconds = std::chrono::duration<double>(now - start_).count();

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <string>
 
+#include "base/special_numbers.hpp"
 #include "gearlash/progress.hpp"
 
 namespace gearlash::cli {
@@ -35,6 +36,8 @@ class TerminalProgress : public Progress {
   bool go_on(double share, std::size_t bytes = 0) override;
   /// The work stops this many seconds after it began.
   void stop_after(double seconds);
+  /// The work stops once the tool's memory has taken this many bytes.
+  void stop_above(double bytes) { most_memory_ = bytes; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -48,6 +51,7 @@ class TerminalProgress : public Progress {
   Clock::time_point start_;
   Clock::time_point next_;
   Clock::time_point end_ = Clock::time_point::max();
+  double most_memory_ = infinity;  ///< bytes
 };
 
 }  // namespace gearlash::cli

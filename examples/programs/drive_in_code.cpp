@@ -10,9 +10,10 @@ int main() {
                     .gearbox = {.ratio = 50.0, .backlash = 0.2 * std::numbers::pi / 180.0},
                     .load = {.inertia = 0.02, .friction = {.viscous = 0.01}},
                     .controller = {.law = PID{.terms = PIDTerms::PD,
-                                              .proportional = 0.5,
-                                              .derivative = 20e-3,
-                                              .filter = 5e-3}},
+                                              .proportional = 25.0,
+                                              .derivative = 1.0,
+                                              .filter = 5e-3},
+                                   .shaft = GainShaft::load},
                     .reference = StepSignal{.after = 0.1}};
   const Motion motion = simulate(drive, {.until = 3.0});
   const Samples samples = motion.sampled(1e-3);

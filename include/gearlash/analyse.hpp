@@ -1,6 +1,8 @@
 // The question: does this drive hunt, and where do its motions end?
 #pragma once
 
+#include <cstddef>
+
 #include "gearlash/answer.hpp"
 #include "gearlash/drive.hpp"
 #include "gearlash/progress.hpp"
@@ -13,6 +15,9 @@ struct Wanted {
   bool proofs = true;
   /// The ceiling: Answer::ceiling.
   bool ceiling = false;
+  /// Bytes that a search keeps of a motion at most. It takes some two to three times as many in
+  /// all.
+  std::size_t motion_bytes = 64'000'000;
 };
 
 /// Uses the closed form if the drive is the servo of 1960 by its physics. Otherwise it simulates

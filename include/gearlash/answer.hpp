@@ -16,7 +16,7 @@ namespace gearlash {
 enum class Verdict : std::uint8_t {
   cannot_hunt,             ///< every motion comes to rest
   comes_to_rest,           ///< from every start that was searched
-  hunts,                   ///< rest is unstable, or no start led to it; a stable cycle was found
+  hunts,                   ///< no start led to rest; a stable cycle, or swings that repeat
   hunts_if_disturbed,      ///< rest is stable, and so is a limit cycle beside it
   hunts_irregularly,       ///< bounded motion that did not repeat
   grows_without_bound,     ///< no friction at all: the oscillation has no bound
@@ -78,17 +78,20 @@ struct Cycle {
   bool settles = false;    ///< bounces settle before each separation, or contact is plastic
   std::size_t starts = 0;  ///< starts of a search that led here
   std::optional<EnergyLost> energy{};
+  /// Peak to peak of the measured position, in steps of its encoder, if it has one.
+  std::optional<double> encoder_steps{};
 
   [[nodiscard]] double frequency() const { return 1.0 / period; }  ///< Hz
 };
 
-/// Equilibria found, or computed from the equations (no starts). With dry friction, or in the gap,
-/// they are a set.
+/// Where it can rest. With dry friction, or in the gap, that is a set.
 struct Rest {
   Bounds load{};   ///< rad, from the reference
   Bounds motor{};  ///< rad, from the reference, at the load's shaft
   Bounds error{};  ///< rad, reference − load
-  std::size_t starts = 0;
+  /// Computed: the ends of all equilibria, from the equations. Searched: those that starts led to.
+  Certainty certainty = Certainty::searched;
+  std::size_t starts = 0;  ///< that led here; 0 if none was needed
   /// For rest approached by ever smaller and slower swings: the largest ratio of two successive
   /// swings.
   std::optional<double> swing_ratio{};
@@ -111,7 +114,11 @@ struct IrregularMotion {
   std::optional<double> exponent{};  ///< 1/s, the largest Lyapunov exponent
   std::optional<double> watched{};   ///< s, duration of the measurement
   std::size_t starts = 0;
+  std::optional<double> encoder_steps{};  ///< as of a cycle
 };
+
+/// Hunting of at most this many encoder steps, peak to peak, is called quantization.
+inline constexpr double steps_of_quantization = 4.0;
 
 /// Where a start of a search led.
 struct StartOutcome {
@@ -120,6 +127,14 @@ struct StartOutcome {
   std::optional<std::size_t> which{};  ///< index into the cycles, or into the irregular motions
   double watched = 0.0;                ///< s
   std::string reason{};                ///< why it is undecided
+};
+
+/// From what step on a drive at rest does something else. Both shafts are displaced together.
+struct Threshold {
+  std::string end{};       ///< "hunting" or "running away"
+  double direction = 0.0;  ///< 1 forward, −1 backward; 0 where both are alike by symmetry
+  double below = 0.0;      ///< rad, the largest step known that does not lead to it; 0: none
+  double from = 0.0;       ///< rad, the smallest step known that does
 };
 
 /// The record of a search.
@@ -152,11 +167,23 @@ struct NormalFormNumbers {
 /// What one source contributes to a ceiling.
 struct CeilingTerm {
   std::string source{};  ///< "gap", "motor friction", "load friction", "encoder", "speed encoder",
-                         ///< "load torque"
-  double size = 0.0;     ///< half the gap, rad; half an encoder step, rad; a friction torque, N m
-  double load = 0.0;     ///< rad
-  double motor = 0.0;    ///< rad
+                         ///< "load torque", "gap speed"
+  /// Half the gap, rad; half an encoder step, rad; a torque, N m; the speed of the motor less the
+  /// load, rad/s, where the controller reads it unfiltered.
+  double size = 0.0;
+  double load = 0.0;               ///< rad
+  double motor = 0.0;              ///< rad
   std::optional<double> effort{};  ///< N m
+};
+
+/// Starts of which no motion ever meets the torque limit: with the controller's numbers as at rest,
+/// both shafts displaced by x from rest at the reference and moving at the same speed v, with
+/// |x|/position + |v|/speed ≤ 1, anywhere in the gap. x and v are means of both shafts by their
+/// inertias. So a step of the reference up to `position` never meets it either, if the controller
+/// knows reference and position by their difference alone. A computer starts at a tick.
+struct SafeStarts {
+  double position = 0.0;  ///< rad
+  double speed = 0.0;     ///< rad/s
 };
 
 /// A proved bound of every motion in the end, hunting of any kind included: how far it can be from
@@ -166,7 +193,8 @@ struct CeilingTerm {
 struct Ceiling {
   std::optional<double> load{};   ///< rad; empty if there is none
   std::optional<double> motor{};  ///< rad, at the load's shaft
-  /// N m of the motor's torque at the load's shaft; empty if there is none.
+  /// N m of the torque that the controller requests of the motor, at the load's shaft, from that of
+  /// the motion with the gap closed; empty if there is none.
   std::optional<double> effort{};
   std::string reason{};         ///< why there is none
   std::string effort_reason{};  ///< why there is none for the effort
@@ -175,11 +203,19 @@ struct Ceiling {
   /// Whether a motion can stay off the limit: effort and holding torque together are below it.
   /// Empty if the effort has no ceiling, there is no limit, or the signals move.
   std::optional<bool> meets_limit{};
+  /// Starts that never meet the torque limit. Empty if none is proved.
+  std::optional<SafeStarts> safe_starts{};
+  /// N m: no motion in the end has a larger mean of the mesh torque's size. Rigid faces, a
+  /// continuous controller, no dry friction, encoder or load torque; empty for others.
+  std::optional<double> mesh_torque{};
   std::vector<CeilingTerm> terms{};
+  /// The term "gap speed" is bounded by what brakes it, not by the width of the gap.
+  bool is_gap_speed_braked = false;
 
   /// The largest backlash, rad, with which the ceiling of the load is at most `amplitude`, rad. The
-  /// term of the gap is proportional to it. Empty if the other terms exceed it or there is no
-  /// ceiling. `backlash`: the drive's own.
+  /// term of the gap is proportional to it; where the gap's speed is a term the result is a lower
+  /// bound of the largest. Empty if the other terms exceed it or there is no ceiling. `backlash`:
+  /// the drive's own.
   [[nodiscard]] std::optional<double> widest_backlash(double amplitude, double backlash) const;
 };
 
@@ -204,6 +240,9 @@ struct Answer {
   std::vector<Cycle> cycles{};       ///< by falling amplitude; from a search, stable ones first
   std::optional<Rest> rest{};
   std::vector<IrregularMotion> irregular{};
+  /// Of a search beside which the drive also rests, or stays bounded: on the grid of its steps, and
+  /// then bisected. A step between those of the grid may lead elsewhere.
+  std::vector<Threshold> thresholds{};
   std::optional<SearchRecord> search{};
   std::vector<Note> notes{};
 

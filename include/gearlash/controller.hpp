@@ -2,17 +2,28 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <variant>
 #include <vector>
+
+#include "gearlash/firmware.hpp"
 
 namespace gearlash {
 
 /// A shaft of the drive.
 enum class ShaftName : std::uint8_t { load, motor };
 
-// The controller's output is a voltage. For a torque-controlled motor it is the torque at the
-// motor's shaft. "output" is V or N m below. e = r − y is the error of the measured position, v the
-// measured speed. Angles are those of Controller::shaft.
+/// Where gains act. A torque-controlled motor has torques as outputs: of the same shaft as the
+/// angles, unless they are mixed. A motor driven by a voltage has volts as outputs in any case.
+enum class GainShaft : std::uint8_t {
+  load,  ///< gains at the joint, as robots' firmware, URDF and MuJoCo give them
+  motor,
+  mixed  ///< output of the motor, its torque or its voltage, per angle of the load
+};
+
+// "output" below is V for a motor that is driven by a voltage, else N m at the shaft that
+// Controller::shaft names. e = r − y is the error of the measured position, v the measured speed.
+// Angles are those of Controller::shaft.
 
 /// Which terms a PID controller has.
 enum class PIDTerms : std::uint8_t { P, PD, PI, PID };
@@ -34,13 +45,14 @@ struct PID {
   bool operator==(const PID&) const = default;
 };
 
-/// A speed controller within a position controller: w = position e,
-/// speed (w − v) + speed_integral ∫(w − v) dt.
+/// A speed controller within a position controller: w = position e, f = 1/(filter s + 1) v,
+/// speed (w − f) + speed_integral ∫(w − f) dt.
 struct CascadeController {
   double position = 0.0;        ///< 1/s
   double speed = 0.0;           ///< output s/rad
   double speed_integral = 0.0;  ///< output/rad
   double tracking_time = 0.0;   ///< s, ≥ 0, as above
+  double filter = 0.0;          ///< s, ≥ 0; of the measured speed
 
   bool operator==(const CascadeController&) const = default;
 };
@@ -76,15 +88,70 @@ struct StateSpaceController {
   bool operator==(const StateSpaceController&) const = default;
 };
 
+/// The input of a relay.
+enum class RelayInput : std::uint8_t {
+  error,  ///< e
+  speed   ///< −v, with no regard to the position
+};
+
+/// ±level, or 0: see DeadBand, which has its thresholds.
+struct RelayController {
+  double level = 0.0;  ///< output, > 0
+  RelayInput input = RelayInput::error;
+
+  bool operator==(const RelayController&) const = default;
+};
+
+/// What a law receives of an error beyond the dead band.
+enum class DeadBandForm : std::uint8_t {
+  excess,  ///< e ∓ width, which does not jump
+  whole    ///< e
+};
+
+/// Before a law: it receives 0 instead of e while |e| is small. The outer branch of either sign
+/// begins as ±e passes width + hysteresis, and ends as ±e passes width − hysteresis. A relay gives
+/// ±level on the outer branches and 0 between them; without a width it is the relay with
+/// hysteresis, which switches at ±hysteresis.
+struct DeadBand {
+  double width = 0.0;  ///< rad, half of the band, ≥ 0; rad/s for a relay of the speed
+  /// ≥ 0, in the unit of the width. With a law that is not a relay, only for DeadBandForm::whole.
+  double hysteresis = 0.0;
+  DeadBandForm form = DeadBandForm::excess;
+
+  bool operator==(const DeadBand&) const = default;
+};
+
+/// What a backlash compensation follows.
+enum class CompensationInput : std::uint8_t { reference, error };
+
+/// A controller's knowledge of friction and gap.
+struct Compensation {
+  /// Added to the output: friction · sat(w/friction_speed), with w the speed of the reference; or
+  /// friction · sign w.
+  double friction = 0.0;        ///< output
+  double friction_speed = 0.0;  ///< rad/s of Controller::shaft, ≥ 0
+  /// The backlash that the controller assumes, face to face. It adds ± half of it to the reference,
+  /// with the sign of its last motion, or to the error, with the error's sign.
+  double backlash = 0.0;  ///< rad at the load's shaft
+  CompensationInput input = CompensationInput::reference;
+  /// Of the reference: the time constant in which the addition changes sides; 0: at once.
+  double take_up_time = 0.0;  ///< s, ≥ 0
+  /// Of the error: the error at which all of the half is added; below, in proportion.
+  double take_up_angle = 0.0;  ///< rad of Controller::shaft, > 0
+
+  bool operator==(const Compensation&) const = default;
+};
+
 struct Controller {
   std::variant<PID, CascadeController, LeadLagController, TransferFunctionController,
-               StateSpaceController>
+               StateSpaceController, RelayController>
       law{};
-  /// The gains are per angle of this shaft. The output is the motor's in either case.
-  ShaftName shaft = ShaftName::load;
-  /// The gains are torque at the load per angle of the load, as robots give them; `shaft` does not
-  /// matter then. For torque-controlled motors only.
-  bool is_at_joint = false;
+  GainShaft shaft = GainShaft::mixed;
+  DeadBand dead_band{};
+  Compensation compensation{};
+  /// If given, it replaces all of the above: the registers of a motor's firmware, which are
+  /// converted to one of these laws.
+  std::optional<Firmware> firmware{};
 
   bool operator==(const Controller&) const = default;
 };

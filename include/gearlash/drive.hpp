@@ -50,11 +50,14 @@ struct TorqueControl {
 
 using MotorKind = std::variant<TorqueControl, ArmatureControl, FieldControl, TwoPhase>;
 
-/// Torque against the motion: viscous ω + coulomb sign ω. At rest, up to `breakaway`.
+/// Torque against the motion: viscous ω + coulomb sign ω. At rest, up to `breakaway`. With a
+/// `stribeck_speed` the dry part falls in proportion to the speed, from breakaway at rest to
+/// coulomb at this speed and beyond; without, it falls at once.
 struct Friction {
   double viscous = 0.0;               ///< N m s/rad, ≥ 0
   double coulomb = 0.0;               ///< N m, ≥ 0
   std::optional<double> breakaway{};  ///< N m, ≥ coulomb; coulomb if not given
+  double stribeck_speed = 0.0;        ///< rad/s, ≥ 0
 
   bool operator==(const Friction&) const = default;
 };
@@ -69,8 +72,9 @@ struct Motor {
   /// A, ≥ 0, of a motor with direct current through its armature. It replaces friction.coulomb: see
   /// coulomb_torque().
   std::optional<double> no_load_current{};
-  /// A, > 0, of a torque-controlled motor with a torque constant. It replaces `limit`: see
-  /// output_limit().
+  /// A, > 0. Of a torque-controlled motor with a torque constant it replaces `limit`: see
+  /// output_limit(). Of a motor with direct current through its armature or field it stands beside
+  /// the voltage's limit: the amplifier withholds the voltage that would exceed it.
   std::optional<double> current_limit{};
 
   bool operator==(const Motor&) const = default;

@@ -9,6 +9,7 @@
 #include "gearlash/design.hpp"
 #include "gearlash/drive.hpp"
 #include "gearlash/fault.hpp"
+#include "gearlash/firmware.hpp"
 #include "gearlash/grid.hpp"
 #include "gearlash/hybrid.hpp"
 #include "gearlash/input.hpp"

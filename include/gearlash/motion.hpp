@@ -79,6 +79,7 @@ struct EnergyBooks {
 enum class MotionStop : std::uint8_t {
   reached_end,  ///< Span::until
   event_limit,  ///< Span::most_events
+  step_limit,   ///< four million steps of the general engine, half a gigabyte
   zeno,         ///< events accumulate towards an instant
   chattering,   ///< unlimited events at one instant
   diverged,     ///< the state grows without bound

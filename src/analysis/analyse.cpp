@@ -1,5 +1,6 @@
 #include "analysis/analyse.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
@@ -10,7 +11,9 @@
 #include "analysis/drive_notes.hpp"
 #include "analysis/energy/absence_by_energy.hpp"
 #include "analysis/energy/computed_rest.hpp"
+#include "analysis/energy/mesh_torque.hpp"
 #include "analysis/final_servo.hpp"
+#include "analysis/repetition.hpp"
 #include "base/interval.hpp"
 #include "base/range_check.hpp"
 #include "model/proportional_servo.hpp"
@@ -131,6 +134,14 @@ Cycle cycle_of(const drive::FoundCycle& found, const drive::DriveSystem& system)
   return cycle;
 }
 
+/// Peak to peak of the measured position, in steps. Both shafts swing together, or one alone.
+std::optional<double> encoder_steps(const drive::ReducedDrive& drive, double load, double motor) {
+  const drive::Sensing& sensing = drive.sensing;
+  if (!(sensing.resolution > 0.0)) return std::nullopt;
+  const double share = sensing.load_share_of_position;
+  return 2.0 * (share * load + (1.0 - share) * motor) / sensing.resolution;
+}
+
 IrregularMotion irregular_of(const drive::IrregularFound& found) {
   return {.amplitude = found.amplitude,
           .motor_amplitude = found.motor_amplitude,
@@ -162,6 +173,28 @@ const char* name_of(drive::MotionEnd end) {
   return "";
 }
 
+/// The rest that starts led to, with the ends of all equilibria where they are known. A drive that
+/// creeps is still on its way to them.
+Rest rest_of(const drive::RestFound& found, const std::optional<Rest>& computed) {
+  Rest rest{.load = found.load,
+            .motor = found.motor,
+            .error = found.error,
+            .starts = found.starts,
+            .swing_ratio = known(found.swing_ratio),
+            .creeping_starts = found.creeping_starts};
+  if (!computed) return rest;
+  const bool creeps = found.creeping_starts > 0;
+  const auto ends_of = [&](const Bounds& equilibria, const Bounds& seen) {
+    return creeps ? Bounds{std::min(equilibria.low, seen.low), std::max(equilibria.high, seen.high)}
+                  : equilibria;
+  };
+  rest.load = ends_of(computed->load, rest.load);
+  rest.motor = ends_of(computed->motor, rest.motor);
+  rest.error = {-rest.load.high, -rest.load.low};
+  rest.certainty = creeps ? Certainty::searched : Certainty::computed;
+  return rest;
+}
+
 StartOutcome outcome_of(const drive::Outcome& found) {
   StartOutcome outcome{.load_position = found.start.load_position,
                        .load_speed = found.start.load_speed,
@@ -182,8 +215,9 @@ bool is_driven(const drive::ReducedDrive& reduced) {
          std::holds_alternative<drive::Sine>(drive::settled(reduced.load_torque));
 }
 
-/// The verdict that follows from the outcomes of the starts.
-Verdict verdict_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced) {
+/// The verdict that follows from the outcomes of the starts and the motions found.
+Verdict verdict_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced,
+                   const std::vector<IrregularMotion>& motions) {
   const bool rests = search.count(drive::MotionEnd::rest) > 0;
   const bool cycles = search.count(drive::MotionEnd::cycle) > 0;
   const bool swings = cycles || search.count(drive::MotionEnd::irregular) > 0;
@@ -191,7 +225,7 @@ Verdict verdict_of(const drive::AttractorSearch& search, const drive::ReducedDri
   const bool is_open = search.count(drive::MotionEnd::undecided) > 0 || !search.is_complete;
   if (swings && is_driven(reduced)) return Verdict::forced;
   if (swings && rests) return Verdict::hunts_if_disturbed;
-  if (cycles) return Verdict::hunts;
+  if (cycles || std::any_of(motions.begin(), motions.end(), repeats)) return Verdict::hunts;
   if (swings) return Verdict::hunts_irregularly;
   // An undecided start may stay bounded, or hunt.
   if (diverges) return rests || is_open ? Verdict::runs_away_if_disturbed : Verdict::runs_away;
@@ -267,22 +301,26 @@ Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& serv
 
 Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced) {
   Answer answer;
-  answer.verdict = verdict_of(search, reduced);
   const drive::DriveSystem system = drive::drive_system(reduced);
   for (const drive::FoundCycle& cycle : search.cycles) {
     answer.cycles.push_back(cycle_of(cycle, system));
+    answer.cycles.back().encoder_steps =
+        encoder_steps(reduced, cycle.amplitude, cycle.motor_amplitude);
   }
   for (const drive::IrregularFound& motion : search.irregular) {
     answer.irregular.push_back(irregular_of(motion));
+    answer.irregular.back().encoder_steps =
+        encoder_steps(reduced, motion.amplitude, motion.motor_amplitude);
   }
-  if (search.rest) {
-    answer.rest = Rest{.load = search.rest->load,
-                       .motor = search.rest->motor,
-                       .error = search.rest->error,
-                       .starts = search.rest->starts,
-                       .swing_ratio = known(search.rest->swing_ratio),
-                       .creeping_starts = search.rest->creeping_starts};
+  answer.verdict = verdict_of(search, reduced, answer.irregular);
+  for (const drive::FoundThreshold& found : search.thresholds) {
+    const bool runs_away = found.end == drive::MotionEnd::diverges;
+    answer.thresholds.push_back({.end = runs_away ? "running away" : "hunting",
+                                 .direction = found.direction,
+                                 .below = found.below,
+                                 .from = found.from});
   }
+  if (search.rest) answer.rest = rest_of(*search.rest, computed_rest(reduced));
   answer.search = SearchRecord{.watch_time = search.watch_time,
                                .is_complete = search.is_complete,
                                .borders = search.edges.size(),
@@ -299,7 +337,10 @@ Analysis analyse_in_full(const Drive& drive, const Wanted& wanted, Progress& pro
   Analysis analysis;
   analysis.reduced = reduce_settled(drive);
   std::optional<Ceiling> ceiling;
-  if (wanted.ceiling) ceiling = ceiling_of(analysis.reduced);
+  if (wanted.ceiling) {
+    ceiling = ceiling_of(analysis.reduced);
+    ceiling->mesh_torque = highest_mean_mesh_torque(analysis.reduced);
+  }
   if (const std::optional<FinalServo> found = final_servo(drive)) {
     const Drivetrain& drivetrain = found->drivetrain;
     const DriveBox box = box_between(drivetrain, drivetrain, data_error_of(drive, drivetrain));
@@ -314,7 +355,8 @@ Analysis analyse_in_full(const Drive& drive, const Wanted& wanted, Progress& pro
     analysis.search = drive::AttractorSearch{};
     analysis.answer = answer_by_energy(analysis.reduced);
   } else {
-    analysis.search = drive::find_attractors(analysis.reduced, {}, progress);
+    analysis.search = drive::find_attractors(
+        analysis.reduced, {.budget = {.bytes_kept = wanted.motion_bytes}}, progress);
     analysis.answer = answer_of(*analysis.search, analysis.reduced);
   }
   analysis.answer.ceiling = std::move(ceiling);

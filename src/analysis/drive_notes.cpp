@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "model/firmware.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash {
@@ -18,12 +19,34 @@ std::string text_of(double value) {
   return {text.data(), end.ptr};
 }
 
+/// The gains that a firmware's registers are, where that is from, and what is left out.
+std::string text_on_firmware(const Drive& drive) {
+  const FirmwareFacts& facts = all_firmwares()[drive.controller.firmware->index()];
+  const Conversion conversion = converted(drive);
+  std::string text = "The registers of " + std::string(facts.name) + " mean";
+  const char* separator = ": ";
+  for (const ConvertedGain& gain : conversion.gains) {
+    text += separator + std::string(gain.name) + " " + text_of(gain.value) + " " +
+            std::string(gain.unit);
+    separator = ", ";
+  }
+  if (conversion.gains.empty()) text += ": nothing, all are 0";
+  const GainShaft shaft = conversion.controller.shaft;
+  text += shaft == GainShaft::motor   ? ", per angle of the motor"
+          : shaft == GainShaft::mixed ? ", torque of the motor per angle of the load"
+                                      : ", per angle of the load";
+  if (drive.sampling) text += ", every " + text_of(drive.sampling->period) + " s";
+  return text + " (" + std::string(facts.source) +
+         "). Not modelled: " + std::string(facts.left_out) + ".";
+}
+
 }  // namespace
 
 std::vector<Note> notes_on(const Drive& drive) {
   std::vector<Note> notes;
   if (drive.servo) return notes;
   const Motor& motor = drive.motor;
+  if (drive.controller.firmware) notes.push_back({"firmware", text_on_firmware(drive)});
   if (motor.no_load_current && takes_no_load_current(motor)) {
     notes.push_back({"no-load-current", "The motor's dry friction is " +
                                             text_of(coulomb_torque(motor)) +

@@ -132,6 +132,8 @@ MotionStop stop_of(hybrid::StopReason reason) {
       return MotionStop::reached_end;
     case hybrid::StopReason::event_limit:
       return MotionStop::event_limit;
+    case hybrid::StopReason::step_limit:
+      return MotionStop::step_limit;
     case hybrid::StopReason::zeno:
       return MotionStop::zeno;
     case hybrid::StopReason::chattering:
@@ -150,6 +152,8 @@ std::string stop_text_of(const hybrid::Trajectory& trajectory) {
       return {};
     case hybrid::StopReason::event_limit:
       return "after " + std::to_string(trajectory.events().size()) + " events";
+    case hybrid::StopReason::step_limit:
+      return "after " + std::to_string(trajectory.steps()) + " steps";
     case hybrid::StopReason::zeno:
       return "events accumulate" + at;
     case hybrid::StopReason::chattering:
@@ -279,9 +283,9 @@ std::shared_ptr<Motion::Source> general_motion(const drive::ReducedDrive& reduce
                                   .motor_speed = start.load_speed + start.gap_speed,
                                   .load_position = start.load_position,
                                   .load_speed = start.load_speed};
-  hybrid::Trajectory trajectory =
-      hybrid::simulate(system.system, drive::drive_start(reduced, system, shafts),
-                       {.until = span.until, .event_limit = span.most_events});
+  hybrid::Trajectory trajectory = hybrid::simulate(
+      system.system, drive::drive_start(reduced, system, shafts),
+      {.until = span.until, .event_limit = span.most_events, .step_limit = most_steps_of_a_motion});
   return std::make_shared<GeneralMotion>(std::move(system), std::move(trajectory));
 }
 
@@ -378,6 +382,8 @@ const char* name_of(MotionStop stop) {
       return "reached_end";
     case MotionStop::event_limit:
       return "event_limit";
+    case MotionStop::step_limit:
+      return "step_limit";
     case MotionStop::zeno:
       return "zeno";
     case MotionStop::chattering:

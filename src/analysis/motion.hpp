@@ -1,6 +1,7 @@
 // The source of a Motion, for either engine.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ class Motion::Source {
   std::string stop_text;
   Engine engine = Engine::closed_form;
 };
+
+/// A motion keeps its steps, each with all numbers of the drive. So many take half a gigabyte.
+inline constexpr std::size_t most_steps_of_a_motion = 4'000'000;
 
 /// A motion computed by the general engine. It may begin at any time; the result's times are
 /// relative to that. Forms of `system` whose size differs from its state's are taken as 0.

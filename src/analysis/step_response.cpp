@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "analysis/motion.hpp"
 #include "base/range_check.hpp"
 
 namespace gearlash::drive {
@@ -131,7 +132,8 @@ hybrid::Trajectory step_motion(ReducedDrive drive, double step, double until) {
   const DriveSystem system = drive_system(drive);
   const double way = step < 0.0 ? -1.0 : 1.0;
   const ShaftStates rest{.motor_position = way * 0.5 * drive.backlash};
-  return hybrid::simulate(system.system, drive_start(drive, system, rest), {.until = until});
+  return hybrid::simulate(system.system, drive_start(drive, system, rest),
+                          {.until = until, .step_limit = most_steps_of_a_motion});
 }
 
 }  // namespace

@@ -5,19 +5,18 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <optional>
 
+#include "closed_form/cycle_of_orbit.hpp"
 #include "closed_form/extremes.hpp"
 #include "closed_form/growth_at_rest.hpp"
-#include "closed_form/return_map.hpp"
+#include "closed_form/parting_scan.hpp"
+#include "closed_form/return_orbits.hpp"
 #include "closed_form/unit_half_cycle.hpp"
 #include "numeric/linear_algebra.hpp"
 
 namespace gearlash {
 namespace {
 
-constexpr std::array<int, 6> orders = {1, 2, 3, 4, 6, 8};
-constexpr int longest_order = 8;
 /// Irregular motion passes near infinitely many unstable cycles. Once this many are known, no more
 /// are sought along motions.
 constexpr std::size_t most_cycles = 16;
@@ -26,202 +25,28 @@ bool arrives(const Traversal& traversal) {
   return traversal.outcome == Traversal::Outcome::arrived;
 }
 
-/// The servo, and how many events may still be followed.
-struct Course {
-  const ServoDynamics& dynamics;
-  std::size_t events_left = 4'000'000;
-  bool cut_short = false;
+/// Whether half cycles shrink from one of two neighbouring samples and do not from the other.
+bool crosses(const PartingSample& above, const PartingSample& below) {
+  return above.settles && below.settles && (above.growth() < 0.0) != (below.growth() < 0.0);
+}
 
-  Traversal traverse(const Arrival& arrival, Derivative derivative) {
-    return booked(gearlash::traverse(dynamics, arrival, derivative,
-                                     std::min(events_left, traversal_event_limit)));
-  }
-
-  Traversal first_arrival(double amplitude) {
-    return booked(gearlash::first_arrival(dynamics, amplitude));
-  }
-
- private:
-  Traversal booked(const Traversal& traversal) {
-    events_left -= std::min(events_left, traversal.events);
-    cut_short = cut_short || traversal.outcome == Traversal::Outcome::event_limit;
-    return traversal;
-  }
+/// The direction in which disturbances of a cycle grow fastest, and their factor, by powers of its
+/// derivative.
+struct GrowingDirection {
+  Arrival direction = Arrival::Ones().normalized();
+  double factor = 0.0;
 };
 
-/// `order` traversals in a row.
-struct Iterate {
-  std::array<Arrival, longest_order> visited{};  ///< the arrivals that they start from
-  Arrival end;
-  Eigen::Matrix3d slope = Eigen::Matrix3d::Identity();
-  double duration = 0.0;
-  double engaged_time = 0.0;
-  double hardest_impact = 0.0;
-  std::size_t impacts = 0;
-  bool settled = true;
-};
-
-std::optional<Iterate> iterate(Course& course, const Arrival& start, int order) {
-  Iterate result;
-  result.end = start;
-  for (int step = 0; step < order; ++step) {
-    if (!(result.end(2) > 0.0)) return std::nullopt;
-    const Traversal traversal = course.traverse(result.end, Derivative::wanted);
-    if (!arrives(traversal)) return std::nullopt;
-    result.visited[static_cast<std::size_t>(step)] = result.end;
-    result.end = traversal.next;
-    result.slope = traversal.slope * result.slope;
-    result.duration += traversal.duration;
-    result.engaged_time += traversal.engaged_time;
-    result.hardest_impact = std::max(result.hardest_impact, traversal.hardest_impact);
-    result.impacts += traversal.impacts;
-    result.settled = result.settled && traversal.settled;
+GrowingDirection growing_direction(const Eigen::Matrix3d& slope) {
+  constexpr int powers = 30;
+  GrowingDirection growing;
+  for (int i = 0; i < powers; ++i) {
+    const Arrival next = slope * growing.direction;
+    growing.factor = next.dot(growing.direction);
+    if (!(next.norm() > 0.0)) break;
+    growing.direction = next.normalized();
   }
-  return result;
-}
-
-struct FixedPoint {
-  int order;
-  Arrival arrival;
-  Iterate map;
-  double residual;
-};
-
-double mismatch(const Iterate& map, const Arrival& start) {
-  return (map.end - start).norm() / start.norm();
-}
-
-/// Whether a fixed point is isolated: the uncertainty of the map displaces it little. False if a
-/// multiplier is 1 to rounding, where swings of any amplitude persist.
-bool is_isolated(const FixedPoint& point) {
-  constexpr double map_rounding = 1e-14;
-  constexpr double displacement_allowed = 1e-5;
-  const Eigen::Matrix3d mismatch_slope = point.map.slope - Eigen::Matrix3d::Identity();
-  return std::max(point.residual, map_rounding) <
-         displacement_allowed * least_pivot(mismatch_slope);
-}
-
-/// A cycle that was found before.
-struct KnownCycle {
-  FixedPoint point;
-  bool stable;
-
-  /// Relative distance to the nearest of its arrivals.
-  double distance_to(const Arrival& arrival) const {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (int step = 0; step < point.order; ++step) {
-      const Arrival& visited = point.map.visited[static_cast<std::size_t>(step)];
-      nearest = std::min(nearest, (arrival - visited).norm() / visited.norm());
-    }
-    return nearest;
-  }
-};
-
-/// Whether a step of Newton's method on `order` traversals leads so directly to a known cycle that
-/// the following steps, with quadratic convergence, end in it. (Cycles a few 1e-6 apart occur;
-/// nearer ones were not seen.)
-bool leads_to_known(const std::vector<KnownCycle>& known, const Arrival& from, const Arrival& step,
-                    int order) {
-  constexpr double near = 1e-6;
-  constexpr double straight = 0.01;
-  const Arrival to = from + step;
-  const double limit = std::min(near, straight * step.norm() / to.norm());
-  return std::any_of(known.begin(), known.end(), [&](const KnownCycle& cycle) {
-    return order % cycle.point.order == 0 && cycle.distance_to(to) < limit;
-  });
-}
-
-/// Newton's method. Steps are halved until the mismatch falls. Empty if it does not converge, or if
-/// it leads to a known cycle.
-std::optional<FixedPoint> newton(Course& course, const std::vector<KnownCycle>& known,
-                                 Arrival arrival, int order) {
-  constexpr int step_limit = 25;
-  constexpr double converged = 1e-13;
-  constexpr double acceptable = 1e-10;
-  std::optional<Iterate> map = iterate(course, arrival, order);
-  if (!map) return std::nullopt;
-  for (int step = 0; step < step_limit && mismatch(*map, arrival) > converged; ++step) {
-    const Arrival full = solved_with_full_pivoting(
-        Eigen::Matrix3d(map->slope - Eigen::Matrix3d::Identity()), Arrival(arrival - map->end));
-    if (leads_to_known(known, arrival, full, order)) return std::nullopt;
-    std::optional<Iterate> better;
-    double share = 1.0;
-    for (; share > 1e-3 && !better; share *= 0.5) {
-      const Arrival trial = arrival + share * full;
-      std::optional<Iterate> trial_map = iterate(course, trial, order);
-      if (trial_map && mismatch(*trial_map, trial) < mismatch(*map, arrival)) {
-        better = trial_map;
-        arrival = trial;
-      }
-    }
-    if (!better) break;
-    map = better;
-  }
-  const double residual = mismatch(*map, arrival);
-  if (!(residual <= acceptable)) return std::nullopt;
-  return FixedPoint{order, arrival, *map, residual};
-}
-
-/// Whether the point belongs to a cycle of lower order: it repeats after a divisor of its order.
-bool repeats_earlier(Course& course, const FixedPoint& point) {
-  return std::any_of(orders.begin(), orders.end(), [&](int divisor) {
-    if (divisor >= point.order || point.order % divisor != 0) return false;
-    const std::optional<Iterate> map = iterate(course, point.arrival, divisor);
-    return map && mismatch(*map, point.arrival) < 1e-7;
-  });
-}
-
-/// A full period is twice an odd number of mirrored traversals, or an even number of them.
-int traversals_per_period(int order) { return order % 2 == 0 ? order : 2 * order; }
-
-CycleKind kind_of(int order) {
-  if (order == 1) return CycleKind::symmetric;
-  return order == 2 ? CycleKind::asymmetric : CycleKind::subharmonic;
-}
-
-LimitCycle describe(const NormalizedServo& servo, const ServoDynamics& dynamics,
-                    const FixedPoint& point) {
-  const int repeats = traversals_per_period(point.order) / point.order;
-  const Eigen::Vector3cd values = eigenvalues(point.map.slope);
-  Eigen::Index largest = 0;
-  values.cwiseAbs().maxCoeff(&largest);
-  // Complex pairs have no sign: their modulus is given.
-  const double multiplier =
-      values(largest).imag() == 0.0 ? values(largest).real() : std::abs(values(largest));
-  const GapState start = after_arrival(dynamics, point.arrival);
-
-  LimitCycle cycle;
-  cycle.kind = kind_of(point.order);
-  cycle.multiplier = repeats == 2 ? multiplier * multiplier : multiplier;
-  cycle.stable = std::abs(multiplier) < 1.0;
-  cycle.period = repeats * point.map.duration;
-  cycle.engaged_time = repeats * point.map.engaged_time;
-  cycle.separated_time = cycle.period - cycle.engaged_time;
-  cycle.impact_speed = point.map.hardest_impact;
-  cycle.residual = point.residual;
-  cycle.impacts_per_period = static_cast<std::size_t>(repeats) * point.map.impacts;
-  cycle.settles = point.map.settled;
-  cycle.start = {start.load_position + start.gap, start.load_speed + start.gap_speed,
-                 start.load_position, start.load_speed};
-
-  const Trajectory period = simulate(servo, cycle.start, {.until = cycle.period, .reference = 0.0});
-  const Extremes range = extremes(period, 0.0, cycle.period);
-  cycle.amplitude = range.load_amplitude();
-  cycle.motor_amplitude = range.motor_amplitude();
-  const EnergyAccount books = period.energy_at(cycle.period);
-  // The arrival that closes the period may fall just before or just after its end. So its impact is
-  // not taken from the events but computed once, from the arrival itself.
-  const double first_impact = impact(dynamics, point.arrival(1), point.arrival(2)).energy_lost;
-  cycle.energy = {books.motor_friction, books.load_friction, first_impact};
-  for (const Event& event : period.events()) {
-    const bool closing = event.time > cycle.period * (1.0 - 1e-9);
-    if (!closing) cycle.energy.impacts += event.energy_lost;
-  }
-  return cycle;
-}
-
-double spectral_radius(const Eigen::Matrix3d& slope) {
-  return eigenvalues(slope).cwiseAbs().maxCoeff();
+  return growing;
 }
 
 class Search {
@@ -230,143 +55,234 @@ class Search {
       : servo_(servo),
         dynamics_(dynamics),
         growth_at_rest_(growth_at_rest(dynamics)),
-        course_{dynamics} {}
+        budget_{dynamics},
+        known_(budget_) {}
 
   BouncingCycles run() {
+    scan_ = scan_partings(budget_, growth_at_rest_);
+    try_crossings();
+    try_recurrences();
     try_plastic_cycle();
-    scan_amplitudes();
     follow_starts();
-    for (const KnownCycle& known : known_) {
-      result_.cycles.push_back(describe(servo_, dynamics_, known.point));
+    if (all_settle_from_ == infinity) search_from_cycles();
+    for (const KnownOrbit& known : known_.list()) {
+      result_.cycles.push_back(cycle_of_orbit(servo_, dynamics_, known.orbit));
     }
     std::sort(result_.cycles.begin(), result_.cycles.end(),
               [](const LimitCycle& a, const LimitCycle& b) { return a.amplitude > b.amplitude; });
-    result_.cut_short = course_.cut_short || still_growing_;
+    result_.cut_short = budget_.cut_short || still_growing_;
+    result_.any_neutral = known_.any_neutral();
     return result_;
   }
 
  private:
-  /// Adds the cycle that Newton's method reaches, unless it is known.
-  bool try_from(const Arrival& start, int order) {
-    const std::optional<FixedPoint> point = newton(course_, known_, start, order);
-    if (!point || distance_to_known(point->arrival) < 1e-7) return false;
-    // On the boundary of hunting the motor creeps without end. Such a cycle cannot be distinguished
-    // from rest.
-    const bool is_endless = 2.0 * point->map.duration > longest_simulation;
-    if (is_endless || !is_isolated(*point)) {
-      result_.any_neutral = true;
-      return false;
+  bool try_parting(double amplitude) {
+    const Traversal first = budget_.first_arrival(amplitude);
+    return arrives(first) && known_.try_from(first.next, 1);
+  }
+
+  /// Where the faces engage before they cross the gap again, the amplitude at which they part is
+  /// the whole state, and a cycle is a zero of its growth. From the largest sample down: as long as
+  /// they engage and the next amplitude falls with the amplitude, the map rises. Then all motions
+  /// from above the last sample that grows end in one of the cycles found there.
+  void try_crossings() {
+    const std::vector<PartingSample>& samples = scan_.samples;
+    bool rises = !samples.empty() && samples.front().settles && samples.front().growth() < 0.0;
+    if (rises && samples.size() == 1 && scan_.reaches_rest) all_settle_from_ = 0.0;
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+      const PartingSample& above = samples[i - 1];
+      const PartingSample& below = samples[i];
+      if (!above.settles || !below.settles) {
+        rises = false;
+        continue;
+      }
+      rises = rises && below.next_amplitude < above.next_amplitude;
+      if (crosses(above, below)) rises = try_crossing(above, below) && rises;
+      if (rises && below.growth() >= 0.0) all_settle_from_ = below.amplitude;
+      if (rises && scan_.reaches_rest && i + 1 == samples.size()) all_settle_from_ = 0.0;
     }
-    if (repeats_earlier(course_, *point)) return false;
-    known_.push_back({*point, spectral_radius(point->map.slope) < 1.0});
-    return true;
+  }
+
+  /// False position, with the weight of an end that stays halved (Illinois), until Newton's method
+  /// on the map itself is near enough.
+  bool try_crossing(const PartingSample& above, const PartingSample& below) {
+    constexpr double near = 1e-3;
+    constexpr int step_limit = 60;
+    double high = above.amplitude;
+    double low = below.amplitude;
+    double growth_high = std::log(above.next_amplitude / high);
+    double growth_low = std::log(below.next_amplitude / low);
+    int last_side = 0;
+    for (int step = 0; step < step_limit; ++step) {
+      const double middle = (low * growth_high - high * growth_low) / (growth_high - growth_low);
+      if (!(middle > low && middle < high)) return false;
+      const Traversal first = budget_.first_arrival(middle);
+      if (!arrives(first)) return false;
+      const Traversal second = budget_.traverse(first.next, Derivative::not_wanted);
+      if (!arrives(second) || !second.settled) return false;
+      const double growth = std::log(std::abs(second.parting_amplitude) / middle);
+      if (std::abs(growth) < near || high - low < near * high)
+        return known_.try_from(first.next, 1);
+      const int side = (growth < 0.0) == (growth_high < 0.0) ? 1 : -1;
+      (side > 0 ? high : low) = middle;
+      (side > 0 ? growth_high : growth_low) = growth;
+      if (side == last_side) (side > 0 ? growth_low : growth_high) *= 0.5;
+      last_side = side;
+    }
+    return false;
+  }
+
+  /// From samples that nearly come back after one traversal or two: nearer than their neighbours
+  /// do, or next to a grazing. Cycles that cross the line are known by now.
+  void try_recurrences() {
+    constexpr double near_once = 0.5;
+    constexpr double near_twice = 0.3;
+    for (std::size_t i = 0; i < scan_.samples.size() && !budget_.cut_short; ++i) {
+      const PartingSample& sample = scan_.samples[i];
+      if (sample.once < near_once && is_nearest(i, &PartingSample::once) && !crosses_beside(i)) {
+        known_.try_from(sample.arrival, 1);
+      }
+      if (sample.twice < near_twice && is_nearest(i, &PartingSample::twice)) {
+        known_.try_from(sample.arrival, 2);
+      }
+    }
+  }
+
+  bool is_nearest(std::size_t i, double PartingSample::*distance) const {
+    const std::vector<PartingSample>& samples = scan_.samples;
+    const double here = samples[i].*distance;
+    return samples[i].by_grazing || ((i == 0 || here <= samples[i - 1].*distance) &&
+                                     (i + 1 == samples.size() || here <= samples[i + 1].*distance));
+  }
+
+  bool crosses_beside(std::size_t i) const {
+    const std::vector<PartingSample>& samples = scan_.samples;
+    return (i > 0 && crosses(samples[i - 1], samples[i])) ||
+           (i + 1 < samples.size() && crosses(samples[i], samples[i + 1]));
   }
 
   /// Starts from the plastic cycle: a few bounces change it little, and it may lie outside the
   /// scan.
   void try_plastic_cycle() {
+    if (all_settle_from_ < infinity) return;
     ServoDynamics plastic = dynamics_;
     plastic.restitution = 0.0;
     const double growth = growth_at_rest(plastic);
     if (!(growth > 1.0)) return;
     const auto half = balanced_half_cycle(plastic, growth);
-    if (!half) return;
-    const Traversal first = course_.first_arrival(servo_.backlash / -half->gap_displacement);
-    if (arrives(first)) try_from(first.next, 1);
-  }
-
-  /// Coarsely first, then finer, until half of the events are used.
-  void scan_amplitudes() {
-    constexpr int count = 121;
-    const std::size_t reserve = course_.events_left / 2;
-    for (const int offset : {0, 4, 2, 6, 1, 3, 5, 7}) {
-      for (int i = offset; i < count; i += 8) {
-        if (course_.cut_short || course_.events_left < reserve) return;
-        try_amplitude(std::pow(10.0, -4.0 + 8.0 * i / (count - 1)));
-      }
-    }
-  }
-
-  /// Whether the load is at rest and the motor creeps at the speed at which the loop balances its
-  /// friction.
-  bool creeps(const Arrival& arrival) const {
-    constexpr double rounding = 1e-13;
-    const double creeping_speed = -arrival(0) / dynamics_.motor_friction;
-    const double load_speed = arrival(1) - dynamics_.motor_inertia * arrival(2);
-    return std::abs(arrival(2) - creeping_speed) <= rounding * creeping_speed &&
-           std::abs(load_speed) <= rounding * std::abs(arrival(1));
-  }
-
-  /// Whether two successive arrivals differ by the factor μ₀ alone. Then no cycle is this small.
-  /// False if μ₀ is 1 to nine digits, because growth at rest then decides nothing.
-  bool grows_as_at_rest(const Arrival& arrival, const Arrival& next) const {
-    constexpr double told_apart = 1e-9;
-    const double growth = growth_at_rest_;
-    return std::isfinite(growth) && std::abs(growth - 1.0) > told_apart && creeps(arrival) &&
-           creeps(next) &&
-           std::abs(next.norm() - growth * arrival.norm()) <= told_apart * next.norm();
-  }
-
-  void try_amplitude(double per_backlash) {
-    const Traversal first = course_.first_arrival(servo_.backlash * per_backlash);
-    if (!arrives(first)) return;
-    const Traversal second = course_.traverse(first.next, Derivative::not_wanted);
-    if (!arrives(second) || grows_as_at_rest(first.next, second.next)) return;
-    if ((second.next - first.next).norm() < 0.5 * first.next.norm()) try_from(first.next, 1);
+    if (half) try_parting(servo_.backlash / -half->gap_displacement);
   }
 
   void follow_starts() {
     constexpr int count = 8;
-    for (int i = 0; i < count && !course_.cut_short; ++i) {
-      const Traversal first =
-          course_.first_arrival(servo_.backlash * std::pow(10.0, -1.3 + 3.0 * i / (count - 1)));
-      if (arrives(first)) follow(first.next);
+    for (int i = 0; i < count && !budget_.cut_short; ++i) {
+      const double amplitude = servo_.backlash * std::pow(10.0, -1.3 + 3.0 * i / (count - 1));
+      if (amplitude >= all_settle_from_) return;
+      const Traversal first = budget_.first_arrival(amplitude);
+      if (arrives(first)) watch(first.next);
     }
   }
 
-  /// Relative distance to the nearest known cycle.
-  double distance_to_known(const Arrival& arrival) const {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const KnownCycle& known : known_) {
-      nearest = std::min(nearest, known.distance_to(arrival));
+  /// What lies beside the unstable cycles known, and beside those that are found on the way.
+  void search_from_cycles() {
+    constexpr std::size_t cycles_tried = 2 * most_cycles;
+    for (std::size_t i = 0; i < std::min(known_.list().size(), cycles_tried); ++i) {
+      if (known_.list()[i].stable) continue;
+      const ReturnOrbit orbit = known_.list()[i].orbit;  // a copy: the list grows
+      const GrowingDirection growing = growing_direction(orbit.map.slope);
+      try_doubled(orbit, growing);
+      follow_both_sides(orbit, growing.direction);
     }
-    return nearest;
   }
 
-  double distance_to_stable(const Arrival& arrival) const {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const KnownCycle& known : known_) {
-      if (known.stable) nearest = std::min(nearest, known.distance_to(arrival));
+  /// A cycle that lost its stability at a multiplier of −1 has one of twice its length around it.
+  void try_doubled(const ReturnOrbit& orbit, const GrowingDirection& growing) {
+    constexpr double shortly_after = -2.0;
+    if (!(growing.factor < -1.0 && growing.factor > shortly_after)) return;
+    if (2 * orbit.order > longest_cycle_order) return;
+    for (const double aside : {0.003, 0.01, 0.03}) {
+      if (budget_.cut_short) return;
+      const Arrival start = orbit.arrival + aside * orbit.arrival.norm() * growing.direction;
+      if (known_.try_from(start, 2 * orbit.order)) return;
     }
-    return nearest;
   }
 
-  /// Follows one motion until it rests, meets a stable cycle, or has continued too long without
-  /// coming nearer to one (a lightly damped servo takes 1/ζ crossings).
-  void follow(Arrival arrival) {
-    constexpr int traversal_limit = 1500;
+  /// An unstable cycle may lie on the border between two attractors: motions to either side of it
+  /// lead to both.
+  void follow_both_sides(const ReturnOrbit& orbit, const Arrival& direction) {
+    constexpr double aside = 1e-3;
+    constexpr int traversal_limit = 100;
+    for (const double side : {-aside, aside}) {
+      if (budget_.cut_short) return;
+      Motion motion{.arrival = orbit.arrival + side * orbit.arrival.norm() * direction};
+      follow(motion, traversal_limit);
+    }
+  }
+
+  static constexpr std::size_t ring_size = 2 * longest_cycle_order + 1;
+
+  struct Motion {
+    Arrival arrival;
+    std::array<Arrival, ring_size> recent{};  ///< the last arrivals, in a ring
+    int count = 0;                            ///< traversals
+    double farthest = 0.0;                    ///< largest arrival since this was last set to 0
+
+    /// The arrival of some traversals ago. Infinitely far where there are not so many.
+    Arrival before(int traversals) const {
+      if (traversals > count) return Arrival::Constant(infinity);
+      return recent[static_cast<std::size_t>(count - traversals) % ring_size];
+    }
+    double moved_since(int traversals) const { return (before(traversals) - arrival).norm(); }
+    double moved_between(int late, int early) const {
+      return (before(late) - before(early)).norm();
+    }
+  };
+
+  enum class Ending { settled, moving };
+
+  /// Until the motion rests, meets a stable cycle, or has made `limit` traversals in all.
+  Ending follow(Motion& motion, int limit) {
     constexpr int between_attempts = 25;
     constexpr double negligible = 1e-9;  // of the backlash: growth at rest decides from here
     constexpr double captured = 1e-3;
-    std::array<Arrival, longest_order> recent;
-    recent.fill(Arrival::Zero());
-    double distance_halfway = std::numeric_limits<double>::infinity();
-    std::array<double, 8> largest{};  // in each eighth of the way
-    for (int count = 1; count <= traversal_limit; ++count) {
-      const Traversal traversal = course_.traverse(arrival, Derivative::not_wanted);
-      if (!arrives(traversal) || traversal.next.norm() < negligible * servo_.backlash) return;
-      if (growth_at_rest_ < 1.0 && grows_as_at_rest(arrival, traversal.next)) return;
-      recent[static_cast<std::size_t>(count % longest_order)] = arrival;
-      arrival = traversal.next;
-      double& so_far = largest[static_cast<std::size_t>(8 * (count - 1) / traversal_limit)];
-      so_far = std::max(so_far, arrival.norm());
-      if (count % between_attempts != 0) continue;
-      const double distance = distance_to_stable(arrival);
-      if (distance < captured) return;
-      if (count <= traversal_limit / 2) distance_halfway = distance;
-      attempt(arrival, recent, count);
+    while (motion.count < limit) {
+      const Traversal traversal = budget_.traverse(motion.arrival, Derivative::not_wanted);
+      if (!arrives(traversal) || traversal.next.norm() < negligible * servo_.backlash) {
+        return Ending::settled;
+      }
+      if (traversal.settled && std::abs(traversal.parting_amplitude) >= all_settle_from_) {
+        return Ending::settled;
+      }
+      if (growth_at_rest_ < 1.0 &&
+          grows_as_at_rest(dynamics_, growth_at_rest_, motion.arrival, traversal.next)) {
+        return Ending::settled;
+      }
+      motion.recent[static_cast<std::size_t>(motion.count) % ring_size] = motion.arrival;
+      ++motion.count;
+      motion.arrival = traversal.next;
+      motion.farthest = std::max(motion.farthest, motion.arrival.norm());
+      if (motion.count % between_attempts != 0) continue;
+      if (known_.distance_to_stable(motion.arrival) < captured) return Ending::settled;
+      attempt(motion);
     }
-    if (distance_to_stable(arrival) < 0.9 * distance_halfway) return;
+    return Ending::moving;
+  }
+
+  /// Follows a motion until it has continued too long without coming nearer to a stable cycle (a
+  /// lightly damped servo takes 1/ζ crossings).
+  void watch(const Arrival& start) {
+    constexpr int eighths = 8;
+    constexpr int traversal_limit = 1500;
+    Motion motion{.arrival = start};
+    std::array<double, eighths> largest{};  // in each eighth of the way
+    double distance_halfway = infinity;
+    for (int i = 0; i < eighths; ++i) {
+      motion.farthest = 0.0;
+      if (follow(motion, traversal_limit * (i + 1) / eighths) == Ending::settled) return;
+      largest[static_cast<std::size_t>(i)] = motion.farthest;
+      if (2 * (i + 1) == eighths) distance_halfway = known_.distance_to_stable(motion.arrival);
+    }
+    if (known_.distance_to_stable(motion.arrival) < 0.9 * distance_halfway) return;
     // Motion that still decays does not last. Motion that still grows has not shown its final
     // amplitude.
     const auto never = largest.end();
@@ -376,18 +292,40 @@ class Search {
       return;
     }
     result_.all_starts_settled = false;
-    result_.irregular_amplitude = std::fmax(result_.irregular_amplitude, amplitude_from(arrival));
+    result_.irregular_amplitude =
+        std::fmax(result_.irregular_amplitude, amplitude_from(motion.arrival));
   }
 
-  void attempt(const Arrival& arrival, const std::array<Arrival, longest_order>& recent,
-               int count) {
-    if (known_.size() >= most_cycles) return;
-    for (const int order : orders) {
-      const auto slot =
-          static_cast<std::size_t>((count - order + 1 + longest_order) % longest_order);
-      if ((recent[slot] - arrival).norm() > 0.05 * arrival.norm()) continue;
-      if (try_from(arrival, order)) return;
+  /// Newton's method where the motion comes back: roughly, after few traversals, or ever more
+  /// closely, as motion that settles on a longer stable cycle does.
+  void attempt(const Motion& motion) {
+    constexpr int few = 8;
+    constexpr double roughly = 0.05;
+    constexpr double closely = 1e-3;
+    constexpr double passing_by = 0.002;  // a known cycle, to which Newton's method would return
+    if (known_.list().size() >= most_cycles) return;
+    if (known_.distance_to_known(motion.arrival) < passing_by) return;
+    const double size = motion.arrival.norm();
+    for (int order = 1; order <= few; ++order) {
+      if (motion.moved_since(order) > roughly * size || drifts(motion, order)) continue;
+      if (known_.try_from(motion.arrival, order)) return;
     }
+    for (int order = few + 1; order <= longest_cycle_order; ++order) {
+      const double moved = motion.moved_since(order);
+      if (moved > closely * size || moved > motion.moved_between(order, 2 * order)) continue;
+      if (drifts(motion, order)) continue;
+      if (known_.try_from(motion.arrival, order, Wanted::stable)) return;
+    }
+  }
+
+  /// Whether a motion is slow, and the ways of single traversals add up: it passes no cycle of
+  /// several.
+  static bool drifts(const Motion& motion, int order) {
+    constexpr double slow = 1e-4;
+    constexpr double nearly_all = 0.9;
+    const double once = motion.moved_since(1);
+    return order > 1 && once < slow * motion.arrival.norm() &&
+           motion.moved_since(order) >= nearly_all * order * once;
   }
 
   /// Half peak-to-peak over about a hundred further traversals.
@@ -407,8 +345,10 @@ class Search {
   const NormalizedServo& servo_;
   const ServoDynamics& dynamics_;
   double growth_at_rest_;
-  Course course_;
-  std::vector<KnownCycle> known_;
+  TraversalBudget budget_;
+  KnownOrbits known_;
+  PartingScan scan_;
+  double all_settle_from_ = infinity;
   bool still_growing_ = false;
   BouncingCycles result_;
 };

@@ -20,11 +20,18 @@ struct BouncingCycles {
                                                  ///< of those that did not
 };
 
-/// Newton's method on k-fold traversals, k = 1, 2, 3, 4, 6, 8. It starts from the plastic cycle,
-/// from a scan of 121 amplitudes over b × [1e-4, 1e4], and from the recurrences of motions from
-/// eight starts over b × [0.05, 50]. Each motion is followed for at most 1,500 traversals, or until
-/// it creeps to rest. Once sixteen cycles are known the recurrences are no longer tried. At most
-/// four million events are followed in all, and 200,000 within one traversal: a second or two.
+/// Four stages (docs/mathematics.md, Bounces):
+///   a scan of the line on which faces part, from the largest amplitude that can last down to that
+///   below which motion creeps (parting_scan.hpp). Where bounces settle, the amplitude at the
+///   parting is the whole state, and each change of sign of its growth is a cycle. If the map rises
+///   there, all motions from there on settle on these;
+///   Newton's method from samples that nearly come back after one traversal or two;
+///   motions from eight starts over b × [0.05, 50], each followed for at most 1,500 traversals,
+///   with Newton's method where they come back after up to 8 traversals, or ever more closely after
+///   up to 32; what lies beside the unstable cycles: those of twice the length, and motions to
+///   either side.
+/// Once sixteen cycles are known the recurrences of motions are no longer tried. At most four
+/// million events are followed in all, and 200,000 within one traversal: a second or two.
 /// Precondition: validate(servo) is empty, b > 0, contact not plastic.
 BouncingCycles find_bouncing_cycles(const NormalizedServo& servo, const ServoDynamics& dynamics);
 

@@ -9,7 +9,7 @@
 #include "closed_form/dual_numbers.hpp"
 #include "closed_form/half_cycle_algebra.hpp"
 #include "closed_form/phase.hpp"
-#include "closed_form/return_map.hpp"
+#include "closed_form/return_orbits.hpp"
 #include "numeric/linear_algebra.hpp"
 
 namespace gearlash {
@@ -229,9 +229,10 @@ std::optional<Orbit> orbit_of(const ServoDynamics& dynamics, const LimitCycle& c
   const Arrival arrival(start.load_position, start.load_speed + dynamics.motor_inertia * gap_speed,
                         -gap_speed / dynamics.restitution);
   constexpr double near = 1e-6;
-  for (const int order : {1, 2, 3, 4, 6, 8}) {
+  for (int order = 1; order <= longest_cycle_order; ++order) {
     const auto map = iterated(dynamics, arrival, order);
     if (!map) return std::nullopt;
+    if (map->duration > (1.0 + near) * cycle.period) break;
     if (std::abs(repeats_of(order) * map->duration - cycle.period) > near * cycle.period ||
         (map->end - arrival).norm() > near * arrival.norm()) {
       continue;

@@ -37,6 +37,12 @@ inline constexpr auto inverse_factorials = [] {
 /// terms reach a double's last bit there.
 inline constexpr double series_limit = 1.0;
 inline constexpr std::size_t series_terms = 20;
+/// Short bounces have small arguments, and their series fewer terms. What these leave out is below
+/// 4e-18 of the sum: x¹²/14! and 13 x¹²/15! at 1/4, x⁸/10! and 9 x⁸/11! at 1/32.
+inline constexpr double small_argument = 0.25;
+inline constexpr std::size_t small_argument_terms = 12;
+inline constexpr double tiny_argument = 1.0 / 32.0;
+inline constexpr std::size_t tiny_argument_terms = 8;
 
 /// Two neighbouring terms of a series, computed side by side (an extension of gcc and clang, which
 /// do not find this by themselves).
@@ -47,12 +53,13 @@ inline Pair inverse_factorial_pair(std::size_t k) {
 }
 
 /// exp[0, 0, −x] = Σ_k (−x)^k / (k + 2)!: four interleaved sums in x⁴.
-inline double single_rate_series(double x) {
+template <std::size_t terms = series_terms>
+double single_rate_series(double x) {
   const double square = x * x;
   const double fourth = square * square;
   Pair low{};
   Pair high{};
-  for (std::size_t k = series_terms; k > 0; k -= 4) {
+  for (std::size_t k = terms; k > 0; k -= 4) {
     low = inverse_factorial_pair(k - 2) + fourth * low;
     high = inverse_factorial_pair(k) + fourth * high;
   }
@@ -62,7 +69,8 @@ inline double single_rate_series(double x) {
 
 /// exp[0, 0, −x, −y] = Σ_k (−1)^k h_k(x, y) / (k + 3)!, h_k the complete symmetric polynomial: four
 /// interleaved sums with h_{k+4} = y⁴ h_k + x^{k+1} h_3.
-inline double two_rate_series(double x, double y) {
+template <std::size_t terms = series_terms>
+double two_rate_series(double x, double y) {
   const double x2 = x * x;
   const double y2 = y * y;
   const double x4 = x2 * x2;
@@ -73,7 +81,7 @@ inline double two_rate_series(double x, double y) {
   Pair low_step = {h3 * x, h3 * x2};  // x^{k+1} h_3
   Pair high_step = low_step * x2;
   Pair sum{};
-  for (std::size_t k = 0; k < series_terms; k += 4) {
+  for (std::size_t k = 0; k < terms; k += 4) {
     sum += low * inverse_factorial_pair(k + 3) + high * inverse_factorial_pair(k + 5);
     low = low_step + y4 * low;
     high = high_step + y4 * high;
@@ -81,6 +89,20 @@ inline double two_rate_series(double x, double y) {
     high_step *= x4;
   }
   return sum[0] - sum[1];
+}
+
+/// The series with as many terms as its argument, x < 1, needs.
+inline double short_single_rate_series(double x) {
+  if (x < tiny_argument) return single_rate_series<tiny_argument_terms>(x);
+  if (x < small_argument) return single_rate_series<small_argument_terms>(x);
+  return single_rate_series(x);
+}
+
+/// Likewise; y is the larger argument.
+inline double short_two_rate_series(double x, double y) {
+  if (y < tiny_argument) return two_rate_series<tiny_argument_terms>(x, y);
+  if (y < small_argument) return two_rate_series<small_argument_terms>(x, y);
+  return two_rate_series(x, y);
 }
 
 }  // namespace detail
@@ -97,7 +119,7 @@ using Decay = BasicDecay<double>;
 
 inline Decay decay(double exponent) {
   if (exponent < detail::series_limit) {
-    const double double_integral = detail::single_rate_series(exponent);
+    const double double_integral = detail::short_single_rate_series(exponent);
     const double integral = 1.0 - exponent * double_integral;
     return {exponent, 1.0 - exponent * integral, integral, double_integral};
   }
@@ -121,7 +143,7 @@ inline Convolution convolution(const Decay& x, const Decay& y) {
   const Decay& slow = x.exponent <= y.exponent ? x : y;
   const Decay& fast = x.exponent <= y.exponent ? y : x;
   if (fast.exponent < detail::series_limit) {
-    const double double_integral = detail::two_rate_series(slow.exponent, fast.exponent);
+    const double double_integral = detail::short_two_rate_series(slow.exponent, fast.exponent);
     const double integral = slow.double_integral - fast.exponent * double_integral;
     return {slow.integral - fast.exponent * integral, integral, double_integral};
   }

@@ -76,9 +76,10 @@ struct LimitCycleAnalysis {
 /// the root of one scalar equation and always found. The verdict is `computed`, or a `theorem` if
 /// growth at rest is not needed (a shaft, or both, without friction; no backlash; 1/c + 1/D ≤ 2ζ).
 /// 0 < e ≤ 1: if 1/c + 1/D ≤ 2ζ nothing can hunt, a `theorem`. Otherwise Newton's method finds
-/// fixed points of the return map (return_map.hpp), from a scan over amplitudes and from the
-/// motions in which small, middle and large starts end. The list is as complete as the scan is
-/// fine, hence `searched`. Every cycle reported is one, to its residual. Throws InvalidInput.
+/// fixed points of the return map (return_map.hpp), from a scan over amplitudes, from the motions
+/// in which small, middle and large starts end, and from the unstable cycles found. The list is as
+/// complete as the scan is fine, hence `searched`. Every cycle reported is one, to its residual.
+/// Throws InvalidInput.
 LimitCycleAnalysis analyse_limit_cycles(const NormalizedServo& servo);
 
 /// The same, proved: with plastic contact the growth at rest, the cycle and its multiplier are

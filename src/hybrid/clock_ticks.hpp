@@ -26,6 +26,8 @@ class ClockTicks {
   }
 
   std::size_t count() const { return ticks_.size(); }
+  /// Time of a clock's first tick.
+  double first(std::size_t clock) const { return clocks_[clock].first; }
   /// Whether the clock's ticks are all alike: periodic, and none adds anything.
   bool is_regular(std::size_t clock) const {
     return clocks_[clock].period > 0.0 && clocks_[clock].additions.empty();

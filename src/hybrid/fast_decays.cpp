@@ -58,6 +58,29 @@ ComplexMatrix fast_vectors(const Matrix& matrix, std::size_t count) {
   return vectors;
 }
 
+/// Numbers that change by constants and by each other's integrals alone, as those of a shaft that
+/// sticks: no decay has a part in them.
+std::vector<Eigen::Index> without_decays(const Matrix& matrix) {
+  std::vector<Eigen::Index> found;
+  std::vector<bool> is_found(static_cast<std::size_t>(matrix.rows()), false);
+  const auto follows_found = [&](Eigen::Index row) {
+    for (Eigen::Index i = 0; i < matrix.cols(); ++i) {
+      if (matrix(row, i) != 0.0 && !is_found[static_cast<std::size_t>(i)]) return false;
+    }
+    return true;
+  };
+  std::size_t before = 0;
+  do {
+    before = found.size();
+    for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+      if (is_found[static_cast<std::size_t>(row)] || !follows_found(row)) continue;
+      is_found[static_cast<std::size_t>(row)] = true;
+      found.push_back(row);
+    }
+  } while (found.size() > before);
+  return found;
+}
+
 }  // namespace
 
 bool FastDecays::are_over(const Vector& state, const Vector& largest) const {
@@ -82,7 +105,9 @@ std::optional<FastDecays> fast_decays(const AffineFlow& flow) {
   const ComplexMatrix right = fast_vectors(matrix, count);
   const ComplexMatrix left = fast_vectors(matrix.transpose(), count);
   const ComplexMatrix overlap = left.transpose() * right;
-  const Matrix projector = (right * solved(overlap, ComplexMatrix(left.transpose()))).real();
+  Matrix projector = (right * solved(overlap, ComplexMatrix(left.transpose()))).real();
+  // Rounding would move a shaft that sticks, a little at each step.
+  for (const Eigen::Index row : without_decays(matrix)) projector.row(row).setZero();
   // Nearly parallel eigenvectors make the projector too inaccurate to use.
   constexpr double acceptable = 1e-11;
   const double size = 1.0 + projector.norm();

@@ -39,4 +39,9 @@ void Trajectory::at(double time, State& state) const {
   if (slow != nullptr) slow->decays.put_at_rest(state.numbers);
 }
 
+const std::vector<AffineForm>& MotionObserver::watched() const {
+  static const std::vector<AffineForm> none;
+  return none;
+}
+
 }  // namespace gearlash::hybrid

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,6 +44,7 @@ struct Touch {
 enum class StopReason {
   reached_end,
   event_limit,  ///< the requested number of events is reached
+  step_limit,   ///< the permitted number of steps is reached
   zeno,  ///< ever faster events, without a Settling, accumulate before `end_time`; culprit() has
          ///< the last one
   chattering,  ///< more events at one instant than there are ways through the modes; culprit() has
@@ -54,6 +56,9 @@ struct SimulationOptions {
   double from = 0.0;  ///< time of the start, on which clocks depend
   double until = 0.0;
   std::size_t event_limit = 1'000'000;  ///< the motion stops just after this many events
+  /// The motion stops after this many steps, of which each keeps the state. Of a motion that is
+  /// observed steps are not kept, and not limited.
+  std::size_t step_limit = std::numeric_limits<std::size_t>::max();
 };
 
 /// Receives a motion piece by piece, so that nothing of it need be kept.
@@ -63,10 +68,13 @@ class MotionObserver {
   MotionObserver(const MotionObserver&) = delete;
   MotionObserver& operator=(const MotionObserver&) = delete;
   virtual ~MotionObserver() = default;
-  /// The motion went from one state to another, without an event between them. Pieces follow each
-  /// other in time. They are at most as long as a step of the series, so that a number and its
-  /// derivative at both ends describe the number well.
+  /// The motion went from one state to another, without an event between them, or by ticks that
+  /// repeat. Pieces follow each other in time. They are at most as long as a step of the series, so
+  /// that a number and its derivative at both ends describe the number well; or what is watched()
+  /// keeps its sign.
   virtual void moved(double from, double to, const Vector& before, const Vector& after) = 0;
+  /// Forms whose changes of sign the observer must see.
+  virtual const std::vector<AffineForm>& watched() const;
 };
 
 /// What remains of a motion that was observed.

@@ -7,11 +7,20 @@
 #include "numeric/linear_algebra.hpp"
 
 namespace gearlash::hybrid {
-namespace {
 
-Vector velocity(const AffineMode& mode, const Vector& state) {
-  return mode.flow.matrix * state + mode.flow.offset;
+Vector velocity(const AffineFlow& flow, const Vector& numbers) {
+  return flow.matrix * numbers + flow.offset;
 }
+
+Vector flown(const AffineFlow& flow, const Vector& numbers, double time) {
+  const Eigen::Index size = numbers.size();
+  Matrix augmented = Matrix::Zero(size + 1, size + 1);
+  augmented.topLeftCorner(size, size) = flow.matrix;
+  augmented.topRightCorner(size, 1) = velocity(flow, numbers);
+  return numbers + Vector(exponential(augmented * time).topRightCorner(size, 1));
+}
+
+namespace {
 
 const AffineReset& reset_of(const AffineMode& mode, const Event& event) {
   switch (event.kind) {
@@ -47,7 +56,7 @@ class Disturbances {
     flow_to(event.time);
     const AffineMode& before = system_.mode(mode_);
     const Matrix reset = reset_of(system_.mode(event.mode), event).slope(system_.size());
-    const Vector flow_before = velocity(before, event.before);
+    const Vector flow_before = velocity(before.flow, event.before);
     mode_ = event.mode_after;
     if (event.kind == EventKind::timed) {
       delay_.setZero();
@@ -58,7 +67,7 @@ class Disturbances {
       if (speed == 0.0) return false;
       delay_ = -(normal.transpose() * slope_) / speed;
     }
-    const Vector jump = velocity(system_.mode(mode_), event.after) - reset * flow_before;
+    const Vector jump = velocity(system_.mode(mode_).flow, event.after) - reset * flow_before;
     slope_ = reset * slope_ - jump * delay_;
     return true;
   }
@@ -76,26 +85,71 @@ class Disturbances {
   Eigen::RowVectorXd delay_;  ///< ∂/∂start of the last event's time
 };
 
-/// The time near a guess at which the motion crosses a plane. Empty if it does not.
-std::optional<double> crossing_time(const AffineMode& mode, const State& start, double from,
-                                    const AffineForm& plane, double guess) {
-  const Eigen::Index size = start.numbers.size();
-  Matrix augmented = Matrix::Zero(size + 1, size + 1);  // (x, 1)′
-  augmented.topLeftCorner(size, size) = mode.flow.matrix;
-  augmented.topRightCorner(size, 1) = mode.flow.offset;
-  Vector extended(size + 1);
-  extended << start.numbers, 1.0;
-  double time = std::max(guess - from, 0.0);
+/// How much later, or earlier, the flow of a mode crosses a plane. Empty if it does not.
+std::optional<double> time_to_plane(const AffineMode& mode, const Vector& numbers, double time,
+                                    const AffineForm& plane) {
+  double later = 0.0;
   for (int i = 0; i < 40; ++i) {
-    const Vector here = (exponential(augmented * time) * extended).head(size);
-    const double step = -plane.at(here) / plane.normal.dot(velocity(mode, here));
+    const Vector here = flown(mode.flow, numbers, later);
+    const double step = -plane.at(here) / plane.normal.dot(velocity(mode.flow, here));
     if (!std::isfinite(step)) return std::nullopt;
-    time += step;
-    if (!(time >= 0.0)) return std::nullopt;
+    later += step;
     constexpr double short_step = 1e-15;
-    if (std::abs(step) <= short_step * (from + time)) break;
+    if (std::abs(step) <= short_step * (time + later)) break;
   }
-  return from + time;
+  return later;
+}
+
+/// Events of a motion, and its state after them.
+struct Arrival {
+  std::vector<Event> events;
+  State end;
+  double time;
+};
+
+/// A motion over a number of events and until a time. If another event comes before, it ends there;
+/// if the last one comes later, at that one, which may be this late.
+Trajectory motion_over(const PreparedSystem& prepared, const State& start, double from,
+                       std::size_t events, double until, double latest) {
+  Trajectory motion =
+      simulate(prepared, start, {.from = from, .until = until, .event_limit = events + 1});
+  if (motion.events().size() >= events) return motion;
+  return simulate(prepared, start, {.from = from, .until = latest, .event_limit = events});
+}
+
+/// Where a motion crosses a plane after its last event, near a time. The crossing is sought from a
+/// state nearby, because an exponential over a long time loses digits.
+std::optional<Arrival> arrival_at(const PreparedSystem& prepared, const State& start, double from,
+                                  std::size_t events, const AffineForm& plane, double near) {
+  // A plane that the flow hardly approaches may be crossed after ages.
+  constexpr double patience = 4.0;
+  const double latest = from + patience * (near - from);
+  const Trajectory motion = motion_over(prepared, start, from, events, near, latest);
+  std::vector<Event> passed = motion.events();
+  if (passed.size() < events) return std::nullopt;
+  State here = motion.end();
+  if (passed.size() > events) {
+    here = {passed.back().mode, passed.back().before};
+    passed.pop_back();
+  }
+  const AffineMode& mode = prepared.system().mode(here.mode);
+  const auto later = time_to_plane(mode, here.numbers, motion.end_time(), plane);
+  if (!later) return std::nullopt;
+  const double time = motion.end_time() + *later;
+  if (!(time >= (passed.empty() ? from : passed.back().time)) || time > latest) return std::nullopt;
+  if (*later > 0.0 &&
+      motion_over(prepared, start, from, events, time, time).events().size() > events)
+    return std::nullopt;
+  here.numbers = flown(mode.flow, here.numbers, *later);
+  return Arrival{std::move(passed), std::move(here), time};
+}
+
+std::optional<Arrival> arrival_after(const PreparedSystem& prepared, const State& start,
+                                     double from, std::size_t events, double time) {
+  const Trajectory motion =
+      simulate(prepared, start, {.from = from, .until = time, .event_limit = events + 1});
+  if (motion.events().size() != events) return std::nullopt;
+  return Arrival{motion.events(), motion.end(), time};
 }
 
 }  // namespace
@@ -103,35 +157,24 @@ std::optional<double> crossing_time(const AffineMode& mode, const State& start, 
 std::optional<Passage> pass(const PreparedSystem& prepared, const State& start, double from,
                             std::size_t events, const Finish& finish) {
   const HybridSystem& system = prepared.system();
-  double end_time = finish.time;
-  if (finish.plane) {
-    constexpr double patience = 4.0;
-    const Trajectory to_last = simulate(
-        prepared, start,
-        {.from = from, .until = from + patience * (finish.time - from), .event_limit = events});
-    if (to_last.events().size() < events) return std::nullopt;
-    const State& last = to_last.end();
-    const auto crossing =
-        crossing_time(system.mode(last.mode), last, to_last.end_time(), *finish.plane, finish.time);
-    if (!crossing) return std::nullopt;
-    end_time = *crossing;
-  }
-  const Trajectory motion = simulate(prepared, start, {.from = from, .until = end_time});
-  if (motion.events().size() != events) return std::nullopt;
+  auto arrival = finish.plane
+                     ? arrival_at(prepared, start, from, events, *finish.plane, finish.time)
+                     : arrival_after(prepared, start, from, events, finish.time);
+  if (!arrival) return std::nullopt;
   Disturbances disturbances(system, start, from);
-  for (const Event& event : motion.events()) {
+  for (const Event& event : arrival->events) {
     if (!disturbances.meet(event)) return std::nullopt;
   }
-  disturbances.flow_to(end_time);
+  disturbances.flow_to(arrival->time);
   Passage passage;
-  passage.events = motion.events();
-  passage.end = motion.end();
-  passage.duration = end_time - from;
+  passage.events = std::move(arrival->events);
+  passage.end = std::move(arrival->end);
+  passage.duration = arrival->time - from;
   passage.slope_at_time = disturbances.slope();
   passage.slope = passage.slope_at_time;
   passage.duration_slope = Vector::Zero(system.size());
   if (!finish.plane) return passage;
-  const Vector flow = velocity(system.mode(passage.end.mode), passage.end.numbers);
+  const Vector flow = velocity(system.mode(passage.end.mode).flow, passage.end.numbers);
   passage.duration_slope = -(finish.plane->normal.transpose() * passage.slope).transpose() /
                            finish.plane->normal.dot(flow);
   passage.slope += flow * passage.duration_slope.transpose();

@@ -7,6 +7,11 @@
 
 namespace gearlash::hybrid {
 
+Vector velocity(const AffineFlow& flow, const Vector& numbers);
+
+/// The state after a time: x + ∫₀ᵗ exp(As) ds (A x + b). The time may be negative.
+Vector flown(const AffineFlow& flow, const Vector& numbers, double time);
+
 /// The end of a passage, between two events: on a plane across the motion, or at a time.
 struct Finish {
   std::optional<AffineForm> plane;

@@ -12,19 +12,6 @@ namespace {
 
 using Index = Eigen::Index;
 
-Vector velocity(const AffineFlow& flow, const Vector& numbers) {
-  return flow.matrix * numbers + flow.offset;
-}
-
-/// The state after a time: x + ∫₀ᵗ exp(As) ds (A x + b).
-Vector flown(const AffineFlow& flow, const Vector& numbers, double time) {
-  const Index size = numbers.size();
-  Matrix augmented = Matrix::Zero(size + 1, size + 1);
-  augmented.topLeftCorner(size, size) = flow.matrix;
-  augmented.topRightCorner(size, 1) = velocity(flow, numbers);
-  return numbers + Vector(exponential(augmented * time).topRightCorner(size, 1));
-}
-
 /// Whether a flow moves numbers by more than rounding.
 bool is_moved(const AffineFlow& flow, const Vector& numbers) {
   constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
@@ -172,6 +159,13 @@ State Shooting::start_of(std::size_t phase) const {
   return {phases_[phase].mode, unknowns_.segment(static_cast<Index>(phase) * size, size)};
 }
 
+double Shooting::mismatch(const Equations& equations) const {
+  const Index numbers = static_cast<Index>(phases_.size()) * size();
+  const double of_numbers = largest_entry(equations.residual.head(numbers)) / scale();
+  return has_shift() ? std::max(of_numbers, std::abs(equations.residual[numbers]) / period_)
+                     : of_numbers;
+}
+
 double Shooting::scale() const {
   return largest_entry(unknowns_.head(static_cast<Index>(phases_.size()) * size()));
 }
@@ -248,7 +242,7 @@ PeriodicOrbit Shooting::orbit(const Equations& solved) const {
   PeriodicOrbit orbit;
   orbit.start = start_of(0);
   orbit.start_time = start_time_;
-  orbit.residual = largest_entry(solved.residual) / scale();
+  orbit.residual = mismatch(solved);
   const bool is_forced = moves_by_itself_ || has_clocks_;
   Matrix product = Matrix::Identity(size(), size());
   for (const Passage& passage : solved.passages) {
@@ -284,7 +278,7 @@ std::optional<PeriodicOrbit> solved_by_newton(Shooting& shooting, int most_steps
   for (int step = 0; step < most_steps; ++step) {
     const auto equations = shooting.evaluate();
     if (!equations) return std::nullopt;
-    const double size = largest_entry(equations->residual) / shooting.scale();
+    const double size = shooting.mismatch(*equations);
     const bool is_stuck = size > 0.25 * last;
     if (size < good || (is_stuck && size < acceptable)) return shooting.orbit(*equations);
     since_least = size < 0.5 * least ? 0 : since_least + 1;

@@ -40,6 +40,10 @@ class Shooting {
   /// Empty if a phase does not end as it should.
   std::optional<Equations> evaluate() const;
 
+  /// How far the starts are missed, as a share of scale(); or, if larger, the duration as a share
+  /// of the period.
+  double mismatch(const Equations& equations) const;
+
   PeriodicOrbit orbit(const Equations& solved) const;
 
  private:

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 #include "base/range_check.hpp"
 #include "hybrid/clock_ticks.hpp"
@@ -8,6 +10,8 @@
 #include "hybrid/hybrid_trajectory.hpp"
 #include "hybrid/preparation.hpp"
 #include "hybrid/recurring_events.hpp"
+#include "hybrid/repeating.hpp"
+#include "hybrid/standing.hpp"
 
 namespace gearlash::hybrid {
 namespace {
@@ -44,10 +48,13 @@ class Simulation {
       : preparation_(*preparation),
         system_(preparation_.system()),
         options_(options),
-        observer_(observer),
-        state_(start),
-        time_(options.from),
-        ticks_(system_.clocks, options.from) {
+        now_{.state = start, .time = options.from},
+        ticks_(system_.clocks, options.from),
+        observer_(observer) {
+    if (observer != nullptr) {
+      standing_.emplace(now_, ticks_, guards_, *observer, options.until);
+      repeating_.emplace(now_, ticks_, trajectory_.events_, *observer, options.until);
+    }
     trajectory_.preparation_ = std::move(preparation);
     constexpr std::size_t some = 8;
     trajectory_.events_.reserve(some);
@@ -55,7 +62,7 @@ class Simulation {
     trajectory_.starts_.reserve(2 * some * static_cast<std::size_t>(system_.size()));
     trajectory_.start_time_ = options.from;
     trajectory_.end_time_ = options.from;
-    noise_ = sum_rounding * state_.numbers.cwiseAbs();
+    now_.noise = sum_rounding * now_.state.numbers.cwiseAbs();
     enter_mode();
   }
 
@@ -63,12 +70,16 @@ class Simulation {
     if (options_.event_limit == 0) stop(StopReason::event_limit);
     while (!stopped_) {
       if (fire_due_clocks()) continue;
-      if (observer_ != nullptr) stand();
-      if (time_ >= options_.until) break;
+      if (observer_ != nullptr && pass_ticks_over()) continue;
+      if (now_.time >= options_.until) break;
+      if (trajectory_.steps_.size() >= options_.step_limit) {
+        stop(StopReason::step_limit);
+        break;
+      }
       step();
     }
-    trajectory_.end_time_ = time_;
-    trajectory_.end_ = state_;
+    trajectory_.end_time_ = now_.time;
+    trajectory_.end_ = now_.state;
     return std::move(trajectory_);
   }
 
@@ -80,145 +91,19 @@ class Simulation {
   }
 
  private:
-  // ---- standing ---------------------------------------------------------------------------------
-
-  /// Repeats the ticks of a mode in which nothing moves, while they lead back to it and leave its
-  /// guards clear. The clocks fire before the next step, so none is due here.
-  void stand() {
-    if (ticks_.count() == 0 || !ticks_.are_regular()) return;
-    const double period = ticks_.common_period();
-    Rounds rounds;
-    double round_ends = time_;
-    std::size_t unchanged = 0;
-    while (ticks_.next() < options_.until && stands_clear()) {
-      standing_ = state_.numbers;
-      if (!repeat_ticks(ticks_.next())) {
-        state_.numbers = standing_;
-        return;
-      }
-      unchanged = state_.numbers == standing_ ? unchanged + 1 : 0;
-      // Each clock has ticked at least once in this many instants.
-      if (unchanged > 2 * ticks_.count()) ticks_.pass_before(options_.until);
-      if (period == 0.0 || time_ < round_ends) continue;
-      round_ends = time_ + (1.0 - 1e-6) * period;
-      rounds.add(state_.numbers);
-      if (rounds.are_alike()) pass_over_rounds(rounds, period);
-    }
-  }
-
-  /// Rounds of all clocks that each change the numbers in the same way.
-  struct Rounds {
-    Vector last;
-    Vector change;          ///< in the last round
-    Vector begin;           ///< before the first of those alike
-    std::size_t alike = 0;  ///< rounds with the same change, within rounding
-
-    void add(const Vector& numbers) {
-      if (last.size() == 0) {
-        begin = last = numbers;
-        change = Vector::Zero(numbers.size());
-        return;
-      }
-      constexpr double rounding = 8.0 * epsilon;
-      bool is_alike = true;
-      for (Eigen::Index i = 0; i < numbers.size(); ++i) {
-        const double step = numbers[i] - last[i];
-        const double size = std::abs(numbers[i]) + std::abs(last[i]);
-        is_alike = is_alike && std::abs(step - change[i]) <= rounding * size;
-        change[i] = step;
-      }
-      if (!is_alike) begin = last;
-      alike = is_alike ? alike + 1 : 1;
-      last = numbers;
-    }
-    /// The mean of many has less rounding than one.
-    bool are_alike() const { return alike > 16; }
-    Vector mean_change() const { return (last - begin) / static_cast<double>(alike); }
-  };
-
-  /// Passes over rounds that change the numbers alike, up to some before a guard or an alternative
-  /// comes near 0. The ticks are affine and nothing that is read moves, so a change that has
-  /// repeated goes on repeating.
-  void pass_over_rounds(Rounds& rounds, double period) {
-    // In rounds. Between the ticks of one the numbers differ from those at its end.
-    constexpr double margin = 8.0;
-    const Vector change = rounds.mean_change();
-    const Vector next = state_.numbers + change;
-    double most = (options_.until - time_) / period;
-    const auto keep = [&](const SparseForm& form) {
-      const double value = form.at(state_.numbers.data());
-      const double rate = form.at(next.data()) - value;
-      if (rate * value < 0.0) most = std::min(most, -value / rate);
-    };
-    for (const SparseForm& guard : mode_->guards) keep(guard);
-    for (const PreparedJump& jump : mode_->timed) {
-      for (const PreparedAlternative& alternative : jump.alternatives) {
-        for (const SparseForm& form : alternative.positive) keep(form);
-      }
-    }
-    if (!(most > 2.0 * margin)) return;
-    const double passed = std::floor(most - margin);
-    standing_ = state_.numbers;
-    state_.numbers += passed * change;
-    const double now = time_ + passed * period;
-    ticks_.pass_over(static_cast<std::size_t>(passed));
-    observer_->moved(time_, now, standing_, state_.numbers);
-    time_ = now;
-    noise_ = sum_rounding * state_.numbers.cwiseAbs();
-    rounds = {};
-  }
-
-  /// Whether nothing moves, and no guard leaves its side.
-  bool stands_clear() {
-    flow_->flow.velocity_at(state_.numbers.data(), velocity_);
-    if (quiet_mode_ != state_.mode) quiet_.resize(0);
-    return is_standing() && guards_.are_clear(*mode_, state_.numbers.data(), noise_.data(), quiet_);
-  }
-
-  /// By the velocity at the state.
-  bool is_standing() const {
-    return std::all_of(velocity_.values.begin(), velocity_.values.end(),
-                       [](double value) { return value == 0.0; });
-  }
-
-  /// Applies the ticks at an instant. False, with the state spoilt, if they do not lead back to the
-  /// mode or to a guard's side.
-  bool repeat_ticks(double now) {
-    const std::vector<TimedTransition>& timed = mode_->mode().timed;
-    for (std::size_t i = 0; i < ticks_.count(); ++i) {
-      if (!ticks_.is_due(i, now)) continue;
-      for (std::size_t k = 0; k < timed.size(); ++k) {
-        if (timed[k].clock != i) continue;
-        ticked_ = state_.numbers;
-        mode_->timed[k].reset.apply(timed[k].reset, ticked_, state_.numbers, noise_, noise_before_);
-        if (target_among(mode_->timed[k].alternatives, timed[k].target) != state_.mode)
-          return false;
-        break;
-      }
-    }
-    noise_ = sum_rounding * state_.numbers.cwiseAbs();
-    if (!stands_clear()) return false;
-    for (std::size_t i = 0; i < ticks_.count(); ++i) {
-      if (ticks_.is_due(i, now)) ticks_.pass(i);
-    }
-    observer_->moved(time_, now, standing_, state_.numbers);
-    time_ = now;
-    return true;
-  }
-
   // ---- clocks -----------------------------------------------------------------------------------
 
   /// Fires one clock that is due. False if none is.
   bool fire_due_clocks() {
-    const double now = std::min(time_, options_.until);
+    const double now = std::min(now_.time, options_.until);
     for (std::size_t i = 0; i < ticks_.count(); ++i) {
       if (!ticks_.is_due(i, now)) continue;
       const Vector* addition = ticks_.pass(i);
-      const std::vector<TimedTransition>& timed = mode_->mode().timed;
+      const std::vector<TimedTransition>& timed = now_.mode->mode().timed;
       for (std::size_t k = 0; k < timed.size(); ++k) {
         if (timed[k].clock != i) continue;
-        change(EventKind::timed, state_.mode, k, timed[k].reset, mode_->timed[k], timed[k].target,
-               addition);
+        change(EventKind::timed, now_.state.mode, k, timed[k].reset, now_.mode->timed[k],
+               timed[k].target, addition);
         break;
       }
       return true;
@@ -226,28 +111,35 @@ class Simulation {
     return false;
   }
 
+  /// Of a motion that is observed. True if the motion is at a new tick.
+  bool pass_ticks_over() {
+    if (now_.time >= options_.until) return false;
+    const bool stands = standing_->stands_clear();
+    if (repeating_->pass_over(stands)) return true;
+    if (stands && !repeating_->is_young()) standing_->stand();
+    return false;
+  }
+
   // ---- steps and events -------------------------------------------------------------------------
 
   void step() {
     choose_flow();
-    const LinearFlow& flow = flow_->flow;
+    const LinearFlow& flow = now_.flow->flow;
     const double limit = std::min(options_.until, ticks_.next());
-    flow.velocity_at(state_.numbers.data(), noise_.data(), velocity_);
-    const double length = std::min(longest_step(), limit - time_);
+    flow.velocity_at(now_.state.numbers.data(), now_.noise.data(), now_.velocity);
+    const double length = std::min(longest_step(), limit - now_.time);
     const StepEnd next = guards_.next_exit(series_of(length));
-    if (observer_ != nullptr && next.share > 1.0 && is_standing()) {
-      quiet_mode_ = state_.mode;
-      quiet_ = state_.numbers;
-    }
+    if (standing_ && next.share > 1.0 && now_.is_standing()) standing_->note_quiet();
     const double share = std::min(next.share, 1.0);
     if (share > 0.0) {
       record_step();
-      const double from = time_;
-      if (observer_ != nullptr) standing_ = state_.numbers;
+      const double from = now_.time;
+      if (observer_ != nullptr) before_ = now_.state.numbers;
       advance(share * length, length);
-      const double end = share < 1.0 || length < limit - time_ ? time_ + share * length : limit;
-      if (!(end > time_) && next.share > 1.0) return stop(StopReason::zeno);
-      time_ = end;
+      const double end =
+          share < 1.0 || length < limit - now_.time ? now_.time + share * length : limit;
+      if (!(end > now_.time) && next.share > 1.0) return stop(StopReason::zeno);
+      now_.time = end;
       if (next.share <= 1.0) {
         if (next.within > 0.0) {
           put_on_guard(next.guard, next.within * length, product_rounding);
@@ -255,92 +147,96 @@ class Simulation {
           put_on_guard(next.guard, 0x1p-20 * share * length, sum_rounding);
         }
       }
-      if (observer_ != nullptr) observer_->moved(from, time_, standing_, state_.numbers);
+      if (observer_ != nullptr) observer_->moved(from, now_.time, before_, now_.state.numbers);
     }
     for (const Touch& touch : guards_.touches()) {
-      if (touch.time < time_) trajectory_.touches_.push_back(touch);
+      if (touch.time < now_.time) trajectory_.touches_.push_back(touch);
     }
-    if (!(state_.numbers.cwiseAbs().maxCoeff() <= largest_number))
+    if (!(now_.state.numbers.cwiseAbs().maxCoeff() <= largest_number))
       return stop(StopReason::diverged);
     if (next.share <= 1.0) fire(next.guard);
   }
 
   /// Switches to the flow without fast decays when these are over. Looks for them only after a few
-  /// steps, because finding them costs time.
+  /// steps, because finding them costs time, and then ever less often.
   void choose_flow() {
     constexpr int patience = 8;
-    if (slow_ != nullptr || ++steps_in_mode_ <= patience) return;
-    const PreparedMode::Slow* slow = mode_->slow();
-    if (slow == nullptr || !slow->decays.are_over(state_.numbers, largest_in_mode())) return;
+    if (slow_ != nullptr || ++steps_in_mode_ < next_look_) return;
+    const PreparedMode::Slow* slow = now_.mode->slow();
+    if (slow == nullptr || !slow->decays.are_over(now_.state.numbers, largest_in_mode())) {
+      next_look_ = steps_in_mode_ + std::max(1, steps_in_mode_ / patience);
+      return;
+    }
     slow_ = slow;
-    flow_ = &slow->flow;
+    now_.flow = &slow->flow;
   }
 
   /// Each number's largest magnitude at the starts of steps since the mode was entered.
   const Vector& largest_in_mode() {
-    if (steps_in_largest_ == 0) largest_ = Vector::Zero(state_.numbers.size());
+    if (steps_in_largest_ == 0) largest_ = Vector::Zero(now_.state.numbers.size());
     const std::vector<double>& starts = trajectory_.starts_;
-    const auto size = static_cast<std::size_t>(state_.numbers.size());
+    const auto size = static_cast<std::size_t>(now_.state.numbers.size());
     for (; steps_in_largest_ + 1 < steps_in_mode_; ++steps_in_largest_) {
       const auto ago = static_cast<std::size_t>(steps_in_mode_ - 1 - steps_in_largest_);
       if (ago * size > starts.size()) continue;
       const Eigen::Map<const Vector> start(starts.data() + starts.size() - ago * size,
-                                           state_.numbers.size());
+                                           now_.state.numbers.size());
       largest_ = largest_.cwiseMax(start.cwiseAbs());
     }
-    largest_ = largest_.cwiseMax(state_.numbers.cwiseAbs());
+    largest_ = largest_.cwiseMax(now_.state.numbers.cwiseAbs());
     return largest_;
   }
 
   double longest_step() {
-    const LinearFlow& flow = flow_->flow;
+    const LinearFlow& flow = now_.flow->flow;
     if (flow.polynomial_order() == 0) return flow.longest_step();
-    return flow.natural_step(state_.numbers.data(), velocity_, scratch_);
+    return flow.natural_step(now_.state.numbers.data(), now_.velocity, scratch_);
   }
 
   StepSeries series_of(double length) const {
-    const LinearFlow& flow = flow_->flow;
-    return {.mode = *mode_,
-            .flow = *flow_,
-            .state = state_,
-            .noise = noise_,
-            .velocity = velocity_,
-            .time = time_,
+    const LinearFlow& flow = now_.flow->flow;
+    return {.mode = *now_.mode,
+            .flow = *now_.flow,
+            .state = now_.state,
+            .noise = now_.noise,
+            .velocity = now_.velocity,
+            .time = now_.time,
             .length = length,
             .table_share = flow.polynomial_order() > 0 ? length : length / flow.longest_step(),
-            .remainder = flow.remainder(velocity_, length),
+            .remainder = flow.remainder(now_.velocity, length),
             .order = flow.count() == 0 ? 0 : flow.order(length)};
   }
 
   void record_step() {
-    trajectory_.steps_.push_back({time_, state_.mode, slow_ != nullptr});
-    const double* numbers = state_.numbers.data();
-    trajectory_.starts_.insert(trajectory_.starts_.end(), numbers, numbers + state_.numbers.size());
+    trajectory_.steps_.push_back({now_.time, now_.state.mode, slow_ != nullptr});
+    const double* numbers = now_.state.numbers.data();
+    trajectory_.starts_.insert(trajectory_.starts_.end(), numbers,
+                               numbers + now_.state.numbers.size());
   }
 
   /// Advances by `length`, at most the whole step; an event may cut it short. The uncertainty is a
   /// share of the whole step's terms even then: a state on a guard is known no better than the time
   /// at which it got there.
   void advance(double length, double whole) {
-    const LinearFlow& flow = flow_->flow;
-    noise_ = state_.numbers.cwiseAbs();
-    if (flow_->longest) {
-      flow_->longest->add_sizes(flow, velocity_, noise_.data());
+    const LinearFlow& flow = now_.flow->flow;
+    now_.noise = now_.state.numbers.cwiseAbs();
+    if (now_.flow->longest) {
+      now_.flow->longest->add_sizes(flow, now_.velocity, now_.noise.data());
     } else {
-      flow.add_sizes(velocity_, whole, noise_.data(), scratch_);
+      flow.add_sizes(now_.velocity, whole, now_.noise.data(), scratch_);
     }
-    noise_ *= sum_rounding;
+    now_.noise *= sum_rounding;
     follow(length);
-    if (slow_ != nullptr) slow_->decays.put_at_rest(state_.numbers);
+    if (slow_ != nullptr) slow_->decays.put_at_rest(now_.state.numbers);
   }
 
-  /// Moves the state by a time from where velocity_ was taken.
+  /// Moves the state by a time from where now_.velocity was taken.
   void follow(double length) {
-    double* numbers = state_.numbers.data();
-    if (flow_->longest) {
-      flow_->longest->advance(flow_->flow, velocity_, length, numbers);
+    double* numbers = now_.state.numbers.data();
+    if (now_.flow->longest) {
+      now_.flow->longest->advance(now_.flow->flow, now_.velocity, length, numbers);
     } else {
-      flow_->flow.advance(velocity_, length, numbers, scratch_);
+      now_.flow->flow.advance(now_.velocity, length, numbers, scratch_);
     }
   }
 
@@ -348,25 +244,25 @@ class Simulation {
   /// by Newton's method. Each event takes the guard as 0 when the next mode begins, so the misfit
   /// would otherwise remain for ever.
   void put_on_guard(std::size_t which, double farthest, double rounding) {
-    const SparseForm& guard = mode_->guards[which];
-    const LinearFlow& flow = flow_->flow;
-    double* numbers = state_.numbers.data();
+    const SparseForm& guard = now_.mode->guards[which];
+    const LinearFlow& flow = now_.flow->flow;
+    double* numbers = now_.state.numbers.data();
     constexpr int most = 4;
     for (int i = 0; i < most; ++i) {
       const double value = guard.at(numbers);
       if (std::abs(value) <= guard.size_at(numbers) * rounding) return;
-      flow.velocity_at(numbers, velocity_);
-      const double later = flow_->guards[which].time_to_zero(value, velocity_);
+      flow.velocity_at(numbers, now_.velocity);
+      const double later = now_.flow->guards[which].time_to_zero(value, now_.velocity);
       if (!(std::abs(later) <= farthest)) return;
       follow(later);
-      time_ += later;
+      now_.time += later;
     }
   }
 
   void fire(std::size_t which) {
-    const Transition& transition = mode_->mode().transitions[which];
-    change(EventKind::transition, state_.mode, which, transition.reset, mode_->transitions[which],
-           transition.target);
+    const Transition& transition = now_.mode->mode().transitions[which];
+    change(EventKind::transition, now_.state.mode, which, transition.reset,
+           now_.mode->transitions[which], transition.target);
     if (!stopped_) follow_sequence();
   }
 
@@ -374,16 +270,21 @@ class Simulation {
   void change(EventKind kind, std::size_t mode, std::size_t transition, const AffineReset& reset,
               const PreparedJump& jump, std::size_t otherwise, const Vector* addition = nullptr) {
     std::vector<Event>& events = trajectory_.events_;
-    Event& event = events.emplace_back(
-        Event{time_, kind, mode, transition, otherwise, state_.numbers, state_.numbers});
-    jump.reset.apply(reset, event.before, event.after, noise_, noise_before_);
+    Event& event = events.emplace_back(forgotten_event());
+    event.time = now_.time;
+    event.kind = kind;
+    event.mode = mode;
+    event.transition = transition;
+    event.before = event.after = now_.state.numbers;
+    jump.reset.apply(reset, event.before, event.after, now_.noise, noise_before_);
     if (addition != nullptr) event.after += *addition;
-    state_.numbers = event.after;
-    noise_ += sum_rounding * state_.numbers.cwiseAbs();
-    event.mode_after = target_among(jump.alternatives, otherwise);
-    state_.mode = event.mode_after;
+    now_.state.numbers = event.after;
+    now_.noise += sum_rounding * now_.state.numbers.cwiseAbs();
+    event.mode_after = now_.target_among(jump.alternatives, otherwise);
+    now_.state.mode = event.mode_after;
     count_at_instant();
     recurring_.note();
+    if (repeating_) repeating_->note();
     enter_mode();
     if (events.size() + forgotten_ >= options_.event_limit) stop(StopReason::event_limit);
     if (observer_ != nullptr) forget();
@@ -399,33 +300,34 @@ class Simulation {
     std::vector<Event>& events = trajectory_.events_;
     if (events.size() < 2 * kept) return;
     forgotten_ += events.size() - kept;
-    events.erase(events.begin(), events.end() - kept);
+    const auto first_kept = events.end() - kept;
+    spare_.insert(spare_.end(), std::make_move_iterator(events.begin()),
+                  std::make_move_iterator(first_kept));
+    events.erase(events.begin(), first_kept);
     recurring_.limit(kept);
   }
 
-  std::size_t target_among(const std::vector<PreparedAlternative>& alternatives,
-                           std::size_t otherwise) const {
-    for (const PreparedAlternative& alternative : alternatives) {
-      const bool is_taken =
-          std::all_of(alternative.positive.begin(), alternative.positive.end(),
-                      [&](const SparseForm& form) { return form.at(state_.numbers.data()) > 0.0; });
-      if (is_taken) return alternative.target;
-    }
-    return otherwise;
+  /// One whose numbers need no new memory, if there is one.
+  Event forgotten_event() {
+    if (spare_.empty()) return {};
+    Event event = std::move(spare_.back());
+    spare_.pop_back();
+    return event;
   }
 
   void enter_mode() {
-    mode_ = &preparation_.mode(state_.mode);
-    flow_ = &mode_->whole;
+    now_.mode = &preparation_.mode(now_.state.mode);
+    now_.flow = &now_.mode->whole;
     slow_ = nullptr;
     steps_in_mode_ = 0;
     steps_in_largest_ = 0;
-    guards_.enter(mode_->mode());
+    next_look_ = first_look;
+    guards_.enter(now_.mode->mode());
   }
 
   void count_at_instant() {
     const std::vector<Event>& events = trajectory_.events_;
-    const bool same = events.size() > 1 && events[events.size() - 2].time == time_;
+    const bool same = events.size() > 1 && events[events.size() - 2].time == now_.time;
     at_instant_ = same ? at_instant_ + 1 : 1;
     if (at_instant_ > 8 + 4 * (system_.mode_count() + system_.clocks.size())) {
       stop(recurring_.have_come_ever_faster() ? StopReason::zeno : StopReason::chattering);
@@ -453,7 +355,7 @@ class Simulation {
     if (!transition.settling) {
       // A single pair of events at one instant is no sequence.
       constexpr double tiny = 1e-8;
-      if (left <= 8.0 * epsilon * time_ && before <= tiny * time_) settle_by_one_of(turn);
+      if (left <= 8.0 * epsilon * now_.time && before <= tiny * now_.time) settle_by_one_of(turn);
       return;
     }
     constexpr double little = 1e-10;
@@ -461,14 +363,14 @@ class Simulation {
     const double last_ratio = before / recurring_.duration(turn, 2);
     const bool is_steady = std::abs(ratio - last_ratio) < steady * (1.0 - ratio);
     const bool is_little = left < little * own_time(last.mode, turn);
-    if (is_little && (is_steady || interval <= 8.0 * epsilon * time_)) settle();
+    if (is_little && (is_steady || interval <= 8.0 * epsilon * now_.time)) settle();
   }
 
   /// Whether firings with a Settling come so fast that doubles no longer separate their times.
   /// Faces that hardly rebound give too few firings for a ratio of intervals.
   bool is_over_at_once() const {
     const std::size_t turn = recurring_.recurring_turn(3);
-    if (turn == 0 || recurring_.duration(turn, 0) > 8.0 * epsilon * time_) return false;
+    if (turn == 0 || recurring_.duration(turn, 0) > 8.0 * epsilon * now_.time) return false;
     const Event& last = trajectory_.events_.back();
     return transition_of(last).settling.has_value();
   }
@@ -505,7 +407,8 @@ class Simulation {
     stopped_ = true;
     trajectory_.stop_reason_ = reason;
     const std::vector<Event>& events = trajectory_.events_;
-    if (events.empty() || reason == StopReason::diverged) return;
+    const bool is_limit = reason == StopReason::event_limit || reason == StopReason::step_limit;
+    if (events.empty() || is_limit || reason == StopReason::diverged) return;
     const Event& last = events.back();
     const AffineMode& mode = preparation_.mode(last.mode).mode();
     trajectory_.culprit_ = mode.name + ": " +
@@ -518,28 +421,25 @@ class Simulation {
   const Preparation& preparation_;
   const HybridSystem& system_;
   const SimulationOptions& options_;
-  MotionObserver* observer_;
-  const PreparedMode* mode_ = nullptr;
-  const PreparedFlow* flow_ = nullptr;        ///< of the step
-  const PreparedMode::Slow* slow_ = nullptr;  ///< set if flow_ is the slow one
-  int steps_in_mode_ = 0;
-  int steps_in_largest_ = 0;
-  State state_;
-  double time_;
-  Vector noise_;    ///< uncertainty of each number by rounding, from the last step
-  Vector largest_;  ///< each number's largest magnitude since the mode was entered
+  Present now_;
   ClockTicks ticks_;
   GuardWatch guards_;
-  Velocity velocity_;  ///< at the start of the step
+  MotionObserver* observer_;
+  std::optional<Standing> standing_{};        ///< of a motion that is observed
+  std::optional<Repeating> repeating_{};      ///< likewise
+  const PreparedMode::Slow* slow_ = nullptr;  ///< set if now_.flow is the slow one
+  static constexpr int first_look = 9;        ///< steps before fast decays are looked for
+  int steps_in_mode_ = 0;
+  int next_look_ = first_look;
+  int steps_in_largest_ = 0;
+  Vector largest_;  ///< each number's largest magnitude since the mode was entered
   std::vector<double> scratch_;
   Vector noise_before_;
-  Vector standing_;  ///< numbers at the start of a piece that is observed
-  Vector ticked_;
-  Vector quiet_;  ///< numbers at which nothing moved and no guard left its side; or empty
-  std::size_t quiet_mode_ = 0;
+  Vector before_;  ///< numbers at the start of a piece that is observed
   bool stopped_ = false;
   std::size_t at_instant_ = 0;
-  std::size_t forgotten_ = 0;  ///< events no longer kept
+  std::size_t forgotten_ = 0;   ///< events no longer kept
+  std::vector<Event> spare_{};  ///< some of them
   Trajectory trajectory_;
   RecurringEvents recurring_{trajectory_.events_};
 };

@@ -183,6 +183,7 @@ End Motion::end() const {
     case StopReason::reached_end:
       return End::time;
     case StopReason::event_limit:
+    case StopReason::step_limit:  // is not set here
       return End::event_limit;
     case StopReason::zeno:
       return End::accumulation;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analysis/design/distribution.hpp"
+#include "input/robot_form.hpp"
 #include "input/signal_reader.hpp"
 #include "input/units.hpp"
 #include "model/normalized_servo.hpp"
@@ -29,6 +30,59 @@ const OtherForm* inverse_form(const Parameter& parameter) {
   return nullptr;
 }
 
+/// A contact with a stiffness and no kind is compliant.
+void infer_kind_of_contact(const TomlDocument& document, Drive& drive) {
+  const toml::table* table = document.root()["contact"].as_table();
+  if (table == nullptr || table->contains("kind")) return;
+  if (table->contains("stiffness") || table->contains("damping") || table->contains("law")) {
+    drive.contact = CompliantContact{};
+  }
+}
+
+/// One way in which a section gives a parameter.
+struct Key {
+  const Parameter* parameter;
+  const OtherForm* form;  ///< nullptr: the parameter's own name
+  std::string name;
+};
+
+/// The keys by which `section` may give `parameter`, its own name first.
+std::vector<Key> keys_of(const Parameter& parameter, std::string_view section) {
+  std::vector<Key> keys;
+  if (parameter.section() == section) {
+    keys.push_back({&parameter, nullptr, std::string(parameter.key())});
+  }
+  for (const OtherForm& form : parameter.other_forms) {
+    const std::size_t point = form.path.find('.');
+    if (form.path.substr(0, point) == section) {
+      keys.push_back({&parameter, &form, std::string(form.path.substr(point + 1))});
+    }
+  }
+  return keys;
+}
+
+void know_keys_of_all_kinds(SectionReader& section, const std::string& name) {
+  for (const Parameter& parameter : all_parameters_of_drives()) {
+    for (const Key& key : keys_of(parameter, name)) section.know(key.name);
+  }
+}
+
+void set_number(const Slot& slot, double number) {
+  if (auto* const* place = std::get_if<double*>(&slot)) **place = number;
+  if (auto* const* place = std::get_if<std::optional<double>*>(&slot)) **place = number;
+}
+
+double stand_in(const Parameter& parameter) {
+  return parameter.path == "servo.backlash" || parameter.path == "servo.inertia_ratio" ? 1.0 : 0.5;
+}
+
+std::string wanted_text(const Parameter& parameter) {
+  if (parameter.permitted == Permitted::of_normal_form) {
+    return permitted_values(parameter.key());
+  }
+  return std::string(parameter.wanted);
+}
+
 class DriveReader {
  public:
   DriveReader(const TomlDocument& document, Findings& findings, const std::filesystem::path& folder,
@@ -37,6 +91,9 @@ class DriveReader {
 
   WrittenDrive read() {
     if (is_normal_form()) drive().servo.emplace();
+    if (is_robots_form()) {
+      drive() = robots_joint(has_key("actuator", "kv"), has_key("actuator", "timestep"));
+    }
     refuse_other_sections();
     if (!has_anything()) return std::move(file_);
     for (const Section& section : all_sections()) read_section(section);
@@ -51,8 +108,13 @@ class DriveReader {
     return variation_.paths.count(std::string(path)) > 0;
   }
   bool has_plant() const {
-    return std::any_of(plant_sections.begin(), plant_sections.end(),
-                       [&](const char* name) { return has(name); });
+    return is_robots_form() || std::any_of(plant_sections.begin(), plant_sections.end(),
+                                           [&](const char* name) { return has(name); });
+  }
+  bool is_robots_form() const { return has("joint") || has("actuator"); }
+  bool has_key(const char* section, const char* key) const {
+    const toml::table* table = document_.root()[section].as_table();
+    return table != nullptr && table->contains(key);
   }
 
   // ---- sections ---------------------------------------------------------------------------------
@@ -79,7 +141,7 @@ class DriveReader {
   void refuse_other_sections() {
     std::vector<std::string> names;
     for (const Section& section : all_sections()) names.emplace_back(section.name);
-    names.emplace_back(loop);
+    for (const char* other : {loop, "joint", "actuator"}) names.emplace_back(other);
     for (const auto& [key, value] : document_.root()) {
       const std::string name(key.str());
       if (name == variation_.section) continue;
@@ -87,6 +149,12 @@ class DriveReader {
         findings_.refuse(key.source().begin, shown(name), document_.written(value),
                          "is not a section: " + one_of(names, name));
       }
+    }
+    for (const char* robots : {"joint", "actuator"}) {
+      if (has("servo")) refuse_section(robots, "must not stand beside [servo]");
+    }
+    if (is_robots_form()) {
+      refuse_section(loop, "must not stand beside [joint] and [actuator], which give its gains");
     }
     if (has("servo") && has("motor")) {
       refuse_section("servo", "must not stand beside [motor]: a file describes its drive once");
@@ -114,6 +182,7 @@ class DriveReader {
     const bool is_servo = name == "servo";
     if (is_plant && drive().servo) return;
     if (is_servo && !drive().servo) return;
+    if (is_robots_form()) return read_section_of_robots(section);
     if (name == "controller" && has(loop) && !has("controller")) {
       read_keys(loop, true, "with error_gain, or [controller] instead");
       return;
@@ -121,49 +190,35 @@ class DriveReader {
     const bool is_required = is_plant || (is_servo && !leaves_nothing_to_give());
     if (has(name) && !section.is_present(drive())) section.add(drive());
     if (!is_required && !is_servo && !has(name)) return;
-    if (name == "contact") infer_kind_of_contact();
+    if (name == "contact") infer_kind_of_contact(document_, drive());
     const char* contents =
         name == "controller" ? "with a kind and its gains, or [loop]" : section.contents.data();
     read_keys(name, is_required, contents);
   }
 
-  /// A contact with a stiffness and no kind is compliant.
-  void infer_kind_of_contact() {
-    const toml::table* table = document_.root()["contact"].as_table();
-    if (table == nullptr || table->contains("kind")) return;
-    if (table->contains("stiffness") || table->contains("damping") || table->contains("law")) {
-      drive().contact = CompliantContact{};
+  /// The other sections may add to [joint] and [actuator]; only the load's inertia must be added.
+  void read_section_of_robots(const Section& section) {
+    const std::string name(section.name);
+    if (has(name) && !section.is_present(drive())) section.add(drive());
+    if (name == "motor") {
+      read_keys("joint", true, "with armature, damping, frictionloss and backlash");
     }
+    if (name == "load" && !has("load")) {
+      findings_.missing({1, 1}, "load.inertia",
+                        "must be the moment of inertia that the joint moves, such as kg m2: in a "
+                        "section [load]");
+    }
+    if (name == "contact") infer_kind_of_contact(document_, drive());
+    if (has(name)) read_keys(name, false, section.contents.data());
+    if (name == "controller") read_keys("actuator", true, "with kp, kv and timestep");
   }
 
   // ---- keys -------------------------------------------------------------------------------------
 
-  /// One way in which a section gives a parameter.
-  struct Key {
-    const Parameter* parameter;
-    const OtherForm* form;  ///< nullptr: the parameter's own name
-    std::string name;
-  };
-
-  /// The keys by which `section` may give `parameter`, its own name first.
-  static std::vector<Key> keys_of(const Parameter& parameter, std::string_view section) {
-    std::vector<Key> keys;
-    if (parameter.section() == section) {
-      keys.push_back({&parameter, nullptr, std::string(parameter.key())});
-    }
-    for (const OtherForm& form : parameter.other_forms) {
-      const std::size_t point = form.path.find('.');
-      if (form.path.substr(0, point) == section) {
-        keys.push_back({&parameter, &form, std::string(form.path.substr(point + 1))});
-      }
-    }
-    return keys;
-  }
-
   void read_keys(const std::string& name, bool is_required, const char* contents) {
     SectionReader section(document_, findings_, name, is_required, contents);
     section.collect_tolerances(file_.tolerances);
-    if (name == "servo") section.accept_bare_numbers();
+    if (name == "servo" || is_robots_form()) section.accept_bare_numbers();
     if (place_.line == 0 || name == "motor") place_ = section.place();
     bool kind_is_known = true;
     for (const Parameter& parameter : all_parameters_of_drives()) {
@@ -177,9 +232,9 @@ class DriveReader {
       }
       const Key key = key_given(section, keys);
       if (is_kind) {
-        kind_is_known = read_choice(section, parameter, key, std::get<Choice>(slot));
+        kind_is_known = read_choice(section, name, parameter, key, std::get<Choice>(slot));
       } else {
-        read_value(section, parameter, key, slot, kind_is_known);
+        read_value(section, name, parameter, key, slot, kind_is_known);
       }
     }
     if (name == "motor") motor_is_known_ = kind_is_known;
@@ -192,12 +247,6 @@ class DriveReader {
   bool is_kind_set(const std::string& name) const {
     const toml::node* kind = document_.root()[name]["kind"].node();
     return kind != nullptr && kind->source().begin.line == 0;
-  }
-
-  static void know_keys_of_all_kinds(SectionReader& section, const std::string& name) {
-    for (const Parameter& parameter : all_parameters_of_drives()) {
-      for (const Key& key : keys_of(parameter, name)) section.know(key.name);
-    }
   }
 
   /// The first of the keys that the section has; any further ones are refused.
@@ -233,8 +282,8 @@ class DriveReader {
                        "must not stand beside torque_limit: it gives it, times torque_constant");
       } else if (!takes_current_limit(drive().motor)) {
         section.refuse("current_limit",
-                       "must stand beside the torque_constant of a torque-controlled motor: the "
-                       "product is its torque limit");
+                       "must stand beside the torque_constant of a torque-controlled motor, or in "
+                       "an armature- or field-controlled one");
       }
     }
     if (name == "sensor") {
@@ -255,9 +304,16 @@ class DriveReader {
     }
   }
 
-  bool read_choice(SectionReader& section, const Parameter& parameter, const Key& key,
-                   const Choice& choice) {
-    const bool is_required = parameter.is_required && key.form == nullptr;
+  bool is_required_in(const std::string& section, const Parameter& parameter) const {
+    return is_robots_form() ? is_required_of_robots(parameter, section) : parameter.is_required;
+  }
+
+  bool read_choice(SectionReader& section, const std::string& name, const Parameter& parameter,
+                   const Key& key, const Choice& choice) {
+    const bool is_required = is_required_in(name, parameter) && key.form == nullptr;
+    for (const RefusedWord& refused : parameter.refused_words) {
+      section.refuse_word(key.name, refused.word, std::string(refused.reason));
+    }
     const std::optional<std::string> word =
         section.choice(key.name, words_of(parameter), is_required);
     if (!word) return !is_required;
@@ -265,17 +321,24 @@ class DriveReader {
     return true;
   }
 
-  void read_value(SectionReader& section, const Parameter& parameter, const Key& key,
-                  const Slot& slot, bool kind_is_known) {
+  void read_value(SectionReader& section, const std::string& name, const Parameter& parameter,
+                  const Key& key, const Slot& slot, bool kind_is_known) {
+    const std::string given = name_in_file(std::string(parameter.path));
+    if (is_robots_form() && !is_of_robots(name) && given != parameter.path &&
+        section.has(key.name)) {
+      section.refuse(key.name, "must not stand beside " + given + ": one gives the other");
+      return;
+    }
     if (is_varied(parameter.path)) {
       section.refuse(key.name, "must be left out: [" + variation_.section + "] varies it");
       set_number(slot, stand_in(parameter));
       return;
     }
-    const bool is_required = parameter.is_required && kind_is_known && !may_be_left_out(parameter);
+    const bool is_required =
+        is_required_in(name, parameter) && kind_is_known && !may_be_left_out(parameter);
     const std::string wanted = wanted_text(parameter);
     if (is_choice(slot)) {
-      read_choice(section, parameter, key, std::get<Choice>(slot));
+      read_choice(section, name, parameter, key, std::get<Choice>(slot));
     } else if (auto* const* list = std::get_if<std::vector<double>*>(&slot)) {
       **list = section.numbers(key.name, wanted);
     } else if (auto* const* rows = std::get_if<Rows*>(&slot)) {
@@ -291,26 +354,9 @@ class DriveReader {
     }
   }
 
-  static void set_number(const Slot& slot, double number) {
-    if (auto* const* place = std::get_if<double*>(&slot)) **place = number;
-    if (auto* const* place = std::get_if<std::optional<double>*>(&slot)) **place = number;
-  }
-
   /// A sweep may omit the normal form's backlash; amplitudes are then in backlashes.
   bool may_be_left_out(const Parameter& parameter) const {
     return !variation_.section.empty() && parameter.path == "servo.backlash";
-  }
-
-  static double stand_in(const Parameter& parameter) {
-    return parameter.path == "servo.backlash" || parameter.path == "servo.inertia_ratio" ? 1.0
-                                                                                         : 0.5;
-  }
-
-  static std::string wanted_text(const Parameter& parameter) {
-    if (parameter.permitted == Permitted::of_normal_form) {
-      return permitted_values(parameter.key());
-    }
-    return std::string(parameter.wanted);
   }
 
   double read_number_of(SectionReader& section, const Parameter& parameter, const Key& key) {
@@ -379,8 +425,6 @@ class DriveReader {
                      is_read ? "holds " + to_string(fault) : fault.permitted);
     }
   }
-
-  // ---- the whole --------------------------------------------------------------------------------
 
   void check() {
     findings_.take(

@@ -63,8 +63,9 @@ double number_of(const Parameter& parameter, const Drive& drive, std::string_vie
 
 std::size_t choice_of(const Parameter& parameter, std::string_view path, std::string_view text) {
   const std::optional<std::size_t> choice = choice_named(parameter, text);
-  if (!choice) refuse(path, text, one_of(words_of(parameter), text));
-  return *choice;
+  if (choice) return *choice;
+  const std::string_view reason = reason_against(parameter, text);
+  refuse(path, text, reason.empty() ? one_of(words_of(parameter), text) : std::string(reason));
 }
 
 void set(Drive& drive, std::string_view path, std::string_view text) {

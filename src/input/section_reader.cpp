@@ -252,6 +252,12 @@ void SectionReader::refuse(const std::string& key, const std::string& permitted)
   if (const toml::node* value = find(key)) findings_.refuse(field(key), *value, permitted);
 }
 
+void SectionReader::refuse_word(const std::string& key, std::string_view word,
+                                const std::string& permitted) {
+  const toml::node* value = find(key);
+  if (value != nullptr && value->value_exact<std::string>() == word) refuse(key, permitted);
+}
+
 bool SectionReader::is_of(const std::string& key, const Dimension& dimension) {
   const toml::node* value = table_ != nullptr ? table_->get(key) : nullptr;
   const auto text = value != nullptr ? value->value_exact<std::string>() : std::nullopt;

@@ -101,6 +101,9 @@ class SectionReader {
   /// Records a fault if the key is given.
   void refuse(const std::string& key, const std::string& permitted);
 
+  /// The same if the key holds this text.
+  void refuse_word(const std::string& key, std::string_view word, const std::string& permitted);
+
   /// Records a fault for every key that has not been read.
   void refuse_other_keys();
 

@@ -9,6 +9,7 @@
 
 #include "input/text_file.hpp"
 #include "input/units.hpp"
+#include "model/signal.hpp"
 
 namespace gearlash {
 namespace {
@@ -71,6 +72,10 @@ TableSignal parse_signal_table(std::string_view text, const std::string& name,
       table.times.push_back(read_cell(place("time"), time, times));
       table.values.push_back(read_cell(place("value"), value, second));
       const std::size_t count = table.times.size();
+      if (count > drive::most_rows_of_a_table) {
+        refuse(name, "a table of more rows",
+               "must have at most " + std::to_string(drive::most_rows_of_a_table) + " rows");
+      }
       if (count > 1 && !(table.times[count - 1] > table.times[count - 2])) {
         refuse(place("time"), time, "must be later than in the row before");
       }

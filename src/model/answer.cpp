@@ -1,6 +1,7 @@
 #include "gearlash/answer.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace gearlash {
 
@@ -18,15 +19,28 @@ const Cycle* Answer::largest_stable() const noexcept {
   return largest;
 }
 
+/// The speed of the gap is the root w of w² (1 − e²) = 2 b (a + β w), or a/λ where it is braked; a
+/// has a part that is proportional to b. So w/b falls as b grows. As b falls w falls, and w²/b too
+/// unless it is braked.
 std::optional<double> Ceiling::widest_backlash(double amplitude, double backlash) const {
   if (!load) return std::nullopt;
   double gap = 0.0;
+  double gap_speed = 0.0;
   double others = 0.0;
-  for (const CeilingTerm& term : terms) (term.source == "gap" ? gap : others) += term.load;
+  for (const CeilingTerm& term : terms) {
+    (term.source == "gap" ? gap : term.source == "gap speed" ? gap_speed : others) += term.load;
+  }
   constexpr double rounding = 1e-12;  // of the sums
   const double left = (1.0 - rounding) * amplitude - (1.0 + rounding) * others;
-  if (!(left > 0.0) || gap == 0.0) return std::nullopt;
-  return (1.0 - rounding) * (left / gap * backlash);
+  if (gap == 0.0) return std::nullopt;
+  double times = left / (gap + gap_speed);
+  if (times < 1.0 && is_gap_speed_braked) times = (left - (1.0 + rounding) * gap_speed) / gap;
+  if (times < 1.0 && !is_gap_speed_braked && left > 0.0) {  // gap x² + gap_speed x = left
+    const double root = std::sqrt(gap_speed * gap_speed + 4.0 * gap * left);
+    times = std::pow(2.0 * left / (gap_speed + root), 2) * (1.0 - rounding);
+  }
+  if (!(times > 0.0)) return std::nullopt;
+  return (1.0 - rounding) * (times * backlash);
 }
 
 const char* name_of(Verdict verdict) {

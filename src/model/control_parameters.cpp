@@ -1,5 +1,6 @@
 #include <numbers>
 
+#include "model/firmware.hpp"
 #include "model/parameter_list.hpp"
 
 namespace gearlash {
@@ -96,7 +97,6 @@ const Dimension* speed_gain_dimension(const Drive& drive) {
   return is_torque(drive) ? &torque_per_speed : &voltage_per_speed;
 }
 
-constexpr std::size_t joint = 2;    // in the list of shafts
 constexpr std::size_t cascade = 4;  // in the list of kinds, after P, PD, PI, PID
 
 /// The alternative of that index, with its defaults.
@@ -106,57 +106,70 @@ void become(std::variant<Laws...>& law, std::size_t which) {
   law = all[which];
 }
 
-/// The laws after the PID ones are in the order of Controller::law.
+using Law = decltype(Controller::law);
+constexpr std::size_t firmwares = cascade + std::variant_size_v<Law> - 1;  // in the same list
+
+std::size_t kind_of(const Drive& drive) {
+  const Controller& controller = drive.controller;
+  if (controller.firmware) return firmwares + controller.firmware->index();
+  const auto* pid = std::get_if<PID>(&controller.law);
+  return pid != nullptr ? static_cast<std::size_t>(pid->terms)
+                        : controller.law.index() + cascade - 1;
+}
+
+void choose_kind(Drive& drive, std::size_t choice) {
+  if (choice >= firmwares) {
+    drive.controller = {};
+    return take_firmware(drive, choice - firmwares);
+  }
+  drive.controller.firmware.reset();
+  Law& law = drive.controller.law;
+  if (choice < cascade) {
+    law = PID{.terms = static_cast<PIDTerms>(choice)};
+  } else {
+    become(law, choice - cascade + 1);
+  }
+}
+
+/// The laws after the PID ones are in the order of Controller::law, the firmwares after them.
 Parameter controller_kind() {
-  return {.path = "controller.kind",
-          .slot =
-              [](Drive& d) {
-                if (d.servo) return Slot{};
-                return Slot{Choice{[](const Drive& drive) {
-                                     const auto& law = drive.controller.law;
-                                     const auto* pid = std::get_if<PID>(&law);
-                                     return pid ? static_cast<std::size_t>(pid->terms)
-                                                : law.index() + cascade - 1;
-                                   },
-                                   [](Drive& drive, std::size_t choice) {
-                                     auto& law = drive.controller.law;
-                                     if (choice < cascade) {
-                                       law = PID{.terms = static_cast<PIDTerms>(choice)};
-                                     } else {
-                                       become(law, choice - cascade + 1);
-                                     }
-                                   }}};
-              },
-          .meaning = "law that computes the output from the error",
-          .is_required = true,
-          .choices = {"P", "PD", "PI", "PID", "cascade", "lead-lag", "transfer-function",
-                      "state-space"}};
+  Parameter kind{.path = "controller.kind",
+                 .slot =
+                     [](Drive& d) {
+                       return d.servo ? Slot{} : Slot{Choice{&kind_of, &choose_kind}};
+                     },
+                 .meaning = "law that computes the output from the error, or a motor's firmware",
+                 .is_required = true,
+                 .choices = {"P", "PD", "PI", "PID", "cascade", "lead-lag", "transfer-function",
+                             "state-space", "relay"}};
+  for (const FirmwareFacts& firmware : all_firmwares()) kind.choices.push_back(firmware.word);
+  for (const RefusedFirmware& refused : refused_firmwares()) {
+    kind.refused_words.push_back({refused.word, refused.reason});
+  }
+  return kind;
 }
 
 Parameter controller_shaft() {
   return {.path = "controller.shaft",
           .slot =
               [](Drive& d) {
-                if (d.servo) return Slot{};
+                if (!has_law(d)) return Slot{};
                 return Slot{Choice{[](const Drive& drive) {
-                                     return drive.controller.is_at_joint
-                                                ? joint
-                                                : static_cast<std::size_t>(drive.controller.shaft);
+                                     return static_cast<std::size_t>(drive.controller.shaft);
                                    },
                                    [](Drive& drive, std::size_t choice) {
-                                     drive.controller.is_at_joint = choice == joint;
-                                     drive.controller.shaft = choice == joint
-                                                                  ? ShaftName::load
-                                                                  : static_cast<ShaftName>(choice);
+                                     drive.controller.shaft = static_cast<GainShaft>(choice);
                                    }}};
               },
-          .meaning = "shaft of the angles in the gains; joint: both torque and angle of the load",
-          .choices = {"load", "motor", "joint"}};
+          .meaning =
+              "shaft of the torques and angles in the gains; mixed: torque of the motor per "
+              "angle of the load",
+          .choices = {"load", "motor", "mixed"}};
 }
 
 template <class Law, class Member>
 Slot of_law(Drive& drive, Member Law::*member) {
-  return drive.servo ? Slot{} : slot_of(drive.controller.law, member);
+  return has_law(drive) ? slot_of(drive.controller.law, member) : Slot{};
 }
 
 /// A member of a PID controller that has one of two sets of terms.
@@ -173,7 +186,7 @@ std::vector<Parameter> pid_parameters() {
            .dimension = &gain_dimension,
            .meaning = "output per error",
            .is_required = true,
-           .other_forms = {{"loop.error_gain"}, {"controller.kp"}},
+           .other_forms = {{"loop.error_gain"}, {"controller.kp"}, {"actuator.kp"}},
            .usual = {1e-3, 1e4}},
           {.path = "controller.integral",
            .slot = [](Drive& d) { return of_terms(d, &PID::integral, PIDTerms::PI); },
@@ -199,12 +212,19 @@ std::vector<Parameter> pid_parameters() {
            .dimension = &speed_gain_dimension,
            .meaning = "output per rate of the error",
            .is_required = true,
-           .other_forms = {{"controller.kd"}},
+           .other_forms = {{"controller.kd"}, {"actuator.kv"}},
            .usual = {1e-4, 1e3}},
           {.path = "controller.filter",
-           .slot = [](Drive& d) { return of_terms(d, &PID::filter, PIDTerms::PD); },
+           .slot =
+               [](Drive& d) {
+                 const Slot pid = of_terms(d, &PID::filter, PIDTerms::PD);
+                 return std::holds_alternative<std::monostate>(pid)
+                            ? of_law(d, &CascadeController::filter)
+                            : pid;
+               },
            .dimension = &always<time>,
-           .meaning = "time constant of the filter of the derivative; 0: none",
+           .meaning = "time constant of the filter of the derivative, or of a cascade's measured "
+                      "speed; 0: none",
            .permitted = Permitted::not_negative,
            .usual = {1e-4, 0.1}},
           {.path = "controller.derivative_of",
@@ -246,7 +266,7 @@ std::vector<Parameter> other_laws() {
           {.path = "controller.gain",
            .slot =
                [](Drive& d) {
-                 if (d.servo) return Slot{};
+                 if (!has_law(d)) return Slot{};
                  return std::visit(
                      [](auto& law) {
                        if constexpr (requires { law.gain; }) {
@@ -340,7 +360,8 @@ std::vector<Parameter> sampling_parameters() {
            .permitted = Permitted::positive,
            .is_required = true,
            .other_forms = {{"sampling.frequency", &angular_frequency, 2.0 * std::numbers::pi},
-                           {"sampling.rate", &angular_frequency, 2.0 * std::numbers::pi}},
+                           {"sampling.rate", &angular_frequency, 2.0 * std::numbers::pi},
+                           {"actuator.timestep"}},
            .usual = {1e-5, 0.1}},
           {.path = "sampling.delay",
            .slot = [](Drive& d) { return slot_of(d.sampling, &Sampling::delay); },
@@ -384,7 +405,8 @@ std::vector<Parameter> control_parameters() {
   for (Parameter& parameter : encoder_parameters()) list.push_back(std::move(parameter));
   list.push_back(controller_kind());
   list.push_back(controller_shaft());
-  for (auto* part : {&pid_parameters, &other_laws, &matrix_parameters, &sampling_parameters}) {
+  for (auto* part : {&pid_parameters, &other_laws, &matrix_parameters, &nonlinear_parameters,
+                     &firmware_parameters, &sampling_parameters}) {
     for (Parameter& parameter : (*part)()) list.push_back(std::move(parameter));
   }
   return list;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "base/overloaded.hpp"
 #include "base/range_check.hpp"
@@ -53,17 +54,30 @@ LinearController linear(const ProportionalIntegralDerivative& controller) {
   return result;
 }
 
+/// Puts 1/(time s + 1) before the speed: its last state is the filtered one.
+void filter_speed(LinearController& controller, double time) {
+  for (std::size_t i = 0; i < controller.order(); ++i) {
+    controller.state_matrix[i].push_back(std::exchange(controller.input_matrix[i][2], 0.0));
+  }
+  controller.output.push_back(std::exchange(controller.direct[2], 0.0));
+  controller.state_matrix.emplace_back(controller.order(), 0.0).back() = -1.0 / time;
+  controller.input_matrix.push_back({0.0, 0.0, 1.0 / time});
+  if (!controller.anti_windup.empty()) controller.anti_windup.push_back(0.0);
+}
+
 LinearController linear(const Cascade& controller) {
   LinearController result;
   const double stiffness = controller.speed * controller.position;
   result.direct = {stiffness, -stiffness, -controller.speed};
-  if (controller.speed_integral == 0.0) return result;
-  const double integral = controller.speed_integral;
-  result.state_matrix = {{0.0}};
-  result.input_matrix = {
-      {integral * controller.position, -integral * controller.position, -integral}};
-  result.output = {1.0};
-  if (controller.tracking_time > 0.0) result.anti_windup = {1.0 / controller.tracking_time};
+  if (controller.speed_integral != 0.0) {
+    const double integral = controller.speed_integral;
+    result.state_matrix = {{0.0}};
+    result.input_matrix = {
+        {integral * controller.position, -integral * controller.position, -integral}};
+    result.output = {1.0};
+    if (controller.tracking_time > 0.0) result.anti_windup = {1.0 / controller.tracking_time};
+  }
+  if (controller.filter > 0.0) filter_speed(result, controller.filter);
   return result;
 }
 
@@ -145,6 +159,7 @@ void inspect(RangeCheck& check, const Cascade& controller) {
   check.finite("speed", controller.speed);
   check.finite("speed_integral", controller.speed_integral);
   check.not_negative("tracking_time", controller.tracking_time, "s");
+  check.not_negative("filter", controller.filter, "s");
 }
 
 void inspect(RangeCheck& check, const LeadLag& controller) {

@@ -46,13 +46,14 @@ struct ProportionalIntegralDerivative {
   bool derivative_of_speed = false;
 };
 
-/// A speed controller within a position controller: w = position (r − y),
-///   τ = speed (w − v) + speed_integral ∫(w − v) dt.
+/// A speed controller within a position controller: w = position (r − y), f = 1/(filter s + 1) v,
+///   τ = speed (w − f) + speed_integral ∫(w − f) dt.
 struct Cascade {
   double position = 0.0;        ///< 1/s
   double speed = 0.0;           ///< N m s/rad
   double speed_integral = 0.0;  ///< N m/rad
   double tracking_time = 0.0;   ///< s, as above
+  double filter = 0.0;          ///< s, ≥ 0
 };
 
 /// τ = gain (s/zero + 1)/(s/pole + 1) e: lead if zero < pole, lag if zero > pole.

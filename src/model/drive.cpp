@@ -13,11 +13,29 @@ void check(RangeCheck& all, const std::string& name, const Shaft& shaft) {
   all.positive(name + ".inertia", shaft.inertia, "kg m2");
   all.not_negative(name + ".viscous", shaft.friction.viscous, "N m s/rad");
   all.not_negative(name + ".coulomb", shaft.friction.coulomb, "N m");
+  all.not_negative(name + ".stribeck_speed", shaft.friction.stribeck_speed, "rad/s");
   if (!(shaft.friction.breakaway >= shaft.friction.coulomb) ||
       std::isinf(shaft.friction.breakaway)) {
     all.refuse(name + ".breakaway", exact_text(shaft.friction.breakaway),
                "must be finite and at least " + name + ".coulomb, " +
                    exact_text(shaft.friction.coulomb) + " N m");
+  }
+}
+
+void check_error_shape(RangeCheck& all, const ReducedDrive& drive) {
+  const ErrorShape& shape = drive.error_shape;
+  if (!shape.is_present()) return;
+  all.finite("error_shape.begins", shape.begins);
+  all.finite("error_shape.ends", shape.ends);
+  if (shape.begins < std::abs(shape.ends)) {
+    all.refuse("error_shape.begins", exact_text(shape.begins),
+               "must be at least |error_shape.ends|");
+  }
+  // On the threshold the torque would push the error back and forth.
+  if (shape.jumps && !drive.sampling && !(shape.begins > shape.ends)) {
+    all.refuse("error_shape.hysteresis", "0",
+               "must be positive, or the controller sampled: a continuous one may switch without "
+               "end at its threshold");
   }
 }
 
@@ -97,6 +115,15 @@ std::vector<Fault> validate(const ReducedDrive& drive) {
   }
   all.not_negative("winding.time_constant", drive.winding.time_constant, "s");
   all.not_negative("winding.back_emf", drive.winding.back_emf, "N m s/rad");
+  if (!(drive.winding.torque_limit > 0.0)) {
+    all.refuse("winding.torque_limit", exact_text(drive.winding.torque_limit),
+               "must be positive, N m");
+  }
+  check_error_shape(all, drive);
+  all.finite("feedforward.torque", drive.feedforward.torque);
+  all.not_negative("feedforward.speed", drive.feedforward.speed, "rad/s");
+  all.finite("feedforward.half_gap", drive.feedforward.half_gap);
+  all.not_negative("feedforward.take_up_time", drive.feedforward.take_up_time, "s");
   all.not_negative("sensing.resolution", drive.sensing.resolution, "rad");
   if (drive.sensing.resolution_of_speed != drive.sensing.resolution) {  // else it is one encoder
     all.not_negative("sensing.resolution_of_speed", drive.sensing.resolution_of_speed, "rad");

@@ -13,13 +13,17 @@
 namespace gearlash::drive {
 
 /// Torque against the motion: viscous ω + coulomb sign ω. At rest it balances the applied torque,
-/// up to `breakaway`.
+/// up to `breakaway`. Below `stribeck_speed` the dry part is
+/// breakaway − (breakaway − coulomb) |ω|/stribeck_speed.
 struct ShaftFriction {
-  double viscous = 0.0;    ///< N m s/rad, ≥ 0
-  double coulomb = 0.0;    ///< N m, ≥ 0
-  double breakaway = 0.0;  ///< N m, ≥ coulomb
+  double viscous = 0.0;         ///< N m s/rad, ≥ 0
+  double coulomb = 0.0;         ///< N m, ≥ 0
+  double breakaway = 0.0;       ///< N m, ≥ coulomb
+  double stribeck_speed = 0.0;  ///< rad/s, ≥ 0
 
   bool is_dry() const { return breakaway > 0.0; }
+  /// Whether the dry part falls over a range of speeds.
+  bool falls() const { return stribeck_speed > 0.0 && breakaway > coulomb; }
 };
 
 struct Shaft {
@@ -32,6 +36,41 @@ struct Shaft {
 struct Winding {
   double time_constant = 0.0;  ///< s, ≥ 0. At 0, back_emf is part of the motor's viscous friction
   double back_emf = 0.0;       ///< N m s/rad, ≥ 0
+  /// Of the largest current, N m, > 0: the amplifier lets |τ| rise no further.
+  double torque_limit = std::numeric_limits<double>::infinity();
+};
+
+/// What a controller receives instead of its error e, by branches of an input: e, or −v.
+/// On the outer branch of the sign s: outer_gain e + s offset. It begins as s · input passes
+/// `begins` and ends as s · input passes `ends`. On the inner branch: inner_gain e.
+struct ErrorShape {
+  double begins = 0.0;  ///< ≥ |ends|
+  double ends = 0.0;
+  double inner_gain = 1.0;
+  double outer_gain = 1.0;
+  double offset = 0.0;  ///< rad
+  bool is_of_speed = false;
+  bool jumps = false;  ///< what it gives jumps between its branches
+
+  /// Whether it changes the error at all.
+  bool is_present() const { return inner_gain != 1.0 || outer_gain != 1.0 || offset != 0.0; }
+  bool is_relay() const { return outer_gain == 0.0; }
+  /// rad, what the controller receives less the error. Precondition: not a relay.
+  double largest_change() const {
+    return inner_gain == 0.0 ? begins : offset < 0.0 ? -offset : offset;
+  }
+  /// Whether it has no inner branch: a relay with two levels.
+  bool is_two_level() const { return is_relay() && ends == -begins; }
+};
+
+/// What a controller adds because of its reference's speed w.
+struct Feedforward {
+  double torque = 0.0;        ///< N m: torque · sat(w/speed), or torque · sign w
+  double speed = 0.0;         ///< rad/s, ≥ 0
+  double half_gap = 0.0;      ///< rad, on the side of the reference's last motion
+  double take_up_time = 0.0;  ///< s, ≥ 0: a lag of half_gap
+
+  bool is_absent() const { return torque == 0.0 && half_gap == 0.0; }
 };
 
 /// The weight of the load, linearised: the torque −stiffness (θ_L − angle) beside the one that it
@@ -87,6 +126,8 @@ struct ReducedDrive {
   Contact contact{};
   Sensing sensing{};
   Controller controller{};
+  ErrorShape error_shape{};
+  Feedforward feedforward{};
   /// Of the requested torque, before the winding. N m, > 0.
   double torque_limit = std::numeric_limits<double>::infinity();
   Winding winding{};
@@ -99,6 +140,12 @@ struct ReducedDrive {
 /// Whether the shafts are joined by a spring without a gap.
 inline bool is_joined(const ReducedDrive& drive) {
   return drive.backlash == 0.0 && std::holds_alternative<CompliantContact>(drive.contact);
+}
+
+/// Whether gap and dry friction are all that is not linear in the drive, its sensors and limits
+/// left aside: its controller is linear, and adds nothing by the sign of a speed.
+inline bool has_linear_control(const ReducedDrive& drive) {
+  return !drive.error_shape.is_present() && drive.feedforward.is_absent();
 }
 
 /// Every fault in the ranges above.

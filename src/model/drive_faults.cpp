@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "base/range_check.hpp"
+#include "model/firmware.hpp"
 #include "model/parameters.hpp"
 #include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
@@ -19,6 +21,14 @@ std::string path_of(const std::string& name) {
       {"backlash", "gearbox.backlash"},
       {"torque_limit", "motor.torque_limit"},
       {"winding.time_constant", "motor.inductance"},
+      {"winding.torque_limit", "motor.current_limit"},
+      {"error_shape.begins", "controller.dead_band"},
+      {"error_shape.ends", "controller.dead_band"},
+      {"error_shape.hysteresis", "controller.hysteresis"},
+      {"feedforward.torque", "controller.friction_compensation"},
+      {"feedforward.speed", "controller.friction_speed"},
+      {"feedforward.half_gap", "controller.backlash_compensation"},
+      {"feedforward.take_up_time", "controller.take_up_time"},
       {"winding.back_emf", "motor.back_emf_constant"},
       {"sensing.resolution", "sensor.resolution"},
       {"sensing.resolution_of_speed", "sensor.speed_resolution"},
@@ -78,7 +88,7 @@ void check_torques(RangeCheck& check, const Drive& drive) {
                                       exact_text(coulomb) + " N m"
                                 : "motor.coulomb");
   check_breakaway(check, drive.load.friction, drive.load.friction.coulomb, "load", "load.coulomb");
-  if (motor.limit && motor.current_limit && takes_current_limit(motor)) {
+  if (motor.limit && motor.current_limit && limits_torque_by_current(motor)) {
     check.refuse("motor.torque_limit", exact_text(*motor.limit) + " N m",
                  "must be left out beside motor.current_limit, which gives it");
   }
@@ -111,12 +121,40 @@ bool must_be_a_servo(const Drive& drive, const drive::ReducedDrive& reduced) {
          reduced.backlash == 0.0;
 }
 
-void check_joint(RangeCheck& check, const Drive& drive) {
-  const bool has_torque = std::holds_alternative<TorqueControl>(drive.motor.kind);
-  if (drive.servo || has_torque || !drive.controller.is_at_joint) return;
-  check.refuse("controller.shaft", "joint",
-               "must be load or motor: gains at the joint are torques, and this motor is driven by "
-               "a voltage");
+/// Whether a controller receives nothing but the error, and a speed.
+bool acts_on_error(const Drive& drive) {
+  const auto* system = std::get_if<StateSpaceController>(&drive.controller.law);
+  if (system == nullptr) return true;
+  const auto is_of_error = [](const std::vector<double>& row) {
+    return row.size() != 3 || row[0] == -row[1];
+  };
+  return is_of_error(system->D) && std::all_of(system->B.begin(), system->B.end(), is_of_error);
+}
+
+/// Dead bands, and compensations of the error.
+void check_error_shape(RangeCheck& check, const Drive& drive) {
+  if (drive.servo) return;
+  const Controller& controller = drive.controller;
+  const DeadBand& band = controller.dead_band;
+  const bool is_relay = std::holds_alternative<RelayController>(controller.law);
+  const bool is_band = !is_relay && band.width > 0.0;
+  const bool of_error = controller.compensation.backlash != 0.0 &&
+                        controller.compensation.input == CompensationInput::error;
+  if (of_error && (is_band || is_relay)) {
+    check.refuse("controller.backlash_compensation",
+                 exact_text(controller.compensation.backlash) + " rad",
+                 is_relay ? "must follow the reference: a relay receives no error to add to"
+                          : "must follow the reference, or controller.dead_band be 0: both change "
+                            "the error");
+  }
+  if ((is_band || of_error) && !acts_on_error(drive)) {
+    check.refuse(is_band ? "controller.dead_band" : "controller.backlash_compensation", "",
+                 "must be 0: the controller does not act on the error r - y alone");
+  }
+  if (is_band && band.form == DeadBandForm::whole && band.hysteresis > band.width) {
+    check.refuse("controller.hysteresis", exact_text(band.hysteresis) + " rad",
+                 "must be at most controller.dead_band, " + exact_text(band.width) + " rad");
+  }
 }
 
 void check_gravity(RangeCheck& check, const Drive& drive) {
@@ -126,6 +164,38 @@ void check_gravity(RangeCheck& check, const Drive& drive) {
   check.refuse("load.gravity", exact_text(drive.load.gravity) + " N m",
                "must be 0 with a reference that is a ramp: gravity is linearised about the angle "
                "where the reference ends");
+}
+
+/// The dry torque that holds the shaft on an encoder's edge while the controller's torque changes
+/// there; empty where the torque does not act on this shaft at once.
+std::optional<double> holding_friction(const drive::ReducedDrive& drive) {
+  const double motor = drive.motor.friction.breakaway;
+  if (drive.sensing.load_share_of_position == 0.0) return motor;
+  if (!std::holds_alternative<drive::RigidContact>(drive.contact)) return std::nullopt;
+  return motor + drive.load.friction.breakaway;
+}
+
+/// A continuous controller that pushes the position back over the edge of an encoder's step, from
+/// either side, would switch without end: the torque of a step exceeds what friction holds either
+/// way.
+void check_encoder(RangeCheck& check, const Drive& drive, const drive::ReducedDrive& reduced) {
+  const double step = reduced.sensing.resolution;
+  if (drive.sampling || !(step > 0.0) || reduced.winding.time_constant > 0.0) return;
+  if (!validate(reduced.controller).empty()) return;
+  const std::optional<double> held = holding_friction(reduced);
+  const drive::ErrorShape& shape = reduced.error_shape;
+  if (shape.is_relay() && step <= shape.begins - shape.ends) return;  // its hysteresis holds it
+  const double gain = std::abs(drive::linear_controller(reduced.controller).direct[1]);
+  const double torque = shape.is_relay() ? 2.0 * gain : gain * step;
+  if (!held || !(torque > 2.0 * *held)) return;
+  const Encoder& encoder = drive.sensor.encoder;
+  const bool is_counted = encoder.counts_per_turn.has_value();
+  check.refuse(
+      is_counted ? "sensor.counts_per_turn" : "sensor.resolution",
+      exact_text(is_counted ? *encoder.counts_per_turn : encoder.resolution.value_or(step)),
+      "must stand beside [sampling]: a continuous controller would switch without end at "
+      "the edge of a count, where its torque changes by " +
+          exact_text(torque) + " N m at the load and friction holds " + exact_text(*held) + " N m");
 }
 
 /// The sources of numbers at the load's shaft, for messages to an author who gave none of these.
@@ -172,6 +242,25 @@ void mend(Drive& drive, const Parameter& parameter) {
   if (auto* const* place = std::get_if<std::optional<double>*>(&slot)) **place = 0.5;
 }
 
+/// Steps so fine that positions have no digits left to count them by.
+void check_counts(RangeCheck& check, const Drive& drive) {
+  constexpr double most = 1099511627776.0;  // 2⁴⁰
+  constexpr double least = 2.0 * std::numbers::pi / most;
+  if (drive.servo) return;
+  for (const auto& [encoder, prefix] : {std::pair(&drive.sensor.encoder, "sensor."),
+                                        std::pair(&drive.sensor.speed_encoder, "sensor.speed_")}) {
+    const std::string path = prefix;
+    if (encoder->counts_per_turn && *encoder->counts_per_turn > most) {
+      check.refuse(path + "counts_per_turn", exact_text(*encoder->counts_per_turn),
+                   "must be at most " + exact_text(most) + ", 40 bit");
+    }
+    if (encoder->resolution && *encoder->resolution > 0.0 && *encoder->resolution < least) {
+      check.refuse(path + "resolution", exact_text(*encoder->resolution) + " rad",
+                   "must be 0 or at least " + exact_text(least) + " rad, 40 bit a turn");
+    }
+  }
+}
+
 /// A state-space controller has one input, the error, or three: reference, position and speed.
 void check_columns(RangeCheck& check, const Drive& drive) {
   const auto* system = std::get_if<StateSpaceController>(&drive.controller.law);
@@ -190,6 +279,11 @@ void check_columns(RangeCheck& check, const Drive& drive) {
 std::vector<Fault> joint_faults(const Drive& drive) {
   const drive::ReducedDrive reduced = reduce(drive);
   std::vector<Fault> found = drive::validate(reduced);
+  if (found.empty()) {
+    RangeCheck encoder;
+    check_encoder(encoder, drive, reduced);
+    found = encoder.faults();
+  }
   if (must_be_a_servo(drive, reduced) && validate(reduced.controller).empty()) {
     if (const auto drivetrain = drive::proportional_drivetrain(reduced)) {
       return servo_faults(*drivetrain);
@@ -214,9 +308,11 @@ std::vector<Fault> faults(const Drive& drive) {
     if (check.faults().size() > before) mend(mended, parameter);
   }
   check_torques(check, drive);
-  check_joint(check, drive);
+  check_error_shape(check, drive);
   check_gravity(check, drive);
   check_columns(check, drive);
+  check_counts(check, drive);
+  check.include(firmware_faults(drive));
   if (drive.servo) check_normal_form(check, drive);
   std::vector<Fault> found = check.faults();
   if (!found.empty() && drive.servo) return found;

@@ -93,8 +93,9 @@ Slopes slopes_of_plant(const Drive& drive, std::string_view path) {
   const Parts parts(drive);
   if (path == "gearbox.ratio") {
     const Controller& controller = drive.controller;
-    const double at_shaft = controller.shaft == ShaftName::motor ? 2.0 : 1.0;
-    const double power = controller.is_at_joint ? 0.0 : at_shaft;
+    const bool has_torque = std::holds_alternative<TorqueControl>(drive.motor.kind);
+    const bool is_at_joint = has_torque && controller.shaft == GainShaft::load;
+    const double power = is_at_joint ? 0.0 : controller.shaft == GainShaft::motor ? 2.0 : 1.0;
     return {{.motor_inertia = 2.0 * parts.drivetrain.motor_inertia / parts.ratio,
              .motor_friction = (2.0 * (parts.drivetrain.motor_friction - parts.feedback) +
                                 power * parts.feedback) /

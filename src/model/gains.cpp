@@ -1,11 +1,13 @@
 #include "model/gains.hpp"
 
+#include "model/firmware.hpp"
 #include "model/parameters.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash {
 
 std::vector<PlacedGain> placed_gains(const Drive& drive) {
+  if (drive.controller.firmware) return placed_gains(without_registers(drive));
   std::vector<PlacedGain> gains;
   const double ratio = drive.gearbox.ratio;
   const bool has_torque = std::holds_alternative<TorqueControl>(drive.motor.kind);

@@ -84,6 +84,13 @@ std::optional<std::size_t> choice_named(const Parameter& parameter, std::string_
   return std::nullopt;
 }
 
+std::string_view reason_against(const Parameter& parameter, std::string_view word) {
+  for (const RefusedWord& refused : parameter.refused_words) {
+    if (refused.word == word) return refused.reason;
+  }
+  return {};
+}
+
 std::optional<double> number_in(const Parameter& parameter, const Drive& drive) {
   const Slot slot = parameter.slot(const_cast<Drive&>(drive));
   if (const auto* number = std::get_if<double*>(&slot)) return **number;

@@ -52,6 +52,12 @@ struct OtherWord {
   std::size_t choice = 0;
 };
 
+/// A word that is not taken, for a reason of its own.
+struct RefusedWord {
+  std::string_view word;
+  std::string_view reason;  ///< "must be …"
+};
+
 /// The range for designs and sliders if nothing else is known.
 struct UsualRange {
   double low = 0.0;
@@ -76,6 +82,7 @@ struct Parameter {
   std::string_view wanted{};
   std::vector<std::string_view> choices{};  ///< for a choice, in the order of Choice::chosen
   std::vector<OtherWord> other_words{};
+  std::vector<RefusedWord> refused_words{};
   std::vector<OtherForm> other_forms{};
   UsualRange usual{};
 
@@ -109,6 +116,9 @@ std::vector<std::string> words_of(const Parameter& parameter);
 
 /// The index of the choice that a word names; empty for any other word.
 std::optional<std::size_t> choice_named(const Parameter& parameter, std::string_view word);
+
+/// Why the parameter refuses this word, if it has a reason of its own; else empty.
+std::string_view reason_against(const Parameter& parameter, std::string_view word);
 
 /// Notes a value that the parameter must not have, in `unit`.
 void check_number(RangeCheck& check, const Parameter& parameter, double value,

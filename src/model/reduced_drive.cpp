@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/overloaded.hpp"
+#include "model/firmware.hpp"
 #include "model/proportional_servo.hpp"
 
 namespace gearlash {
@@ -30,7 +31,8 @@ Drivetrain drivetrain_of(const NormalForm& form, double restitution) {
 drive::ShaftFriction referred(const Friction& friction, double coulomb, double ratio) {
   return {.viscous = friction.viscous * (ratio * ratio),
           .coulomb = coulomb * ratio,
-          .breakaway = friction.breakaway.value_or(coulomb) * ratio};
+          .breakaway = friction.breakaway.value_or(coulomb) * ratio,
+          .stribeck_speed = friction.stribeck_speed / ratio};
 }
 
 /// Of the motor's shaft, at the load.
@@ -83,7 +85,8 @@ drive::Controller reduce(const CascadeController& cascade, double scale) {
   return drive::Cascade{.position = cascade.position,
                         .speed = scale * cascade.speed,
                         .speed_integral = scale * cascade.speed_integral,
-                        .tracking_time = cascade.tracking_time};
+                        .tracking_time = cascade.tracking_time,
+                        .filter = cascade.filter};
 }
 
 drive::Controller reduce(const LeadLagController& lead_lag, double scale) {
@@ -107,6 +110,65 @@ drive::Controller reduce(const StateSpaceController& system, double scale) {
   reduced.output = scaled(system.C, gain);
   reduced.direct = scaled(of_three_inputs(system.D), gain);
   return reduced;
+}
+
+/// On the signs that its ErrorShape gives.
+drive::Controller reduce(const RelayController& relay, double scale) {
+  return drive::ProportionalDerivative{.proportional = scale * relay.level};
+}
+
+/// Angles of the gains' shaft at the load.
+double angle_scale(const Drive& drive) {
+  return drive.controller.shaft == GainShaft::motor ? 1.0 / drive.gearbox.ratio : 1.0;
+}
+
+drive::ErrorShape error_shape_of(const Drive& drive) {
+  const Controller& controller = drive.controller;
+  const double scale = angle_scale(drive);
+  const double width = controller.dead_band.width * scale;
+  const double hysteresis = controller.dead_band.hysteresis * scale;
+  if (const auto* relay = std::get_if<RelayController>(&controller.law)) {
+    return {.begins = width + hysteresis,
+            .ends = width - hysteresis,
+            .inner_gain = 0.0,
+            .outer_gain = 0.0,
+            .offset = 1.0,
+            .is_of_speed = relay->input == RelayInput::speed,
+            .jumps = true};
+  }
+  if (width > 0.0 && controller.dead_band.form == DeadBandForm::whole) {
+    return {
+        .begins = width + hysteresis, .ends = width - hysteresis, .inner_gain = 0.0, .jumps = true};
+  }
+  if (width > 0.0) {
+    return {.begins = width, .ends = width, .inner_gain = 0.0, .offset = -width};
+  }
+  const Compensation& compensation = controller.compensation;
+  if (compensation.backlash == 0.0 || compensation.input == CompensationInput::reference) return {};
+  const double angle = compensation.take_up_angle * scale;
+  const double half = 0.5 * compensation.backlash;
+  return {.begins = angle, .ends = angle, .inner_gain = 1.0 + half / angle, .offset = half};
+}
+
+drive::Feedforward feedforward_of(const Drive& drive) {
+  const Compensation& compensation = drive.controller.compensation;
+  const bool is_by_reference = compensation.input == CompensationInput::reference;
+  return {.torque = output_scale(drive) * compensation.friction,
+          .speed = compensation.friction_speed * angle_scale(drive),
+          .half_gap = is_by_reference ? 0.5 * compensation.backlash : 0.0,
+          .take_up_time = compensation.take_up_time};
+}
+
+/// The torque of the largest current at the load, N m.
+double current_torque_of(const Drive& drive) {
+  const Motor& motor = drive.motor;
+  if (!motor.current_limit || !takes_current_limit(motor) || limits_torque_by_current(motor)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const auto* armature = std::get_if<ArmatureControl>(&motor.kind);
+  const double constant = armature != nullptr ? armature->torque_constant
+                                              : std::get<FieldControl>(motor.kind).torque_constant;
+  return constant * *motor.current_limit * drive.gearbox.ratio;
 }
 
 // ---- sensors ------------------------------------------------------------------------------------
@@ -160,18 +222,20 @@ drive::ReducedDrive reduced_plant(const Drive& drive) {
   drive::ReducedDrive reduced;
   reduced.motor = {motor_inertia_of(drive),
                    referred(drive.motor.friction, coulomb_torque(drive.motor), ratio)};
-  if (const double time = electrical_time_of(drive.motor); time != 0.0) {
-    reduced.winding = {.time_constant = time, .back_emf = output.friction};
-  } else {
-    reduced.motor.friction.viscous += output.friction;
-  }
+  reduced.winding = {.time_constant = electrical_time_of(drive.motor),
+                     .back_emf = output.friction,
+                     .torque_limit = current_torque_of(drive)};
+  if (reduced.winding.time_constant == 0.0) reduced.motor.friction.viscous += output.friction;
   reduced.load = {drive.load.inertia,
                   referred(drive.load.friction, drive.load.friction.coulomb, 1.0)};
   reduced.backlash = drive.gearbox.backlash;
   if (const auto limit = output_limit(drive.motor)) reduced.torque_limit = output.torque * *limit;
-  const double scale = gain_scale(drive);
+  const bool is_relay = std::holds_alternative<RelayController>(drive.controller.law);
+  const double scale = is_relay ? output_scale(drive) : gain_scale(drive);
   reduced.controller =
       std::visit([&](const auto& law) { return reduce(law, scale); }, drive.controller.law);
+  reduced.error_shape = error_shape_of(drive);
+  reduced.feedforward = feedforward_of(drive);
   return reduced;
 }
 
@@ -212,20 +276,29 @@ double coulomb_torque(const Motor& motor) {
   return *torque_constant_of(motor) * *motor.no_load_current;
 }
 
-bool takes_current_limit(const Motor& motor) {
+bool limits_torque_by_current(const Motor& motor) {
   return std::holds_alternative<TorqueControl>(motor.kind) && torque_constant_of(motor);
 }
 
+bool takes_current_limit(const Motor& motor) {
+  return limits_torque_by_current(motor) || std::holds_alternative<ArmatureControl>(motor.kind) ||
+         std::holds_alternative<FieldControl>(motor.kind);
+}
+
 std::optional<double> output_limit(const Motor& motor) {
-  if (!motor.current_limit || !takes_current_limit(motor)) return motor.limit;
+  if (!motor.current_limit || !limits_torque_by_current(motor)) return motor.limit;
   return *torque_constant_of(motor) * *motor.current_limit;
 }
 
-double gain_scale(const Drive& drive) {
+double output_scale(const Drive& drive) {
   const bool has_torque = std::holds_alternative<TorqueControl>(drive.motor.kind);
-  if (drive.controller.is_at_joint && has_torque) return 1.0;
-  const double ratio = drive.gearbox.ratio;
-  return refer_output(drive).torque * (drive.controller.shaft == ShaftName::motor ? ratio : 1.0);
+  if (has_torque && drive.controller.shaft == GainShaft::load) return 1.0;
+  return refer_output(drive).torque;
+}
+
+double gain_scale(const Drive& drive) {
+  const double angle = drive.controller.shaft == GainShaft::motor ? drive.gearbox.ratio : 1.0;
+  return output_scale(drive) * angle;
 }
 
 ReferredOutput refer_output(const Drive& drive) {
@@ -249,12 +322,23 @@ ReferredOutput refer_output(const Drive& drive) {
       drive.motor.kind);
 }
 
+namespace {
+
+/// A reference that does not move has nothing to be compensated.
+void drop_idle_feedforward(drive::ReducedDrive& reduced) {
+  if (std::holds_alternative<double>(reduced.reference)) reduced.feedforward = {};
+}
+
+}  // namespace
+
 drive::ReducedDrive reduce(const Drive& drive) {
+  if (drive.controller.firmware) return reduce(without_registers(drive));
   drive::ReducedDrive reduced = reduced_plant(drive);
   reduced.contact = reduce(drive.contact);
   reduced.sensing = reduce(drive.sensor, drive.servo ? 1.0 : drive.gearbox.ratio);
   if (drive.sampling) reduced.sampling = reduce(*drive.sampling);
   reduced.reference = drive.reference.value_or(0.0);
+  drop_idle_feedforward(reduced);
   reduced.gravity = gravity_of(drive, reduced.reference);
   reduced.load_torque = drive.load_torque.value_or(0.0);
   if (reduced.gravity.torque != 0.0) {
@@ -267,6 +351,7 @@ drive::ReducedDrive reduce_settled(const Drive& drive) {
   drive::ReducedDrive reduced = reduce(drive);
   reduced.reference = drive::settled(reduced.reference);
   reduced.load_torque = drive::settled(reduced.load_torque);
+  drop_idle_feedforward(reduced);
   return reduced;
 }
 
@@ -280,7 +365,8 @@ Drive physical_form(const Drive& drive) {
                     .friction = {.viscous = drivetrain.motor_friction}};
   physical.gearbox = {.ratio = 1.0, .backlash = drivetrain.backlash};
   physical.load = {drivetrain.load_inertia, {.viscous = drivetrain.load_friction}};
-  physical.controller = {.law = PID{.proportional = drivetrain.stiffness}};
+  // As in the thesis a larger ratio raises the stiffness: the motor's torque follows the error.
+  physical.controller.law = PID{.proportional = drivetrain.stiffness};
   return physical;
 }
 

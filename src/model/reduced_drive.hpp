@@ -30,12 +30,19 @@ double coulomb_torque(const Motor& motor);
 /// The limit of the controller's output: motor.limit, or torque_constant · current_limit.
 std::optional<double> output_limit(const Motor& motor);
 
-/// Whether the motor's torque limit may be given by its current limit.
+/// Whether the motor may have a current limit: one that is driven by a voltage through its armature
+/// or field, or is torque-controlled with a torque constant.
 bool takes_current_limit(const Motor& motor);
 
-/// Torque at the load per unit of a gain, N m per V or N m, for angles of the load: with output
-/// torque S and n motor turns per load turn, S for gains per angle of the load, S n per angle of
-/// the motor, and 1 for gains at the joint.
+/// Whether its current limit gives the motor's torque limit: that of a torque-controlled one.
+bool limits_torque_by_current(const Motor& motor);
+
+/// Torque at the load per unit of the controller's output, N m per V or N m: that of a
+/// torque-controlled motor is at the joint for gains of the load, else at the motor.
+double output_scale(const Drive& drive);
+
+/// Torque at the load per unit of a gain, for angles of the load: with n motor turns per load turn,
+/// output_scale() for gains per angle of the load, n times that for gains per angle of the motor.
 double gain_scale(const Drive& drive);
 
 /// Armature: K₁n/R and K₁K₂n²/R; field: K₁n/R and 0; two-phase: K_e n and K_N n²; torque: n and 0

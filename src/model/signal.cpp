@@ -112,6 +112,11 @@ void inspect(RangeCheck& check, const Table& table) {
                  "must be as many as values, at least one");
     return;
   }
+  if (table.times.size() > most_rows_of_a_table) {
+    check.refuse("times", std::to_string(table.times.size()) + " rows",
+                 "must be at most " + std::to_string(most_rows_of_a_table) + " rows");
+    return;
+  }
   for (std::size_t i = 0; i < table.times.size(); ++i) {
     const std::string place = "[" + std::to_string(i) + "]";
     check.finite("times" + place, table.times[i]);

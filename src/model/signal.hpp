@@ -1,6 +1,7 @@
 // References and load torques over time.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <variant>
@@ -17,6 +18,9 @@ using Sine = SineSignal;
 using Trapezoid = TrapezoidSignal;
 using Table = TableSignal;
 using gearlash::Signal;
+
+/// A row is a stretch of its own, which a motion passes as a tick.
+inline constexpr std::size_t most_rows_of_a_table = 1'000'000;
 
 /// Every fault in the ranges of gearlash/signal.hpp; `field` is the signal's name.
 std::vector<Fault> validate(const Signal& signal, const std::string& field);

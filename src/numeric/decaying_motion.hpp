@@ -5,19 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "base/interval.hpp"
+#include "numeric/interval_algebra.hpp"
 
 namespace gearlash {
-
-using IntervalVector = std::vector<Interval>;
-
-/// Square, by rows.
-struct IntervalMatrix {
-  std::vector<IntervalVector> rows;
-
-  explicit IntervalMatrix(std::size_t size) : rows(size, IntervalVector(size, Interval(0.0))) {}
-  std::size_t size() const { return rows.size(); }
-};
 
 enum class TimeKind {
   continuous,  ///< x′ = A x
@@ -40,6 +30,9 @@ class DecayingMotion {
   /// upper end is 0.01 % above the exact value unless the data are wide or the motion swings ten
   /// thousand times before it decays.
   Interval impulse_norm(const IntervalVector& input, const IntervalVector& output) const;
+  /// The same for several outputs, which takes little longer than for one.
+  std::vector<Interval> impulse_norms(const IntervalVector& input,
+                                      const std::vector<IntervalVector>& outputs) const;
 
  private:
   struct Block {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 namespace gearlash {
 
@@ -28,6 +29,15 @@ Eigen::MatrixXd inverse(const Eigen::MatrixXd& matrix);
 /// rounding, the undetermined component is 0.
 Eigen::VectorXd solved_with_full_pivoting(const Eigen::MatrixXd& matrix,
                                           const Eigen::VectorXd& right);
+
+/// All x with matrix x = right: one of them, and a basis of the directions in which it may move.
+struct Solutions {
+  Eigen::VectorXd one;
+  Eigen::MatrixXd directions;  ///< columns; none if there is only one solution
+};
+/// By full pivoting, with rows and columns scaled to 1. Empty if there is none to within a share of
+/// 1e-9 of the terms.
+std::optional<Solutions> all_solutions(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 
 /// An orthonormal basis of the columns' span, by Householder reflections.
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns);

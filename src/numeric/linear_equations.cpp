@@ -21,6 +21,38 @@ Eigen::VectorXd solved_with_full_pivoting(const Eigen::MatrixXd& matrix,
   return matrix.fullPivLu().solve(right);
 }
 
+std::optional<Solutions> all_solutions(const Eigen::MatrixXd& matrix,
+                                       const Eigen::VectorXd& right) {
+  const Eigen::Index columns = matrix.cols();
+  if (matrix.rows() == 0) {
+    return Solutions{Eigen::VectorXd::Zero(columns), Eigen::MatrixXd::Identity(columns, columns)};
+  }
+  const auto inverse_of = [](double size) { return size > 0.0 ? 1.0 / size : 1.0; };
+  Eigen::MatrixXd scaled = matrix;
+  Eigen::VectorXd wanted = right;
+  Eigen::VectorXd unit(columns);
+  for (Eigen::Index i = 0; i < columns; ++i) {
+    unit[i] = inverse_of(scaled.col(i).cwiseAbs().maxCoeff());
+    scaled.col(i) *= unit[i];
+  }
+  for (Eigen::Index i = 0; i < scaled.rows(); ++i) {
+    const double factor = inverse_of(scaled.row(i).cwiseAbs().maxCoeff());
+    scaled.row(i) *= factor;
+    wanted[i] *= factor;
+  }
+  Eigen::FullPivLU<Eigen::MatrixXd> factors(scaled);
+  const Eigen::VectorXd one = factors.solve(wanted);
+  constexpr double tolerance = 1e-9;
+  const Eigen::VectorXd terms = scaled.cwiseAbs() * one.cwiseAbs() + wanted.cwiseAbs();
+  if (((scaled * one - wanted).array().abs() > tolerance * terms.array()).any()) {
+    return std::nullopt;
+  }
+  const bool is_single = factors.dimensionOfKernel() == 0;
+  return Solutions{unit.asDiagonal() * one,
+                   is_single ? Eigen::MatrixXd(columns, 0)
+                             : Eigen::MatrixXd(unit.asDiagonal() * factors.kernel())};
+}
+
 Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& columns) {
   return columns.householderQr().householderQ() *
          Eigen::MatrixXd::Identity(columns.rows(), columns.cols());

@@ -11,7 +11,9 @@ double panel_integral(const std::function<double(double)>& f, double duration, d
   double width = 1.0 / std::max(1.0, fastest);
   while (start < duration) {
     const double end = std::min(start + width, duration);
-    sum += boost::math::quadrature::gauss<double, 30>::integrate(f, start, end);
+    sum += end * std::max(1.0, fastest) <= 1.0
+               ? boost::math::quadrature::gauss<double, 10>::integrate(f, start, end)
+               : boost::math::quadrature::gauss<double, 30>::integrate(f, start, end);
     start = end;
     width = std::min(2.0 * width, 1.0);
   }

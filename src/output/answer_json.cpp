@@ -1,11 +1,13 @@
 #include <cmath>
 
+#include "analysis/repetition.hpp"
 #include "gearlash/output.hpp"
 #include "output/answer_report.hpp"
 #include "output/ceiling_report.hpp"
 #include "output/change_report.hpp"
 #include "output/drive_text.hpp"
 #include "output/json_values.hpp"
+#include "output/measured_report.hpp"
 
 namespace gearlash {
 namespace {
@@ -40,6 +42,7 @@ nlohmann::ordered_json json_cycle(const Cycle& cycle) {
           {"settles", cycle.settles},
           {"mirror_image", cycle.has_mirror_image},
           {"energy", json_energy(cycle.energy)},
+          {"encoder_steps", json_optional(cycle.encoder_steps)},
           {"starts", cycle.starts}};
 }
 
@@ -49,6 +52,7 @@ Json json_irregular(const IrregularMotion& motion) {
   return {{"amplitude", json_number(motion.amplitude)},
           {"motor_amplitude", json_optional(motion.motor_amplitude)},
           {"motor_alone", motion.is_motor_alone},
+          {"repeats", repeats(motion)},
           {"center", json_number(motion.center)},
           {"mean_amplitude", json_optional(motion.mean_amplitude)},
           {"amplitude_deviation", json_optional(motion.amplitude_deviation)},
@@ -57,21 +61,34 @@ Json json_irregular(const IrregularMotion& motion) {
           {"mismatch", json_optional(motion.mismatch)},
           {"exponent", json_optional(motion.exponent)},
           {"watched", json_optional(motion.watched)},
+          {"encoder_steps", json_optional(motion.encoder_steps)},
           {"starts", motion.starts}};
 }
 
 Json json_rest(const std::optional<Rest>& rest) {
   if (!rest) return nullptr;
-  return {
-      {"load", json_range(rest->load)},           {"motor", json_range(rest->motor)},
-      {"error", json_range(rest->error)},         {"swing_ratio", json_optional(rest->swing_ratio)},
-      {"creeping_starts", rest->creeping_starts}, {"starts", rest->starts}};
+  return {{"load", json_range(rest->load)},
+          {"motor", json_range(rest->motor)},
+          {"error", json_range(rest->error)},
+          {"certainty", name_of(rest->certainty)},
+          {"swing_ratio", json_optional(rest->swing_ratio)},
+          {"creeping_starts", rest->creeping_starts},
+          {"starts", rest->starts}};
 }
 
 /// The number of diverging starts; null without a search.
 Json json_runaway(const Answer& answer) {
   if (!answer.search) return nullptr;
   return {{"starts", answer.search->count("diverges")}};
+}
+
+Json json_threshold(const Threshold& threshold) {
+  return {{"end", threshold.end},
+          {"direction", threshold.direction == 0.0  ? "both"
+                        : threshold.direction > 0.0 ? "forward"
+                                                    : "backward"},
+          {"below", json_number(threshold.below)},
+          {"from", json_number(threshold.from)}};
 }
 
 Json json_start(const StartOutcome& start) {
@@ -127,6 +144,7 @@ std::string answer_json(const AnswerReport& report) {
   json["growth_at_rest"] = json_optional(answer.growth_at_rest);
   json["bounds"] = json_bounds(answer.bounds);
   json["ceiling"] = ceiling_json(answer.ceiling);
+  json["specification"] = specification_json(report);
   json["dissipative"] = answer.is_dissipative;
   json["rests_engaged"] = answer.rests_engaged;
   json["neutral_swings"] = answer.neutral_swings;
@@ -134,6 +152,8 @@ std::string answer_json(const AnswerReport& report) {
   json["rest"] = json_rest(answer.rest);
   json["irregular"] = json_list(answer.irregular, &json_irregular);
   json["runaway"] = json_runaway(answer);
+  json["thresholds"] = json_list(answer.thresholds, &json_threshold);
+  json["measured"] = measured_json(report);
   json["search"] = json_search(answer.search);
   json["margin"] = report.margin ? margin_json(*report.changeable, *report.margin) : Json(nullptr);
   json["sensitivities"] =

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/repetition.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash {
@@ -138,17 +139,22 @@ std::string meaning_by_energy(const Answer& answer) {
 // ---- the search ---------------------------------------------------------------------------------
 
 /// "24 to a cycle, 12 to rest".
-std::string ends_text(const SearchRecord& search) {
+std::string ends_text(const Answer& answer) {
+  const SearchRecord& search = *answer.search;
+  const auto repeating = static_cast<std::size_t>(
+      std::count_if(search.starts.begin(), search.starts.end(), [&](const StartOutcome& start) {
+        return start.end == "irregular" && start.which && repeats(answer.irregular[*start.which]);
+      }));
   std::string text;
-  const auto add = [&](const char* end, const char* what) {
-    const std::size_t count = search.count(end);
+  const auto add = [&](std::size_t count, const char* what) {
     if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
   };
-  add("cycle", "to a cycle");
-  add("rest", "to rest");
-  add("irregular", "to motion that was not seen to repeat");
-  add("diverges", "to runaway");
-  add("undecided", "undecided");
+  add(search.count("cycle"), "to a cycle");
+  add(search.count("rest"), "to rest");
+  add(repeating, "to motion whose swings repeat");
+  add(search.count("irregular") - repeating, "to motion that was not seen to repeat");
+  add(search.count("diverges"), "to runaway");
+  add(search.count("undecided"), "undecided");
   return text;
 }
 
@@ -169,7 +175,7 @@ std::string search_text(const AnswerReport& report) {
       "{}. Shooting closed the cycles. ",
       starts_text(search.starts.size()), angle_text(nearest, report.angle, 6),
       angle_text(farthest, report.angle, 6),
-      time_text(search.watch_time, report.is_normalized, digits), ends_text(search));
+      time_text(search.watch_time, report.is_normalized, digits), ends_text(report.answer));
   const auto found =
       std::count_if(report.answer.cycles.begin(), report.answer.cycles.end(),
                     [](const Cycle& cycle) { return cycle.stability == Stability::unstable; });

@@ -9,6 +9,7 @@
 #include <ostream>
 #include <vector>
 
+#include "analysis/repetition.hpp"
 #include "gearlash/output.hpp"
 #include "gearlash/version.hpp"
 #include "model/gains.hpp"
@@ -17,6 +18,7 @@
 #include "output/ceiling_report.hpp"
 #include "output/change_report.hpp"
 #include "output/columns.hpp"
+#include "output/measured_report.hpp"
 
 namespace gearlash {
 namespace {
@@ -79,6 +81,12 @@ std::string pace(const AnswerReport& report, double period) {
   return fmt::format(" at {} Hz", significant(1.0 / period, headline_digits));
 }
 
+/// ", 2 encoder steps: quantization"; empty for more, or without an encoder.
+std::string quantization_text(const std::optional<double>& steps) {
+  if (!steps || *steps > steps_of_quantization) return "";
+  return ", " + significant(*steps, 2) + " encoder steps: quantization";
+}
+
 std::string motion_text(const AnswerReport& report) {
   const auto amplitude = [&](double value) {
     return swing_text(value, report.angle, headline_digits);
@@ -91,7 +99,8 @@ std::string motion_text(const AnswerReport& report) {
       return of_motor(cycle->motor_amplitude) + pace(report, cycle->period) +
              ", while the load stands still";
     }
-    return amplitude(cycle->amplitude) + pace(report, cycle->period);
+    return amplitude(cycle->amplitude) + pace(report, cycle->period) +
+           quantization_text(cycle->encoder_steps);
   }
   if (report.answer.irregular.empty()) return "amplitude not known";
   const IrregularMotion& motion = report.answer.irregular.front();
@@ -99,7 +108,25 @@ std::string motion_text(const AnswerReport& report) {
   if (motion.is_motor_alone && motion.motor_amplitude) {
     return of_motor(*motion.motor_amplitude) + at + ", while the load hardly moves";
   }
-  return "up to " + amplitude(motion.amplitude) + at;
+  if (repeats(motion)) {
+    return amplitude(*motion.mean_amplitude) + at + quantization_text(motion.encoder_steps);
+  }
+  return "up to " + amplitude(motion.amplitude) + at + quantization_text(motion.encoder_steps);
+}
+
+/// "by steps from 0.07 rad on"; the smaller step if the directions differ. Empty if it is not
+/// known, or where the smallest step that was tried leads there.
+std::string steps_text(const AnswerReport& report, const std::string& end) {
+  const Threshold* least = nullptr;
+  for (const Threshold& threshold : report.answer.thresholds) {
+    if (threshold.end == end && (least == nullptr || threshold.from < least->from))
+      least = &threshold;
+  }
+  if (least == nullptr || least->below == 0.0) return "";
+  const std::string way = least->direction == 0.0  ? ""
+                          : least->direction > 0.0 ? " forward"
+                                                   : " backward";
+  return "by steps from " + angle_text(least->from, report.angle, headline_digits) + way + " on";
 }
 
 /// μ₀ with enough digits to show on which side of 1 it lies.
@@ -235,7 +262,8 @@ std::string irregular_text(const AnswerReport& report, const IrregularMotion& mo
   };
   const std::string title = motion.is_motor_alone
                                 ? "The motor hunts within the gap, while the load hardly moves"
-                                : "Motion that was not seen to repeat";
+                            : repeats(motion) ? "Motion whose swings repeat"
+                                              : "Motion that was not seen to repeat";
   Rows rows = {
       {amplitude_row(report, "amplitude, load", motion.amplitude)},
       {amplitude_row(report, "amplitude, motor", *motion.motor_amplitude)},
@@ -246,8 +274,10 @@ std::string irregular_text(const AnswerReport& report, const IrregularMotion& mo
        spread(*motion.mean_period, *motion.period_deviation)},
       {"swings repeat to within", fmt::format("{:.2g} %", 100.0 * *motion.mismatch), ""}};
   if (motion.exponent) {
-    constexpr double chaotic = 10.0;  // e-foldings of the separation of neighbouring motions
-    const bool is_chaotic = *motion.exponent * *motion.watched > chaotic;
+    constexpr double chaotic = 10.0;    // e-foldings of the separation of neighbouring motions
+    constexpr double repeating = 1e-3;  // swings that agree to this share repeat
+    const bool is_chaotic =
+        *motion.exponent * *motion.watched > chaotic && *motion.mismatch > repeating;
     rows.push_back(
         {"neighboring motions part at", units.rate(*motion.exponent), is_chaotic ? "chaotic" : ""});
   }
@@ -258,10 +288,13 @@ std::string irregular_text(const AnswerReport& report, const IrregularMotion& mo
 
 std::string rest_text(const AnswerReport& report) {
   const Rest& rest = *report.answer.rest;
-  Rows rows = {{"load, from the reference", range_text(report, rest.load), ""},
-               {"motor, from the reference", range_text(report, rest.motor), ""},
-               {rest.starts > 0 ? "reached from" : "computed",
-                rest.starts > 0 ? starts_text(rest.starts) : "from the equilibria", ""}};
+  Rows rows = {
+      {"load, from the reference", range_text(report, rest.load), ""},
+      {"motor, from the reference", range_text(report, rest.motor), ""},
+      {"these are",
+       rest.certainty == Certainty::computed ? "the ends of all equilibria" : "where starts led",
+       ""}};
+  if (rest.starts > 0) rows.push_back({"reached from", starts_text(rest.starts), ""});
   if (rest.creeping_starts > 0) {
     rows.push_back({"creeps to it", starts_text(rest.creeping_starts),
                     "by ever longer standstills and smaller moves"});
@@ -348,18 +381,20 @@ AnswerReport report_of(const Drive& drive, const Answer& answer) {
 namespace {
 
 /// What a search leaves open or has found besides: "; 2 of 28 starts run away, 3 undecided".
-std::string besides(const Answer& answer) {
+std::string besides(const AnswerReport& report) {
+  const Answer& answer = report.answer;
   if (!answer.search) return "";
   const bool is_verdict_on_runaway =
       answer.verdict == Verdict::runs_away || answer.verdict == Verdict::runs_away_if_disturbed;
   const std::size_t away = is_verdict_on_runaway ? 0 : answer.search->count("diverges");
   const std::size_t open = answer.search->count("undecided");
   std::string text = answer.search->is_complete ? "" : "; stopped early";
+  const std::string steps = is_verdict_on_runaway ? "" : steps_text(report, "running away");
+  if (!steps.empty()) text += "; runs away " + steps;
   if (away + open == 0) return text;
   const std::string of_all = fmt::format(" of {}", starts_text(answer.search->starts.size()));
-  if (away > 0) text += fmt::format("; {}{} run away", away, of_all);
-  if (open > 0)
-    text += fmt::format("{}{}{} undecided", away > 0 ? ", " : "; ", open, away > 0 ? "" : of_all);
+  if (away > 0 && steps.empty()) text += fmt::format("; {}{} run away", away, of_all);
+  if (open > 0) text += fmt::format("; {}{} undecided", open, of_all);
   return text;
 }
 
@@ -373,9 +408,15 @@ std::string headline_of_verdict(const AnswerReport& report) {
              motion_text(report);
     case Verdict::forced:
       return "forced oscillation: " + motion_text(report);
-    case Verdict::hunts_if_disturbed:
-      return verdict + ": " + motion_text(report) +
+    case Verdict::hunts_if_disturbed: {
+      const std::string steps = steps_text(report, "hunting");
+      return verdict + ": " + motion_text(report) + (steps.empty() ? "" : ", " + steps) +
              (answer.growth_at_rest ? "; " + growth_beside_one(answer) : "");
+    }
+    case Verdict::runs_away_if_disturbed: {
+      const std::string steps = steps_text(report, "running away");
+      return steps.empty() ? verdict : verdict + ": " + steps;
+    }
     case Verdict::grows_without_bound:
       return verdict + ": no friction at all (damping 0)";
     case Verdict::undamped:
@@ -399,7 +440,7 @@ std::string headline_of_verdict(const AnswerReport& report) {
 }  // namespace
 
 std::string headline(const AnswerReport& report) {
-  return headline_of_verdict(report) + besides(report.answer);
+  return headline_of_verdict(report) + besides(report);
 }
 
 std::string answer_text(const AnswerReport& report) {
@@ -408,6 +449,8 @@ std::string answer_text(const AnswerReport& report) {
   for (const IrregularMotion& motion : answer.irregular) text += irregular_text(report, motion);
   if (answer.rest) text += rest_text(report);
   text += ceiling_text(report);
+  text += specification_text(report);
+  text += measured_text(report);
   if (answer.normal_form) text += normal_form_table(report);
   text += gains_table(report);
   text += "\n";

@@ -14,6 +14,12 @@
 
 namespace gearlash {
 
+/// Hunting as a user saw it.
+struct MeasuredHunting {
+  double amplitude = 0.0;  ///< rad, half the peak-to-peak of the load
+  double frequency = 0.0;  ///< Hz
+};
+
 struct AnswerReport {
   Drive drive{};
   Answer answer{};
@@ -25,6 +31,10 @@ struct AnswerReport {
   std::optional<ChangeableDrive> changeable{};
   std::optional<HuntingMargin> margin{};
   std::optional<DriveSensitivity> sensitivity{};
+  /// rad: an amplitude of the load for which the widest backlash is to be stated that provably
+  /// keeps it. Needs the ceiling.
+  std::optional<double> specification{};
+  std::optional<MeasuredHunting> measured{};  ///< to be compared with every motion found
 };
 
 /// A report without margins and sensitivities.

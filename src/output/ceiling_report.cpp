@@ -20,6 +20,35 @@ std::string remark_on_limit(const Ceiling& ceiling) {
   return *ceiling.meets_limit ? "below the torque limit" : "the torque limit may be reached";
 }
 
+Json starts_json(const std::optional<SafeStarts>& starts) {
+  if (!starts) return nullptr;
+  return {{"position", json_number(starts->position)}, {"speed", json_number(starts->speed)}};
+}
+
+/// Rounded down.
+std::string lower_bound_text(double radians, const AnswerReport& report) {
+  const AngleUnit& unit = report.angle;
+  return significant(rounded_down(unit.from_radians(radians), digits), digits) + " " + unit.name;
+}
+
+std::string safe_starts_text(const AnswerReport& report) {
+  const std::optional<SafeStarts>& starts = report.answer.ceiling->safe_starts;
+  if (!starts) return "";
+  return "\n" +
+         wrapped(fmt::format(
+             "Starts from rest within ±{} of the reference never meet the torque limit, nor "
+             "do starts at it with a speed within ±{}/s (proved).",
+             lower_bound_text(starts->position, report), lower_bound_text(starts->speed, report)));
+}
+
+std::optional<double> widest_backlash(const AnswerReport& report) {
+  const std::optional<Ceiling>& ceiling = report.answer.ceiling;
+  if (!ceiling || !report.specification) return std::nullopt;
+  const double backlash =
+      report.drive.servo ? report.drive.servo->backlash : report.drive.gearbox.backlash;
+  return ceiling->widest_backlash(*report.specification, backlash);
+}
+
 }  // namespace
 
 std::string ceiling_text(const AnswerReport& report) {
@@ -39,9 +68,42 @@ std::string ceiling_text(const AnswerReport& report) {
     rows.push_back(
         {"motor torque", torque_text(*ceiling.effort, report), remark_on_limit(ceiling)});
   }
+  if (ceiling.mesh_torque) {
+    rows.push_back({"mean mesh torque", torque_text(*ceiling.mesh_torque, report), ""});
+  }
   return "\nCeiling: what no motion exceeds in the end" +
          std::string(ceiling.is_below_limit ? ", if its torque stays below the limit" : "") +
-         " (proved)\n" + table_text(rows);
+         " (proved)\n" + table_text(rows) + safe_starts_text(report);
+}
+
+std::string specification_text(const AnswerReport& report) {
+  if (!report.specification || !report.answer.ceiling) return "";
+  const Ceiling& ceiling = *report.answer.ceiling;
+  const std::string wanted = "±" +
+                             significant(report.angle.from_radians(*report.specification), digits) +
+                             " " + report.angle.name;
+  if (!ceiling.load) return "";  // the reason stands where the ceiling would be
+  const std::optional<double> widest = widest_backlash(report);
+  if (widest) {
+    return "\n" +
+           wrapped(fmt::format(
+               "Specification: every backlash up to {} provably keeps the load within {} in "
+               "the end. This drive {}.",
+               lower_bound_text(*widest, report), wanted,
+               *ceiling.load <= *report.specification ? "meets it" : "is not proved to meet it"));
+  }
+  return "\n" + wrapped(fmt::format(
+                    "Specification: no backlash is proved to keep the load within {}: what else "
+                    "disturbs the loop may move it further.",
+                    wanted));
+}
+
+Json specification_json(const AnswerReport& report) {
+  if (!report.specification || !report.answer.ceiling) return nullptr;
+  const std::optional<double>& ceiling = report.answer.ceiling->load;
+  return {{"amplitude", json_number(*report.specification)},
+          {"widest_backlash", json_optional(widest_backlash(report))},
+          {"is_met", ceiling.has_value() && *ceiling <= *report.specification}};
 }
 
 nlohmann::ordered_json ceiling_json(const std::optional<Ceiling>& ceiling) {
@@ -56,6 +118,8 @@ nlohmann::ordered_json ceiling_json(const std::optional<Ceiling>& ceiling) {
           {"effort_reason", text(ceiling->effort_reason)},
           {"below_limit", ceiling->is_below_limit},
           {"meets_limit", ceiling->meets_limit ? Json(*ceiling->meets_limit) : Json(nullptr)},
+          {"mesh_torque", json_optional(ceiling->mesh_torque)},
+          {"safe_starts", starts_json(ceiling->safe_starts)},
           {"terms", json_list(ceiling->terms, [](const CeilingTerm& term) {
              return Json{{"source", term.source},
                          {"size", json_number(term.size)},

@@ -10,6 +10,11 @@ namespace gearlash {
 /// A table of the ceiling with its terms, or why there is none. Empty if it was not computed.
 std::string ceiling_text(const AnswerReport& report);
 
+/// The widest backlash that provably meets the specification, or why none does. Empty without one.
+std::string specification_text(const AnswerReport& report);
+/// Null without one.
+nlohmann::ordered_json specification_json(const AnswerReport& report);
+
 /// Null if it was not computed.
 nlohmann::ordered_json ceiling_json(const std::optional<Ceiling>& ceiling);
 

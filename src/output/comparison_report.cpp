@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "analysis/repetition.hpp"
 #include "input/drive_file.hpp"
 #include "output/columns.hpp"
 #include "output/drive_text.hpp"
@@ -36,7 +37,12 @@ std::string amplitude_text(const ComparisonReport& report, const SensorCase& one
     return "±" + angle(report, cycle->amplitude);
   }
   if (answer.irregular.empty()) return "–";
-  return "up to ±" + angle(report, answer.irregular.front().amplitude);
+  const IrregularMotion& motion = answer.irregular.front();
+  if (motion.is_motor_alone && motion.motor_amplitude) {
+    return "motor ±" + angle(report, *motion.motor_amplitude);
+  }
+  if (repeats(motion)) return "±" + angle(report, *motion.mean_amplitude);
+  return "up to ±" + angle(report, motion.amplitude);
 }
 
 std::string pace_text(const ComparisonReport& report, const SensorCase& one) {

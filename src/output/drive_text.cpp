@@ -7,6 +7,7 @@
 #include "analysis/drive_notes.hpp"
 #include "base/range_check.hpp"
 #include "general/assemble/time_scale.hpp"
+#include "model/firmware.hpp"
 #include "model/gains.hpp"
 #include "model/parameters.hpp"
 #include "model/reduced_drive.hpp"
@@ -162,6 +163,24 @@ std::string further_remarks(const Drive& drive) {
   return remarks;
 }
 
+/// The registers as a controller in SI units; null without a firmware.
+Json firmware_json(const Drive& drive) {
+  if (!drive.controller.firmware) return nullptr;
+  const FirmwareFacts& facts = all_firmwares()[drive.controller.firmware->index()];
+  const Conversion conversion = converted(drive);
+  Json json = {{"name", facts.name},
+               {"source", facts.source},
+               {"left_out", facts.left_out},
+               {"shaft", find_parameter("controller.shaft")
+                             ->choices[static_cast<std::size_t>(conversion.controller.shaft)]},
+               {"gains", Json::array()}};
+  for (const ConvertedGain& gain : conversion.gains) {
+    json["gains"].push_back(
+        {{"name", gain.name}, {"unit", gain.unit}, {"value", json_number(gain.value)}});
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string show_text(const Drive& drive) {
@@ -200,6 +219,7 @@ std::string show_json(const Drive& drive, const Provenance& provenance) {
                              {"at_joint", json_number(gain.at_joint)},
                              {"at_motor", json_number(gain.at_motor)}});
   }
+  json["firmware"] = firmware_json(drive);
   json["notes"] = Json::array();
   for (const Note& note : notes_on(drive)) {
     json["notes"].push_back({{"code", note.code}, {"text", note.text}});

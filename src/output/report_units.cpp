@@ -9,10 +9,25 @@ namespace gearlash {
 
 std::string significant(double value, int digits) { return fmt::format("{:.{}g}", value, digits); }
 
+namespace {
+
+/// Of the last of `digits` significant digits.
+double last_unit(double bound, int digits) {
+  return std::pow(10.0, std::floor(std::log10(bound)) - (digits - 1));
+}
+
+}  // namespace
+
 double rounded_up(double bound, int digits) {
   if (!(bound > 0.0) || !std::isfinite(bound)) return bound;
-  const double unit = std::pow(10.0, std::floor(std::log10(bound)) - (digits - 1));
+  const double unit = last_unit(bound, digits);
   return std::ceil(bound / unit) * unit;
+}
+
+double rounded_down(double bound, int digits) {
+  if (!(bound > 0.0) || !std::isfinite(bound)) return bound;
+  const double unit = last_unit(bound, digits);
+  return std::floor(bound / unit) * unit;
 }
 
 std::string change_text(double ratio) {

@@ -19,6 +19,8 @@ std::string significant(double value, int digits);
 
 /// An upper bound: the next number of `digits` significant digits that is not below it.
 double rounded_up(double bound, int digits);
+/// A lower bound likewise, not above it.
+double rounded_down(double bound, int digits);
 
 /// A change by this ratio: "+12.3 %", "−40 %", "×26".
 std::string change_text(double ratio);

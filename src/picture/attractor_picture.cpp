@@ -21,7 +21,7 @@ Motion motion_of_cycle(const drive::ReducedDrive& reduced, const drive::Attracto
   system.system = search.system;
   system.reference = {};
   system.load_torque = {};
-  system.motor_torques = {};
+  system.motor_torques = {hybrid::AffineForm{}};
   const double from = cycle.orbit.start_time;
   hybrid::Trajectory trajectory = hybrid::simulate(search.system, cycle.orbit.start,
                                                    {.from = from, .until = from + cycle.period()});

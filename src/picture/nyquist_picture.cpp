@@ -299,6 +299,9 @@ class NyquistDrawing {
         return ", A by the limit T_max";
       case DescribedPart::coulomb_friction:
         return is_normalized ? ", A in rad ω_n" : ", A in rad/s";
+      case DescribedPart::dead_band:
+      case DescribedPart::relay:
+        return ", A by the threshold";
       default:
         return ", A by half the gap, h";
     }

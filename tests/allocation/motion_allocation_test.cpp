@@ -9,6 +9,9 @@
 #include <new>
 
 #include "gearlash/motion.hpp"
+#include "general/assemble/drive_system.hpp"
+#include "hybrid/hybrid_trajectory.hpp"
+#include "model/reduced_drive.hpp"
 
 namespace {
 
@@ -67,6 +70,38 @@ TEST(Allocation, IsNotMadeByAMotionOfTheGeneralEngine) {
   const Motion motion = simulate(drive, {.until = 10.0});
   ASSERT_EQ(motion.engine(), Engine::general);
   EXPECT_EQ(allocations_of_samples(motion), 0U);
+}
+
+/// Forgets what it receives.
+struct Forgotten : hybrid::MotionObserver {
+  std::size_t pieces = 0;
+  void moved(double /*from*/, double /*to*/, const hybrid::Vector& /*before*/,
+             const hybrid::Vector& /*after*/) override {
+    ++pieces;
+  }
+};
+
+/// A search observes some 1e5 ticks a start: what a motion needs does not grow with them.
+TEST(Allocation, IsNotMadeByTheTicksOfAMotionThatIsObserved) {
+  constexpr double period = 0.01;
+  Drive drive = geared_drive();
+  drive.sampling = Sampling{.period = period, .delay = 0.4 * period};
+  const drive::ReducedDrive reduced = reduce(drive);
+  const drive::DriveSystem built = drive_system(reduced);
+  const hybrid::PreparedSystem system(built.system);
+  const hybrid::State start = drive_start(reduced, built, {});
+  const auto allocations_of_ticks = [&](std::size_t count) {
+    Forgotten observer;
+    const std::size_t before = allocations;
+    const hybrid::Observed seen =
+        observe(system, start, {.until = (static_cast<double>(count) + 0.5) * period}, observer);
+    const std::size_t made = allocations - before;
+    EXPECT_GT(seen.events, count / 4);  // rounds of ticks are jumped
+    EXPECT_GT(observer.pieces, count / 4);
+    return made;
+  };
+  allocations_of_ticks(40'000);  // enters all modes
+  EXPECT_EQ(allocations_of_ticks(40'000), allocations_of_ticks(20'000));
 }
 
 }  // namespace

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
 #include <string>
 
 #include "analysis/energy/computed_rest.hpp"
@@ -144,36 +147,76 @@ Drive random_drive(SeededDraws& draws) {
   return drive;
 }
 
-/// No drive of the region keeps swinging, and all end where rest is computed to be.
+std::string kind_of(const Drive& drive) {
+  const bool is_rigid = std::holds_alternative<RigidContact>(drive.contact);
+  const bool is_lead_lag = std::holds_alternative<LeadLagController>(drive.controller.law);
+  return std::string(is_rigid ? "rigid" : "compliant") + (is_lead_lag ? ", lead-lag" : ", PD") +
+         (drive.sensor.position == SensorPlace::motor ? " of the motor" : " of the load") +
+         (drive.motor.friction.coulomb > 0.0 ? ", dry friction" : ", viscous friction");
+}
+
+/// The load's extremes in the last tenth of the motion; empty if it was not followed to its end.
+std::optional<Bounds> extremes_of(const Drive& drive, double until) {
+  const Motion motion = simulate(drive, {.until = until, .start = Start{.load_position = 0.7}});
+  if (motion.stop() != MotionStop::reached_end) return std::nullopt;
+  Bounds extremes{infinity, -infinity};
+  for (int k = 0; k <= 400; ++k) {
+    const double load = motion.at(until * (0.9 + 0.1 * k / 400.0)).shafts.load_position;
+    extremes = {std::min(extremes.low, load), std::max(extremes.high, load)};
+  }
+  return extremes;
+}
+
+struct Count {
+  int all = 0;
+  int resting = 0;
+  int proved = 0;
+};
+
+/// No drive of the region keeps swinging, and all end where rest is computed to be. Prints which
+/// share of the drives that rest is proved. GEARLASH_DRIVES=2000 asks for more
+/// (docs/verification.md).
 TEST(PropertyAbsenceByEnergy, DrivesOfTheRegionComeToTheComputedRest) {
+  const char* asked = std::getenv("GEARLASH_DRIVES");
+  const int wanted = asked == nullptr ? 200 : std::atoi(asked);
   SeededDraws draws(1960);
+  std::map<std::string, Count> counts;
   int proved = 0;
   int dry = 0;
-  for (int i = 0; i < 600; ++i) {
+  for (int i = 0; proved < wanted; ++i) {
     const Drive drive = random_drive(draws);
     const drive::ReducedDrive reduced = reduce(drive);
-    if (!is_absent_by_energy(reduced)) continue;
+    const bool is_proved = is_absent_by_energy(reduced);
+    constexpr double until = 400.0;
+    std::optional<Bounds> end = extremes_of(drive, until);
+    Count& count = counts[kind_of(drive)];
+    ++count.all;
+    if (!end) continue;
+    constexpr double still = 2e-2 * 0.1;  // small against the gap, and still falling
+    count.resting += end->high - end->low <= still ? 1 : 0;
+    if (!is_proved) continue;
     ++proved;
+    ++count.proved;
     dry += drive.motor.friction.coulomb > 0.0 ? 1 : 0;
     SCOPED_TRACE("drive " + std::to_string(i));
     const std::optional<Rest> rest = computed_rest(reduced);
     ASSERT_TRUE(rest);
-    constexpr double until = 400.0;
-    const Motion motion = simulate(drive, {.until = until, .start = Start{.load_position = 0.7}});
-    if (motion.stop() != MotionStop::reached_end) continue;
-    double least = infinity;
-    double most = -infinity;
-    for (int k = 0; k <= 400; ++k) {
-      const double load = motion.at(until * (0.9 + 0.1 * k / 400.0)).shafts.load_position;
-      least = std::min(least, load);
-      most = std::max(most, load);
+    const auto has_arrived = [&] {
+      return end->high - end->low <= still && end->low >= rest->load.low - still &&
+             end->high <= rest->load.high + still;
+    };
+    // A load that hardly overcomes its friction creeps through the gap for long.
+    for (double longer = 4.0 * until; !has_arrived() && longer <= 64.0 * until; longer *= 4.0) {
+      end = extremes_of(drive, longer);
+      ASSERT_TRUE(end);
     }
-    EXPECT_LE(most - least, 2e-2 * 0.1);  // small against the gap, and still falling
-    EXPECT_GE(least, rest->load.low - 2e-3);
-    EXPECT_LE(most, rest->load.high + 2e-3);
+    EXPECT_TRUE(has_arrived()) << end->low << " … " << end->high;
   }
-  EXPECT_GT(proved, 100);
-  EXPECT_GT(dry, 20);
+  for (const auto& [kind, count] : counts) {
+    std::printf("%-46s %4d drives, %4d rest, %4d proved\n", kind.c_str(), count.all, count.resting,
+                count.proved);
+  }
+  EXPECT_GT(dry, wanted / 20);
 }
 
 TEST(AbsenceByEnergy, IsTheVerdictWithoutASearch) {

@@ -255,6 +255,27 @@ struct RandomDrive {
   double swing = 0.0;  ///< s, a period of the loop, about
 };
 
+/// An armature with inductance, undamped springs, a hanging load, a tachometer, PD control without
+/// a filter.
+void add_rarer_parts(SeededDraws& draws, Drive& drive) {
+  const double time_constant = draws.log_uniform(0.01, 0.3);
+  if (draws.happens(0.25)) {
+    drive.motor.kind = ArmatureControl{.torque_constant = 1.0,
+                                       .back_emf_constant = draws.uniform(0.0, 0.2),
+                                       .resistance = 1.0,
+                                       .inductance = time_constant};
+  }
+  if (draws.happens(0.2)) drive.contact = CompliantContact{draws.log_uniform(5.0, 100.0), 0.0};
+  if (draws.happens(0.15)) {
+    drive.reference = 0.0;
+    drive.load.gravity = draws.uniform(0.0, 0.3);
+    drive.load.gravity_angle = -0.5 * M_PI;  // it hangs: a spring, no torque at rest
+  }
+  const bool differentiates = draws.happens(0.3);
+  if (differentiates) std::get<PID>(drive.controller.law).filter = 0.0;
+  if (drive.sampling && draws.happens(0.25)) drive.sampling->speed_by_differences = false;
+}
+
 /// PD and PID, continuous or sampled, with dry friction, encoders and restitution.
 RandomDrive random_drive(SeededDraws& draws) {
   Drive drive;
@@ -289,6 +310,7 @@ RandomDrive random_drive(SeededDraws& draws) {
     drive.sensor.encoder.resolution.reset();  // may slide along an edge
   }
   drive.reference = draws.uniform(-0.3, 0.3);
+  add_rarer_parts(draws, drive);
   return {drive, 2.0 * M_PI};
 }
 

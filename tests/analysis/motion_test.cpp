@@ -168,6 +168,18 @@ TEST(Motion, StopsAfterSoManyEvents) {
   }
 }
 
+/// Faces that a load torque keeps together have no events, but steps that are kept.
+TEST(Motion, StopsAfterSoManySteps) {
+  Drive drive = limited(general_drive());
+  drive.sensor.position = SensorPlace::motor;
+  drive.load_torque = SineSignal{.mean = 10.0, .amplitude = 1.0, .frequency = 6.0, .phase = 0.0};
+  const Motion motion = simulate(drive, {.until = 1e9});
+  EXPECT_EQ(motion.stop(), MotionStop::step_limit);
+  EXPECT_EQ(motion.stop_text(), "after " + std::to_string(most_steps_of_a_motion) + " steps");
+  EXPECT_LT(motion.events().size(), 10U);
+  EXPECT_EQ(std::string(name_of(motion.stop())), "step_limit");
+}
+
 TEST(Motion, BooksOfItsEnergyBalance) {
   const std::optional<EnergyBooks> books = simulate(sample_drive(0.3), {.until = 3.0}).energy();
   ASSERT_TRUE(books.has_value());

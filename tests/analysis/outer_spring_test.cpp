@@ -6,7 +6,6 @@
 
 #include "analysis/ceiling/ceiling.hpp"
 #include "analysis/energy/absence_by_energy.hpp"
-#include "analysis/energy/computed_rest.hpp"
 #include "base/seeded_draws.hpp"
 #include "gearlash/analyse.hpp"
 #include "model/reduced_drive.hpp"
@@ -69,17 +68,17 @@ TEST(OracleCeilingWithGravity, HasTheStiffnessesOfLoopAndGravity) {
   EXPECT_FALSE(ceiling_of(weighed_servo(1.0, -9.5)).load);  // it tips over
 }
 
-TEST(CeilingWithGravity, SaysWhereNoneIsKnown) {
-  ReducedDrive sampled = weighed_servo(10.0, 5.0);
-  sampled.sampling = drive::Sampling{.period = 1e-3};
-  EXPECT_THAT(ceiling_of(sampled).reason, ::testing::HasSubstr("gravity under a sampled"));
-  sampled.gravity = {};
-  EXPECT_TRUE(ceiling_of(sampled).load);
+TEST(CeilingWithGravity, CountsTheWeightAgainstTheTorqueLimit) {
   ReducedDrive limited = weighed_servo(10.0, 5.0);
+  limited.load_torque = -3.0;
   limited.torque_limit = 1e6;
-  EXPECT_FALSE(ceiling_of(limited).meets_limit);
-  limited.gravity = {};
-  EXPECT_TRUE(ceiling_of(limited).meets_limit);
+  EXPECT_TRUE(ceiling_of(limited).meets_limit.value());
+  // At rest the motor carries 9/14 of the torque: the rest is the spring of gravity.
+  const double effort = *ceiling_of(limited).effort;
+  limited.torque_limit = (effort + 3.0 * 9.0 / 14.0) * (1.0 + 1e-5);
+  EXPECT_TRUE(ceiling_of(limited).meets_limit.value());
+  limited.torque_limit = (effort + 3.0 * 9.0 / 14.0) * (1.0 - 1e-5);
+  EXPECT_FALSE(ceiling_of(limited).meets_limit.value());
 }
 
 /// Shafts joined by a spring and a damper: a linear loop, whose static response bounds from below.
@@ -134,16 +133,12 @@ TEST(AbsenceByEnergyWithGravity, IsNotProvedWhereALoadWouldTipOverAlone) {
   EXPECT_FALSE(is_absent_by_energy(drive));
 }
 
-TEST(ComputedRest, IsLeftToTheSearchWithGravity) {
-  EXPECT_FALSE(computed_rest(weighed_servo(10.0, 5.0)));
-}
-
 Drive arm() {
   Drive drive;
   drive.motor = {.kind = TorqueControl{}, .inertia = 2e-4, .friction = {.viscous = 1e-3}};
   drive.gearbox = {.ratio = 50.0, .backlash = 0.0035};
   drive.load = {.inertia = 0.2, .friction = {.viscous = 0.5}};
-  drive.controller.law = PID{.proportional = 2.0};
+  drive.controller = {.law = PID{.proportional = 100.0}, .shaft = GainShaft::load};
   return drive;
 }
 

@@ -80,8 +80,8 @@ TEST(DescribeCommand, BadInputIsToldAtOnce) {
   EXPECT_EQ(several.status, 2);
   EXPECT_EQ(several.err,
             "gearlash: --plot = phase=a.svg: must be nyquist=FILE\n"
-            "gearlash: --part = wind: must be gap, elastic-gap, torque-limit or "
-            "coulomb-friction\n");
+            "gearlash: --part = wind: must be gap, elastic-gap, torque-limit, "
+            "coulomb-friction, dead-band or relay\n");
   EXPECT_EQ(describe(of_servo({"--part", "gap"})).err,
             "gearlash: --part = gap: must come with --plot: it chooses what to draw\n");
   const Outcome absent = describe(of_servo({"--plot", "nyquist=a.svg", "--part", "torque-limit"}));

@@ -35,13 +35,15 @@ friction = "0.01 N m s/rad"
 
 constexpr const char* proportional = R"([controller]
 kind = "P"
-proportional = "0.5 N m/rad"
+shaft = "load"
+proportional = "25 N m/rad"
 )";
 
 constexpr const char* with_speed = R"([controller]
 kind = "PD"
-proportional = "0.5 N m/rad"
-derivative = "0.1 N m s/rad"
+shaft = "load"
+proportional = "25 N m/rad"
+derivative = "5 N m s/rad"
 )";
 
 class DriveCommand : public ::testing::Test {

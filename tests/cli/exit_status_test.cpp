@@ -29,8 +29,7 @@ TEST(ExitStatus, ThreeForAPictureThatFailsWhoseAnswerIsPrinted) {
   const std::string plot = quoted((scratch / "a.svg").string());
   for (const auto& [command, answer] :
        {std::pair("limit-cycle" + sheet + " --plot phase=" + plot, "hunts: "),
-        std::pair("limit-cycle examples/robot-joint.toml --plot phase=" + plot,
-                  "hunts irregularly"),
+        std::pair("limit-cycle examples/robot-joint.toml --plot phase=" + plot, "hunts: the motor"),
         std::pair("describe" + sheet + " --plot nyquist=" + plot, "exact: hunts"),
         std::pair("compare" + sheet + " --sensor load --plot time=" + plot, "  sensor on"),
         std::pair("simulate" + sheet + " --plot phase=" + plot, "time_s,"),

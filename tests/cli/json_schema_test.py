@@ -24,7 +24,7 @@ COMMANDS = [
     ["limit-cycle", "examples/elinco-fd162.toml", "--sensitivities", "--margins"],
     ["limit-cycle", *SERVO, "--sensitivities", "--margins"],
     ["limit-cycle", "examples/normalized.toml"],
-    ["limit-cycle", "examples/robot-joint.toml"],
+    ["limit-cycle", "examples/robot-joint.toml", "--specification", "3 deg"],
     ["limit-cycle", "examples/elinco-fd162.toml", "--set", "contact.stiffness=5 N m/rad"],
     ["limit-cycle", "examples/elinco-fd162.toml", "--set", "reference.kind=sine", "--set",
      "reference.amplitude=1 deg", "--set", "reference.frequency=1 Hz"],
@@ -50,6 +50,7 @@ COMMANDS = [
      "--yield", "95 %"],
     ["show", *SERVO],
     ["show", "examples/robot-joint.toml"],
+    ["show", "examples/dynamixel-joint.toml"],
     ["show", "examples/telescope-axis.toml"],
 ]
 

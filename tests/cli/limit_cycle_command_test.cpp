@@ -16,6 +16,7 @@ namespace {
 
 using nlohmann::json;
 using test::Outcome;
+using test::run_shell;
 using test::run_tool;
 using test::with_sample_servo;
 using testing::HasSubstr;
@@ -144,6 +145,26 @@ TEST(LimitCycleCommand, RefusesATimeLimitThatIsNone) {
   EXPECT_THAT(run.err, HasSubstr("--time-limit = 0 s: must be positive, in s"));
 }
 
+/// The search of a slow sine takes some 130 MB if it may.
+TEST(LimitCycleCommand, KeepsItsMemoryLimit) {
+  if (!test::may_limit_memory) GTEST_SKIP() << "sanitizers reserve more addresses than permitted";
+  const std::string search =
+      "ulimit -v 120000; \"$GEARLASH\" limit-cycle tests/regression/data/slow-sine.toml --brief";
+  EXPECT_EQ(run_shell(search).status, 3);
+  const Outcome limited = run_shell(search + " --memory-limit '100 MB'");
+  EXPECT_EQ(limited.status, 0) << limited.err;
+  EXPECT_THAT(limited.out, HasSubstr("forced oscillation"));
+}
+
+TEST(LimitCycleCommand, RefusesAMemoryLimitThatIsNone) {
+  for (const std::string size : {"much", "-1 GB", "99 MB", "0"}) {
+    const Outcome run =
+        run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--memory-limit", size});
+    EXPECT_EQ(run.status, 2) << size;
+    EXPECT_THAT(run.err, HasSubstr("must be a size of at least 100 MB")) << run.err;
+  }
+}
+
 TEST(LimitCycleCommand, BouncingContactHasItsCyclesInJsonToo) {
   const json printed = parsed(
       run_tool(with_sample_servo({"limit-cycle", "--format", "json", "--restitution", "0.3"})));
@@ -229,6 +250,52 @@ TEST(LimitCycleCommand, UnstableCyclesAreTheFootnoteOfTheStableOnes) {
 TEST(LimitCycleCommand, TextHasNoEscapesWhereItIsNoTerminal) {
   EXPECT_THAT(run_tool({"limit-cycle", "examples/elinco-fd162.toml"}).out,
               testing::Not(HasSubstr("\x1b")));
+}
+
+TEST(LimitCycleCommand, StatesTheWidestBacklashThatMeetsASpecification) {
+  const auto answer = parsed(run_tool(
+      with_sample_servo({"limit-cycle", "--specification", "0.1 rad", "--format", "json"})));
+  EXPECT_EQ(answer["specification"]["amplitude"], 0.1);
+  EXPECT_EQ(answer["specification"]["is_met"], false);
+  const double widest = answer["specification"]["widest_backlash"];
+  EXPECT_NEAR(widest, 0.1 / 0.8542, 1e-4);
+  const auto met =
+      parsed(run_tool({"limit-cycle", "--damping", "0.19", "--inertia-ratio", "2",
+                       "--friction-ratio", "0.1", "--backlash", std::to_string(0.999 * widest),
+                       "--specification", "0.1 rad", "--format", "json"}));
+  EXPECT_EQ(met["specification"]["is_met"], true);
+  EXPECT_TRUE(
+      parsed(run_tool(with_sample_servo({"limit-cycle", "--format", "json"})))["specification"]
+          .is_null());
+  const Outcome text = run_tool(with_sample_servo({"limit-cycle", "--specification", "0.1 rad"}));
+  EXPECT_THAT(text.out, HasSubstr("every backlash up to 0.117 rad"));
+  const Outcome bad = run_tool(with_sample_servo({"limit-cycle", "--specification", "0 rad"}));
+  EXPECT_EQ(bad.status, 2);
+  EXPECT_THAT(bad.err, HasSubstr("--specification"));
+}
+
+TEST(LimitCycleCommand, ComparesMeasuredHuntingWithWhatItFinds) {
+  const auto of_period = parsed(run_tool(
+      with_sample_servo({"limit-cycle", "--measured", "0.25 rad, 6.5 s", "--format", "json"})));
+  const json& measured = of_period["measured"];
+  EXPECT_EQ(measured["amplitude"], 0.25);
+  ASSERT_EQ(measured["motions"].size(), 1U);
+  EXPECT_EQ(measured["motions"][0]["list"], "cycles");
+  EXPECT_NEAR(measured["motions"][0]["amplitude_share"], 0.25 / 0.241611108 - 1.0, 1e-8);
+  EXPECT_NEAR(measured["motions"][0]["frequency_share"], 6.456205 / 6.5 - 1.0, 1e-6);
+  const auto of_frequency = parsed(run_tool(
+      with_sample_servo({"limit-cycle", "--measured", "12 deg, 0.2 Hz", "--format", "json"})));
+  EXPECT_NEAR(of_frequency["measured"]["frequency"], 0.2, 1e-15);
+  EXPECT_TRUE(parsed(run_tool(with_sample_servo({"limit-cycle", "--format", "json"})))["measured"]
+                  .is_null());
+  const Outcome text =
+      run_tool(with_sample_servo({"limit-cycle", "--measured", "0.25 rad, 6.5 s"}));
+  EXPECT_THAT(text.out, HasSubstr("amplitude +3.47 %, frequency -0.674 %"));
+  for (const char* bad : {"0.25 rad", "0.25 rad, 3 kg", "-1 rad, 1 Hz", "1 rad, 0 Hz"}) {
+    const Outcome refused = run_tool(with_sample_servo({"limit-cycle", "--measured", bad}));
+    EXPECT_EQ(refused.status, 2) << bad;
+    EXPECT_THAT(refused.err, HasSubstr("--measured")) << bad;
+  }
 }
 
 TEST(LimitCycleCommand, ReportsMarginsOnRequestAndSaysHow) {

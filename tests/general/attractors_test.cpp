@@ -190,6 +190,21 @@ TEST(OracleAttractors, AnUnstableLoopRunsAway) {
   EXPECT_FALSE(found.rest);
 }
 
+/// The loop is unstable, and a torque limit bounds its motion: however narrow the gap is beside
+/// that, the motion does not run away.
+TEST(OracleAttractors, ATorqueLimitBoundsMotionWhateverTheGap) {
+  ReducedDrive drive = servo(0.19, 2.0, 0.1);
+  drive.controller = ProportionalDerivative{1.0, -0.5};
+  drive.torque_limit = 0.3;
+  for (const double gap : {1e-9, 1e-11, 1e-13}) {
+    drive.backlash = gap;
+    const AttractorSearch found = find_attractors(drive);
+    EXPECT_EQ(found.count(MotionEnd::cycle), found.outcomes.size()) << gap;
+    ASSERT_EQ(found.cycles.size(), 1U) << gap;
+    EXPECT_NEAR(found.cycles[0].amplitude, 0.444043, 1e-5) << gap;  // that without a gap
+  }
+}
+
 /// s² + 0.38 s + 1 at s = 0.5i.
 TEST(OracleAttractors, WithoutEventsASineIsAnsweredAsTheLinearLoopDoes) {
   ReducedDrive drive = servo(0.19, 2.0, 0.1);

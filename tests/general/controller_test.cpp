@@ -53,6 +53,11 @@ TEST(OracleController, HasTheTransferFunctionOfItsName) {
     expect_transfer(filtered, s, 3.0 + 2.0 / s + 0.7 * s / (0.05 * s + 1.0), 0.0);
     const Cascade cascade{4.0, 0.6, 1.5, 0.0};
     expect_transfer(cascade, s, 4.0 * (0.6 + 1.5 / s), 0.6 + 1.5 / s);
+    for (const double integral : {0.0, 1.5}) {
+      const Cascade of_filtered_speed{4.0, 0.6, integral, 0.0, 0.05};
+      const Complex speed = 0.6 + integral / s;
+      expect_transfer(of_filtered_speed, s, 4.0 * speed, speed / (0.05 * s + 1.0));
+    }
     const LeadLag lead{2.0, 1.5, 9.0};
     expect_transfer(lead, s, 2.0 * (s / 1.5 + 1.0) / (s / 9.0 + 1.0), 0.0);
     const ErrorTransfer any{{{0.0, 2.0, 1.0, 3.0}, {0.5, 4.0, 1.0, 7.0}}};

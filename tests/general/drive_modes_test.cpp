@@ -46,6 +46,33 @@ TEST(DriveModes, AreNumberedWithoutGaps) {
   }
 }
 
+/// With every automaton at once: 7 · 25 or 25 + 2 · 9 states of contact and frictions, and three of
+/// each of six others.
+TEST(DriveModes, OfEveryAutomatonAreNumberedAndSound) {
+  for (const Contact& contact : {Contact(RigidContact{.restitution = 0.5}), Contact(damped)}) {
+    ReducedDrive drive = full_drive(contact);
+    drive.motor.friction.stribeck_speed = drive.load.friction.stribeck_speed = 0.3;
+    drive.winding = {.time_constant = 1e-3, .back_emf = 0.1, .torque_limit = 7.0};
+    drive.error_shape = {.begins = 0.2, .ends = 0.1, .inner_gain = 0.0, .jumps = true};
+    drive.feedforward = {.torque = 0.1, .half_gap = 0.005, .take_up_time = 0.1};
+    drive.reference = Sine{.amplitude = 1.0, .frequency = 2.0};
+    drive.sampling = Sampling{.period = 1e-3, .delay = 2.5e-3};
+    const DriveSystem built = drive_system(drive);
+    const bool is_rigid = std::holds_alternative<RigidContact>(contact);
+    ASSERT_EQ(built.modes.count(), (is_rigid ? 25U + 2U * 9U : 7U * 25U) * 729U);
+    for (std::size_t i = 0; i < built.modes.count(); ++i) {
+      ASSERT_EQ(built.modes.index_of(built.modes.mode(i)), i);
+    }
+    for (std::size_t i = 0; i < built.modes.count(); i += 97) {
+      ASSERT_TRUE(hybrid::faults_of_mode(built.system, i).empty()) << text_of(built.modes.mode(i));
+    }
+  }
+  const DriveModes few(full_drive(damped));
+  DriveMode foreign = few.mode(0);
+  foreign.error = Branch::forward;
+  EXPECT_FALSE(few.has(foreign));
+}
+
 TEST(DriveModes, RigidFacesTogetherHaveNoShaftsThatMoveApart) {
   const DriveModes modes(full_drive(RigidContact{}));
   EXPECT_TRUE(modes.has({ContactState::forward, FrictionState::sticking, FrictionState::sticking}));

@@ -51,34 +51,37 @@ struct Sampled {
   double delay;
   double resolution;
   double limit;
+  double resolution_of_speed = resolution;
 };
 
 /// By hand: u = K (r − y) − D (y − y_last)/T, held, given out after the delay.
 TEST(OracleSampledDrive, IsARecursionFromSampleToSample) {
   constexpr double period = 0.1;
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  const std::array cases = {Sampled{0.0, 0.0, infinite},    Sampled{0.03, 0.0, infinite},
-                            Sampled{period, 0.0, infinite}, Sampled{0.0, 0.01, infinite},
-                            Sampled{0.03, 0.02, 2.0},       Sampled{period, 0.02, 1.5},
-                            Sampled{0.13, 0.0, infinite},   Sampled{3.0 * period, 0.0, infinite},
-                            Sampled{0.25, 0.023, 2.0},      Sampled{2.0 * period, 0.02, 1.5}};
-  for (const auto& [delay, resolution, limit] : cases) {
+  const std::array cases = {Sampled{0.0, 0.0, infinite},      Sampled{0.03, 0.0, infinite},
+                            Sampled{period, 0.0, infinite},   Sampled{0.0, 0.01, infinite},
+                            Sampled{0.03, 0.02, 2.0},         Sampled{period, 0.02, 1.5},
+                            Sampled{0.13, 0.0, infinite},     Sampled{3.0 * period, 0.0, infinite},
+                            Sampled{0.25, 0.023, 2.0},        Sampled{2.0 * period, 0.02, 1.5},
+                            Sampled{0.03, 0.023, 2.0, 0.0071}};
+  for (const auto& [delay, resolution, limit, resolution_of_speed] : cases) {
     ReducedDrive drive = lone_motor();
     drive.controller = ProportionalDerivative{4.0, 3.0};
     drive.sampling = Sampling{.period = period, .delay = delay};
     drive.sensing.resolution = resolution;
-    drive.sensing.resolution_of_speed = resolution;
+    drive.sensing.resolution_of_speed = resolution_of_speed;
     drive.torque_limit = limit;
     Motor motor{0.2, 0.3};
     const auto motion = run(drive, {.motor_position = 0.2, .motor_speed = 0.3}, 20.0);
-    double last = rounded(0.2 - period * 0.3, resolution);
+    double last = rounded(0.2 - period * 0.3, resolution_of_speed);
     double given = 0.0;
     std::deque<double> waiting(static_cast<std::size_t>(delay / period), 0.0);
     const double rest = delay - static_cast<double>(waiting.size()) * period;
     for (int sample = 0; sample < 200; ++sample) {
       const double reading = rounded(motor.position, resolution);
-      const double asked = 4.0 * (1.0 - reading) - 3.0 * (reading - last) / period;
-      last = reading;
+      const double counted = rounded(motor.position, resolution_of_speed);
+      const double asked = 4.0 * (1.0 - reading) - 3.0 * (counted - last) / period;
+      last = counted;
       waiting.push_back(asked);
       motor.coast(given, rest);
       given = std::clamp(waiting.front(), -limit, limit);
@@ -88,6 +91,23 @@ TEST(OracleSampledDrive, IsARecursionFromSampleToSample) {
       ASSERT_NEAR(numbers[motor_position], motor.position, 2e-12) << delay << ' ' << sample;
       ASSERT_NEAR(numbers[motor_speed], motor.speed, 2e-12) << delay << ' ' << sample;
     }
+  }
+}
+
+/// By hand: u = K (r − y) − D v with the speed of the sample, whatever the steps of the position.
+TEST(OracleSampledDrive, ATachometerReadsTheSpeedItself) {
+  constexpr double period = 0.1;
+  ReducedDrive drive = lone_motor();
+  drive.controller = ProportionalDerivative{4.0, 3.0};
+  drive.sampling = Sampling{.period = period, .speed_by_differences = false};
+  drive.sensing.resolution = drive.sensing.resolution_of_speed = 0.023;
+  Motor motor{0.2, 0.3};
+  const auto motion = run(drive, {.motor_position = 0.2, .motor_speed = 0.3}, 5.0);
+  for (int sample = 0; sample < 50; ++sample) {
+    motor.coast(4.0 * (1.0 - rounded(motor.position, 0.023)) - 3.0 * motor.speed, period);
+    const hybrid::Vector numbers = motion.at(period * (sample + 1)).numbers;
+    ASSERT_NEAR(numbers[motor_position], motor.position, 2e-12) << sample;
+    ASSERT_NEAR(numbers[motor_speed], motor.speed, 2e-12) << sample;
   }
 }
 
@@ -101,26 +121,45 @@ TEST(OracleSampledDrive, AntiWindupIsARecursionFromSampleToSample) {
   const std::array methods = {std::pair{Discretization::forward, 0.0},
                               std::pair{Discretization::tustin, 0.5},
                               std::pair{Discretization::backward, 1.0}};
+  // However late the torque takes effect, the computer knows at once what it may not ask for.
+  struct Case {
+    Discretization method;
+    double share;
+    double delay;
+  };
+  std::vector<Case> cases;
   for (const auto& [method, share] : methods) {
+    for (const double delay : {0.0, 0.03, period, 0.13, 3.0 * period}) {
+      cases.push_back({method, share, delay});
+    }
+  }
+  for (const auto& [method, share, delay] : cases) {
+    SCOPED_TRACE(delay);
     ReducedDrive drive = lone_motor();
     drive.controller = ProportionalIntegralDerivative{
         .proportional = 4.0, .integral = 1.5, .derivative = 3.0, .tracking_time = tracking_time};
-    drive.sampling = Sampling{.period = period, .method = method};
+    drive.sampling = Sampling{.period = period, .delay = delay, .method = method};
     drive.torque_limit = limit;
     Motor motor{0.2, 0.3};
     const auto motion = run(drive, {.motor_position = 0.2, .motor_speed = 0.3}, 20.0);
     double last = 0.2 - period * 0.3;
     double integral = 0.0;
     double beyond = 0.0;  // of what was asked for last
+    double given = 0.0;
+    std::deque<double> waiting(static_cast<std::size_t>(delay / period), 0.0);
+    const double rest = delay - static_cast<double>(waiting.size()) * period;
     for (int sample = 0; sample < 190; ++sample) {
       const double error = 1.0 - motor.position;
       const double asked =
           integral + (4.0 + share * period * 1.5) * error - 3.0 * (motor.position - last) / period;
       integral += period * 1.5 * error - period / tracking_time * beyond;
       last = motor.position;
-      const double given = std::clamp(asked, -limit, limit);
-      beyond = asked - given;
-      motor.coast(given, period);
+      waiting.push_back(std::clamp(asked, -limit, limit));
+      beyond = asked - waiting.back();
+      motor.coast(given, rest);
+      given = waiting.front();
+      waiting.pop_front();
+      motor.coast(given, period - rest);
       const hybrid::Vector numbers = motion.at(period * (sample + 1)).numbers;
       ASSERT_NEAR(numbers[motor_position], motor.position, 2e-12) << sample;
       ASSERT_NEAR(numbers[motor_speed], motor.speed, 2e-12) << sample;

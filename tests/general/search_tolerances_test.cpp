@@ -1,7 +1,10 @@
 // Every tolerance of a search does what its line says.
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "general/attractors/attractors.hpp"
+#include "general/attractors/motion_watch.hpp"
 
 namespace gearlash::drive {
 namespace {
@@ -38,7 +41,54 @@ TEST(SearchTolerances, DefaultsFindTheCycleAndTheRest) {
 TEST(SearchTolerances, RunningAway) {
   AttractorOptions options = few_starts();
   options.tolerances.far_away = 1e-6;
+  EXPECT_EQ(find_attractors(hunting, options).count(MotionEnd::diverges), 0U);
+  options.tolerances.far_grown = 1e-6;
   EXPECT_EQ(find_attractors(hunting, options).count(MotionEnd::diverges), 2U);
+}
+
+/// What a load did that swung about 0 with these amplitudes.
+Watch swung(const std::vector<double>& amplitudes) {
+  Watch watch;
+  double time = 0.0;
+  double way = 1.0;
+  for (const double amplitude : amplitudes) {
+    watch.load.push_back({time, way * amplitude});
+    time += 1.0;
+    way = -way;
+  }
+  watch.load.push_back({time, 0.0});
+  return watch;
+}
+
+/// As the integral of a limited torque winds up: ever larger, by as much each time.
+TEST(SearchTolerances, SwingsThatGrowFarBeyondTheDriveRunAway) {
+  const SearchSetting setting = search_setting(hunting, {});
+  ASSERT_EQ(setting.farthest_length, 0.3);
+  std::vector<double> growing;
+  for (int i = 0; i < 12; ++i) growing.push_back(100.0 + 10.0 * i);
+  const auto runs_away = [&](const std::vector<double>& amplitudes, const SearchSetting& of) {
+    Watch watch = swung(amplitudes);
+    watch.here = of.start({});
+    return has_run_away(watch, of, {});
+  };
+  EXPECT_TRUE(runs_away(growing, setting));  // the last swing: 210 + 200 > 1e3 · 0.3
+  for (const double nearer : {0.7, 0.1}) {
+    std::vector<double> small = growing;
+    for (double& amplitude : small) amplitude *= nearer;
+    EXPECT_FALSE(runs_away(small, setting)) << nearer;
+  }
+  EXPECT_FALSE(runs_away({growing.end() - 9, growing.end()}, setting));  // too few
+  std::vector<double> slowing = growing;
+  slowing.back() -= 5.0;
+  EXPECT_FALSE(runs_away(slowing, setting));
+  std::vector<double> shrunk = growing;
+  shrunk[6] = 60.0;
+  EXPECT_FALSE(runs_away(shrunk, setting));
+  ReducedDrive limited = hunting;
+  limited.torque_limit = 1.0;
+  EXPECT_FALSE(runs_away(growing, search_setting(limited, {})));  // 410 < 1e3 · 1 N m/(1 N m/rad)
+  limited.controller = ErrorTransfer{{{1.0}, {1.0, 1.0}}};  // lets no leap of the error through
+  EXPECT_FALSE(runs_away(growing, search_setting(limited, {})));
 }
 
 TEST(SearchTolerances, Rest) {
@@ -54,6 +104,30 @@ TEST(SearchTolerances, Rest) {
     strict.budget.patience = 20.0;
     strict.tolerances.rest.*limit = 0.0;
     EXPECT_EQ(find_attractors(fading, strict).count(MotionEnd::rest), 0U);
+  }
+}
+
+/// A drive that has stood longer than it had moved: integral action creeps only where nothing is
+/// stored at rest, that is without stiction on either shaft.
+TEST(SearchTolerances, CreepingNeedsStandstillAndNoStiction) {
+  ReducedDrive drive = hunting;
+  drive.motor.friction.coulomb = drive.motor.friction.breakaway = 0.1;
+  drive.load.friction.coulomb = drive.load.friction.breakaway = 0.1;
+  const auto creeps = [](const ReducedDrive& of, double stood, double speed) {
+    const SearchSetting setting = search_setting(of, {});
+    Watch watch{.here = setting.start({0.0, speed, 0.0, speed})};
+    watch.load = {{0.0, 1.0}, {4.0, 0.0}, {4.0 + stood, 0.0}};
+    watch.motor = {{0.0, 1.0}, {5.0, 0.0}, {4.0 + stood, 0.0}};
+    watch.time = 4.0 + stood;
+    return is_creeping(watch, setting, {});
+  };
+  EXPECT_TRUE(creeps(drive, 7.0, 0.0));
+  EXPECT_FALSE(creeps(drive, 7.0, 0.01));  // it moves
+  EXPECT_FALSE(creeps(drive, 5.5, 0.0));   // the motor has moved for 5 s and stood for 4.5 s
+  for (Shaft ReducedDrive::*shaft : {&ReducedDrive::motor, &ReducedDrive::load}) {
+    ReducedDrive with_stiction = drive;
+    (with_stiction.*shaft).friction.breakaway = 0.2;
+    EXPECT_FALSE(creeps(with_stiction, 7.0, 0.0));
   }
 }
 

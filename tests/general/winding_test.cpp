@@ -1,6 +1,7 @@
 // A winding whose current lags behind its voltage, beside its equations and its limit.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -100,6 +101,68 @@ TEST(PropertyWinding, AVeryFastOneIsViscousFriction) {
         .numbers[motor_position];
   };
   EXPECT_NEAR(position(fast), position(at_once), 1e-6);
+}
+
+/// A motor by itself that is turned up to speed: its current is at the limit until the back-EMF
+/// leaves no more than that of the voltage.
+TEST(OracleCurrentLimit, HoldsTheTorqueUntilTheBackEmfTakesTheRest) {
+  constexpr double back_emf = 0.4;
+  constexpr double voltage_torque = 12.0;  // the torque of the voltage at standstill
+  constexpr double limit = 3.0;
+  for (const double way : {1.0, -1.0}) {
+    ReducedDrive drive = free_motor(0.0);
+    drive.motor.friction.viscous = back_emf;
+    drive.winding.torque_limit = limit;
+    drive.controller = ProportionalDerivative{.proportional = 1.0};
+    drive.torque_limit = voltage_torque;
+    drive.reference = way * 1e4;
+    const DriveSystem built = drive_system(drive);
+    const auto motion = simulate(built.system, drive_start(drive, built, {}), {.until = 1.0});
+    const double rate = limit / 0.02;
+    const double leaves = (voltage_torque - limit) / back_emf / rate;
+    const auto speed = [&](double time) {
+      const double last = voltage_torque / back_emf;
+      return time < leaves
+                 ? rate * time
+                 : last + (rate * leaves - last) * std::exp(-back_emf / 0.02 * (time - leaves));
+    };
+    for (const double time : {0.5 * leaves, leaves, 1.3 * leaves, 1.0}) {
+      EXPECT_NEAR(motion.at(time).numbers[motor_speed], way * speed(time), 1e-11) << time;
+    }
+    EXPECT_EQ(built.modes.mode(motion.at(0.5 * leaves).mode).current,
+              way > 0.0 ? TorqueState::highest : TorqueState::lowest);
+    EXPECT_EQ(built.modes.mode(motion.end().mode).current, TorqueState::linear);
+  }
+}
+
+/// With a lag the torque rises to the limit, stays there, and leaves it as the voltage does.
+TEST(OracleCurrentLimit, HoldsTheTorqueOfAWindingThatLags) {
+  ReducedDrive drive = free_motor(3e-3);
+  drive.winding.torque_limit = 4.0;
+  const DriveSystem built = drive_system(drive);
+  constexpr double until = 0.5;
+  const auto motion = simulate(built.system, drive_start(drive, built, {}), {.until = until});
+  constexpr int steps = 500'000;
+  constexpr double step = until / steps;
+  Numbers now{};
+  double highest = 0.0;
+  for (int i = 0; i < steps; ++i) {
+    const Numbers slope = slope_of(drive, now);
+    Numbers middle = now;
+    for (std::size_t k = 0; k < 3; ++k) middle[k] += 0.5 * step * slope[k];
+    middle[2] = std::clamp(middle[2], -4.0, 4.0);
+    const Numbers later = slope_of(drive, middle);
+    for (std::size_t k = 0; k < 3; ++k) now[k] += step * later[k];
+    now[2] = std::clamp(now[2], -4.0, 4.0);
+    highest = std::max(highest, now[2]);
+    if (i % 50'000 == 0) {
+      const hybrid::Vector found = motion.at((i + 1) * step).numbers;
+      EXPECT_NEAR(found[motor_position], now[0], 1e-7) << i;
+      EXPECT_NEAR(found[built.at.winding], now[2], 1e-4) << i;
+    }
+  }
+  EXPECT_EQ(highest, 4.0);
+  EXPECT_GE(motion.events().size(), 4U);
 }
 
 }  // namespace

@@ -43,5 +43,26 @@ TEST(FastDecays, AreThoseWithTheWidestGap) {
   EXPECT_NEAR(state[2], 4.0, 1e-12);
 }
 
+/// A shaft that sticks at 0.0175 rad beside the filter of a controller, whose number is some
+/// thousand times as large.
+TEST(FastDecays, DoNotMoveWhatHasNoPartInThem) {
+  AffineFlow flow{Matrix::Zero(4, 4), Vector::Zero(4)};
+  flow.matrix << 0.0, 1.0, 0.0, 0.0,  // position
+      0.0, 0.0, 0.0, 0.0,             // speed
+      -3.2e4, -17.0, -200.0, 0.3,     // filter
+      -10.0, 0.0, 0.0, 0.0;           // integral
+  const auto decays = fast_decays(flow);
+  ASSERT_TRUE(decays);
+  Vector state(4);
+  state << 0.0175, 0.0, -2.8, 3.1;
+  for (int i = 0; i < 1000; ++i) {
+    state[3] += 0.01;
+    decays->put_at_rest(state);
+  }
+  EXPECT_EQ(state[0], 0.0175);
+  EXPECT_EQ(state[1], 0.0);
+  EXPECT_NEAR(state[2], (-3.2e4 * state[0] + 0.3 * state[3]) / 200.0, 1e-3);
+}
+
 }  // namespace
 }  // namespace gearlash::hybrid

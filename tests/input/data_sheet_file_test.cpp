@@ -260,13 +260,16 @@ restitution = 1.5
 )toml"),
       ElementsAre(
           "s.toml:1:2: moter = [moter]: is not a section: must be one of servo, motor, gearbox, "
-          "load, contact, sensor, controller, sampling, reference, load_torque, loop (did you mean "
+          "load, contact, sensor, controller, sampling, reference, load_torque, loop, joint, "
+          "actuator (did you mean "
           "motor?)",
           "s.toml:2:1: motor.back_emf_constant is missing: must be voltage per angular "
           "speed, such as V s/rad",
           "s.toml:4:1: motor.inertai = 3 kg m2: is not a key of [motor]: must be one of kind, "
           "inertia, friction, torque_constant, back_emf_constant, speed_constant, resistance, "
-          "inductance, coulomb, no_load_current, breakaway, voltage_limit (did you mean inertia?)",
+          "inductance, coulomb, no_load_current, breakaway, stribeck_speed, voltage_limit, "
+          "current_limit (did you "
+          "mean inertia?)",
           "s.toml:5:11: motor.inertia = -0.61 oz in2: must be zero or positive, and finite",
           "s.toml:6:12: motor.friction = 3: must be a text with a number and a unit of torque "
           "per angular speed, such as \"1 N m s/rad\"",

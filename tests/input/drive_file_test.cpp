@@ -45,9 +45,10 @@ counts_per_turn = 4096
 speed_counts_per_turn = 100
 [controller]
 kind = "PID"
-proportional = "0.5 N m/rad"
-integral = "1 N m/(rad s)"
-derivative = "20 mN m s/rad"
+shaft = "load"
+proportional = "25 N m/rad"
+integral = "50 N m/(rad s)"
+derivative = "1 N m s/rad"
 filter = "5 ms"
 tracking_time = "0.1 s"
 [sampling]
@@ -142,12 +143,16 @@ TEST(DriveFile, EveryBlockIsReadAndReferredToTheLoad) {
   EXPECT_EQ(file.backlash_unit.name, "arcmin");
 }
 
-/// Per angle of the motor a gain is as many times as much per angle of the load.
-TEST(DriveFile, GainsMayBePerAngleOfTheMotor) {
-  const ReadDrive file =
-      drive_of(replaced(joint, "kind = \"PID\"", "kind = \"PID\"\nshaft = \"motor\""));
-  const auto pid = std::get<drive::ProportionalIntegralDerivative>(file.drive.controller);
-  EXPECT_DOUBLE_EQ(pid.proportional, 1250.0);
+/// A torque of the motor is a ratio of times as much at the load, an angle as many times less.
+TEST(DriveFile, GainsMayBeThoseOfTheMotorOrMixed) {
+  const auto proportional = [](const std::string& shaft) {
+    const ReadDrive file =
+        drive_of(replaced(joint, "shaft = \"load\"", "shaft = \"" + shaft + "\""));
+    return std::get<drive::ProportionalIntegralDerivative>(file.drive.controller).proportional;
+  };
+  EXPECT_DOUBLE_EQ(proportional("load"), 25.0);
+  EXPECT_DOUBLE_EQ(proportional("motor"), 25.0 * 2500.0);
+  EXPECT_DOUBLE_EQ(proportional("mixed"), 25.0 * 50.0);
 }
 
 TEST(DriveFile, VoltsComeThroughTheArmature) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "input/drive_file.hpp"
+#include "input/text_of_drive.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash {
@@ -30,24 +31,17 @@ gravity = "8 N m"
 gravity_angle = "-30 deg"
 [controller]
 kind = "PD"
-shaft = "joint"
+shaft = "load"
 kp = "100 N m/rad"
 kd = "2 N m s/rad"
 )toml";
 
 Drive read(const std::vector<Setting>& settings = {}) {
-  return parse_drive(joint, "joint.toml", {}, settings).drive;
+  return test::drive_of_text(joint, settings);
 }
 
 std::vector<std::string> refusals(const std::vector<Setting>& settings) {
-  try {
-    read(settings);
-  } catch (const InvalidInput& refusal) {
-    std::vector<std::string> lines;
-    for (const Fault& fault : refusal.faults()) lines.push_back(to_string(fault));
-    return lines;
-  }
-  return {};
+  return test::refusals_of_text(joint, settings);
 }
 
 TEST(JointFile, IsReadAndReferredToTheLoad) {
@@ -76,7 +70,7 @@ TEST(JointFile, LimitIsGivenOnce) {
 TEST(JointFile, ShaftIsOneOfThree) {
   EXPECT_THAT(
       refusals({{"controller.shaft", "elbow"}}),
-      ElementsAre(HasSubstr("controller.shaft = elbow: must be one of load, motor, joint")));
+      ElementsAre(HasSubstr("controller.shaft = elbow: must be one of load, motor, mixed")));
 }
 
 TEST(JointFile, GravityIsLinearisedWhereTheReferenceEnds) {

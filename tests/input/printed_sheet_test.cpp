@@ -7,6 +7,7 @@
 
 #include "gearlash/parameter.hpp"
 #include "input/drive_file.hpp"
+#include "input/text_of_drive.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash {
@@ -38,19 +39,11 @@ error_gain = "20 V/deg"
 )toml";
 
 Drive read(const std::vector<Setting>& settings = {}) {
-  return parse_drive(re_40, "re40.toml", {}, settings).drive;
+  return test::drive_of_text(re_40, settings, "re40.toml");
 }
 
-/// The faults of the sheet with its settings, one line each.
 std::vector<std::string> refusals(const std::vector<Setting>& settings) {
-  try {
-    read(settings);
-  } catch (const InvalidInput& refusal) {
-    std::vector<std::string> lines;
-    for (const Fault& fault : refusal.faults()) lines.push_back(to_string(fault));
-    return lines;
-  }
-  return {};
+  return test::refusals_of_text(re_40, settings, "re40.toml");
 }
 
 TEST(PrintedSheet, IsReadAsItStands) {

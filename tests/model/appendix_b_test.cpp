@@ -132,7 +132,7 @@ TEST(OracleAppendixA, ThesisFormOfTheTwoPhaseMotor) {
 TEST(OracleAppendixA, TheShortWayToTheDrivetrainIsThatOfTheReducedDrive) {
   Drive drive = geared(TwoPhase{.torque_per_volt = 8.0, .torque_per_speed = 2.0});
   drive.sensor.speed = ShaftName::motor;
-  for (const ShaftName shaft : {ShaftName::load, ShaftName::motor}) {
+  for (const GainShaft shaft : {GainShaft::load, GainShaft::motor}) {
     drive.controller.shaft = shaft;
     const auto expect_same = [&] {
       const auto expected = proportional_drivetrain(drive);

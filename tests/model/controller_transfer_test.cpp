@@ -75,6 +75,7 @@ TEST(OracleControllerTransfer, IsThatOfTheStateSpace) {
       ProportionalIntegralDerivative{3.0, 2.0, 0.7, 0.05, 0.0},
       ProportionalIntegralDerivative{3.0, 2.0, 0.7, 1e-4, 0.1, true},
       Cascade{4.0, 0.6, 1.5, 0.2},
+      Cascade{4.0, 0.6, 1.5, 0.2, 0.005},
       LeadLag{2.0, 1.5, 9.0},
       ErrorTransfer{{{0.5, 2.0, 1.0, 3.0, 8.0, 1.0}, {0.5, 4.0, 1.0, 7.0, 1.0, 2.0, 3.0}}}};
   for (const Controller& controller : controllers) {

@@ -24,7 +24,7 @@ Drive joint(const PID& pid) {
   return drive;
 }
 
-/// Load, motor or joint.
+/// Load, motor or mixed.
 void choose_shaft(Drive& drive, std::size_t shaft) {
   std::get<Choice>(find_parameter("controller.shaft")->slot(drive)).choose(drive, shaft);
 }
@@ -32,8 +32,8 @@ void choose_shaft(Drive& drive, std::size_t shaft) {
 TEST(JointGains, AreTorqueAtTheLoadPerAngleOfTheLoad) {
   Drive drive =
       joint({.terms = PIDTerms::PID, .proportional = 100.0, .integral = 30.0, .derivative = 2.0});
-  choose_shaft(drive, 2);
-  EXPECT_TRUE(drive.controller.is_at_joint);
+  EXPECT_EQ(drive.controller.shaft, GainShaft::mixed);  // unless another is named
+  choose_shaft(drive, 0);
   const drive::ReducedDrive reduced = reduce(drive);
   const auto& at_load = std::get<drive::ProportionalIntegralDerivative>(reduced.controller);
   EXPECT_EQ(at_load.proportional, 100.0);
@@ -42,8 +42,9 @@ TEST(JointGains, AreTorqueAtTheLoadPerAngleOfTheLoad) {
   // 100 N m/rad at the joint is 2 N m at the motor per rad of the joint, 0.04 N m per rad of the
   // motor.
   Drive mixed = joint({.proportional = 2.0});
+  choose_shaft(mixed, 2);
   Drive at_motor = joint({.proportional = 0.04});
-  at_motor.controller.shaft = ShaftName::motor;
+  at_motor.controller.shaft = GainShaft::motor;
   for (const Drive& same : {mixed, at_motor}) {
     EXPECT_DOUBLE_EQ(gain_scale(same) * std::get<PID>(same.controller.law).proportional, 100.0);
     EXPECT_DOUBLE_EQ(closed_form_servo(same)->natural_frequency,
@@ -52,7 +53,8 @@ TEST(JointGains, AreTorqueAtTheLoadPerAngleOfTheLoad) {
 }
 
 TEST(JointGains, AreReportedAtBothShafts) {
-  const Drive drive = joint({.terms = PIDTerms::PD, .proportional = 2.0, .derivative = 0.1});
+  Drive drive = joint({.terms = PIDTerms::PD, .proportional = 2.0, .derivative = 0.1});
+  choose_shaft(drive, 2);
   const std::vector<PlacedGain> gains = placed_gains(drive);
   ASSERT_EQ(gains.size(), 2U);
   EXPECT_EQ(gains[0].path, "controller.proportional");
@@ -68,14 +70,18 @@ TEST(JointGains, AreReportedAtBothShafts) {
   EXPECT_TRUE(placed_gains(normal_form(0.2, 1.0, 0.2)).empty());
 }
 
-TEST(JointGains, AreRefusedOfAMotorDrivenByAVoltage) {
+TEST(JointGains, OfAMotorDrivenByAVoltageAreVolts) {
   Drive drive = joint({.proportional = 2.0});
-  drive.controller.is_at_joint = true;
-  EXPECT_TRUE(faults(drive).empty());
   drive.motor.kind = ArmatureControl{0.1, 0.1, 1.0};
-  ASSERT_EQ(faults(drive).size(), 1U);
-  EXPECT_EQ(faults(drive)[0].path, "controller.shaft");
-  EXPECT_EQ(faults(drive)[0].value, "joint");
+  EXPECT_TRUE(faults(drive).empty());
+  EXPECT_DOUBLE_EQ(gain_scale(drive), 0.1 * ratio);  // N m at the load per V
+  choose_shaft(drive, 1);
+  EXPECT_DOUBLE_EQ(gain_scale(drive), 0.1 * ratio * ratio);
+  for (const std::size_t load_or_mixed : {0U, 2U}) {
+    choose_shaft(drive, load_or_mixed);
+    EXPECT_TRUE(faults(drive).empty());
+    EXPECT_DOUBLE_EQ(gain_scale(drive), 0.1 * ratio);
+  }
 }
 
 /// The slopes of the drivetrain are its differences.

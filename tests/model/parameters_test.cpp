@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <tuple>
 
 #include "gearlash/parameter.hpp"
 #include "model/reduced_drive.hpp"
@@ -38,15 +39,23 @@ std::vector<Drive> drives_of_all_kinds() {
     drives.push_back(joint());
     drives.back().motor.kind = kind;
   }
-  for (std::size_t law = 1; law < 5; ++law) {
+  const Parameter& kind = *find_parameter("controller.kind");
+  for (std::size_t choice = 0; choice < kind.choices.size(); ++choice) {
     drives.push_back(joint());
-    const Slot slot = find_parameter("controller.kind")->slot(drives.back());
-    std::get<Choice>(slot).choose(drives.back(), 3 + law);
+    std::get<Choice>(kind.slot(drives.back())).choose(drives.back(), choice);
   }
   drives.push_back(joint());
   drives.back().motor = {.kind = ArmatureControl{0.1, 0.1, 1.0}, .no_load_current = 0.1};
   drives.push_back(joint());
   drives.back().motor = {.kind = TorqueControl{0.03}, .current_limit = 6.0};
+  drives.push_back(joint());
+  drives.back().motor.friction.breakaway = drives.back().load.friction.breakaway = 4e-3;
+  drives.back().controller.dead_band = {.width = 0.1, .form = DeadBandForm::whole};
+  for (const CompensationInput input : {CompensationInput::reference, CompensationInput::error}) {
+    drives.push_back(joint());
+    drives.back().controller.compensation = {
+        .friction = 0.1, .backlash = 0.003, .input = input, .take_up_angle = 0.001};
+  }
   drives.push_back(joint());
   drives.back().contact = CompliantContact{500.0, 1.0};
   for (const Signal& signal :
@@ -185,12 +194,90 @@ TEST(ReducedDrives, NumbersAreReferredToTheLoadByTheGearRatio) {
   EXPECT_DOUBLE_EQ(reduced.motor.friction.coulomb, 3e-3 * 50.0);
   EXPECT_DOUBLE_EQ(reduced.torque_limit, 0.2 * 50.0);
   Drive at_motor = joint();
-  at_motor.controller.shaft = ShaftName::motor;
+  at_motor.controller.shaft = GainShaft::motor;
   const auto& pid = std::get<drive::ProportionalIntegralDerivative>(reduced.controller);
   const drive::ReducedDrive per_motor = reduce(at_motor);
   const auto& of_motor = std::get<drive::ProportionalIntegralDerivative>(per_motor.controller);
   EXPECT_DOUBLE_EQ(pid.proportional, 25.0);
   EXPECT_DOUBLE_EQ(of_motor.proportional, 1250.0);
+}
+
+/// Thresholds and additions are those of the gains' shaft, a backlash that of the load's.
+TEST(ReducedDrives, DeadBandsAndCompensationsAreReferredToTheLoad) {
+  Drive drive = joint();
+  drive.motor.friction.breakaway = 5e-3;
+  drive.motor.friction.stribeck_speed = 10.0;
+  drive.controller.dead_band = {.width = 0.1, .hysteresis = 0.02, .form = DeadBandForm::whole};
+  drive.controller.compensation = {
+      .friction = 4e-3, .friction_speed = 5.0, .backlash = 0.003, .take_up_time = 0.1};
+  drive.sampling = Sampling{.period = 1e-3};
+  EXPECT_TRUE(faults(drive).empty());
+  EXPECT_DOUBLE_EQ(reduce(drive).motor.friction.stribeck_speed, 0.2);
+  EXPECT_TRUE(reduce(drive).feedforward.is_absent());  // while the reference stands
+  drive.reference = TrapezoidSignal{.to = 1.0, .speed = 1.0, .acceleration = 1.0};
+  EXPECT_TRUE(reduce_settled(drive).feedforward.is_absent());
+  for (const auto& [shaft, torque, angle] :
+       {std::tuple{GainShaft::load, 1.0, 1.0}, std::tuple{GainShaft::mixed, 50.0, 1.0},
+        std::tuple{GainShaft::motor, 50.0, 0.02}}) {
+    drive.controller.shaft = shaft;
+    const drive::ReducedDrive reduced = reduce(drive);
+    EXPECT_DOUBLE_EQ(reduced.error_shape.begins, 0.12 * angle);
+    EXPECT_DOUBLE_EQ(reduced.error_shape.ends, 0.08 * angle);
+    EXPECT_TRUE(reduced.error_shape.jumps);
+    EXPECT_DOUBLE_EQ(reduced.feedforward.torque, 4e-3 * torque);
+    EXPECT_DOUBLE_EQ(reduced.feedforward.speed, 5.0 * angle);
+    EXPECT_EQ(reduced.feedforward.half_gap, 0.0015);
+    Drive of_relay = drive;
+    of_relay.controller.law = RelayController{.level = 0.3};
+    const double relay =
+        std::get<drive::ProportionalDerivative>(reduce(of_relay).controller).proportional;
+    EXPECT_DOUBLE_EQ(relay, 0.3 * torque);
+  }
+}
+
+TEST(ReducedDrives, TheLargestCurrentIsATorqueAtTheLoad) {
+  Drive drive = joint();
+  drive.motor.kind = ArmatureControl{0.03, 0.03, 0.3, 8e-5};
+  drive.motor.limit = 24.0;
+  set(drive, "motor.current_limit", 6.0);
+  const drive::ReducedDrive reduced = reduce(drive);
+  EXPECT_DOUBLE_EQ(reduced.winding.torque_limit, 0.03 * 6.0 * 50.0);
+  EXPECT_DOUBLE_EQ(reduced.torque_limit, 24.0 * 0.1 * 50.0);
+  EXPECT_TRUE(faults(drive).empty());
+  EXPECT_FALSE(closed_form_servo(drive));
+}
+
+TEST(ReducedDrives, RulesOfDeadBandsAndRelaysAreNamed) {
+  const auto fault_of = [](const auto& change) {
+    Drive drive = joint();
+    change(drive);
+    const std::vector<Fault> found = faults(drive);
+    return found.empty() ? std::string() : found.front().path;
+  };
+  EXPECT_EQ(fault_of([](Drive& d) { d.controller.law = RelayController{.level = 1.0}; }),
+            "controller.hysteresis");
+  EXPECT_EQ(fault_of([](Drive& d) { d.controller.law = RelayController{}; }), "controller.level");
+  EXPECT_EQ(fault_of([](Drive& d) {
+              d.controller.dead_band = {.width = 0.1, .form = DeadBandForm::whole};
+            }),
+            "controller.hysteresis");
+  EXPECT_EQ(fault_of([](Drive& d) {
+              d.controller.dead_band = {
+                  .width = 0.1, .hysteresis = 0.2, .form = DeadBandForm::whole};
+            }),
+            "controller.hysteresis");
+  EXPECT_EQ(fault_of([](Drive& d) {
+              d.controller.dead_band.width = 0.1;
+              d.controller.compensation = {
+                  .backlash = 0.1, .input = CompensationInput::error, .take_up_angle = 0.1};
+            }),
+            "controller.backlash_compensation");
+  EXPECT_EQ(fault_of([](Drive& d) {
+              d.controller.dead_band.width = 0.1;
+              d.controller.law =
+                  StateSpaceController{1.0, {{-1.0}}, {{2.0, -1.0, 0.0}}, {1.0}, {1.0, -1.0, 0.0}};
+            }),
+            "controller.dead_band");
 }
 
 TEST(ReducedDrives, TheClosedFormIsFoundByPhysics) {

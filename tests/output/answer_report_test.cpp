@@ -68,6 +68,23 @@ TEST(Headline, NeedsNoCycle) {
   EXPECT_EQ(headline(irregular), "hunts irregularly: up to ±0.02 rad (1.15°)");
 }
 
+/// A start that ran away or stayed undecided is not in the small print alone.
+TEST(Headline, CountsTheStartsThatAreNoPartOfIt) {
+  AnswerReport report = report_of(Verdict::hunts_irregularly);
+  report.answer.irregular = {{.amplitude = 0.02}};
+  std::vector<StartOutcome>& starts = report.answer.search->starts;
+  starts.assign(17, {.end = "irregular"});
+  starts.insert(starts.end(), 7, {.end = "undecided"});
+  EXPECT_EQ(headline(report),
+            "hunts irregularly: up to ±0.02 rad (1.15°); 7 of 24 starts undecided");
+  starts.insert(starts.end(), 2, {.end = "diverges"});
+  EXPECT_EQ(headline(report),
+            "hunts irregularly: up to ±0.02 rad (1.15°); 2 of 26 starts run away; 7 of 26 starts "
+            "undecided");
+  report.answer.search->is_complete = false;
+  EXPECT_THAT(headline(report), HasSubstr("; stopped early; "));
+}
+
 TEST(AnswerText, ListsUnstableCyclesInALineEach) {
   Cycle unstable = swing;
   unstable.stability = Stability::unstable;
@@ -83,6 +100,12 @@ TEST(Comparison, OfAMotorThatTicksGivesItsAmplitude) {
                               .report = report_of(Verdict::hunts, ticking),
                               .response = {.step = 0.1, .until = 1.0}});
   EXPECT_THAT(comparison_text(comparison), HasSubstr("motor ±0.004 rad"));
+  // Likewise where the ticks were not seen to repeat.
+  AnswerReport irregular = report_of(Verdict::hunts_irregularly);
+  irregular.answer.irregular = {
+      {.amplitude = 1e-12, .motor_amplitude = 0.005, .is_motor_alone = true}};
+  comparison.cases[0].report = irregular;
+  EXPECT_THAT(comparison_text(comparison), HasSubstr("motor ±0.005 rad"));
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ namespace gearlash {
 namespace {
 
 using ::testing::Contains;
+using ::testing::HasSubstr;
 using ::testing::Not;
 
 const std::filesystem::path examples =
@@ -47,10 +48,19 @@ TEST(DriveText, EveryKindOfControllerAndSignalReadsBack) {
         "kind = \"PI\"\nkp = \"1 N m/rad\"\nintegral = \"2 N m/(rad s)\"\ntracking_time = \"3 ms\"",
         "kind = \"cascade\"\nposition = \"3 1/s\"\nspeed = \"2 N m s/rad\"\n"
         "speed_integral = \"4 N m/rad\"",
+        "kind = \"odrive\"\npos_gain = 20\nvel_gain = 0.16\ntracking_time = \"0.1 s\"",
+        "kind = \"moteus\"\npid_position_kp = 4\nrotor_to_output_ratio = 0.25",
         "kind = \"lead-lag\"\ngain = \"3 N m/rad\"\nzero = \"2 rad/s\"\npole = \"20 rad/s\"",
         "kind = \"transfer-function\"\ngain = \"3 N m/rad\"\nnum = [1, 0.1]\nden = [0.3, 1]",
         "kind = \"state-space\"\ngain = \"3 N m/rad\"\nA = [[-1]]\nB = [[0.1]]\nC = [1]\nD = "
-        "[2]"}) {
+        "[2]",
+        "kind = \"relay\"\nshaft = \"mixed\"\nlevel = \"2 N m\"\nhysteresis = \"1 arcmin\"",
+        "kind = \"relay\"\nlevel = \"2 N m\"\ninput = \"speed\"\nhysteresis = \"1 rpm\"",
+        "kind = \"P\"\nkp = \"1 N m/rad\"\ndead_band = \"1 arcmin\"\ndead_band_form = \"whole\"\n"
+        "hysteresis = \"0.5 arcmin\"\nfriction_compensation = \"1 N m\"\nfriction_speed = \"1 "
+        "rpm\"",
+        "kind = \"P\"\nkp = \"1 N m/rad\"\nbacklash_compensation = \"6 arcmin\"\n"
+        "compensation_input = \"error\"\ntake_up_angle = \"1 arcmin\""}) {
     for (const char* reference :
          {"", "[reference]\nkind = \"constant\"\nvalue = \"1 deg\"",
           "[reference]\nkind = \"step\"\nafter = \"1 deg\"\ntime = \"1 ms\"",
@@ -77,6 +87,23 @@ TEST(DriveText, APrintedSheetReadsBack) {
   EXPECT_EQ(to_toml(read(to_toml(drive))), to_toml(drive));
   EXPECT_EQ(drive_json(read(to_toml(drive))), drive_json(drive));
   EXPECT_EQ(drive.sampling->period, 1e-3);
+}
+
+TEST(DriveText, ShowsWhatTheRegistersOfAFirmwareMean) {
+  const Drive drive = read(read_text_file(examples / "dynamixel-joint.toml", largest_drive_file));
+  const auto json = nlohmann::json::parse(show_json(drive, {}));
+  const auto& firmware = json["firmware"];
+  EXPECT_EQ(firmware["name"], "DYNAMIXEL X");
+  EXPECT_EQ(firmware["shaft"], "load");
+  ASSERT_EQ(firmware["gains"].size(), 1U);
+  EXPECT_EQ(firmware["gains"][0]["name"], "proportional");
+  EXPECT_EQ(firmware["gains"][0]["unit"], "V/rad");
+  EXPECT_DOUBLE_EQ(firmware["gains"][0]["value"], 55.24564804274605);
+  const std::string text = show_text(drive);
+  EXPECT_THAT(text, HasSubstr("# The registers of DYNAMIXEL X mean: proportional 55.25 V/rad"));
+  EXPECT_THAT(text, HasSubstr("ROBOTIS e-Manual"));
+  const Drive joint = read(read_text_file(examples / "robot-joint.toml", largest_drive_file));
+  EXPECT_TRUE(nlohmann::json::parse(show_json(joint, {}))["firmware"].is_null());
 }
 
 TEST(DriveText, DefaultsAreNamed) {

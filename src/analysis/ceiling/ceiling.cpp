@@ -1,23 +1,34 @@
 #include "analysis/ceiling/ceiling.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "analysis/ceiling/gap_speed.hpp"
 #include "analysis/ceiling/loop_gain.hpp"
+#include "base/datum.hpp"
 
 namespace gearlash {
 namespace {
 
 using drive::ReducedDrive;
 
+constexpr std::string_view friction_compensation = "friction compensation";
+
 struct Source {
-  const char* name;
+  std::string_view name;
   Disturbance disturbance;
   Interval size;  ///< the largest |disturbance|
+};
+
+struct ScaledSource {
+  Source source;
+  LoopGain gain;
 };
 
 /// Why no theorem applies; empty if one does.
@@ -26,25 +37,13 @@ std::string obstacle(const ReducedDrive& drive) {
   if (faces != nullptr && faces->damping > 0.0 && !drive::is_joined(drive)) {
     return "faces with damping: it can be exceeded (docs/mathematics.md)";
   }
-  if (drive.winding.time_constant > 0.0) {
-    return "a winding with inductance: no bound is known";
-  }
-  if (!drive.sampling) return {};
-  if (drive.gravity.stiffness != 0.0) {
-    return "the stiffness of gravity under a sampled controller: no bound is known";
-  }
-  if (faces != nullptr) return "compliant faces under a sampled controller: no bound is known";
-  const drive::LinearController controller =
-      drive::sampled_controller(drive.controller, *drive.sampling);
-  if (uses_speed(controller) && !drive.sampling->speed_by_differences) {
-    return "a sampled tachometer: it reads the speed of the gap, which has no bound here";
-  }
+  if (drive.error_shape.is_relay()) return "a relay: the controller is not linear";
   return {};
 }
 
 std::vector<Source> sources_of(const ReducedDrive& drive) {
   std::vector<Source> sources;
-  const auto add = [&](const char* name, Disturbance disturbance, const Interval& size) {
+  const auto add = [&](std::string_view name, Disturbance disturbance, const Interval& size) {
     if (size.high > 0.0) sources.push_back({name, disturbance, size});
   };
   add("gap", Disturbance::gap, 0.5 * datum(drive.backlash));
@@ -61,21 +60,155 @@ std::vector<Source> sources_of(const ReducedDrive& drive) {
     add("encoder", Disturbance::position_reading, of_position);
     if (counts) add("speed encoder", Disturbance::speed_reading, of_speed);
   }
+  // What it changes the error by is an error of the position.
+  add(drive.error_shape.inner_gain == 0.0 ? "dead band" : "backlash compensation",
+      Disturbance::position_reading, datum(drive.error_shape.largest_change()));
+  if (!std::holds_alternative<double>(drive.reference)) {
+    add(friction_compensation, Disturbance::torque_on_motor, abs(datum(drive.feedforward.torque)));
+    add("backlash compensation", Disturbance::position_reading,
+        abs(datum(drive.feedforward.half_gap)));
+  }
   if (const auto* sine = std::get_if<drive::Sine>(&drive.load_torque)) {
     add("load torque", Disturbance::torque_on_load, abs(datum(sine->amplitude)));
   }
   return sources;
 }
 
-/// The motor's torque at rest, or while following a ramp; empty where the signals swing, or where
-/// gravity makes it depend on the position.
-std::optional<Interval> holding_torque(const ReducedDrive& drive) {
-  const auto* load_torque = std::get_if<double>(&drive.load_torque);
-  if (load_torque == nullptr || drive.gravity.stiffness != 0.0 ||
-      !std::holds_alternative<double>(drive.reference)) {
-    return std::nullopt;
+// ---- the motion with the gap closed -------------------------------------------------------------
+
+/// Torques of the motion with the gap closed, N m at the load's shaft.
+struct Carried {
+  Interval requested;
+  Interval mesh;
+};
+
+/// The controller knows reference and position by their difference alone.
+bool follows_error(const drive::LinearController& controller) {
+  const auto is_difference = [](const std::vector<double>& row) { return row[0] == -row[1]; };
+  return is_difference(controller.direct) &&
+         std::all_of(controller.input_matrix.begin(), controller.input_matrix.end(), is_difference);
+}
+
+/// Of rest, or of an even motion along a ramp; empty where the reference or the load torque moves
+/// in another way, but for a sine of the load torque, which is a source.
+std::optional<Carried> carried_by(const ReducedDrive& drive, DisturbedLoop& loop) {
+  if (std::holds_alternative<drive::Ramp>(drive.load_torque)) return std::nullopt;
+  const Interval load_torque = datum(drive::middle_of(drive.load_torque));
+  const auto* ramp = std::get_if<drive::Ramp>(&drive.reference);
+  if (ramp == nullptr && !std::holds_alternative<double>(drive.reference)) return std::nullopt;
+  if (drive.gravity.stiffness != 0.0) {
+    const drive::LinearController controller =
+        drive.sampling ? drive::sampled_controller(drive.controller, *drive.sampling)
+                       : drive::linear_controller(drive.controller);
+    if (ramp != nullptr || !follows_error(controller)) return std::nullopt;
+    // A constant torque displaces the loop by no more than any torque of that size.
+    const LoopGain gain = loop.gain(Disturbance::torque_on_load);
+    const Interval displacement = abs(load_torque) * Interval(gain.load);
+    return Carried{abs(load_torque) * Interval(gain.effort),
+                   abs(load_torque) + abs(datum(drive.gravity.stiffness)) * displacement};
   }
-  return -datum(*load_torque);
+  const Interval speed = ramp == nullptr ? Interval(0.0) : datum(ramp->rate);
+  Interval friction = datum(drive.motor.friction.viscous) + datum(drive.load.friction.viscous);
+  if (drive.winding.time_constant > 0.0) friction = friction + datum(drive.winding.back_emf);
+  return Carried{friction * speed - load_torque,
+                 datum(drive.load.friction.viscous) * speed - load_torque};
+}
+
+// ---- the gap's speed ----------------------------------------------------------------------------
+
+/// Empty if the torque that the mesh carries is not known.
+std::optional<GapMotion> gap_motion(const ReducedDrive& drive, DisturbedLoop& loop,
+                                    const std::vector<ScaledSource>& sources,
+                                    const std::optional<Carried>& carried) {
+  const auto* faces = std::get_if<drive::RigidContact>(&drive.contact);
+  if (!carried || faces == nullptr) return std::nullopt;
+  // Once the faces part the mesh torque is gone.
+  Interval acceleration =
+      abs(carried->mesh) * (1.0 / datum(drive.motor.inertia) + 1.0 / datum(drive.load.inertia));
+  for (const ScaledSource& one : sources) {
+    acceleration = acceleration + one.source.size * Interval(one.gain.gap_acceleration);
+  }
+  return GapMotion{.backlash = datum(drive.backlash),
+                   .restitution = datum(faces->restitution),
+                   .acceleration = acceleration,
+                   .per_speed = loop.gain(Disturbance::gap_speed).gap_acceleration,
+                   .slope = loop.gap_acceleration_per_speed()};
+}
+
+// ---- starts below the torque limit --------------------------------------------------------------
+
+/// What the effort may reach beside the start, the limit less the torque carried and all sources.
+struct Margin {
+  Interval left;
+  Interval per_gap_speed;  ///< N m per rad/s, of the effort
+  std::optional<GapMotion> gap_motion;
+};
+
+/// Starts of which the effort stays within the margin. It is at most a linear function of the
+/// displacement and the speed: so is each line above the gap's speed.
+std::optional<SafeStarts> starts_within(const Margin& margin, DisturbedLoop& loop,
+                                        const Interval& half_gap) {
+  const StartGain effort = loop.start_gain(StartOutput::effort);
+  const auto starts = [&](const Interval& taken, const Interval& of_position,
+                          const Interval& of_speed) {
+    const Interval left = margin.left - half_gap * effort.of_gap - taken;
+    return SafeStarts{(left / of_position).low, (left / of_speed).low};
+  };
+  SafeStarts best;
+  if (!margin.gap_motion) {
+    best = starts(0.0, effort.of_position, effort.of_speed);
+  } else {
+    const StartGain acceleration = loop.start_gain(StartOutput::gap_acceleration);
+    GapMotion motion = *margin.gap_motion;
+    motion.acceleration = motion.acceleration + half_gap * acceleration.of_gap;
+    constexpr int doublings = 20;
+    double likely = motion.acceleration.high;
+    for (int i = 0; i < doublings; ++i, likely *= 2.0) {
+      const GapSpeedLine line = gap_speed_line(motion, likely);
+      const Interval per_acceleration = margin.per_gap_speed * line.per_acceleration;
+      const SafeStarts found =
+          starts(margin.per_gap_speed * line.at_rest + per_acceleration * motion.acceleration,
+                 effort.of_position + per_acceleration * acceleration.of_position,
+                 effort.of_speed + per_acceleration * acceleration.of_speed);
+      if (found.position > best.position) best = found;
+    }
+  }
+  if (!(best.position > 0.0 && best.speed > 0.0)) return std::nullopt;
+  if (!std::isfinite(best.position) || !std::isfinite(best.speed)) return std::nullopt;
+  return best;
+}
+
+// ---- the whole ----------------------------------------------------------------------------------
+
+void add_terms(const std::vector<ScaledSource>& sources, Ceiling& ceiling, Interval& effort) {
+  Interval load = 0.0;
+  Interval motor = 0.0;
+  for (const ScaledSource& one : sources) {
+    const auto bound = [&](double gain) { return (one.source.size * Interval(gain)).high; };
+    CeilingTerm term{.source = std::string(one.source.name),
+                     .size = one.source.size.high,
+                     .load = bound(one.gain.load),
+                     .motor = bound(one.gain.motor),
+                     .effort = bound(one.gain.effort)};
+    if (!std::isfinite(*term.effort)) term.effort.reset();
+    load = load + term.load;
+    motor = motor + term.motor;
+    effort = effort + Interval(term.effort.value_or(infinity));
+    ceiling.terms.push_back(std::move(term));
+  }
+  if (std::isfinite(load.high) && std::isfinite(motor.high)) {
+    ceiling.load = load.high;
+    ceiling.motor = motor.high;
+    if (std::isfinite(effort.high)) ceiling.effort = effort.high;
+  }
+}
+
+/// Why the gap's speed has no bound.
+std::string obstacle_of_gap_speed(const std::optional<Carried>& carried) {
+  return carried
+             ? "the speed of the gap has no bound here: elastic faces, or feedback of the speed "
+               "that drives the gap"
+             : "the speed of the gap has no bound here: the reference or the load torque moves";
 }
 
 }  // namespace
@@ -90,37 +223,53 @@ Ceiling ceiling_of(const ReducedDrive& drive) {
     ceiling.reason = "the loop with the gap closed is not proved stable";
     return ceiling;
   }
-  Interval load = 0.0;
-  Interval motor = 0.0;
-  std::optional<Interval> effort = Interval(0.0);
+  std::vector<ScaledSource> sources;
   for (const Source& source : sources_of(drive)) {
-    const LoopGain gain = loop->gain(source.disturbance);
-    CeilingTerm term{.source = source.name,
-                     .size = source.size.high,
-                     .load = (source.size * Interval(gain.load)).high,
-                     .motor = (source.size * Interval(gain.motor)).high};
-    if (gain.effort) term.effort = (source.size * Interval(*gain.effort)).high;
-    load = load + term.load;
-    motor = motor + term.motor;
-    effort = effort && term.effort ? std::optional(*effort + *term.effort) : std::nullopt;
-    ceiling.terms.push_back(std::move(term));
+    sources.push_back({source, loop->gain(source.disturbance)});
+    // It is requested by the controller too.
+    if (source.name == friction_compensation) {
+      LoopGain& gain = sources.back().gain;
+      gain.effort = (Interval(gain.effort) + 1.0).high;
+    }
   }
-  ceiling.is_below_limit = std::isfinite(drive.torque_limit);
-  if (!std::isfinite(load.high) || !std::isfinite(motor.high)) {
+  const bool has_current_limit = std::isfinite(drive.winding.torque_limit);
+  ceiling.is_below_limit = std::isfinite(drive.torque_limit) || has_current_limit;
+  std::optional<Carried> carried;
+  if (ceiling.is_below_limit || loop->reads_gap_speed()) carried = carried_by(drive, *loop);
+
+  Margin margin;
+  Interval effort = 0.0;
+  if (loop->reads_gap_speed()) {
+    margin.gap_motion = gap_motion(drive, *loop, sources, carried);
+    const LoopGain gain = loop->gain(Disturbance::gap_speed);
+    margin.per_gap_speed = gain.effort;
+    const GapSpeed speed = margin.gap_motion ? highest_gap_speed(*margin.gap_motion) : GapSpeed{};
+    if (std::isfinite(speed.highest)) {
+      sources.push_back({{"gap speed", Disturbance::gap_speed, speed.highest}, gain});
+      ceiling.is_gap_speed_braked = speed.is_braked;
+    } else if (gain.load > 0.0 || gain.motor > 0.0) {
+      ceiling.reason = "a sampled tachometer: " + obstacle_of_gap_speed(carried);
+      return ceiling;
+    } else {
+      effort = infinity;
+    }
+  }
+  add_terms(sources, ceiling, effort);
+  if (!ceiling.load) {
     ceiling.terms.clear();
     ceiling.reason = "its bound is beyond the numbers of this computer";
     return ceiling;
   }
-  ceiling.load = load.high;
-  ceiling.motor = motor.high;
-  if (effort && std::isfinite(effort->high)) {
-    ceiling.effort = effort->high;
-  } else {
-    ceiling.effort_reason = "the torque contains the speed of the gap, which has no bound here";
+  if (!ceiling.effort) ceiling.effort_reason = obstacle_of_gap_speed(carried);
+  if (!carried || !ceiling.effort || !ceiling.is_below_limit || has_current_limit) return ceiling;
+  margin.left = Interval(drive.torque_limit) - abs(carried->requested) - effort;
+  ceiling.meets_limit = margin.left.low >= 0.0;
+  if (loop->reads_gap_speed()) {
+    // The line above the gap's speed replaces its term.
+    margin.left = margin.left + Interval(*ceiling.terms.back().effort);
   }
-  if (const auto holding = holding_torque(drive);
-      holding && ceiling.effort && ceiling.is_below_limit) {
-    ceiling.meets_limit = (abs(*holding) + *effort).high <= drive.torque_limit;
+  if (*ceiling.meets_limit) {
+    ceiling.safe_starts = starts_within(margin, *loop, 0.5 * datum(drive.backlash));
   }
   return ceiling;
 }

@@ -1,17 +1,11 @@
-// A continuous controller.
+// A continuous controller, τ = C x_c + D_y y + D_v v, connected to the plant.
 //
-// Rigid faces. The sum of both shafts' equations has no mesh torque. With u the gap, J = J_M + J_L,
-// F = F_M + F_L, κ = J_M/J, z = θ_L + κu, sensed position z + αu and speed ż + βu̇,
-//   J z̈ = τ − F ż + (Fκ − F_M) u̇ − k_g (z − κu) + w,
-// with the stiffness k_g of gravity, whose torque at the reference is part of the load torque.
-// The numbers z, s = J ż − c u with c = Fκ − F_M + D_v β, and x̃ = x − B_v β u, x of the controller,
-// obey a linear flow in which u appears and u̇ does not.
-//
-// Compliant faces without damping. Torque k (u − sat u), |sat u| ≤ b/2: both shafts joined by the
-// spring, and driven by ±k sat u. Without a gap the spring may be damped.
-#include <variant>
-
+// Where the sensed speed contains β u̇, u̇ reaches the controller's states and, through the torque,
+// the plant's: X′ = A X + B₁ u + B₂ u̇. The numbers X − B₂ u obey a linear flow in which u appears
+// and u̇ does not.
 #include "analysis/ceiling/loop_gain.hpp"
+#include "analysis/ceiling/plant.hpp"
+#include "numeric/decaying_motion.hpp"
 
 namespace gearlash {
 namespace {
@@ -19,194 +13,193 @@ namespace {
 using drive::LinearController;
 using drive::ReducedDrive;
 
-/// A disturbance's way into the loop and straight to its outputs.
-struct Way {
-  IntervalVector input{};
-  Interval load{0.0};
-  Interval motor{0.0};
-  Interval effort{0.0};
+/// Of the loop's states, and at once of what disturbs it.
+struct LoopOutput {
+  IntervalVector of_state{};
+  Interval of_gap{0.0};
+  Interval of_gap_speed{0.0};
+  Interval of_torque_on_motor{0.0};
+  Interval of_torque_on_load{0.0};
+  Interval of_reading{0.0};
 };
 
 struct Model {
   IntervalMatrix flow;
-  Way gap{};
-  Way torque_on_motor{};
-  Way torque_on_load{};
-  Way reading{};
-  IntervalVector load{};
-  IntervalVector motor{};
-  IntervalVector effort{};
-  bool has_effort = true;  ///< the torque does not contain the gap's speed
+  IntervalVector gap{};
+  IntervalVector gap_speed{};
+  IntervalVector torque_on_motor{};
+  IntervalVector torque_on_load{};
+  IntervalVector reading{};
+  LoopOutput load{};
+  LoopOutput motor{};
+  LoopOutput effort{};
+  std::optional<LoopOutput> gap_acceleration{};
+  IntervalVector start_of_position{};
+  IntervalVector start_of_speed{};
+  IntervalVector start_of_gap{};
 };
 
-/// The controller's numbers, with their error.
-struct Data {
-  explicit Data(const ReducedDrive& drive) : given(drive::linear_controller(drive.controller)) {}
-  LinearController given;
-  std::size_t order() const { return given.order(); }
-  Interval state(std::size_t i, std::size_t j) const { return datum(given.state_matrix[i][j]); }
-  Interval of_position(std::size_t i) const { return datum(given.input_matrix[i][1]); }
-  Interval of_speed(std::size_t i) const { return datum(given.input_matrix[i][2]); }
-  Interval output(std::size_t i) const { return datum(given.output[i]); }
-  Interval position() const { return datum(given.direct[1]); }
-  Interval speed() const { return datum(given.direct[2]); }
-};
+/// Zeros for the controller's states.
+IntervalVector extended(IntervalVector of_plant, std::size_t size) {
+  of_plant.resize(size, Interval(0.0));
+  return of_plant;
+}
 
-Model rigid_model(const ReducedDrive& drive) {
-  const Data controller(drive);
-  const std::size_t order = controller.order();
-  const std::size_t size = order + 2;
-  const Interval motor_inertia = datum(drive.motor.inertia);
-  const Interval inertia = motor_inertia + datum(drive.load.inertia);
-  const Interval motor_friction = datum(drive.motor.friction.viscous);
-  const Interval friction = motor_friction + datum(drive.load.friction.viscous);
-  const Interval share = motor_inertia / inertia;
-  const Interval alpha = 1.0 - datum(drive.sensing.load_share_of_position) - share;
-  const Interval beta = 1.0 - datum(drive.sensing.load_share_of_speed) - share;
-  const Interval lead = friction * share - motor_friction + controller.speed() * beta;
-  const Interval damping = controller.speed() - friction;
+/// weight_of_position · position + weight_of_speed · speed, as the controller receives them.
+LoopOutput sensed(const Plant& plant, std::size_t size, double of_position, double of_speed) {
+  const Interval position = datum(of_position);
+  const Interval speed = datum(of_speed);
+  LoopOutput output;
+  output.of_state = extended(
+      added(scaled(position, plant.position.of_state), scaled(speed, plant.speed.of_state)), size);
+  output.of_gap = position * plant.position.of_gap + speed * plant.speed.of_gap;
+  output.of_gap_speed = speed * plant.speed.of_gap_speed;
+  output.of_reading = position;
+  return output;
+}
 
-  Model model{.flow = IntervalMatrix(size)};
-  const IntervalVector none(size, Interval(0.0));
-  for (Way* way : {&model.gap, &model.torque_on_motor, &model.torque_on_load, &model.reading}) {
-    way->input = none;
+LoopOutput seen(const PlantOutput& output, const LoopOutput& torque) {
+  LoopOutput result;
+  const std::size_t size = torque.of_state.size();
+  result.of_state =
+      added(extended(output.of_state, size), scaled(output.of_torque, torque.of_state));
+  result.of_gap = output.of_gap + output.of_torque * torque.of_gap;
+  result.of_gap_speed = output.of_gap_speed + output.of_torque * torque.of_gap_speed;
+  result.of_torque_on_motor = output.of_torque_on_motor;
+  result.of_torque_on_load = output.of_torque_on_load;
+  result.of_reading = output.of_torque * torque.of_reading;
+  return result;
+}
+
+void eliminate_gap_speed(Model& model) {
+  model.gap = added(model.gap, times(model.flow, model.gap_speed));
+  for (LoopOutput* output : {&model.load, &model.motor, &model.effort,
+                             model.gap_acceleration ? &*model.gap_acceleration : nullptr}) {
+    if (output == nullptr) continue;
+    output->of_gap = output->of_gap + dot(output->of_state, model.gap_speed);
   }
-  auto& rows = model.flow.rows;
-  rows[0][1] = 1.0 / inertia;
-  const Interval weight = datum(drive.gravity.stiffness);
-  rows[1][0] = controller.position() - weight;
-  rows[1][1] = damping / inertia;
-  model.gap.input[0] = lead / inertia;
-  model.gap.input[1] = controller.position() * alpha + weight * share + damping * lead / inertia;
-  model.reading.input[1] = controller.position();
-  model.effort = none;
-  model.effort[0] = controller.position();
-  model.effort[1] = controller.speed() / inertia;
-  model.gap.effort = controller.position() * alpha + controller.speed() * lead / inertia;
-  model.reading.effort = controller.position();
+  model.start_of_gap = added(model.start_of_gap, scaled(-1.0, model.gap_speed));
+}
+
+Model connected(const Plant& plant, const LinearController& controller) {
+  const std::size_t order = controller.order();
+  const std::size_t first = plant.size();  // of the controller
+  const std::size_t size = first + order;
+  Model model{.flow = IntervalMatrix(size)};
+  model.effort = sensed(plant, size, controller.direct[1], controller.direct[2]);
   for (std::size_t i = 0; i < order; ++i) {
-    const Interval jump = controller.of_speed(i) * beta;  // B_v β
-    Interval own = controller.of_position(i) * alpha + controller.of_speed(i) * lead / inertia;
+    model.effort.of_state[first + i] = datum(controller.output[i]);
+  }
+  const IntervalVector torque = extended(plant.torque, size);
+  for (std::size_t i = 0; i < first; ++i) {
+    model.flow.rows[i] =
+        added(extended(plant.flow.rows[i], size), scaled(torque[i], model.effort.of_state));
+  }
+  model.gap = added(extended(plant.gap, size), scaled(model.effort.of_gap, torque));
+  model.gap_speed = scaled(model.effort.of_gap_speed, torque);
+  model.reading = scaled(model.effort.of_reading, torque);
+  for (std::size_t i = 0; i < order; ++i) {
+    const std::vector<double>& input = controller.input_matrix[i];
+    LoopOutput slope = sensed(plant, size, input[1], input[2]);
     for (std::size_t j = 0; j < order; ++j) {
-      rows[i + 2][j + 2] = controller.state(i, j);
-      own = own + controller.state(i, j) * controller.of_speed(j) * beta;
+      slope.of_state[first + j] = datum(controller.state_matrix[i][j]);
     }
-    rows[i + 2][0] = controller.of_position(i);
-    rows[i + 2][1] = controller.of_speed(i) / inertia;
-    rows[1][i + 2] = controller.output(i);
-    model.gap.input[i + 2] = own;
-    model.gap.input[1] = model.gap.input[1] + controller.output(i) * jump;
-    model.reading.input[i + 2] = controller.of_position(i);
-    model.effort[i + 2] = controller.output(i);
-    model.gap.effort = model.gap.effort + controller.output(i) * jump;
+    model.flow.rows[first + i] = slope.of_state;
+    model.gap[first + i] = slope.of_gap;
+    model.gap_speed[first + i] = slope.of_gap_speed;
+    model.reading[first + i] = slope.of_reading;
   }
-  model.torque_on_motor.input[1] = 1.0;
-  model.torque_on_load.input[1] = 1.0;
-  model.load = none;
-  model.load[0] = 1.0;
-  model.motor = model.load;
-  model.gap.load = -share;
-  model.gap.motor = 1.0 - share;
-  model.has_effort = controller.given.direct[2] == 0.0 || (beta.low == 0.0 && beta.high == 0.0);
+  model.torque_on_motor = extended(plant.torque_on_motor, size);
+  model.torque_on_load = extended(plant.torque_on_load, size);
+  model.load = seen(plant.load, model.effort);
+  model.motor = seen(plant.motor, model.effort);
+  if (plant.gap_acceleration) model.gap_acceleration = seen(*plant.gap_acceleration, model.effort);
+  model.start_of_position = extended(plant.start_of_position, size);
+  model.start_of_speed = extended(plant.start_of_speed, size);
+  model.start_of_gap = extended(plant.start_of_gap, size);
+  eliminate_gap_speed(model);
   return model;
 }
 
-enum Sprung : std::size_t { motor, motor_speed, load, load_speed, states };
-
-/// Damping between both shafts.
-void join(std::vector<IntervalVector>& rows, const Interval& damping, const Interval& per_motor,
-          const Interval& per_load) {
-  rows[motor_speed][motor_speed] = rows[motor_speed][motor_speed] - per_motor * damping;
-  rows[motor_speed][load_speed] = rows[motor_speed][load_speed] + per_motor * damping;
-  rows[load_speed][motor_speed] = rows[load_speed][motor_speed] + per_load * damping;
-  rows[load_speed][load_speed] = rows[load_speed][load_speed] - per_load * damping;
-}
-
-Model sprung_model(const ReducedDrive& drive) {
-  const Data controller(drive);
-  const std::size_t order = controller.order();
-  const std::size_t size = order + states;
-  const auto& faces = std::get<drive::CompliantContact>(drive.contact);
-  const Interval stiffness = datum(faces.stiffness);
-  const Interval per_motor = 1.0 / datum(drive.motor.inertia);
-  const Interval per_load = 1.0 / datum(drive.load.inertia);
-  const Interval position_share = datum(drive.sensing.load_share_of_position);
-  const Interval speed_share = datum(drive.sensing.load_share_of_speed);
-
-  Model model{.flow = IntervalMatrix(size)};
-  const IntervalVector none(size, Interval(0.0));
-  for (Way* way : {&model.gap, &model.torque_on_motor, &model.torque_on_load, &model.reading}) {
-    way->input = none;
-  }
-  // Torque and states from the sensed numbers.
-  const auto sensed = [&](const Interval& of_position, const Interval& of_speed) {
-    IntervalVector row = none;
-    row[load] = of_position * position_share;
-    row[motor] = of_position * (1.0 - position_share);
-    row[load_speed] = of_speed * speed_share;
-    row[motor_speed] = of_speed * (1.0 - speed_share);
-    return row;
-  };
-  model.effort = sensed(controller.position(), controller.speed());
-  for (std::size_t i = 0; i < order; ++i) model.effort[i + states] = controller.output(i);
-  auto& rows = model.flow.rows;
-  rows[motor][motor_speed] = 1.0;
-  rows[load][load_speed] = 1.0;
-  for (std::size_t j = 0; j < size; ++j) rows[motor_speed][j] = per_motor * model.effort[j];
-  rows[motor_speed][motor] = rows[motor_speed][motor] - per_motor * stiffness;
-  rows[motor_speed][load] = rows[motor_speed][load] + per_motor * stiffness;
-  rows[motor_speed][motor_speed] =
-      rows[motor_speed][motor_speed] - per_motor * datum(drive.motor.friction.viscous);
-  rows[load_speed][motor] = per_load * stiffness;
-  rows[load_speed][load] = -(per_load * stiffness);
-  rows[load_speed][load_speed] = -(per_load * datum(drive.load.friction.viscous));
-  rows[load_speed][load] = rows[load_speed][load] - per_load * datum(drive.gravity.stiffness);
-  if (faces.damping > 0.0) join(rows, datum(faces.damping), per_motor, per_load);
-  for (std::size_t i = 0; i < order; ++i) {
-    rows[i + states] = sensed(controller.of_position(i), controller.of_speed(i));
-    for (std::size_t j = 0; j < order; ++j) rows[i + states][j + states] = controller.state(i, j);
-    model.reading.input[i + states] = controller.of_position(i);
-  }
-  model.gap.input[motor_speed] = per_motor * stiffness;
-  model.gap.input[load_speed] = -(per_load * stiffness);
-  model.torque_on_motor.input[motor_speed] = per_motor;
-  model.torque_on_load.input[load_speed] = per_load;
-  model.reading.input[motor_speed] = per_motor * controller.position();
-  model.reading.effort = controller.position();
-  model.load = none;
-  model.load[load] = 1.0;
-  model.motor = none;
-  model.motor[motor] = 1.0;
-  return model;
-}
+bool is_zero(const Interval& number) { return number.low == 0.0 && number.high == 0.0; }
 
 class ContinuousLoop : public DisturbedLoop {
  public:
   ContinuousLoop(Model model, DecayingMotion motion)
       : model_(std::move(model)), motion_(std::move(motion)) {}
 
-  LoopGain gain(Disturbance disturbance) const override {
-    const Way& way = of(disturbance);
-    const auto bound = [&](const IntervalVector& output, const Interval& straight) {
-      return (motion_.impulse_norm(way.input, output) + abs(straight)).high;
-    };
-    LoopGain gain{.load = bound(model_.load, way.load), .motor = bound(model_.motor, way.motor)};
-    if (model_.has_effort) gain.effort = bound(model_.effort, way.effort);
+  LoopGain gain(Disturbance disturbance) override {
+    std::vector<const LoopOutput*> outputs{&model_.load, &model_.motor, &model_.effort};
+    if (reads_gap_speed()) outputs.push_back(&*model_.gap_acceleration);
+    const std::vector<double> bounds = this->bounds(disturbance, outputs);
+    LoopGain gain{.load = bounds[0], .motor = bounds[1], .effort = bounds[2]};
+    if (reads_gap_speed()) gain.gap_acceleration = bounds[3];
+    if (disturbance == Disturbance::gap_speed) gain.gap_acceleration = 0.0;  // a slope of its own
     return gain;
   }
 
+  StartGain start_gain(StartOutput kind) override {
+    const IntervalVector& output =
+        kind == StartOutput::effort ? model_.effort.of_state : model_.gap_acceleration->of_state;
+    return {.of_position = peak(model_.start_of_position, output),
+            .of_speed = peak(model_.start_of_speed, output),
+            .of_gap = peak(model_.start_of_gap, output)};
+  }
+
+  bool reads_gap_speed() const override { return !is_zero(model_.effort.of_gap_speed); }
+  Interval gap_acceleration_per_speed() const override {
+    return model_.gap_acceleration->of_gap_speed;
+  }
+
  private:
-  const Way& of(Disturbance disturbance) const {
+  /// No state is disturbed by the gap's speed.
+  const IntervalVector* input_of(Disturbance disturbance) const {
     switch (disturbance) {
       case Disturbance::gap:
-        return model_.gap;
+        return &model_.gap;
       case Disturbance::torque_on_motor:
-        return model_.torque_on_motor;
+        return &model_.torque_on_motor;
       case Disturbance::torque_on_load:
-        return model_.torque_on_load;
+        return &model_.torque_on_load;
+      case Disturbance::gap_speed:
+        return nullptr;
       default:  // the speed is measured exactly
-        return model_.reading;
+        return &model_.reading;
     }
+  }
+  static Interval at_once(Disturbance disturbance, const LoopOutput& output) {
+    switch (disturbance) {
+      case Disturbance::gap:
+        return output.of_gap;
+      case Disturbance::torque_on_motor:
+        return output.of_torque_on_motor;
+      case Disturbance::torque_on_load:
+        return output.of_torque_on_load;
+      case Disturbance::gap_speed:
+        return output.of_gap_speed;
+      default:
+        return output.of_reading;
+    }
+  }
+  std::vector<double> bounds(Disturbance disturbance,
+                             const std::vector<const LoopOutput*>& outputs) const {
+    std::vector<IntervalVector> rows;
+    for (const LoopOutput* output : outputs) rows.push_back(output->of_state);
+    std::vector<Interval> norms(outputs.size(), Interval(0.0));
+    if (const IntervalVector* input = input_of(disturbance)) {
+      norms = motion_.impulse_norms(*input, rows);
+    }
+    std::vector<double> result;
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+      result.push_back((norms[i] + abs(at_once(disturbance, *outputs[i]))).high);
+    }
+    return result;
+  }
+  /// |h| ≤ (|h(0)| + ∫|h′|)/2 for every h that tends to 0.
+  double peak(const IntervalVector& start, const IntervalVector& output) const {
+    const Interval twice =
+        abs(dot(output, start)) + motion_.impulse_norm(times(model_.flow, start), output);
+    return (0.5 * twice).high;
   }
 
   Model model_;
@@ -216,8 +209,7 @@ class ContinuousLoop : public DisturbedLoop {
 }  // namespace
 
 std::unique_ptr<DisturbedLoop> continuous_loop(const ReducedDrive& drive) {
-  Model model = std::holds_alternative<drive::RigidContact>(drive.contact) ? rigid_model(drive)
-                                                                           : sprung_model(drive);
+  Model model = connected(plant_of(drive), drive::linear_controller(drive.controller));
   std::optional<DecayingMotion> motion = DecayingMotion::of(model.flow, TimeKind::continuous);
   if (!motion) return nullptr;
   return std::make_unique<ContinuousLoop>(std::move(model), *std::move(motion));

@@ -3,11 +3,9 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
-#include "base/datum.hpp"
+#include "base/interval.hpp"
 #include "model/drive.hpp"
-#include "numeric/decaying_motion.hpp"
 
 namespace gearlash {
 
@@ -18,32 +16,52 @@ enum class Disturbance {
   torque_on_load,    ///< N m
   position_reading,  ///< rad, error of the position that the controller receives
   speed_reading,     ///< rad, error of the position whose differences are the speed
-  both_readings      ///< rad, of both, from one encoder
+  both_readings,     ///< rad, of both, from one encoder
+  gap_speed          ///< rad/s, as far as the controller reads it
 };
 
 /// Upper bounds per unit of the largest disturbance.
 struct LoopGain {
-  double load = infinity;          ///< rad of the load's position
-  double motor = infinity;         ///< rad of the motor's position, at the load's shaft
-  std::optional<double> effort{};  ///< N m of the motor's torque; empty if none is known
+  double load = infinity;    ///< rad of the load's position
+  double motor = infinity;   ///< rad of the motor's position, at the load's shaft
+  double effort = infinity;  ///< N m that the controller requests
+  /// rad/s² of the motor less the load while the faces are apart, but for what the gap's speed adds
+  /// at once, DisturbedLoop::gap_acceleration_per_speed(). Not computed unless it is needed.
+  double gap_acceleration = infinity;
+};
+
+/// What a start adds to: the requested torque, N m, or the acceleration of LoopGain, rad/s².
+enum class StartOutput { effort, gap_acceleration };
+
+/// Upper bounds, at any time, of what a start adds: of both shafts displaced or moving together,
+/// per rad and per rad/s, and of the gap at the start, per rad. The controller's numbers are those
+/// of rest at the reference.
+struct StartGain {
+  double of_position = infinity;
+  double of_speed = infinity;
+  double of_gap = infinity;
 };
 
 /// A loop that is proved to decay with the gap closed, or with its springs connected.
 class DisturbedLoop {
  public:
   virtual ~DisturbedLoop() = default;
-  virtual LoopGain gain(Disturbance disturbance) const = 0;
+  virtual LoopGain gain(Disturbance disturbance) = 0;
+  /// Infinite where none is known.
+  virtual StartGain start_gain(StartOutput output) = 0;
+  /// Whether the controller reads the gap's speed, so that the effort needs its bound.
+  virtual bool reads_gap_speed() const = 0;
+  virtual Interval gap_acceleration_per_speed() const = 0;  ///< 1/s; rigid faces only
 };
 
 /// Whether the controller's torque depends on the sensed speed.
 bool uses_speed(const drive::LinearController& controller);
 
 /// Null if it is not proved that the loop decays. Preconditions: a continuous controller; rigid
-/// faces, or compliant ones without damping.
+/// faces, or compliant ones without damping or without a gap.
 std::unique_ptr<DisturbedLoop> continuous_loop(const drive::ReducedDrive& drive);
 
-/// The same for a sampled controller and rigid faces. Precondition: no speed from a tachometer,
-/// unless the controller ignores it.
+/// The same for a sampled controller.
 std::unique_ptr<DisturbedLoop> sampled_loop(const drive::ReducedDrive& drive);
 
 }  // namespace gearlash

@@ -1,18 +1,20 @@
-// A sampled controller and rigid faces.
+// A sampled controller, connected to the plant.
 //
-// Between events of the computer the plant is that of continuous_loop.cpp with a held torque:
-//   z′ = (s + c u)/J,   s′ = τ − F (s + c u)/J + w,   c = Fκ − F_M.
-// At tick k the controller reads z + αu and z + βu, hence u(t_k). So the numbers at the ticks obey
-// ξ⁺ = Φ ξ + Γ u(t_k) + ∫ K(θ) u, with K(θ) = e^{−fθ} (c/J) (1, −F) from θ before the next tick,
-// f = F/J: of one direction. The largest |z| at the ticks that |u| ≤ 1 can cause is
-// Σ|e Φᵏ Γ| + ∫e^{−fθ} Σ|e Φᵏ (c/J)(1, −F)|. Between them z bends by at most |z̈|, which decays: it
-// exceeds the line between the ends of a segment of length h by at most h²/8 |z̈|.
+// Between events of the computer the plant moves with a held torque. At tick k the controller reads
+// the gap u(t_k). So the numbers at the ticks obey ξ⁺ = Φ ξ + Γ u(t_k) + ∫ K(θ) u, with
+// K(θ) = e^{Aθ} b from θ before the next tick. The largest |c ξ| at the ticks that |u| ≤ 1 can
+// cause is Σ|c Φᵏ Γ| + ∫Σ|c Φᵏ K(θ)| dθ. The integral of each |f| exceeds that of the chord by at
+// most δ²/8 ∫|f″| over a part of length δ. Between ticks an output bends by at most its second
+// derivative: it exceeds the line between the ends of a segment of length h by at most h²/8 of
+// that.
 #include <algorithm>
-#include <variant>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "analysis/ceiling/loop_gain.hpp"
-#include "closed_form/enclosed_decays.hpp"
+#include "analysis/ceiling/plant.hpp"
+#include "numeric/decaying_motion.hpp"
 
 namespace gearlash {
 namespace {
@@ -20,12 +22,11 @@ namespace {
 using drive::LinearController;
 using drive::ReducedDrive;
 
-enum : std::size_t { position, momentum, controller_states };
-
-/// What an input at one instant, or spread over a tick, adds.
+/// What is read at a tick.
 struct Reading {
-  Interval position{0.0};  ///< to the position read
-  Interval counted{0.0};   ///< to the position whose differences are the speed
+  Interval position{0.0};
+  Interval counted{0.0};     ///< the position whose differences are the speed
+  Interval tachometer{0.0};  ///< the speed
 };
 
 /// A number as a linear form of the state at a tick and of what is read there.
@@ -35,106 +36,109 @@ struct Form {
 };
 
 Form operator+(Form a, const Form& b) {
-  for (std::size_t i = 0; i < a.of_state.size(); ++i) a.of_state[i] = a.of_state[i] + b.of_state[i];
+  a.of_state = added(std::move(a.of_state), b.of_state);
   a.of_reading.position = a.of_reading.position + b.of_reading.position;
   a.of_reading.counted = a.of_reading.counted + b.of_reading.counted;
+  a.of_reading.tachometer = a.of_reading.tachometer + b.of_reading.tachometer;
   return a;
 }
 
 Form operator*(const Interval& factor, Form form) {
-  for (Interval& number : form.of_state) number = factor * number;
+  form.of_state = scaled(factor, std::move(form.of_state));
   form.of_reading.position = factor * form.of_reading.position;
   form.of_reading.counted = factor * form.of_reading.counted;
+  form.of_reading.tachometer = factor * form.of_reading.tachometer;
   return form;
 }
 
-/// The plant over a time: z and s from those at its start and from a held torque.
-struct Passage {
-  Interval factor;              ///< e^{−fθ}
-  Interval decrease;            ///< 1 − e^{−fθ}
-  Interval duration;            ///< ∫e^{−fθ}
-  Interval position_of_speed;   ///< z per s
-  Interval position_of_torque;  ///< z per torque
+Interval product(const Reading& form, const Reading& read) {
+  return form.position * read.position + form.counted * read.counted +
+         form.tachometer * read.tachometer;
+}
+
+/// The times of a tick in which one torque is held.
+struct Hold {
+  Interval from;  ///< s after the tick
+  Interval time;
+  Form torque;
 };
 
-struct Plant {
-  Interval inertia;
-  Interval friction;
+/// A part of a hold over which outputs bend little.
+struct Segment {
+  Interval from;
+  Interval length;
+  std::vector<Form> states;  ///< of the plant, at its start
+  std::vector<Form> slopes;  ///< x′ at its start
+  Form torque;
+};
 
-  /// The functions fall as the exponent grows.
-  Passage over(const Interval& time) const {
-    const Interval exponent = friction * time / inertia;
-    const auto least = detail::enclosed_decay(exponent.high);
-    const auto most = detail::enclosed_decay(std::max(0.0, exponent.low));
-    const Interval integral = hull(least.integral, most.integral);
-    const Interval double_integral = hull(least.double_integral, most.double_integral);
-    return {.factor = hull(least.factor, most.factor),
-            .decrease = exponent * integral,
-            .duration = time * integral,
-            .position_of_speed = time * integral / inertia,
-            .position_of_torque = square(time) * double_integral / inertia};
-  }
+/// A disturbance's way into the loop.
+struct Entry {
+  Reading read{};
+  IntervalVector acting{};  ///< on the plant, all the time; none if empty
+  Disturbance disturbance;
+};
+
+/// What acts between the ticks, as it has become by the next: vectors whose norms, times their
+/// weights, have the integral as their sum.
+struct Spread {
+  std::vector<IntervalVector> vectors{};
+  std::vector<Interval> weights{};
 };
 
 class SampledLoop : public DisturbedLoop {
  public:
   explicit SampledLoop(const ReducedDrive& drive);
   bool prove();
-  LoopGain gain(Disturbance disturbance) const override;
+  LoopGain gain(Disturbance disturbance) override;
+  StartGain start_gain(StartOutput output) override;
+  bool reads_gap_speed() const override {
+    const Interval& share = plant_.speed.of_gap_speed;
+    return uses_speed(controller_) && !counts_ && (share.low != 0.0 || share.high != 0.0);
+  }
+  Interval gap_acceleration_per_speed() const override {
+    return plant_.gap_acceleration->of_gap_speed;
+  }
 
  private:
-  struct Segment {
-    Interval from;  ///< s after the tick
-    Interval length;
-    Form start;         ///< z
-    Form acceleration;  ///< z̈
-  };
   Form state(std::size_t index) const {
-    Form form{IntervalVector(size_, Interval(0.0)), {}};
+    Form form = nothing();
     form.of_state[index] = 1.0;
     return form;
   }
   Form nothing() const { return {IntervalVector(size_, Interval(0.0)), {}}; }
+  Form combination(const IntervalVector& row, const std::vector<Form>& states) const;
   Form reading(const Interval& of_position, const Interval& of_speed) const;
+  std::vector<Hold> holds() const;
   void plan(int parts);
-  void pass(const Interval& from, const Interval& time, const Form& torque, int parts, Form& z,
-            Form& s);
+  void pass(const Hold& hold, int parts, std::vector<Form>& states);
   IntervalMatrix changes() const;
-  /// A disturbance's way into the loop.
-  struct Entry {
-    Interval of_position{0.0};
-    Interval of_counted{0.0};
-    IntervalVector tick{};    ///< what a reading adds to the numbers at the next tick
-    IntervalVector steady{};  ///< what acts between the ticks adds per unit of `weight`
-    IntervalVector spread{};  ///< how much that varies over a tick
-    Interval weight{1.0};
-    /// What has acted since the tick adds these times ∫e^{−fθ} and ∫∫e^{−fθ}/J.
-    Interval rate{0.0};
-    Interval torque{0.0};
-    Interval on_load{0.0};
-    Interval on_motor{0.0};
-  };
+
   Entry entry(Disturbance disturbance) const;
-  Interval largest(const Form& form, const Entry& entry) const;
-  /// The largest |z| at the ends of the segments, of which the last is the next tick's first, and
-  /// by how much more it may bend between them.
+  IntervalVector tick_input(const Reading& read) const;
+  Spread spread(const IntervalVector& acting) const;
+  std::vector<Interval> norms(const IntervalVector& input, const std::vector<Form>& forms) const;
+  std::vector<Interval> largest(const std::vector<Form>& forms, const Entry& entry) const;
   struct Extent {
-    Interval at_ends{0.0};
-    Interval bend{0.0};
+    Interval at_ends{0.0};  ///< the largest at the starts of the segments
+    Interval bend{0.0};     ///< by how much more it may bend between them
   };
-  Extent extent(const Entry& entry) const;
-  IntervalVector tick_input(const Interval& of_position, const Interval& of_counted) const;
+  struct Track {
+    std::vector<Form> forms;
+    std::vector<Interval> since_tick;  ///< what has acted since, by segments
+    std::vector<Interval> bends_since_tick;
+  };
+  Track track(const PlantOutput& output, const Entry& entry) const;
+  Extent extent(const Track& track, const Interval* sizes) const;
+  double peak(const IntervalVector& start) const;
 
   Plant plant_;
   double period_in_doubles_;
   drive::SplitDelay delay_;
   Interval period_;
-  Interval share_;  ///< κ
-  Interval alpha_;
-  Interval beta_;
-  Interval lead_;  ///< c
   LinearController controller_;
   bool counts_ = false;  ///< the speed is a difference of positions, and the last one is kept
+  std::size_t first_controller_state_ = 0;
   std::size_t last_reading_ = 0;
   std::size_t queue_ = 0;  ///< torques that wait, the newest first
   std::size_t waiting_ = 0;
@@ -142,60 +146,95 @@ class SampledLoop : public DisturbedLoop {
   Form asked_;              ///< torque worked out at the tick
   std::vector<Form> next_;  ///< all numbers at the next tick
   std::vector<Segment> segments_;
+  int spread_parts_ = 1;
   std::optional<DecayingMotion> motion_;
 };
 
 SampledLoop::SampledLoop(const ReducedDrive& drive)
-    : period_in_doubles_(drive.sampling->period),
+    : plant_(plant_of(drive)),
+      period_in_doubles_(drive.sampling->period),
       delay_(drive::split_delay(*drive.sampling)),
       period_(datum(drive.sampling->period)),
       controller_(drive::sampled_controller(drive.controller, *drive.sampling)),
-      counts_(uses_speed(controller_)) {
-  const Interval motor_inertia = datum(drive.motor.inertia);
-  const Interval motor_friction = datum(drive.motor.friction.viscous);
-  plant_ = {motor_inertia + datum(drive.load.inertia),
-            motor_friction + datum(drive.load.friction.viscous)};
-  share_ = motor_inertia / plant_.inertia;
-  alpha_ = 1.0 - datum(drive.sensing.load_share_of_position) - share_;
-  beta_ = 1.0 - datum(drive.sensing.load_share_of_speed) - share_;
-  lead_ = plant_.friction * share_ - motor_friction;
+      counts_(uses_speed(controller_) && drive.sampling->speed_by_differences),
+      first_controller_state_(plant_.size()) {
   plan(1);
 }
 
+/// Chooses how finely ticks are divided, so that what is not seen is a small share of the gain.
 bool SampledLoop::prove() {
   motion_ = DecayingMotion::of(changes(), TimeKind::stepwise);
   if (!motion_) return false;
-  constexpr double unseen = 1e-3;  // share of the gain
-  constexpr double most_parts = 32.0;
-  const Extent extent = this->extent(entry(Disturbance::gap));
-  const double parts = std::sqrt(extent.bend.high / (unseen * extent.at_ends.high));
-  if (parts > 1.0) plan(static_cast<int>(std::ceil(std::min(parts, most_parts))));
+  constexpr double unseen = 2e-3;  // share of the gain
+  constexpr double most_parts = 24.0;
+  const auto parts = [&](const Interval& unseen_now, const Interval& whole) {
+    const double needed = std::sqrt(unseen_now.high / (unseen * whole.high));
+    return needed > 1.0 ? static_cast<int>(std::ceil(std::min(needed, most_parts))) : 1;
+  };
+  const Entry gap = entry(Disturbance::gap);
+  const Track load = track(plant_.load, gap);
+  const Extent extent = this->extent(load, largest(load.forms, gap).data());
+  const Spread spread = this->spread(gap.acting);
+  const Interval curvature = norms(spread.vectors[1], {load.forms.front()}).front();
+  spread_parts_ = parts(spread.weights[1] * curvature, extent.at_ends);
+  if (const int needed = parts(extent.bend, extent.at_ends); needed > 1) plan(needed);
   return true;
 }
 
-/// Σ of what is read: a position and, from the difference to the last one, a speed.
-Form SampledLoop::reading(const Interval& of_position, const Interval& of_speed) const {
-  Form form = of_position * state(position);
-  form.of_reading.position = of_position;
-  if (!counts_) return form;
-  const Interval per_angle = of_speed / period_;
-  form = form + per_angle * state(position);
-  form.of_state[last_reading_] = form.of_state[last_reading_] - per_angle;
-  form.of_reading.counted = per_angle;
+Form SampledLoop::combination(const IntervalVector& row, const std::vector<Form>& states) const {
+  Form form = nothing();
+  for (std::size_t i = 0; i < row.size(); ++i) form = std::move(form) + row[i] * states[i];
   return form;
 }
 
+/// Σ of what is read: a position and a speed, from a tachometer or from the difference to the last
+/// position.
+Form SampledLoop::reading(const Interval& of_position, const Interval& of_speed) const {
+  Form form = nothing();
+  const auto add = [&](const Interval& weight, const PlantOutput& output) {
+    for (std::size_t i = 0; i < plant_.size(); ++i) {
+      form.of_state[i] = form.of_state[i] + weight * output.of_state[i];
+    }
+  };
+  add(of_position, plant_.position);
+  form.of_reading.position = of_position;
+  if (counts_) {
+    const Interval per_angle = of_speed / period_;
+    add(per_angle, plant_.counted);
+    form.of_state[last_reading_] = form.of_state[last_reading_] - per_angle;
+    form.of_reading.counted = per_angle;
+  } else {
+    add(of_speed, plant_.speed);
+    form.of_reading.tachometer = of_speed;
+  }
+  return form;
+}
+
+std::vector<Hold> SampledLoop::holds() const {
+  const auto waiting = [&](std::size_t ticks) {
+    return ticks == 0 ? asked_ : state(queue_ + ticks - 1);
+  };
+  const bool changes_within = delay_.rest > 0.0 && delay_.rest < period_in_doubles_;
+  if (!changes_within) return {{0.0, period_, waiting(waiting_)}};
+  const Interval rest = datum(delay_.rest);
+  return {{0.0, rest, waiting(waiting_)},
+          {rest, not_negative(period_ - rest), waiting(waiting_ - 1)}};
+}
+
 /// The plant over a time with one torque, as segments of equal length.
-void SampledLoop::pass(const Interval& from, const Interval& time, const Form& torque, int parts,
-                       Form& z, Form& s) {
-  const Interval length = time / Interval(static_cast<double>(parts));
-  const Passage over = plant_.over(length);
-  const Interval per_inertia = 1.0 / plant_.inertia;
+void SampledLoop::pass(const Hold& hold, int parts, std::vector<Form>& states) {
+  const Interval length = hold.time / Interval(static_cast<double>(parts));
+  const LinearPassage over = passage(plant_.flow, {plant_.torque}, length);
   for (int i = 0; i < parts; ++i) {
-    segments_.push_back({from + static_cast<double>(i) * length, length, z,
-                         per_inertia * (torque + -(plant_.friction * per_inertia) * s)});
-    z = z + over.position_of_speed * s + over.position_of_torque * torque;
-    s = over.factor * s + over.duration * torque;
+    std::vector<Form> slopes;
+    std::vector<Form> next;
+    for (std::size_t k = 0; k < plant_.size(); ++k) {
+      slopes.push_back(combination(plant_.flow.rows[k], states) + plant_.torque[k] * hold.torque);
+      next.push_back(combination(over.flow.rows[k], states) + over.of_inputs[0][k] * hold.torque);
+    }
+    segments_.push_back({hold.from + static_cast<double>(i) * length, length, std::move(states),
+                         std::move(slopes), hold.torque});
+    states = std::move(next);
   }
 }
 
@@ -203,44 +242,38 @@ void SampledLoop::pass(const Interval& from, const Interval& time, const Form& t
 void SampledLoop::plan(int parts) {
   segments_.clear();
   waiting_ = delay_.rest > 0.0 ? static_cast<std::size_t>(delay_.whole_periods) + 1 : 0;
-  last_reading_ = controller_states + controller_.order();
+  last_reading_ = first_controller_state_ + controller_.order();
   queue_ = last_reading_ + (counts_ ? 1 : 0);
   size_ = queue_ + waiting_;
 
   const std::size_t order = controller_.order();
   asked_ = reading(datum(controller_.direct[1]), datum(controller_.direct[2]));
   for (std::size_t i = 0; i < order; ++i) {
-    asked_.of_state[controller_states + i] = datum(controller_.output[i]);
+    asked_.of_state[first_controller_state_ + i] = datum(controller_.output[i]);
   }
-  Form z = state(position);
-  Form s = state(momentum);
-  const bool changes_within = delay_.rest > 0.0 && delay_.rest < period_in_doubles_;
-  const auto waiting = [&](std::size_t ticks) {
-    return ticks == 0 ? asked_ : state(queue_ + ticks - 1);
-  };
-  if (changes_within) {
-    const Interval rest = datum(delay_.rest);
-    pass(0.0, rest, waiting(waiting_), parts, z, s);
-    pass(rest, not_negative(period_ - rest), waiting(waiting_ - 1), parts, z, s);
-  } else {
-    pass(0.0, period_, waiting(waiting_), parts, z, s);
-  }
+  std::vector<Form> states;
+  for (std::size_t i = 0; i < plant_.size(); ++i) states.push_back(state(i));
+  for (const Hold& hold : holds()) pass(hold, parts, states);
 
-  next_.assign(size_, nothing());
-  next_[position] = z;
-  next_[momentum] = s;
+  next_ = std::move(states);
   for (std::size_t i = 0; i < order; ++i) {
-    Form& next = next_[controller_states + i];
-    next = reading(datum(controller_.input_matrix[i][1]), datum(controller_.input_matrix[i][2]));
+    Form next =
+        reading(datum(controller_.input_matrix[i][1]), datum(controller_.input_matrix[i][2]));
     for (std::size_t j = 0; j < order; ++j) {
-      next.of_state[controller_states + j] = datum(controller_.state_matrix[i][j]);
+      next.of_state[first_controller_state_ + j] = datum(controller_.state_matrix[i][j]);
     }
+    next_.push_back(std::move(next));
   }
   if (counts_) {
-    next_[last_reading_] = state(position);
-    next_[last_reading_].of_reading.counted = 1.0;
+    Form last = nothing();
+    std::copy(plant_.counted.of_state.begin(), plant_.counted.of_state.end(),
+              last.of_state.begin());
+    last.of_reading.counted = 1.0;
+    next_.push_back(std::move(last));
   }
-  for (std::size_t i = 0; i < waiting_; ++i) next_[queue_ + i] = waiting(i);
+  for (std::size_t i = 0; i < waiting_; ++i) {
+    next_.push_back(i == 0 ? asked_ : state(queue_ + i - 1));
+  }
 }
 
 /// Φ − 1.
@@ -253,90 +286,192 @@ IntervalMatrix SampledLoop::changes() const {
   return changes;
 }
 
-IntervalVector SampledLoop::tick_input(const Interval& of_position,
-                                       const Interval& of_counted) const {
+/// What a reading adds to the numbers at the next tick.
+IntervalVector SampledLoop::tick_input(const Reading& read) const {
   IntervalVector input;
-  for (const Form& next : next_) {
-    input.push_back(next.of_reading.position * of_position + next.of_reading.counted * of_counted);
-  }
+  for (const Form& next : next_) input.push_back(gearlash::product(next.of_reading, read));
   return input;
 }
 
-SampledLoop::Entry SampledLoop::entry(Disturbance disturbance) const {
-  Entry entry;
-  entry.steady.assign(size_, Interval(0.0));
-  entry.spread = entry.steady;
+Entry SampledLoop::entry(Disturbance disturbance) const {
+  Entry entry{.disturbance = disturbance};
   switch (disturbance) {
-    case Disturbance::gap: {
-      entry.of_position = alpha_;
-      entry.of_counted = beta_;
-      const Interval rate = lead_ / plant_.inertia;
-      entry.weight = plant_.over(period_).duration;
-      entry.steady[position] = rate;
-      entry.steady[momentum] = -(plant_.friction * rate);
-      entry.rate = abs(rate);
-      entry.on_load = share_;
-      entry.on_motor = 1.0 - share_;
+    case Disturbance::gap:
+      entry.read = {plant_.position.of_gap, plant_.counted.of_gap, plant_.speed.of_gap};
+      entry.acting = plant_.gap;
       break;
-    }
     case Disturbance::torque_on_motor:
-    case Disturbance::torque_on_load: {
-      // (1 − e^{−fθ})/F and e^{−fθ} from θ before the tick: monotonic, so that ∫|e·K| exceeds
-      // |∫e·K| by at most half a period times the whole change.
-      const Passage over = plant_.over(period_);
-      entry.steady[position] = over.position_of_torque;
-      entry.steady[momentum] = over.duration;
-      entry.spread[position] = 0.5 * period_ * over.position_of_speed;
-      entry.spread[momentum] = -(0.5 * period_ * over.decrease);
-      entry.torque = 1.0;
+      entry.acting = plant_.torque_on_motor;
       break;
-    }
+    case Disturbance::torque_on_load:
+      entry.acting = plant_.torque_on_load;
+      break;
     case Disturbance::position_reading:
-      entry.of_position = 1.0;
+      entry.read.position = 1.0;
       break;
     case Disturbance::speed_reading:
-      entry.of_counted = 1.0;
+      entry.read.counted = 1.0;
       break;
     case Disturbance::both_readings:
-      entry.of_position = 1.0;
-      entry.of_counted = 1.0;
+      entry.read.position = 1.0;
+      entry.read.counted = 1.0;
+      break;
+    case Disturbance::gap_speed:
+      entry.read.tachometer = plant_.speed.of_gap_speed;
       break;
   }
-  entry.tick = tick_input(entry.of_position, entry.of_counted);
   return entry;
 }
 
-/// The largest |form| at a tick, but for what acts from then on.
-Interval SampledLoop::largest(const Form& form, const Entry& entry) const {
-  const Interval straight =
-      form.of_reading.position * entry.of_position + form.of_reading.counted * entry.of_counted;
-  return abs(straight) + motion_->impulse_norm(entry.tick, form.of_state) +
-         entry.weight * motion_->impulse_norm(entry.steady, form.of_state) +
-         motion_->impulse_norm(entry.spread, form.of_state);
+/// ∫Σ|c Φᵏ e^{Aθ} b| over a period: the trapezoidal rule over `spread_parts_` parts of length δ,
+/// and δ²/8 ∫Σ|c Φᵏ e^{Aθ} A² b|. Of several parts the latter is bounded state by state.
+Spread SampledLoop::spread(const IntervalVector& acting) const {
+  Spread spread;
+  const Interval length = period_ / Interval(static_cast<double>(spread_parts_));
+  const Interval weight = square(length) / 8.0 * length;
+  const IntervalMatrix over = passage(plant_.flow, {}, length).flow;
+  const IntervalMatrix within = passage(plant_.flow, {}, Interval(0.0, length.high)).flow;
+  const auto add = [&](IntervalVector vector, const Interval& share) {
+    vector.resize(size_, Interval(0.0));
+    spread.vectors.push_back(std::move(vector));
+    spread.weights.push_back(share);
+  };
+  IntervalVector here = acting;
+  IntervalVector bent = times(plant_.flow, times(plant_.flow, acting));
+  IntervalVector bends(plant_.size(), Interval(0.0));
+  add(here, 0.5 * length);
+  for (int i = 1; i <= spread_parts_; ++i) {
+    const IntervalVector bend = times(within, bent);
+    for (std::size_t k = 0; k < bends.size(); ++k) bends[k] = bends[k] + weight * abs(bend[k]);
+    if (spread_parts_ == 1) add(bend, weight);
+    here = times(over, here);
+    bent = times(over, bent);
+    add(here, i == spread_parts_ ? 0.5 * length : length);
+  }
+  if (spread_parts_ == 1) return spread;
+  for (std::size_t k = 0; k < bends.size(); ++k) {
+    IntervalVector unit(plant_.size(), Interval(0.0));
+    unit[k] = 1.0;
+    add(unit, bends[k]);
+  }
+  return spread;
 }
 
-SampledLoop::Extent SampledLoop::extent(const Entry& entry) const {
-  Extent extent;
+std::vector<Interval> SampledLoop::norms(const IntervalVector& input,
+                                         const std::vector<Form>& forms) const {
+  std::vector<IntervalVector> rows;
+  for (const Form& form : forms) rows.push_back(form.of_state);
+  return motion_->impulse_norms(input, rows);
+}
+
+/// The largest |form| of each, but for what acts since the tick.
+std::vector<Interval> SampledLoop::largest(const std::vector<Form>& forms,
+                                           const Entry& entry) const {
+  std::vector<Interval> result = norms(tick_input(entry.read), forms);
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    result[i] = result[i] + abs(gearlash::product(forms[i].of_reading, entry.read));
+  }
+  if (entry.acting.empty()) return result;
+  const Spread spread = this->spread(entry.acting);
+  for (std::size_t k = 0; k < spread.vectors.size(); ++k) {
+    const std::vector<Interval> part = norms(spread.vectors[k], forms);
+    for (std::size_t i = 0; i < forms.size(); ++i) {
+      result[i] = result[i] + spread.weights[k] * part[i];
+    }
+  }
+  return result;
+}
+
+/// An output followed over a tick: two forms for each segment, its start and its bend.
+SampledLoop::Track SampledLoop::track(const PlantOutput& output, const Entry& entry) const {
+  Track track;
+  Interval since_tick = 0.0;  // ∫|c e^{Aθ} b| up to the segment's start
+  const IntervalVector second = times(output.of_state, plant_.flow);
   for (const Segment& segment : segments_) {
-    const Passage since_tick = plant_.over(segment.from);
-    extent.at_ends =
-        max(extent.at_ends, largest(segment.start, entry) + entry.rate * since_tick.duration +
-                                entry.torque * since_tick.position_of_torque);
-    // ∫e^{−fθ} bends downwards, ∫∫e^{−fθ} upwards.
-    const Interval bend =
-        largest(segment.acceleration, entry) + entry.rate * plant_.friction / plant_.inertia;
-    extent.bend = max(extent.bend, square(segment.length) / 8.0 * bend);
+    const Interval within(0.0, segment.length.high);
+    track.forms.push_back(combination(output.of_state, segment.states) +
+                          output.of_torque * segment.torque);
+    track.forms.push_back(
+        combination(times(second, passage(plant_.flow, {}, within).flow), segment.slopes));
+    Interval slope = 0.0;
+    Interval bend = 0.0;
+    if (!entry.acting.empty()) {
+      const IntervalVector acted =
+          times(passage(plant_.flow, {}, segment.from + within).flow, entry.acting);
+      slope = abs(dot(output.of_state, acted));
+      bend = abs(dot(second, acted));
+    }
+    track.since_tick.push_back(since_tick);
+    track.bends_since_tick.push_back(bend);
+    since_tick = since_tick + segment.length * slope;
+  }
+  return track;
+}
+
+/// `sizes`: of the track's forms.
+SampledLoop::Extent SampledLoop::extent(const Track& track, const Interval* sizes) const {
+  Extent extent;
+  for (std::size_t i = 0; i < segments_.size(); ++i) {
+    extent.at_ends = max(extent.at_ends, sizes[2 * i] + track.since_tick[i]);
+    extent.bend = max(extent.bend, square(segments_[i].length) / 8.0 *
+                                       (sizes[2 * i + 1] + track.bends_since_tick[i]));
   }
   return extent;
 }
 
-LoopGain SampledLoop::gain(Disturbance disturbance) const {
+LoopGain SampledLoop::gain(Disturbance disturbance) {
   const Entry entry = this->entry(disturbance);
-  const Extent extent = this->extent(entry);
-  const Interval of_z = extent.at_ends + extent.bend;
-  return {.load = (of_z + abs(entry.on_load)).high,
-          .motor = (of_z + abs(entry.on_motor)).high,
-          .effort = largest(asked_, entry).high};
+  std::vector<const PlantOutput*> outputs{&plant_.load};
+  // Rigid faces: both shafts are one state, from which the gap parts them at once.
+  const bool is_rigid = plant_.gap_acceleration.has_value();
+  if (!is_rigid) outputs.push_back(&plant_.motor);
+  if (reads_gap_speed()) outputs.push_back(&*plant_.gap_acceleration);
+  std::vector<Form> forms{asked_};
+  std::vector<Track> tracks;
+  for (const PlantOutput* output : outputs) {
+    tracks.push_back(track(*output, entry));
+    forms.insert(forms.end(), tracks.back().forms.begin(), tracks.back().forms.end());
+  }
+  const std::vector<Interval> sizes = largest(forms, entry);
+  const auto bound = [&](std::size_t which, const PlantOutput& output) {
+    const Extent extent = this->extent(tracks[which], &sizes[1 + 2 * segments_.size() * which]);
+    Interval at_once = 0.0;
+    if (disturbance == Disturbance::gap) at_once = output.of_gap;
+    if (disturbance == Disturbance::torque_on_motor) at_once = output.of_torque_on_motor;
+    if (disturbance == Disturbance::torque_on_load) at_once = output.of_torque_on_load;
+    return (extent.at_ends + extent.bend + abs(at_once)).high;
+  };
+  LoopGain gain{.load = bound(0, plant_.load),
+                .motor = bound(is_rigid ? 0 : 1, plant_.motor),
+                .effort = sizes[0].high};
+  if (reads_gap_speed()) gain.gap_acceleration = bound(1, *plant_.gap_acceleration);
+  return gain;
+}
+
+/// |h| ≤ (|h(0)| + Σ|h(k + 1) − h(k)|)/2 for every h that tends to 0.
+double SampledLoop::peak(const IntervalVector& start) const {
+  IntervalVector change = times(changes(), start);
+  const Interval twice =
+      abs(dot(asked_.of_state, start)) + motion_->impulse_norm(change, asked_.of_state);
+  return (0.5 * twice).high;
+}
+
+/// At a tick, as if all had been at rest, or had moved evenly, before it.
+StartGain SampledLoop::start_gain(StartOutput output) {
+  if (output != StartOutput::effort) return {};
+  const auto extended = [&](IntervalVector start) {
+    const Interval counted = dot(plant_.counted.of_state, start);
+    start.resize(size_, Interval(0.0));
+    if (counts_) start[last_reading_] = counted;
+    return start;
+  };
+  IntervalVector moving = extended(plant_.start_of_speed);
+  if (counts_) moving[last_reading_] = -period_;
+  IntervalVector gap = extended(plant_.start_of_gap);
+  if (counts_) gap[last_reading_] = gap[last_reading_] + plant_.counted.of_gap;
+  return {.of_position = peak(extended(plant_.start_of_position)),
+          .of_speed = peak(moving),
+          .of_gap = peak(gap)};
 }
 
 }  // namespace

@@ -122,11 +122,19 @@ std::vector<Assumption> omissions(const ReducedDrive& drive, DescribedPart part,
     if (applies) found.push_back(assumption);
   };
   const bool is_friction = part == DescribedPart::coulomb_friction;
-  add(part == DescribedPart::torque_limit || is_friction, Assumption::gap_left_out);
+  const bool is_gap = part == DescribedPart::gap_load_held ||
+                      part == DescribedPart::gap_load_coasting ||
+                      part == DescribedPart::elastic_gap;
+  add(!is_gap, Assumption::gap_left_out);
   add(part != DescribedPart::torque_limit && std::isfinite(drive.torque_limit),
       Assumption::torque_limit_left_out);
   add(!is_friction && is_dry(drive), Assumption::coulomb_left_out);
   add(is_friction && has_stiction(drive), Assumption::breakaway_left_out);
+  const bool has_shape = drive.error_shape.is_present();
+  add(has_shape && part != DescribedPart::dead_band && part != DescribedPart::relay,
+      Assumption::error_shape_left_out);
+  add(is_friction && (drive.motor.friction.falls() || drive.load.friction.falls()),
+      Assumption::falling_friction_left_out);
   add(drive.sampling.has_value(), Assumption::sampling_as_delay);
   add(delay_is_rational, Assumption::delay_as_rational);
   add(drive.sensing.resolution > 0.0 || drive.sensing.resolution_of_speed > 0.0,
@@ -276,11 +284,52 @@ DescribingAnalysis described_coulomb_friction(const ReducedDrive& drive) {
   return analysis;
 }
 
+/// The drive whose controller does not receive the speed.
+ReducedDrive without_speed(ReducedDrive drive) {
+  if (std::holds_alternative<SampledTransfer>(drive.controller)) return drive;  // it does not
+  LinearController linear = linear_controller(drive.controller);
+  for (std::vector<double>& row : linear.input_matrix) row[2] = 0.0;
+  linear.direct[2] = 0.0;
+  drive.controller = linear;
+  return drive;
+}
+
+/// A nonlinearity that gives the error that the controller receives.
+DescribingAnalysis described_error(const ReducedDrive& drive, DescribedPart part,
+                                   const Nonlinearity& nonlinearity) {
+  const Feedback whole = feedback_of(drive, TorqueGiven::as_asked);
+  const RationalFunction of_error =
+      feedback_of(without_speed(drive), TorqueGiven::as_asked).whole();
+  const RationalFunction of_speed = whole.whole() - of_error;
+  const bool has_speed = !of_speed.is_zero();
+  const RationalFunction delay =
+      has_speed ? delay_approximation(whole.delay) : RationalFunction(1.0);
+  const RationalFunction input = drive.error_shape.is_of_speed ? variable() : RationalFunction(1.0);
+  const RationalFunction loop = input * of_error * delay / (plant_of(drive) + of_speed * delay);
+  DescribingAnalysis analysis{
+      .part = part,
+      .nonlinearity = nonlinearity,
+      .loop = rounded(loop, has_speed ? 0.0 : whole.delay),
+      .input_per_motor = rounded(input),
+      .load_per_motor = TransferFunction{{1.0}, {1.0}},
+      .assumptions = omissions(drive, part, has_speed && whole.delay > 0.0)};
+  find_cycles(analysis, drive.backlash);
+  return analysis;
+}
+
 }  // namespace
 
 std::vector<DescribingAnalysis> describing_analyses(const ReducedDrive& drive) {
   require_none(validate(drive));
   std::vector<DescribingAnalysis> analyses;
+  const ErrorShape& shape = drive.error_shape;
+  if (shape.is_relay()) {
+    if (shape.is_two_level()) {
+      analyses = {
+          described_error(drive, DescribedPart::relay, RelayWithHysteresis{1.0, shape.begins})};
+    }
+    return analyses;
+  }
   if (drive.backlash > 0.0) {
     analyses = {described_gap(drive, DescribedPart::gap_load_held),
                 described_gap(drive, DescribedPart::gap_load_coasting)};
@@ -290,6 +339,10 @@ std::vector<DescribingAnalysis> describing_analyses(const ReducedDrive& drive) {
   }
   if (std::isfinite(drive.torque_limit)) analyses.push_back(described_torque_limit(drive));
   if (coulomb_of(drive) > 0.0) analyses.push_back(described_coulomb_friction(drive));
+  if (shape.inner_gain == 0.0 && !shape.jumps) {
+    analyses.push_back(
+        described_error(drive, DescribedPart::dead_band, DeadZone{shape.begins, 1.0}));
+  }
   return analyses;
 }
 
@@ -311,6 +364,10 @@ const char* name_of(DescribedPart part) {
       return "torque limit";
     case DescribedPart::coulomb_friction:
       return "Coulomb friction";
+    case DescribedPart::dead_band:
+      return "dead band";
+    case DescribedPart::relay:
+      return "relay";
   }
   return "";
 }
@@ -341,6 +398,10 @@ const char* description_of(Assumption assumption) {
       return "encoders have no steps";
     case Assumption::signals_left_out:
       return "reference and load torque are 0";
+    case Assumption::error_shape_left_out:
+      return "the controller receives the error itself, without dead band or compensation";
+    case Assumption::falling_friction_left_out:
+      return "dry friction does not fall with speed";
   }
   return "";
 }

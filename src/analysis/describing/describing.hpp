@@ -19,7 +19,9 @@ enum class DescribedPart {
   gap_load_coasting,  ///< likewise; the load keeps its speed in the gap
   elastic_gap,        ///< from motor minus load position to the mesh torque: a dead zone
   torque_limit,       ///< from the requested to the delivered torque: a saturation
-  coulomb_friction    ///< from the speed to the torque against it: a relay
+  coulomb_friction,   ///< from the speed to the torque against it: a relay
+  dead_band,          ///< from the error to what the controller receives: a dead zone
+  relay               ///< from the error or the speed to the torque, per level: a relay
 };
 
 /// Assumptions, besides that the nonlinearity's input is a sine about 0.
@@ -33,7 +35,9 @@ enum class Assumption {
   sampling_as_delay,
   delay_as_rational,
   encoder_left_out,
-  signals_left_out
+  signals_left_out,
+  error_shape_left_out,
+  falling_friction_left_out
 };
 
 /// Angles in rad, times in s (or whatever the drive is given in).
@@ -76,6 +80,10 @@ struct DescribingAnalysis {
 /// Coulomb        friction of both shafts together, as one:  L = s/(D + a + c). A breakaway torque
 ///                above Coulomb friction has no effect, because a sine is never at rest. The method
 ///                cannot predict hunting from stiction.
+/// dead band      of the kind that gives the excess, both shafts as one:  L = P/(D + s V).
+/// relay          of two levels, both shafts as one:  L = level/D, times s for a relay of the
+/// speed.
+///                The other parts of such a drive take its controller as linear and are left out.
 ///
 /// A sampled controller is converted to continuous time by z = (1 + sT/2)/(1 − sT/2), which gives
 /// the original controller if it was discretized by Tustin's rule. The hold counts as a delay of

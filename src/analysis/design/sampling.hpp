@@ -5,7 +5,7 @@
 
 namespace gearlash {
 
-inline constexpr std::size_t most_samples = 1'000'000'000;
+inline constexpr std::size_t most_samples = 100'000'000;  // 1.6 GB
 
 /// Every fault of a plan's ranges, and of more than most_samples.
 std::vector<Fault> validate(const SamplePlan& sampling);

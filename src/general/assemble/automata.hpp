@@ -40,11 +40,33 @@ void add_compliance(const DriveForms& forms, const DriveMode& mode, hybrid::Affi
 /// A shaft that moves independently of the other: stopping and breaking away.
 void add_friction(const DriveForms& forms, const DriveMode& mode, Side side,
                   hybrid::AffineMode& built);
+/// Passing the speed from which on a moving shaft's dry friction no longer falls.
+void add_falling_friction(const DriveForms& forms, const DriveMode& mode, Side side,
+                          hybrid::AffineMode& built);
 
 // ---- actuator -----------------------------------------------------------------------------------
 
 /// For a continuous controller. A sampled one reaches the limit at its ticks.
 void add_torque_limit(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built);
+
+/// The largest current of a winding. With a lag its torque stays at the limit while what it tends
+/// to is beyond.
+void add_current_limit(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built);
+
+// ---- controller ---------------------------------------------------------------------------------
+
+/// The branches of ReducedDrive::error_shape, of a continuous controller.
+void add_error_shape(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built);
+/// The branches that a sampled controller takes after it has read its error.
+void add_error_reading(const DriveForms& forms, std::size_t clock, const DriveMode& mode,
+                       hybrid::AffineMode& built);
+/// The branch at a start, where it is not the inner one: a relay with two levels has none.
+Branch first_branch(const ErrorShape& shape, double input);
+
+/// Signs of the reference's speed.
+void add_feedforward(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built);
+/// The sign after the reference's course has changed.
+std::vector<hybrid::Alternative> reference_speeds(const DriveForms& forms, const DriveMode& mode);
 
 // ---- sensor -------------------------------------------------------------------------------------
 
@@ -72,8 +94,9 @@ struct Setting {
 struct DriveClocks {
   std::vector<hybrid::Clock> clocks;
   std::vector<Setting> settings;
-  std::size_t sample = 0;  ///< index of a sampled controller's clock; its output's clock is the
-                           ///< next
+  /// Index of a sampled controller's clock; its output's clock is the next. That of an error that
+  /// is read before is the one before.
+  std::size_t sample = 0;
 };
 DriveClocks drive_clocks(const DriveForms& forms);
 

@@ -53,11 +53,53 @@ AffineForm DriveForms::sensed_speed() const {
   return sensed(drive_.sensing.load_share_of_speed, motor_speed, load_speed);
 }
 
-AffineForm DriveForms::of_inputs(const std::vector<double>& factors) const {
-  return factors[0] * reference() +
-         factors[1] *
-             (at_.encoder == StateIndices::none ? sensed_position() : number(at_.encoder)) +
-         factors[2] * sensed_speed();
+AffineForm DriveForms::measured_position() const {
+  return at_.encoder == StateIndices::none ? sensed_position() : number(at_.encoder);
+}
+
+AffineForm DriveForms::reference_speed() const {
+  AffineForm form = constant(0.0);
+  form.normal.segment(at_.reference, at_.reference_size) =
+      reference_generator_.flow.transpose() * reference_generator_.output;
+  return form;
+}
+
+AffineForm DriveForms::command(const DriveMode& mode) const {
+  if (at_.taken_up != StateIndices::none) return reference() + number(at_.taken_up);
+  return reference() + sign_of(mode.reference_way) * drive_.feedforward.half_gap;
+}
+
+AffineForm DriveForms::shape_input(const DriveMode& mode) const {
+  if (at_.error != StateIndices::none) return number(at_.error);
+  if (drive_.error_shape.is_of_speed) return -1.0 * sensed_speed();
+  return command(mode) - measured_position();
+}
+
+AffineForm DriveForms::first_shape_input() const {
+  if (drive_.error_shape.is_of_speed) return -1.0 * sensed_speed();
+  return reference() - sensed_position();
+}
+
+AffineForm DriveForms::shaped_error(const DriveMode& mode) const {
+  const ErrorShape& shape = drive_.error_shape;
+  // A relay's input may be the speed, of which it takes the sign alone.
+  const double sign = sign_of(mode.error);
+  const double gain = sign == 0.0 ? shape.inner_gain : shape.outer_gain;
+  if (gain == 0.0) return constant(sign * shape.offset);
+  return gain * shape_input(mode) + sign * shape.offset;
+}
+
+AffineForm DriveForms::feedforward_torque(const DriveMode& mode) const {
+  const Feedforward& forward = drive_.feedforward;
+  const double sign = sign_of(mode.reference_speed);
+  if (sign != 0.0 || forward.speed == 0.0) return constant(sign * forward.torque);
+  return forward.torque / forward.speed * reference_speed();
+}
+
+AffineForm DriveForms::of_inputs(const DriveMode& mode, const std::vector<double>& factors) const {
+  const AffineForm speed = factors[2] * sensed_speed();
+  if (drive_.error_shape.is_present()) return factors[0] * shaped_error(mode) + speed;
+  return factors[0] * command(mode) + factors[1] * measured_position() + speed;
 }
 
 AffineForm DriveForms::of_controller(const std::vector<double>& factors) const {
@@ -68,24 +110,32 @@ AffineForm DriveForms::of_controller(const std::vector<double>& factors) const {
   return sum;
 }
 
-AffineForm DriveForms::asked_torque() const {
+AffineForm DriveForms::asked_torque(const DriveMode& mode) const {
   if (drive_.sampling) return number(at_.held);
-  return of_controller(controller_.output) + of_inputs(controller_.direct);
+  return of_controller(controller_.output) + of_inputs(mode, controller_.direct) +
+         feedforward_torque(mode);
 }
 
-AffineForm DriveForms::motor_torque(TorqueState state) const {
-  return at_.winding == StateIndices::none ? limited_torque(state) : number(at_.winding);
+AffineForm DriveForms::driving_torque(const DriveMode& mode) const {
+  return limited_torque(mode) - drive_.winding.back_emf * number(motor_speed);
 }
 
-AffineForm DriveForms::limited_torque(TorqueState state) const {
-  if (state == TorqueState::highest) return constant(drive_.torque_limit);
-  if (state == TorqueState::lowest) return constant(-drive_.torque_limit);
-  return asked_torque();
+AffineForm DriveForms::motor_torque(const DriveMode& mode) const {
+  if (at_.winding != StateIndices::none) return number(at_.winding);
+  if (mode.current == TorqueState::linear) return limited_torque(mode);
+  const double way = mode.current == TorqueState::highest ? 1.0 : -1.0;
+  return drive_.winding.back_emf * number(motor_speed) + way * drive_.winding.torque_limit;
+}
+
+AffineForm DriveForms::limited_torque(const DriveMode& mode) const {
+  if (mode.torque == TorqueState::highest) return constant(drive_.torque_limit);
+  if (mode.torque == TorqueState::lowest) return constant(-drive_.torque_limit);
+  return asked_torque(mode);
 }
 
 AffineForm DriveForms::withdrawal(const DriveMode& mode, std::size_t state) const {
   if (controller_.anti_windup.empty() || mode.torque == TorqueState::linear) return constant(0.0);
-  return controller_.anti_windup[state] * (limited_torque(mode.torque) - asked_torque());
+  return controller_.anti_windup[state] * (limited_torque(mode) - asked_torque(mode));
 }
 
 // ---- torques ------------------------------------------------------------------------------------
@@ -118,19 +168,23 @@ AffineForm DriveForms::torque_on_load() const {
 }
 
 AffineForm DriveForms::applied_torque(const DriveMode& mode, Side side) const {
-  return side == Side::motor ? motor_torque(mode.torque) - mesh_torque(mode)
+  return side == Side::motor ? motor_torque(mode) - mesh_torque(mode)
                              : mesh_torque(mode) + torque_on_load();
 }
 
 AffineForm DriveForms::friction_torque(Side side, FrictionState state) const {
   const ShaftFriction& friction = shaft(side).friction;
-  return friction.viscous * number(speed_of(side)) + way_of(state) * friction.coulomb;
+  const bool falls =
+      state == FrictionState::forward_slowly || state == FrictionState::backward_slowly;
+  if (!falls) return friction.viscous * number(speed_of(side)) + way_of(state) * friction.coulomb;
+  const double slope = (friction.breakaway - friction.coulomb) / friction.stribeck_speed;
+  return (friction.viscous - slope) * number(speed_of(side)) + way_of(state) * friction.breakaway;
 }
 
 AffineForm DriveForms::engaged_acceleration(const DriveMode& mode) const {
   if (sticks_as_one(mode)) return constant(0.0);
   const double inertia = drive_.motor.inertia + drive_.load.inertia;
-  const AffineForm torque = motor_torque(mode.torque) + torque_on_load() -
+  const AffineForm torque = motor_torque(mode) + torque_on_load() -
                             friction_torque(Side::motor, mode.motor) -
                             friction_torque(Side::load, mode.load);
   return 1.0 / inertia * torque;
@@ -156,16 +210,21 @@ hybrid::AffineFlow DriveForms::flow(const DriveMode& mode) const {
   set(motor_speed, acceleration(mode, Side::motor));
   set(load_position, number(load_speed));
   set(load_speed, acceleration(mode, Side::load));
-  if (at_.winding != StateIndices::none) {
-    set(at_.winding, 1.0 / drive_.winding.time_constant *
-                         (limited_torque(mode.torque) -
-                          drive_.winding.back_emf * number(motor_speed) - number(at_.winding)));
+  if (at_.winding != StateIndices::none && mode.current == TorqueState::linear) {
+    set(at_.winding,
+        1.0 / drive_.winding.time_constant * (driving_torque(mode) - number(at_.winding)));
+  }
+  if (at_.taken_up != StateIndices::none) {
+    const Feedforward& forward = drive_.feedforward;
+    set(at_.taken_up,
+        1.0 / forward.take_up_time *
+            (constant(sign_of(mode.reference_way) * forward.half_gap) - number(at_.taken_up)));
   }
   generate(reference_generator_, at_.reference);
   generate(load_generator_, at_.load_torque);
   for (std::size_t i = 0; !drive_.sampling && i < controller_.order(); ++i) {
     set(controller_states + static_cast<Eigen::Index>(i),
-        of_controller(controller_.state_matrix[i]) + of_inputs(controller_.input_matrix[i]) +
+        of_controller(controller_.state_matrix[i]) + of_inputs(mode, controller_.input_matrix[i]) +
             withdrawal(mode, i));
   }
   return flow;

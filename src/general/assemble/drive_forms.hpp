@@ -43,6 +43,9 @@ class DriveForms {
   hybrid::AffineForm gap() const { return number(motor_position) - number(load_position); }
   hybrid::AffineForm gap_speed() const { return number(motor_speed) - number(load_speed); }
   hybrid::AffineForm reference() const { return of(reference_generator_, at_.reference); }
+  hybrid::AffineForm reference_speed() const;
+  /// The reference that the controller follows: with the addition for the gap.
+  hybrid::AffineForm command(const DriveMode& mode) const;
   hybrid::AffineForm load_torque() const { return of(load_generator_, at_.load_torque); }
 
   hybrid::AffineForm sensed_position() const;
@@ -50,15 +53,27 @@ class DriveForms {
   hybrid::AffineForm counted_position() const;
   hybrid::AffineForm sensed_speed() const;
 
+  /// The input by which ReducedDrive::error_shape chooses its branch: as measured, or as last read.
+  hybrid::AffineForm shape_input(const DriveMode& mode) const;
+  /// As measured, before any reading.
+  hybrid::AffineForm first_shape_input() const;
+  /// What ReducedDrive::error_shape gives.
+  hybrid::AffineForm shaped_error(const DriveMode& mode) const;
+  /// Of the reference's speed, N m.
+  hybrid::AffineForm feedforward_torque(const DriveMode& mode) const;
+
   /// Σ factors (r, y, v), of a continuous controller.
-  hybrid::AffineForm of_inputs(const std::vector<double>& factors) const;
+  hybrid::AffineForm of_inputs(const DriveMode& mode, const std::vector<double>& factors) const;
   /// Σ factors of the controller's states.
   hybrid::AffineForm of_controller(const std::vector<double>& factors) const;
-  hybrid::AffineForm asked_torque() const;
+  hybrid::AffineForm asked_torque(const DriveMode& mode) const;
   /// The requested torque within its limit.
-  hybrid::AffineForm limited_torque(TorqueState state) const;
-  /// On the motor: the same, or the winding's that lags behind it.
-  hybrid::AffineForm motor_torque(TorqueState state) const;
+  hybrid::AffineForm limited_torque(const DriveMode& mode) const;
+  /// What a winding's torque tends to: the limited torque less the back-EMF.
+  hybrid::AffineForm driving_torque(const DriveMode& mode) const;
+  /// On the motor: the limited torque, or the winding's that lags behind it, within the current's
+  /// limit. A winding without lag has its back-EMF among the frictions.
+  hybrid::AffineForm motor_torque(const DriveMode& mode) const;
   /// Anti-windup, of one of the controller's states.
   hybrid::AffineForm withdrawal(const DriveMode& mode, std::size_t state) const;
 
@@ -81,6 +96,7 @@ class DriveForms {
 
  private:
   hybrid::AffineForm of(const Generator& generator, Eigen::Index at) const;
+  hybrid::AffineForm measured_position() const;
   hybrid::AffineForm sensed(double load_share, Eigen::Index motor, Eigen::Index load) const;
 
   ReducedDrive drive_;

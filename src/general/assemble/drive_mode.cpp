@@ -20,7 +20,9 @@ const char* text_of(ContactState contact) {
 }
 
 const char* text_of(FrictionState friction) {
-  constexpr std::array<const char*, 4> names = {"", "moves forward", "moves backward", "sticks"};
+  constexpr std::array<const char*, 6> names = {
+      "",       "moves forward",        "moves backward",
+      "sticks", "moves slowly forward", "moves slowly backward"};
   return names[static_cast<std::size_t>(friction)];
 }
 
@@ -41,7 +43,23 @@ std::vector<ContactState> contacts_of(const ReducedDrive& drive) {
 std::vector<FrictionState> frictions_of(const Shaft& shaft) {
   using enum FrictionState;
   if (!shaft.friction.is_dry()) return {viscous};
-  return {forward, backward, sticking};
+  if (!shaft.friction.falls()) return {forward, backward, sticking};
+  return {forward, backward, sticking, forward_slowly, backward_slowly};
+}
+
+std::string text_of(const char* what, Branch branch) {
+  if (branch == Branch::inner) return {};
+  return std::string("; ") + what + (branch == Branch::forward ? " forward" : " backward");
+}
+
+constexpr std::size_t branches = 3;  // of an automaton that a drive has
+
+/// The states of the automata other than contact and frictions, as indices.
+std::array<std::size_t, 6> others_of(const DriveMode& mode) {
+  return {
+      static_cast<std::size_t>(mode.torque),          static_cast<std::size_t>(mode.current),
+      static_cast<std::size_t>(mode.worked_out),      static_cast<std::size_t>(mode.error),
+      static_cast<std::size_t>(mode.reference_speed), static_cast<std::size_t>(mode.reference_way)};
 }
 
 template <class State>
@@ -73,8 +91,49 @@ double face_of(ContactState contact) {
 }
 
 double way_of(FrictionState friction) {
-  if (friction == FrictionState::forward) return 1.0;
-  return friction == FrictionState::backward ? -1.0 : 0.0;
+  switch (friction) {
+    case FrictionState::forward:
+    case FrictionState::forward_slowly:
+      return 1.0;
+    case FrictionState::backward:
+    case FrictionState::backward_slowly:
+      return -1.0;
+    case FrictionState::viscous:
+    case FrictionState::sticking:
+      break;
+  }
+  return 0.0;
+}
+
+double sign_of(Branch branch) {
+  if (branch == Branch::inner) return 0.0;
+  return branch == Branch::forward ? 1.0 : -1.0;
+}
+
+FrictionState moving(const Shaft& shaft, double way) {
+  if (!shaft.friction.is_dry()) return FrictionState::viscous;
+  if (way == 0.0) return FrictionState::sticking;
+  if (shaft.friction.falls()) {
+    return way > 0.0 ? FrictionState::forward_slowly : FrictionState::backward_slowly;
+  }
+  return moving_fast(way);
+}
+
+FrictionState moving_fast(double way) {
+  return way > 0.0 ? FrictionState::forward : FrictionState::backward;
+}
+
+FrictionState friction_at(const Shaft& shaft, double speed) {
+  const ShaftFriction& friction = shaft.friction;
+  const bool is_fast = friction.falls() && std::abs(speed) > friction.stribeck_speed;
+  return is_fast ? moving_fast(speed) : moving(shaft, speed);
+}
+
+bool remembers_worked_out(const ReducedDrive& drive) {
+  if (!drive.sampling || !std::isfinite(drive.torque_limit)) return false;
+  const SplitDelay delay = split_delay(*drive.sampling);
+  const bool is_late = delay.whole_periods > 0 || delay.rest == drive.sampling->period;
+  return is_late && !linear_controller(drive.controller).anti_windup.empty();
 }
 
 std::string text_of(const DriveMode& mode) {
@@ -83,24 +142,27 @@ std::string text_of(const DriveMode& mode) {
   if (mode.load != FrictionState::viscous) text += std::string("; load ") + text_of(mode.load);
   if (mode.torque == TorqueState::highest) text += "; torque at its highest";
   if (mode.torque == TorqueState::lowest) text += "; torque at its lowest";
-  return text;
+  if (mode.current == TorqueState::highest) text += "; current at its highest";
+  if (mode.current == TorqueState::lowest) text += "; current at its lowest";
+  text += text_of("error", mode.error);
+  return text + text_of("reference", mode.reference_speed);
 }
 
 DriveModes::DriveModes(const ReducedDrive& drive)
     : is_rigid_(std::holds_alternative<RigidContact>(drive.contact)),
       contacts_(contacts_of(drive)),
-      torques_{TorqueState::linear} {
+      has_{std::isfinite(drive.torque_limit), std::isfinite(drive.winding.torque_limit),
+           remembers_worked_out(drive),       drive.error_shape.is_present(),
+           drive.feedforward.torque != 0.0,   drive.feedforward.half_gap != 0.0} {
   for (const FrictionState motor : frictions_of(drive.motor)) {
     for (const FrictionState load : frictions_of(drive.load)) {
-      const bool as_one =
-          motor == load || motor == FrictionState::viscous || load == FrictionState::viscous;
+      const bool as_one = way_of(motor) == way_of(load) || motor == FrictionState::viscous ||
+                          load == FrictionState::viscous;
       apart_.emplace_back(motor, load);
       if (as_one) together_.emplace_back(motor, load);
     }
   }
-  if (std::isfinite(drive.torque_limit)) {
-    torques_.insert(torques_.end(), {TorqueState::highest, TorqueState::lowest});
-  }
+  for (const bool is_there : has_) others_ *= is_there ? branches : 1;
 }
 
 const std::vector<DriveModes::Frictions>& DriveModes::frictions_in(ContactState contact) const {
@@ -110,7 +172,7 @@ const std::vector<DriveModes::Frictions>& DriveModes::frictions_in(ContactState 
 std::size_t DriveModes::count() const {
   std::size_t count = 0;
   for (const ContactState contact : contacts_) {
-    count += frictions_in(contact).size() * torques_.size();
+    count += frictions_in(contact).size() * others_;
   }
   return count;
 }
@@ -121,11 +183,16 @@ std::size_t DriveModes::index_of(const DriveMode& mode) const {
     const std::vector<Frictions>& frictions = frictions_in(contact);
     if (contact == mode.contact) {
       const std::size_t pair = place_in(frictions, {mode.motor, mode.load});
-      const std::size_t torque = place_in(torques_, mode.torque);
-      if (pair == frictions.size() || torque == torques_.size()) break;
-      return first + pair * torques_.size() + torque;
+      if (pair == frictions.size()) break;
+      std::size_t other = 0;
+      const std::array<std::size_t, 6> states = others_of(mode);
+      for (std::size_t i = 0; i < has_.size(); ++i) {
+        if (!has_[i] && states[i] != 0) return count();
+        if (has_[i]) other = branches * other + states[i];
+      }
+      return first + pair * others_ + other;
     }
-    first += frictions.size() * torques_.size();
+    first += frictions.size() * others_;
   }
   return count();
 }
@@ -133,10 +200,25 @@ std::size_t DriveModes::index_of(const DriveMode& mode) const {
 DriveMode DriveModes::mode(std::size_t index) const {
   for (const ContactState contact : contacts_) {
     const std::vector<Frictions>& frictions = frictions_in(contact);
-    const std::size_t here = frictions.size() * torques_.size();
+    const std::size_t here = frictions.size() * others_;
     if (index < here) {
-      const auto& [motor, load] = frictions[index / torques_.size()];
-      return {contact, motor, load, torques_[index % torques_.size()]};
+      const auto& [motor, load] = frictions[index / others_];
+      std::size_t other = index % others_;
+      std::array<std::size_t, 6> states{};
+      for (std::size_t i = has_.size(); i-- > 0;) {
+        if (!has_[i]) continue;
+        states[i] = other % branches;
+        other /= branches;
+      }
+      return {.contact = contact,
+              .motor = motor,
+              .load = load,
+              .torque = static_cast<TorqueState>(states[0]),
+              .current = static_cast<TorqueState>(states[1]),
+              .worked_out = static_cast<TorqueState>(states[2]),
+              .error = static_cast<Branch>(states[3]),
+              .reference_speed = static_cast<Branch>(states[4]),
+              .reference_way = static_cast<Branch>(states[5])};
     }
     index -= here;
   }

@@ -1,6 +1,7 @@
-// The mode of a drive: the state of its contact, frictions and torque limit.
+// The mode of a drive: the state of each of its small automata.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -20,14 +21,29 @@ enum class ContactState {
   backward_letting_go,
   joined  ///< compliant faces without a gap
 };
-enum class FrictionState { viscous, forward, backward, sticking };
+enum class FrictionState {
+  viscous,
+  forward,
+  backward,
+  sticking,
+  forward_slowly,  ///< below the Stribeck speed, where the dry friction falls
+  backward_slowly
+};
 enum class TorqueState { linear, highest, lowest };
+/// The branch of an odd function of pieces.
+enum class Branch { inner, forward, backward };
 
 struct DriveMode {
   ContactState contact = ContactState::apart;
   FrictionState motor = FrictionState::viscous;
   FrictionState load = FrictionState::viscous;
   TorqueState torque = TorqueState::linear;
+  TorqueState current = TorqueState::linear;  ///< of a winding's torque
+  /// Of the last torque that a sampled controller worked out, where it is not the one held.
+  TorqueState worked_out = TorqueState::linear;
+  Branch error = Branch::inner;            ///< of ReducedDrive::error_shape
+  Branch reference_speed = Branch::inner;  ///< of the feedforward of friction
+  Branch reference_way = Branch::inner;    ///< last motion of the reference; inner before the first
 
   bool operator==(const DriveMode&) const = default;
 };
@@ -41,18 +57,37 @@ double face_of(ContactState contact);
 /// Direction of a shaft's motion; 0 if it sticks, or if friction does not depend on it.
 double way_of(FrictionState friction);
 
+/// +1, −1, or 0 on the inner branch.
+double sign_of(Branch branch);
+
+/// The state of a shaft as it begins to move in a direction, or sticks (0).
+FrictionState moving(const Shaft& shaft, double way);
+
+/// The state of a shaft that moves in a direction faster than its friction falls.
+FrictionState moving_fast(double way);
+
+/// The state of a shaft that has this speed.
+FrictionState friction_at(const Shaft& shaft, double speed);
+
+/// Whether the limit of the last torque worked out is a state of its own: anti-windup, and an
+/// output that has not yet taken effect as the next sample is taken.
+bool remembers_worked_out(const ReducedDrive& drive);
+
 /// As reports name it.
 std::string text_of(const DriveMode& mode);
 
 /// The modes of a drive, numbered without a list. A number encodes the contact's state, the pair of
-/// frictions and the torque's state in turn. Engaged rigid faces permit only frictions of shafts
-/// that move as one.
+/// frictions and the states of all others in turn. Engaged rigid faces permit only frictions of
+/// shafts that move as one.
 class DriveModes {
  public:
   DriveModes() = default;
   explicit DriveModes(const ReducedDrive& drive);
 
   std::size_t count() const;
+  /// Number of combinations of the states other than contact and frictions. A mode's number modulo
+  /// this names its combination.
+  std::size_t others() const { return others_; }
   /// count() if a drive has no such mode.
   std::size_t index_of(const DriveMode& mode) const;
   bool has(const DriveMode& mode) const { return index_of(mode) < count(); }
@@ -67,7 +102,9 @@ class DriveModes {
   std::vector<ContactState> contacts_;
   std::vector<Frictions> apart_;     ///< all pairs
   std::vector<Frictions> together_;  ///< those of shafts that move as one
-  std::vector<TorqueState> torques_;
+  /// Of torque, current, worked_out, error, reference_speed and reference_way.
+  std::array<bool, 6> has_{};
+  std::size_t others_ = 1;  ///< number of their combinations
 };
 
 }  // namespace gearlash::drive

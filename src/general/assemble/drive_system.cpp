@@ -23,9 +23,12 @@ hybrid::AffineMode built_mode(const DriveForms& forms, const DriveClocks& clocks
   if (forms.drive().sampling) {
     add_sampling(forms, clocks, mode, built);
   } else {
+    add_error_shape(forms, mode, built);
     add_torque_limit(forms, mode, built);
     add_counting(forms, mode, built);
   }
+  add_current_limit(forms, mode, built);
+  add_feedforward(forms, mode, built);
   if (forms.is_engaged(mode)) {
     add_engaged(forms, mode, built);
   } else {
@@ -53,7 +56,8 @@ bool is_exogenous_state(const DriveForms& forms, const std::vector<bool>& exogen
   const bool is_withdrawn = !controller.anti_windup.empty() &&
                             std::isfinite(forms.drive().torque_limit) &&
                             controller.anti_windup[state] != 0.0;
-  if (is_withdrawn || inputs[1] != 0.0 || inputs[2] != 0.0) return false;
+  const bool is_compensated = inputs[0] != 0.0 && forms.drive().feedforward.half_gap != 0.0;
+  if (is_withdrawn || is_compensated || inputs[1] != 0.0 || inputs[2] != 0.0) return false;
   if (forms.drive().sampling) {  // the sampling ticks must not change it
     for (std::size_t j = 0; j < states.size(); ++j) {
       if (states[j] != (j == state ? 1.0 : 0.0)) return false;
@@ -124,8 +128,9 @@ DriveSystem drive_system(const ReducedDrive& drive) {
   result.first_readings = first_readings(*forms);
   result.reference = forms->reference();
   result.load_torque = forms->load_torque();
-  for (const TorqueState state : {TorqueState::linear, TorqueState::highest, TorqueState::lowest}) {
-    result.motor_torques[static_cast<std::size_t>(state)] = forms->motor_torque(state);
+  result.shape_input = forms->first_shape_input();
+  for (std::size_t i = 0; i < result.modes.others(); ++i) {
+    result.motor_torques.push_back(forms->motor_torque(result.modes.mode(i)));
   }
   return result;
 }
@@ -150,18 +155,16 @@ hybrid::State drive_start(const ReducedDrive& drive, const DriveSystem& system,
     mode.contact = gap > 0.0 ? ContactState::forward : ContactState::backward;
   }
   if (is_joined(drive)) mode.contact = ContactState::joined;
-  const auto friction = [](const Shaft& shaft, double speed) {
-    if (!shaft.friction.is_dry()) return FrictionState::viscous;
-    if (speed == 0.0) return FrictionState::sticking;
-    return speed > 0.0 ? FrictionState::forward : FrictionState::backward;
-  };
-  mode.motor = friction(drive.motor, shafts.motor_speed);
-  mode.load = friction(drive.load, shafts.load_speed);
+  mode.motor = friction_at(drive.motor, shafts.motor_speed);
+  mode.load = friction_at(drive.load, shafts.load_speed);
   Vector numbers = system.start;
   numbers[motor_position] = shafts.motor_position;
   numbers[motor_speed] = shafts.motor_speed;
   numbers[load_position] = shafts.load_position;
   numbers[load_speed] = shafts.load_speed;
+  if (drive.error_shape.is_present()) {
+    mode.error = first_branch(drive.error_shape, system.shape_input.at(numbers));
+  }
   return {system.modes.index_of(mode), system.first_readings.after(numbers)};
 }
 

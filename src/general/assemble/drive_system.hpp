@@ -1,7 +1,7 @@
 // A drive as a hybrid system.
 #pragma once
 
-#include <array>
+#include <vector>
 
 #include "general/assemble/drive_mode.hpp"
 #include "general/assemble/state_indices.hpp"
@@ -18,10 +18,12 @@ struct DriveSystem {
   hybrid::AffineReset first_readings;  ///< sets the encoders, given the shafts' start
   hybrid::AffineForm reference;
   hybrid::AffineForm load_torque;
-  std::array<hybrid::AffineForm, 3> motor_torques;  ///< by TorqueState
+  hybrid::AffineForm shape_input;  ///< of ReducedDrive::error_shape at the start
+  /// By the mode's number, modulo their count: they depend on neither contact nor friction.
+  std::vector<hybrid::AffineForm> motor_torques;
 
   const hybrid::AffineForm& motor_torque(std::size_t mode) const {
-    return motor_torques[static_cast<std::size_t>(modes.mode(mode).torque)];
+    return motor_torques[mode % motor_torques.size()];
   }
 };
 

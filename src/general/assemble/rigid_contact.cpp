@@ -10,16 +10,10 @@ namespace {
 using hybrid::AffineForm;
 using hybrid::AffineReset;
 
-FrictionState moving(FrictionState state, double way) {
-  if (state == FrictionState::viscous) return state;
-  if (way == 0.0) return FrictionState::sticking;
-  return way > 0.0 ? FrictionState::forward : FrictionState::backward;
-}
-
-DriveMode moving_as_one(const DriveMode& mode, double way) {
+DriveMode moving_as_one(const DriveForms& forms, const DriveMode& mode, double way) {
   DriveMode result = mode;
-  result.motor = moving(mode.motor, way);
-  result.load = moving(mode.load, way);
+  result.motor = moving(forms.shaft(Side::motor), way);
+  result.load = moving(forms.shaft(Side::load), way);
   return result;
 }
 
@@ -37,23 +31,39 @@ AffineReset impact(const DriveForms& forms, double restitution) {
   return reset;
 }
 
-/// The directions in which dry shafts may move after an impact, each with its conditions.
+/// How a shaft may move after an impact: the state of its friction, and its conditions.
+struct Going {
+  FrictionState state;
+  std::vector<AffineForm> conditions;
+};
+
+/// Faster ways first, rest last.
+std::vector<Going> goings(const DriveForms& forms, Side side) {
+  const Shaft& shaft = forms.shaft(side);
+  if (!shaft.friction.is_dry()) return {{FrictionState::viscous, {}}};
+  std::vector<Going> all;
+  const AffineForm speed = forms.number(speed_of(side));
+  for (const double way : {1.0, -1.0}) {
+    if (!shaft.friction.falls()) break;
+    all.push_back({moving_fast(way), {way * speed - shaft.friction.stribeck_speed}});
+  }
+  for (const double way : {1.0, -1.0}) all.push_back({moving(shaft, way), {way * speed}});
+  all.push_back({FrictionState::sticking, {}});
+  return all;
+}
+
+/// The modes after an impact, by the speeds of dry shafts.
 std::vector<hybrid::Alternative> ways_after(const DriveForms& forms, const DriveMode& target) {
   std::vector<hybrid::Alternative> alternatives;
-  const auto ways = [](FrictionState state) {
-    return state == FrictionState::viscous ? std::vector<double>{0.0}
-                                           : std::vector<double>{1.0, -1.0, 0.0};
-  };
-  for (const double motor : ways(target.motor)) {
-    for (const double load : ways(target.load)) {
+  for (const Going& motor : goings(forms, Side::motor)) {
+    for (const Going& load : goings(forms, Side::load)) {
       DriveMode mode = target;
-      mode.motor = moving(target.motor, motor);
-      mode.load = moving(target.load, load);
+      mode.motor = motor.state;
+      mode.load = load.state;
       if (!forms.modes().has(mode)) continue;
-      hybrid::Alternative alternative;
-      if (motor != 0.0) alternative.positive.push_back(motor * forms.number(motor_speed));
-      if (load != 0.0) alternative.positive.push_back(load * forms.number(load_speed));
-      alternative.target = forms.modes().index_of(mode);
+      hybrid::Alternative alternative{motor.conditions, forms.modes().index_of(mode)};
+      alternative.positive.insert(alternative.positive.end(), load.conditions.begin(),
+                                  load.conditions.end());
       alternatives.push_back(std::move(alternative));
     }
   }
@@ -103,13 +113,13 @@ AffineReset parting(const DriveForms& forms, double face) {
 /// torques. One moves alone, away from the other, if it exceeds its own.
 void add_engaged_breakaway(const DriveForms& forms, const DriveMode& mode,
                            hybrid::AffineMode& built) {
-  const AffineForm motor_torque = forms.motor_torque(mode.torque);
+  const AffineForm motor_torque = forms.motor_torque(mode);
   const AffineForm applied = motor_torque + forms.torque_on_load();
   for (const double way : {1.0, -1.0}) {
     built.transitions.push_back(
         transition(way > 0.0 ? "both break away forward" : "both break away backward",
                    applied - way * forms.both_breakaway(), rising_on(way),
-                   forms.modes().index_of(moving_as_one(mode, way))));
+                   forms.modes().index_of(moving_as_one(forms, mode, way))));
   }
   const double face = face_of(mode.contact);
   const auto add_alone = [&](Side side, double away) {
@@ -117,7 +127,7 @@ void add_engaged_breakaway(const DriveForms& forms, const DriveMode& mode,
     DriveMode alone = mode;
     alone.contact = ContactState::apart;
     FrictionState& state = is_motor ? alone.motor : alone.load;
-    state = moving(state, away);
+    state = moving(forms.shaft(side), away);
     const AffineForm torque = is_motor ? motor_torque : forms.torque_on_load();
     hybrid::Transition breaks =
         transition(is_motor ? "motor breaks away alone" : "load breaks away alone",
@@ -154,12 +164,14 @@ void add_engaged(const DriveForms& forms, const DriveMode& mode, hybrid::AffineM
   const double way = way_of(mode.motor) != 0.0 ? way_of(mode.motor) : way_of(mode.load);
   if (way == 0.0) return;
   hybrid::Transition stops = transition("both stop", forms.number(load_speed), falling_on(way),
-                                        forms.modes().index_of(moving_as_one(mode, 0.0)));
+                                        forms.modes().index_of(moving_as_one(forms, mode, 0.0)));
   stops.reset = stopped(forms, {motor_speed, load_speed});
-  const AffineForm applied = forms.motor_torque(mode.torque) + forms.torque_on_load();
+  const AffineForm applied = forms.motor_torque(mode) + forms.torque_on_load();
   stops.alternatives = {{{-way * applied - forms.both_breakaway()},
-                         forms.modes().index_of(moving_as_one(mode, -way))}};
+                         forms.modes().index_of(moving_as_one(forms, mode, -way))}};
   built.transitions.push_back(std::move(stops));
+  add_falling_friction(forms, mode, Side::motor, built);
+  add_falling_friction(forms, mode, Side::load, built);
 }
 
 }  // namespace gearlash::drive

@@ -1,6 +1,8 @@
 // A sampled controller.
+#include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "general/assemble/automata.hpp"
 
@@ -11,26 +13,61 @@ using hybrid::AffineForm;
 using hybrid::AffineReset;
 using hybrid::Vector;
 
-/// A tick of the controller's clocks. A tick that outputs torque reaches or leaves the torque
-/// limit.
+/// A torque that a tick sets, and the state of its limit.
+struct SetTorque {
+  Eigen::Index at;
+  TorqueState DriveMode::*state;
+};
+
+/// A tick of the controller's clocks. The torques that it sets reach or leave the torque limit.
 hybrid::TimedTransition tick(const DriveForms& forms, const char* name, std::size_t clock,
-                             AffineReset reset, DriveMode mode, bool gives_out) {
+                             AffineReset reset, const DriveMode& mode,
+                             const std::vector<SetTorque>& torques) {
+  struct Way {
+    DriveMode mode;
+    std::vector<AffineForm> conditions;
+  };
+  std::vector<Way> ways = {{mode, {}}};
+  for (const SetTorque& torque : torques) {
+    std::vector<Way> next;
+    for (const double sign : {1.0, -1.0, 0.0}) {
+      for (Way way : ways) {
+        way.mode.*torque.state = sign > 0.0   ? TorqueState::highest
+                                 : sign < 0.0 ? TorqueState::lowest
+                                              : TorqueState::linear;
+        if (sign != 0.0) {
+          way.conditions.push_back(sign * forms.number(torque.at) - forms.drive().torque_limit);
+        }
+        next.push_back(std::move(way));
+      }
+    }
+    ways = std::move(next);
+  }
+  // The last way, with all torques within their limits, has no conditions: it is the target.
+  std::stable_sort(ways.begin(), ways.end(), [](const Way& a, const Way& b) {
+    return a.conditions.size() > b.conditions.size();
+  });
   hybrid::TimedTransition result;
   result.name = name;
   result.clock = clock;
   result.reset = std::move(reset);
-  const double limit = forms.drive().torque_limit;
-  if (gives_out && std::isfinite(limit)) {
-    for (const double way : {1.0, -1.0}) {
-      DriveMode limited = mode;
-      limited.torque = way > 0.0 ? TorqueState::highest : TorqueState::lowest;
-      result.alternatives.push_back(
-          {{way * forms.number(forms.at().held) - limit}, forms.modes().index_of(limited)});
-    }
-    mode.torque = TorqueState::linear;
+  result.target = forms.modes().index_of(ways.back().mode);
+  ways.pop_back();
+  for (Way& way : ways) {
+    result.alternatives.push_back({std::move(way.conditions), forms.modes().index_of(way.mode)});
   }
-  result.target = forms.modes().index_of(mode);
   return result;
+}
+
+/// The last torque worked out less its excess over the limit, and less itself.
+AffineForm excess_withheld(const DriveForms& forms, const DriveMode& mode) {
+  const bool remembers = remembers_worked_out(forms.drive());
+  const TorqueState state = remembers ? mode.worked_out : mode.torque;
+  if (state == TorqueState::linear) return forms.constant(0.0);
+  const double limit = forms.drive().torque_limit;
+  const StateIndices& at = forms.at();
+  return forms.constant(state == TorqueState::highest ? limit : -limit) -
+         forms.number(remembers ? at.last_worked_out : at.held);
 }
 
 /// The controller's next states and torque from its states alone, and the queue of delayed torques
@@ -45,13 +82,12 @@ AffineReset without_inputs(const DriveForms& forms, const DriveMode& mode, Eigen
   };
   for (std::size_t i = 0; i < controller.order(); ++i) {
     AffineForm next = forms.of_controller(controller.state_matrix[i]);
-    if (!controller.anti_windup.empty() && mode.torque != TorqueState::linear) {
-      next = next + controller.anti_windup[i] *
-                        (forms.limited_torque(mode.torque) - forms.number(at.held));
+    if (!controller.anti_windup.empty()) {
+      next = next + controller.anti_windup[i] * excess_withheld(forms, mode);
     }
     set(controller_states + static_cast<Eigen::Index>(i), next);
   }
-  set(result, forms.of_controller(controller.output));
+  set(result, forms.of_controller(controller.output) + forms.feedforward_torque(mode));
   if (at.last_reading != StateIndices::none) set(at.last_reading, forms.constant(0.0));
   const Sampling& sampling = *forms.drive().sampling;
   if (sampling.delay > 0.0) {
@@ -62,7 +98,8 @@ AffineReset without_inputs(const DriveForms& forms, const DriveMode& mode, Eigen
 }
 
 /// Adds the contributions of the inputs r, y and v.
-void add_inputs(const DriveForms& forms, Eigen::Index result, AffineReset& reset) {
+void add_inputs(const DriveForms& forms, const DriveMode& mode, Eigen::Index result,
+                AffineReset& reset) {
   const LinearController& controller = forms.controller();
   const Sensing& sensing = forms.drive().sensing;
   const Eigen::Index last_reading = forms.at().last_reading;
@@ -74,8 +111,12 @@ void add_inputs(const DriveForms& forms, Eigen::Index result, AffineReset& reset
     gain[result] = controller.direct[input];
     return gain;
   };
-  add_reading(reset, forms.reference(), 0.0, gain_of(0));
-  add_reading(reset, forms.sensed_position(), sensing.resolution, gain_of(1));
+  if (forms.drive().error_shape.is_present()) {
+    add_reading(reset, forms.shaped_error(mode), 0.0, gain_of(0));
+  } else {
+    add_reading(reset, forms.command(mode), 0.0, gain_of(0));
+    add_reading(reset, forms.sensed_position(), sensing.resolution, gain_of(1));
+  }
   const Vector speed_gain = gain_of(2);
   if (last_reading == StateIndices::none) {
     add_reading(reset, forms.sensed_speed(), 0.0, speed_gain);
@@ -100,13 +141,24 @@ void add_sampling(const DriveForms& forms, const DriveClocks& clocks, const Driv
   const StateIndices& at = forms.at();
   const Eigen::Index result = sampling.delay > 0.0 ? at.last_worked_out : at.held;
   AffineReset reset = without_inputs(forms, mode, result);
-  add_inputs(forms, result, reset);
+  add_inputs(forms, mode, result, reset);
   const bool gives_out = !gives_out_between_samples(sampling);
-  built.timed.push_back(tick(forms, "sample", clocks.sample, std::move(reset), mode, gives_out));
+  const bool is_limited = std::isfinite(forms.drive().torque_limit);
+  const SetTorque held{at.held, &DriveMode::torque};
+  std::vector<SetTorque> torques;
+  if (gives_out && is_limited) torques.push_back(held);
+  if (remembers_worked_out(forms.drive())) {
+    torques.push_back({at.last_worked_out, &DriveMode::worked_out});
+  }
+  if (forms.drive().error_shape.is_present()) {
+    add_error_reading(forms, clocks.sample - 1, mode, built);
+  }
+  built.timed.push_back(tick(forms, "sample", clocks.sample, std::move(reset), mode, torques));
   if (gives_out) return;
   AffineReset output{forms.identity(), Vector::Zero(at.size), {}};
   output.matrix.row(at.held) = forms.unit(at.worked_out).transpose();
-  built.timed.push_back(tick(forms, "output", clocks.sample + 1, std::move(output), mode, true));
+  built.timed.push_back(tick(forms, "output", clocks.sample + 1, std::move(output), mode,
+                             is_limited ? std::vector{held} : std::vector<SetTorque>{}));
 }
 
 }  // namespace gearlash::drive

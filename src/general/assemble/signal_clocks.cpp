@@ -22,6 +22,9 @@ DriveClocks drive_clocks(const DriveForms& forms) {
   add_signal(forms.load_generator(), forms.at().load_torque, "load torque");
   if (!forms.drive().sampling) return result;
   const Sampling& sampling = *forms.drive().sampling;
+  if (forms.drive().error_shape.is_present()) {
+    clocks.push_back({.name = "reading", .first = 0.0, .period = sampling.period});
+  }
   result.sample = clocks.size();
   clocks.push_back({.name = "sample", .first = 0.0, .period = sampling.period});
   if (gives_out_between_samples(sampling)) {
@@ -40,6 +43,12 @@ void add_settings(const DriveForms& forms, const DriveClocks& clocks, const Driv
     timed.reset.matrix = forms.identity();
     timed.reset.matrix.block(setting.at, setting.at, setting.size, setting.size).setZero();
     timed.target = forms.modes().index_of(mode);
+    if (setting.at == forms.at().reference && forms.drive().feedforward.torque != 0.0) {
+      timed.alternatives = reference_speeds(forms, mode);
+      DriveMode still = mode;
+      still.reference_speed = Branch::inner;
+      timed.target = forms.modes().index_of(still);
+    }
     built.timed.push_back(std::move(timed));
   }
 }

@@ -15,10 +15,13 @@ StateIndices state_indices(const ReducedDrive& drive, Eigen::Index controller_or
       next = indices.last_worked_out + 1;
     }
     if (drive.sampling->speed_by_differences) indices.last_reading = next++;
+    if (drive.error_shape.is_present()) indices.error = next++;
   } else if (drive.sensing.resolution > 0.0) {
     indices.encoder = next++;
   }
   if (drive.winding.time_constant > 0.0) indices.winding = next++;
+  const Feedforward& forward = drive.feedforward;
+  if (forward.half_gap != 0.0 && forward.take_up_time > 0.0) indices.taken_up = next++;
   indices.reference = next;
   indices.reference_size = reference.size();
   indices.load_torque = next + reference.size();
@@ -51,7 +54,9 @@ std::vector<std::string> state_names(const StateIndices& indices) {
   }
   name(indices.last_reading, "last reading");
   name(indices.encoder, "encoder");
+  name(indices.error, "error");
   name(indices.winding, "torque of the winding");
+  name(indices.taken_up, "backlash taken up");
   name_all(indices.reference, indices.reference_size, "reference");
   name_all(indices.load_torque, indices.load_torque_size, "load torque");
   return names;

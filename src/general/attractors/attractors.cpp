@@ -10,6 +10,7 @@
 #include "general/attractors/irregular_motion.hpp"
 #include "general/attractors/motion_watch.hpp"
 #include "general/attractors/search_setting.hpp"
+#include "general/attractors/thresholds.hpp"
 
 namespace gearlash::drive {
 namespace {
@@ -51,6 +52,12 @@ struct Known {
   std::size_t which;  ///< index into the cycles
 };
 
+ShaftStates between(const ShaftStates& a, const ShaftStates& b, double share) {
+  const auto mix = [&](double one, double other) { return one + share * (other - one); };
+  return {mix(a.motor_position, b.motor_position), mix(a.motor_speed, b.motor_speed),
+          mix(a.load_position, b.load_position), mix(a.load_speed, b.load_speed)};
+}
+
 class Search {
  public:
   Search(const ReducedDrive& drive, const AttractorOptions& options, Progress& progress)
@@ -78,6 +85,13 @@ class Search {
       ++done_;
     }
     if (result_.is_complete && !setting_.drive.sampling) seek_edges();
+    if (result_.is_complete && options_.starts.empty()) {
+      result_.thresholds = thresholds_of(
+          setting_, result_.outcomes, budget_.bisections_of_steps, [&](const ShaftStates& start) {
+            return goes_on() ? watch(setting_.start(start), budget_.patience_at_edges).end
+                             : MotionEnd::undecided;
+          });
+    }
     if (result_.is_complete) progress_.go_on(1.0);
     finish();
     return std::move(result_);
@@ -98,17 +112,20 @@ class Search {
     const ShaftStates& start = starts_[starts_.size() / 2];
     return simulate(unscaled_.system, unscaled_.start(start),
                     {.until = budget_.glance_swings * unscaled_.swing_time,
-                     .event_limit = budget_.glance_events});
+                     .event_limit = budget_.glance_events,
+                     .step_limit = steps_kept()});
   }
 
   // ---- one start --------------------------------------------------------------------------------
 
   Verdict watch(const State& start, double patience) {
     Watch watch{.here = start, .starts_at_rest = setting_.load.speed.at(start.numbers) == 0.0};
-    double length = budget_.first_stretch * setting_.swing_time;
+    double length = first_stretch();
+    std::size_t most_in_stretch = budget_.ticks_of_stretch;
     std::optional<Steady> before;
     while (true) {
-      const Stretch stretch = next_stretch(watch, setting_.between_ticks(watch.time + length));
+      const double until = setting_.between_ticks(watch.time + length);
+      const Stretch stretch = next_stretch(watch, until, most_in_stretch);
       Verdict verdict;
       verdict.watched = watch.time;
       verdict.last = watch.here.numbers;
@@ -123,18 +140,37 @@ class Search {
       const bool may_creep = stands(watch.here, setting_, tolerances_.rest);
       const double times = may_creep ? budget_.patience_at_standstill : 1.0;
       if (watch.events >= most_events_ || watch.time >= times * most) {
-        give_up(watch, stretch, verdict);
+        give_up(watch, stretch, before, verdict);
         return verdict;
       }
-      length *= 2.0;
+      // Events may have ended the stretch.
+      length = 2.0 * (stretch.to - stretch.from);
+      most_in_stretch = std::max(budget_.ticks_of_stretch, 2 * stretch.events);
     }
   }
 
+  /// A step keeps its time, its mode and all numbers.
+  std::size_t steps_kept() const {
+    const auto numbers = static_cast<std::size_t>(unscaled_.system.system().size());
+    return budget_.bytes_kept / (sizeof(double) * (numbers + 3));
+  }
+
+  /// Shorter if the motion may join a cycle that is known.
+  double first_stretch() const {
+    const bool may_join = !setting_.drive.sampling && !result_.cycles.empty();
+    const double share = may_join ? budget_.share_to_join : 1.0;
+    return share * budget_.first_stretch * setting_.swing_time;
+  }
+
   /// The ticks of a sampled drive are too many to be kept.
-  Stretch next_stretch(Watch& watch, double until) const {
+  Stretch next_stretch(Watch& watch, double until, std::size_t most_if_sampled) const {
     const std::size_t most = std::max<std::size_t>(1, most_events_ - watch.events);
-    if (setting_.drive.sampling) return observe(watch, until, most, setting_);
-    return follow(watch, until, most, setting_, budget_.short_stretch * setting_.swing_time);
+    if (setting_.drive.sampling) {
+      const bool is_last = most < 2 * most_if_sampled;  // no short stretch remains
+      return observe(watch, until, is_last ? most : most_if_sampled, setting_);
+    }
+    return follow(watch, until, std::min(most, budget_.events_of_stretch), steps_kept(), setting_,
+                  budget_.short_stretch * setting_.swing_time);
   }
 
   /// Longest time that a start is watched: more if hardly anything happens.
@@ -143,14 +179,16 @@ class Search {
       return count_of_swings(turns, stretch.from, setting_, tolerances_.rest);
     };
     const std::vector<Sample> turns = turns_of(watch, setting_, tolerances_.rest);
-    // Swings that still shrink may end in rest.
+    // Swings that still shrink may end in rest, and those that grow in a cycle.
     const std::size_t count = recent(turns);
-    const bool shrinks =
-        count > 2 && swing(turns, 0) < budget_.still_shrinking * swing(turns, count - 2);
+    const double last = count > 2 ? swing(turns, 0) : 0.0;
+    const double first = count > 2 ? swing(turns, count - 2) : 0.0;
+    const bool changes =
+        last < budget_.still_changing * first || first < budget_.still_changing * last;
     const bool is_slow =
         setting_.drive.sampling ||
         std::max(recent(turns), recent(extremes(watch.motor))) < budget_.hardly_any_swings ||
-        is_small(turns, setting_, tolerances_.rest) || shrinks;
+        is_small(turns, setting_, tolerances_.rest) || changes;
     constexpr double rounding = 1e-9;  // allows for rounding of the summed stretches
     const double more = is_slow ? patience : 1.0;
     const double times = setting_.drive.sampling ? more * budget_.patience_at_ticks : more;
@@ -158,7 +196,7 @@ class Search {
   }
 
   bool is_decided(const Watch& watch, const Stretch& stretch, Verdict& verdict) {
-    if (stretch.stop_reason == StopReason::diverged || has_run_away(stretch)) {
+    if (stretch.stop_reason == StopReason::diverged || has_run_away(watch, setting_, tolerances_)) {
       verdict.end = MotionEnd::diverges;
       return true;
     }
@@ -187,13 +225,15 @@ class Search {
   /// stretch to the next, which is twice as long. Motion that repeats may be a cycle.
   bool is_steady(const Watch& watch, const Stretch& stretch, std::optional<Steady>& before,
                  Verdict& verdict) {
+    const IrregularTolerances& irregular = tolerances_.irregular;
     const Irregularity seen = irregularity_of(watch, stretch, setting_, tolerances_, false);
     if (!seen.reason.empty()) {
-      before.reset();
+      if (watch.events < most_events_) before.reset();  // not of a stretch that was cut short
       return false;
     }
     const Steady now{seen.found, stretch.last};
     for (const Known& known : known_) {
+      if (!is_sure(now.found, irregular, irregular.repeating)) break;
       if (!is_same(known.motion, now)) continue;
       verdict.end = known.end;
       verdict.which = known.which;
@@ -202,7 +242,7 @@ class Search {
     }
     const bool is_repeated = before && is_same(*before, now);
     before = now;
-    if (!is_repeated || now.found.swings < tolerances_.irregular.enough_swings) return false;
+    if (!is_repeated || !is_sure(now.found, irregular, irregular.repeating_exactly)) return false;
     if (!closes(watch, now.found, verdict)) take(watch, now.found, verdict);
     known_.push_back({now, verdict.end, verdict.which});
     return true;
@@ -254,12 +294,6 @@ class Search {
     return true;
   }
 
-  bool has_run_away(const Stretch& stretch) const {
-    if (setting_.coordinates == Coordinates::in_place) return false;
-    return std::abs(setting_.load.value.at(stretch.end.numbers)) >
-           tolerances_.far_away * setting_.large_length;
-  }
-
   /// The cycle that the end of a motion is on. Unstable cycles passed by are kept in the result.
   std::optional<std::size_t> cycle_of(const Trajectory& motion,
                                       std::initializer_list<double> all_nearness) {
@@ -273,15 +307,27 @@ class Search {
     return std::nullopt;
   }
 
-  void give_up(const Watch& watch, const Stretch& stretch, Verdict& verdict) {
+  /// The motion is what its last stretch shows, or that `before` which was steady.
+  void give_up(const Watch& watch, const Stretch& stretch, const std::optional<Steady>& before,
+               Verdict& verdict) {
     // The motion may approach its cycle slowly.
     const bool may_close = stretch.motion && setting_.coordinates != Coordinates::in_place;
     if (may_close && is_on_cycle(*stretch.motion, {tolerances_.cycle.widest_nearness}, verdict))
       return;
-    const Irregularity seen =
-        irregularity_of(watch, stretch, setting_, tolerances_, watch.events >= most_events_);
-    verdict.reason = seen.reason;
-    if (verdict.reason.empty()) take(watch, seen.found, verdict, &stretch);
+    const bool is_out_of_events = watch.events >= most_events_;
+    Irregularity seen = irregularity_of(watch, stretch, setting_, tolerances_, is_out_of_events);
+    if (!seen.reason.empty() && !before && !stretch.motion) {
+      Stretch longer = stretch;  // the last half of the watch, which may have swings enough
+      longer.from = 0.5 * watch.time;
+      seen = irregularity_of(watch, longer, setting_, tolerances_, is_out_of_events);
+    }
+    if (!seen.reason.empty() && !before) {
+      verdict.reason = seen.reason;
+      return;
+    }
+    const Steady last = seen.reason.empty() ? Steady{seen.found, stretch.last} : *before;
+    take(watch, last.found, verdict, &stretch);
+    if (!stretch.motion) known_.push_back({last, verdict.end, 0});
   }
 
   /// Takes the motion as irregular.
@@ -317,10 +363,7 @@ class Search {
   void record_rest(const Verdict& verdict) {
     if (!result_.rest) result_.rest = RestFound{};
     RestFound& rest = *result_.rest;
-    const double load = setting_.load.value.at(verdict.last);
-    rest.load.include(load);
-    rest.error.include(-load);
-    rest.motor.include(setting_.motor.value.at(verdict.last));
+    add_rest(rest, verdict.last, setting_, tolerances_.rest);
     ++rest.starts;
     if (verdict.is_creeping) ++rest.creeping_starts;
     rest.swing_ratio = std::fmax(rest.swing_ratio, verdict.swing_ratio);  // fmax ignores NaN
@@ -351,6 +394,7 @@ class Search {
     for (Edge& edge : result_.edges) {
       if (edge.cycle) edge.cycle = place[*edge.cycle];
     }
+    take_for_cycles(result_, tolerances_.cycle);
   }
 
   // ---- edges ------------------------------------------------------------------------------------
@@ -373,12 +417,6 @@ class Search {
       result_.edges.push_back({i, i + 1, cycle_between(i, one)});
       ++done_;
     }
-  }
-
-  static ShaftStates between(const ShaftStates& a, const ShaftStates& b, double share) {
-    const auto mix = [&](double one, double other) { return one + share * (other - one); };
-    return {mix(a.motor_position, b.motor_position), mix(a.motor_speed, b.motor_speed),
-            mix(a.load_position, b.load_position), mix(a.load_speed, b.load_speed)};
   }
 
   /// Bisects until the two starts are adjacent doubles. At intervals it tests whether the motion

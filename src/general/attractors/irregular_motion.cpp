@@ -2,35 +2,53 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "general/attractors/found_cycle.hpp"
 
 namespace gearlash::drive {
 namespace {
 
-/// Whether both halves have about the same range.
-bool is_steady(const std::vector<Sample>& samples, const IrregularTolerances& tolerances) {
-  const double middle = 0.5 * (samples.front().time + samples.back().time);
-  Extent first;
-  Extent second;
-  for (const Sample& sample : samples) {
-    (sample.time < middle ? first : second).include(sample.value);
+/// Sums of the swings of a motion's first half and of its last.
+struct HalvesOfSwings {
+  double first = 0.0;
+  double last = 0.0;
+};
+
+HalvesOfSwings halves_of(const std::vector<Sample>& turns) {
+  HalvesOfSwings sums;
+  const std::size_t half = turns.empty() ? 0 : (turns.size() - 1) / 2;
+  for (std::size_t i = 0; i < half; ++i) {
+    sums.last += swing(turns, i);
+    sums.first += swing(turns, i + half);
   }
-  return agree(first.width(), second.width(), std::max(first.width(), second.width()),
-               tolerances.steadiness);
+  return sums;
 }
 
-/// Whether the swings of the last half are smaller than those of the first.
 bool shrink(const std::vector<Sample>& turns) {
-  const std::size_t half = (turns.size() - 1) / 2;
-  double last = 0.0;
-  double first = 0.0;
-  for (std::size_t i = 0; i < half; ++i) {
-    last += swing(turns, i);
-    first += swing(turns, i + half);
-  }
+  const HalvesOfSwings swings = halves_of(turns);
   constexpr double clearly = 0.9;
-  return last < clearly * first;
+  return swings.last < clearly * swings.first;
+}
+
+/// Whether both halves have about the same range; or the same swings, and the wider range includes
+/// the other: their middle wanders to and fro.
+bool is_steady(const std::vector<Sample>& samples, const std::vector<Sample>& turns,
+               const IrregularTolerances& tolerances) {
+  const double middle = 0.5 * (samples.front().time + samples.back().time);
+  Extent first;
+  Extent last;
+  for (const Sample& sample : samples) {
+    (sample.time < middle ? first : last).include(sample.value);
+  }
+  const double wider = std::max(first.width(), last.width());
+  const double share = tolerances.steadiness;
+  if (agree(first.width(), last.width(), wider, share)) return true;
+  const HalvesOfSwings swings = halves_of(turns);
+  const double common = std::min(first.high, last.high) - std::max(first.low, last.low);
+  return agree(swings.first, swings.last, std::max(swings.first, swings.last), share) &&
+         common >= (1.0 - share) * std::min(first.width(), last.width());
 }
 
 Spread spread_of_periods(const std::vector<double>& passings) {
@@ -71,7 +89,7 @@ Irregularity irregularity_of(const Watch& watch, const Stretch& stretch,
         is_out_of_events ? "as many events as were permitted" : "still on its way at the end";
   } else if (is_small(turns, setting, tolerances.rest) && shrink(turns)) {
     result.reason = "swings shrink at the end, towards what is not certain";
-  } else if (!is_in_place && !is_steady(last, tolerances.irregular)) {
+  } else if (!is_in_place && !is_steady(last, turns, tolerances.irregular)) {
     result.reason = "swings still grow or shrink at the end";
   }
   if (!result.reason.empty()) return result;
@@ -96,25 +114,52 @@ Irregularity irregularity_of(const Watch& watch, const Stretch& stretch,
 
 bool is_alike(const IrregularFound& one, const IrregularFound& other, const SearchSetting& setting,
               const IrregularTolerances& tolerances) {
-  const auto same = [&](double a, double b, double scale) {
-    return agree(a, b, 1.0,
-                 std::max(tolerances.steady_statistics * scale,
-                          tolerances.steady_steps * setting.drive.sensing.resolution));
-  };
   const double extent = std::max(other.amplitude, other.motor_amplitude);
+  const auto same = [&](double a, double b, double share) {
+    return agree(
+        a, b, 1.0,
+        std::max(share * extent, tolerances.steady_steps * setting.drive.sensing.resolution));
+  };
+  // A slow growth shows less in a few swings.
+  const double share = std::min(one.swings, other.swings) < tolerances.enough_swings
+                           ? tolerances.error_of_means
+                           : tolerances.steady_statistics;
   return one.is_motor_alone == other.is_motor_alone &&
-         same(one.amplitude, other.amplitude, extent) &&
-         same(one.motor_amplitude, other.motor_amplitude, extent) &&
-         same(one.half_swing, other.half_swing, extent) &&
-         agree(one.period, other.period, other.period, tolerances.steady_statistics);
+         same(one.amplitude, other.amplitude, tolerances.same_ranges) &&
+         same(one.motor_amplitude, other.motor_amplitude, tolerances.same_ranges) &&
+         same(one.half_swing, other.half_swing, share) &&
+         agree(one.period, other.period, other.period,
+               one.is_motor_alone ? tolerances.same_ranges : share);
+}
+
+bool is_sure(const IrregularFound& found, const IrregularTolerances& tolerances, double repeating) {
+  const auto error = [&](double deviation, double mean) {
+    return deviation / (mean * std::sqrt(static_cast<double>(found.swings)));
+  };
+  const bool means_are_known =
+      found.swings >= tolerances.few_swings &&
+      error(found.half_swing_deviation, found.half_swing) < tolerances.error_of_means &&
+      error(found.period_deviation, found.period) < tolerances.error_of_means;
+  return means_are_known || found.swings >= tolerances.enough_swings || found.mismatch < repeating;
 }
 
 bool are_alike(const std::vector<Extent>& ranges, const std::vector<Extent>& others,
                Eigen::Index count, double share) {
   if (ranges.empty() || others.empty()) return false;
+  const auto width_of = [&](std::size_t i) {
+    return std::max(ranges[i].width(), others[i].width());
+  };
   constexpr double rounding = 1e-9;
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-    const double width = std::max(ranges[i].width(), others[i].width());
+    double width = width_of(i);
+    for (const auto& [one, other] :
+         {std::pair{motor_position, load_position}, std::pair{motor_speed, load_speed}}) {
+      const bool is_of_both =
+          i == static_cast<std::size_t>(one) || i == static_cast<std::size_t>(other);
+      if (is_of_both)
+        width = std::max(width_of(static_cast<std::size_t>(one)),
+                         width_of(static_cast<std::size_t>(other)));
+    }
     const double apart =
         share * width + rounding * std::max(std::abs(others[i].low), std::abs(others[i].high));
     if (!agree(ranges[i].low, others[i].low, 1.0, apart) ||
@@ -134,9 +179,47 @@ std::size_t place_among(const std::vector<IrregularFound>& known, const Irregula
     const bool is_centered = found.is_motor_alone || agree(one.center, found.center, extent, share);
     return one.is_motor_alone == found.is_motor_alone && is_centered &&
            agree(one.amplitude, found.amplitude, extent, share) &&
+           (found.is_motor_alone ||
+            agree(one.motor_amplitude, found.motor_amplitude, extent, share)) &&
            agree(one.half_swing, found.half_swing, extent, share);
   });
   return static_cast<std::size_t>(same - known.begin());
+}
+
+namespace {
+
+/// Whether the motion swings as the cycle does. The cycle may have several upward passings.
+bool swings_as(const IrregularFound& motion, const FoundCycle& cycle, double share) {
+  const double extent = extent_of(cycle);
+  const double turns = std::round(cycle.period() / motion.period);
+  return cycle.stability != Stability::unstable && turns >= 1.0 &&
+         agree(turns * motion.period, cycle.period(), cycle.period(), share) &&
+         agree(motion.amplitude, cycle.amplitude, extent, share) &&
+         agree(motion.motor_amplitude, cycle.motor_amplitude, extent, share);
+}
+
+}  // namespace
+
+void take_for_cycles(AttractorSearch& search, const CycleTolerances& tolerances) {
+  std::vector<IrregularFound> others;
+  std::vector<std::pair<MotionEnd, std::size_t>> ends;  // of the starts that led to each
+  for (const IrregularFound& motion : search.irregular) {
+    const auto cycle = std::find_if(
+        search.cycles.begin(), search.cycles.end(),
+        [&](const FoundCycle& one) { return swings_as(motion, one, tolerances.agreement); });
+    if (cycle == search.cycles.end()) {
+      ends.emplace_back(MotionEnd::irregular, others.size());
+      others.push_back(motion);
+    } else {
+      ends.emplace_back(MotionEnd::cycle, cycle - search.cycles.begin());
+      cycle->starts += motion.starts;
+    }
+  }
+  for (Outcome& outcome : search.outcomes) {
+    if (outcome.end != MotionEnd::irregular) continue;
+    std::tie(outcome.end, outcome.which) = ends[outcome.which];
+  }
+  search.irregular = std::move(others);
 }
 
 }  // namespace gearlash::drive

@@ -18,17 +18,28 @@ Irregularity irregularity_of(const Watch& watch, const Stretch& stretch,
                              const SearchSetting& setting, const SearchTolerances& tolerances,
                              bool is_out_of_events);
 
-/// Whether two stretches of a motion have the same statistics.
+/// Whether a stretch shows what its motion is: its swings are many, or hardly scatter, or repeat to
+/// the share `repeating`. A few others may be those of a motion that comes to rest.
+bool is_sure(const IrregularFound& found, const IrregularTolerances& tolerances, double repeating);
+
+/// Whether two stretches of a motion have the same statistics: means, and extremes within their
+/// scatter. The period of a motor that hunts
+/// alone depends on where in the gap the load stands, and so may differ more.
 bool is_alike(const IrregularFound& one, const IrregularFound& other, const SearchSetting& setting,
               const IrregularTolerances& tolerances);
 
 /// Whether the first `count` numbers cover the same ranges, to a share of their widths: nothing
-/// drifts.
+/// drifts. Of both positions the wider range counts, as of both speeds: a load that creeps within
+/// the swings of its motor changes little.
 bool are_alike(const std::vector<Extent>& ranges, const std::vector<Extent>& others,
                Eigen::Index count, double share);
 
 /// Index of a known one that is nearly the same; their count if there is none.
 std::size_t place_among(const std::vector<IrregularFound>& known, const IrregularFound& found,
                         const IrregularTolerances& tolerances);
+
+/// Takes motion that swings as a stable cycle does, to CycleTolerances::agreement, for a transient
+/// towards it: its starts are those of the cycle, and it is not listed besides.
+void take_for_cycles(AttractorSearch& search, const CycleTolerances& tolerances);
 
 }  // namespace gearlash::drive

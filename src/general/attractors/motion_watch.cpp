@@ -92,7 +92,10 @@ class StretchObserver : public hybrid::MotionObserver {
         all_(watch.here.numbers.size()),
         last_(all_),
         load_(setting.load, watch.load),
-        motor_(setting.motor, watch.motor) {}
+        motor_(setting.motor, watch.motor),
+        speeds_{setting.load.speed, setting.motor.speed} {}
+
+  const std::vector<hybrid::AffineForm>& watched() const override { return speeds_; }
 
   void moved(double from, double to, const hybrid::Vector& before,
              const hybrid::Vector& after) override {
@@ -121,6 +124,7 @@ class StretchObserver : public hybrid::MotionObserver {
   bool is_in_last_ = false;
   Turns load_;
   Turns motor_;
+  std::vector<hybrid::AffineForm> speeds_;
 };
 
 void move_on(Watch& watch, const Stretch& stretch) {
@@ -131,11 +135,12 @@ void move_on(Watch& watch, const Stretch& stretch) {
 
 }  // namespace
 
-Stretch follow(Watch& watch, double until, std::size_t event_limit, const SearchSetting& setting,
-               double short_time) {
+Stretch follow(Watch& watch, double until, std::size_t event_limit, std::size_t step_limit,
+               const SearchSetting& setting, double short_time) {
   Stretch stretch{.from = watch.time};
-  stretch.motion = simulate(setting.system, watch.here,
-                            {.from = watch.time, .until = until, .event_limit = event_limit});
+  stretch.motion = simulate(
+      setting.system, watch.here,
+      {.from = watch.time, .until = until, .event_limit = event_limit, .step_limit = step_limit});
   const hybrid::Trajectory& motion = *stretch.motion;
   stretch.to = motion.end_time();
   stretch.end = motion.end();
@@ -175,10 +180,25 @@ Stretch observe(Watch& watch, double until, std::size_t event_limit, const Searc
   return stretch;
 }
 
+namespace {
+
+/// Whether the shafts' motion, or whether the mode ends, depends on a number at once.
+bool acts(const hybrid::AffineMode& mode, Eigen::Index number) {
+  if (number <= load_speed) return true;
+  const auto moves = [&](Eigen::Index shaft) { return mode.flow.matrix(shaft, number) != 0.0; };
+  return moves(motor_speed) || moves(load_speed) ||
+         std::any_of(
+             mode.transitions.begin(), mode.transitions.end(),
+             [&](const hybrid::Transition& one) { return one.guard.normal[number] != 0.0; });
+}
+
+}  // namespace
+
 bool is_at_rest(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
                 const RestTolerances& tolerances) {
   const std::vector<Extent>& last = stretch.last;
   if (last.empty()) return false;
+  const hybrid::AffineMode& mode = setting.system.system().mode(stretch.end.mode);
   const hybrid::Vector& scale = setting.frame.scale;
   const double positions =
       std::max({watch.all[motor_position].width(), watch.all[load_position].width(),
@@ -190,7 +210,8 @@ bool is_at_rest(const Watch& watch, const Stretch& stretch, const SearchSetting&
     const bool is_position = i == motor_position || i == load_position;
     const bool is_speed = i == motor_speed || i == load_speed;
     const double extent = is_position ? positions : is_speed ? speeds : watch.all[i].width();
-    if (last[i].width() > tolerances.still * extent) return false;
+    if (last[i].width() > tolerances.still * extent && acts(mode, static_cast<Eigen::Index>(i)))
+      return false;
   }
   return true;
 }
@@ -229,6 +250,55 @@ bool is_creeping(const Watch& watch, const SearchSetting& setting,
       std::max(standing_since(watch.load, small), standing_since(watch.motor, small));
   const double before = since - watch.load.front().time;
   return watch.time - since > tolerances.creeping * before;
+}
+
+namespace {
+
+/// rad: a load beyond it has run away.
+double far_away(const SearchSetting& setting, const SearchTolerances& tolerances) {
+  const double far = tolerances.far_away * setting.large_length;
+  if (!std::isfinite(setting.farthest_length)) return far;
+  return std::max(far, tolerances.far_grown * setting.farthest_length);
+}
+
+bool grows_away(const Watch& watch, const SearchSetting& setting,
+                const SearchTolerances& tolerances) {
+  const std::vector<Sample> turns = extremes(watch.load);
+  const std::size_t count = tolerances.growing_swings;
+  if (turns.size() < count + 2) return false;
+  if (!(swing(turns, 0) > tolerances.far_grown * setting.farthest_length)) return false;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double growth = swing(turns, i) - swing(turns, i + 1);
+    if (!(growth > 0.0)) return false;
+    const bool has_before = i + 1 < count;
+    const double before = has_before ? swing(turns, i + 1) - swing(turns, i + 2) : 0.0;
+    if (!(growth >= tolerances.steady_growth * before)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool has_run_away(const Watch& watch, const SearchSetting& setting,
+                  const SearchTolerances& tolerances) {
+  if (setting.coordinates == Coordinates::in_place) return false;
+  return std::abs(setting.load.value.at(watch.here.numbers)) > far_away(setting, tolerances) ||
+         grows_away(watch, setting, tolerances);
+}
+
+void add_rest(RestFound& rest, const hybrid::Vector& numbers, const SearchSetting& setting,
+              const RestTolerances& tolerances) {
+  const auto place = [&](const Watched& shaft) {
+    const double value = shaft.value.at(numbers);
+    return std::abs(value) > tolerances.no_move * setting.small_length ? value : 0.0;
+  };
+  const bool has_image = is_mirrored(setting.drive) && reads_mirrored(setting.drive);
+  for (const double way : {1.0, -1.0}) {
+    if (way < 0.0 && !has_image) break;
+    rest.load.include(way * place(setting.load) + 0.0);  // no −0
+    rest.error.include(-way * place(setting.load) + 0.0);
+    rest.motor.include(way * place(setting.motor) + 0.0);
+  }
 }
 
 std::size_t count_of_swings(const std::vector<Sample>& turns, double from,

@@ -31,16 +31,17 @@ struct Stretch {
   std::optional<hybrid::Trajectory> motion{};  ///< empty if it was observed and not kept
 };
 
-/// Watches a motion from `watch.here` until a time or a number of events: adds its ranges and turns
-/// to `watch`, and moves that to its end. The motion is kept.
-Stretch follow(Watch& watch, double until, std::size_t event_limit, const SearchSetting& setting,
-               double short_time);
+/// Watches a motion from `watch.here` until a time, a number of events or of steps: adds its ranges
+/// and turns to `watch`, and moves that to its end. The motion is kept.
+Stretch follow(Watch& watch, double until, std::size_t event_limit, std::size_t step_limit,
+               const SearchSetting& setting, double short_time);
 /// The same, but nothing is kept of the motion. Suits sampled drives, whose ticks are many. Turns
 /// between ticks are those of the cubic through both ends of a step.
 Stretch observe(Watch& watch, double until, std::size_t event_limit, const SearchSetting& setting);
 
-/// Whether no number has moved in the last half of a stretch by more than a share of its total
-/// movement.
+/// Whether no number on which the shafts' motion depends at once has moved in the last half of a
+/// stretch by more than a share of its total movement. (A controller of high order has others, high
+/// derivatives, that never move by less than rounding.)
 bool is_at_rest(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
                 const RestTolerances& tolerances);
 
@@ -54,6 +55,18 @@ bool stands(const hybrid::State& state, const SearchSetting& setting,
 /// arXiv 2006.08977).
 bool is_creeping(const Watch& watch, const SearchSetting& setting,
                  const RestTolerances& tolerances);
+
+/// Whether the load is far beyond all lengths of the drive, those of a torque limit however many
+/// backlashes they are; or swings that grow are, each by no less than the one before: under a
+/// torque limit a motion runs away no faster than that. Not decided in place, where the reference
+/// moves.
+bool has_run_away(const Watch& watch, const SearchSetting& setting,
+                  const SearchTolerances& tolerances);
+
+/// Adds a place where the drive came to rest, and its mirror image, if the drive is its own. What
+/// is within rounding of the reference is at it.
+void add_rest(RestFound& rest, const hybrid::Vector& numbers, const SearchSetting& setting,
+              const RestTolerances& tolerances);
 
 /// Swings after a time, without negligible ones.
 std::size_t count_of_swings(const std::vector<Sample>& turns, double from,

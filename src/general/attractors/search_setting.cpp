@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/range_check.hpp"
+#include "base/special_numbers.hpp"
 #include "general/assemble/time_scale.hpp"
 
 namespace gearlash::drive {
@@ -101,8 +102,9 @@ void look(SearchSetting& setting) {
 
 // ---- lengths ------------------------------------------------------------------------------------
 
-/// Direct gain from position to torque, N m/rad.
+/// Direct gain from position to torque, N m/rad; 0 of a relay, whose torque does not grow with it.
 double direct_stiffness(const ReducedDrive& drive) {
+  if (drive.error_shape.is_relay()) return 0.0;
   const LinearController controller = drive.sampling
                                           ? sampled_controller(drive.controller, *drive.sampling)
                                           : linear_controller(drive.controller);
@@ -122,6 +124,7 @@ void measure_lengths(SearchSetting& setting, const StartTolerances& starts) {
   double amplitude = 0.0;
   if (const auto* sine = std::get_if<Sine>(&drive.reference)) amplitude = std::abs(sine->amplitude);
   std::vector<double> lengths = {amplitude};
+  if (!drive.error_shape.is_of_speed) lengths.push_back(drive.error_shape.begins);
   if (stiffness > 0.0) {
     double load_torque = std::abs(middle_of(drive.load_torque));
     if (const auto* sine = std::get_if<Sine>(&drive.load_torque)) {
@@ -137,7 +140,14 @@ void measure_lengths(SearchSetting& setting, const StartTolerances& starts) {
     setting.large_length =
         std::max(setting.large_length, std::min(length, starts.longest_length * gap));
   }
+  lengths.push_back(setting.large_length);
+  const double limit = std::min(drive.torque_limit, drive.winding.torque_limit);
+  const bool is_bounded = std::isfinite(limit) || drive.error_shape.is_relay();
+  if (is_bounded) lengths.push_back(stiffness > 0.0 ? limit / stiffness : infinity);
+  setting.farthest_length = *std::max_element(lengths.begin(), lengths.end());
 }
+
+}  // namespace
 
 bool is_mirrored(const ReducedDrive& drive) {
   const bool is_constant = std::holds_alternative<double>(drive.reference);
@@ -145,7 +155,15 @@ bool is_mirrored(const ReducedDrive& drive) {
   return is_constant && torque != nullptr && *torque == 0.0;
 }
 
-}  // namespace
+bool reads_mirrored(const ReducedDrive& drive) {
+  const double twice = 2.0 * middle_of(drive.reference);
+  constexpr double rounding = 1e-9;  // of a step
+  const auto is_between_steps = [&](double step) {
+    return step > 0.0 && std::abs(std::remainder(twice, step)) > rounding * step;
+  };
+  return !is_between_steps(drive.sensing.resolution) &&
+         !is_between_steps(drive.sensing.resolution_of_speed);
+}
 
 hybrid::State SearchSetting::start(const ShaftStates& shafts) const {
   hybrid::State state = drive_start(drive, built, shafts);
@@ -219,9 +237,15 @@ std::vector<ShaftStates> usual_starts(const SearchSetting& setting,
     add_offsets(-1.0, -1.0);
     add_offsets(-1.0, 1.0);
   }
+  // From a greater speed the torque limit would let the load pass the largest step.
+  const ReducedDrive& drive = setting.drive;
+  const double braking = drive.torque_limit / (drive.motor.inertia + drive.load.inertia);
+  const double fastest = std::sqrt(2.0 * braking * high);
   for (const double times : {1.0, 10.0}) {
-    const double passing = speed + times * setting.large_length * turn / setting.swing_time;
-    starts.push_back({reference, passing, reference, passing});
+    const double passing = times * setting.large_length * turn / setting.swing_time;
+    const double at_speed = speed + std::min(passing, fastest);
+    starts.push_back({reference, at_speed, reference, at_speed});
+    if (passing >= fastest) break;
   }
   if (speed != 0.0) starts.push_back({reference + half_gap, 0.0, reference, 0.0});
   return starts;

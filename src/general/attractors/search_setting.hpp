@@ -22,6 +22,9 @@ struct SearchSetting {
   double settling_time = 0.0;  ///< s
   double small_length = 0.0;   ///< rad: the smallest of backlash and encoder steps
   double large_length = 0.0;   ///< rad: the largest of all lengths of the drive
+  /// rad: the same, with lengths of torques however many backlashes they are. Infinite where a
+  /// limited torque has none, because it does not grow with the position at once.
+  double farthest_length = 0.0;
 
   hybrid::State start(const ShaftStates& shafts) const;
   /// A time, not before the given one, at which no clock ticks.
@@ -33,6 +36,12 @@ SearchSetting search_setting(const ReducedDrive& drive, const StartTolerances& s
 
 /// With scales that make all numbers of a motion about 1.
 SearchSetting scaled(const SearchSetting& setting, const hybrid::Trajectory& motion);
+
+/// Whether motion to one side is the mirror image of motion to the other.
+bool is_mirrored(const ReducedDrive& drive);
+/// Whether its encoders read the mirror image of a position about the reference as the mirror image
+/// of what they read of the position.
+bool reads_mirrored(const ReducedDrive& drive);
 
 /// Neighbours in the list are neighbouring starts.
 std::vector<ShaftStates> usual_starts(const SearchSetting& setting,

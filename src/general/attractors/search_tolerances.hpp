@@ -81,22 +81,34 @@ struct IrregularTolerances {
   double same_motion = 0.1;
   /// A sampled drive's motion is steady once this many swings ...
   std::size_t enough_swings = 40;
-  /// ... have the statistics of those before them, to this share ...
+  /// ... or fewer, if the standard errors of their means are below a share, to which they agree ...
+  std::size_t few_swings = 8;
+  double error_of_means = 0.01;
+  /// ... have the mean statistics of those before them, to this share ...
   double steady_statistics = 0.03;
   /// ... or to this share of the encoder's step.
   double steady_steps = 0.5;
-  /// All numbers must then cover the ranges that they covered before, to this share.
+  /// All numbers must then cover the ranges that they covered before, to this share. The period of
+  /// a motor that hunts alone, and the extremes of swings that scatter, may differ by it too.
   double same_ranges = 0.15;
-  /// Swings that repeat to this share may be a cycle.
+  /// Swings that repeat to this share may be a cycle ...
   double repeating = 1e-3;
+  /// ... and to this share they need not be many to be steady.
+  double repeating_exactly = 1e-6;
 };
 
 struct SearchTolerances {
   RestTolerances rest{};
   CycleTolerances cycle{};
   IrregularTolerances irregular{};
-  /// A load beyond this many of the drive's largest lengths has run away.
+  /// A load beyond this many of the drive's largest lengths has run away ...
   double far_away = 1e6;
+  /// ... if it is also beyond this many of all its lengths, however many backlashes these are; or
+  /// with swings beyond that, if the last of them grow ...
+  double far_grown = 1e3;
+  /// ... this many, each by no less than the one before, to this share.
+  std::size_t growing_swings = 8;
+  double steady_growth = 0.99;
 };
 
 /// Duration of the search. Swing and settling times are those of the linear loop (TimeScales).
@@ -105,6 +117,11 @@ struct SearchBudget {
   double settling_times = 30.0;
   /// Swings of the first stretch. Each next one is twice as long.
   double first_stretch = 10.0;
+  /// A stretch of a sampled drive ends after this many events, or twice those of the one before: a
+  /// motor that ticks after a long standstill has its swings soon.
+  std::size_t ticks_of_stretch = 20'000;
+  /// The first stretch takes this share of them once a cycle is known that the motion may join.
+  double share_to_join = 0.25;
   /// A motion in which hardly anything happens is watched this many times as long ...
   double patience = 20.0;
   /// ... and this many times longer if it is sampled, because standing costs nothing ...
@@ -115,8 +132,13 @@ struct SearchBudget {
   double patience_at_standstill = 10.0;
   /// Hardly anything happens if a stretch has fewer swings than this ...
   std::size_t hardly_any_swings = 12;
-  /// ... or if the last swing is below this share of the stretch's first.
-  double still_shrinking = 0.8;
+  /// ... or if one of the stretch's first and last swings is below this share of the other.
+  double still_changing = 0.8;
+  /// A stretch that is kept ends after this many events. A shaft whose torque comes to rest at its
+  /// friction's edge stops and breaks away there without end: its next stretch is at rest.
+  std::size_t events_of_stretch = 10'000;
+  /// It ends once its steps take this many bytes. A stiff drive takes many steps.
+  std::size_t bytes_kept = 64'000'000;
   /// Turns are sought between events that are farther apart than this share of a swing time.
   double short_stretch = 0.05;
   /// Ticks of a clock do not count as events, up to this many times the events.
@@ -129,6 +151,8 @@ struct SearchBudget {
   /// ... or to see whether neighbours part.
   double compared_periods = 200.0;
   std::size_t recorded_events = 20'000;
+  /// Bisections, by ratio, of the step from which on a drive does not come to rest.
+  int bisections_of_steps = 5;
   /// Bisections between two starts; a double has 52 bits.
   int bisections = 52;
   /// After this many of them each time a test shows whether the motion hovers at a cycle ...

@@ -225,6 +225,46 @@ TEST(OracleDescribing, OfStictionInAStableLoopTheMethodSaysNothing) {
   EXPECT_TRUE(described(pid_with_friction(7.9), DescribedPart::coulomb_friction).cycles.empty());
 }
 
+// ---- the error ----------------------------------------------------------------------------------
+
+/// M/(s (J s + F)) with a relay of hysteresis h: ω J/F = tan(90° − ψ) and 4 M/(πA) = ω √(J²ω² + F²)
+/// with sin ψ = h/A.
+TEST(OracleDescribing, ARelayWithHysteresisSwingsWhereItsLagFits) {
+  ReducedDrive drive = type_one_servo(3.0, 2.0);  // J = 2, F = 1
+  drive.error_shape = {.begins = 0.1,
+                       .ends = -0.1,
+                       .inner_gain = 0.0,
+                       .outer_gain = 0.0,
+                       .offset = 1.0,
+                       .jumps = true};
+  const auto analyses = describing_analyses(drive);
+  ASSERT_EQ(analyses.size(), 1U);
+  EXPECT_EQ(analyses[0].part, DescribedPart::relay);
+  ASSERT_EQ(analyses[0].cycles.size(), 1U);
+  const DescribedMotion& cycle = analyses[0].cycles[0];
+  const double w = cycle.balance.frequency;
+  EXPECT_NEAR(std::asin(0.1 / cycle.amplitude), 0.5 * pi - std::atan(2.0 * w), 1e-9);
+  EXPECT_NEAR(12.0 / (pi * cycle.amplitude), w * std::hypot(2.0 * w, 1.0), 1e-9);
+  EXPECT_TRUE(cycle.balance.stable);
+}
+
+/// T J s³ + (J + T F) s² + F s + N K: undamped at ω² = F/(T J), where N K = (J + T F) ω². Larger
+/// motion grows.
+TEST(OracleDescribing, ADeadBandHoldsAnUnstableLoopUpToACycle) {
+  ReducedDrive drive = type_one_servo(1.0, 2.0);  // J = 2, F = 1
+  drive.controller = ErrorTransfer{{{4.0}, {0.5, 1.0}}};
+  drive.error_shape = {.begins = 0.2, .ends = 0.2, .inner_gain = 0.0, .offset = -0.2};
+  const auto analysis = described(drive, DescribedPart::dead_band);
+  ASSERT_EQ(analysis.cycles.size(), 1U);
+  const DescribedMotion& cycle = analysis.cycles[0];
+  EXPECT_NEAR(cycle.balance.frequency, 1.0, 1e-12);
+  const double angle = std::acos(0.2 / cycle.amplitude);
+  EXPECT_NEAR((2.0 * angle - std::sin(2.0 * angle)) / pi, 2.5 / 4.0, 1e-12);
+  EXPECT_FALSE(cycle.balance.stable);
+  EXPECT_THAT(described(drive, DescribedPart::gap_load_held).assumptions,
+              Contains(Assumption::error_shape_left_out));
+}
+
 // ---- sampling -----------------------------------------------------------------------------------
 
 TEST(OracleDescribing, SamplingIsADelayByHalfAPeriodMore) {

@@ -117,16 +117,39 @@ TransferFunction plant_of_python_control() {
   return transfer;
 }
 
-TEST(HarmonicBalanceOracle, PlantOfPythonControl) {
+/// python-control's notebook on describing functions (examples/describing_functions.ipynb) prints
+/// what its minimization of |1 + NG|² ends at.
+TEST(HarmonicBalanceOracle, BacklashOfPythonControl) {
   const HarmonicBalance balance =
       harmonic_balance(FrictionControlledBacklash{1.0}, plant_of_python_control());
   ASSERT_EQ(balance.cycles.size(), 2U);
   EXPECT_TRUE(balance.unresolved.empty());
-  expect_digits("small_amplitude", balance.cycles[0].amplitude, 0.626016, 6.0);
-  expect_digits("small_frequency", balance.cycles[0].frequency, 0.310262, 6.0);
-  expect_digits("large_amplitude", balance.cycles[1].amplitude, 0.874192, 6.0);
-  expect_digits("large_frequency", balance.cycles[1].frequency, 1.215641, 6.0);
+  expect_digits("small_amplitude", balance.cycles[0].amplitude, 0.6260158833531679, 7.6);
+  expect_digits("small_frequency", balance.cycles[0].frequency, 0.31026194979692245, 6.9);
+  expect_digits("large_amplitude", balance.cycles[1].amplitude, 0.8741930326842812, 6.1);
+  expect_digits("large_frequency", balance.cycles[1].frequency, 1.215641094477062, 7.9);
   for (const PredictedCycle& cycle : balance.cycles) EXPECT_LT(cycle.residual, 20.0 * epsilon);
+}
+
+/// The example of describing_function_plot() in python-control's reference: 8/(s³ + 2s² + 2s + 1)
+/// with a unit saturation. Version 0.9.0 prints 3.344008947853124 at 1.414213099755523, 0.10.0
+/// prints 3.343844998258643 at 1.4142293090899216. Exact: ω = √2, where G = −8/3 and N = 3/8.
+TEST(HarmonicBalanceOracle, SaturationOfPythonControl) {
+  const std::vector<double> denominator{1.0, 2.0, 2.0, 1.0};
+  const HarmonicBalance balance = harmonic_balance(Saturation{1.0, 1.0}, {{8.0}, denominator});
+  ASSERT_EQ(balance.cycles.size(), 1U);
+  EXPECT_TRUE(balance.unresolved.empty());
+  const PredictedCycle& cycle = balance.cycles[0];
+  EXPECT_TRUE(cycle.stable);
+  expect_digits("amplitude", cycle.amplitude, 3.344008947853124, 5.5);
+  expect_digits("frequency", cycle.frequency, 1.414213099755523, 6.4);
+  expect_digits("later_amplitude", cycle.amplitude, 3.343844998258643, 4.3);
+  expect_digits("later_frequency", cycle.frequency, 1.4142293090899216, 4.9);
+  expect_digits("exact_frequency", cycle.frequency, std::sqrt(2.0), 15.0);
+  const double angle = std::asin(1.0 / cycle.amplitude);
+  expect_digits("exact_gain", (2.0 * angle + std::sin(2.0 * angle)) / pi, 0.375, 15.0);
+  // The same loop with a gain of 1 meets no saturation's −1/N.
+  EXPECT_TRUE(harmonic_balance(Saturation{1.0, 1.0}, {{1.0}, denominator}).cycles.empty());
 }
 
 TEST(HarmonicBalanceOracle, RelayAndSaturationAtThePhaseCrossover) {

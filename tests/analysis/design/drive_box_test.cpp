@@ -126,7 +126,7 @@ Drive drawn_data_sheet(SeededDraws& draws) {
                                .proportional = std::get<PID>(drive.controller.law).proportional,
                                .derivative = draws.happens(0.5) ? feedback : -feedback};
     drive.sensor.speed = ShaftName::motor;
-    drive.controller.shaft = draws.happens(0.5) ? ShaftName::load : ShaftName::motor;
+    drive.controller.shaft = draws.happens(0.5) ? GainShaft::load : GainShaft::motor;
   }
   return drive;
 }

@@ -46,7 +46,7 @@ Drive fed_back(Drive drive, double derivative) {
                                  .proportional = 3.0,
                                  .derivative = derivative,
                                  .derivative_of_speed = true},
-                      .shaft = ShaftName::motor};
+                      .shaft = GainShaft::motor};
   drive.sensor.speed = ShaftName::motor;
   return drive;
 }

@@ -380,7 +380,7 @@ TEST(EdgeToleranceStudy, EveryFaultIsNamed) {
                 (void)study_sensitivities(toleranced({}),
                                           {.points = 1'000'000'000, .replicates = 2});
               }),
-              ElementsAre("sampling.points = 1000000000: must be at most 1000000000 with all "
+              ElementsAre("sampling.points = 1000000000: must be at most 100000000 with all "
                           "replicates together"));
 }
 

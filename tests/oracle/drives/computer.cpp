@@ -28,13 +28,14 @@ double Computer::sampled_speed(const ShaftReadings& shafts) {
 double Computer::torque() const { return std::clamp(asked_, -drive_.limit, drive_.limit); }
 
 /// The integral at this sample, with `blend` of this sample's rate; then its next value, drawn back
-/// by what the limit withholds now.
+/// by what the limit withholds of the torque computed at the sample before.
 double Computer::integrate(double rate) {
   const double period = drive_.period;
   const double now = integral_ + drive_.blend * period * rate;
   integral_ += period * rate;
   if (drive_.controller.tracking_time > 0.0) {
-    integral_ += period / drive_.controller.tracking_time * (torque() - asked_);
+    integral_ += period / drive_.controller.tracking_time *
+                 (std::clamp(computed_, -drive_.limit, drive_.limit) - computed_);
   }
   return now;
 }

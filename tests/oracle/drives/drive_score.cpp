@@ -105,9 +105,15 @@ ScoredStart scored_start(const StartOutcome& start, const Answer& answer, const 
   const ShaftReadings shafts{start.motor_position, start.motor_speed, start.load_position,
                              start.load_speed};
   state_amplitudes(answer, scored);
-  EndingOptions half = options.ending;
+  EndingOptions whole = options.ending;
+  // The extremes of slow irregular motion need many of its periods.
+  constexpr double periods = 200.0;
+  if (scored.frequency > 0.0) {
+    whole.longest_time = std::max(whole.longest_time, periods / scored.frequency);
+  }
+  EndingOptions half = whole;
   half.longest_step *= 0.5;
-  scored.ending = ending_of(drive, shafts, options.ending);
+  scored.ending = ending_of(drive, shafts, whole);
   scored.ending_of_half_step = ending_of(drive, shafts, half);
   scored.agreement = agreement_of(scored, drive, permitted(scored, answer, options));
   return scored;

@@ -17,7 +17,12 @@ int way_of_break(double torque, double breakaway) {
 }
 
 double friction(const PlainShaft& shaft, double speed, int way) {
-  return shaft.viscous * speed + shaft.coulomb * way;
+  double dry = shaft.coulomb;
+  if (shaft.stribeck_speed > 0.0 && way * speed < shaft.stribeck_speed) {
+    const double share = 1.0 - std::max(0.0, way * speed) / shaft.stribeck_speed;
+    dry += share * (shaft.breakaway - shaft.coulomb);
+  }
+  return shaft.viscous * speed + dry * way;
 }
 
 /// Until a shaft that moves in `way` stands.

@@ -16,7 +16,8 @@ PlainShaft shaft_of(double inertia, const Friction& friction, double ratio) {
   return {.inertia = inertia * ratio * ratio,
           .viscous = friction.viscous * ratio * ratio,
           .coulomb = friction.coulomb * ratio,
-          .breakaway = friction.breakaway.value_or(friction.coulomb) * ratio};
+          .breakaway = friction.breakaway.value_or(friction.coulomb) * ratio,
+          .stribeck_speed = friction.stribeck_speed / ratio};
 }
 
 double step_of(const Encoder& encoder, double turns, double otherwise) {
@@ -49,9 +50,13 @@ void set_sensor(const Sensor& sensor, double ratio, PlainDrive& plain) {
 
 void set_controller(const Controller& controller, double ratio, PlainDrive& plain) {
   // Torque and, for gains of the motor's shaft, the angle are those of the faster shaft.
-  const double scale = ratio * (controller.shaft == ShaftName::motor ? ratio : 1.0);
+  const double scale = controller.shaft == GainShaft::load    ? 1.0
+                       : controller.shaft == GainShaft::mixed ? ratio
+                                                              : ratio * ratio;
   PlainController& plainly = plain.controller;
+  refuse(controller.firmware.has_value(), "the simulator knows no firmware's registers");
   if (const auto* cascade = std::get_if<CascadeController>(&controller.law)) {
+    refuse(cascade->filter != 0.0, "the simulator knows cascades without a filter only");
     plainly.is_cascade = true;
     plainly.position = cascade->position;
     plainly.proportional = scale * cascade->speed;
@@ -105,6 +110,9 @@ PlainDrive plain_drive(const Drive& drive) {
   refuse(drive.servo.has_value(), "the simulator takes no normal form");
   refuse(!std::holds_alternative<TorqueControl>(drive.motor.kind),
          "the simulator knows torque-controlled motors only");
+  refuse(
+      drive.controller.dead_band != DeadBand{} || drive.controller.compensation != Compensation{},
+      "the simulator knows no dead bands and compensations");
   const double ratio = drive.gearbox.ratio;
   PlainDrive plain;
   plain.motor = shaft_of(drive.motor.inertia, drive.motor.friction, ratio);

@@ -12,6 +12,9 @@ struct PlainShaft {
   double viscous = 0.0;    ///< N m s/rad
   double coulomb = 0.0;    ///< N m
   double breakaway = 0.0;  ///< N m, ≥ coulomb
+  /// rad/s: up to here the dry torque of a moving shaft falls from breakaway to coulomb, in
+  /// proportion.
+  double stribeck_speed = 0.0;
 };
 
 enum class PlainContact { rigid, spring_damping_limited, spring_damping_full };

@@ -140,7 +140,7 @@ void draw_cascade(Dice& dice, Drive& drive, const Scale& scale) {
   const double integral_rate = rate / dice.between(3.0, 12.0);
   cascade.speed_integral = cascade.speed * integral_rate;
   cascade.tracking_time = dice.between(0.5, 2.0) / integral_rate;
-  drive.controller = {cascade, ShaftName::motor};
+  drive.controller = {cascade, GainShaft::motor};
 }
 
 void draw_pid(Dice& dice, Drive& drive, const Scale& scale) {
@@ -159,7 +159,7 @@ void draw_pid(Dice& dice, Drive& drive, const Scale& scale) {
   pid.filter = 1.0 / (filter_share * rate);
   pid.tracking_time = dice.between(0.5, 2.0) * integral_share / rate;
   pid.derivative_of_speed = dice.chance(0.5);
-  drive.controller = {pid, ShaftName::motor};
+  drive.controller = {pid, GainShaft::motor};
 }
 
 }  // namespace

@@ -1,0 +1,15 @@
+// Everything that is reported of a limit cycle with bounces, from the arrival that comes back.
+#pragma once
+
+#include "closed_form/limit_cycle.hpp"
+#include "closed_form/return_orbits.hpp"
+#include "model/normalized_servo.hpp"
+
+namespace gearlash {
+
+/// Follows the cycle once round for its amplitudes, times and energies; the multiplier is that of
+/// the return map's derivative. Precondition: `dynamics` are those of `servo`.
+LimitCycle cycle_of_orbit(const NormalizedServo& servo, const ServoDynamics& dynamics,
+                          const ReturnOrbit& orbit);
+
+}  // namespace gearlash
