@@ -1,13 +1,13 @@
 #include "terminal.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <string_view>
 #include <utility>
 
@@ -27,12 +27,17 @@ bool takes_escapes(int descriptor) {
          terminal != nullptr && std::string_view(terminal) != "dumb";
 }
 
-/// The most bytes of memory that the tool has taken so far.
+/// The most bytes of memory that the tool has taken so far. (getrusage() would count those of the
+/// program that started it.) 0 where the system does not say.
 double peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
+  std::ifstream status("/proc/self/status");
+  const std::string peak = "VmHWM:";
   constexpr double bytes_in_unit = 1024.0;
-  return bytes_in_unit * static_cast<double>(usage.ru_maxrss);
+  for (std::string word; status >> word;) {
+    double units = 0.0;
+    if (word == peak && status >> units) return bytes_in_unit * units;
+  }
+  return 0.0;
 }
 
 }  // namespace

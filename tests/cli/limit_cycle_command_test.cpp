@@ -156,6 +156,16 @@ TEST(LimitCycleCommand, KeepsItsMemoryLimit) {
   EXPECT_THAT(limited.out, HasSubstr("forced oscillation"));
 }
 
+/// Linux counts a parent's memory in the peak that getrusage() gives of its child.
+TEST(LimitCycleCommand, CountsNoMemoryOfTheProgramThatStartsIt) {
+  const Outcome run = run_shell(
+      "GEARLASH=\"$GEARLASH\" python3 -c \"import os, subprocess; taken = b'1' * 200_000_000; "
+      "subprocess.run([os.environ['GEARLASH'], 'limit-cycle', 'examples/robot-joint.toml', "
+      "'--brief', '--memory-limit', '150 MB'], check=True)\"");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, Not(HasSubstr("undecided")));
+}
+
 TEST(LimitCycleCommand, RefusesAMemoryLimitThatIsNone) {
   for (const std::string size : {"much", "-1 GB", "99 MB", "0"}) {
     const Outcome run =

@@ -112,6 +112,19 @@ Irregularity irregularity_of(const Watch& watch, const Stretch& stretch,
   return result;
 }
 
+bool is_sure(const IrregularFound& found, const IrregularTolerances& tolerances, double repeating) {
+  const auto error = [&](double deviation, double mean) {
+    return deviation / (mean * std::sqrt(static_cast<double>(found.swings)));
+  };
+  const bool means_are_known =
+      found.swings >= tolerances.few_swings &&
+      error(found.half_swing_deviation, found.half_swing) < tolerances.error_of_means &&
+      error(found.period_deviation, found.period) < tolerances.error_of_means;
+  return means_are_known || found.swings >= tolerances.enough_swings || found.mismatch < repeating;
+}
+
+namespace {
+
 bool is_alike(const IrregularFound& one, const IrregularFound& other, const SearchSetting& setting,
               const IrregularTolerances& tolerances) {
   const double extent = std::max(other.amplitude, other.motor_amplitude);
@@ -130,17 +143,6 @@ bool is_alike(const IrregularFound& one, const IrregularFound& other, const Sear
          same(one.half_swing, other.half_swing, share) &&
          agree(one.period, other.period, other.period,
                one.is_motor_alone ? tolerances.same_ranges : share);
-}
-
-bool is_sure(const IrregularFound& found, const IrregularTolerances& tolerances, double repeating) {
-  const auto error = [&](double deviation, double mean) {
-    return deviation / (mean * std::sqrt(static_cast<double>(found.swings)));
-  };
-  const bool means_are_known =
-      found.swings >= tolerances.few_swings &&
-      error(found.half_swing_deviation, found.half_swing) < tolerances.error_of_means &&
-      error(found.period_deviation, found.period) < tolerances.error_of_means;
-  return means_are_known || found.swings >= tolerances.enough_swings || found.mismatch < repeating;
 }
 
 bool are_alike(const std::vector<Extent>& ranges, const std::vector<Extent>& others,
@@ -168,6 +170,14 @@ bool are_alike(const std::vector<Extent>& ranges, const std::vector<Extent>& oth
     }
   }
   return true;
+}
+
+}  // namespace
+
+bool is_same(const SteadyMotion& one, const SteadyMotion& other, const SearchSetting& setting,
+             const IrregularTolerances& tolerances) {
+  return is_alike(one.found, other.found, setting, tolerances) &&
+         are_alike(one.ranges, other.ranges, setting.own, tolerances.same_ranges);
 }
 
 std::size_t place_among(const std::vector<IrregularFound>& known, const IrregularFound& found,

@@ -22,17 +22,19 @@ Irregularity irregularity_of(const Watch& watch, const Stretch& stretch,
 /// the share `repeating`. A few others may be those of a motion that comes to rest.
 bool is_sure(const IrregularFound& found, const IrregularTolerances& tolerances, double repeating);
 
-/// Whether two stretches of a motion have the same statistics: means, and extremes within their
-/// scatter. The period of a motor that hunts
-/// alone depends on where in the gap the load stands, and so may differ more.
-bool is_alike(const IrregularFound& one, const IrregularFound& other, const SearchSetting& setting,
-              const IrregularTolerances& tolerances);
+/// A stretch of a motion that is steady.
+struct SteadyMotion {
+  IrregularFound found;
+  std::vector<Extent> ranges;  ///< of each number
+};
 
-/// Whether the first `count` numbers cover the same ranges, to a share of their widths: nothing
-/// drifts. Of both positions the wider range counts, as of both speeds: a load that creeps within
-/// the swings of its motor changes little.
-bool are_alike(const std::vector<Extent>& ranges, const std::vector<Extent>& others,
-               Eigen::Index count, double share);
+/// Whether two have the same statistics: means, and extremes within their scatter; and the drive's
+/// own numbers cover the same ranges, to a share of their widths: nothing drifts. The period of a
+/// motor that hunts alone depends on where in the gap the load stands, and so may differ more. Of
+/// both positions the wider range counts, as of both speeds: a load that creeps within the swings
+/// of its motor changes little.
+bool is_same(const SteadyMotion& one, const SteadyMotion& other, const SearchSetting& setting,
+             const IrregularTolerances& tolerances);
 
 /// Index of a known one that is nearly the same; their count if there is none.
 std::size_t place_among(const std::vector<IrregularFound>& known, const IrregularFound& found,

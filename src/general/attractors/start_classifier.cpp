@@ -1,0 +1,239 @@
+#include "general/attractors/start_classifier.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "general/attractors/found_cycle.hpp"
+#include "general/attractors/motion_measures.hpp"
+
+namespace gearlash::drive {
+
+using hybrid::State;
+using hybrid::StopReason;
+using hybrid::Trajectory;
+
+std::size_t steps_kept(const SearchSetting& setting, const SearchBudget& budget) {
+  const auto numbers = static_cast<std::size_t>(setting.system.system().size());
+  return budget.bytes_kept / (sizeof(double) * (numbers + 3));
+}
+
+Verdict StartClassifier::end_of(const State& start, double patience) {
+  Watch watch{.here = start, .starts_at_rest = setting_.load.speed.at(start.numbers) == 0.0};
+  double length = first_stretch();
+  std::size_t most_in_stretch = budget_.ticks_of_stretch;
+  std::optional<SteadyMotion> before;
+  while (true) {
+    const double until = setting_.between_ticks(watch.time + length);
+    const Stretch stretch = next_stretch(watch, until, most_in_stretch);
+    Verdict verdict;
+    verdict.watched = watch.time;
+    verdict.last = watch.here.numbers;
+    if (is_decided(watch, stretch, verdict)) return verdict;
+    if (!stretch.motion && is_steady(watch, stretch, before, verdict)) return verdict;
+    if (!goes_on_()) {
+      verdict.reason = "the search was stopped";
+      return verdict;
+    }
+    const double most = longest(watch, stretch, patience);
+    if (watch.time >= most && creeps(watch, verdict)) return verdict;
+    const bool may_creep = stands(watch.here, setting_, tolerances_.rest);
+    const double times = may_creep ? budget_.patience_at_standstill : 1.0;
+    if (watch.events >= most_events() || watch.time >= times * most) {
+      give_up(watch, stretch, before, verdict);
+      return verdict;
+    }
+    // Events may have ended the stretch.
+    length = 2.0 * (stretch.to - stretch.from);
+    most_in_stretch = std::max(budget_.ticks_of_stretch, 2 * stretch.events);
+  }
+}
+
+std::size_t StartClassifier::most_events() const {
+  const std::size_t ticks = setting_.drive.sampling ? budget_.most_ticks * options_.most_events : 0;
+  return options_.most_events + ticks;
+}
+
+double StartClassifier::first_stretch() const {
+  const bool may_join = !setting_.drive.sampling && !search_.cycles.empty();
+  const double share = may_join ? budget_.share_to_join : 1.0;
+  return share * budget_.first_stretch * setting_.swing_time;
+}
+
+Stretch StartClassifier::next_stretch(Watch& watch, double until,
+                                      std::size_t most_if_sampled) const {
+  const std::size_t most = std::max<std::size_t>(1, most_events() - watch.events);
+  if (setting_.drive.sampling) {
+    const bool is_last = most < 2 * most_if_sampled;  // no short stretch remains
+    return observe(watch, until, is_last ? most : most_if_sampled, setting_);
+  }
+  return follow(watch, until, std::min(most, budget_.events_of_stretch),
+                steps_kept(setting_, budget_), setting_,
+                budget_.short_stretch * setting_.swing_time);
+}
+
+double StartClassifier::longest(const Watch& watch, const Stretch& stretch, double patience) const {
+  const auto recent = [&](const std::vector<Sample>& turns) {
+    return count_of_swings(turns, stretch.from, setting_, tolerances_.rest);
+  };
+  const std::vector<Sample> turns = turns_of(watch, setting_, tolerances_.rest);
+  // Swings that still shrink may end in rest, and those that grow in a cycle.
+  const std::size_t count = recent(turns);
+  const double last = count > 2 ? swing(turns, 0) : 0.0;
+  const double first = count > 2 ? swing(turns, count - 2) : 0.0;
+  const bool changes =
+      last < budget_.still_changing * first || first < budget_.still_changing * last;
+  const bool is_slow =
+      setting_.drive.sampling ||
+      std::max(recent(turns), recent(extremes(watch.motor))) < budget_.hardly_any_swings ||
+      is_small(turns, setting_, tolerances_.rest) || changes;
+  constexpr double rounding = 1e-9;  // allows for rounding of the summed stretches
+  const double more = is_slow ? patience : 1.0;
+  const double times = setting_.drive.sampling ? more * budget_.patience_at_ticks : more;
+  return times * search_.watch_time * (1.0 - rounding);
+}
+
+bool StartClassifier::is_decided(const Watch& watch, const Stretch& stretch, Verdict& verdict) {
+  if (stretch.stop_reason == StopReason::diverged || has_run_away(watch, setting_, tolerances_)) {
+    verdict.end = MotionEnd::diverges;
+    return true;
+  }
+  if (stretch.stop_reason == StopReason::zeno || stretch.stop_reason == StopReason::chattering) {
+    verdict.reason = "events without end: " + stretch.culprit;
+    return true;
+  }
+  if (setting_.coordinates == Coordinates::in_place) return false;
+  if (is_at_rest(watch, stretch, setting_, tolerances_.rest) ||
+      is_vanishing(watch, stretch, verdict)) {
+    verdict.end = MotionEnd::rest;
+    return true;
+  }
+  return stretch.motion &&
+         is_on_cycle(*stretch.motion, {tolerances_.cycle.nearness, tolerances_.cycle.wide_nearness},
+                     verdict);
+}
+
+bool StartClassifier::creeps(const Watch& watch, Verdict& verdict) const {
+  verdict.is_creeping = is_creeping(watch, setting_, tolerances_.rest);
+  if (verdict.is_creeping) verdict.end = MotionEnd::rest;
+  return verdict.is_creeping;
+}
+
+const StartClassifier::Known* StartClassifier::known_as(const SteadyMotion& motion) const {
+  const auto known = std::find_if(known_.begin(), known_.end(), [&](const Known& one) {
+    return is_same(one.motion, motion, setting_, tolerances_.irregular);
+  });
+  return known == known_.end() ? nullptr : &*known;
+}
+
+bool StartClassifier::is_steady(const Watch& watch, const Stretch& stretch,
+                                std::optional<SteadyMotion>& before, Verdict& verdict) {
+  const IrregularTolerances& irregular = tolerances_.irregular;
+  const Irregularity seen = irregularity_of(watch, stretch, setting_, tolerances_, false);
+  if (!seen.reason.empty()) {
+    if (watch.events < most_events()) before.reset();  // not of a stretch that was cut short
+    return false;
+  }
+  const SteadyMotion now{seen.found, stretch.last};
+  const bool may_be_known = is_sure(now.found, irregular, irregular.repeating);
+  if (const Known* known = may_be_known ? known_as(now) : nullptr) {
+    verdict.end = known->end;
+    verdict.which = known->which;
+    verdict.irregular = now.found;
+    return true;
+  }
+  const bool is_repeated = before && is_same(*before, now, setting_, irregular);
+  before = now;
+  if (!is_repeated || !is_sure(now.found, irregular, irregular.repeating_exactly)) return false;
+  if (!closes(watch, now.found, verdict)) take(watch, now.found, verdict);
+  known_.push_back({now, verdict.end, verdict.which});
+  return true;
+}
+
+bool StartClassifier::closes(const Watch& watch, const IrregularFound& found, Verdict& verdict) {
+  if (setting_.coordinates == Coordinates::in_place) return false;
+  if (!(found.mismatch < tolerances_.irregular.repeating)) return false;
+  return is_on_cycle(recorded(watch, found, budget_.closing_periods),
+                     {tolerances_.cycle.nearness, tolerances_.cycle.wide_nearness}, verdict);
+}
+
+Trajectory StartClassifier::recorded(const Watch& watch, const IrregularFound& found,
+                                     double periods) const {
+  const double period = std::isfinite(found.period) ? found.period : setting_.swing_time;
+  return simulate(setting_.system, watch.here,
+                  {.from = watch.time,
+                   .until = setting_.between_ticks(watch.time + periods * period),
+                   .event_limit = budget_.recorded_events});
+}
+
+bool StartClassifier::is_vanishing(const Watch& watch, const Stretch& stretch,
+                                   Verdict& verdict) const {
+  const bool is_small_by_now = extent_of(after(watch.load, stretch.from)).width() <
+                               tolerances_.rest.small_motion * setting_.small_length;
+  const double awaited =
+      std::min(search_.watch_time, budget_.settling_times * setting_.settling_time);
+  if (!is_small_by_now || !(watch.time > awaited)) return false;
+  const auto ratio =
+      ratio_of_vanishing(turns_of(watch, setting_, tolerances_.rest), setting_, tolerances_.rest);
+  if (ratio) verdict.swing_ratio = *ratio;
+  return ratio.has_value();
+}
+
+bool StartClassifier::is_on_cycle(const Trajectory& motion, std::initializer_list<double> nearness,
+                                  Verdict& verdict) {
+  const auto which = cycle_of(motion, nearness);
+  if (!which) return false;
+  verdict.end = MotionEnd::cycle;
+  verdict.which = *which;
+  return true;
+}
+
+std::optional<std::size_t> StartClassifier::cycle_of(const Trajectory& motion,
+                                                     std::initializer_list<double> all_nearness) {
+  if (const auto which = closing_.known_cycle_of(motion, search_.cycles)) return which;
+  for (const double nearness : all_nearness) {
+    const auto found = closing_.closed_cycle(motion, nearness);
+    if (!found) continue;
+    const std::size_t which = place_of(*found, tolerances_.cycle, search_.cycles);
+    if (found->stability != Stability::unstable) return which;
+  }
+  return std::nullopt;
+}
+
+void StartClassifier::give_up(const Watch& watch, const Stretch& stretch,
+                              const std::optional<SteadyMotion>& before, Verdict& verdict) {
+  // The motion may approach its cycle slowly.
+  const bool may_close = stretch.motion && setting_.coordinates != Coordinates::in_place;
+  if (may_close && is_on_cycle(*stretch.motion, {tolerances_.cycle.widest_nearness}, verdict))
+    return;
+  const bool is_out_of_events = watch.events >= most_events();
+  Irregularity seen = irregularity_of(watch, stretch, setting_, tolerances_, is_out_of_events);
+  if (!seen.reason.empty() && !before && !stretch.motion) {
+    Stretch longer = stretch;  // the last half of the watch, which may have swings enough
+    longer.from = 0.5 * watch.time;
+    seen = irregularity_of(watch, longer, setting_, tolerances_, is_out_of_events);
+  }
+  if (!seen.reason.empty() && !before) {
+    verdict.reason = seen.reason;
+    return;
+  }
+  const SteadyMotion last = seen.reason.empty() ? SteadyMotion{seen.found, stretch.last} : *before;
+  take(watch, last.found, verdict, &stretch);
+  if (!stretch.motion) known_.push_back({last, verdict.end, 0});
+}
+
+void StartClassifier::take(const Watch& watch, const IrregularFound& found, Verdict& verdict,
+                           const Stretch* stretch) {
+  verdict.end = MotionEnd::irregular;
+  verdict.irregular = found;
+  const bool is_known =
+      place_among(search_.irregular, found, tolerances_.irregular) != search_.irregular.size();
+  const Sensing& sensing = setting_.drive.sensing;
+  if (is_known || sensing.resolution > 0.0 || sensing.resolution_of_speed > 0.0) return;
+  const bool is_kept = stretch != nullptr && stretch->motion;
+  verdict.irregular.exponent = largest_exponent(
+      setting_.system.system(),
+      is_kept ? *stretch->motion : recorded(watch, found, budget_.compared_periods), setting_.own);
+}
+
+}  // namespace gearlash::drive

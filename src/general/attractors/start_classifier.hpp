@@ -1,0 +1,107 @@
+// Decides where the motion from a start ends.
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "general/attractors/cycle_closing.hpp"
+#include "general/attractors/irregular_motion.hpp"
+#include "general/attractors/motion_watch.hpp"
+#include "general/attractors/search_setting.hpp"
+
+namespace gearlash::drive {
+
+/// Where a motion ends.
+struct Verdict {
+  MotionEnd end = MotionEnd::undecided;
+  std::size_t which = 0;  ///< index into the cycles
+  double watched = 0.0;
+  std::string reason;
+  double swing_ratio = std::numeric_limits<double>::quiet_NaN();
+  bool is_creeping = false;  ///< to rest
+  hybrid::Vector last;       ///< numbers
+  IrregularFound irregular;  ///< if `end` is irregular
+
+  bool is_attracted() const { return end == MotionEnd::rest || end == MotionEnd::cycle; }
+  bool is_same_end(const Verdict& other) const {
+    return end == other.end && (end != MotionEnd::cycle || which == other.which);
+  }
+};
+
+/// Steps of a motion that SearchBudget::bytes_kept allows. A step keeps its time, its mode and all
+/// numbers.
+std::size_t steps_kept(const SearchSetting& setting, const SearchBudget& budget);
+
+/// Watches starts one after the other. What one led to is known to the next.
+class StartClassifier {
+ public:
+  /// Adds the cycles that it closes to those of `search`, and reads its irregular motions and its
+  /// watch time. Asks `goes_on` between stretches. All must live as long.
+  StartClassifier(const SearchSetting& setting, const AttractorOptions& options,
+                  AttractorSearch& search, std::function<bool()> goes_on)
+      : setting_(setting), options_(options), search_(search), goes_on_(std::move(goes_on)) {}
+
+  /// Watches until the motion comes to rest, runs away, joins a motion that is known, repeats its
+  /// statistics, or Newton's method closes a cycle that it is on. A motion in which hardly anything
+  /// happens is watched `patience` times as long.
+  Verdict end_of(const hybrid::State& start, double patience);
+
+ private:
+  /// What a sampled drive's start led to.
+  struct Known {
+    SteadyMotion motion;
+    MotionEnd end;      ///< irregular or cycle
+    std::size_t which;  ///< index into the cycles
+  };
+
+  /// Of a start, with the ticks that are permitted besides.
+  std::size_t most_events() const;
+  /// Shorter if the motion may join a cycle that is known.
+  double first_stretch() const;
+  /// The ticks of a sampled drive are too many to be kept.
+  Stretch next_stretch(Watch& watch, double until, std::size_t most_if_sampled) const;
+  /// Longest time that a start is watched: more if hardly anything happens.
+  double longest(const Watch& watch, const Stretch& stretch, double patience) const;
+  bool is_decided(const Watch& watch, const Stretch& stretch, Verdict& verdict);
+  bool creeps(const Watch& watch, Verdict& verdict) const;
+  /// Whether a sampled drive's motion is one that is known, or has repeated its statistics from one
+  /// stretch to the next. Motion that repeats may be a cycle.
+  bool is_steady(const Watch& watch, const Stretch& stretch, std::optional<SteadyMotion>& before,
+                 Verdict& verdict);
+  /// What the same motion led to before; null if it is new.
+  const Known* known_as(const SteadyMotion& motion) const;
+  /// Whether Newton's method closes a cycle on a sampled drive's motion.
+  bool closes(const Watch& watch, const IrregularFound& found, Verdict& verdict);
+  /// A sampled drive's motion from here on, over a few periods, kept.
+  hybrid::Trajectory recorded(const Watch& watch, const IrregularFound& found,
+                              double periods) const;
+  /// Whether swings shrink towards a rest that they never reach. Decided only after the linear
+  /// loop's settling time.
+  bool is_vanishing(const Watch& watch, const Stretch& stretch, Verdict& verdict) const;
+  bool is_on_cycle(const hybrid::Trajectory& motion, std::initializer_list<double> nearness,
+                   Verdict& verdict);
+  /// The cycle that the end of a motion is on. Unstable cycles passed by are kept in the result.
+  std::optional<std::size_t> cycle_of(const hybrid::Trajectory& motion,
+                                      std::initializer_list<double> all_nearness);
+  /// The motion is what its last stretch shows, or that `before` which was steady.
+  void give_up(const Watch& watch, const Stretch& stretch,
+               const std::optional<SteadyMotion>& before, Verdict& verdict);
+  /// Takes the motion as irregular.
+  void take(const Watch& watch, const IrregularFound& found, Verdict& verdict,
+            const Stretch* stretch = nullptr);
+
+  const SearchSetting& setting_;
+  const AttractorOptions& options_;
+  const SearchTolerances& tolerances_ = options_.tolerances;
+  const SearchBudget& budget_ = options_.budget;
+  AttractorSearch& search_;
+  std::function<bool()> goes_on_;
+  CycleClosing closing_{setting_, options_};
+  std::vector<Known> known_;
+};
+
+}  // namespace gearlash::drive
