@@ -124,7 +124,8 @@ struct HybridSystem {
   std::vector<Clock> clocks{};
   ModeSource source{};
   /// With a source: which numbers follow their own flow alone, the same in every mode, and are
-  /// changed by no event (references). Empty means none. For a list of modes they are found.
+  /// changed by no event (references); or are moved by no flow, and events change them by constants
+  /// (counts). Empty means none. For a list of modes they are found.
   std::vector<bool> exogenous{};
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(state_names.size()); }

@@ -97,8 +97,8 @@ class PreparedSystem {
   /// Throws InvalidInput with all faults of the system.
   explicit PreparedSystem(HybridSystem system);
   const HybridSystem& system() const;
-  /// The numbers that follow their own flow alone, the same in every mode, and that no event
-  /// changes (references): HybridSystem::exogenous, or those found in a list of modes.
+  /// The numbers that nothing acts on (references, counts): HybridSystem::exogenous, or those found
+  /// in a list of modes.
   const std::vector<bool>& exogenous() const;
 
  private:

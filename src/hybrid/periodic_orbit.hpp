@@ -17,7 +17,7 @@ struct PeriodicOrbit {
   std::vector<Event> events;  ///< of one period, from the start on; the last one closes it
   /// Floquet's, by falling modulus: the factors by which disturbances are multiplied over a period.
   /// For an autonomous system without the one of a shift in time, and without those of numbers that
-  /// nothing acts on (references).
+  /// nothing acts on (references, counts).
   std::vector<std::complex<double>> multipliers;
   /// The largest mismatch of a phase's end and the next one's start, as a share of the state.
   double residual = 0.0;
@@ -37,8 +37,9 @@ struct ShootingOptions {
 /// last event, with the same events between, the nearest to the end first:
 ///   Fᵢ(xᵢ) = xᵢ₊₁,  i = 1 … phases, the last on the first.
 /// Fᵢ is the motion over some of the events, with saltation, from one plane across it to the next,
-/// midway between events where there is most time. Numbers that follow their own flow alone in
-/// every mode (references) stay as the trajectory has them, and the period is then theirs. With
+/// midway between events where there is most time. Numbers that nothing acts on (references,
+/// and counts, which events change by constants) stay as the trajectory has them; where references
+/// move, the period is theirs. With
 /// periodic clocks it is a multiple of theirs. A motion that repeats within the period found is
 /// reported once. Empty if nothing recurs or Newton's method does not converge.
 std::optional<PeriodicOrbit> closing_orbit(const PreparedSystem& system, const Trajectory& motion,

@@ -13,52 +13,69 @@ std::vector<SparseForm> guards_of(const AffineMode& mode) {
   return guards;
 }
 
-bool is_untouched(const AffineReset& reset, Eigen::Index number, Eigen::Index size) {
+/// Whether events change a number not at all; or by constants, if it `may_step`.
+bool is_left_alone(const AffineReset& reset, Eigen::Index number, Eigen::Index size,
+                   bool may_step) {
   const bool by_matrix = reset.matrix.size() != 0 &&
                          reset.matrix.row(number) != Vector::Unit(size, number).transpose();
   const bool by_offset = reset.offset.size() != 0 && reset.offset[number] != 0.0;
-  return !by_matrix && !by_offset &&
+  return !by_matrix && (may_step || !by_offset) &&
          std::all_of(reset.quantizers.begin(), reset.quantizers.end(),
                      [&](const Quantizer& quantizer) { return quantizer.gain[number] == 0.0; });
 }
 
-bool is_untouched(const AffineMode& mode, Eigen::Index number, Eigen::Index size) {
+bool is_left_alone(const AffineMode& mode, Eigen::Index number, Eigen::Index size, bool may_step) {
   return std::all_of(mode.transitions.begin(), mode.transitions.end(),
                      [&](const Transition& transition) {
-                       return is_untouched(transition.reset, number, size) &&
+                       return is_left_alone(transition.reset, number, size, may_step) &&
                               (!transition.settling ||
-                               is_untouched(transition.settling->reset, number, size));
+                               is_left_alone(transition.settling->reset, number, size, may_step));
                      }) &&
          std::all_of(mode.timed.begin(), mode.timed.end(), [&](const TimedTransition& timed) {
-           return is_untouched(timed.reset, number, size);
+           return is_left_alone(timed.reset, number, size, may_step);
          });
 }
 
-/// Numbers that follow their own flow alone, the same in every mode, and that no event changes.
+/// Whether all modes have the same flow of a number, none if it is a count, and events leave it
+/// alone.
+bool has_own_flow(const HybridSystem& system, Eigen::Index number, bool is_count) {
+  const AffineFlow& first = system.modes.front().flow;
+  if (is_count && !(first.matrix.row(number).isZero(0.0) && first.offset[number] == 0.0)) {
+    return false;
+  }
+  return std::all_of(system.modes.begin(), system.modes.end(), [&](const AffineMode& mode) {
+    return mode.flow.matrix.row(number) == first.matrix.row(number) &&
+           mode.flow.offset[number] == first.offset[number] &&
+           is_left_alone(mode, number, system.size(), is_count);
+  });
+}
+
+/// Numbers that follow their own flow alone, the same in every mode, and that no event changes; and
+/// counts, which no flow moves and events change by constants.
 std::vector<bool> exogenous_numbers(const HybridSystem& system) {
   const auto size = static_cast<std::size_t>(system.size());
   if (system.source) {
     return system.exogenous.empty() ? std::vector<bool>(size, false) : system.exogenous;
   }
-  const AffineFlow& first = system.modes.front().flow;
-  std::vector<bool> is(size, true);
+  const Matrix& flow = system.modes.front().flow.matrix;
+  std::vector<bool> is(size);
   for (std::size_t n = 0; n < size; ++n) {
-    const auto i = static_cast<Eigen::Index>(n);
-    is[n] = std::all_of(system.modes.begin(), system.modes.end(), [&](const AffineMode& mode) {
-      return mode.flow.matrix.row(i) == first.matrix.row(i) &&
-             mode.flow.offset[i] == first.offset[i] && is_untouched(mode, i, system.size());
-    });
+    is[n] = has_own_flow(system, static_cast<Eigen::Index>(n), false);
   }
   for (bool changed = true; changed;) {  // excludes numbers on which excluded ones act
     changed = false;
     for (std::size_t n = 0; n < size; ++n) {
       for (std::size_t k = 0; is[n] && k < size; ++k) {
-        const auto row = static_cast<Eigen::Index>(n);
-        if (is[k] || first.matrix(row, static_cast<Eigen::Index>(k)) == 0.0) continue;
+        if (is[k] || flow(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(k)) == 0.0) {
+          continue;
+        }
         is[n] = false;
         changed = true;
       }
     }
+  }
+  for (std::size_t n = 0; n < size; ++n) {
+    is[n] = is[n] || has_own_flow(system, static_cast<Eigen::Index>(n), true);
   }
   return is;
 }

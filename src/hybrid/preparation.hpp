@@ -91,7 +91,8 @@ class Preparation {
   const HybridSystem& system() const { return *system_; }
   /// Throws InvalidInput with all faults of a mode that a source has made.
   const PreparedMode& mode(std::size_t index) const;
-  /// Which numbers follow their own flow alone in every mode and are changed by no event.
+  /// Which numbers follow their own flow alone in every mode and are changed by no event; or are
+  /// moved by no flow and changed by constants.
   const std::vector<bool>& exogenous() const;
 
  private:

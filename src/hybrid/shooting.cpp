@@ -257,6 +257,7 @@ PeriodicOrbit Shooting::orbit(const Equations& solved) const {
   for (Index n = 0; n < size(); ++n) {
     if (!is_exogenous_[static_cast<std::size_t>(n)]) own.push_back(n);
   }
+  if (own.empty()) return orbit;
   const Matrix of_own = product(own, own);
   const Eigen::VectorXcd values = eigenvalues(of_own);
   orbit.multipliers.assign(values.begin(), values.end());

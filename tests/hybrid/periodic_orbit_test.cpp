@@ -150,6 +150,70 @@ TEST(OraclePeriodicOrbit, AQuantizedReadingHuntsAboutWhatItCannotRead) {
   EXPECT_NEAR(orbit->multipliers[1].real(), std::exp(-ticks), 1e-12);
 }
 
+/// x″ = a − x′, a′ = 1/2 − c − a, where c counts x to whole numbers: a relay about x = 1/2.
+hybrid::HybridSystem counting() {
+  const auto counts = [](double way) {
+    return hybrid::Transition{
+        .name = way > 0.0 ? "up" : "down",
+        .guard = {Vector{{1.0, 0.0, 0.0, -1.0}}, -0.5 * way},
+        .direction = way > 0.0 ? hybrid::Direction::rising : hybrid::Direction::falling,
+        .reset = {{}, Vector{{0.0, 0.0, 0.0, way}}, {}}};
+  };
+  return {.state_names = {"x", "v", "a", "c"},
+          .modes = {{.name = "moves",
+                     .flow = {Matrix{{0.0, 1.0, 0.0, 0.0},
+                                     {0.0, -1.0, 1.0, 0.0},
+                                     {0.0, 0.0, -1.0, -1.0},
+                                     {0.0, 0.0, 0.0, 0.0}},
+                              Vector{{0.0, 0.0, 0.5, 0.0}}},
+                     .transitions = {counts(1.0), counts(-1.0)}}}};
+}
+
+/// Half the period of its cycle: the time h over which x returns, if v and a turn their signs.
+double half_period_of_counting() {
+  const auto way = [](double h) {
+    const double fallen = std::exp(-h);
+    const double a = 0.5 * std::tanh(0.5 * h);  // at the start, where a′ = −1/2 − a
+    const double v = (0.5 * (1.0 - fallen) - (a + 0.5) * h * fallen) / (1.0 + fallen);
+    return -0.5 * h + (a + 0.5) * (1.0 - (1.0 + h) * fallen) + (v + 0.5) * (1.0 - fallen);
+  };
+  double low = 1.0;
+  double high = 20.0;
+  for (int i = 0; i < 100; ++i) {
+    const double middle = 0.5 * (low + high);
+    ((way(middle) > 0.0) == (way(low) > 0.0) ? low : high) = middle;
+  }
+  return low;
+}
+
+/// Counts off the whole numbers would have cycles of their own, whose relay is biased.
+TEST(OraclePeriodicOrbit, ACountStaysOnItsGrid) {
+  const hybrid::HybridSystem system = counting();
+  const auto motion = simulate(system, {0, Vector{{0.2, 0.0, 0.3, 0.0}}}, {.until = 50.0});
+  const auto orbit = closing_orbit(system, motion, {.nearness = 0.1});
+  ASSERT_TRUE(orbit);
+  EXPECT_EQ(orbit->events.size(), 2U);
+  EXPECT_EQ(orbit->start.numbers[3], std::round(orbit->start.numbers[3]));
+  EXPECT_NEAR(orbit->period, 2.0 * half_period_of_counting(), 1e-12);
+  EXPECT_EQ(orbit->multipliers.size(), 2U);  // of three numbers, without a shift in time
+  EXPECT_TRUE(orbit->is_stable());
+}
+
+TEST(EdgePeriodicOrbit, WhereNothingActsOnAnyNumberThereAreNoMultipliers) {
+  const hybrid::HybridSystem system{
+      .state_names = {"x", "v"},
+      .modes = {{.name = "swings",
+                 .flow = {Matrix{{0.0, 1.0}, {-1.0, 0.0}}, Vector::Zero(2)},
+                 .transitions = {{.name = "passes",
+                                  .guard = {Vector{{1.0, 0.0}}, 0.0},
+                                  .direction = hybrid::Direction::either}}}}};
+  const auto orbit =
+      closing_orbit(system, simulate(system, {0, Vector{{1.0, 0.0}}}, {.until = 50.0}));
+  ASSERT_TRUE(orbit);
+  EXPECT_NEAR(orbit->period, 2.0 * std::acos(-1.0), 1e-12);
+  EXPECT_TRUE(orbit->multipliers.empty());
+}
+
 TEST(EdgePeriodicOrbit, AShiftInTimeIsNoMultiplier) {
   const NormalizedServo servo{
       .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3};

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +14,7 @@
 #include "analysis/repetition.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/input.hpp"
+#include "gearlash/motion.hpp"
 #include "gearlash/output.hpp"
 #include "general/attractors/attractors.hpp"
 #include "model/reduced_drive.hpp"
@@ -147,6 +149,27 @@ IrregularMotion motion_with(double mismatch, double spread, double encoder_steps
           .exponent = 1.17,
           .watched = 1000.0,
           .encoder_steps = encoder_steps};
+}
+
+/// Newton's method must not leave the encoder's grid, beside which each count has a cycle of its
+/// own.
+TEST(ReportedMotion, BehindACoarseEncoderIsOneCycle) {
+  const Drive drive = drive_of("coarse-load-encoder.toml");
+  const Answer answer = analyse(drive);
+  ASSERT_EQ(answer.cycles.size(), 1U);
+  EXPECT_EQ(answer.cycles[0].starts, answer.search->starts.size());
+  const Motion motion = simulate(drive, {.until = 20.0});
+  const double period = answer.cycles[0].period;
+  double low = 1e9;
+  double high = -1e9;
+  constexpr int samples = 20000;
+  for (int i = 0; i <= samples; ++i) {
+    const double position = motion.at(20.0 - period * i / samples).shafts.load_position;
+    low = std::min(low, position);
+    high = std::max(high, position);
+  }
+  EXPECT_NEAR(0.5 * (high - low), answer.cycles[0].amplitude, 1e-9);
+  EXPECT_NEAR(0.5 * (high + low) - 20.0 * std::numbers::pi / 180.0, answer.cycles[0].center, 1e-9);
 }
 
 /// Swings that repeat are not irregular, whatever their neighbours do.

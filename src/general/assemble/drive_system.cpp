@@ -71,7 +71,7 @@ bool is_exogenous_state(const DriveForms& forms, const std::vector<bool>& exogen
   return true;
 }
 
-/// Signals that no clock sets, and controller states that follow these alone.
+/// Signals that no clock sets, controller states that follow these alone, and an encoder's count.
 std::vector<bool> exogenous_numbers(const DriveForms& forms) {
   const StateIndices& at = forms.at();
   std::vector<bool> exogenous(static_cast<std::size_t>(at.size), false);
@@ -91,6 +91,7 @@ std::vector<bool> exogenous_numbers(const DriveForms& forms) {
       changed = true;
     }
   }
+  if (at.encoder != StateIndices::none) mark(at.encoder, 1, true);
   return exogenous;
 }
 

@@ -29,7 +29,7 @@ void drop_nearest(std::vector<std::complex<double>>& values, double target) {
 }
 
 /// Removes the multipliers of impossible disturbances: differences between shafts whose rigid faces
-/// stay together, and an encoder reading off its grid.
+/// stay together.
 PeriodicOrbit without_spare_multipliers(const SearchSetting& setting, PeriodicOrbit orbit) {
   const bool is_rigid = std::holds_alternative<RigidContact>(setting.drive.contact);
   bool parts = false;
@@ -47,7 +47,6 @@ PeriodicOrbit without_spare_multipliers(const SearchSetting& setting, PeriodicOr
     drop_nearest(orbit.multipliers, sticks ? 0.0 : 1.0);  // the speed difference too, unless a stop
                                                           // ends it
   }
-  if (setting.built.at.encoder != StateIndices::none) drop_nearest(orbit.multipliers, 1.0);
   return orbit;
 }
 

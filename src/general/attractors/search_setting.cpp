@@ -45,7 +45,7 @@ Vector along_positions(const StateIndices& at, bool reference_moves) {
 }
 
 void choose_coordinates(SearchSetting& setting) {
-  const hybrid::HybridSystem& system = setting.built.system;
+  hybrid::HybridSystem& system = setting.built.system;
   const auto* ramp = std::get_if<Ramp>(&setting.drive.reference);
   const Vector way = along_positions(setting.built.at, ramp != nullptr);
   const Vector nothing = Vector::Zero(system.size());
@@ -54,6 +54,10 @@ void choose_coordinates(SearchSetting& setting) {
   if (is_carried_along(system, way)) {
     setting.coordinates = Coordinates::co_moving;
     setting.frame.drift = ramp->rate * way;
+    const Eigen::Index encoder = setting.built.at.encoder;
+    if (encoder != StateIndices::none) {
+      system.exogenous[static_cast<std::size_t>(encoder)] = false;  // it flows back between counts
+    }
   } else {
     setting.coordinates = Coordinates::in_place;
     setting.frame.shift = nothing;
