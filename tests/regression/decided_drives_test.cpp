@@ -77,6 +77,13 @@ TEST(DecidedDrive, RunsAwayIfDisturbedFarEnough) {
   EXPECT_LT(away.from / away.below, 1.04);
 }
 
+/// It stands for minutes before its integral action breaks it away.
+TEST(DecidedDrive, WithStictionIsWatchedUntilItBreaksAway) {
+  const Answer answer = answer_of("slow-to-break-away.toml");
+  EXPECT_EQ(answer.verdict, Verdict::hunts_if_disturbed);
+  EXPECT_EQ(undecided(answer), 0U);
+}
+
 /// Steady tracking, and beside it a stick-slip of both shafts, of which an independent simulator
 /// has these numbers.
 TEST(DecidedDrive, SticksAndSlipsBehindARamp) {

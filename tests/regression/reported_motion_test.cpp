@@ -151,6 +151,20 @@ IrregularMotion motion_with(double mismatch, double spread, double encoder_steps
           .encoder_steps = encoder_steps};
 }
 
+/// A ramp makes it irregular: later starts join the motion of the first, and are not watched on.
+TEST(ReportedMotion, ThatIsIrregularIsJoined) {
+  Drive drive = drive_of("coarse-load-encoder.toml");
+  drive.reference = RampSignal{.rate = 5.0 * 60.0 * arcmin};
+  drive::AttractorOptions options;
+  options.starts = {{.load_position = 0.01},
+                    {.load_position = -0.01},
+                    {.motor_position = 0.05, .load_position = 0.05}};
+  const drive::AttractorSearch found = drive::find_attractors(reduce(drive), options);
+  ASSERT_EQ(found.irregular.size(), 1U);
+  EXPECT_EQ(found.irregular[0].starts, 3U);
+  EXPECT_LT(found.outcomes[2].watched, 0.5 * found.outcomes[0].watched);
+}
+
 /// Newton's method must not leave the encoder's grid, beside which each count has a cycle of its
 /// own.
 TEST(ReportedMotion, BehindACoarseEncoderIsOneCycle) {

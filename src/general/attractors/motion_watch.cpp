@@ -230,6 +230,10 @@ bool has_stiction(const Shaft& shaft) { return shaft.friction.breakaway > shaft.
 
 }  // namespace
 
+bool has_stiction(const ReducedDrive& drive) {
+  return has_stiction(drive.motor) || has_stiction(drive.load);
+}
+
 bool stands(const hybrid::State& state, const SearchSetting& setting,
             const RestTolerances& tolerances) {
   // Rounding may leave a shaft that sticks a speed of some 1e-30.
@@ -242,8 +246,7 @@ bool stands(const hybrid::State& state, const SearchSetting& setting,
 
 bool is_creeping(const Watch& watch, const SearchSetting& setting,
                  const RestTolerances& tolerances) {
-  const ReducedDrive& drive = setting.drive;
-  if (has_stiction(drive.motor) || has_stiction(drive.load)) return false;
+  if (has_stiction(setting.drive)) return false;
   if (!stands(watch.here, setting, tolerances)) return false;
   const double small = tolerances.no_move * setting.small_length;
   const double since =

@@ -45,6 +45,9 @@ Stretch observe(Watch& watch, double until, std::size_t event_limit, const Searc
 bool is_at_rest(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
                 const RestTolerances& tolerances);
 
+/// Whether friction at rest is higher than that of motion, on either shaft.
+bool has_stiction(const ReducedDrive& drive);
+
 /// Whether neither shaft of a state moves.
 bool stands(const hybrid::State& state, const SearchSetting& setting,
             const RestTolerances& tolerances);

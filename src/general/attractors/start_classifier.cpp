@@ -30,7 +30,7 @@ Verdict StartClassifier::end_of(const State& start, double patience) {
     verdict.watched = watch.time;
     verdict.last = watch.here.numbers;
     if (is_decided(watch, stretch, verdict)) return verdict;
-    if (!stretch.motion && is_steady(watch, stretch, before, verdict)) return verdict;
+    if (is_steady(watch, stretch, before, verdict)) return verdict;
     if (!goes_on_()) {
       verdict.reason = "the search was stopped";
       return verdict;
@@ -83,13 +83,15 @@ double StartClassifier::longest(const Watch& watch, const Stretch& stretch, doub
   const double first = count > 2 ? swing(turns, count - 2) : 0.0;
   const bool changes =
       last < budget_.still_changing * first || first < budget_.still_changing * last;
-  const bool is_slow =
+  const bool hardly_moves =
       setting_.drive.sampling ||
-      std::max(recent(turns), recent(extremes(watch.motor))) < budget_.hardly_any_swings ||
-      is_small(turns, setting_, tolerances_.rest) || changes;
+      std::max(recent(turns), recent(extremes(watch.motor))) < budget_.hardly_any_swings;
+  const bool is_slow = hardly_moves || is_small(turns, setting_, tolerances_.rest) || changes;
+  // Integral action breaks a drive with stiction away at last.
+  const bool is_slowest = setting_.drive.sampling || (hardly_moves && has_stiction(setting_.drive));
   constexpr double rounding = 1e-9;  // allows for rounding of the summed stretches
   const double more = is_slow ? patience : 1.0;
-  const double times = setting_.drive.sampling ? more * budget_.patience_at_ticks : more;
+  const double times = is_slowest ? more * budget_.patience_when_standing : more;
   return times * search_.watch_time * (1.0 - rounding);
 }
 
@@ -135,6 +137,10 @@ bool StartClassifier::is_steady(const Watch& watch, const Stretch& stretch,
     return false;
   }
   const SteadyMotion now{seen.found, stretch.last};
+  if (stretch.motion && may_still_close(now, before)) {
+    before = now;
+    return false;
+  }
   const bool may_be_known = is_sure(now.found, irregular, irregular.repeating);
   if (const Known* known = may_be_known ? known_as(now) : nullptr) {
     verdict.end = known->end;
@@ -145,13 +151,21 @@ bool StartClassifier::is_steady(const Watch& watch, const Stretch& stretch,
   const bool is_repeated = before && is_same(*before, now, setting_, irregular);
   before = now;
   if (!is_repeated || !is_sure(now.found, irregular, irregular.repeating_exactly)) return false;
-  if (!closes(watch, now.found, verdict)) take(watch, now.found, verdict);
+  if (!closes(watch, stretch, now.found, verdict)) take(watch, now.found, verdict, &stretch);
   known_.push_back({now, verdict.end, verdict.which});
   return true;
 }
 
-bool StartClassifier::closes(const Watch& watch, const IrregularFound& found, Verdict& verdict) {
-  if (setting_.coordinates == Coordinates::in_place) return false;
+bool StartClassifier::may_still_close(const SteadyMotion& now,
+                                      const std::optional<SteadyMotion>& before) const {
+  const double mismatch = now.found.mismatch;
+  return mismatch < tolerances_.irregular.repeating ||
+         (before && mismatch < budget_.still_changing * before->found.mismatch);
+}
+
+bool StartClassifier::closes(const Watch& watch, const Stretch& stretch,
+                             const IrregularFound& found, Verdict& verdict) {
+  if (stretch.motion || setting_.coordinates == Coordinates::in_place) return false;
   if (!(found.mismatch < tolerances_.irregular.repeating)) return false;
   return is_on_cycle(recorded(watch, found, budget_.closing_periods),
                      {tolerances_.cycle.nearness, tolerances_.cycle.wide_nearness}, verdict);
@@ -219,7 +233,7 @@ void StartClassifier::give_up(const Watch& watch, const Stretch& stretch,
   }
   const SteadyMotion last = seen.reason.empty() ? SteadyMotion{seen.found, stretch.last} : *before;
   take(watch, last.found, verdict, &stretch);
-  if (!stretch.motion) known_.push_back({last, verdict.end, 0});
+  known_.push_back({last, verdict.end, 0});
 }
 
 void StartClassifier::take(const Watch& watch, const IrregularFound& found, Verdict& verdict,

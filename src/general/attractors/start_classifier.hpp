@@ -51,7 +51,7 @@ class StartClassifier {
   Verdict end_of(const hybrid::State& start, double patience);
 
  private:
-  /// What a sampled drive's start led to.
+  /// What a start led to.
   struct Known {
     SteadyMotion motion;
     MotionEnd end;      ///< irregular or cycle
@@ -68,14 +68,17 @@ class StartClassifier {
   double longest(const Watch& watch, const Stretch& stretch, double patience) const;
   bool is_decided(const Watch& watch, const Stretch& stretch, Verdict& verdict);
   bool creeps(const Watch& watch, Verdict& verdict) const;
-  /// Whether a sampled drive's motion is one that is known, or has repeated its statistics from one
+  /// Whether a motion is one that is known, or has repeated its statistics from one
   /// stretch to the next. Motion that repeats may be a cycle.
   bool is_steady(const Watch& watch, const Stretch& stretch, std::optional<SteadyMotion>& before,
                  Verdict& verdict);
   /// What the same motion led to before; null if it is new.
   const Known* known_as(const SteadyMotion& motion) const;
+  /// Whether a motion that was kept, on which no cycle was closed, repeats ever better.
+  bool may_still_close(const SteadyMotion& now, const std::optional<SteadyMotion>& before) const;
   /// Whether Newton's method closes a cycle on a sampled drive's motion.
-  bool closes(const Watch& watch, const IrregularFound& found, Verdict& verdict);
+  bool closes(const Watch& watch, const Stretch& stretch, const IrregularFound& found,
+              Verdict& verdict);
   /// A sampled drive's motion from here on, over a few periods, kept.
   hybrid::Trajectory recorded(const Watch& watch, const IrregularFound& found,
                               double periods) const;
