@@ -1,6 +1,7 @@
 #include "hybrid/hybrid_trajectory.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "hybrid/preparation.hpp"
 
@@ -9,6 +10,16 @@ namespace gearlash::hybrid {
 const HybridSystem& PreparedSystem::system() const { return preparation_->system(); }
 
 const std::vector<bool>& PreparedSystem::exogenous() const { return preparation_->exogenous(); }
+
+void Trajectory::begin(std::shared_ptr<const Preparation> preparation, double time) {
+  preparation_ = std::move(preparation);
+  constexpr std::size_t some = 8;
+  events_.reserve(some);
+  steps_.reserve(2 * some);
+  starts_.reserve(2 * some * static_cast<std::size_t>(preparation_->system().size()));
+  start_time_ = time;
+  end_time_ = time;
+}
 
 State Trajectory::at(double time) const {
   State state;

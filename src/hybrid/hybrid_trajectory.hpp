@@ -133,6 +133,8 @@ class Trajectory {
     std::size_t mode;
     bool is_slow;  ///< fast decays are over
   };
+  void begin(std::shared_ptr<const Preparation> preparation, double time);
+
   std::shared_ptr<const Preparation> preparation_;
   std::vector<Step> steps_;
   std::vector<double> starts_;  ///< of the steps: all numbers of one after those of another

@@ -55,13 +55,7 @@ class Simulation {
       standing_.emplace(now_, ticks_, guards_, *observer, options.until);
       repeating_.emplace(now_, ticks_, trajectory_.events_, *observer, options.until);
     }
-    trajectory_.preparation_ = std::move(preparation);
-    constexpr std::size_t some = 8;
-    trajectory_.events_.reserve(some);
-    trajectory_.steps_.reserve(2 * some);
-    trajectory_.starts_.reserve(2 * some * static_cast<std::size_t>(system_.size()));
-    trajectory_.start_time_ = options.from;
-    trajectory_.end_time_ = options.from;
+    trajectory_.begin(std::move(preparation), options.from);
     now_.noise = sum_rounding * now_.state.numbers.cwiseAbs();
     enter_mode();
   }
