@@ -158,6 +158,7 @@ TEST(LimitCycleCommand, KeepsItsMemoryLimit) {
 
 /// Linux counts a parent's memory in the peak that getrusage() gives of its child.
 TEST(LimitCycleCommand, CountsNoMemoryOfTheProgramThatStartsIt) {
+  if (!test::may_limit_memory) GTEST_SKIP() << "sanitizers take more memory than permitted";
   const Outcome run = run_shell(
       "GEARLASH=\"$GEARLASH\" python3 -c \"import os, subprocess; taken = b'1' * 200_000_000; "
       "subprocess.run([os.environ['GEARLASH'], 'limit-cycle', 'examples/robot-joint.toml', "
