@@ -86,7 +86,7 @@ std::vector<Eigen::Index> without_decays(const Matrix& matrix) {
 bool FastDecays::are_over(const Vector& state, const Vector& largest) const {
   constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
   const Vector off = (projector * state - rest).cwiseAbs();
-  const Vector size = projector.cwiseAbs() * largest + rest.cwiseAbs();
+  const Vector size = spread * largest + rest.cwiseAbs();
   return (off.array() <= rounding * size.array()).all();
 }
 
@@ -105,7 +105,11 @@ std::optional<FastDecays> fast_decays(const AffineFlow& flow) {
   const ComplexMatrix right = fast_vectors(matrix, count);
   const ComplexMatrix left = fast_vectors(matrix.transpose(), count);
   const ComplexMatrix overlap = left.transpose() * right;
-  Matrix projector = (right * solved(overlap, ComplexMatrix(left.transpose()))).real();
+  const ComplexMatrix shares = solved(overlap, ComplexMatrix(left.transpose()));
+  Matrix projector = (right * shares).real();
+  Matrix spread = right.cwiseAbs() * shares.cwiseAbs();
+  constexpr double parallel = 100.0;  // nearly parallel eigenvectors have shares that cancel
+  if (!(spread.norm() < parallel * projector.norm())) spread = projector.cwiseAbs();
   // Rounding would move a shaft that sticks, a little at each step.
   for (const Eigen::Index row : without_decays(matrix)) projector.row(row).setZero();
   // Nearly parallel eigenvectors make the projector too inaccurate to use.
@@ -131,7 +135,7 @@ std::optional<FastDecays> fast_decays(const AffineFlow& flow) {
   const Matrix unknown = rounding * (sizes * (identity + projector.cwiseAbs())) +
                          safety * (sizes * misfit + commuted.cwiseAbs());
   slow = (slow.array().abs() <= unknown.array()).select(0.0, slow);
-  return FastDecays{projector, rest, {slow, flow.offset - projector * flow.offset}};
+  return FastDecays{projector, spread, rest, {slow, flow.offset - projector * flow.offset}};
 }
 
 }  // namespace gearlash::hybrid

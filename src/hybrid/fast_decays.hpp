@@ -13,10 +13,12 @@ namespace gearlash::hybrid {
 /// can take steps as long as the slow decays permit.
 struct FastDecays {
   Matrix projector;  ///< P
+  Matrix spread;     ///< Σ |rₖ| |lₖᵀ| over its right and left eigenvectors, whose sum P is
   Vector rest;       ///< of P x
   AffineFlow slow;
 
-  /// Whether P x is at its rest, within rounding of its terms up to now. `largest` holds the
+  /// Whether P x is at its rest, within rounding of each decay's terms up to now: an integral that
+  /// moves by less than its rounding holds a speed off its rest. `largest` holds the
   /// numbers' largest magnitudes up to now. (If the rest is 0, P x never reaches rounding of its
   /// own magnitude.)
   bool are_over(const Vector& state, const Vector& largest) const;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "hybrid/hybrid_trajectory.hpp"
+
 namespace gearlash::hybrid {
 namespace {
 
@@ -62,6 +64,29 @@ TEST(FastDecays, DoNotMoveWhatHasNoPartInThem) {
   EXPECT_EQ(state[0], 0.0175);
   EXPECT_EQ(state[1], 0.0);
   EXPECT_NEAR(state[2], (-3.2e4 * state[0] + 0.3 * state[3]) / 200.0, 1e-3);
+}
+
+/// A motor that turns slowly at a speed that a controller's integral holds, against friction: the
+/// integral ends a few of its roundings off its rest, where its change per step is less than one.
+TEST(FastDecays, AreOverWhereRoundingHoldsAnIntegral) {
+  constexpr double speed = 4.5e-5;
+  constexpr double friction = 0.51;
+  HybridSystem system{.state_names = {"position", "speed", "integral"},
+                      .modes = {{.name = "turns"}}};
+  AffineFlow& flow = system.modes[0].flow;
+  flow = {Matrix::Zero(3, 3), Vector::Zero(3)};
+  flow.matrix << 0.0, 1.0, 0.0,  //
+      0.0, -200.0, 200.0,        //
+      0.0, -20.0, 0.0;
+  flow.offset << 0.0, -200.0 * friction, 20.0 * speed;
+  constexpr double until = 10'000.0;
+  const Trajectory motion =
+      simulate(system, {0, Vector{{-0.7, 0.0, friction}}}, {.until = until, .step_limit = 20'000});
+  EXPECT_EQ(motion.stop_reason(), StopReason::reached_end);
+  EXPECT_NEAR(motion.end().numbers[1], speed, 1e-15);
+  // What the integral gains is what the position lacks.
+  const double way = -speed / 20.0;
+  EXPECT_NEAR(motion.end().numbers[0], -0.7 + speed * until + way, 1e-11);
 }
 
 }  // namespace
