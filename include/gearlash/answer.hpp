@@ -95,8 +95,8 @@ struct Rest {
   /// For rest approached by ever smaller and slower swings: the largest ratio of two successive
   /// swings.
   std::optional<double> swing_ratio{};
-  /// Of the starts: they creep to rest by ever longer standstills and ever smaller moves, as
-  /// integral action against dry friction does.
+  /// Of the starts: when last watched they had stood longer than they had moved, as integral action
+  /// against dry friction does, ever longer. Through a gap it may move them again.
   std::size_t creeping_starts = 0;
 };
 

@@ -57,7 +57,7 @@ struct RestFound {
   Extent motor;  ///< rad
   Extent error;  ///< rad, reference − load
   std::size_t starts = 0;
-  std::size_t creeping_starts = 0;  ///< that stand ever longer between ever smaller moves
+  std::size_t creeping_starts = 0;  ///< that stood longer than they had moved
   /// Rest approached by ever smaller and longer swings across the gap is never reached. Their ratio
   /// identifies it, of which this is the largest. NaN if all came to rest.
   double swing_ratio = std::numeric_limits<double>::quiet_NaN();
