@@ -95,8 +95,8 @@ struct Rest {
   /// For rest approached by ever smaller and slower swings: the largest ratio of two successive
   /// swings.
   std::optional<double> swing_ratio{};
-  /// Of the starts: when last watched they had stood longer than they had moved, as integral action
-  /// against dry friction does, ever longer. Through a gap it may move them again.
+  /// Of the starts: integral action against dry friction without stiction moves them ever less and
+  /// ever later, or for less than a ten-thousandth of the time.
   std::size_t creeping_starts = 0;
 };
 
@@ -139,7 +139,8 @@ struct Threshold {
 
 /// The record of a search.
 struct SearchRecord {
-  double watch_time = 0.0;  ///< s, the longest that a start is followed
+  /// s: the longest that a start is followed, unless hardly anything happens or it stands still.
+  double watch_time = 0.0;
   bool is_complete = true;  ///< not stopped
   std::size_t borders = 0;  ///< searched between starts with different outcomes
   std::vector<StartOutcome> starts{};

@@ -209,12 +209,6 @@ StartOutcome outcome_of(const drive::Outcome& found) {
   return outcome;
 }
 
-/// Whether a sine reference or load torque drives the oscillation, which then is not hunting.
-bool is_driven(const drive::ReducedDrive& reduced) {
-  return std::holds_alternative<drive::Sine>(drive::settled(reduced.reference)) ||
-         std::holds_alternative<drive::Sine>(drive::settled(reduced.load_torque));
-}
-
 /// The verdict that follows from the outcomes of the starts and the motions found.
 Verdict verdict_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced,
                    const std::vector<IrregularMotion>& motions) {

@@ -89,6 +89,11 @@ void check_sampling(RangeCheck& all, const ReducedDrive& drive) {
 
 }  // namespace
 
+bool is_driven(const ReducedDrive& drive) {
+  return std::holds_alternative<Sine>(settled(drive.reference)) ||
+         std::holds_alternative<Sine>(settled(drive.load_torque));
+}
+
 std::vector<Fault> validate(const ReducedDrive& drive) {
   RangeCheck all;
   check(all, "motor", drive.motor);

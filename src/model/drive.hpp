@@ -148,6 +148,9 @@ inline bool has_linear_control(const ReducedDrive& drive) {
   return !drive.error_shape.is_present() && drive.feedforward.is_absent();
 }
 
+/// Whether a sine reference or load torque drives the oscillation, which then is not hunting.
+bool is_driven(const ReducedDrive& drive);
+
 /// Every fault in the ranges above.
 std::vector<Fault> validate(const ReducedDrive& drive);
 

@@ -164,18 +164,19 @@ std::string search_text(const AnswerReport& report) {
       drive::value_at(drive::settled(report.drive.reference.value_or(0.0)), 0.0);
   double nearest = std::numeric_limits<double>::infinity();
   double farthest = 0.0;
+  double longest = 0.0;
   for (const StartOutcome& start : search.starts) {
+    longest = std::max(longest, start.watched);
     const double distance = std::abs(start.load_position - reference);
     if (distance > 0.0) nearest = std::min(nearest, distance);
     farthest = std::max(farthest, distance);
   }
   std::string text = fmt::format(
       "Searched from {}, with the load {} to {} from the reference. Each was followed for up to "
-      "{}: "
-      "{}. Shooting closed the cycles. ",
+      "{}: {}. Shooting closed the cycles. ",
       starts_text(search.starts.size()), angle_text(nearest, report.angle, 6),
-      angle_text(farthest, report.angle, 6),
-      time_text(search.watch_time, report.is_normalized, digits), ends_text(report.answer));
+      angle_text(farthest, report.angle, 6), time_text(longest, report.is_normalized, 6),
+      ends_text(report.answer));
   const auto found =
       std::count_if(report.answer.cycles.begin(), report.answer.cycles.end(),
                     [](const Cycle& cycle) { return cycle.stability == Stability::unstable; });

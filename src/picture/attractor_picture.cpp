@@ -44,12 +44,10 @@ Motion motion_of_irregular(const drive::ReducedDrive& reduced,
 }
 
 /// A name with enough numbers to distinguish the cycles of a picture.
-std::string name_of_cycle(const drive::FoundCycle& cycle, const AngleUnit& angle) {
-  const bool is_of_load = cycle.amplitude > 0.0;
-  return fmt::format(
-      "{} cycle {}±{}, {}", name_of(cycle.stability), is_of_load ? "" : "motor ",
-      angle_text(is_of_load ? cycle.amplitude : cycle.motor_amplitude, angle, digits),
-      significant(cycle.period(), digits));
+std::string name_of_cycle(const drive::FoundCycle& cycle, double amplitude,
+                          const AngleUnit& angle) {
+  return fmt::format("{} cycle ±{}, {}", name_of(cycle.stability),
+                     angle_text(amplitude, angle, digits), significant(cycle.period(), digits));
 }
 
 }  // namespace
@@ -62,9 +60,11 @@ MotionPicture attractor_picture(const std::string& title, const Drive& drive,
   for (const drive::FoundCycle& cycle : search.cycles) {
     const bool is_first = picture.motions.empty();
     picture.period = is_first ? cycle.period() : std::min(picture.period, cycle.period());
-    picture.motions.push_back({.motion = motion_of_cycle(reduced, search, cycle),
-                               .name = name_of_cycle(cycle, angle) + per,
-                               .is_cycle = true});
+    picture.motions.push_back(
+        {.motion = motion_of_cycle(reduced, search, cycle),
+         .name = name_of_cycle(cycle, cycle.amplitude, angle) + per,
+         .name_of_motor = name_of_cycle(cycle, cycle.motor_amplitude, angle) + per,
+         .is_cycle = true});
   }
   if (picture.motions.empty() && !search.irregular.empty()) {
     const auto outcome = std::find_if(

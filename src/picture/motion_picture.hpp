@@ -14,9 +14,10 @@ namespace gearlash {
 
 struct DrawnMotion {
   Motion motion{};
-  std::string name{};     ///< follows "load" and "motor" in the legend: "stable cycle ±0.5 deg"
-  bool is_cycle = false;  ///< one period, drawn closed
-  bool is_background = false;  ///< thin; gaps and impacts would hide the others
+  std::string name{};  ///< follows "load" and "motor" in the legend: "stable cycle ±0.5 deg"
+  std::string name_of_motor{};  ///< follows "motor" instead, unless empty
+  bool is_cycle = false;        ///< one period, drawn closed
+  bool is_background = false;   ///< thin; gaps and impacts would hide the others
 };
 
 struct MotionPicture {

@@ -21,6 +21,14 @@ constexpr std::array<Colours, 4> colours = {
     Colours{load_colour, motor_colour}, Colours{"#009e73", "#cc79a7"},
     Colours{"#000000", "#8a8a8a"}, Colours{"#56b4e9", "#e69f00"}};
 
+std::string legend_of(const std::string& shaft, const std::string& name) {
+  return name.empty() ? shaft : shaft + ", " + name;
+}
+
+const std::string& motor_name(const DrawnMotion& drawn) {
+  return drawn.name_of_motor.empty() ? drawn.name : drawn.name_of_motor;
+}
+
 /// One motion of the picture.
 class PlaneCurve {
  public:
@@ -87,14 +95,13 @@ class PlaneCurve {
   void add_lines(std::vector<std::string>& layers) const {
     const Colours& colour = colours[number_ % colours.size()];
     const double width = drawn_.is_background ? 0.8 : drawn_.is_cycle ? 2.8 : 2.0;
-    const std::string name = drawn_.name.empty() ? "" : ", " + drawn_.name;
     layers.push_back(
         fmt::format("${} using 1:2 with lines linewidth {} linecolor rgb '{}' title {}", name_,
-                    width, colour.load, quoted("load" + name)));
-    layers.push_back(
-        fmt::format("${} using 3:4 with lines linewidth {} dashtype (8,4) linecolor rgb '{}' "
-                    "title {}",
-                    name_, 0.8 * width, colour.motor, quoted("motor" + name)));
+                    width, colour.load, quoted(legend_of("load", drawn_.name))));
+    layers.push_back(fmt::format(
+        "${} using 3:4 with lines linewidth {} dashtype (8,4) linecolor rgb '{}' "
+        "title {}",
+        name_, 0.8 * width, colour.motor, quoted(legend_of("motor", motor_name(drawn_)))));
     if (impacts_.empty()) return;
     layers.push_back(fmt::format(
         "${}_impacts using 1:2 with points pointtype 7 pointsize {} linecolor rgb "
@@ -185,7 +192,8 @@ std::string draw_phase_plane(const MotionPicture& picture, PictureFormat format)
   }
   std::vector<std::string> legend = {"faces apart", "impact"};
   for (const DrawnMotion& drawn : picture.motions) {
-    legend.insert(legend.end(), 2, "motor, " + drawn.name);
+    legend.push_back(legend_of("load", drawn.name));
+    legend.push_back(legend_of("motor", motor_name(drawn)));
   }
   return run_gnuplot(terminal(format) +
                          heading(picture.title, picture.subtitle.empty() ? numbers_line(picture)

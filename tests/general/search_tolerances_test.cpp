@@ -27,14 +27,14 @@ AttractorOptions few_starts() {
   options.starts = {{1.0, 0.0, 1.0, 0.0}, {0.1, 0.0, 0.1, 0.0}};
   options.most_edges = 0;
   options.swing_times = 40.0;
-  options.budget.patience = 1.0;
+  options.budget.patience.times = 1.0;
   return options;
 }
 
 TEST(SearchTolerances, DefaultsFindTheCycleAndTheRest) {
   EXPECT_EQ(find_attractors(hunting, few_starts()).count(MotionEnd::cycle), 2U);
   AttractorOptions patient = few_starts();
-  patient.budget.patience = 20.0;
+  patient.budget.patience.times = 20.0;
   EXPECT_EQ(find_attractors(fading, patient).count(MotionEnd::rest), 2U);
 }
 
@@ -101,33 +101,9 @@ TEST(SearchTolerances, Rest) {
        {&RestTolerances::vanishing_limit, &RestTolerances::small_swing,
         &RestTolerances::small_motion}) {
     AttractorOptions strict = few_starts();
-    strict.budget.patience = 20.0;
+    strict.budget.patience.times = 20.0;
     strict.tolerances.rest.*limit = 0.0;
     EXPECT_EQ(find_attractors(fading, strict).count(MotionEnd::rest), 0U);
-  }
-}
-
-/// A drive that has stood longer than it had moved: integral action creeps only where nothing is
-/// stored at rest, that is without stiction on either shaft.
-TEST(SearchTolerances, CreepingNeedsStandstillAndNoStiction) {
-  ReducedDrive drive = hunting;
-  drive.motor.friction.coulomb = drive.motor.friction.breakaway = 0.1;
-  drive.load.friction.coulomb = drive.load.friction.breakaway = 0.1;
-  const auto creeps = [](const ReducedDrive& of, double stood, double speed) {
-    const SearchSetting setting = search_setting(of, {});
-    Watch watch{.here = setting.start({0.0, speed, 0.0, speed})};
-    watch.load = {{0.0, 1.0}, {4.0, 0.0}, {4.0 + stood, 0.0}};
-    watch.motor = {{0.0, 1.0}, {5.0, 0.0}, {4.0 + stood, 0.0}};
-    watch.time = 4.0 + stood;
-    return is_creeping(watch, setting, {});
-  };
-  EXPECT_TRUE(creeps(drive, 7.0, 0.0));
-  EXPECT_FALSE(creeps(drive, 7.0, 0.01));  // it moves
-  EXPECT_FALSE(creeps(drive, 5.5, 0.0));   // the motor has moved for 5 s and stood for 4.5 s
-  for (Shaft ReducedDrive::*shaft : {&ReducedDrive::motor, &ReducedDrive::load}) {
-    ReducedDrive with_stiction = drive;
-    (with_stiction.*shaft).friction.breakaway = 0.2;
-    EXPECT_FALSE(creeps(with_stiction, 7.0, 0.0));
   }
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "model/reduced_drive.hpp"
+#include "output/report_units.hpp"
 #include "picture/attractor_picture.hpp"
 #include "picture/drawn_motion.hpp"
 #include "picture/line_chart.hpp"
@@ -203,8 +204,28 @@ TEST(Picture, TheLegendTellsTwoCyclesApart) {
   EXPECT_THAT(picture.motions[0].name, testing::MatchesRegex("stable cycle ±.* rad, .* s"));
   EXPECT_THAT(
       visible_text(draw_phase_plane(picture, PictureFormat::svg)),
-      testing::AllOf(HasSubstr("motor, " + picture.motions[0].name),
-                     HasSubstr("motor, " + picture.motions[1].name), HasSubstr("faces apart")));
+      testing::AllOf(HasSubstr("load, " + picture.motions[0].name),
+                     HasSubstr("load, " + picture.motions[1].name), HasSubstr("faces apart")));
+}
+
+TEST(Picture, TheLegendHasTheAmplitudeOfEachShaft) {
+  Drive drive = general_drive();
+  drive.motor.friction.coulomb = 0.0;
+  drive.reference.reset();
+  const drive::ReducedDrive reduced = reduce(drive);
+  const drive::AttractorSearch search = drive::find_attractors(reduced);
+  ASSERT_FALSE(search.cycles.empty());
+  const drive::FoundCycle& cycle = search.cycles.front();
+  const MotionPicture picture = attractor_picture("title", drive, reduced, search, {});
+  const auto swing = [](double amplitude) {
+    return "cycle ±" + angle_text(amplitude, {}, 3) + ",";
+  };
+  ASSERT_NE(swing(cycle.amplitude), swing(cycle.motor_amplitude));
+  EXPECT_THAT(picture.motions.front().name, HasSubstr(swing(cycle.amplitude)));
+  EXPECT_THAT(picture.motions.front().name_of_motor, HasSubstr(swing(cycle.motor_amplitude)));
+  EXPECT_THAT(visible_text(draw_phase_plane(picture, PictureFormat::svg)),
+              testing::AllOf(HasSubstr("load, " + picture.motions.front().name),
+                             HasSubstr("motor, " + picture.motions.front().name_of_motor)));
 }
 
 TEST(Picture, AnSvgIsNamedByItsTitle) {

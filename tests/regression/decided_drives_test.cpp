@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -16,8 +17,8 @@
 namespace gearlash {
 namespace {
 
-const std::filesystem::path data =
-    std::filesystem::path(GEARLASH_SOURCE_DIRECTORY) / "tests/regression/data";
+const std::filesystem::path root = GEARLASH_SOURCE_DIRECTORY;
+const std::filesystem::path data = root / "tests/regression/data";
 
 Answer answer_of(const std::string& file) { return analyse(read_drive(data / file)); }
 
@@ -67,6 +68,11 @@ TEST(DecidedDrive, RunsAwayIfDisturbedFarEnough) {
     if (start.load_speed != 0.0) continue;
     EXPECT_EQ(start.end, start.load_position < 0.05 ? "rest" : "diverges") << start.load_position;
   }
+  // They end on a cycle of the gap's size on which the drive moves for a second in five hours.
+  EXPECT_GT(answer.rest->creeping_starts, 0U);
+  EXPECT_TRUE(answer.cycles.empty());
+  EXPECT_NEAR(answer.rest->load.high, 2.67019e-7, 1e-12);
+  EXPECT_NEAR(answer.rest->load.low, -2.67019e-7, 1e-12);
   // Between them is an unstable cycle of about 0.0726 rad, which a step of that size passes.
   ASSERT_EQ(answer.thresholds.size(), 1U);
   const Threshold& away = answer.thresholds.front();
@@ -75,6 +81,34 @@ TEST(DecidedDrive, RunsAwayIfDisturbedFarEnough) {
   EXPECT_GT(away.below, 0.05);
   EXPECT_LT(away.from, 0.09);
   EXPECT_LT(away.from / away.below, 1.04);
+}
+
+/// One start of twenty stands for an hour before the motor crosses the gap.
+TEST(DecidedDrive, BreaksAwayAfterAnHour) {
+  Drive drive = read_drive(root / "examples/telescope-axis.toml");
+  drive.gearbox.backlash = 5.0 / 60.0 * std::acos(-1.0) / 180.0;
+  const Answer answer = analyse(drive);
+  EXPECT_EQ(answer.verdict, Verdict::hunts);
+  EXPECT_EQ(answer.search->count("cycle"), 20U);
+  double longest = 0.0;
+  for (const StartOutcome& start : answer.search->starts)
+    longest = std::max(longest, start.watched);
+  EXPECT_GT(longest, 3600.0);
+}
+
+/// A standstill of a sampled drive, or under a sine, is not watched until the law of creeping
+/// shows.
+TEST(DecidedDrive, StandsForLongWhereThatIsCostlyToWatch) {
+  std::ifstream file(data / "pid-coulomb-motor-encoder-0.toml");
+  std::stringstream text;
+  text << file.rdbuf();
+  for (const std::string more :
+       {"[sampling]\nperiod = \"1 ms\"\n",
+        "[load_torque]\nkind = \"sine\"\namplitude = \"5 mN m\"\nfrequency = \"3 Hz\"\n"}) {
+    const Answer answer = analyse(parse_drive(text.str() + more));
+    EXPECT_EQ(answer.verdict, Verdict::comes_to_rest) << more;
+    EXPECT_GT(answer.rest->creeping_starts, 0U) << more;
+  }
 }
 
 /// It stands for minutes before its integral action breaks it away.

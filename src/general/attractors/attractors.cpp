@@ -100,7 +100,9 @@ class Search {
   void record_rest(const Verdict& verdict) {
     if (!result_.rest) result_.rest = RestFound{};
     RestFound& rest = *result_.rest;
-    add_rest(rest, verdict.last, setting_, tolerances_.rest);
+    for (const Standstill& place : verdict.rest) {
+      add_rest(rest, place.load, place.motor, setting_, tolerances_.rest);
+    }
     ++rest.starts;
     if (verdict.is_creeping) ++rest.creeping_starts;
     rest.swing_ratio = std::fmax(rest.swing_ratio, verdict.swing_ratio);  // fmax ignores NaN

@@ -57,7 +57,7 @@ struct RestFound {
   Extent motor;  ///< rad
   Extent error;  ///< rad, reference − load
   std::size_t starts = 0;
-  std::size_t creeping_starts = 0;  ///< that stood longer than they had moved
+  std::size_t creeping_starts = 0;  ///< that move ever later, or hardly ever
   /// Rest approached by ever smaller and longer swings across the gap is never reached. Their ratio
   /// identifies it, of which this is the largest. NaN if all came to rest.
   double swing_ratio = std::numeric_limits<double>::quiet_NaN();
@@ -127,8 +127,7 @@ struct AttractorSearch {
   /// slowest of all if none does. At least a sine's period and ten samples.
   double swing_time = 0.0;
   double settling_time = 0.0;  ///< s, of that loop: 1/slowest decay
-  double watch_time = 0.0;     ///< s, the longest that a start is watched; twenty times that where
-                               ///< hardly anything happens
+  double watch_time = 0.0;     ///< s, the longest that a start is watched, but for Patience
   bool is_complete = true;     ///< not stopped
 
   std::size_t count(MotionEnd end) const;

@@ -30,7 +30,7 @@ struct Ranges {
   }
 };
 
-/// Keeps the first value of a number, its turns and its last value.
+/// Keeps the first value of a number, its turns, both ends of its pauses and its last value.
 class Turns {
  public:
   Turns(const Watched& watched, std::vector<Sample>& kept) : watched_(watched), kept_(kept) {}
@@ -72,8 +72,12 @@ class Turns {
       kept_.push_back(sample);
     } else if (sample.value != last_.value) {
       const double way = sample.value > last_.value ? 1.0 : -1.0;
-      if (way_ * way < 0.0) kept_.push_back(last_);
+      if (way_ * way < 0.0 || is_paused_) kept_.push_back(last_);
       way_ = way;
+      is_paused_ = false;
+    } else if (!is_paused_ && sample.time > last_.time) {
+      kept_.push_back(last_);
+      is_paused_ = true;
     }
     last_ = sample;
   }
@@ -83,6 +87,7 @@ class Turns {
   bool is_first_ = true;
   Sample last_;
   double way_ = 0.0;
+  bool is_paused_ = false;
 };
 
 class StretchObserver : public hybrid::MotionObserver {
@@ -218,41 +223,12 @@ bool is_at_rest(const Watch& watch, const Stretch& stretch, const SearchSetting&
 
 namespace {
 
-/// When the last value was first had, but for less than `small`.
-double standing_since(const std::vector<Sample>& samples, double small) {
-  const double last = samples.back().value;
-  std::size_t first = samples.size() - 1;
-  while (first > 0 && std::abs(samples[first - 1].value - last) <= small) --first;
-  return samples[first].time;
-}
-
 bool has_stiction(const Shaft& shaft) { return shaft.friction.breakaway > shaft.friction.coulomb; }
 
 }  // namespace
 
 bool has_stiction(const ReducedDrive& drive) {
   return has_stiction(drive.motor) || has_stiction(drive.load);
-}
-
-bool stands(const hybrid::State& state, const SearchSetting& setting,
-            const RestTolerances& tolerances) {
-  // Rounding may leave a shaft that sticks a speed of some 1e-30.
-  const double small = tolerances.no_move * setting.small_length;
-  const auto is_slow = [&](const Watched& shaft) {
-    return std::abs(shaft.speed.at(state.numbers)) * setting.swing_time <= small;
-  };
-  return is_slow(setting.motor) && is_slow(setting.load);
-}
-
-bool is_creeping(const Watch& watch, const SearchSetting& setting,
-                 const RestTolerances& tolerances) {
-  if (has_stiction(setting.drive)) return false;
-  if (!stands(watch.here, setting, tolerances)) return false;
-  const double small = tolerances.no_move * setting.small_length;
-  const double since =
-      std::max(standing_since(watch.load, small), standing_since(watch.motor, small));
-  const double before = since - watch.load.front().time;
-  return watch.time - since > tolerances.creeping * before;
 }
 
 namespace {
@@ -289,18 +265,17 @@ bool has_run_away(const Watch& watch, const SearchSetting& setting,
          grows_away(watch, setting, tolerances);
 }
 
-void add_rest(RestFound& rest, const hybrid::Vector& numbers, const SearchSetting& setting,
+void add_rest(RestFound& rest, double load, double motor, const SearchSetting& setting,
               const RestTolerances& tolerances) {
-  const auto place = [&](const Watched& shaft) {
-    const double value = shaft.value.at(numbers);
+  const auto place = [&](double value) {
     return std::abs(value) > tolerances.no_move * setting.small_length ? value : 0.0;
   };
   const bool has_image = is_mirrored(setting.drive) && reads_mirrored(setting.drive);
   for (const double way : {1.0, -1.0}) {
     if (way < 0.0 && !has_image) break;
-    rest.load.include(way * place(setting.load) + 0.0);  // no −0
-    rest.error.include(-way * place(setting.load) + 0.0);
-    rest.motor.include(way * place(setting.motor) + 0.0);
+    rest.load.include(way * place(load) + 0.0);  // no −0
+    rest.error.include(-way * place(load) + 0.0);
+    rest.motor.include(way * place(motor) + 0.0);
   }
 }
 
@@ -341,8 +316,7 @@ std::vector<Sample> turns_of(const Watch& watch, const SearchSetting& setting,
 std::optional<double> ratio_of_vanishing(const std::vector<Sample>& turns,
                                          const SearchSetting& setting,
                                          const RestTolerances& tolerances) {
-  const bool is_dry = setting.drive.motor.friction.is_dry() || setting.drive.load.friction.is_dry();
-  if (is_dry || !is_small(turns, setting, tolerances)) return std::nullopt;  // comes to rest
+  if (!is_small(turns, setting, tolerances)) return std::nullopt;
   for (std::size_t count = 2; count < turns.size(); ++count) {
     const double first = swing(turns, count - 1);
     const double second = swing(turns, count - 2);

@@ -48,17 +48,6 @@ bool is_at_rest(const Watch& watch, const Stretch& stretch, const SearchSetting&
 /// Whether friction at rest is higher than that of motion, on either shaft.
 bool has_stiction(const ReducedDrive& drive);
 
-/// Whether neither shaft of a state moves.
-bool stands(const hybrid::State& state, const SearchSetting& setting,
-            const RestTolerances& tolerances);
-
-/// Whether a drive has stood for `creeping` times as long as all its motion took, at the end of its
-/// watch: integral action moves it ever less and ever later. Holds only where friction at rest is
-/// that of motion, so that a standstill stores nothing (Armstrong-Hélouvry & Amin 1996; Ruderman,
-/// arXiv 2006.08977).
-bool is_creeping(const Watch& watch, const SearchSetting& setting,
-                 const RestTolerances& tolerances);
-
 /// Whether the load is far beyond all lengths of the drive, those of a torque limit however many
 /// backlashes they are; or swings that grow are, each by no less than the one before: under a
 /// torque limit a motion runs away no faster than that. Not decided in place, where the reference
@@ -68,7 +57,7 @@ bool has_run_away(const Watch& watch, const SearchSetting& setting,
 
 /// Adds a place where the drive came to rest, and its mirror image, if the drive is its own. What
 /// is within rounding of the reference is at it.
-void add_rest(RestFound& rest, const hybrid::Vector& numbers, const SearchSetting& setting,
+void add_rest(RestFound& rest, double load, double motor, const SearchSetting& setting,
               const RestTolerances& tolerances);
 
 /// Swings after a time, without negligible ones.
@@ -86,8 +75,8 @@ bool is_small(const std::vector<Sample>& turns, const SearchSetting& setting,
 std::vector<Sample> turns_of(const Watch& watch, const SearchSetting& setting,
                              const RestTolerances& tolerances);
 
-/// Ratio of the last two swings, if small swings vanish: Aitken's extrapolation of any three gives
-/// 0. Needs many swings, or a few that shrink fast. Empty otherwise.
+/// Ratio of the last two swings, if small swings vanish by their law: Aitken's extrapolation of any
+/// three gives 0. Needs many swings, or a few that shrink fast. Empty otherwise.
 std::optional<double> ratio_of_vanishing(const std::vector<Sample>& turns,
                                          const SearchSetting& setting,
                                          const RestTolerances& tolerances);

@@ -26,9 +26,12 @@ struct RestTolerances {
   std::size_t vanishing_swings = 7;
   /// ... or fewer, where the last is below this share of the first.
   double vanishing_fast = 0.1;
-  /// A drive without stiction creeps to rest if at the end of its watch it has stood this many
-  /// times as long as all its motion before took.
-  double creeping = 1.0;
+  /// A drive without stiction rests on a cycle if it moves, by more than this share of the cycle's
+  /// extent, for no more than this share of its period.
+  double hardly_moving = 1e-4;
+  /// At the end of its watch a drive without stiction rests if it has stood this many times as long
+  /// as it ever moved.
+  double long_standstill = 1e3;
   /// Below this share of the small length nothing has moved.
   double no_move = 1e-9;
 };
@@ -111,6 +114,15 @@ struct SearchTolerances {
   double steady_growth = 0.99;
 };
 
+/// How long a start is watched beyond its usual time.
+struct Patience {
+  /// A motion in which hardly anything happens is watched this many times as long.
+  double times = 1.0;
+  /// This share of the time counts in which neither shaft moves, which costs nothing to watch:
+  /// integral action may break them away.
+  double counted_of_standstill = 1.0;
+};
+
 /// Duration of the search. Swing and settling times are those of the linear loop (TimeScales).
 struct SearchBudget {
   /// Decays are negligible after this many settling times: e⁻³⁰ is about 1e-13.
@@ -122,14 +134,14 @@ struct SearchBudget {
   std::size_t ticks_of_stretch = 20'000;
   /// The first stretch takes this share of them once a cycle is known that the motion may join.
   double share_to_join = 0.25;
-  /// A motion in which hardly anything happens is watched this many times as long ...
-  double patience = 20.0;
-  /// ... or this many times, between two starts with different outcomes ...
-  double patience_at_edges = 2.0;
-  /// ... and this many times longer if it is sampled, or has stiction: standing costs nothing ...
-  double patience_when_standing = 200.0;
-  /// ... and this many times longer while it stands.
-  double patience_at_standstill = 10.0;
+  Patience patience = {.times = 20.0, .counted_of_standstill = 1e-6};
+  /// Between two starts with different outcomes.
+  Patience patience_at_edges = {.times = 2.0, .counted_of_standstill = 1e-3};
+  /// A sampled motion in which hardly anything happens is watched this many times longer.
+  double patience_if_sampled = 200.0;
+  /// The share of a standstill that counts if it is sampled, a sine acts on it, or it takes more
+  /// steps than are kept.
+  double counted_if_costly = 0.1;
   /// Hardly anything happens if a stretch has fewer swings than this ...
   std::size_t hardly_any_swings = 12;
   /// ... or if one of the stretch's first and last swings is below this share of the other.

@@ -18,8 +18,10 @@ std::size_t steps_kept(const SearchSetting& setting, const SearchBudget& budget)
   return budget.bytes_kept / (sizeof(double) * (numbers + 3));
 }
 
-Verdict StartClassifier::end_of(const State& start, double patience) {
+Verdict StartClassifier::end_of(const State& start, const Patience& patience) {
   Watch watch{.here = start, .starts_at_rest = setting_.load.speed.at(start.numbers) == 0.0};
+  const double no_move = tolerances_.rest.no_move * setting_.small_length;
+  bool is_costly = setting_.drive.sampling || is_driven(setting_.drive);
   double length = first_stretch();
   std::size_t most_in_stretch = budget_.ticks_of_stretch;
   std::optional<SteadyMotion> before;
@@ -28,18 +30,21 @@ Verdict StartClassifier::end_of(const State& start, double patience) {
     const Stretch stretch = next_stretch(watch, until, most_in_stretch);
     Verdict verdict;
     verdict.watched = watch.time;
-    verdict.last = watch.here.numbers;
     if (is_decided(watch, stretch, verdict)) return verdict;
     if (is_steady(watch, stretch, before, verdict)) return verdict;
     if (!goes_on_()) {
       verdict.reason = "the search was stopped";
       return verdict;
     }
-    const double most = longest(watch, stretch, patience);
-    if (watch.time >= most && creeps(watch, verdict)) return verdict;
-    const bool may_creep = stands(watch.here, setting_, tolerances_.rest);
-    const double times = may_creep ? budget_.patience_at_standstill : 1.0;
-    if (watch.events >= most_events() || watch.time >= times * most) {
+    const auto stood = standstills(watch.load, watch.motor, no_move);
+    is_costly = is_costly || stretch.stop_reason == StopReason::step_limit;
+    const double counts = is_costly ? budget_.counted_if_costly : patience.counted_of_standstill;
+    const double counted = watch.time - (1.0 - counts) * duration_of(stood);
+    const double most = longest(watch, stretch, patience.times);
+    const bool is_over = watch.events >= most_events() || counted >= most;
+    const bool is_long = is_over || (is_costly && watch.time >= most);
+    if (creeps(stood, watch, is_long, verdict)) return verdict;
+    if (is_over) {
       give_up(watch, stretch, before, verdict);
       return verdict;
     }
@@ -87,11 +92,9 @@ double StartClassifier::longest(const Watch& watch, const Stretch& stretch, doub
       setting_.drive.sampling ||
       std::max(recent(turns), recent(extremes(watch.motor))) < budget_.hardly_any_swings;
   const bool is_slow = hardly_moves || is_small(turns, setting_, tolerances_.rest) || changes;
-  // Integral action breaks a drive with stiction away at last.
-  const bool is_slowest = setting_.drive.sampling || (hardly_moves && has_stiction(setting_.drive));
   constexpr double rounding = 1e-9;  // allows for rounding of the summed stretches
   const double more = is_slow ? patience : 1.0;
-  const double times = is_slowest ? more * budget_.patience_when_standing : more;
+  const double times = setting_.drive.sampling ? more * budget_.patience_if_sampled : more;
   return times * search_.watch_time * (1.0 - rounding);
 }
 
@@ -108,6 +111,8 @@ bool StartClassifier::is_decided(const Watch& watch, const Stretch& stretch, Ver
   if (is_at_rest(watch, stretch, setting_, tolerances_.rest) ||
       is_vanishing(watch, stretch, verdict)) {
     verdict.end = MotionEnd::rest;
+    verdict.rest = {{.load = setting_.load.value.at(watch.here.numbers),
+                     .motor = setting_.motor.value.at(watch.here.numbers)}};
     return true;
   }
   return stretch.motion &&
@@ -115,10 +120,15 @@ bool StartClassifier::is_decided(const Watch& watch, const Stretch& stretch, Ver
                      verdict);
 }
 
-bool StartClassifier::creeps(const Watch& watch, Verdict& verdict) const {
-  verdict.is_creeping = is_creeping(watch, setting_, tolerances_.rest);
-  if (verdict.is_creeping) verdict.end = MotionEnd::rest;
-  return verdict.is_creeping;
+bool StartClassifier::creeps(const std::vector<Standstill>& stood, const Watch& watch, bool is_long,
+                             Verdict& verdict) const {
+  const RestTolerances& rest = tolerances_.rest;
+  verdict.is_creeping = is_creeping(stood, watch, setting_, rest) ||
+                        (is_long && stands_for_long(stood, watch, setting_, rest));
+  if (!verdict.is_creeping) return false;
+  verdict.end = MotionEnd::rest;
+  verdict.rest = {stood.back()};
+  return true;
 }
 
 const StartClassifier::Known* StartClassifier::known_as(const SteadyMotion& motion) const {
@@ -182,6 +192,8 @@ Trajectory StartClassifier::recorded(const Watch& watch, const IrregularFound& f
 
 bool StartClassifier::is_vanishing(const Watch& watch, const Stretch& stretch,
                                    Verdict& verdict) const {
+  // Dry friction brings a drive to rest.
+  if (setting_.drive.motor.friction.is_dry() || setting_.drive.load.friction.is_dry()) return false;
   const bool is_small_by_now = extent_of(after(watch.load, stretch.from)).width() <
                                tolerances_.rest.small_motion * setting_.small_length;
   const double awaited =
@@ -193,25 +205,27 @@ bool StartClassifier::is_vanishing(const Watch& watch, const Stretch& stretch,
   return ratio.has_value();
 }
 
-bool StartClassifier::is_on_cycle(const Trajectory& motion, std::initializer_list<double> nearness,
-                                  Verdict& verdict) {
-  const auto which = cycle_of(motion, nearness);
-  if (!which) return false;
-  verdict.end = MotionEnd::cycle;
-  verdict.which = *which;
-  return true;
-}
-
-std::optional<std::size_t> StartClassifier::cycle_of(const Trajectory& motion,
-                                                     std::initializer_list<double> all_nearness) {
-  if (const auto which = closing_.known_cycle_of(motion, search_.cycles)) return which;
+bool StartClassifier::is_on_cycle(const Trajectory& motion,
+                                  std::initializer_list<double> all_nearness, Verdict& verdict) {
+  const auto ends_in = [&](MotionEnd end, std::size_t which) {
+    verdict.end = end;
+    verdict.which = which;
+    return true;
+  };
+  if (const auto which = closing_.known_cycle_of(motion, search_.cycles)) {
+    return ends_in(MotionEnd::cycle, *which);
+  }
   for (const double nearness : all_nearness) {
     const auto found = closing_.closed_cycle(motion, nearness);
     if (!found) continue;
+    const bool is_left = found->stability == Stability::unstable;
+    if (!is_left) verdict.rest = places_of_rest(*found, setting_, tolerances_.rest);
+    verdict.is_creeping = !verdict.rest.empty();
+    if (verdict.is_creeping) return ends_in(MotionEnd::rest, 0);
     const std::size_t which = place_of(*found, tolerances_.cycle, search_.cycles);
-    if (found->stability != Stability::unstable) return which;
+    if (!is_left) return ends_in(MotionEnd::cycle, which);
   }
-  return std::nullopt;
+  return false;
 }
 
 void StartClassifier::give_up(const Watch& watch, const Stretch& stretch,

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "general/attractors/creeping.hpp"
 #include "general/attractors/cycle_closing.hpp"
 #include "general/attractors/irregular_motion.hpp"
 #include "general/attractors/motion_watch.hpp"
@@ -22,9 +23,9 @@ struct Verdict {
   double watched = 0.0;
   std::string reason;
   double swing_ratio = std::numeric_limits<double>::quiet_NaN();
-  bool is_creeping = false;  ///< to rest
-  hybrid::Vector last;       ///< numbers
-  IrregularFound irregular;  ///< if `end` is irregular
+  std::vector<Standstill> rest;  ///< where, if `end` is rest
+  bool is_creeping = false;      ///< to rest, or there
+  IrregularFound irregular;      ///< if `end` is irregular
 
   bool is_attracted() const { return end == MotionEnd::rest || end == MotionEnd::cycle; }
   bool is_same_end(const Verdict& other) const {
@@ -47,8 +48,8 @@ class StartClassifier {
 
   /// Watches until the motion comes to rest, runs away, joins a motion that is known, repeats its
   /// statistics, or Newton's method closes a cycle that it is on. A motion in which hardly anything
-  /// happens is watched `patience` times as long.
-  Verdict end_of(const hybrid::State& start, double patience);
+  /// happens is watched longer, and a standstill hardly counts: see Patience.
+  Verdict end_of(const hybrid::State& start, const Patience& patience);
 
  private:
   /// What a start led to.
@@ -67,7 +68,9 @@ class StartClassifier {
   /// Longest time that a start is watched: more if hardly anything happens.
   double longest(const Watch& watch, const Stretch& stretch, double patience) const;
   bool is_decided(const Watch& watch, const Stretch& stretch, Verdict& verdict);
-  bool creeps(const Watch& watch, Verdict& verdict) const;
+  /// Whether standstills follow the law of creeping, or the last one has lasted after a long watch.
+  bool creeps(const std::vector<Standstill>& stood, const Watch& watch, bool is_long,
+              Verdict& verdict) const;
   /// Whether a motion is one that is known, or has repeated its statistics from one
   /// stretch to the next. Motion that repeats may be a cycle.
   bool is_steady(const Watch& watch, const Stretch& stretch, std::optional<SteadyMotion>& before,
@@ -85,11 +88,10 @@ class StartClassifier {
   /// Whether swings shrink towards a rest that they never reach. Decided only after the linear
   /// loop's settling time.
   bool is_vanishing(const Watch& watch, const Stretch& stretch, Verdict& verdict) const;
-  bool is_on_cycle(const hybrid::Trajectory& motion, std::initializer_list<double> nearness,
+  /// Whether a motion ends on a cycle, or in the rest that a creeping cycle is. Unstable cycles
+  /// passed by are kept in the result.
+  bool is_on_cycle(const hybrid::Trajectory& motion, std::initializer_list<double> all_nearness,
                    Verdict& verdict);
-  /// The cycle that the end of a motion is on. Unstable cycles passed by are kept in the result.
-  std::optional<std::size_t> cycle_of(const hybrid::Trajectory& motion,
-                                      std::initializer_list<double> all_nearness);
   /// The motion is what its last stretch shows, or that `before` which was steady.
   void give_up(const Watch& watch, const Stretch& stretch,
                const std::optional<SteadyMotion>& before, Verdict& verdict);
