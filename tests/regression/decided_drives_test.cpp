@@ -96,6 +96,14 @@ TEST(DecidedDrive, BreaksAwayAfterAnHour) {
   EXPECT_GT(longest, 3600.0);
 }
 
+/// Events that follow each other without end by rounding alone are rest.
+TEST(DecidedDrive, TremblesAtItsFrictionsEdge) {
+  const Answer answer = answer_of("trembles-behind-its-gap.toml");
+  EXPECT_EQ(answer.verdict, Verdict::hunts_if_disturbed);
+  EXPECT_EQ(undecided(answer), 0U);
+  EXPECT_NEAR(answer.rest->error.high, 0.0, 1e-12);
+}
+
 /// A standstill of a sampled drive, or under a sine, is not watched until the law of creeping
 /// shows.
 TEST(DecidedDrive, StandsForLongWhereThatIsCostlyToWatch) {

@@ -197,13 +197,11 @@ bool acts(const hybrid::AffineMode& mode, Eigen::Index number) {
              [&](const hybrid::Transition& one) { return one.guard.normal[number] != 0.0; });
 }
 
-}  // namespace
-
-bool is_at_rest(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
-                const RestTolerances& tolerances) {
-  const std::vector<Extent>& last = stretch.last;
-  if (last.empty()) return false;
-  const hybrid::AffineMode& mode = setting.system.system().mode(stretch.end.mode);
+/// Whether all numbers that act at once change by at most a share of their total movement.
+template <class Change>
+bool hardly_changes(const Watch& watch, const SearchSetting& setting,
+                    const RestTolerances& tolerances, Change&& change) {
+  const hybrid::AffineMode& mode = setting.system.system().mode(watch.here.mode);
   const hybrid::Vector& scale = setting.frame.scale;
   const double positions =
       std::max({watch.all[motor_position].width(), watch.all[load_position].width(),
@@ -215,10 +213,28 @@ bool is_at_rest(const Watch& watch, const Stretch& stretch, const SearchSetting&
     const bool is_position = i == motor_position || i == load_position;
     const bool is_speed = i == motor_speed || i == load_speed;
     const double extent = is_position ? positions : is_speed ? speeds : watch.all[i].width();
-    if (last[i].width() > tolerances.still * extent && acts(mode, static_cast<Eigen::Index>(i)))
+    if (change(i) > tolerances.still * extent && acts(mode, static_cast<Eigen::Index>(i)))
       return false;
   }
   return true;
+}
+
+}  // namespace
+
+bool is_at_rest(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
+                const RestTolerances& tolerances) {
+  const std::vector<Extent>& last = stretch.last;
+  return !last.empty() &&
+         hardly_changes(watch, setting, tolerances, [&](std::size_t i) { return last[i].width(); });
+}
+
+bool trembles_at_rest(const Watch& watch, const SearchSetting& setting,
+                      const RestTolerances& tolerances) {
+  const hybrid::AffineFlow& flow = setting.system.system().mode(watch.here.mode).flow;
+  const hybrid::Vector velocity = flow.matrix * watch.here.numbers + flow.offset;
+  return hardly_changes(watch, setting, tolerances, [&](std::size_t i) {
+    return std::abs(velocity[static_cast<Eigen::Index>(i)]) * setting.swing_time;
+  });
 }
 
 namespace {

@@ -45,6 +45,12 @@ Stretch observe(Watch& watch, double until, std::size_t event_limit, const Searc
 bool is_at_rest(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
                 const RestTolerances& tolerances);
 
+/// Whether, where events follow each other without end, the same numbers would change by no more
+/// than that within a swing time: a shaft whose torque comes to rest at its friction's edge stops
+/// and breaks away by rounding alone.
+bool trembles_at_rest(const Watch& watch, const SearchSetting& setting,
+                      const RestTolerances& tolerances);
+
 /// Whether friction at rest is higher than that of motion, on either shaft.
 bool has_stiction(const ReducedDrive& drive);
 

@@ -103,18 +103,20 @@ bool StartClassifier::is_decided(const Watch& watch, const Stretch& stretch, Ver
     verdict.end = MotionEnd::diverges;
     return true;
   }
-  if (stretch.stop_reason == StopReason::zeno || stretch.stop_reason == StopReason::chattering) {
-    verdict.reason = "events without end: " + stretch.culprit;
-    return true;
-  }
-  if (setting_.coordinates == Coordinates::in_place) return false;
-  if (is_at_rest(watch, stretch, setting_, tolerances_.rest) ||
-      is_vanishing(watch, stretch, verdict)) {
+  const bool is_endless =
+      stretch.stop_reason == StopReason::zeno || stretch.stop_reason == StopReason::chattering;
+  const RestTolerances& rest = tolerances_.rest;
+  const bool may_rest = setting_.coordinates != Coordinates::in_place;
+  if (may_rest && (is_endless ? trembles_at_rest(watch, setting_, rest)
+                              : is_at_rest(watch, stretch, setting_, rest) ||
+                                    is_vanishing(watch, stretch, verdict))) {
     verdict.end = MotionEnd::rest;
     verdict.rest = {{.load = setting_.load.value.at(watch.here.numbers),
                      .motor = setting_.motor.value.at(watch.here.numbers)}};
     return true;
   }
+  if (is_endless) verdict.reason = "events without end: " + stretch.culprit;
+  if (is_endless || !may_rest) return is_endless;
   return stretch.motion &&
          is_on_cycle(*stretch.motion, {tolerances_.cycle.nearness, tolerances_.cycle.wide_nearness},
                      verdict);
