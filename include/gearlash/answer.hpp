@@ -96,7 +96,7 @@ struct Rest {
   /// swings.
   std::optional<double> swing_ratio{};
   /// Of the starts: integral action against dry friction without stiction moves them ever less and
-  /// ever later, or for less than a ten-thousandth of the time.
+  /// ever later, or hardly ever (docs/drives.md).
   std::size_t creeping_starts = 0;
 };
 

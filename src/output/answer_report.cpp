@@ -296,8 +296,8 @@ std::string rest_text(const AnswerReport& report) {
        ""}};
   if (rest.starts > 0) rows.push_back({"reached from", starts_text(rest.starts), ""});
   if (rest.creeping_starts > 0) {
-    rows.push_back({"creeps there", starts_text(rest.creeping_starts),
-                    "moves for less than 0.01 % of the time"});
+    rows.push_back(
+        {"creeps there", starts_text(rest.creeping_starts), "moves ever later, or hardly ever"});
   }
   if (rest.swing_ratio) {
     rows.push_back(
