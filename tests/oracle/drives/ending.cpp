@@ -54,12 +54,12 @@ std::size_t passings_in(const std::vector<Sample>& trace, std::size_t from, doub
 class Run {
  public:
   Run(const PlainDrive& drive, const ShaftReadings& start, const EndingOptions& options)
-      : drive_(drive),
+      : drive_(as_sampled(drive, options)),
         options_(options),
-        mechanism_(drive, start),
-        computer_(drive, start),
+        mechanism_(drive_, start),
+        computer_(drive_, start),
         last_(computer_),
-        period_(drive.period > 0.0 ? drive.period : options.trace_period) {
+        period_(drive_.period > 0.0 ? drive_.period : options.trace_period) {
     kept_every_ = std::max<std::size_t>(
         1, static_cast<std::size_t>(std::lround(options.trace_period / period_)));
     const double speed = std::max(std::abs(start.load_speed), std::abs(start.motor_speed));
@@ -91,6 +91,11 @@ class Run {
   [[nodiscard]] const ShaftReadings& shafts() const { return mechanism_.shafts(); }
 
  private:
+  static PlainDrive as_sampled(PlainDrive drive, const EndingOptions& options) {
+    if (drive.period == 0.0 && drive.has_states()) drive.period = options.longest_step;
+    return drive;
+  }
+
   void steps_for(double time, const AppliedTorque& torque) {
     if (time <= 0.0) return;
     const auto count = static_cast<int>(std::ceil(time / options_.longest_step * (1.0 - 1e-9)));

@@ -67,6 +67,10 @@ double Mechanism::motor_torque(const ShaftReadings& at, const AppliedTorque& tor
   return std::clamp(asked, -drive_.limit, drive_.limit);
 }
 
+double Mechanism::load_torque(const ShaftReadings& at) const {
+  return drive_.load_torque - drive_.gravity_stiffness * (at.load_position - drive_.reference);
+}
+
 /// Of compliant faces on the load.
 double Mechanism::mesh_torque(const ShaftReadings& at) const {
   if (is_rigid_) return 0.0;
@@ -87,7 +91,7 @@ Mechanism::Accelerations Mechanism::accelerations(const ShaftReadings& at,
   const double load_friction = friction(drive_.load, at.load_speed, load_way_);
   if (face_ != 0) {
     if (load_way_ == 0) return {};
-    const double both = (drive_torque + drive_.load_torque - motor_friction - load_friction) /
+    const double both = (drive_torque + load_torque(at) - motor_friction - load_friction) /
                         (drive_.motor.inertia + drive_.load.inertia);
     return {both, both};
   }
@@ -95,21 +99,21 @@ Mechanism::Accelerations Mechanism::accelerations(const ShaftReadings& at,
   Accelerations rate;
   if (motor_way_ != 0) rate.motor = (drive_torque - mesh - motor_friction) / drive_.motor.inertia;
   if (load_way_ != 0) {
-    rate.load = (mesh + drive_.load_torque - load_friction) / drive_.load.inertia;
+    rate.load = (mesh + load_torque(at) - load_friction) / drive_.load.inertia;
   }
   return rate;
 }
 
 /// Both first: a load that its own torque moves away is still pushed by a motor that follows.
 void Mechanism::break_away_together(double torque) {
-  const int both =
-      way_of_break(torque + drive_.load_torque, drive_.motor.breakaway + drive_.load.breakaway);
+  const double of_load = load_torque(now_);
+  const int both = way_of_break(torque + of_load, drive_.motor.breakaway + drive_.load.breakaway);
   if (both != 0) {
     motor_way_ = load_way_ = both;
   } else if (-torque * face_ > drive_.motor.breakaway) {  // the motor leaves the load
     motor_way_ = -face_;
     face_ = 0;
-  } else if (drive_.load_torque * face_ > drive_.load.breakaway) {  // the load leaves the motor
+  } else if (of_load * face_ > drive_.load.breakaway) {  // the load leaves the motor
     load_way_ = face_;
     face_ = 0;
   }
@@ -123,7 +127,7 @@ void Mechanism::break_away(const AppliedTorque& torque) {
   const double mesh = mesh_torque(now_);
   if (motor_way_ == 0) motor_way_ = way_of_break(drive_torque - mesh, drive_.motor.breakaway);
   if (load_way_ == 0) {
-    load_way_ = way_of_break(mesh + drive_.load_torque, drive_.load.breakaway);
+    load_way_ = way_of_break(mesh + load_torque(now_), drive_.load.breakaway);
   }
 }
 
@@ -131,7 +135,7 @@ void Mechanism::break_away(const AppliedTorque& torque) {
 void Mechanism::part(const AppliedTorque& torque) {
   if (face_ == 0 || load_way_ == 0) return;
   const double mesh = drive_.load.inertia * accelerations(now_, torque).load +
-                      friction(drive_.load, now_.load_speed, load_way_) - drive_.load_torque;
+                      friction(drive_.load, now_.load_speed, load_way_) - load_torque(now_);
   if (mesh * face_ < 0.0) face_ = 0;
 }
 

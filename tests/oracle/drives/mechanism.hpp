@@ -46,6 +46,7 @@ class Mechanism {
   enum class Cut { none, motor_stops, load_stops, meets_forward, meets_backward };
 
   [[nodiscard]] double motor_torque(const ShaftReadings& at, const AppliedTorque& torque) const;
+  [[nodiscard]] double load_torque(const ShaftReadings& at) const;
   [[nodiscard]] double mesh_torque(const ShaftReadings& at) const;
   [[nodiscard]] Accelerations accelerations(const ShaftReadings& at,
                                             const AppliedTorque& torque) const;

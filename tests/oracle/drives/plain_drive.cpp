@@ -123,12 +123,15 @@ PlainDrive plain_drive(const Drive& drive) {
   set_controller(drive.controller, ratio, plain);
   if (drive.motor.limit) plain.limit = *drive.motor.limit * ratio;
   if (drive.sampling) set_sampling(*drive.sampling, plain);
-  const PlainController& controller = plain.controller;
-  refuse(!drive.sampling &&
-             (plain.step > 0.0 || controller.integral != 0.0 || controller.filter > 0.0),
-         "the simulator knows continuous controllers only without states and encoder");
+  refuse(!drive.sampling && (plain.step > 0.0 || plain.speed_step > 0.0),
+         "the simulator knows continuous controllers only without an encoder");
+  if (!drive.sampling) plain.has_tachometer = true;
   plain.reference = constant_of(drive.reference);
   plain.load_torque = constant_of(drive.load_torque);
+  // The weight, linearised about the reference.
+  const double angle = drive.load.gravity_angle + plain.reference;
+  plain.load_torque -= drive.load.gravity * std::cos(angle);
+  plain.gravity_stiffness = -drive.load.gravity * std::sin(angle);
   return plain;
 }
 

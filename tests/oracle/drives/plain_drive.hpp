@@ -49,13 +49,19 @@ struct PlainDrive {
   bool has_tachometer = false;  ///< the speed is exact, no difference of positions
   PlainController controller{};
   double limit = std::numeric_limits<double>::infinity();  ///< N m, of the motor's torque
-  double period = 0.0;                                     ///< s; 0: a continuous controller
-  double delay = 0.0;                                      ///< s, 0 … period
+  /// s; 0: a continuous controller. One with states is sampled as fast as the simulator steps.
+  double period = 0.0;
+  double delay = 0.0;  ///< s, 0 … period
   double blend = 0.5;  ///< share of the new value in an integration step: 1/2 trapezoidal (Tustin),
                        ///< 1 backward, 0 forward
-  double reference = 0.0;    ///< rad, constant
-  double load_torque = 0.0;  ///< N m, constant, forward
+  double reference = 0.0;          ///< rad, constant
+  double load_torque = 0.0;        ///< N m, constant, forward
+  double gravity_stiffness = 0.0;  ///< N m/rad, of the load about the reference
 
+  /// Whether the controller has numbers of its own.
+  [[nodiscard]] bool has_states() const {
+    return controller.is_cascade || controller.integral != 0.0 || controller.filter > 0.0;
+  }
   /// rad: the smallest of backlash and encoder steps.
   [[nodiscard]] double small_length() const;
 };
@@ -63,7 +69,7 @@ struct PlainDrive {
 /// Referred to the load's shaft by formulas of its own. Throws std::invalid_argument for what the
 /// simulator does not know: a motor that is not torque-controlled, other controllers than PID and
 /// cascade, delays beyond one period, signals that are not constant, and a continuous controller
-/// that integrates, filters or reads an encoder.
+/// that reads an encoder.
 [[nodiscard]] PlainDrive plain_drive(const Drive& drive);
 
 }  // namespace gearlash::oracle

@@ -162,6 +162,16 @@ void draw_pid(Dice& dice, Drive& drive, const Scale& scale) {
   drive.controller = {pid, GainShaft::motor};
 }
 
+/// Half of the loads with a constant torque have a weight that gives it, of an arm at some angle.
+void draw_gravity(Dice& dice, Drive& drive) {
+  if (!drive.load_torque || !dice.chance(0.5)) return;
+  const double angle = dice.between(-1.2, 1.2);
+  const double torque = std::get<double>(*drive.load_torque);
+  drive.load_torque.reset();
+  drive.load.gravity = Dice::rounded(std::abs(torque / std::cos(angle)));
+  drive.load.gravity_angle = Dice::rounded(torque < 0.0 ? angle : angle + std::numbers::pi);
+}
+
 }  // namespace
 
 Drive random_drive(std::uint64_t seed) {
@@ -175,6 +185,19 @@ Drive random_drive(std::uint64_t seed) {
     draw_cascade(dice, drive, scale);
   } else {
     draw_pid(dice, drive, scale);
+  }
+  draw_gravity(dice, drive);
+  return drive;
+}
+
+Drive continuous_drive(std::uint64_t seed) {
+  Drive drive = random_drive(seed);
+  drive.sampling.reset();
+  drive.sensor.encoder = {};
+  drive.sensor.speed_encoder = {};
+  if (seed % 2 == 0) {
+    drive.motor.friction.breakaway.reset();
+    drive.load.friction.breakaway.reset();
   }
   return drive;
 }

@@ -13,7 +13,12 @@ namespace gearlash::oracle {
 ///   half a period to one; encoders of 10 … 20 bit on load, motor or both; faces rigid and plastic,
 ///   bouncing (restitution up to 0.7) or compliant (10 … 80 Hz with the motor held); backlash 0.5 …
 ///   10 arcmin; inertia ratio 0.2 … 10; Coulomb friction 1 … 10 % of the rated torque, with and
-///   without a higher breakaway torque; a constant load torque for a quarter of them.
+///   without a higher breakaway torque; a constant load torque for an eighth of them, and the
+///   weight of an arm for another.
 [[nodiscard]] Drive random_drive(std::uint64_t seed);
+
+/// The same without a computer: a continuous controller and exact sensors. Those of even seeds have
+/// no breakaway torque above Coulomb friction.
+[[nodiscard]] Drive continuous_drive(std::uint64_t seed);
 
 }  // namespace gearlash::oracle

@@ -40,6 +40,17 @@ TEST(PropertyRandomDrive, IsTheSameOnEveryMachine) {
   EXPECT_EQ(drive.sampling->period, 0.00025);
 }
 
+TEST(PropertyRandomDrive, HasNoComputerWhereItIsContinuous) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const Drive drive = continuous_drive(seed);
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    EXPECT_TRUE(faults(drive).empty());
+    EXPECT_EQ(plain_drive(drive).small_length(), drive.gearbox.backlash);
+    if (seed % 2 == 0)
+      EXPECT_EQ(plain_drive(drive).load.breakaway, plain_drive(drive).load.coulomb);
+  }
+}
+
 TEST(PropertyRandomDrive, ReadsBackFromItsFile) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     const Drive drive = random_drive(seed);
@@ -55,12 +66,13 @@ TEST(PropertyRandomDrive, ComesInEveryKind) {
                  : plain.restitution > 0.0            ? "bouncing"
                                                       : "plastic");
     kinds.insert(plain.controller.is_cascade ? "cascade" : "PID");
-    if (plain.load_torque != 0.0) kinds.insert("load torque");
+    const bool has_weight = plain.gravity_stiffness != 0.0;
+    if (plain.load_torque != 0.0) kinds.insert(has_weight ? "weight" : "load torque");
     if (plain.motor.breakaway == plain.motor.coulomb) kinds.insert("no breakaway above Coulomb");
     if (plain.has_tachometer) kinds.insert("tachometer");
     if (plain.reads_load != plain.speed_of_load) kinds.insert("both shafts");
   }
-  EXPECT_EQ(kinds.size(), 9U);
+  EXPECT_EQ(kinds.size(), 10U);
 }
 
 }  // namespace

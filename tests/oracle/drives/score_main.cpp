@@ -33,6 +33,7 @@ struct Settings {
   std::string folder;
   std::string write;
   bool all_lines = false;
+  bool continuous = false;
   gearlash::oracle::ScoreOptions options;
 };
 
@@ -56,6 +57,7 @@ std::string kind_of(const Drive& drive) {
   kind += std::holds_alternative<gearlash::CascadeController>(drive.controller.law) ? " cascade"
                                                                                     : " PID";
   if (drive.load_torque) kind += " load-torque";
+  if (drive.load.gravity > 0.0) kind += " gravity";
   return kind;
 }
 
@@ -150,7 +152,9 @@ std::vector<NamedDrive> drives_of(const Settings& settings) {
     const std::uint64_t last =
         colon == std::string::npos ? first : std::stoull(settings.seeds.substr(colon + 1));
     for (std::uint64_t seed = first; seed <= last; ++seed) {
-      drives.push_back({"seed " + std::to_string(seed), gearlash::oracle::random_drive(seed)});
+      drives.push_back({"seed " + std::to_string(seed),
+                        settings.continuous ? gearlash::oracle::continuous_drive(seed)
+                                            : gearlash::oracle::random_drive(seed)});
     }
   }
   if (!settings.folder.empty()) {
@@ -197,6 +201,8 @@ int main(int argc, char** argv) {
   Settings settings;
   CLI::App app{"Industrial drives: the library against a fixed-step simulator, start by start"};
   app.add_option("--seeds", settings.seeds, "random drives, FROM:TO");
+  app.add_flag("--continuous", settings.continuous,
+               "random drives without a computer: continuous controllers, exact sensors");
   app.add_option("--folder", settings.folder, "drive files (*.toml)");
   app.add_option("--starts", settings.starts, "compared of the library's own: few (6), all, N")
       ->capture_default_str();

@@ -64,6 +64,43 @@ TEST(OracleEnding, OfThePlasticServoIsItsCycle) {
   EXPECT_NEAR(ending.frequency, 1.0 / 6.456205, 0.02);
 }
 
+/// The same servo: a cascade without integral is stiffness and friction on the motor.
+TEST(OracleEnding, OfAContinuousCascadeTendsToTheExactCycleWithTheStep) {
+  PlainDrive drive = plastic_servo();
+  drive.has_tachometer = true;
+  drive.speed_of_load = false;
+  constexpr double speed_gain = 0.05;
+  drive.motor.viscous -= speed_gain;
+  drive.controller = {.is_cascade = true, .position = 1.0 / speed_gain, .proportional = speed_gain};
+  const auto error = [&](double step) {
+    const Ending ending =
+        ending_of(drive, {0.45, 0.0, 0.3, 0.0},
+                  {.longest_step = step, .first_time = 400.0, .trace_period = 10e-3});
+    EXPECT_EQ(ending.kind, EndKind::hunts);
+    return std::abs(ending.amplitude - 0.241611108);
+  };
+  // Held torques lag by half a step: of first order.
+  EXPECT_LT(error(1e-3), 4e-4);
+  EXPECT_LT(error(5e-4), 0.6 * error(1e-3));
+}
+
+TEST(OraclePlainDrive, LinearisesAWeightAboutTheReference) {
+  Drive drive;
+  drive.motor.inertia = 1.0;
+  drive.gearbox = {.ratio = 1.0, .backlash = 1000.0};
+  drive.load.inertia = 0.5;
+  drive.load.gravity = 3.0;
+  drive.load.gravity_angle = -0.4;
+  drive.reference = -0.1;
+  drive.controller.law = PID{.terms = PIDTerms::PD, .proportional = 1.0};
+  Mechanism mechanism(plain_drive(drive), {0.0, 0.0, -0.1, 0.0});
+  for (int i = 0; i < 5000; ++i) mechanism.advance(1e-3, {});
+  // J y'' = −k y − m g l cos φ, k = −m g l sin φ, φ = −0.5, y = 0 at the reference
+  const double rate = std::sqrt(3.0 * std::sin(0.5) / 0.5);
+  const double y = -std::cos(0.5) / std::sin(0.5) * (1.0 - std::cos(rate * 5.0));
+  EXPECT_NEAR(mechanism.shafts().load_position, -0.1 + y, 1e-4);
+}
+
 TEST(OracleMechanism, StopsASlidingMassByCoulombFriction) {
   PlainDrive drive = shafts_apart();
   drive.load = {.inertia = 2.0, .coulomb = 1.5, .breakaway = 1.5};
