@@ -7,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "hybrid/linear_flow.hpp"
 #include "numeric/linear_algebra.hpp"
 
 namespace gearlash::hybrid {
@@ -27,58 +28,44 @@ std::vector<Eigen::Index> by_size(const Spectrum& values) {
   return order;
 }
 
-/// Number of the largest eigenvalues that all decay and have the widest gap, by ratio, to the next.
-/// 0 if no gap is wide enough. Eigenvalues that rounding alone keeps from 0 do not decay.
-std::size_t count_of_fast(const Spectrum& values, const std::vector<Eigen::Index>& order) {
-  std::size_t count = 0;
-  double widest = least_gap;
+/// Numbers of the largest eigenvalues that all decay and have a wide gap, by ratio, to the next,
+/// rising. Eigenvalues that rounding alone keeps from 0 do not decay, and count as large as that
+/// rounding: a decay next to them is not fast because they are 0. The largest are first.
+std::vector<Eigen::Index> counts_of_fast(const Spectrum& values) {
+  std::vector<Eigen::Index> counts;
   constexpr double rounding = 1e-10;
-  const double least = order.empty() ? 0.0 : rounding * std::abs(values[order.front()]);
-  for (std::size_t i = 0; i + 1 < order.size(); ++i) {
+  const double least = values.size() == 0 ? 0.0 : rounding * std::abs(values[0]);
+  for (Eigen::Index i = 0; i + 1 < values.size(); ++i) {
     constexpr double least_damping = 1e-3;
-    const std::complex<double> here = values[order[i]];
+    const std::complex<double> here = values[i];
     if (!(-here.real() > least_damping * std::abs(here) && std::abs(here) > least)) break;
-    const double gap = std::abs(here) / std::abs(values[order[i + 1]]);
-    if (gap > widest) {
-      widest = gap;
-      count = i + 1;
-    }
+    const double gap = std::abs(here) / std::max(std::abs(values[i + 1]), least);
+    if (gap > least_gap) counts.push_back(i + 1);
   }
-  return count;
+  return counts;
 }
 
-/// The eigenvectors that belong to the `count` largest eigenvalues.
-ComplexMatrix fast_vectors(const Matrix& matrix, std::size_t count) {
+/// Some eigenvectors, by r = A r/λ once more: errors along slow decays shrink so, numbers that move
+/// alike, as shafts whose faces stay together, become equal to the last bit, and those that no
+/// decay has a part in become 0. `done` projects on the faster decays, along which errors would
+/// grow.
+ComplexMatrix refined(const Matrix& matrix, const ComplexMatrix& vectors, const Spectrum& values,
+                      const Matrix& done) {
+  const Spectrum times = values.cwiseInverse();
+  ComplexMatrix result = vectors;
+  constexpr int rounds = 4;  // a speed follows from others, a position from a speed, and so on
+  for (int round = 0; round < rounds; ++round) {
+    result = (matrix * result * times.asDiagonal()).eval();
+    result -= (done * result).eval();
+  }
+  return result;
+}
+
+/// Eigenvalues and eigenvectors, the largest first.
+Eigensystem sorted(const Matrix& matrix) {
   const Eigensystem system = eigensystem(matrix);
   const std::vector<Eigen::Index> order = by_size(system.values);
-  ComplexMatrix vectors(matrix.rows(), static_cast<Eigen::Index>(count));
-  for (std::size_t i = 0; i < count; ++i) {
-    vectors.col(static_cast<Eigen::Index>(i)) = system.vectors.col(order[i]);
-  }
-  return vectors;
-}
-
-/// Numbers that change by constants and by each other's integrals alone, as those of a shaft that
-/// sticks: no decay has a part in them.
-std::vector<Eigen::Index> without_decays(const Matrix& matrix) {
-  std::vector<Eigen::Index> found;
-  std::vector<bool> is_found(static_cast<std::size_t>(matrix.rows()), false);
-  const auto follows_found = [&](Eigen::Index row) {
-    for (Eigen::Index i = 0; i < matrix.cols(); ++i) {
-      if (matrix(row, i) != 0.0 && !is_found[static_cast<std::size_t>(i)]) return false;
-    }
-    return true;
-  };
-  std::size_t before = 0;
-  do {
-    before = found.size();
-    for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
-      if (is_found[static_cast<std::size_t>(row)] || !follows_found(row)) continue;
-      is_found[static_cast<std::size_t>(row)] = true;
-      found.push_back(row);
-    }
-  } while (found.size() > before);
-  return found;
+  return {system.values(order), system.vectors(Eigen::all, order)};
 }
 
 }  // namespace
@@ -86,7 +73,10 @@ std::vector<Eigen::Index> without_decays(const Matrix& matrix) {
 bool FastDecays::are_over(const Vector& state, const Vector& largest) const {
   constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
   const Vector off = (projector * state - rest).cwiseAbs();
-  const Vector size = spread * largest + rest.cwiseAbs();
+  constexpr double beside = 1.0;  // roundings of the largest number
+  const double alike = largest.cwiseQuotient(weights).maxCoeff();
+  const Vector held = (reach * largest + least_reach).cwiseMin(beside * alike * weights);
+  const Vector size = (projector.cwiseAbs() * largest + rest.cwiseAbs()).cwiseMax(held);
   return (off.array() <= rounding * size.array()).all();
 }
 
@@ -96,27 +86,20 @@ void FastDecays::put_at_rest(Vector& state) const {
   state -= fast - rest;
 }
 
-/// P = V (WᵀV)⁻¹ Wᵀ of the right and left eigenvectors V, W of the fast decays.
-std::optional<FastDecays> fast_decays(const AffineFlow& flow) {
+namespace {
+
+/// The flow without the decays that P projects on, the slowest of which has this rate. Empty if
+/// they are not separated well enough. `spread` is Σ |rₖ| |lₖᵀ| over right and left eigenvectors.
+std::optional<FastDecays> without(const AffineFlow& flow, const Matrix& projector,
+                                  const Matrix& spread, double slowest) {
   const Matrix& matrix = flow.matrix;
-  const Spectrum values = eigenvalues(matrix);
-  const std::size_t count = count_of_fast(values, by_size(values));
-  if (count == 0) return std::nullopt;
-  const ComplexMatrix right = fast_vectors(matrix, count);
-  const ComplexMatrix left = fast_vectors(matrix.transpose(), count);
-  const ComplexMatrix overlap = left.transpose() * right;
-  const ComplexMatrix shares = solved(overlap, ComplexMatrix(left.transpose()));
-  Matrix projector = (right * shares).real();
-  Matrix spread = right.cwiseAbs() * shares.cwiseAbs();
-  constexpr double parallel = 100.0;  // nearly parallel eigenvectors have shares that cancel
-  if (!(spread.norm() < parallel * projector.norm())) spread = projector.cwiseAbs();
-  // Rounding would move a shaft that sticks, a little at each step.
-  for (const Eigen::Index row : without_decays(matrix)) projector.row(row).setZero();
   // Nearly parallel eigenvectors make the projector too inaccurate to use.
   constexpr double acceptable = 1e-11;
   const double size = 1.0 + projector.norm();
   const Matrix commuted = matrix * projector - projector * matrix;
-  const bool is_projector = (projector * projector - projector).norm() <= acceptable * size;
+  // A stiff contact multiplies what is not rest by its stiffness.
+  constexpr double to_rounding = 16.0 * std::numeric_limits<double>::epsilon();
+  const bool is_projector = (projector * projector - projector).norm() <= to_rounding * size;
   const bool is_invariant = commuted.norm() <= acceptable * size * matrix.norm();
   constexpr double largest = 1e12;  // of a projector that separates more than rounding
   if (!(size < largest) || !is_projector || !is_invariant) return std::nullopt;
@@ -135,7 +118,70 @@ std::optional<FastDecays> fast_decays(const AffineFlow& flow) {
   const Matrix unknown = rounding * (sizes * (identity + projector.cwiseAbs())) +
                          safety * (sizes * misfit + commuted.cwiseAbs());
   slow = (slow.array().abs() <= unknown.array()).select(0.0, slow);
-  return FastDecays{projector, spread, rest, {slow, flow.offset - projector * flow.offset}};
+  const Matrix inaccuracy = misfit + commuted.cwiseAbs() / slowest;  // of P
+  const Matrix reach = spread * sizes / slowest + safety / rounding * inaccuracy;
+  const Vector least_reach = spread * flow.offset.cwiseAbs() / slowest;
+  return FastDecays{projector,
+                    rest,
+                    reach,
+                    least_reach,
+                    Vector::Ones(flow.offset.size()),
+                    {slow, flow.offset - projector * flow.offset}};
+}
+
+/// Powers of 2 that make the terms of a flow alike. Eigenvectors are known to rounding of their
+/// largest number, and an integral may be a million times a position.
+Vector balance(const AffineFlow& flow) {
+  const LinearFlow moving(flow);
+  Vector weights = Vector::Ones(flow.offset.size());
+  for (int i = 0; i < moving.count(); ++i) weights[moving.number(i)] = moving.weight(i);
+  return weights;
+}
+
+/// D⁻¹ A D
+Matrix scaled(const Matrix& matrix, const Vector& weights) {
+  return weights.cwiseInverse().asDiagonal() * matrix * weights.asDiagonal();
+}
+
+}  // namespace
+
+/// P = V (WᵀV)⁻¹ Wᵀ of right and left eigenvectors V, W, added up group by group.
+std::vector<FastDecays> fast_decays(const AffineFlow& flow) {
+  const Vector weights = balance(flow);
+  const Vector inverse = weights.cwiseInverse();
+  const AffineFlow balanced{scaled(flow.matrix, weights), inverse.cwiseProduct(flow.offset)};
+  const Matrix& matrix = balanced.matrix;
+  const Eigensystem right = sorted(matrix);
+  const Eigensystem left = sorted(matrix.transpose());
+  Matrix projector = Matrix::Zero(matrix.rows(), matrix.cols());
+  Matrix spread = projector;
+  std::vector<FastDecays> all;
+  Eigen::Index done = 0;
+  for (const Eigen::Index count : counts_of_fast(right.values)) {
+    const auto group = Eigen::seq(done, count - 1);
+    done = count;
+    const ComplexMatrix v =
+        refined(matrix, right.vectors(Eigen::all, group), right.values(group), projector);
+    const ComplexMatrix w = refined(matrix.transpose(), left.vectors(Eigen::all, group),
+                                    left.values(group), projector.transpose());
+    const ComplexMatrix overlap = w.transpose() * v;
+    const ComplexMatrix shares = solved(overlap, ComplexMatrix(w.transpose()));
+    const Matrix part = (v * shares).real();
+    const Matrix sizes = v.cwiseAbs() * shares.cwiseAbs();
+    constexpr double parallel = 100.0;  // nearly parallel eigenvectors have shares that cancel
+    spread += sizes.norm() < parallel * part.norm() ? sizes : part.cwiseAbs();
+    projector += part;
+    auto fast = without(balanced, projector, spread, std::abs(right.values[count - 1]));
+    if (!fast) continue;
+    fast->projector = scaled(fast->projector, inverse);
+    fast->rest = weights.cwiseProduct(fast->rest);
+    fast->reach = scaled(fast->reach, inverse);
+    fast->least_reach = weights.cwiseProduct(fast->least_reach);
+    fast->weights = weights;
+    fast->slow = {scaled(fast->slow.matrix, inverse), weights.cwiseProduct(fast->slow.offset)};
+    all.push_back(std::move(*fast));
+  }
+  return all;
 }
 
 }  // namespace gearlash::hybrid

@@ -1,7 +1,7 @@
 // Splits the fast decays off a flow.
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include "hybrid/hybrid_system.hpp"
 
@@ -13,21 +13,26 @@ namespace gearlash::hybrid {
 /// can take steps as long as the slow decays permit.
 struct FastDecays {
   Matrix projector;  ///< P
-  Matrix spread;     ///< Σ |rₖ| |lₖᵀ| over its right and left eigenvectors, whose sum P is
   Vector rest;       ///< of P x
+  /// Where P x may end by rounding of the velocity, of which it takes R |x| + r; and by what is
+  /// known of P itself.
+  Matrix reach;
+  Vector least_reach;
+  Vector weights;  ///< that balance A: numbers over them are alike
   AffineFlow slow;
 
-  /// Whether P x is at its rest, within rounding of each decay's terms up to now: an integral that
-  /// moves by less than its rounding holds a speed off its rest. `largest` holds the
-  /// numbers' largest magnitudes up to now. (If the rest is 0, P x never reaches rounding of its
-  /// own magnitude.)
+  /// Whether P x is at its rest, within rounding of its terms up to now; or where rounding of the
+  /// velocity holds it off its rest, as an integral that moves by less than its rounding does a
+  /// speed, if that is rounding of the largest of all numbers. `largest` holds the numbers' largest
+  /// magnitudes up to now. (If the rest is 0, P x never reaches rounding of its own magnitude.)
   bool are_over(const Vector& state, const Vector& largest) const;
   /// Returns a state of the slow flow with the resting part set to its rest. Otherwise rounding of
   /// that flow, a share of ‖A‖, would accumulate.
   void put_at_rest(Vector& state) const;
 };
 
-/// Empty if no decays are fast enough, or if they cannot be separated well enough.
-std::optional<FastDecays> fast_decays(const AffineFlow& flow);
+/// The fastest decays, these and the next fastest, and so on: as many times as decays are much
+/// faster than all the rest. Each list is left out that cannot be separated well enough.
+std::vector<FastDecays> fast_decays(const AffineFlow& flow);
 
 }  // namespace gearlash::hybrid

@@ -41,7 +41,7 @@ void Trajectory::at(double time, State& state) const {
   state.mode = step->mode;
   state.numbers = Eigen::Map<const Vector>(start, size);
   const PreparedMode& mode = preparation_->mode(step->mode);
-  const PreparedMode::Slow* slow = step->is_slow ? mode.slow() : nullptr;
+  const PreparedMode::Slow* slow = step->slow > 0 ? &mode.slow()[step->slow - 1] : nullptr;
   const LinearFlow& flow = slow != nullptr ? slow->flow.flow : mode.whole.flow;
   thread_local Velocity velocity;
   thread_local std::vector<double> scratch;

@@ -131,7 +131,7 @@ class Trajectory {
   struct Step {
     double time;
     std::size_t mode;
-    bool is_slow;  ///< fast decays are over
+    std::size_t slow;  ///< how many of PreparedMode::slow() are over
   };
   void begin(std::shared_ptr<const Preparation> preparation, double time);
 

@@ -111,10 +111,15 @@ struct Arrival {
 /// if the last one comes later, at that one, which may be this late.
 Trajectory motion_over(const PreparedSystem& prepared, const State& start, double from,
                        std::size_t events, double until, double latest) {
-  Trajectory motion =
-      simulate(prepared, start, {.from = from, .until = until, .event_limit = events + 1});
+  Trajectory motion = simulate(prepared, start,
+                               {.from = from,
+                                .until = until,
+                                .event_limit = events + 1,
+                                .step_limit = most_steps_of_a_shot});
   if (motion.events().size() >= events) return motion;
-  return simulate(prepared, start, {.from = from, .until = latest, .event_limit = events});
+  return simulate(
+      prepared, start,
+      {.from = from, .until = latest, .event_limit = events, .step_limit = most_steps_of_a_shot});
 }
 
 /// Where a motion crosses a plane after its last event, near a time. The crossing is sought from a
@@ -146,9 +151,11 @@ std::optional<Arrival> arrival_at(const PreparedSystem& prepared, const State& s
 
 std::optional<Arrival> arrival_after(const PreparedSystem& prepared, const State& start,
                                      double from, std::size_t events, double time) {
-  const Trajectory motion =
-      simulate(prepared, start, {.from = from, .until = time, .event_limit = events + 1});
-  if (motion.events().size() != events) return std::nullopt;
+  const Trajectory motion = simulate(
+      prepared, start,
+      {.from = from, .until = time, .event_limit = events + 1, .step_limit = most_steps_of_a_shot});
+  const bool arrives = motion.stop_reason() == StopReason::reached_end;
+  if (!arrives || motion.events().size() != events) return std::nullopt;
   return Arrival{motion.events(), motion.end(), time};
 }
 

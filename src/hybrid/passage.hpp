@@ -1,11 +1,15 @@
 // A segment of motion with its derivatives, across events too (saltation).
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include "hybrid/hybrid_trajectory.hpp"
 
 namespace gearlash::hybrid {
+
+/// A shot that takes more steps, as at a stiff drive's slow slide, has no passage.
+inline constexpr std::size_t most_steps_of_a_shot = 300'000;
 
 Vector velocity(const AffineFlow& flow, const Vector& numbers);
 

@@ -85,6 +85,7 @@ std::optional<PeriodicOrbit> closing_orbit(const PreparedSystem& system, const T
   double farthest = largest_entry(end.before - end.after);
   constexpr int most_tries_at_rest = 3;
   int tries_at_rest = 0;
+  int tries = 0;
   for (std::size_t back = 1; back <= std::min(last, options.most_events); ++back) {
     const Event& begin = events[last - back];
     const double distance = largest_entry(begin.after - end.after);
@@ -96,6 +97,7 @@ std::optional<PeriodicOrbit> closing_orbit(const PreparedSystem& system, const T
     // A motion that has hardly moved creeps, or rests from tick to tick. The latter gets a few
     // tries.
     if (!has_returned && tries_at_rest++ >= most_tries_at_rest) continue;
+    if (tries++ >= options.most_tries) break;
     const double start = middle_of_longest(events, last - back, last);
     auto shooting = Shooting::about(system, motion.at(start), start, end.time - begin.time, back,
                                     options.phases);

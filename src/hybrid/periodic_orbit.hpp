@@ -31,6 +31,7 @@ struct ShootingOptions {
   double nearness =
       1e-2;             ///< two passings this near each other, as a share of the state, may be one
   int most_steps = 30;  ///< of Newton's method
+  int most_tries = 30;  ///< recurrences of the last event that are tried, the nearest first
 };
 
 /// The orbit that the end of a trajectory is near. Newton's method closes the recurrences of the

@@ -140,14 +140,14 @@ PreparedMode::PreparedMode(const AffineMode& mode, Eigen::Index size)
   }
 }
 
-const PreparedMode::Slow* PreparedMode::slow() const {
+const std::vector<PreparedMode::Slow>& PreparedMode::slow() const {
   std::call_once(once_, [this] {
-    std::optional<FastDecays> decays = fast_decays(affine_);
-    if (!decays) return;
-    PreparedFlow flow(decays->slow, guards);
-    slow_.emplace(Slow{std::move(*decays), std::move(flow)});
+    for (FastDecays& decays : fast_decays(affine_)) {
+      PreparedFlow flow(decays.slow, guards);
+      slow_.push_back({std::move(decays), std::move(flow)});
+    }
   });
-  return slow_ ? &*slow_ : nullptr;
+  return slow_;
 }
 
 const PreparedMode& Preparation::mode(std::size_t index) const {

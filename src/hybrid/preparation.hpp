@@ -60,8 +60,9 @@ class PreparedMode {
     FastDecays decays;
     PreparedFlow flow;
   };
-  /// The flow without its fast decays; null if there are none. Computed on first use.
-  const Slow* slow() const;
+  /// The flow without its fastest decays, without the next fastest too, and so on. Computed on
+  /// first use.
+  const std::vector<Slow>& slow() const;
 
   std::vector<SparseForm> guards;
   PreparedFlow whole;
@@ -73,7 +74,7 @@ class PreparedMode {
   const AffineMode* mode_;
   AffineFlow affine_;
   mutable std::once_flag once_;
-  mutable std::optional<Slow> slow_;
+  mutable std::vector<Slow> slow_;
 };
 
 /// May be used by several threads.

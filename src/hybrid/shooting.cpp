@@ -84,7 +84,11 @@ std::optional<Shooting> Shooting::about(const PreparedSystem& system, const Stat
   Shooting shooting(system, start, start_time, period);
   const auto over_a_period = [&](const State& first) {
     const double from = shooting.has_clocks_ ? shooting.start_time_ : 0.0;
-    return simulate(system, first, {.from = from, .until = from + shooting.period_});
+    return simulate(system, first,
+                    {.from = from,
+                     .until = from + shooting.period_,
+                     .event_limit = events + 1,
+                     .step_limit = most_steps_of_a_shot});
   };
   Trajectory motion = over_a_period(start);
   const auto is_as_expected = [&] {

@@ -155,14 +155,14 @@ class Simulation {
   /// steps, because finding them costs time, and then ever less often.
   void choose_flow() {
     constexpr int patience = 8;
-    if (slow_ != nullptr || ++steps_in_mode_ < next_look_) return;
-    const PreparedMode::Slow* slow = now_.mode->slow();
-    if (slow == nullptr || !slow->decays.are_over(now_.state.numbers, largest_in_mode())) {
-      next_look_ = steps_in_mode_ + std::max(1, steps_in_mode_ / patience);
-      return;
-    }
-    slow_ = slow;
-    now_.flow = &slow->flow;
+    if (++steps_in_mode_ < next_look_) return;
+    next_look_ = steps_in_mode_ + std::max(1, steps_in_mode_ / patience);
+    const std::vector<PreparedMode::Slow>& all = now_.mode->slow();
+    if (over_ == all.size()) return;
+    if (!all[over_].decays.are_over(now_.state.numbers, largest_in_mode())) return;
+    slow_ = &all[over_++];
+    now_.flow = &slow_->flow;
+    next_look_ = steps_in_mode_ + first_look;
   }
 
   /// Each number's largest magnitude at the starts of steps since the mode was entered.
@@ -202,7 +202,7 @@ class Simulation {
   }
 
   void record_step() {
-    trajectory_.steps_.push_back({now_.time, now_.state.mode, slow_ != nullptr});
+    trajectory_.steps_.push_back({now_.time, now_.state.mode, over_});
     const double* numbers = now_.state.numbers.data();
     trajectory_.starts_.insert(trajectory_.starts_.end(), numbers,
                                numbers + now_.state.numbers.size());
@@ -313,6 +313,7 @@ class Simulation {
     now_.mode = &preparation_.mode(now_.state.mode);
     now_.flow = &now_.mode->whole;
     slow_ = nullptr;
+    over_ = 0;
     steps_in_mode_ = 0;
     steps_in_largest_ = 0;
     next_look_ = first_look;
@@ -421,7 +422,8 @@ class Simulation {
   MotionObserver* observer_;
   std::optional<Standing> standing_{};        ///< of a motion that is observed
   std::optional<Repeating> repeating_{};      ///< likewise
-  const PreparedMode::Slow* slow_ = nullptr;  ///< set if now_.flow is the slow one
+  const PreparedMode::Slow* slow_ = nullptr;  ///< set if now_.flow is a slow one
+  std::size_t over_ = 0;                      ///< how many of the mode's fast decays are over
   static constexpr int first_look = 9;        ///< steps before fast decays are looked for
   int steps_in_mode_ = 0;
   int next_look_ = first_look;

@@ -37,52 +37,58 @@ ReducedDrive drive_with_dry_friction() {
   return drive;
 }
 
-bool creeps(const ReducedDrive& drive, const std::vector<Standstill>& all, double until = 1000.0) {
+/// A place at which the measured shaft pauses.
+struct Pausing {
+  double from;
+  double to;
+  double at;
+};
+
+const std::vector<Pausing> ever_later = {{1.0, 2.0, 0.1}, {3.0, 13.0, 0.01}, {14.0, 1000.0, 0.001}};
+
+/// The shaft that is not measured goes to and fro meanwhile.
+bool creeps(const ReducedDrive& drive, const std::vector<Pausing>& all) {
+  std::vector<Sample> pausing;
+  std::vector<Sample> other;
+  for (const Pausing& one : all) {
+    pausing.push_back({one.from, one.at});
+    pausing.push_back({one.to, one.at});
+    other.push_back({one.from, -0.15});
+    other.push_back({one.to, 0.15});
+  }
   const SearchSetting setting = search_setting(drive);
-  const Watch watch{.here = setting.start({}), .time = until};
-  return is_creeping(all, watch, setting, {});
+  const bool is_of_load = drive.sensing.load_share_of_position == 1.0;
+  const Watch watch{.here = setting.start({}),
+                    .load = is_of_load ? pausing : other,
+                    .motor = is_of_load ? other : pausing};
+  return is_creeping(watch, setting, {});
 }
 
-/// The load stands; the motor, which is measured, slips by 0.1, then by 0.001.
-const std::vector<Standstill> of_motor = {
-    {1.0, 2.0, 0.05, 0.1}, {3.0, 13.0, 0.05, 0.0}, {14.0, 1000.0, 0.05, 0.001}};
-
-TEST(Creeping, IsEverLaterAndEverLess) {
-  ReducedDrive drive = drive_with_dry_friction();
-  drive.sensing.load_share_of_position = 0.0;
-  EXPECT_TRUE(creeps(drive, of_motor));
-  EXPECT_FALSE(creeps(drive, of_motor, 1000.5));                        // it moves by now
-  EXPECT_FALSE(creeps(drive, {of_motor.begin() + 1, of_motor.end()}));  // of one slip no law
-  std::vector<Standstill> other = of_motor;
-  other[2].motor = 0.009;  // a slip of more than a tenth of the one before: it need not go on so
-  other[0].motor = 0.08;
-  EXPECT_FALSE(creeps(drive, other));
-  other = of_motor;
-  other[0].motor = 1.0;
-  other[2].motor = 0.02;  // 0.05 · 0.3: not much less than the gap
-  EXPECT_FALSE(creeps(drive, other));
-  other = of_motor;
-  other[1].to = 3.5;  // it stood for less than before
-  EXPECT_FALSE(creeps(drive, other));
-  other = of_motor;
-  other[2].from = 995.0;
-  EXPECT_FALSE(creeps(drive, other));
-}
-
-/// The load is measured: the motor pushes it forward, on its forward face.
-TEST(Creeping, OfTheLoadNeedsTheMotorOnItsFace) {
-  const auto on_face = [](const std::vector<double>& loads, double gap) {
-    return std::vector<Standstill>{{1.0, 2.0, loads[0], loads[0] + gap},
-                                   {3.0, 13.0, loads[1], loads[1] + gap},
-                                   {14.0, 1000.0, loads[2], loads[2] + gap}};
-  };
-  ReducedDrive drive = drive_with_dry_friction();
-  EXPECT_TRUE(creeps(drive, on_face({-0.1, -0.002, -0.001}, 0.15)));
-  // It went too far: the motor will turn back, and cross the gap before it moves the load.
-  EXPECT_FALSE(creeps(drive, on_face({-0.1, -0.0005, 0.0005}, 0.15)));
-  drive.backlash = 0.0;
-  drive.contact = CompliantContact{.stiffness = 1e3};
-  EXPECT_TRUE(creeps(drive, on_face({-0.1, -1e-5, 1e-5}, 1e-6)));
+TEST(Creeping, IsEverLaterAndNearerByOneRatio) {
+  for (const double share_of_load : {0.0, 1.0}) {
+    ReducedDrive drive = drive_with_dry_friction();
+    drive.sensing.load_share_of_position = share_of_load;
+    EXPECT_TRUE(creeps(drive, ever_later));
+    EXPECT_FALSE(creeps(drive, {ever_later.begin() + 1, ever_later.end()}));  // two are no law
+    std::vector<Pausing> other = ever_later;
+    other[2].at = -0.001;  // on the other side: another ratio
+    EXPECT_FALSE(creeps(drive, other));
+    other[1].at = -0.01;  // from side to side
+    other[2].at = 0.001;
+    EXPECT_TRUE(creeps(drive, other));
+    other = ever_later;
+    other[2].at = 0.0011;  // may end at 0.0001
+    EXPECT_FALSE(creeps(drive, other));
+    other = ever_later;
+    for (Pausing& one : other) one.at *= 4.0;  // from beyond the gap, of 0.3
+    EXPECT_FALSE(creeps(drive, other));
+    other = ever_later;
+    other[1].to = 3.5;  // for less than before
+    EXPECT_FALSE(creeps(drive, other));
+    other = ever_later;
+    other[2].from = 995.0;
+    EXPECT_FALSE(creeps(drive, other));
+  }
 }
 
 /// A slip then has a size of its own: with integral action such drives always hunt.
@@ -90,8 +96,7 @@ TEST(Creeping, NeedsFrictionWithoutStiction) {
   for (Shaft ReducedDrive::*shaft : {&ReducedDrive::motor, &ReducedDrive::load}) {
     ReducedDrive drive = drive_with_dry_friction();
     (drive.*shaft).friction.breakaway = 0.2;
-    drive.sensing.load_share_of_position = 0.0;
-    EXPECT_FALSE(creeps(drive, of_motor));
+    EXPECT_FALSE(creeps(drive, ever_later));
   }
 }
 

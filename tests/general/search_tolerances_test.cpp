@@ -27,14 +27,14 @@ AttractorOptions few_starts() {
   options.starts = {{1.0, 0.0, 1.0, 0.0}, {0.1, 0.0, 0.1, 0.0}};
   options.most_edges = 0;
   options.swing_times = 40.0;
-  options.budget.patience.times = 1.0;
+  options.budget.patience = 1.0;
   return options;
 }
 
 TEST(SearchTolerances, DefaultsFindTheCycleAndTheRest) {
   EXPECT_EQ(find_attractors(hunting, few_starts()).count(MotionEnd::cycle), 2U);
   AttractorOptions patient = few_starts();
-  patient.budget.patience.times = 20.0;
+  patient.budget.patience = 20.0;
   EXPECT_EQ(find_attractors(fading, patient).count(MotionEnd::rest), 2U);
 }
 
@@ -101,7 +101,8 @@ TEST(SearchTolerances, Rest) {
        {&RestTolerances::vanishing_limit, &RestTolerances::small_swing,
         &RestTolerances::small_motion}) {
     AttractorOptions strict = few_starts();
-    strict.budget.patience.times = 20.0;
+    strict.budget.patience = 20.0;
+    strict.budget.counted_between_events = 1e9;  // else watched until nothing moves
     strict.tolerances.rest.*limit = 0.0;
     EXPECT_EQ(find_attractors(fading, strict).count(MotionEnd::rest), 0U);
   }

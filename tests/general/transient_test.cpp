@@ -75,7 +75,7 @@ TEST(Transient, OfASearchIsListedOnce) {
   beside.motor_speed *= 1.02;
   options.starts = {on_it, beside};
   options.swing_times = 2.0;
-  options.budget.patience.times = 1.0;
+  options.budget.patience = 1.0;
   options.tolerances.irregular.least_turns = 4;
   for (const bool is_closed : {true, false}) {
     options.tolerances.cycle.wide_nearness = options.tolerances.cycle.widest_nearness =

@@ -119,6 +119,43 @@ TEST(DecidedDrive, StandsForLongWhereThatIsCostlyToWatch) {
   }
 }
 
+/// The integral takes minutes to hours, or pushes the motor across its gap ever later.
+TEST(DecidedDrive, SlidesOrCreepsToRestForHours) {
+  for (const char* file : {"slides-for-hours", "bouncing-slides", "creeps-across-its-gap"}) {
+    const Answer answer = answer_of(std::string("continuous/") + file + ".toml");
+    EXPECT_EQ(answer.verdict, Verdict::comes_to_rest) << file;
+    EXPECT_EQ(undecided(answer), 0U) << file;
+  }
+  const Answer creeping = answer_of("continuous/creeps-across-its-gap.toml");
+  EXPECT_EQ(creeping.rest->creeping_starts, creeping.search->starts.size());
+}
+
+/// The motor sticks and slips 88 times a second while the load slides to the reference.
+TEST(DecidedDrive, SticksAndSlipsAsItFades) {
+  const Answer answer = answer_of("continuous/sticks-and-slips-as-it-fades.toml");
+  EXPECT_EQ(answer.verdict, Verdict::runs_away_if_disturbed);
+  EXPECT_EQ(undecided(answer), 0U);
+  EXPECT_EQ(answer.search->count("cycle"), 0U);
+}
+
+/// It stands for half a minute between its moves, in which its integral grows: not to be taken for
+/// fading. The fixed-step simulator of tests/oracle/drives has 3.368e-6 and 0.0004102 rad.
+TEST(DecidedDrive, HuntsBetweenStandstills) {
+  const Answer answer = answer_of("continuous/hunts-between-standstills.toml");
+  EXPECT_EQ(answer.verdict, Verdict::hunts_if_disturbed);
+  ASSERT_EQ(answer.cycles.size(), 1U);
+  EXPECT_NEAR(answer.cycles[0].amplitude, 3.368e-6, 0.02 * 3.368e-6);
+  EXPECT_NEAR(answer.cycles[0].motor_amplitude, 4.102e-4, 0.001 * 4.102e-4);
+}
+
+/// An orbit that is rest but for rounding: it was divided into shorter ones without end.
+TEST(DecidedDrive, RestsAtRounding) {
+  const Answer answer = answer_of("continuous/rests-at-rounding.toml");
+  EXPECT_EQ(answer.verdict, Verdict::runs_away_if_disturbed);
+  EXPECT_TRUE(answer.cycles.empty());
+  EXPECT_TRUE(answer.irregular.empty());
+}
+
 /// It stands for minutes before its integral action breaks it away.
 TEST(DecidedDrive, WithStictionIsWatchedUntilItBreaksAway) {
   const Answer answer = answer_of("slow-to-break-away.toml");

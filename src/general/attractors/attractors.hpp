@@ -127,7 +127,7 @@ struct AttractorSearch {
   /// slowest of all if none does. At least a sine's period and ten samples.
   double swing_time = 0.0;
   double settling_time = 0.0;  ///< s, of that loop: 1/slowest decay
-  double watch_time = 0.0;     ///< s, the longest that a start is watched, but for Patience
+  double watch_time = 0.0;     ///< s, the longest that a start is watched if something happens
   bool is_complete = true;     ///< not stopped
 
   std::size_t count(MotionEnd end) const;

@@ -1,6 +1,7 @@
 #include "general/attractors/creeping.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "general/attractors/found_cycle.hpp"
@@ -13,6 +14,8 @@ struct Pause {
   double from;
   double to;
   double value;
+
+  double duration() const { return to - from; }
 };
 
 std::vector<Pause> pauses(const std::vector<Sample>& samples, double small) {
@@ -30,26 +33,10 @@ std::vector<Pause> pauses(const std::vector<Sample>& samples, double small) {
   return all;
 }
 
-double place(const Standstill& at, double share_of_load) {
-  return share_of_load * at.load + (1.0 - share_of_load) * at.motor;
-}
-
-/// The places of a mixture of both shafts, as turns.
-std::vector<Sample> places(const std::vector<Standstill>& all, double share_of_load) {
-  std::vector<Sample> result;
-  for (const Standstill& one : all) result.push_back({one.from, place(one, share_of_load)});
-  return result;
-}
-
-/// Whether the slip after `last`, which integral action makes towards the reference, starts as the
-/// slip before it did: from the same place in the gap, seen in its direction.
-bool goes_on_alike(const Standstill& before, const Standstill& last, double share_of_load,
-                   double small) {
-  const double here = place(last, share_of_load);
-  const auto gap = [](const Standstill& at, double way) {
-    return std::copysign(1.0, way) * (at.motor - at.load);
-  };
-  return std::abs(gap(last, -here) - gap(before, here - place(before, share_of_load))) < small;
+/// The limit of three numbers that approach it by one ratio (Aitken).
+double limit_of(double first, double second, double third) {
+  const double last_step = third - second;
+  return third - last_step * last_step / (last_step - (second - first));
 }
 
 /// Whether friction of a drive without stiction holds it at the end of its watch.
@@ -80,20 +67,58 @@ double duration_of(const std::vector<Standstill>& all) {
   return sum;
 }
 
-bool is_creeping(const std::vector<Standstill>& all, const Watch& watch,
-                 const SearchSetting& setting, const RestTolerances& tolerances) {
+bool is_creeping(const Watch& watch, const SearchSetting& setting,
+                 const RestTolerances& tolerances) {
+  if (has_stiction(setting.drive)) return false;
+  const bool is_of_load = setting.drive.sensing.load_share_of_position > 0.5;
+  const std::vector<Pause> all =
+      pauses(is_of_load ? watch.load : watch.motor, tolerances.no_move * setting.small_length);
   constexpr std::size_t least = 3;
-  if (all.size() < least || !may_creep(all, watch, setting)) return false;
-  const Standstill& last = all.back();
-  const Standstill& before = all.end()[-2];
-  if (!(last.duration() > before.duration() && before.duration() > all.end()[-3].duration())) {
-    return false;
+  if (all.size() < least) return false;
+  const Pause& first = all.end()[-3];
+  const Pause& second = all.end()[-2];
+  const Pause& third = all.end()[-1];
+  const bool shrinks = std::abs(third.value) < std::abs(second.value) &&
+                       std::abs(second.value) < std::abs(first.value) &&
+                       std::abs(first.value) < setting.small_length;
+  const bool stays_longer =
+      third.duration() > second.duration() && second.duration() > first.duration();
+  return shrinks && stays_longer &&
+         std::abs(limit_of(first.value, second.value, third.value)) <
+             tolerances.vanishing_limit * std::abs(third.value);
+}
+
+bool is_fading(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
+               const RestTolerances& tolerances) {
+  const double third = (stretch.to - stretch.from) / 3.0;
+  const std::vector<hybrid::Event>& events = stretch.motion->events();
+  const auto lately =
+      std::count_if(events.rbegin(), events.rend(),
+                    [&](const hybrid::Event& event) { return event.time > stretch.to - third; });
+  if (static_cast<std::size_t>(lately) < tolerances.fading_events) return false;
+  std::array<std::vector<Extent>, 3> thirds;
+  for (std::size_t i = 0; i < thirds.size(); ++i) {
+    const double from = stretch.from + static_cast<double>(i) * third;
+    thirds[i] = extents(*stretch.motion, from, from + third);
   }
-  const double small = tolerances.small_swing * setting.small_length;
-  const double share_of_load = setting.drive.sensing.load_share_of_position;
-  return swing(places(all, 0.0), 0) < small &&
-         (share_of_load == 0.0 || goes_on_alike(before, last, share_of_load, small)) &&
-         ratio_of_vanishing(places(all, share_of_load), setting, tolerances).has_value();
+  const double small = tolerances.small_motion * setting.small_length;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(setting.own); ++i) {
+    const double first = thirds[0][i].width();
+    const double second = thirds[1][i].width();
+    const double last = thirds[2][i].width();
+    if (first <= tolerances.still * watch.all[i].width()) continue;
+    if (!(second < first && last < second)) return false;
+    if (i == motor_speed || i == load_speed) continue;  // known at the events alone
+    const double limit = limit_of(first, second, last);
+    if (!(last < tolerances.fading * first) ||
+        !(std::abs(limit) < tolerances.vanishing_limit * last)) {
+      return false;
+    }
+    const bool is_position = i == motor_position || i == load_position;
+    if (is_position && last * setting.frame.scale[static_cast<Eigen::Index>(i)] > small)
+      return false;
+  }
+  return true;
 }
 
 bool stands_for_long(const std::vector<Standstill>& all, const Watch& watch,

@@ -25,13 +25,19 @@ std::vector<Standstill> standstills(const std::vector<Sample>& load,
 /// s, of all together.
 double duration_of(const std::vector<Standstill>& all);
 
-/// Whether a drive without stiction stands ever longer, the position that is measured slips ever
-/// less in between, and the motor by much less than the gap. A slip is then in proportion to the
-/// error before it, so that all that follow shrink by one ratio (Armstrong-Hélouvry & Amin 1996;
-/// Ruderman, arXiv 2006.08977). Where the load is measured, the next slip must not begin with a
-/// crossing of the gap, if the last did not. With stiction slips have a size of their own.
-bool is_creeping(const std::vector<Standstill>& all, const Watch& watch,
-                 const SearchSetting& setting, const RestTolerances& tolerances);
+/// Whether, of a drive without stiction, the position that is measured stands ever longer, ever
+/// nearer to the reference, by one ratio within the gap. A slip is then in proportion to the error
+/// before it, so that all that follow shrink by that ratio (Armstrong-Hélouvry & Amin 1996;
+/// Ruderman, arXiv 2006.08977). With stiction slips have a size of their own.
+bool is_creeping(const Watch& watch, const SearchSetting& setting,
+                 const RestTolerances& tolerances);
+
+/// Whether small motion with many events fades: the ranges of all numbers shrink from each third of
+/// a stretch to the next, and those of all but the speeds by one ratio, to nothing. So does a shaft
+/// that slides to the reference and sticks and slips a hundred times a second. (Motion that comes
+/// to a standstill has no events in the last third, and integrals that go on.) It must be kept.
+bool is_fading(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
+               const RestTolerances& tolerances);
 
 /// Whether a drive without stiction has at last stood for many times as long as it ever moved.
 bool stands_for_long(const std::vector<Standstill>& all, const Watch& watch,

@@ -11,6 +11,7 @@ namespace {
 using hybrid::Event;
 using hybrid::PeriodicOrbit;
 using hybrid::Trajectory;
+using hybrid::Vector;
 
 bool is_prime(int number) {
   for (int factor = 2; factor * factor <= number; ++factor) {
@@ -58,8 +59,22 @@ bool CycleClosing::may_go_round(const PeriodicOrbit& orbit, int times) const {
   return agree(ticks, std::round(ticks), 1.0, tolerances_.whole_ticks);
 }
 
+/// Whether an orbit moves so little that it recurs after any time.
+bool CycleClosing::hardly_moves(const PeriodicOrbit& orbit) const {
+  Vector low = orbit.start.numbers;
+  Vector high = low;
+  for (const Event& event : orbit.events) {
+    low = low.cwiseMin(event.before).cwiseMin(event.after);
+    high = high.cwiseMax(event.before).cwiseMax(event.after);
+  }
+  constexpr double much = 100.0;
+  return (high - low).maxCoeff() <=
+         much * tolerances_.recurrence * orbit.start.numbers.cwiseAbs().maxCoeff();
+}
+
 /// The shortest cycle, if an orbit goes round it several times.
 PeriodicOrbit CycleClosing::shortest(const PeriodicOrbit& orbit) const {
+  if (hardly_moves(orbit)) return orbit;
   for (int times = 2; times < tolerances_.most_rounds; ++times) {
     if (!is_prime(times) || !may_go_round(orbit, times)) continue;
     const double mismatch = mismatch_after(setting_, orbit, 1.0 / times, 1.0);
@@ -80,7 +95,7 @@ std::optional<FoundCycle> CycleClosing::closed_cycle(const Trajectory& motion,
                                                      double nearness) const {
   const auto orbit = closed(motion, nearness);
   if (!orbit || !(orbit->residual < tolerances_.residual)) return std::nullopt;
-  const FoundCycle cycle = measured(setting_, shortest(*orbit), tolerances_);
+  const FoundCycle cycle = measured(setting_, shortest(*orbit), options_.tolerances);
   if (!(extent_of(cycle) > tolerances_.least_amplitude * setting_.small_length))
     return std::nullopt;
   const Extent load = lately(motion, setting_.load, cycle.period());

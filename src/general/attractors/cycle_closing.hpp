@@ -30,6 +30,7 @@ class CycleClosing {
   std::optional<hybrid::PeriodicOrbit> closed(const hybrid::Trajectory& motion,
                                               double nearness) const;
   bool may_go_round(const hybrid::PeriodicOrbit& orbit, int times) const;
+  bool hardly_moves(const hybrid::PeriodicOrbit& orbit) const;
   hybrid::PeriodicOrbit shortest(const hybrid::PeriodicOrbit& orbit) const;
 
   const SearchSetting& setting_;

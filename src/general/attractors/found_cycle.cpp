@@ -88,7 +88,8 @@ double mismatch_after(const SearchSetting& setting, const PeriodicOrbit& orbit, 
 }
 
 FoundCycle measured(const SearchSetting& setting, const PeriodicOrbit& orbit,
-                    const CycleTolerances& tolerances) {
+                    const SearchTolerances& all) {
+  const CycleTolerances& tolerances = all.cycle;
   const Trajectory motion = motion_on(setting.system, orbit, 1.0);
   const Extent load = extent_of(samples(motion, setting.load, 0.0));
   const Extent motor = extent_of(samples(motion, setting.motor, 0.0));
@@ -96,7 +97,8 @@ FoundCycle measured(const SearchSetting& setting, const PeriodicOrbit& orbit,
   cycle.orbit = without_spare_multipliers(setting, orbit);
   cycle.multiplier = largest_multiplier(cycle.orbit);
   cycle.stability = stability_of(cycle.multiplier, tolerances);
-  cycle.amplitude = 0.5 * load.width();
+  const bool load_moves = load.width() > all.rest.negligible_swing * setting.small_length;
+  cycle.amplitude = load_moves ? 0.5 * load.width() : 0.0;
   cycle.motor_amplitude = 0.5 * motor.width();
   cycle.center = load.middle();
   cycle.centers.include(cycle.center);

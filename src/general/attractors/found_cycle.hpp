@@ -19,7 +19,7 @@ bool agree(double a, double b, double scale, double share);
 
 /// Amplitudes, stability, symmetry and impacts of an orbit of setting.system.
 FoundCycle measured(const SearchSetting& setting, const hybrid::PeriodicOrbit& orbit,
-                    const CycleTolerances& tolerances);
+                    const SearchTolerances& tolerances);
 
 /// The larger of both amplitudes: the load may stand while the motor hunts within the gap.
 double extent_of(const FoundCycle& cycle);

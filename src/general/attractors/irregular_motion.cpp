@@ -77,12 +77,12 @@ Irregularity irregularity_of(const Watch& watch, const Stretch& stretch,
   Irregularity result;
   IrregularFound& found = result.found;
   // Within the gap the motor may hunt alone while the load stands.
+  const double least = tolerances.rest.negligible_swing * setting.small_length;
   found.is_motor_alone =
-      extremes(of_load).size() < enough &&
-      count_of_swings(extremes(of_motor), from, setting, tolerances.rest) >= enough;
+      extremes(of_load, least).size() < enough && extremes(of_motor, least).size() > enough;
   const Watched& watched = found.is_motor_alone ? setting.motor : setting.load;
   const std::vector<Sample>& last = found.is_motor_alone ? of_motor : of_load;
-  const std::vector<Sample> turns = extremes(last);
+  const std::vector<Sample> turns = extremes(last, least);
   const bool is_in_place = setting.coordinates == Coordinates::in_place;
   if (!is_in_place && turns.size() < enough) {
     result.reason =

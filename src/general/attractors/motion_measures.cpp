@@ -116,15 +116,20 @@ std::vector<Sample> samples(const Trajectory& motion, const Watched& watched, do
   return result;
 }
 
-std::vector<Sample> extremes(const std::vector<Sample>& samples) {
+std::vector<Sample> extremes(const std::vector<Sample>& samples, double least) {
   std::vector<Sample> result;
+  if (samples.empty()) return result;
   double way = 0.0;
-  for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
-    const double change = samples[i + 1].value - samples[i].value;
-    if (change == 0.0) continue;
-    const double next = change > 0.0 ? 1.0 : -1.0;
-    if (way != 0.0 && next != way) result.push_back(samples[i]);
-    way = next;
+  Sample farthest = samples.front();
+  for (const Sample& sample : samples) {
+    const double change = sample.value - farthest.value;
+    if (way * change >= 0.0 && way != 0.0) {
+      farthest = sample;
+    } else if (std::abs(change) > least) {
+      if (way != 0.0) result.push_back(farthest);
+      way = change > 0.0 ? 1.0 : -1.0;
+      farthest = sample;
+    }
   }
   return result;
 }
@@ -142,7 +147,7 @@ Extent extent_of(const std::vector<Sample>& samples) {
   return range;
 }
 
-std::vector<Extent> extents(const Trajectory& motion, double from) {
+std::vector<Extent> extents(const Trajectory& motion, double from, double to) {
   std::vector<Extent> result(static_cast<std::size_t>(motion.end().numbers.size()));
   const auto include = [&](const Vector& numbers) {
     for (std::size_t i = 0; i < result.size(); ++i) {
@@ -150,11 +155,10 @@ std::vector<Extent> extents(const Trajectory& motion, double from) {
     }
   };
   constexpr int between = 8;  // samples between events
-  for (int i = 0; i <= between; ++i) {
-    include(motion.at(from + (motion.end_time() - from) * i / between).numbers);
-  }
+  to = std::min(to, motion.end_time());
+  for (int i = 0; i <= between; ++i) include(motion.at(from + (to - from) * i / between).numbers);
   for (const Event& event : motion.events()) {
-    if (event.time <= from) continue;
+    if (event.time <= from || event.time > to) continue;
     include(event.before);
     include(event.after);
   }

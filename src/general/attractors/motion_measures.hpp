@@ -31,16 +31,17 @@ struct Sample {
 std::vector<Sample> samples(const hybrid::Trajectory& motion, const Watched& watched,
                             double short_time);
 
-/// Highs and lows, alternating.
-std::vector<Sample> extremes(const std::vector<Sample>& samples);
+/// Highs and lows, alternating, each farther than `least` from the one before.
+std::vector<Sample> extremes(const std::vector<Sample>& samples, double least = 0.0);
 
 /// Those not before a time.
 std::vector<Sample> after(const std::vector<Sample>& all, double from);
 
 Extent extent_of(const std::vector<Sample>& samples);
 
-/// The range of every number of the state over events, start and end.
-std::vector<Extent> extents(const hybrid::Trajectory& motion, double from);
+/// The range of every number of the state over events, start and end, from one time to another.
+std::vector<Extent> extents(const hybrid::Trajectory& motion, double from,
+                            double to = std::numeric_limits<double>::infinity());
 
 struct Spread {
   double mean = std::numeric_limits<double>::quiet_NaN();

@@ -140,8 +140,26 @@ void move_on(Watch& watch, const Stretch& stretch) {
 
 }  // namespace
 
-Stretch follow(Watch& watch, double until, std::size_t event_limit, std::size_t step_limit,
-               const SearchSetting& setting, double short_time) {
+namespace {
+
+/// Time between any two successive samples of one of both shafts, each counted up to `longest`.
+double busy_time(const std::vector<Sample>& load, const std::vector<Sample>& motor,
+                 double longest) {
+  double sum = 0.0;
+  double last = load.front().time;
+  for (std::size_t i = 0, j = 0; i < load.size() || j < motor.size();) {
+    const bool is_of_load = j == motor.size() || (i < load.size() && load[i].time < motor[j].time);
+    const double next = is_of_load ? load[i++].time : motor[j++].time;
+    sum += std::min(next - last, longest);
+    last = next;
+  }
+  return sum;
+}
+
+}  // namespace
+
+Stretch follow(Watch& watch, double until, std::size_t step_limit, std::size_t event_limit,
+               const SearchSetting& setting, const SearchBudget& budget) {
   Stretch stretch{.from = watch.time};
   stretch.motion = simulate(
       setting.system, watch.here,
@@ -159,12 +177,12 @@ Stretch follow(Watch& watch, double until, std::size_t event_limit, std::size_t 
     watch.all[i].include(all[i].high);
   }
   stretch.last = extents(motion, 0.5 * (motion.start_time() + motion.end_time()));
-  const auto add = [&](std::vector<Sample>& kept, const Watched& watched) {
-    const auto seen = samples(motion, watched, short_time);
-    kept.insert(kept.end(), seen.begin(), seen.end());
-  };
-  add(watch.load, setting.load);
-  add(watch.motor, setting.motor);
+  const double short_time = budget.short_stretch * setting.swing_time;
+  const std::vector<Sample> load = samples(motion, setting.load, short_time);
+  const std::vector<Sample> motor = samples(motion, setting.motor, short_time);
+  watch.load.insert(watch.load.end(), load.begin(), load.end());
+  watch.motor.insert(watch.motor.end(), motor.begin(), motor.end());
+  watch.busy += busy_time(load, motor, budget.counted_between_events * setting.swing_time);
   move_on(watch, stretch);
   return stretch;
 }
@@ -183,6 +201,23 @@ Stretch observe(Watch& watch, double until, std::size_t event_limit, const Searc
   observer.end(watch, stretch);
   move_on(watch, stretch);
   return stretch;
+}
+
+std::optional<double> longest_move(const hybrid::Trajectory& motion, const SearchSetting& setting) {
+  std::optional<double> middle;
+  double longest = 0.0;
+  double from = motion.start_time();
+  for (const hybrid::Event& event : motion.events()) {
+    const DriveMode mode = setting.built.modes.mode(event.mode);
+    const bool moves =
+        mode.motor != FrictionState::sticking || mode.load != FrictionState::sticking;
+    if (moves && event.time - from > longest) {
+      longest = event.time - from;
+      middle = 0.5 * (from + event.time);
+    }
+    from = event.time;
+  }
+  return middle;
 }
 
 namespace {

@@ -12,6 +12,7 @@ namespace gearlash::drive {
 struct Watch {
   hybrid::State here;
   double time = 0.0;
+  double busy = 0.0;  ///< s, of a motion that is kept: time between events and turns, each limited
   std::size_t events = 0;
   std::vector<Extent> all{};  ///< of each number
   std::vector<Sample> load{};
@@ -33,11 +34,15 @@ struct Stretch {
 
 /// Watches a motion from `watch.here` until a time, a number of events or of steps: adds its ranges
 /// and turns to `watch`, and moves that to its end. The motion is kept.
-Stretch follow(Watch& watch, double until, std::size_t event_limit, std::size_t step_limit,
-               const SearchSetting& setting, double short_time);
+Stretch follow(Watch& watch, double until, std::size_t step_limit, std::size_t event_limit,
+               const SearchSetting& setting, const SearchBudget& budget);
 /// The same, but nothing is kept of the motion. Suits sampled drives, whose ticks are many. Turns
 /// between ticks are those of the cubic through both ends of a step.
 Stretch observe(Watch& watch, double until, std::size_t event_limit, const SearchSetting& setting);
+
+/// The middle of the longest time between two events in which a shaft moves, s. Empty if there is
+/// none.
+std::optional<double> longest_move(const hybrid::Trajectory& motion, const SearchSetting& setting);
 
 /// Whether no number on which the shafts' motion depends at once has moved in the last half of a
 /// stretch by more than a share of its total movement. (A controller of high order has others, high

@@ -26,6 +26,10 @@ struct RestTolerances {
   std::size_t vanishing_swings = 7;
   /// ... or fewer, where the last is below this share of the first.
   double vanishing_fast = 0.1;
+  /// Motion fades if its ranges shrink below this share within a stretch, with this many events in
+  /// the last third.
+  double fading = 0.5;
+  std::size_t fading_events = 8;
   /// A drive without stiction rests on a cycle if it moves, by more than this share of the cycle's
   /// extent, for no more than this share of its period.
   double hardly_moving = 1e-4;
@@ -114,15 +118,6 @@ struct SearchTolerances {
   double steady_growth = 0.99;
 };
 
-/// How long a start is watched beyond its usual time.
-struct Patience {
-  /// A motion in which hardly anything happens is watched this many times as long.
-  double times = 1.0;
-  /// This share of the time counts in which neither shaft moves, which costs nothing to watch:
-  /// integral action may break them away.
-  double counted_of_standstill = 1.0;
-};
-
 /// Duration of the search. Swing and settling times are those of the linear loop (TimeScales).
 struct SearchBudget {
   /// Decays are negligible after this many settling times: e⁻³⁰ is about 1e-13.
@@ -134,13 +129,17 @@ struct SearchBudget {
   std::size_t ticks_of_stretch = 20'000;
   /// The first stretch takes this share of them once a cycle is known that the motion may join.
   double share_to_join = 0.25;
-  Patience patience = {.times = 20.0, .counted_of_standstill = 1e-6};
-  /// Between two starts with different outcomes.
-  Patience patience_at_edges = {.times = 2.0, .counted_of_standstill = 1e-3};
+  /// A motion in which hardly anything happens is watched this many times as long ...
+  double patience = 20.0;
+  /// ... or this many between two starts with different outcomes.
+  double patience_at_edges = 2.0;
+  /// Time between events and turns counts up to this many swings. While shafts stand, or slide
+  /// steadily, it costs nothing to watch; integral action may end it after an hour.
+  double counted_between_events = 1.0;
   /// A sampled motion in which hardly anything happens is watched this many times longer.
   double patience_if_sampled = 200.0;
-  /// The share of a standstill that counts if it is sampled, a sine acts on it, or it takes more
-  /// steps than are kept.
+  /// Where watching costs as long as it lasts, because the drive is sampled, a sine acts on it, or
+  /// it takes more steps than are kept, all time counts, but of a standstill this share.
   double counted_if_costly = 0.1;
   /// Hardly anything happens if a stretch has fewer swings than this ...
   std::size_t hardly_any_swings = 12;

@@ -6,6 +6,7 @@
 
 #include "general/attractors/found_cycle.hpp"
 #include "general/attractors/motion_measures.hpp"
+#include "hybrid/limit_in_mode.hpp"
 
 namespace gearlash::drive {
 
@@ -18,7 +19,7 @@ std::size_t steps_kept(const SearchSetting& setting, const SearchBudget& budget)
   return budget.bytes_kept / (sizeof(double) * (numbers + 3));
 }
 
-Verdict StartClassifier::end_of(const State& start, const Patience& patience) {
+Verdict StartClassifier::end_of(const State& start, double patience) {
   Watch watch{.here = start, .starts_at_rest = setting_.load.speed.at(start.numbers) == 0.0};
   const double no_move = tolerances_.rest.no_move * setting_.small_length;
   bool is_costly = setting_.drive.sampling || is_driven(setting_.drive);
@@ -38,9 +39,10 @@ Verdict StartClassifier::end_of(const State& start, const Patience& patience) {
     }
     const auto stood = standstills(watch.load, watch.motor, no_move);
     is_costly = is_costly || stretch.stop_reason == StopReason::step_limit;
-    const double counts = is_costly ? budget_.counted_if_costly : patience.counted_of_standstill;
-    const double counted = watch.time - (1.0 - counts) * duration_of(stood);
-    const double most = longest(watch, stretch, patience.times);
+    const double counted = is_costly
+                               ? watch.time - (1.0 - budget_.counted_if_costly) * duration_of(stood)
+                               : watch.busy;
+    const double most = longest(watch, stretch, patience);
     const bool is_over = watch.events >= most_events() || counted >= most;
     const bool is_long = is_over || (is_costly && watch.time >= most);
     if (creeps(stood, watch, is_long, verdict)) return verdict;
@@ -72,9 +74,8 @@ Stretch StartClassifier::next_stretch(Watch& watch, double until,
     const bool is_last = most < 2 * most_if_sampled;  // no short stretch remains
     return observe(watch, until, is_last ? most : most_if_sampled, setting_);
   }
-  return follow(watch, until, std::min(most, budget_.events_of_stretch),
-                steps_kept(setting_, budget_), setting_,
-                budget_.short_stretch * setting_.swing_time);
+  return follow(watch, until, steps_kept(setting_, budget_),
+                std::min(most, budget_.events_of_stretch), setting_, budget_);
 }
 
 double StartClassifier::longest(const Watch& watch, const Stretch& stretch, double patience) const {
@@ -107,12 +108,13 @@ bool StartClassifier::is_decided(const Watch& watch, const Stretch& stretch, Ver
       stretch.stop_reason == StopReason::zeno || stretch.stop_reason == StopReason::chattering;
   const RestTolerances& rest = tolerances_.rest;
   const bool may_rest = setting_.coordinates != Coordinates::in_place;
-  if (may_rest && (is_endless ? trembles_at_rest(watch, setting_, rest)
-                              : is_at_rest(watch, stretch, setting_, rest) ||
-                                    is_vanishing(watch, stretch, verdict))) {
-    verdict.end = MotionEnd::rest;
-    verdict.rest = {{.load = setting_.load.value.at(watch.here.numbers),
-                     .motor = setting_.motor.value.at(watch.here.numbers)}};
+  if (may_rest && settles(watch, stretch, verdict)) return true;
+  const bool rests = is_endless ? trembles_at_rest(watch, setting_, rest)
+                                : is_at_rest(watch, stretch, setting_, rest) ||
+                                      is_vanishing(watch, stretch, verdict) ||
+                                      (stretch.motion && is_fading(watch, stretch, setting_, rest));
+  if (may_rest && rests) {
+    rest_at(watch.here.numbers, verdict);
     return true;
   }
   if (is_endless) verdict.reason = "events without end: " + stretch.culprit;
@@ -122,14 +124,31 @@ bool StartClassifier::is_decided(const Watch& watch, const Stretch& stretch, Ver
                      verdict);
 }
 
+void StartClassifier::rest_at(const hybrid::Vector& numbers, Verdict& verdict) const {
+  verdict.end = MotionEnd::rest;
+  verdict.rest = {
+      {.load = setting_.load.value.at(numbers), .motor = setting_.motor.value.at(numbers)}};
+}
+
+bool StartClassifier::settles(const Watch& watch, const Stretch& stretch, Verdict& verdict) const {
+  const auto settles_from = [&](const State& state) {
+    const hybrid::AffineMode& mode = setting_.system.system().mode(state.mode);
+    const auto limit = hybrid::limit_in_mode(mode, state.numbers);
+    if (limit) rest_at(*limit, verdict);
+    return limit.has_value();
+  };
+  if (settles_from(watch.here)) return true;
+  const auto quiet = stretch.motion ? longest_move(*stretch.motion, setting_) : std::nullopt;
+  return quiet && settles_from(stretch.motion->at(*quiet));
+}
+
 bool StartClassifier::creeps(const std::vector<Standstill>& stood, const Watch& watch, bool is_long,
                              Verdict& verdict) const {
   const RestTolerances& rest = tolerances_.rest;
-  verdict.is_creeping = is_creeping(stood, watch, setting_, rest) ||
+  verdict.is_creeping = is_creeping(watch, setting_, rest) ||
                         (is_long && stands_for_long(stood, watch, setting_, rest));
   if (!verdict.is_creeping) return false;
-  verdict.end = MotionEnd::rest;
-  verdict.rest = {stood.back()};
+  rest_at(watch.here.numbers, verdict);
   return true;
 }
 

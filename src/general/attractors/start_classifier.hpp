@@ -48,8 +48,8 @@ class StartClassifier {
 
   /// Watches until the motion comes to rest, runs away, joins a motion that is known, repeats its
   /// statistics, or Newton's method closes a cycle that it is on. A motion in which hardly anything
-  /// happens is watched longer, and a standstill hardly counts: see Patience.
-  Verdict end_of(const hybrid::State& start, const Patience& patience);
+  /// happens is watched `patience` times as long, and time without events hardly counts.
+  Verdict end_of(const hybrid::State& start, double patience);
 
  private:
   /// What a start led to.
@@ -68,6 +68,11 @@ class StartClassifier {
   /// Longest time that a start is watched: more if hardly anything happens.
   double longest(const Watch& watch, const Stretch& stretch, double patience) const;
   bool is_decided(const Watch& watch, const Stretch& stretch, Verdict& verdict);
+  /// Takes the motion for at rest there.
+  void rest_at(const hybrid::Vector& numbers, Verdict& verdict) const;
+  /// Whether the motion comes to rest without another event, which may take for ever; or would have
+  /// done so from the middle of its longest move on: events after that are rounding.
+  bool settles(const Watch& watch, const Stretch& stretch, Verdict& verdict) const;
   /// Whether standstills follow the law of creeping, or the last one has lasted after a long watch.
   bool creeps(const std::vector<Standstill>& stood, const Watch& watch, bool is_long,
               Verdict& verdict) const;
