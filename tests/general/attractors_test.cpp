@@ -384,5 +384,20 @@ TEST(PropertyAttractors, EveryCycleClosesAndRepeats) {
   EXPECT_GE(cycles, 8U);
 }
 
+/// A stiff mesh at its critical damping has nearly parallel eigenvectors, and multiplies whatever
+/// is off its rest by 1e5. The value is that of steps that leave no decay out.
+TEST(Attractors, OfAStiffMeshAreKnownToRounding) {
+  ReducedDrive drive;
+  drive.motor = {1.0 / 3.0, {.viscous = 0.38 * 0.9}};
+  drive.load = {2.0 / 3.0, {.viscous = 0.38 * 0.1}};
+  drive.backlash = 0.3;
+  drive.contact = CompliantContact{1e5, 2.0 * std::sqrt(1e5 * 2.0 / 9.0), ContactDamping::full};
+  drive.controller = ProportionalDerivative{1.0, 0.0};
+  const AttractorSearch found =
+      find_attractors(drive, {.starts = {{.motor_position = 0.45, .load_position = 0.3}}});
+  ASSERT_EQ(found.cycles.size(), 1U);
+  EXPECT_NEAR(found.cycles[0].amplitude, 0.24126970446464, 5e-12);
+}
+
 }  // namespace
 }  // namespace gearlash::drive

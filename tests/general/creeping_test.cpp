@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 namespace gearlash::drive {
@@ -98,6 +99,24 @@ TEST(Creeping, NeedsFrictionWithoutStiction) {
     (drive.*shaft).friction.breakaway = 0.2;
     EXPECT_FALSE(creeps(drive, ever_later));
   }
+}
+
+/// A decay without events: its law alone does not show that no standstill follows.
+TEST(Fading, NeedsEvents) {
+  ReducedDrive drive;
+  drive.motor = {0.5, {.viscous = 3.0}};
+  drive.load = {0.5, {.viscous = 0.1}};
+  drive.backlash = 0.3;
+  drive.controller = ProportionalDerivative{1.0, 0.0};
+  const SearchSetting setting = search_setting(drive);
+  const double rate = 1.55 - std::sqrt(1.55 * 1.55 - 1.0);
+  Watch watch{.here = setting.start({0.01 + 0.15, -0.01 * rate, 0.01, -0.01 * rate})};
+  const Stretch stretch = follow(watch, 6.0, 1'000'000, 1000, setting, {});
+  ASSERT_TRUE(stretch.motion->events().empty());
+  EXPECT_FALSE(is_fading(watch, stretch, setting, {}));
+  RestTolerances without;
+  without.fading_events = 0;
+  EXPECT_TRUE(is_fading(watch, stretch, setting, without));
 }
 
 }  // namespace

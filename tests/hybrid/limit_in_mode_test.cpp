@@ -47,6 +47,14 @@ TEST(LimitInMode, MayComeToTheGuardItself) {
                              Vector{{1.0, -0.4}}));
 }
 
+/// Three decays of which the faster ones lower the guard below 0 for a while.
+TEST(LimitInMode, WaitsUntilTheSlowestDecayRules) {
+  const Matrix matrix = Vector{{-0.1, -1.0, -5.0}}.asDiagonal();
+  const AffineMode mode = mode_of(matrix, Vector::Zero(3), Vector{{1.0, 1.0, 1.0}}, 0.0);
+  EXPECT_FALSE(limit_in_mode(mode, Vector{{1.0, -3.0, 3.0}}));
+  EXPECT_TRUE(limit_in_mode(mode, Vector{{1.0, -0.5, 0.4}}));
+}
+
 TEST(LimitInMode, NeedsDecay) {
   const Vector guard{{1.0, 0.0}};
   const Matrix growing{{0.1, 0.0}, {0.0, -1.0}};

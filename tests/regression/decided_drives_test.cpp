@@ -12,6 +12,8 @@
 #include "gearlash/analyse.hpp"
 #include "gearlash/input.hpp"
 #include "general/attractors/attractors.hpp"
+#include "general/attractors/cycle_closing.hpp"
+#include "general/attractors/search_setting.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash {
@@ -148,12 +150,39 @@ TEST(DecidedDrive, HuntsBetweenStandstills) {
   EXPECT_NEAR(answer.cycles[0].motor_amplitude, 4.102e-4, 0.001 * 4.102e-4);
 }
 
-/// An orbit that is rest but for rounding: it was divided into shorter ones without end.
+/// It stopped, once, in an orbit that is rest but for rounding.
 TEST(DecidedDrive, RestsAtRounding) {
   const Answer answer = answer_of("continuous/rests-at-rounding.toml");
   EXPECT_EQ(answer.verdict, Verdict::runs_away_if_disturbed);
   EXPECT_TRUE(answer.cycles.empty());
   EXPECT_TRUE(answer.irregular.empty());
+}
+
+/// Such an orbit recurs after any time, and was divided into shorter ones without end.
+TEST(DecidedDrive, HasNoCycleOfRounding) {
+  using namespace drive;
+  const SearchSetting unscaled =
+      search_setting(reduce(read_drive(data / "continuous/rests-at-rounding.toml")));
+  const std::vector<ShaftStates> starts = usual_starts(unscaled);
+  const hybrid::Trajectory glance =
+      simulate(unscaled.system, unscaled.start(starts[starts.size() / 2]),
+               {.until = 5.0 * unscaled.swing_time, .event_limit = 5000});
+  const SearchSetting setting = scaled(unscaled, glance);
+  const AttractorOptions options;
+  const CycleClosing closing(setting, options);
+  hybrid::State here = setting.start(starts[4]);
+  double time = 0.0;
+  double length = 10.0 * setting.swing_time;
+  for (int stretch = 0; stretch < 12; ++stretch) {  // the last ones at rest, but for rounding
+    const hybrid::Trajectory motion = simulate(
+        setting.system, here, {.from = time, .until = time + length, .event_limit = 10'000});
+    for (const double nearness : {1e-6, 1e-3}) {
+      EXPECT_FALSE(closing.closed_cycle(motion, nearness)) << time;
+    }
+    here = motion.end();
+    length = 2.0 * (motion.end_time() - time);
+    time = motion.end_time();
+  }
 }
 
 /// It stands for minutes before its integral action breaks it away.
