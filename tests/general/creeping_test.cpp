@@ -101,6 +101,19 @@ TEST(Creeping, NeedsFrictionWithoutStiction) {
   }
 }
 
+TEST(StandsForLong, OfADriveWithoutStictionThatStandsByNow) {
+  ReducedDrive drive = drive_with_dry_friction();
+  const std::vector<Standstill> all = {{1.0, 10'000.0, 0.0, 0.0}};
+  const auto stands = [&](double until) {
+    const SearchSetting setting = search_setting(drive);
+    return stands_for_long(all, {.here = setting.start({}), .time = until}, setting, {});
+  };
+  EXPECT_TRUE(stands(10'000.0));
+  EXPECT_FALSE(stands(10'001.0));  // it moves
+  drive.load.friction.breakaway = 0.2;
+  EXPECT_FALSE(stands(10'000.0));
+}
+
 /// A decay without events: its law alone does not show that no standstill follows.
 TEST(Fading, NeedsEvents) {
   ReducedDrive drive;
