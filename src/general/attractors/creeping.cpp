@@ -33,12 +33,6 @@ std::vector<Pause> pauses(const std::vector<Sample>& samples, double small) {
   return all;
 }
 
-/// The limit of three numbers that approach it by one ratio (Aitken).
-double limit_of(double first, double second, double third) {
-  const double last_step = third - second;
-  return third - last_step * last_step / (last_step - (second - first));
-}
-
 /// Whether friction of a drive without stiction holds it at the end of its watch.
 bool may_creep(const std::vector<Standstill>& all, const Watch& watch,
                const SearchSetting& setting) {

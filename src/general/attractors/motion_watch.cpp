@@ -364,6 +364,11 @@ std::vector<Sample> turns_of(const Watch& watch, const SearchSetting& setting,
   return turns;
 }
 
+double limit_of(double first, double second, double third) {
+  const double last_step = third - second;
+  return third - last_step * last_step / (last_step - (second - first));
+}
+
 std::optional<double> ratio_of_vanishing(const std::vector<Sample>& turns,
                                          const SearchSetting& setting,
                                          const RestTolerances& tolerances) {
@@ -374,9 +379,8 @@ std::optional<double> ratio_of_vanishing(const std::vector<Sample>& turns,
     if (!(second < first)) return std::nullopt;
     if (count > 2) {
       const double third = swing(turns, count - 3);
-      const double change = third - second;
-      const double limit = third - change * change / (change - (second - first));
-      if (!(change < 0.0) || !(std::abs(limit) < tolerances.vanishing_limit * third)) {
+      const double limit = limit_of(first, second, third);
+      if (!(third < second) || !(std::abs(limit) < tolerances.vanishing_limit * third)) {
         return std::nullopt;
       }
     }

@@ -86,6 +86,9 @@ bool is_small(const std::vector<Sample>& turns, const SearchSetting& setting,
 std::vector<Sample> turns_of(const Watch& watch, const SearchSetting& setting,
                              const RestTolerances& tolerances);
 
+/// The limit of three numbers that approach it by one ratio (Aitken).
+double limit_of(double first, double second, double third);
+
 /// Ratio of the last two swings, if small swings vanish by their law: Aitken's extrapolation of any
 /// three gives 0. Needs many swings, or a few that shrink fast. Empty otherwise.
 std::optional<double> ratio_of_vanishing(const std::vector<Sample>& turns,
