@@ -46,8 +46,9 @@ TEST(PropertyRandomDrive, HasNoComputerWhereItIsContinuous) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     EXPECT_TRUE(faults(drive).empty());
     EXPECT_EQ(plain_drive(drive).small_length(), drive.gearbox.backlash);
-    if (seed % 2 == 0)
+    if (seed % 2 == 0) {
       EXPECT_EQ(plain_drive(drive).load.breakaway, plain_drive(drive).load.coulomb);
+    }
   }
 }
 
