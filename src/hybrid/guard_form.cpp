@@ -132,7 +132,23 @@ double GuardTable::uncertainty_of(const Velocity& velocity, double share, int or
 
 double GuardTable::uncertainty(const Velocity& velocity, double share, int first, int last) const {
   double sum = 0.0;
-  for (int order = first; order <= last; ++order) sum += uncertainty_of(velocity, share, order);
+  double power = power_of(share, first);
+  const auto from = static_cast<std::size_t>(first - 1);
+  const auto to = static_cast<std::size_t>(last);
+  for (std::size_t k = from / lanes * lanes; k < to; k += lanes) {
+    Lanes by_noise = Lanes::Zero();
+    Lanes by_values = Lanes::Zero();
+    for (const std::size_t j : acting_) {
+      const Eigen::Map<const Lanes> sizes(&sizes_[j * room_ + k]);
+      by_noise += velocity.noise[j] * sizes;
+      by_values += std::abs(velocity.values[j]) * sizes;
+    }
+    for (std::size_t i = std::max(k, from); i < std::min(k + lanes, to); ++i) {
+      const auto lane = static_cast<Eigen::Index>(i - k);
+      sum += power * (by_noise[lane] + rounding_of(i) * by_values[lane]);
+      power *= share;
+    }
+  }
   return sum;
 }
 

@@ -30,7 +30,7 @@ struct AffineForm {
   Vector normal{};
   double offset = 0.0;
 
-  double at(const Vector& state) const { return normal.dot(state) + offset; }
+  double at(const Eigen::Ref<const Vector>& state) const { return normal.dot(state) + offset; }
 };
 
 /// What an instrument reads: step · round(measured/step), halves away from 0.

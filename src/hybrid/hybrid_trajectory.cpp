@@ -21,6 +21,11 @@ void Trajectory::begin(std::shared_ptr<const Preparation> preparation, double ti
   end_time_ = time;
 }
 
+Eigen::Map<const Vector> Trajectory::step_start(std::size_t step) const {
+  const Eigen::Index size = end_.numbers.size();
+  return {&starts_[step * static_cast<std::size_t>(size)], size};
+}
+
 State Trajectory::at(double time) const {
   State state;
   at(time, state);
@@ -36,16 +41,15 @@ void Trajectory::at(double time, State& state) const {
       std::upper_bound(steps_.begin(), steps_.end(), time,
                        [](double wanted, const Step& step) { return wanted < step.time; });
   const auto step = after == steps_.begin() ? after : after - 1;
-  const auto size = end_.numbers.size();
-  const double* start = &starts_[static_cast<std::size_t>((step - steps_.begin()) * size)];
+  const auto start = step_start(static_cast<std::size_t>(step - steps_.begin()));
   state.mode = step->mode;
-  state.numbers = Eigen::Map<const Vector>(start, size);
+  state.numbers = start;
   const PreparedMode& mode = preparation_->mode(step->mode);
   const PreparedMode::Slow* slow = step->slow > 0 ? &mode.slow()[step->slow - 1] : nullptr;
   const LinearFlow& flow = slow != nullptr ? slow->flow.flow : mode.whole.flow;
   thread_local Velocity velocity;
   thread_local std::vector<double> scratch;
-  flow.velocity_at(start, velocity);
+  flow.velocity_at(start.data(), velocity);
   flow.advance(velocity, std::max(0.0, time - step->time), state.numbers.data(), scratch);
   if (slow != nullptr) slow->decays.put_at_rest(state.numbers);
 }

@@ -120,6 +120,10 @@ class Trajectory {
   const std::vector<Event>& events() const { return events_; }
   const std::vector<Touch>& touches() const { return touches_; }
   std::size_t steps() const { return steps_.size(); }
+  /// Where a step of the series begins. Times rise; those of steps that an event ended at once may
+  /// be equal.
+  double step_time(std::size_t step) const { return steps_[step].time; }
+  Eigen::Map<const Vector> step_start(std::size_t step) const;
 
   /// At any time from start_time() to end_time() (clamped to it). At an event: the state after it.
   State at(double time) const;

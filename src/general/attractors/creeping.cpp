@@ -126,9 +126,8 @@ std::vector<Standstill> places_of_rest(const FoundCycle& cycle, const SearchSett
   if (has_stiction(setting.drive)) return {};
   const double share = tolerances.hardly_moving;
   const hybrid::Trajectory motion = motion_on(setting.system, cycle.orbit, 1.0);
-  std::vector<Standstill> all =
-      standstills(samples(motion, setting.load, 0.0), samples(motion, setting.motor, 0.0),
-                  share * extent_of(cycle));
+  std::vector<Standstill> all = standstills(
+      samples(motion, setting.load), samples(motion, setting.motor), share * extent_of(cycle));
   const double moving = cycle.period() - duration_of(all);
   if (!(moving <= share * cycle.period())) all.clear();
   return all;

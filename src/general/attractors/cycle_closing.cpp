@@ -127,9 +127,8 @@ std::optional<std::size_t> CycleClosing::known_cycle_of(
 }
 
 Extent CycleClosing::lately(const Trajectory& motion, const Watched& watched, double period) const {
-  const double short_time = options_.budget.short_stretch * setting_.swing_time;
   Extent range;
-  for (const Sample& sample : samples(motion, watched, short_time)) {
+  for (const Sample& sample : rough_samples(motion, watched)) {
     if (sample.time >= motion.end_time() - tolerances_.compared_periods * period) {
       range.include(sample.value);
     }

@@ -91,8 +91,8 @@ FoundCycle measured(const SearchSetting& setting, const PeriodicOrbit& orbit,
                     const SearchTolerances& all) {
   const CycleTolerances& tolerances = all.cycle;
   const Trajectory motion = motion_on(setting.system, orbit, 1.0);
-  const Extent load = extent_of(samples(motion, setting.load, 0.0));
-  const Extent motor = extent_of(samples(motion, setting.motor, 0.0));
+  const Extent load = extent_of(samples(motion, setting.load));
+  const Extent motor = extent_of(samples(motion, setting.motor));
   FoundCycle cycle;
   cycle.orbit = without_spare_multipliers(setting, orbit);
   cycle.multiplier = largest_multiplier(cycle.orbit);

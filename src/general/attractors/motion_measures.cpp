@@ -35,10 +35,6 @@ HybridSystem turning_system(const HybridSystem& system, const hybrid::AffineForm
   return result;
 }
 
-bool may_turn(const Vector& before, const Vector& after, const hybrid::AffineForm& speed) {
-  return speed.at(before) * speed.at(after) < 0.0;
-}
-
 /// Calls visit(start, from, to, end) for each stretch between events, including those of no
 /// duration. `end` is the state before the event there.
 template <class Visit>
@@ -100,17 +96,58 @@ Watched watched(const HybridSystem& system, hybrid::AffineForm value, hybrid::Af
   return {std::move(value), std::move(speed), std::move(turns)};
 }
 
-std::vector<Sample> samples(const Trajectory& motion, const Watched& watched, double short_time) {
+std::vector<Sample> samples(const Trajectory& motion, const Watched& watched) {
   std::vector<Sample> result;
   for_each_stretch(motion, [&](const State& start, double from, double to, const Vector& end) {
     result.push_back({from, watched.value.at(start.numbers)});
-    const bool is_worth = to - from > short_time || may_turn(start.numbers, end, watched.speed);
-    if (is_worth && to > from) {
+    if (to > from) {
       const Trajectory stretch = simulate(watched.turns, start, {.until = to - from});
       for (const Event& event : stretch.events()) {
         result.push_back({from + event.time, watched.value.at(event.before)});
       }
     }
+    result.push_back({to, watched.value.at(end)});
+  });
+  return result;
+}
+
+namespace {
+
+/// The zero of a continuous function between two times at which its values have unlike signs.
+template <class Function>
+double zero_between(double from, double to, double value, double value_after, Function&& function) {
+  std::uintmax_t most = 30;
+  const auto [left, right] = boost::math::tools::toms748_solve(
+      function, from, to, value, value_after, boost::math::tools::eps_tolerance<double>(40), most);
+  return 0.5 * (left + right);
+}
+
+}  // namespace
+
+std::vector<Sample> rough_samples(const Trajectory& motion, const Watched& watched) {
+  std::vector<Sample> result;
+  std::size_t step = 0;
+  State here;  // outlives the search of a turn, which calls for a state often
+  for_each_stretch(motion, [&](const State& start, double from, double to, const Vector& end) {
+    result.push_back({from, watched.value.at(start.numbers)});
+    double before = watched.speed.at(start.numbers);
+    const auto pass = [&](double until, double after) {
+      if (before * after < 0.0) {
+        const double turn = zero_between(from, until, before, after, [&](double time) {
+          motion.at(time, here);
+          return watched.speed.at(here.numbers);
+        });
+        motion.at(turn, here);
+        result.push_back({turn, watched.value.at(here.numbers)});
+      }
+      from = until;
+      before = after;
+    };
+    for (; step < motion.steps() && motion.step_time(step) < to; ++step) {
+      if (motion.step_time(step) <= from) continue;
+      pass(motion.step_time(step), watched.speed.at(motion.step_start(step)));
+    }
+    if (to > from) pass(to, watched.speed.at(end));
     result.push_back({to, watched.value.at(end)});
   });
   return result;
@@ -185,14 +222,9 @@ std::vector<double> upward_passings(const Trajectory& motion, const Watched& wat
     const Sample& low = samples[i];
     const Sample& high = samples[i + 1];
     if (low.time < after || low.value >= level || high.value < level) continue;
-    const auto above = [&](double time) {
-      return watched.value.at(motion.at(time).numbers) - level;
-    };
-    std::uintmax_t most = 30;
-    const auto [left, right] = boost::math::tools::toms748_solve(
-        above, low.time, high.time, low.value - level, high.value - level,
-        boost::math::tools::eps_tolerance<double>(40), most);
-    times.push_back(0.5 * (left + right));
+    times.push_back(zero_between(
+        low.time, high.time, low.value - level, high.value - level,
+        [&](double time) { return watched.value.at(motion.at(time).numbers) - level; }));
   }
   return times;
 }

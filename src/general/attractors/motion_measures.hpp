@@ -25,11 +25,12 @@ struct Sample {
   double value = 0.0;
 };
 
-/// The value at start, end, events and every turn between them. Between events that are within
-/// `short_time` of each other, only a change of sign of the speed reveals a turn. With 0 none is
-/// missed.
-std::vector<Sample> samples(const hybrid::Trajectory& motion, const Watched& watched,
-                            double short_time);
+/// The value at start, end, events and every turn between them. None is missed.
+std::vector<Sample> samples(const hybrid::Trajectory& motion, const Watched& watched);
+
+/// The same, several times faster. A change of the speed's sign from one step of the series to the
+/// next reveals a turn, so that two turns within one step are missed.
+std::vector<Sample> rough_samples(const hybrid::Trajectory& motion, const Watched& watched);
 
 /// Highs and lows, alternating, each farther than `least` from the one before.
 std::vector<Sample> extremes(const std::vector<Sample>& samples, double least = 0.0);

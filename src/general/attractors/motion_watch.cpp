@@ -177,9 +177,8 @@ Stretch follow(Watch& watch, double until, std::size_t step_limit, std::size_t e
     watch.all[i].include(all[i].high);
   }
   stretch.last = extents(motion, 0.5 * (motion.start_time() + motion.end_time()));
-  const double short_time = budget.short_stretch * setting.swing_time;
-  const std::vector<Sample> load = samples(motion, setting.load, short_time);
-  const std::vector<Sample> motor = samples(motion, setting.motor, short_time);
+  const std::vector<Sample> load = rough_samples(motion, setting.load);
+  const std::vector<Sample> motor = rough_samples(motion, setting.motor);
   watch.load.insert(watch.load.end(), load.begin(), load.end());
   watch.motor.insert(watch.motor.end(), motor.begin(), motor.end());
   watch.busy += busy_time(load, motor, budget.counted_between_events * setting.swing_time);

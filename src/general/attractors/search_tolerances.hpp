@@ -150,8 +150,6 @@ struct SearchBudget {
   std::size_t events_of_stretch = 10'000;
   /// It ends once its steps take this many bytes. A stiff drive takes many steps.
   std::size_t bytes_kept = 64'000'000;
-  /// Turns are sought between events that are farther apart than this share of a swing time.
-  double short_stretch = 0.05;
   /// Ticks of a clock do not count as events, up to this many times the events.
   std::size_t most_ticks = 20;
   /// Swings and events of the first glance, which shows the magnitude of the numbers.
