@@ -70,5 +70,23 @@ TEST(OracleDryContact, ALoadIsDrawnOffAMotorThatSticks) {
   }
 }
 
+/// Newton's method knows a speed of 0 to rounding only, which would move a shaft that stands for
+/// hours.
+TEST(PropertyDryContact, AShaftThatStandsIsMovedByNoSpeed) {
+  const DriveSystem built = drive_system(dry_pair());
+  std::size_t standing = 0;
+  for (std::size_t i = 0; i < built.system.mode_count(); ++i) {
+    const DriveMode mode = built.modes.mode(i);
+    const bool of_motor = mode.motor == FrictionState::sticking;
+    const bool of_load = mode.load == FrictionState::sticking;
+    const bool apart = mode.contact == ContactState::apart;
+    const hybrid::AffineFlow& flow = built.system.mode(i).flow;
+    EXPECT_EQ(flow.matrix.row(motor_position).isZero(0.0), apart ? of_motor : of_motor || of_load);
+    EXPECT_EQ(flow.matrix.row(load_position).isZero(0.0), apart ? of_load : of_motor || of_load);
+    standing += of_motor && of_load ? 1 : 0;
+  }
+  EXPECT_EQ(standing, 3U);  // apart, and on either face
+}
+
 }  // namespace
 }  // namespace gearlash::drive

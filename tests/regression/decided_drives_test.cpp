@@ -11,6 +11,7 @@
 
 #include "gearlash/analyse.hpp"
 #include "gearlash/input.hpp"
+#include "gearlash/parameter.hpp"
 #include "general/attractors/attractors.hpp"
 #include "general/attractors/cycle_closing.hpp"
 #include "general/attractors/search_setting.hpp"
@@ -83,6 +84,16 @@ TEST(DecidedDrive, RunsAwayIfDisturbedFarEnough) {
   EXPECT_GT(away.below, 0.05);
   EXPECT_LT(away.from, 0.09);
   EXPECT_LT(away.from / away.below, 1.04);
+}
+
+/// With this gain six rounds of that cycle were taken for one, on which a rounded speed moved the
+/// load while it stood.
+TEST(DecidedDrive, RunsAwayIfDisturbedWithNeighbouringGains) {
+  Drive drive = read_drive(data / "pid-with-coulomb-friction.toml");
+  for (const char* gain : {"2.05 N m/rad", "2.06 N m/rad", "2.07 N m/rad"}) {
+    set(drive, "controller.proportional", gain);
+    EXPECT_EQ(analyse(drive).verdict, Verdict::runs_away_if_disturbed) << gain;
+  }
 }
 
 /// One start of twenty stands for an hour before the motor crosses the gap.

@@ -21,8 +21,11 @@ bool DriveForms::is_engaged(const DriveMode& mode) const {
   return is_rigid_ && mode.contact != ContactState::apart;
 }
 
-bool DriveForms::sticks_as_one(const DriveMode& mode) const {
-  return mode.motor == FrictionState::sticking || mode.load == FrictionState::sticking;
+bool DriveForms::stands(const DriveMode& mode, Side side) const {
+  const bool of_motor = mode.motor == FrictionState::sticking;
+  const bool of_load = mode.load == FrictionState::sticking;
+  if (is_engaged(mode)) return of_motor || of_load;
+  return side == Side::motor ? of_motor : of_load;
 }
 
 double DriveForms::both_breakaway() const {
@@ -182,7 +185,6 @@ AffineForm DriveForms::friction_torque(Side side, FrictionState state) const {
 }
 
 AffineForm DriveForms::engaged_acceleration(const DriveMode& mode) const {
-  if (sticks_as_one(mode)) return constant(0.0);
   const double inertia = drive_.motor.inertia + drive_.load.inertia;
   const AffineForm torque = motor_torque(mode) + torque_on_load() -
                             friction_torque(Side::motor, mode.motor) -
@@ -191,9 +193,9 @@ AffineForm DriveForms::engaged_acceleration(const DriveMode& mode) const {
 }
 
 AffineForm DriveForms::acceleration(const DriveMode& mode, Side side) const {
+  if (stands(mode, side)) return constant(0.0);
   if (is_engaged(mode)) return engaged_acceleration(mode);
   const FrictionState state = side == Side::motor ? mode.motor : mode.load;
-  if (state == FrictionState::sticking) return constant(0.0);
   return 1.0 / shaft(side).inertia * (applied_torque(mode, side) - friction_torque(side, state));
 }
 
@@ -206,9 +208,10 @@ hybrid::AffineFlow DriveForms::flow(const DriveMode& mode) const {
   const auto generate = [&](const Generator& generator, Eigen::Index at) {
     flow.matrix.block(at, at, generator.size(), generator.size()) = generator.flow;
   };
-  set(motor_position, number(motor_speed));
+  // A speed that is 0 but for rounding would move a shaft that stands for hours.
+  if (!stands(mode, Side::motor)) set(motor_position, number(motor_speed));
   set(motor_speed, acceleration(mode, Side::motor));
-  set(load_position, number(load_speed));
+  if (!stands(mode, Side::load)) set(load_position, number(load_speed));
   set(load_speed, acceleration(mode, Side::load));
   if (at_.winding != StateIndices::none && mode.current == TorqueState::linear) {
     set(at_.winding,

@@ -27,9 +27,10 @@ class DriveForms {
   const DriveModes& modes() const { return modes_; }
 
   bool is_rigid() const { return is_rigid_; }
-  /// For engaged rigid faces.
+  /// For rigid faces.
   bool is_engaged(const DriveMode& mode) const;
-  bool sticks_as_one(const DriveMode& mode) const;
+  /// Whether friction holds the shaft, or the one with which its rigid faces are engaged.
+  bool stands(const DriveMode& mode, Side side) const;
   const CompliantContact& compliant() const { return std::get<CompliantContact>(drive_.contact); }
   const Shaft& shaft(Side side) const { return side == Side::motor ? drive_.motor : drive_.load; }
   double both_breakaway() const;

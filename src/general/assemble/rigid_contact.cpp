@@ -148,7 +148,7 @@ void add_impacts(const DriveForms& forms, const DriveMode& mode, hybrid::AffineM
 }
 
 void add_engaged(const DriveForms& forms, const DriveMode& mode, hybrid::AffineMode& built) {
-  if (forms.sticks_as_one(mode)) {
+  if (forms.stands(mode, Side::motor)) {
     add_engaged_breakaway(forms, mode, built);
     return;
   }
