@@ -149,7 +149,7 @@ TEST(LimitCycleCommand, RefusesATimeLimitThatIsNone) {
 TEST(LimitCycleCommand, KeepsItsMemoryLimit) {
   if (!test::may_limit_memory) GTEST_SKIP() << "sanitizers reserve more addresses than permitted";
   const std::string search =
-      "ulimit -v 150000; \"$GEARLASH\" limit-cycle "
+      "ulimit -v 130000; \"$GEARLASH\" limit-cycle "
       "tests/regression/data/twelfth-order-lag.toml --brief";
   EXPECT_EQ(run_shell(search).status, 3);
   const Outcome limited = run_shell(search + " --memory-limit '100 MB'");
