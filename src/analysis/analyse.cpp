@@ -143,19 +143,20 @@ std::optional<double> encoder_steps(const drive::ReducedDrive& drive, double loa
 }
 
 IrregularMotion irregular_of(const drive::IrregularFound& found) {
-  // A motion of which too few swings were seen has no mean period.
-  const auto known = [](double value) {
+  // A motion of which too few swings were seen has no mean period, and perhaps an infinite
+  // mismatch.
+  const auto finite = [](double value) {
     return std::isfinite(value) ? std::optional(value) : std::nullopt;
   };
   return {.amplitude = found.amplitude,
           .motor_amplitude = found.motor_amplitude,
           .center = found.center,
           .is_motor_alone = found.is_motor_alone,
-          .mean_amplitude = known(found.half_swing),
-          .amplitude_deviation = known(found.half_swing_deviation),
-          .mean_period = known(found.period),
-          .period_deviation = known(found.period_deviation),
-          .mismatch = known(found.mismatch),
+          .mean_amplitude = finite(found.half_swing),
+          .amplitude_deviation = finite(found.half_swing_deviation),
+          .mean_period = finite(found.period),
+          .period_deviation = finite(found.period_deviation),
+          .mismatch = finite(found.mismatch),
           .exponent = found.exponent,
           .watched = found.watched,
           .starts = found.starts};

@@ -13,8 +13,6 @@
 #include "gearlash/input.hpp"
 #include "gearlash/parameter.hpp"
 #include "general/attractors/attractors.hpp"
-#include "general/attractors/cycle_closing.hpp"
-#include "general/attractors/search_setting.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash {
@@ -169,31 +167,12 @@ TEST(DecidedDrive, RestsAtRounding) {
   EXPECT_TRUE(answer.irregular.empty());
 }
 
-/// Such an orbit recurs after any time, and was divided into shorter ones without end.
+/// An orbit at rest recurs after any time, and was divided into shorter ones without end.
 TEST(DecidedDrive, HasNoCycleOfRounding) {
-  using namespace drive;
-  const SearchSetting unscaled =
-      search_setting(reduce(read_drive(data / "continuous/rests-at-rounding.toml")));
-  const std::vector<ShaftStates> starts = usual_starts(unscaled);
-  const hybrid::Trajectory glance =
-      simulate(unscaled.system, unscaled.start(starts[starts.size() / 2]),
-               {.until = 5.0 * unscaled.swing_time, .event_limit = 5000});
-  const SearchSetting setting = scaled(unscaled, glance);
-  const AttractorOptions options;
-  const CycleClosing closing(setting, options);
-  hybrid::State here = setting.start(starts[4]);
-  double time = 0.0;
-  double length = 10.0 * setting.swing_time;
-  for (int stretch = 0; stretch < 12; ++stretch) {  // the last ones at rest, but for rounding
-    const hybrid::Trajectory motion = simulate(
-        setting.system, here, {.from = time, .until = time + length, .event_limit = 10'000});
-    for (const double nearness : {1e-6, 1e-3}) {
-      EXPECT_FALSE(closing.closed_cycle(motion, nearness)) << time;
-    }
-    here = motion.end();
-    length = 2.0 * (motion.end_time() - time);
-    time = motion.end_time();
-  }
+  const Answer answer = answer_of("continuous/recurs-at-rounding.toml");
+  EXPECT_EQ(answer.verdict, Verdict::runs_away_if_disturbed);
+  EXPECT_EQ(answer.search->count("cycle"), 0U);
+  EXPECT_EQ(undecided(answer), 0U);
 }
 
 /// It stands for minutes before its integral action breaks it away.

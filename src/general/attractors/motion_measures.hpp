@@ -28,7 +28,7 @@ struct Sample {
 /// The value at start, end, events and every turn between them. None is missed.
 std::vector<Sample> samples(const hybrid::Trajectory& motion, const Watched& watched);
 
-/// The same, several times faster. A change of the speed's sign from one step of the series to the
+/// The same, faster. A change of the speed's sign from one step of the series to the
 /// next reveals a turn, so that two turns within one step are missed.
 std::vector<Sample> rough_samples(const hybrid::Trajectory& motion, const Watched& watched);
 

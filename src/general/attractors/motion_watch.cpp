@@ -138,10 +138,6 @@ void move_on(Watch& watch, const Stretch& stretch) {
   watch.here = stretch.end;
 }
 
-}  // namespace
-
-namespace {
-
 /// Time between any two successive samples of one of both shafts, each counted up to `longest`.
 double busy_time(const std::vector<Sample>& load, const std::vector<Sample>& motor,
                  double longest) {
