@@ -61,6 +61,12 @@ ComplexMatrix refined(const Matrix& matrix, const ComplexMatrix& vectors, const 
   return result;
 }
 
+/// Without what rounding alone keeps from 0. A flow in which a number acts on another so little,
+/// and that one on it, has no weights in which both count alike.
+Matrix without_rounding(const Matrix& matrix) {
+  return (matrix.cwiseAbs().array() <= left_out * matrix.norm()).select(0.0, matrix);
+}
+
 /// Eigenvalues and eigenvectors, the largest first.
 Eigensystem sorted(const Matrix& matrix) {
   const Eigensystem system = eigensystem(matrix);
@@ -170,7 +176,7 @@ std::vector<FastDecays> fast_decays(const AffineFlow& flow) {
     const Matrix sizes = v.cwiseAbs() * shares.cwiseAbs();
     constexpr double parallel = 100.0;  // nearly parallel eigenvectors have shares that cancel
     spread += sizes.norm() < parallel * part.norm() ? sizes : part.cwiseAbs();
-    projector += part;
+    projector += without_rounding(part);
     auto fast = without(balanced, projector, spread, std::abs(right.values[count - 1]));
     if (!fast) continue;
     fast->projector = scaled(fast->projector, inverse);

@@ -167,6 +167,17 @@ TEST(DecidedDrive, RestsAtRounding) {
   EXPECT_TRUE(answer.irregular.empty());
 }
 
+/// Rounding in the projector on its fast decays let every number act on every other by 1e-46. Their
+/// common scale then hid the impact of the faces, and the motor swung 8 rad through the load.
+TEST(DecidedDrive, MeetsItsFacesOnceItsFilterIsOver) {
+  const Answer answer =
+      analyse(read_drive(data / "continuous/bounces-behind-a-filter.toml"), {.ceiling = true});
+  EXPECT_EQ(answer.verdict, Verdict::hunts);
+  ASSERT_NE(answer.largest_stable(), nullptr);
+  EXPECT_LT(answer.largest_stable()->amplitude, *answer.ceiling->load);
+  EXPECT_LT(answer.largest_stable()->motor_amplitude, *answer.ceiling->motor);
+}
+
 /// An orbit at rest recurs after any time, and was divided into shorter ones without end.
 TEST(DecidedDrive, HasNoCycleOfRounding) {
   const Answer answer = answer_of("continuous/recurs-at-rounding.toml");
