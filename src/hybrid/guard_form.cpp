@@ -64,15 +64,11 @@ GuardTable::GuardTable(const LinearFlow& flow, const SparseForm& form)
   rows_.assign(count_ * room_, 0.0);
   sizes_.assign(count_ * room_, 0.0);
   few_ = std::min(orders_, most_leading - 1);
-  reach_.assign(count_, 0.0);
-  beyond_.assign(count_, 0.0);
   std::vector<double> row(count_, 0.0);
   std::vector<double> next(count_);
   for (const auto& [number, factor] : form.terms) {
     for (int i = 0; i < flow.count(); ++i) {
-      if (flow.number(i) != number) continue;
-      row[static_cast<std::size_t>(i)] = factor * length_;
-      weight_ += std::abs(factor) * flow.weight(i);
+      if (flow.number(i) == number) row[static_cast<std::size_t>(i)] = factor * length_;
     }
   }
   const auto fill = [&](std::vector<double> first, bool sizes, std::vector<double>& table) {
@@ -81,43 +77,77 @@ GuardTable::GuardTable(const LinearFlow& flow, const SparseForm& form)
       flow.times_transposed(first.data(), length_ / static_cast<double>(k + 2), sizes, next.data());
       std::swap(first, next);
     }
+    return first;
   };
   fill(row, false, rows_);
   for (double& entry : row) entry = std::abs(entry);
-  fill(row, true, sizes_);
+  add_up(flow, fill(row, true, sizes_));
+}
+
+/// `sizes` are those of the first order that the table does not have.
+void GuardTable::add_up(const LinearFlow& flow, const std::vector<double>& sizes) {
+  beyond_ = left_out_by(flow, sizes);
+  beyond_.insert(beyond_.begin(), orders_ * count_, 0.0);
+  for (std::size_t k = orders_; k-- > 0;) {
+    for (std::size_t j = 0; j < count_; ++j) {
+      beyond_[k * count_ + j] = beyond_[(k + 1) * count_ + j] + sizes_[j * room_ + k];
+    }
+  }
   for (std::size_t j = 0; j < count_; ++j) {
-    for (std::size_t k = orders_; k-- > 0;) {
-      if (k + 1 == few_) beyond_[j] = reach_[j];
-      reach_[j] += sizes_[j * room_ + k];
-    }
-    if (reach_[j] != 0.0) acting_.push_back(j);
+    if (beyond_[j] != 0.0) acting_.push_back(j);
   }
 }
 
-double GuardTable::sizes_from(const Velocity& velocity, double share, std::size_t first) const {
-  double sum = 0.0;
-  for (std::size_t order = orders_; order >= first; --order) {
-    for (const std::size_t j : acting_) {
-      sum += sizes_[j * room_ + order - 1] * velocity.sizes[j];
-    }
-    sum *= share;
+/// Σ of sizes of all orders that the table does not have, by velocities. They are added up until
+/// the rest, of which the weights give a bound, is negligible beside what the table has.
+std::vector<double> GuardTable::left_out_by(const LinearFlow& flow,
+                                            std::vector<double> sizes) const {
+  std::vector<double> sum(count_, 0.0);
+  if (is_polynomial_) return sum;
+  std::vector<double> in_table(count_, 0.0);
+  for (std::size_t j = 0; j < count_; ++j) {
+    for (std::size_t k = 0; k < orders_; ++k) in_table[j] += sizes_[j * room_ + k];
   }
-  return sum * power_of(share, static_cast<int>(first) - 1);
+  std::vector<double> next(count_);
+  for (std::size_t order = orders_ + 1;; ++order) {
+    // Weighted sums fall by longest_in_rates/order, at least by half, from order to order.
+    double rest = 0.0;
+    for (std::size_t j = 0; j < count_; ++j) {
+      rest += 2.0 * sizes[j] * flow.weight(static_cast<int>(j));
+    }
+    bool is_negligible = true;
+    for (std::size_t j = 0; j < count_; ++j) {
+      const double known = (in_table[j] + sum[j]) * flow.weight(static_cast<int>(j));
+      // A chain of numbers that is longer than the orders may yet act.
+      const bool may_act = known > 0.0 || order < count_;
+      if (may_act && rest > left_out * known) is_negligible = false;
+    }
+    for (std::size_t j = 0; j < count_; ++j) {
+      if (!is_negligible) {
+        sum[j] += sizes[j];
+      } else if (in_table[j] + sum[j] > 0.0) {
+        sum[j] += rest / flow.weight(static_cast<int>(j));
+      }
+    }
+    if (is_negligible) return sum;
+    flow.times_transposed(sizes.data(), length_ / static_cast<double>(order + 1), true,
+                          next.data());
+    std::swap(sizes, next);
+  }
 }
 
-double GuardTable::reach(const Velocity& velocity, double share) const {
-  if (is_polynomial_) return sizes_from(velocity, share, 1);
+double GuardTable::beyond(const Velocity& velocity, double share, int order) const {
   double sum = 0.0;
-  for (const std::size_t j : acting_) sum += reach_[j] * velocity.sizes[j];
-  return share * sum;
-}
-
-double GuardTable::beyond_few(const Velocity& velocity, double share) const {
-  if (few_ == orders_) return 0.0;
-  if (is_polynomial_) return sizes_from(velocity, share, few_ + 1);
-  double sum = 0.0;
-  for (const std::size_t j : acting_) sum += beyond_[j] * velocity.sizes[j];
-  return sum * power_of(share, few_orders() + 1);
+  if (is_polynomial_) {  // a share has no meaning by itself and may be above 1
+    for (std::size_t k = orders_; k > static_cast<std::size_t>(order); --k) {
+      for (const std::size_t j : acting_) sum += sizes_[j * room_ + k - 1] * velocity.sizes[j];
+      sum *= share;
+    }
+    return sum * power_of(share, order);
+  }
+  const double* const sizes = beyond_.data() + static_cast<std::size_t>(order) * count_;
+  for (const std::size_t j : acting_) sum += sizes[j] * velocity.sizes[j];
+  return sum * power_of(share, order + 1);
 }
 
 double GuardTable::uncertainty_of(const Velocity& velocity, double share, int order) const {
@@ -157,7 +187,7 @@ double GuardTable::bound_of_uncertainty(const Velocity& velocity, double share, 
   const double rounding = rounding_of(orders_);
   double sum = 0.0;
   for (const std::size_t j : acting_) {
-    sum += reach_[j] * (velocity.noise[j] + rounding * std::abs(velocity.values[j]));
+    sum += beyond_[j] * (velocity.noise[j] + rounding * std::abs(velocity.values[j]));
   }
   return power_of(share, first) * sum;
 }

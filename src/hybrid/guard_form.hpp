@@ -32,30 +32,30 @@ class GuardTable {
  public:
   GuardTable(const LinearFlow& flow, const SparseForm& form);
 
+  /// An upper bound of all coefficients beyond an order, also of those that no table has. Each
+  /// velocity counts by what it does to this form, not by the weights of the flow, which may be any
+  /// distance apart where numbers hardly act on each other.
+  double beyond(const Velocity& velocity, double share, int order) const;
   /// Largest possible distance of g from g₀, rounding included.
-  double reach(const Velocity& velocity, double share) const;
+  double reach(const Velocity& velocity, double share) const { return beyond(velocity, share, 0); }
   /// Bound of the rounding in all coefficients from order `first` ≥ 1 to `last`.
   double uncertainty(const Velocity& velocity, double share, int first, int last) const;
   /// A cheap upper bound of that to the highest order. It is far too high if the share is small and
   /// high orders are uncertain.
   double bound_of_uncertainty(const Velocity& velocity, double share, int first) const;
-  /// An upper bound of all coefficients beyond the first few orders, `few_orders`.
-  double beyond_few(const Velocity& velocity, double share) const;
-  int few_orders() const { return static_cast<int>(few_); }
+  int few_orders() const { return static_cast<int>(few_); }  ///< as many as a rough answer uses
   /// Bound of the rounding in the coefficient of an order.
   double uncertainty_of(const Velocity& velocity, double share, int order) const;
   /// Writes orders 1 to `last` to coefficients[1], …, which must have room for three more.
   void coefficients(const Velocity& velocity, double share, int last, double* coefficients) const;
   /// The zero of g₀ + … of order 4 near the start, by Newton's method, as a time.
   double time_to_zero(double value, const Velocity& velocity) const;
-  /// |c|·weights: for a remainder.
-  double weight() const { return weight_; }
 
  private:
-  std::size_t count_;
-  /// Σ s^k sizesₖ·v over orders: for a polynomial motion, whose share has no meaning by itself.
-  double sizes_from(const Velocity& velocity, double share, std::size_t first) const;
+  void add_up(const LinearFlow& flow, const std::vector<double>& sizes);
+  std::vector<double> left_out_by(const LinearFlow& flow, std::vector<double> sizes) const;
 
+  std::size_t count_;
   bool is_polynomial_;
   double length_;  ///< of the longest step
   std::size_t orders_;
@@ -63,10 +63,8 @@ class GuardTable {
   std::vector<double> rows_;   ///< by velocities, then by orders
   std::vector<double> sizes_;  ///< likewise
   std::size_t few_;
-  std::vector<double> reach_;        ///< Σ of sizes, by velocities
-  std::vector<double> beyond_;       ///< likewise, beyond the first few orders
+  std::vector<double> beyond_;       ///< Σ of sizes beyond an order: by orders, then by velocities
   std::vector<std::size_t> acting_;  ///< the velocities that are in it
-  double weight_ = 0.0;
 };
 
 }  // namespace gearlash::hybrid

@@ -59,8 +59,7 @@ inline GuardWatch::StepExit GuardWatch::exit_of(const StepSeries& step, std::siz
   double& sign = signs_[guard];
   const double value = form.at(step.state.numbers.data());
   const double unknown = form.noise_at(step.state.numbers.data(), step.noise.data());
-  const double farthest =
-      table.reach(step.velocity, step.table_share) + unknown + table.weight() * step.remainder;
+  const double farthest = table.reach(step.velocity, step.table_share) + unknown;
   if (sign * value > farthest) return {};
   if (sign == 0.0 && std::abs(value) > farthest) {  // its side is the one that it is on first
     sign = std::copysign(1.0, value);
@@ -97,13 +96,13 @@ std::optional<GuardWatch::StepExit> GuardWatch::exit_by(const StepSeries& step,
   const int from = std::max(first, 1);
   const double uncertainty = (is_whole ? table.uncertainty(step.velocity, share, from, step.order)
                                        : table.bound_of_uncertainty(step.velocity, share, from)) +
-                             table.weight() * step.remainder + (first == 0 ? unknown : 0.0);
+                             table.beyond(step.velocity, share, last) +
+                             (first == 0 ? unknown : 0.0);
   if (is_whole) {
     touch_within_ = (1.0 + negligible_share) * uncertainty;
     return StepExit{first_exit(series, uncertainty)};
   }
-  const double rest = uncertainty + table.beyond_few(step.velocity, share);
-  const auto rough = rough_exit(series, rest, step.order);
+  const auto rough = rough_exit(series, uncertainty, step.order);
   if (!rough) return std::nullopt;
   // The time after which a motion that begins on the guard returns to it is known better from all
   // terms than from the state there.

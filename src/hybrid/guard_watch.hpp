@@ -21,7 +21,6 @@ struct StepSeries {
   double time;               ///< of the start
   double length;
   double table_share;  ///< of the step in that of the tables
-  double remainder;    ///< of the series
   int order;
 };
 

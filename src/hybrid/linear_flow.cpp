@@ -188,15 +188,6 @@ void LinearFlow::weigh() {
   longest_step_ = longest_in_rates / rate_;
 }
 
-double LinearFlow::remainder(const Velocity& velocity, double length) const {
-  if (polynomial_order_ > 0) return 0.0;
-  double largest = 0.0;
-  for (std::size_t i = 0; i < weights_.size(); ++i) {
-    largest = std::max(largest, velocity.sizes[i] / weights_[i]);
-  }
-  return left_out * length * largest;
-}
-
 // ---- motion -------------------------------------------------------------------------------------
 
 void LinearFlow::velocity_at(const double* state, const double* noise, Velocity& velocity) const {

@@ -16,6 +16,8 @@ inline constexpr double sum_rounding = 16.0 * std::numeric_limits<double>::epsil
 
 /// The order at which a series with this rate (length times rate) is truncated:
 ///   Σ_{j>k} |x₍ⱼ₎| ≤ |x₍₁₎| rates^k/(k + 1)! / (1 − rates/(k + 2)) ≤ left_out |x₍₁₎|.
+/// Magnitudes are weighted. What one velocity does to one number is left out by no larger share,
+/// however far apart the weights of the two are: around a loop of numbers they cancel.
 /// Precondition: rates ≤ longest_in_rates.
 int order_for(double rates);
 inline constexpr double left_out = 0x1p-62;
@@ -48,9 +50,6 @@ class LinearFlow {
   int order(double length) const {
     return polynomial_order_ > 0 ? polynomial_order_ : order_for(length * rate_);
   }
-  /// If |x₍₁₎| ≤ `length` · weighted_norm(velocity), this times the weights bounds what is left
-  /// out.
-  double remainder(const Velocity& velocity, double length) const;
   double weight(int moving) const { return weights_[static_cast<std::size_t>(moving)]; }
 
   void velocity_at(const double* state, const double* noise, Velocity& velocity) const;

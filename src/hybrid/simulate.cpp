@@ -197,7 +197,6 @@ class Simulation {
             .time = now_.time,
             .length = length,
             .table_share = flow.polynomial_order() > 0 ? length : length / flow.longest_step(),
-            .remainder = flow.remainder(now_.velocity, length),
             .order = flow.count() == 0 ? 0 : flow.order(length)};
   }
 

@@ -232,6 +232,37 @@ TEST(EdgeSimulate, AFastDecayToZeroIsLeftBehindToo) {
   EXPECT_LT(motion.steps(), 100U);
 }
 
+// ---- numbers that hardly act on each other ------------------------------------------------------
+
+/// A ball falls onto a plate that trembles, z = (1 − cos ω t)/ω:
+///   z′ = ω (w + t), w′ = −ω z, t′ = 1 + 1e-46 z.
+/// z acts on t by so little that the weights of the flow, which balance what the two do to each
+/// other, are 1e24 apart.
+TEST(OracleSimulate, ABallMeetsAPlateWhateverHardlyActsOnIt) {
+  constexpr double rate = 1000.0;
+  constexpr double coupling = 1e-46;
+  Matrix flow = Matrix::Zero(5, 5);
+  flow(0, 1) = 1.0;
+  flow(2, 3) = flow(2, 4) = rate;
+  flow(3, 2) = -rate;
+  flow(4, 2) = coupling;
+  const HybridSystem system{
+      .state_names = {"height", "speed", "plate", "turned plate", "time"},
+      .modes = {{.name = "flies",
+                 .flow = {flow, vector_of({0.0, -gravity, 0.0, 0.0, 1.0})},
+                 .transitions = {{.name = "meets the plate",
+                                  .guard = {vector_of({1.0, 0.0, -1.0, 0.0, 0.0}), 0.0},
+                                  .target = 1}}},
+                {.name = "rests", .flow = {Matrix::Zero(5, 5), Vector::Zero(5)}}}};
+  const Trajectory motion =
+      simulate(system, {0, vector_of({1.0, 0.0, 0.0, 0.0, 0.0})}, {.until = 1.0});
+  EXPECT_TRUE(motion.touches().empty());
+  ASSERT_EQ(motion.events().size(), 1U);
+  const double time = motion.events()[0].time;
+  const double height = 1.0 - 0.5 * gravity * time * time;
+  EXPECT_NEAR(height, (1.0 - std::cos(rate * time)) / rate, 1e-13);
+}
+
 // ---- units --------------------------------------------------------------------------------------
 
 /// The ball with time in units of so many seconds.

@@ -178,6 +178,14 @@ TEST(DecidedDrive, MeetsItsFacesOnceItsFilterIsOver) {
   EXPECT_LT(answer.largest_stable()->motor_amplitude, *answer.ceiling->motor);
 }
 
+/// It moves irregularly for a minute before it joins a cycle that lies where it moves.
+TEST(DecidedDrive, JoinsItsCycleLate) {
+  const Answer answer = answer_of("continuous/joins-its-cycle-late.toml");
+  EXPECT_EQ(answer.verdict, Verdict::hunts);
+  EXPECT_TRUE(answer.irregular.empty());
+  EXPECT_EQ(answer.search->count("cycle"), answer.search->starts.size());
+}
+
 /// An orbit at rest recurs after any time, and was divided into shorter ones without end.
 TEST(DecidedDrive, HasNoCycleOfRounding) {
   const Answer answer = answer_of("continuous/recurs-at-rounding.toml");

@@ -50,7 +50,10 @@ class Search {
       record(start, verdicts_.back());
       ++done_;
     }
-    if (result_.is_complete && !setting_.drive.sampling) seek_edges();
+    if (result_.is_complete && !setting_.drive.sampling) {
+      watch_transients();
+      seek_edges();
+    }
     if (result_.is_complete && options_.starts.empty()) {
       result_.thresholds = thresholds_of(
           setting_, result_.outcomes, budget_.bisections_of_steps, [&](const ShaftStates& start) {
@@ -106,6 +109,42 @@ class Search {
     ++rest.starts;
     if (verdict.is_creeping) ++rest.creeping_starts;
     rest.swing_ratio = std::fmax(rest.swing_ratio, verdict.swing_ratio);  // fmax ignores NaN
+  }
+
+  /// Irregular motion may be a long way to a cycle that lies where it moves (transient chaos). One
+  /// start that led to it is watched for longer, and the next if that one comes to its end.
+  void watch_transients() {
+    std::vector<IrregularFound> lasting;
+    bool is_any_over = false;
+    for (std::size_t i = 0; i < verdicts_.size(); ++i) {
+      Verdict& verdict = verdicts_[i];
+      if (verdict.end != MotionEnd::irregular) continue;
+      const IrregularFound& motion = verdict.irregular;
+      const bool may_end = std::any_of(
+          result_.cycles.begin(), result_.cycles.end(),
+          [&](const FoundCycle& cycle) { return may_join(motion, cycle, tolerances_.irregular); });
+      if (!may_end || place_among(lasting, motion, tolerances_.irregular) < lasting.size()) {
+        continue;
+      }
+      if (!goes_on()) break;
+      Verdict later = classifier_.end_of(setting_.start(starts_[i]), budget_.patience,
+                                         budget_.longer_if_transient);
+      if (later.is_attracted()) {
+        verdict = std::move(later);
+        is_any_over = true;
+      } else {
+        lasting.push_back(motion);
+      }
+    }
+    if (is_any_over) record_anew();
+  }
+
+  void record_anew() {
+    result_.rest.reset();
+    result_.irregular.clear();
+    result_.outcomes.clear();
+    for (FoundCycle& cycle : result_.cycles) cycle.starts = 0;
+    for (std::size_t i = 0; i < verdicts_.size(); ++i) record(starts_[i], verdicts_[i]);
   }
 
   /// Sorts the cycles: stable ones first, by falling amplitude. Removes the scale from their

@@ -196,6 +196,15 @@ std::size_t place_among(const std::vector<IrregularFound>& known, const Irregula
   return static_cast<std::size_t>(same - known.begin());
 }
 
+bool may_join(const IrregularFound& motion, const FoundCycle& cycle,
+              const IrregularTolerances& tolerances) {
+  const double above = 1.0 + tolerances.same_ranges;
+  const double swing = motion.is_motor_alone ? cycle.motor_amplitude : cycle.amplitude;
+  return cycle.stability == Stability::stable && cycle.amplitude <= above * motion.amplitude &&
+         cycle.motor_amplitude <= above * motion.motor_amplitude &&
+         motion.half_swing <= above * swing;
+}
+
 namespace {
 
 /// Whether the motion swings as the cycle does. The cycle may have several upward passings.

@@ -40,6 +40,11 @@ bool is_same(const SteadyMotion& one, const SteadyMotion& other, const SearchSet
 std::size_t place_among(const std::vector<IrregularFound>& known, const IrregularFound& found,
                         const IrregularTolerances& tolerances);
 
+/// Whether a cycle is stable, lies where an irregular motion moves, and is no smaller than its mean
+/// swings, to IrregularTolerances::same_ranges: the motion may yet join it.
+bool may_join(const IrregularFound& motion, const FoundCycle& cycle,
+              const IrregularTolerances& tolerances);
+
 /// Takes motion that swings as a stable cycle does, to CycleTolerances::agreement, for a transient
 /// towards it: its starts are those of the cycle, and it is not listed besides.
 void take_for_cycles(AttractorSearch& search, const CycleTolerances& tolerances);

@@ -133,6 +133,8 @@ struct SearchBudget {
   double patience = 20.0;
   /// ... or this many between two starts with different outcomes.
   double patience_at_edges = 2.0;
+  /// Irregular motion within which a stable cycle lies is watched this many times as long.
+  double longer_if_transient = 8.0;
   /// Time between events and turns counts up to this many swings. While shafts stand, or slide
   /// steadily, it costs nothing to watch; integral action may end it after an hour.
   double counted_between_events = 1.0;

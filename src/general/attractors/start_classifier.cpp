@@ -19,7 +19,7 @@ std::size_t steps_kept(const SearchSetting& setting, const SearchBudget& budget)
   return budget.bytes_kept / (sizeof(double) * (numbers + 3));
 }
 
-Verdict StartClassifier::end_of(const State& start, double patience) {
+Verdict StartClassifier::end_of(const State& start, double patience, double longer) {
   Watch watch{.here = start, .starts_at_rest = setting_.load.speed.at(start.numbers) == 0.0};
   const double no_move = tolerances_.rest.no_move * setting_.small_length;
   bool is_costly = setting_.drive.sampling || is_driven(setting_.drive);
@@ -32,7 +32,7 @@ Verdict StartClassifier::end_of(const State& start, double patience) {
     Verdict verdict;
     verdict.watched = watch.time;
     if (is_decided(watch, stretch, verdict)) return verdict;
-    if (is_steady(watch, stretch, before, verdict)) return verdict;
+    if (longer == 1.0 && is_steady(watch, stretch, before, verdict)) return verdict;
     if (!goes_on_()) {
       verdict.reason = "the search was stopped";
       return verdict;
@@ -42,7 +42,7 @@ Verdict StartClassifier::end_of(const State& start, double patience) {
     const double counted = is_costly
                                ? watch.time - (1.0 - budget_.counted_if_costly) * duration_of(stood)
                                : watch.busy;
-    const double most = longest(watch, stretch, patience);
+    const double most = longer * longest(watch, stretch, patience);
     const bool is_over = watch.events >= most_events() || counted >= most;
     const bool is_long = is_over || (is_costly && watch.time >= most);
     if (creeps(stood, watch, is_long, verdict)) return verdict;

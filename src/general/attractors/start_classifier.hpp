@@ -48,8 +48,9 @@ class StartClassifier {
 
   /// Watches until the motion comes to rest, runs away, joins a motion that is known, repeats its
   /// statistics, or Newton's method closes a cycle that it is on. A motion in which hardly anything
-  /// happens is watched `patience` times as long, and time without events hardly counts.
-  Verdict end_of(const hybrid::State& start, double patience);
+  /// happens is watched `patience` times as long, and time without events hardly counts. Any motion
+  /// is watched `longer` times as long; above 1, statistics that repeat are not its end.
+  Verdict end_of(const hybrid::State& start, double patience, double longer = 1.0);
 
  private:
   /// What a start led to.
