@@ -331,7 +331,10 @@ Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive
   return answer;
 }
 
-Analysis analyse_in_full(const Drive& drive, const Wanted& wanted, Progress& progress) {
+namespace {
+
+Analysis analysed(const Drive& drive, const Analysis* near, const Wanted& wanted,
+                  Progress& progress) {
   require_none(faults(drive));
   Analysis analysis;
   analysis.reduced = reduce_settled(drive);
@@ -354,14 +357,31 @@ Analysis analyse_in_full(const Drive& drive, const Wanted& wanted, Progress& pro
     analysis.search = drive::AttractorSearch{};
     analysis.answer = answer_by_energy(analysis.reduced);
   } else {
-    analysis.search = drive::find_attractors(
-        analysis.reduced, {.budget = {.bytes_kept = wanted.motion_bytes}}, progress);
+    if (near != nullptr && near->search) {
+      analysis.search = drive::follow_attractors(analysis.reduced, *near->search, progress);
+      analysis.is_followed = analysis.search.has_value();
+    }
+    if (!analysis.search) {
+      analysis.search = drive::find_attractors(
+          analysis.reduced, {.budget = {.bytes_kept = wanted.motion_bytes}}, progress);
+    }
     analysis.answer = answer_of(*analysis.search, analysis.reduced);
   }
   analysis.answer.ceiling = std::move(ceiling);
   std::vector<Note> notes = notes_on(drive);
   analysis.answer.notes.insert(analysis.answer.notes.begin(), notes.begin(), notes.end());
   return analysis;
+}
+
+}  // namespace
+
+Analysis analyse_in_full(const Drive& drive, const Wanted& wanted, Progress& progress) {
+  return analysed(drive, nullptr, wanted, progress);
+}
+
+Analysis analyse_near(const Drive& drive, const Analysis& near, const Wanted& wanted,
+                      Progress& progress) {
+  return analysed(drive, &near, wanted, progress);
 }
 
 Answer analyse(const Drive& drive, const Wanted& wanted, Progress& progress) {

@@ -17,12 +17,18 @@ struct Analysis {
   std::optional<ClosedFormServo> servo{};  ///< closed form only
   std::optional<LimitCycleAnalysis> closed{};
   std::optional<drive::AttractorSearch> search{};
+  bool is_followed = false;  ///< the search followed that of a neighbouring drive
 };
 
 /// Answers for a drive. Only the final value, ramp or sine of a reference or load torque matters.
 /// Throws InvalidInput for an unsound drive.
 Analysis analyse_in_full(const Drive& drive, const Wanted& wanted = {},
                          Progress& progress = no_progress());
+
+/// The same for a drive that differs slightly from one that was analysed: by follow_attractors(),
+/// else by a search. Other drives are analysed afresh.
+Analysis analyse_near(const Drive& drive, const Analysis& near, const Wanted& wanted = {},
+                      Progress& progress = no_progress());
 
 /// The answer for a servo in the normal form, in SI. `stiffness`: K, N m/rad; without it there are
 /// no energies. Proved bounds are left out, because they need the error of the data.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "general/attractors/cycle_closing.hpp"
@@ -44,6 +45,7 @@ class Search {
   }
 
   AttractorSearch run() {
+    for (const FoundCycle& cycle : options_.nearby) close_near(cycle);
     for (const ShaftStates& start : starts_) {
       if (!goes_on()) break;
       verdicts_.push_back(classifier_.end_of(setting_.start(start), budget_.patience));
@@ -84,6 +86,14 @@ class Search {
                     {.until = budget_.glance_swings * unscaled_.swing_time,
                      .event_limit = budget_.glance_events,
                      .step_limit = steps_kept(unscaled_, budget_)});
+  }
+
+  void close_near(const FoundCycle& cycle) {
+    hybrid::ShootingOptions shooting = options_.shooting;
+    const auto orbit = neighbouring_orbit(
+        setting_.system, unscaled(cycle.orbit, setting_.frame.scale.cwiseInverse()), shooting);
+    if (!orbit || !(orbit->residual < tolerances_.cycle.residual)) return;
+    result_.cycles.push_back(measured(setting_, *orbit, tolerances_));
   }
 
   // ---- the record -------------------------------------------------------------------------------
@@ -260,6 +270,50 @@ std::size_t AttractorSearch::count(MotionEnd end) const {
 AttractorSearch find_attractors(const ReducedDrive& drive, const AttractorOptions& options,
                                 Progress& progress) {
   return Search(drive, options, progress).run();
+}
+
+namespace {
+
+/// The first and the last of the outcomes that are alike.
+std::vector<Outcome> representatives(const std::vector<Outcome>& all) {
+  std::map<std::pair<MotionEnd, std::size_t>, std::pair<std::size_t, std::size_t>> places;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto [place, is_new] = places.try_emplace({all[i].end, all[i].which}, i, i);
+    place->second.second = i;
+  }
+  std::vector<Outcome> some;
+  for (const auto& [end, ends] : places) {
+    some.push_back(all[ends.first]);
+    if (ends.second != ends.first) some.push_back(all[ends.second]);
+  }
+  return some;
+}
+
+bool is_alike(const FoundCycle& a, const FoundCycle& b) {
+  return a.stability == b.stability && a.orbit.events.size() == b.orbit.events.size() &&
+         a.is_symmetric == b.is_symmetric;
+}
+
+}  // namespace
+
+std::optional<AttractorSearch> follow_attractors(const ReducedDrive& drive,
+                                                 const AttractorSearch& known, Progress& progress) {
+  if (!known.is_complete || known.outcomes.empty() || known.count(MotionEnd::undecided) > 0)
+    return std::nullopt;
+  const std::vector<Outcome> wanted = representatives(known.outcomes);
+  AttractorOptions options{.nearby = known.cycles, .most_edges = 0};
+  for (const Outcome& outcome : wanted) options.starts.push_back(outcome.start);
+  AttractorSearch found = find_attractors(drive, options, progress);
+  if (!found.is_complete || found.cycles.size() != known.cycles.size()) return std::nullopt;
+  for (std::size_t i = 0; i < found.cycles.size(); ++i) {
+    if (!is_alike(found.cycles[i], known.cycles[i])) return std::nullopt;
+  }
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const Outcome& now = found.outcomes[i];
+    if (now.end != wanted[i].end) return std::nullopt;
+    if (now.end == MotionEnd::cycle && now.which != wanted[i].which) return std::nullopt;
+  }
+  return found;
 }
 
 }  // namespace gearlash::drive

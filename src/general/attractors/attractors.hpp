@@ -139,6 +139,9 @@ struct AttractorOptions {
   /// equivalent to friction, load torque, torque limit and a sine reference, widen that range.)
   /// Absolute positions.
   std::vector<ShaftStates> starts{};
+  /// Cycles of a drive that differs slightly from this one. Those that Newton's method finds again
+  /// near them are known from the beginning.
+  std::vector<FoundCycle> nearby{};
   double swing_times = 200.0;         ///< that a start is watched; and the budget's settling
                                       ///< times, but twice as long at most
   std::size_t most_events = 100'000;  ///< of a start; ten times as many ticks of a clock
@@ -157,5 +160,14 @@ struct AttractorOptions {
 /// Throws InvalidInput, also for a load torque that ends as a ramp.
 AttractorSearch find_attractors(const ReducedDrive& drive, const AttractorOptions& options = {},
                                 Progress& progress = no_progress());
+
+/// What a drive ends in that differs slightly from one that was searched. Newton's method finds
+/// each cycle again, and of the starts only those are watched that led to something first or last.
+/// Empty if one of the cycles is not found again with the same stability, or one of these starts
+/// leads elsewhere: something new may have appeared, and a search must find it. Empty also where
+/// `known` was stopped or has undecided starts. Throws InvalidInput.
+std::optional<AttractorSearch> follow_attractors(const ReducedDrive& drive,
+                                                 const AttractorSearch& known,
+                                                 Progress& progress = no_progress());
 
 }  // namespace gearlash::drive
