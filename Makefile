@@ -13,7 +13,7 @@ BUILD := cmake --build --parallel $(JOBS) --preset
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo tool test bench versions clang sanitize fuzz browser oracle million followed seeded-faults \
+.PHONY: help demo tool test bench versions clang sanitize fuzz browser oracle million followed designed seeded-faults \
         coverage readme format format-check tidy clean package package-check
 
 help:  ## this list
@@ -88,6 +88,9 @@ followed: programs  ## 2,000 random drives: no ceiling and no proof by energy is
 	GEARLASH_DRIVES=2000 $(RELEASE)/tests/test_analysis \
 	  --gtest_filter='PropertyCeiling*:PropertyAbsenceByEnergy*:PropertyGapSpeed*:PropertySafeStarts*'
 	$(RELEASE)/tests/oracle/drives/bound_drives --count 200 --follow
+
+designed: programs  ## 300 random design tasks of drives without a closed form, put back into them
+	GEARLASH_TASKS=300 $(RELEASE)/tests/test_analysis --gtest_filter='PropertySearchedValues*'
 
 seeded-faults: programs  ## put small faults into the code: which does no test notice?
 	tests/seeded_faults/run $(RELEASE)

@@ -34,8 +34,8 @@ TolerancedDrive toleranced() {
 
 Target target_of(bool no_hunting) {
   Target target;
-  target.no_hunting = no_hunting;
-  if (!no_hunting) target.amplitude.high = 0.1;
+  if (no_hunting) return always_at_rest();
+  target.require(Quantity::amplitude, {0.0, 0.1});
   return target;
 }
 

@@ -1,13 +1,11 @@
 // gearlash compare: the same drive with its sensor before and after the gap.
 #include <algorithm>
 #include <memory>
-#include <numbers>
 #include <sstream>
 
 #include "analysis/analyse.hpp"
 #include "base/progress_part.hpp"
 #include "command.hpp"
-#include "general/assemble/time_scale.hpp"
 #include "input/units.hpp"
 #include "machine_faults.hpp"
 #include "output/comparison_report.hpp"
@@ -51,18 +49,9 @@ std::vector<SensorPlace> read_sensors(const std::string& text, Faults& faults) {
   return places;
 }
 
-struct Step {
-  double size = 0.0;
-  double until = 0.0;
-};
-
-/// Ten times the backlash, or a degree without one, and twenty periods of the loop.
-Step read_step(const CompareOptions& options, const WrittenDrive& written, Faults& faults) {
-  constexpr double backlashes = 10.0;
-  constexpr double periods = 20.0;
-  const drive::ReducedDrive reduced = reduce(written.drive);
-  constexpr double degree = std::numbers::pi / 180.0;
-  Step step{reduced.backlash > 0.0 ? backlashes * reduced.backlash : degree, 1.0};
+/// As typed, else usual_step().
+drive::Step read_step(const CompareOptions& options, const WrittenDrive& written, Faults& faults) {
+  drive::Step step = drive::usual_step(reduce(written.drive));
   if (options.step) {
     step.size = faults.collect([&] { return read_angle("--step", *options.step).si; }, step.size);
     if (step.size == 0.0) {
@@ -75,8 +64,6 @@ Step read_step(const CompareOptions& options, const WrittenDrive& written, Fault
     if (!(step.until > 0.0)) {
       faults.add({"--until", shown(*options.until), "must be positive", ""});
     }
-  } else if (faults.none()) {
-    step.until = periods * drive::time_scales(reduced).swing;
   }
   return step;
 }
@@ -88,7 +75,7 @@ Drive with_sensor(Drive drive, SensorPlace place) {
   return drive;
 }
 
-SensorCase compared(const WrittenDrive& written, SensorPlace place, const Step& step,
+SensorCase compared(const WrittenDrive& written, SensorPlace place, const drive::Step& step,
                     const Provenance& provenance, Progress& progress) {
   SensorCase one;
   one.place = place;
@@ -107,7 +94,7 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
   faults.require_distinct({"DRIVE.toml", options.servo.file}, files_of(plots));
   const std::vector<SensorPlace> places = read_sensors(options.sensors, faults);
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
-  const Step step = written ? read_step(options, *written, faults) : Step{};
+  const drive::Step step = written ? read_step(options, *written, faults) : drive::Step{};
   faults.require_none();
 
   ComparisonReport report{.cases = {}, .provenance = provenance};

@@ -1,15 +1,23 @@
 // gearlash design: the changes of a drive that meet a target.
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
 #include "analysis/design/feasible_values.hpp"
+#include "analysis/final_servo.hpp"
+#include "analysis/grid/axis.hpp"
+#include "base/progress_part.hpp"
 #include "command.hpp"
+#include "gearlash/analyse.hpp"
+#include "gearlash/parameter.hpp"
+#include "input/axis_text.hpp"
 #include "input/target_text.hpp"
 #include "machine_faults.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/design_report.hpp"
 #include "output/output_file.hpp"
+#include "output/searched_design_report.hpp"
 #include "picture/region_map.hpp"
 #include "plot_option.hpp"
 #include "servo_options.hpp"
@@ -26,6 +34,9 @@ constexpr char examples[] =
     "      --parameters gearbox.backlash,gearbox.ratio --format json | jq .answers[0].nearest\n"
     "  gearlash design examples/elinco-fd162.toml --target no-hunting \\\n"
     "      --vary load.friction,controller.proportional --plot region=region.svg\n"
+    "  gearlash design examples/pid-with-coulomb-friction.toml --target no-hunting-if-disturbed "
+    "\\\n"
+    "      --parameters controller.proportional,motor.coulomb=0:0.2:21\n"
     "  gearlash design --damping 0.19 --inertia-ratio 2 --friction-ratio 1/10 --backlash 0.3 \\\n"
     "      --target \"amplitude <= 0.1\"\n";
 
@@ -115,6 +126,129 @@ std::vector<FeasibleValues> work_out(const ChangeableDrive& drive, const Target&
   return answers;
 }
 
+ExitStatus run_closed_form(const DesignOptions& options, const Target& target,
+                           const WrittenDrive& written, const std::vector<Plot>& plots,
+                           const Provenance& provenance, Faults& faults) {
+  const ChangeableDrive drive(closed_form_drive(written, options.servo));
+  std::vector<std::string> parameters =
+      read_parameters("--parameters", options.parameters, drive, faults);
+  const Region region = read_region(options, drive, faults);
+  faults.require_none();
+  if (parameters.empty()) parameters = region.axes;
+  if (parameters.empty()) parameters = drive.usual_names();
+  const DesignReport report{.drive = drive,
+                            .target_text = options.target,
+                            .target = target,
+                            .answers = work_out(drive, target, parameters),
+                            .angle = written.angle,
+                            .is_normalized = is_normalized(written.drive),
+                            .provenance = provenance};
+  const RegionMapTask map{.drive = drive,
+                          .target = target,
+                          .target_text = options.target,
+                          .cost = region.cost,
+                          .angle = written.angle};
+  Extras extras;
+  for (const Plot& plot : plots) {
+    extras.make([&] { write_file(plot.file, draw(map, region, plot.format)); });
+  }
+  write_file("-", options.format == "json" ? design_json(report) : design_text(report));
+  return extras.status(ExitStatus::done);
+}
+
+// ---- drives that are searched -------------------------------------------------------------------
+
+/// The gap, and every number of the controller or of the normal form that is above 0.
+std::vector<std::string> usual_parameters(const Drive& drive) {
+  std::vector<std::string> usual;
+  for (const ParameterInfo& parameter : parameters_of(drive)) {
+    const std::string path(parameter.path);
+    const bool is_wanted =
+        path == "gearbox.backlash" || path.starts_with("controller.") || path.starts_with("servo.");
+    if (!is_wanted || parameter.kind != ParameterKind::number) continue;
+    const std::optional<double> present = present_value({.path = path}, drive);
+    if (present && *present > 0.0 && std::isfinite(*present)) usual.push_back(path);
+  }
+  return usual;
+}
+
+/// Whether the closed form answers for this target and these parameters.
+bool has_closed_form(const DesignOptions& options, const Target& target, const Drive& drive) {
+  const std::optional<Drive> closed = gearlash::closed_form_drive(drive);
+  if (!closed || !is_of_performance(target)) return false;
+  const ChangeableDrive changeable(*closed);
+  return std::none_of(
+      options.parameters.begin(), options.parameters.end(), [&](const std::string& name) {
+        const bool has_range = name.find('=') != std::string::npos;
+        return has_range || (changeable.find(name) == nullptr &&
+                             parameter_of({.path = path_named(name, drive)}, drive) != nullptr);
+      });
+}
+
+std::vector<Axis> read_axes(const DesignOptions& options, const Drive& drive, Faults& faults) {
+  std::vector<Axis> axes;
+  for (const std::string& text :
+       options.parameters.empty() ? usual_parameters(drive) : options.parameters) {
+    axes.push_back(
+        faults.collect([&] { return read_axis_or_name("--parameters", text, drive); }, Axis{}));
+  }
+  if (!options.plots.empty()) {
+    faults.add({"--plot", options.plots.front(),
+                std::string(permitted_with_closed_form) +
+                    "; of any drive, gearlash map draws a quantity over two parameters",
+                ""});
+  }
+  return axes;
+}
+
+DriveWithValue with_value(Drive drive, const Axis* axis, double value, const drive::Step& step) {
+  if (axis != nullptr) set_on(*axis, drive, value);
+  return {.value = value,
+          .answer = analyse(drive, {.proofs = false}),
+          .response = drive::step_response(reduce(drive), step.size, step.until)};
+}
+
+/// The value of each interval that is nearest to the present one, or the closest value.
+std::vector<double> values_to_show(const FeasibleValues& values) {
+  if (values.closest) return {*values.closest};
+  std::vector<double> shown;
+  for (const Bounds& interval : values.intervals) {
+    const double present = std::isnan(values.present) ? interval.low : values.present;
+    shown.push_back(std::clamp(present, interval.low, interval.high));
+  }
+  return shown;
+}
+
+ExitStatus run_searched(const DesignOptions& options, const Target& target,
+                        const WrittenDrive& written, const Provenance& provenance, Faults& faults) {
+  const Drive& drive = written.drive;
+  const std::vector<Axis> axes = read_axes(options, drive, faults);
+  faults.require_none();
+  const drive::Step step = drive::usual_step(reduce(drive));
+  SearchedDesignReport report{.drive = drive,
+                              .target_text = options.target,
+                              .target = target,
+                              .present = with_value(drive, nullptr, 0.0, step),
+                              .angle = written.angle,
+                              .provenance = provenance};
+  bool is_stopped = false;
+  {
+    TerminalProgress progress("Design");
+    for (const Axis& axis : axes) {
+      ProgressPart part(progress, report.parameters.size(), axes.size());
+      SearchedParameter found{.values = feasible_values(drive, axis, target, part)};
+      for (const double value : values_to_show(found.values)) {
+        found.results.push_back(with_value(drive, &axis, value, step));
+      }
+      is_stopped = found.values.stopped;
+      report.parameters.push_back(std::move(found));
+      if (is_stopped) break;
+    }
+  }
+  write_file("-", options.format == "json" ? design_json(report) : design_text(report));
+  return is_stopped ? ExitStatus::undecided : ExitStatus::done;
+}
+
 ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
   Faults faults;
   check_options(options, faults);
@@ -129,32 +263,10 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
       },
       Target{});
   if (!written) faults.require_none();
-
-  const ChangeableDrive drive(closed_form_drive(*written, options.servo));
-  std::vector<std::string> parameters =
-      read_parameters("--parameters", options.parameters, drive, faults);
-  const Region region = read_region(options, drive, faults);
-  faults.require_none();
-  if (parameters.empty()) parameters = region.axes;
-  if (parameters.empty()) parameters = drive.usual_names();
-  const DesignReport report{.drive = drive,
-                            .target_text = options.target,
-                            .target = target,
-                            .answers = work_out(drive, target, parameters),
-                            .angle = written->angle,
-                            .is_normalized = !has_time,
-                            .provenance = provenance};
-  const RegionMapTask map{.drive = drive,
-                          .target = target,
-                          .target_text = options.target,
-                          .cost = region.cost,
-                          .angle = written->angle};
-  Extras extras;
-  for (const Plot& plot : plots) {
-    extras.make([&] { write_file(plot.file, draw(map, region, plot.format)); });
+  if (has_closed_form(options, target, written->drive)) {
+    return run_closed_form(options, target, *written, plots, provenance, faults);
   }
-  write_file("-", options.format == "json" ? design_json(report) : design_text(report));
-  return extras.status(ExitStatus::done);
+  return run_searched(options, target, *written, provenance, faults);
 }
 
 }  // namespace
@@ -166,8 +278,9 @@ void add_design_command(Command& app, Action& action) {
   add_servo_or_drive_options(*command, options->servo);
   command
       ->add_option("--target", options->target,
-                   "Set the target: no-hunting; or amplitude, frequency, period or\n"
-                   "growth-at-rest, then <= or >=, then a limit; \"and\" joins several")
+                   "Set the target: no-hunting, no-hunting-if-disturbed or no-runaway; or\n"
+                   "amplitude, frequency, ceiling, static-error or any other quantity, then\n"
+                   "<= or >=, then a limit; \"and\" joins several")
       ->type_name("TARGET")
       ->required();
   command
@@ -176,7 +289,9 @@ void add_design_command(Command& app, Action& action) {
                    "gearbox.ratio, load.friction, ...; tachometer is added speed feedback;\n"
                    "the normal form has shares instead: gear_ratio, error_gain,\n"
                    "load_friction, motor_friction, load_inertia, motor_inertia; default\n"
-                   "those of --vary, else those that are easiest to change")
+                   "those of --vary, else those that are easiest to change. Of a drive\n"
+                   "without a closed form any number or choice, searched from 0.1 to 10\n"
+                   "times its present value or over PATH=FROM:TO:COUNT[:log], with units")
       ->type_name("NAMES")
       ->delimiter(',');
   command

@@ -12,7 +12,9 @@
 #include "gearlash/bounds.hpp"
 #include "gearlash/drive.hpp"
 #include "gearlash/fault.hpp"
+#include "gearlash/grid.hpp"
 #include "gearlash/progress.hpp"
+#include "gearlash/quantity.hpp"
 
 namespace gearlash {
 
@@ -26,17 +28,40 @@ namespace gearlash {
 // "load_inertia" and "motor_inertia", as shares of the total inertia; and "load_friction",
 // "motor_friction" and "tachometer", as shares of the critical friction 2ω_n(J_M + J_L).
 
-/// Limits that a drive must keep simultaneously. A drive that cannot hunt has amplitude 0 and keeps
-/// every limit of frequency.
+/// The values of a quantity that a target permits.
+struct QuantityLimit {
+  Quantity quantity{};
+  Bounds permitted{};
+
+  bool operator==(const QuantityLimit&) const = default;
+};
+
+/// Conditions that a drive must keep simultaneously.
 struct Target {
-  bool no_hunting = false;               ///< Verdict::cannot_hunt: every motion comes to rest
-  Bounds amplitude{0.0, infinity};       ///< rad, half peak-to-peak of the load
-  Bounds frequency{0.0, infinity};       ///< Hz
-  Bounds growth_at_rest{0.0, infinity};  ///< a limit below 1 is a margin to hunting
+  /// Small disturbances die down: not Verdict::hunts, hunts_irregularly, forced, undamped,
+  /// grows_without_bound or runs_away. Larger ones may lead to hunting.
+  bool no_hunting = false;
+  /// No disturbance leads to hunting: not Verdict::hunts_if_disturbed either.
+  bool no_hunting_if_disturbed = false;
+  /// No start of the search ran away.
+  bool no_runaway = false;
+  /// Of any quantities in SI, each of them once. A drive that comes to rest has amplitude 0, and
+  /// keeps every other limit of a motion. Of growth at rest a limit below 1 is a margin to hunting.
+  std::vector<QuantityLimit> limits{};
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  /// The permitted values of a quantity: from −infinity to infinity if the target has no limit of
+  /// it.
+  [[nodiscard]] Bounds permitted(Quantity quantity) const;
+  /// Narrows the permitted values of a quantity.
+  Target& require(Quantity quantity, const Bounds& permitted);
+
   bool operator==(const Target&) const = default;
 };
+
+/// "no hunting" as version 0.1 meant it: every motion comes to rest.
+[[nodiscard]] Target always_at_rest();
 
 /// Limits that contradict each other ("amplitude <= 1 deg and amplitude >= 2 deg") or that no drive
 /// can keep, each as a fault of "target".
@@ -45,7 +70,8 @@ struct Target {
 /// How certain it is that no feasible value is missing.
 enum class SearchKind : std::uint8_t {
   certified,  ///< proved by bounds over the whole range, except slivers near limits
-  scanned     ///< sampled, more densely near a limit; used where faces bounce
+  scanned,    ///< sampled, more densely near a limit; used where faces bounce
+  searched    ///< any drive: analysed at each value of a grid, and followed between
 };
 
 /// The values of one parameter that meet a target.
@@ -67,6 +93,13 @@ struct FeasibleValues {
   /// Where nothing meets the target: the tried value that comes closest.
   std::optional<double> closest{};
   std::size_t evaluations = 0;  ///< of drives and of boxes of drives
+  /// Searched: the values at which the drive was analysed afresh. What is narrower than the
+  /// distance of two of them may be missed.
+  std::vector<double> grid{};
+  /// Searched: the relative distance to which ends are located where the motion changes abruptly,
+  /// and 1e-9 where it does not.
+  double located = 0.0;
+  bool stopped = false;  ///< by Progress: values not reached are undecided
 
   [[nodiscard]] bool contains(double value) const;
   /// The feasible value nearest to the present one, by ratio. Empty where nothing meets the target.
@@ -78,6 +111,21 @@ struct FeasibleValues {
 /// throws InvalidInput for a target with faults().
 [[nodiscard]] FeasibleValues feasible_values(const Drive& drive, std::string_view parameter,
                                              const Target& target);
+
+/// The same for any parameter of any drive and any target, by analyse() at each value of an axis,
+/// which may be the choices of a word, with the last values that meet the target between them. In
+/// seconds to minutes, on all cores. A feasible value meets the target when it is analysed by
+/// itself at every value of the grid and at the ends of intervals; between them it is followed.
+/// Throws InvalidInput for an unsound drive, for the faults of the axis and of the target.
+[[nodiscard]] FeasibleValues feasible_values(const Drive& drive, const Axis& axis,
+                                             const Target& target,
+                                             Progress& progress = no_progress());
+
+/// The axis that is searched if nothing else is known: 25 values by ratio from 0.1 to 10 times the
+/// present one, and 0 if it is permitted; 0 to 1 of a share; a usual range where the value is 0;
+/// all words of a choice. Throws InvalidInput for a parameter that the drive does not have, and
+/// where there is no such axis.
+[[nodiscard]] Axis usual_axis(const Drive& drive, std::string_view parameter);
 
 /// The nearest values below and above the present one at which hunting starts, or stops if the
 /// drive hunts at present: the last values without hunting, to a relative 1e-15. Empty where the

@@ -4,11 +4,13 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <vector>
 
 #include "analysis/motion.hpp"
 #include "base/range_check.hpp"
+#include "general/assemble/time_scale.hpp"
 
 namespace gearlash::drive {
 namespace {
@@ -137,6 +139,14 @@ hybrid::Trajectory step_motion(ReducedDrive drive, double step, double until) {
 }
 
 }  // namespace
+
+Step usual_step(const ReducedDrive& drive) {
+  constexpr double backlashes = 10.0;
+  constexpr double swings = 20.0;
+  constexpr double degree = std::numbers::pi / 180.0;
+  return {drive.backlash > 0.0 ? backlashes * drive.backlash : degree,
+          swings * time_scales(drive).swing};
+}
 
 StepResponse step_response(const ReducedDrive& drive, double step, double until) {
   const hybrid::Trajectory motion = step_motion(drive, step, until);

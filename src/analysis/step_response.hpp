@@ -21,6 +21,13 @@ struct StepResponse {
   hybrid::StopReason stop_reason = hybrid::StopReason::reached_end;
 };
 
+/// A step that shows a drive, and a time in which it should settle.
+struct Step {
+  double size;   ///< rad: ten backlashes, or 1° without one
+  double until;  ///< s: twenty swings of the linear loop
+};
+Step usual_step(const ReducedDrive& drive);
+
 /// The response from rest at 0, with the faces in contact on the side that the step pushes. The
 /// drive's own reference is ignored; its other parameters hold. Final extremes are those of the
 /// last fifth. `band` is 5 % of the step. Times and extremes are found to rounding between 4096

@@ -66,6 +66,13 @@ AxisText split_axis(std::string_view field, std::string_view text) {
   return {std::string(field), std::string(name), std::string(values)};
 }
 
+Axis read_axis_or_name(std::string_view field, std::string_view text, const Drive& drive) {
+  if (text.find('=') != std::string_view::npos) return read_axis(split_axis(field, text), drive);
+  const Axis named{.path = path_named(text, drive)};
+  if (parameter_of(named, drive) == nullptr) refuse(field, text, known_text(drive, text));
+  return usual_axis(field, drive, text);
+}
+
 Drive drive_of_axes(const Drive& drive, const std::vector<AxisText>& axes) {
   const bool wants_normal_form = std::any_of(axes.begin(), axes.end(), [&](const AxisText& axis) {
     return path_named(axis.name, drive).starts_with("servo.");

@@ -29,4 +29,7 @@ Drive drive_of_axes(const Drive& drive, const std::vector<AxisText>& axes);
 /// have, for unreadable values, and for faults_of_axis().
 Axis read_axis(const AxisText& text, const Drive& drive);
 
+/// An axis as typed, or usual_axis() of a name alone: "controller.proportional". Throws as both do.
+Axis read_axis_or_name(std::string_view field, std::string_view text, const Drive& drive);
+
 }  // namespace gearlash

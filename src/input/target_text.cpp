@@ -18,8 +18,10 @@ namespace gearlash {
 namespace {
 
 constexpr char forms[] =
-    "must be no-hunting, or amplitude, frequency, period or growth-at-rest, then <= or >=, then a "
-    "limit, as in \"amplitude <= 1 arcmin\"; several joined by \"and\"";
+    "must be no-hunting, no-hunting-if-disturbed or no-runaway, or a quantity such as amplitude, "
+    "frequency, period, growth-at-rest, ceiling or static-error, then <= or >=, then a limit, as "
+    "in "
+    "\"amplitude <= 1 arcmin\"; several joined by \"and\"";
 
 struct Condition {
   std::string_view quantity;
@@ -46,8 +48,10 @@ class TargetReader {
 
   void read(std::string_view condition) {
     try {
-      if (condition == "no-hunting" || condition == "no hunting") {
-        target_.no_hunting = true;
+      std::string word(condition);
+      std::replace(word.begin(), word.end(), ' ', '-');
+      if (bool* flag = flag_of(word)) {
+        *flag = true;
         return;
       }
       const std::optional<Condition> parts = split(condition);
@@ -68,10 +72,17 @@ class TargetReader {
   }
 
  private:
+  bool* flag_of(std::string_view word) {
+    if (word == "no-hunting") return &target_.no_hunting;
+    if (word == "no-hunting-if-disturbed") return &target_.no_hunting_if_disturbed;
+    if (word == "no-runaway") return &target_.no_runaway;
+    return nullptr;
+  }
+
   void add(std::string_view condition, const Condition& parts) {
     const std::optional<Quantity> quantity = find_quantity(parts.quantity);
-    Bounds* limits = quantity ? limits_of(*quantity) : nullptr;
-    if (limits == nullptr) refuse(field_, condition, forms);
+    if (!quantity || info_of(*quantity).kind != QuantityKind::number)
+      refuse(field_, condition, forms);
     const bool is_period = quantity == Quantity::period;
     if (time_scale_ == TimeScale::unknown && (is_period || quantity == Quantity::frequency)) {
       refuse(field_, condition,
@@ -80,22 +91,11 @@ class TargetReader {
     const double limit = read_limit(*quantity, parts.limit);
     if (is_period && !(limit > 0.0)) refuse(field_, condition, "must have a positive limit");
     if (!(limit >= 0.0)) refuse(field_, condition, "must have a limit of 0 or more");
-    restrict(*limits, parts.is_at_most != is_period, is_period ? 1.0 / limit : limit);
-  }
-
-  /// The target's limits of a quantity; nullptr if it has none. A period limits the frequency.
-  Bounds* limits_of(Quantity quantity) {
-    switch (quantity) {
-      case Quantity::amplitude:
-        return &target_.amplitude;
-      case Quantity::frequency:
-      case Quantity::period:
-        return &target_.frequency;
-      case Quantity::growth_at_rest:
-        return &target_.growth_at_rest;
-      default:
-        return nullptr;
-    }
+    const bool is_at_most = parts.is_at_most != is_period;  // a period limits the frequency
+    const double bound = is_period ? 1.0 / limit : limit;
+    target_.require(
+        is_period ? Quantity::frequency : *quantity,
+        is_at_most ? Bounds{-Target::infinity, bound} : Bounds{bound, Target::infinity});
   }
 
   double read_limit(Quantity quantity, std::string_view text) const {
@@ -106,14 +106,6 @@ class TargetReader {
     if (dimension == nullptr) return read_number(field_, text);
     if (dimension == &dimensions::angle) return read_angle(field_, text).si;
     return to_si(field_, text, *dimension);
-  }
-
-  static void restrict(Bounds& limits, bool is_at_most, double limit) {
-    if (is_at_most) {
-      limits.high = std::min(limits.high, limit);
-    } else {
-      limits.low = std::max(limits.low, limit);
-    }
   }
 
   std::string field_;

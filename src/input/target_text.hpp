@@ -11,12 +11,13 @@ namespace gearlash {
 /// Whether frequencies are defined: a normalised servo without natural_frequency has none.
 enum class TimeScale { known, unknown };
 
-/// Reads conditions joined by "and": no-hunting, or a quantity, one of <=, <, >= and >, and its
-/// limit. Quantities have their names and older names (gearlash/quantity.hpp): amplitude (an angle;
-/// a bare number is in radians), frequency ("5 Hz", "30 rad/s"), period ("0.2 s") and
-/// growth-at-rest (a number). A servo that comes to rest meets any condition on frequency or
-/// period. The sign < permits the limit itself, as <= does. Throws InvalidInput, naming `field`,
-/// with every fault: unknown quantities, wrong units, contradictions (faults(Target)).
+/// Reads conditions joined by "and": no-hunting, no-hunting-if-disturbed, no-runaway, or a
+/// quantity, one of <=, <, >= and >, and its limit. Quantities have their names and older names
+/// (gearlash/quantity.hpp): amplitude (an angle; a bare number is in radians), frequency ("5 Hz",
+/// "30 rad/s"), period ("0.2 s"), growth-at-rest (a number) and so on. A drive that comes to rest
+/// meets any condition on frequency or period. The sign < permits the limit itself, as <= does.
+/// Throws InvalidInput, naming `field`, with every fault: unknown quantities, wrong units,
+/// contradictions (faults(Target)).
 Target read_target(std::string_view field, std::string_view text, TimeScale time_scale);
 
 }  // namespace gearlash

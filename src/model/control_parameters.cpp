@@ -117,7 +117,21 @@ std::size_t kind_of(const Drive& drive) {
                         : controller.law.index() + cascade - 1;
 }
 
+/// Keeps the numbers that both have.
+PID with_terms(PID pid, PIDTerms terms) {
+  const bool integrates = terms == PIDTerms::PI || terms == PIDTerms::PID;
+  const bool differentiates = terms == PIDTerms::PD || terms == PIDTerms::PID;
+  pid.terms = terms;
+  if (!integrates) pid.integral = pid.tracking_time = 0.0;
+  if (!differentiates) {
+    pid.derivative = pid.filter = 0.0;
+    pid.derivative_of_speed = false;
+  }
+  return pid;
+}
+
 void choose_kind(Drive& drive, std::size_t choice) {
+  if (choice == kind_of(drive)) return;
   if (choice >= firmwares) {
     drive.controller = {};
     return take_firmware(drive, choice - firmwares);
@@ -125,7 +139,8 @@ void choose_kind(Drive& drive, std::size_t choice) {
   drive.controller.firmware.reset();
   Law& law = drive.controller.law;
   if (choice < cascade) {
-    law = PID{.terms = static_cast<PIDTerms>(choice)};
+    const PID* present = std::get_if<PID>(&law);
+    law = with_terms(present != nullptr ? *present : PID{}, static_cast<PIDTerms>(choice));
   } else {
     become(law, choice - cascade + 1);
   }

@@ -102,7 +102,8 @@ std::string reason(const DesignReport& report, const FeasibleValues& values) {
   std::string text = values.parameter + ": ";
   if (values.searched.low == values.searched.high) return text + "is 0 and has no multiples";
   if (report.drive.number(values.parameter).is_backlash() &&
-      (report.target.no_hunting || !std::isinf(report.target.growth_at_rest.high))) {
+      (report.target.no_hunting || report.target.no_hunting_if_disturbed ||
+       !std::isinf(report.target.permitted(Quantity::growth_at_rest).high))) {
     return text + "no value stops the hunting; the amplitude is proportional to it";
   }
   text += fmt::format("no value from {} to {}", shown(values.searched.low),

@@ -15,6 +15,10 @@
 namespace gearlash {
 namespace {
 
+Target amplitude_within(const Bounds& limits) {
+  return Target{}.require(Quantity::amplitude, limits);
+}
+
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -44,7 +48,7 @@ TEST(Design, DampingWithoutHuntingBeginsWhereGrowthAtRestIsOne) {
 TEST(Design, AmplitudesAreInProportionToBacklash) {
   const double amplitude = analyse(sample_servo()).largest_stable()->amplitude;
   const FeasibleValues backlash =
-      feasible_values(sample_servo(), "servo.backlash", {.amplitude = {0.0, 0.1}});
+      feasible_values(sample_servo(), "servo.backlash", amplitude_within({0.0, 0.1}));
   ASSERT_EQ(backlash.intervals.size(), 1U);
   EXPECT_NEAR(backlash.intervals[0].high, 0.1 * 0.3 / amplitude, 1e-14);
   EXPECT_FALSE(backlash.closest);
@@ -52,7 +56,7 @@ TEST(Design, AmplitudesAreInProportionToBacklash) {
 
 TEST(Design, WhereNothingMeetsATargetThereIsAClosestValue) {
   const FeasibleValues inertia =
-      feasible_values(sample_servo(), "load_inertia", {.amplitude = {1e3, Target::infinity}});
+      feasible_values(sample_servo(), "load_inertia", amplitude_within({1e3, Target::infinity}));
   EXPECT_TRUE(inertia.intervals.empty());
   EXPECT_FALSE(inertia.nearest());
   ASSERT_TRUE(inertia.closest);
@@ -126,7 +130,7 @@ TEST(EdgeDesign, BadInputIsAFault) {
   const Target quiet{.no_hunting = true};
   EXPECT_THAT(asked(sample_servo(), "servo.dumping", quiet),
               ElementsAre(HasSubstr("parameter = servo.dumping: must be one of servo.backlash, ")));
-  EXPECT_THAT(asked(sample_servo(), "servo.damping", {.amplitude = {0.2, 0.1}}),
+  EXPECT_THAT(asked(sample_servo(), "servo.damping", amplitude_within({0.2, 0.1})),
               ElementsAre("target = amplitude >= 0.2 and amplitude <= 0.1: must not contradict "
                           "itself"));
   EXPECT_THAT(asked(with(sample_servo(), "servo.damping", -1.0), "servo.damping", quiet),

@@ -22,13 +22,15 @@ double amplitude_per_backlash() {
   return analyse(sample_servo()).largest_stable()->amplitude / 0.3;
 }
 
+Target amplitude_up_to(double limit) { return Target{}.require(Quantity::amplitude, {0.0, limit}); }
+
 void expect_near(const Estimate& estimate, double exact) {
   EXPECT_NEAR(estimate.value, exact, 6.0 * estimate.standard_error.value() + 1e-4);
 }
 
 TEST(Tolerance, AShareOfAUniformBacklashMeetsALimitOfTheAmplitude) {
   const TolerancedDrive drive{sample_servo(), {{"servo.backlash", within_share(0.3, 0.1)}}};
-  const StudyQuestions questions{.target = {.amplitude = {0.0, 0.315 * amplitude_per_backlash()}},
+  const StudyQuestions questions{.target = amplitude_up_to(0.315 * amplitude_per_backlash()),
                                  .shares = {0.5}};
   const ToleranceStudy study = study_tolerances(drive, {}, questions);
   EXPECT_EQ(study.hunting.value, 1.0);
@@ -74,8 +76,8 @@ TEST(Tolerance, WhatDoesNotVaryHasNoQuantilesAndNoIndices) {
 /// Of a backlash that is uniform from 0 to max, a share limit/(amplitude per backlash)/max is met.
 TEST(Tolerance, TheWidestBacklashIsThatOfTheYield) {
   const double limit = 0.1;
-  const auto widest = widest_backlash(
-      {sample_servo(), {}}, {.target = {.amplitude = {0.0, limit}}, .yield = 0.8, .min = 0.0});
+  const auto widest = widest_backlash({sample_servo(), {}},
+                                      {.target = amplitude_up_to(limit), .yield = 0.8, .min = 0.0});
   ASSERT_TRUE(widest);
   EXPECT_NEAR(widest->max, limit / amplitude_per_backlash() / 0.8, 1e-4);
   EXPECT_TRUE(widest->uncertainty.contains(widest->max));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "tool.hpp"
 
@@ -183,12 +184,59 @@ TEST(DesignCommand, TakesAnyNumberOfTheClosedFormByItsPath) {
   EXPECT_EQ(design["answers"][1]["parameter"], "controller.proportional");
 }
 
-TEST(EdgeDesignCommand, ADriveWithoutAClosedFormIsRefusedInOneLine) {
-  const Outcome run = run_tool({"design", "examples/robot-joint.toml", "--target", "no-hunting"});
+// ---- drives that are searched -------------------------------------------------------------------
+
+TEST(DesignCommand, OfAnyDriveAreItsAnswersThoseOfLimitCycle) {
+  const std::vector<std::string> words = {
+      "design",       "examples/robot-joint.toml",
+      "--target",     "motor-amplitude <= 0.15 deg and no-runaway",
+      "--parameters", "controller.integral=0:300:7"};
+  std::vector<std::string> json_words = words;
+  json_words.insert(json_words.end(), {"--format", "json"});
+  const Outcome run = run_tool(json_words);
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto design = nlohmann::json::parse(run.out);
+  EXPECT_EQ(design["met"], false);
+  const auto& answer = design["answers"][0];
+  EXPECT_EQ(answer["certified"], false);
+  EXPECT_EQ(answer["grid"].size(), 8U);
+  ASSERT_FALSE(answer["intervals"].empty());
+  const double end = answer["intervals"].back()["to"];
+  const double limit = 0.15 * std::numbers::pi / 180.0;
+  const auto largest_with = [&](double integral) {
+    const Outcome one =
+        run_tool({"limit-cycle", "examples/robot-joint.toml", "--set",
+                  "controller.integral=" + nlohmann::json(integral).dump() + " V/(rad s)",
+                  "--format", "json"});
+    double largest = 0.0;
+    for (const auto& cycle : nlohmann::json::parse(one.out)["cycles"]) {
+      largest = std::max(largest, cycle["motor_amplitude"].get<double>());
+    }
+    return largest;
+  };
+  EXPECT_LE(largest_with(end), limit);
+  EXPECT_NE(answer["nearest"]["response"]["step"], nullptr);
+  const Outcome text = run_tool(words);
+  EXPECT_THAT(text.out, HasSubstr("at present: hunts: motor ±0.218 deg at 0.261 Hz, not met"));
+  EXPECT_THAT(text.out, HasSubstr("controller.integral, 8 values from 0 V/(rad s)"));
+}
+
+TEST(DesignCommand, OfAnyDriveTriesEveryWord) {
+  const Outcome run = run_tool({"design", "examples/robot-joint.toml", "--target", "no-hunting",
+                                "--parameters", "sensor.position"});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("sensor.position: no choice; closest is"));
+}
+
+TEST(EdgeDesignCommand, OfAnyDriveFaultsAreToldAllAtOnce) {
+  const Outcome run = run_tool({"design", "examples/robot-joint.toml", "--target", "ceiling >= x",
+                                "--parameters", "load.colour,motor.coulomb=1:0:3", "--vary",
+                                "gearbox.ratio,gearbox.backlash", "--plot", "region=region.svg"});
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(lines_of(run.err),
-              ElementsAre(StartsWith("gearlash: examples/robot-joint.toml: drive = without a "
-                                     "closed form: must have a closed-form answer")));
+              ElementsAre(HasSubstr("--target = x"), HasSubstr("--parameters = load.colour"),
+                          HasSubstr("--parameters = 1 to 0: must rise"),
+                          HasSubstr("--plot = region=region.svg: must have a closed-form")));
 }
 
 }  // namespace

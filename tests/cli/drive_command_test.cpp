@@ -246,11 +246,11 @@ TEST_F(DriveCommand, EdgeFaultsOfFileAndOptionsAreToldTogether) {
               testing::SizeIs(2));
   const std::string unlike =
       file(std::string(mechanics) + proportional + "[sampling]\nperiod = \"1 ms\"\n");
-  const Outcome design = run_tool({"design", unlike, "--target", "no-hunting"});
-  EXPECT_EQ(design.status, 2);
-  EXPECT_THAT(
-      lines_of(design.err),
-      ElementsAre(HasSubstr("drive = without a closed form: must have a closed-form answer")));
+  const Outcome picture = run_tool({"design", unlike, "--target", "no-hunting", "--vary",
+                                    "gearbox.ratio,load.inertia", "--plot", "region=a.svg"});
+  EXPECT_EQ(picture.status, 2);
+  EXPECT_THAT(lines_of(picture.err),
+              ElementsAre(HasSubstr("--plot = region=a.svg: must have a closed-form answer")));
 }
 
 }  // namespace

@@ -45,6 +45,8 @@ COMMANDS = [
     ["design", "examples/elinco-fd162.toml", "--target", "no-hunting", "--parameters",
      "gearbox.backlash,gearbox.ratio,tachometer,load.inertia"],
     ["design", *SERVO, "--target", "amplitude <= 0.1", "--parameters", "backlash,servo.damping"],
+    ["design", "examples/robot-joint.toml", "--target", "no-hunting", "--parameters",
+     "sensor.position,controller.integral=0:300:3"],
     ["tolerance", "examples/toleranced.toml", "--samples", "512"],
     ["tolerance", "examples/toleranced.toml", "--samples", "512", "--target", "amplitude <= 1 deg",
      "--yield", "95 %"],

@@ -399,5 +399,53 @@ TEST(Attractors, OfAStiffMeshAreKnownToRounding) {
   EXPECT_NEAR(found.cycles[0].amplitude, 0.24126970446464, 5e-12);
 }
 
+// ---- from one drive to its neighbour ------------------------------------------------------------
+
+TEST(FollowAttractors, FindsWhatASearchFinds) {
+  const AttractorSearch known = find_attractors(servo(0.19, 2.0, 0.1));
+  const ReducedDrive near = servo(0.191, 2.0, 0.1);
+  const auto followed = follow_attractors(near, known);
+  ASSERT_TRUE(followed);
+  const AttractorSearch searched = find_attractors(near);
+  ASSERT_EQ(followed->cycles.size(), 1U);
+  EXPECT_NEAR(followed->cycles[0].amplitude, searched.cycles[0].amplitude, 1e-11);
+  EXPECT_NEAR(followed->cycles[0].period(), searched.cycles[0].period(), 1e-10);
+  EXPECT_NE(followed->cycles[0].amplitude, known.cycles[0].amplitude);
+  EXPECT_LT(followed->outcomes.size(), searched.outcomes.size());
+}
+
+TEST(FollowAttractors, GivesUpWhereTheDriveEndsInSomethingElse) {
+  const AttractorSearch hunting = find_attractors(servo(0.19, 2.0, 0.1));
+  EXPECT_FALSE(follow_attractors(servo(0.9, 2.0, 0.1), hunting));
+  const AttractorSearch resting = find_attractors(servo(0.9, 2.0, 0.1));
+  EXPECT_FALSE(follow_attractors(servo(0.19, 2.0, 0.1), resting));
+  EXPECT_TRUE(follow_attractors(servo(0.91, 2.0, 0.1), resting));
+  ReducedDrive unstable = servo(0.9, 2.0, 0.1);
+  unstable.controller = ProportionalIntegralDerivative{.proportional = 1.0, .integral = 10.0};
+  const AttractorSearch running_away = find_attractors(unstable);
+  EXPECT_EQ(running_away.count(MotionEnd::diverges), running_away.outcomes.size());
+  EXPECT_FALSE(follow_attractors(servo(0.9, 2.0, 0.1), running_away));
+}
+
+/// Starts in the gap are then moved to its faces.
+TEST(FollowAttractors, StartsInANarrowerGapToo) {
+  const AttractorSearch known = find_attractors(servo(0.19, 2.0, 0.1));
+  ReducedDrive narrower = servo(0.19, 2.0, 0.1);
+  narrower.backlash = 0.2;
+  const auto followed = follow_attractors(narrower, known);
+  ASSERT_TRUE(followed);
+  EXPECT_NEAR(followed->cycles[0].amplitude, known.cycles[0].amplitude / 1.5, 1e-9);
+}
+
+TEST(FollowAttractors, GivesUpWhereASearchWasStopped) {
+  class Stop : public Progress {
+   public:
+    bool go_on(double /*share*/, std::size_t /*bytes*/) override { return false; }
+  };
+  Stop stop;
+  const ReducedDrive drive = servo(0.19, 2.0, 0.1);
+  EXPECT_FALSE(follow_attractors(drive, find_attractors(drive, {}, stop)));
+}
+
 }  // namespace
 }  // namespace gearlash::drive

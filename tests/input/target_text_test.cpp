@@ -18,31 +18,41 @@ constexpr double degree = std::numbers::pi / 180.0;
 Target read(std::string_view text) { return read_target("--target", text, TimeScale::known); }
 
 TEST(TargetText, IsReadWithItsUnits) {
+  const auto low = [](const Target& target, Quantity quantity) {
+    return target.permitted(quantity).low;
+  };
   Target expected;
-  expected.amplitude.high = degree;
+  expected.require(Quantity::amplitude, {-Target::infinity, degree});
   EXPECT_EQ(read("size <= 1 deg"), expected);
   EXPECT_EQ(read(" size<=1deg "), expected);
   EXPECT_EQ(read("amplitude <= 1 deg"), expected);
   EXPECT_EQ(read("size ≤ 1 deg"), expected);
   EXPECT_EQ(read("size < 1 deg"), expected);
-  expected.amplitude.high = 0.25;
+  expected = {};
+  expected.require(Quantity::amplitude, {-Target::infinity, 0.25});
   EXPECT_EQ(read("size <= 0.25"), expected);
   EXPECT_EQ(read("size <= 1/4 and size <= 1"), expected);
-  expected.frequency.low = 5.0;
+  expected.require(Quantity::frequency, {5.0, Target::infinity});
   EXPECT_EQ(read("size <= 0.25 and frequency >= 5 Hz"), expected);
   EXPECT_EQ(read("size <= 0.25 and period <= 0.2 s"), expected);
-  EXPECT_EQ(read("size <= 0.25 and period <= 200 ms").frequency.low, 5.0);
-  EXPECT_EQ(read("frequency >= 30 rad/s").frequency.low, 30.0 / (2.0 * std::numbers::pi));
+  EXPECT_EQ(low(read("size <= 0.25 and period <= 200 ms"), Quantity::frequency), 5.0);
+  EXPECT_EQ(low(read("frequency >= 30 rad/s"), Quantity::frequency),
+            30.0 / (2.0 * std::numbers::pi));
   EXPECT_TRUE(read("no-hunting").no_hunting);
-  EXPECT_EQ(read("growth-at-rest <= 0.9").growth_at_rest.high, 0.9);
+  EXPECT_TRUE(read("no-hunting-if-disturbed").no_hunting_if_disturbed);
+  EXPECT_TRUE(read("no-runaway and amplitude <= 1 deg").no_runaway);
+  EXPECT_EQ(read("growth-at-rest <= 0.9").permitted(Quantity::growth_at_rest).high, 0.9);
+  EXPECT_EQ(read("motor-amplitude <= 2 deg").permitted(Quantity::motor_amplitude).high,
+            2.0 * degree);
+  EXPECT_EQ(low(read("ceiling >= 0.5 rad"), Quantity::ceiling), 0.5);
 }
 
 TEST(TargetText, OfADriveMayNameTimesIfItHasThem) {
   Drive drive = normal_form(0.19, 2.0, 0.1, 0.3);
-  EXPECT_EQ(parse_target("size <= 1 deg", drive).amplitude.high, degree);
+  EXPECT_EQ(parse_target("size <= 1 deg", drive).permitted(Quantity::amplitude).high, degree);
   EXPECT_THROW((void)parse_target("frequency >= 5 Hz", drive), InvalidInput);
   drive.servo->natural_frequency = 14.5;
-  EXPECT_EQ(parse_target("frequency >= 5 Hz", drive).frequency.low, 5.0);
+  EXPECT_EQ(parse_target("frequency >= 5 Hz", drive).permitted(Quantity::frequency).low, 5.0);
 }
 
 std::vector<std::string> faults_of(std::string_view text, TimeScale scale = TimeScale::known) {
@@ -59,10 +69,11 @@ std::vector<std::string> faults_of(std::string_view text, TimeScale scale = Time
 TEST(EdgeTargetText, FaultsAreToldAtOnceEachInALine) {
   using testing::ElementsAre;
   using testing::StartsWith;
-  EXPECT_THAT(faults_of("speed <= 3 and size <= 1 kg and size"),
-              ElementsAre(StartsWith("--target = speed <= 3: must be no-hunting, or amplitude"),
-                          StartsWith("--target = 1 kg: must be"),
-                          StartsWith("--target = size: must be no-hunting, or amplitude")));
+  EXPECT_THAT(
+      faults_of("speed <= 3 and size <= 1 kg and size"),
+      ElementsAre(StartsWith("--target = speed <= 3: must be no-hunting, no-hunting-if-disturbed"),
+                  StartsWith("--target = 1 kg: must be"),
+                  StartsWith("--target = size: must be no-hunting, no-hunting-if-disturbed")));
   EXPECT_THAT(faults_of(""), ElementsAre(StartsWith("--target = \"\": must be no-hunting")));
   EXPECT_THAT(faults_of("size <="), ElementsAre(StartsWith("--target = size <=: must be")));
   EXPECT_THAT(faults_of("size <= -1"),
@@ -73,8 +84,9 @@ TEST(EdgeTargetText, FaultsAreToldAtOnceEachInALine) {
       faults_of("size <= 0.1 and size >= 0.2"),
       ElementsAre("--target = amplitude >= 0.2 and amplitude <= 0.1: must not contradict itself"));
   EXPECT_THAT(
-      faults_of("no-hunting and size >= 0.2"),
-      ElementsAre("--target = no-hunting and amplitude >= 0.2: must not contradict itself"));
+      faults_of("no-hunting-if-disturbed and size >= 0.2"),
+      ElementsAre("--target = no-hunting-if-disturbed and amplitude >= 0.2: must not contradict "
+                  "itself"));
   EXPECT_THAT(faults_of("frequency >= 5 Hz", TimeScale::unknown),
               ElementsAre("--target = frequency >= 5 Hz: needs a time scale: a servo with a "
                           "natural_frequency, or a data sheet"));

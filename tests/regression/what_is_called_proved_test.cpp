@@ -60,7 +60,7 @@ TEST(RegressionProved, DesignLeavesOpenWhatTheDataLeaveOpen) {
       changeable(servo_of(662.1907560443809, 1.5655166617629133e-5, .9999994345814354));
   const auto values_below = [&](double growth) {
     Target target;
-    target.growth_at_rest.high = growth;
+    target.require(Quantity::growth_at_rest, {0.0, growth});
     return feasible_values(drive, "backlash", target);
   };
   // Version 0.1 called it proved that no backlash does it. The growth is .0083170867724 of the
@@ -83,9 +83,9 @@ TEST(RegressionProved, DesignDoesNotContradictItself) {
   const NormalizedServo servo =
       servo_of(67.15170913401705, .07958454908395947, 2.043082623864931e-06);
   const ChangeableDrive drive = changeable(servo);
-  const FeasibleValues values = feasible_values(drive, "backlash", Target{.no_hunting = true});
+  const FeasibleValues values = feasible_values(drive, "backlash", always_at_rest());
   const Judgement at_present =
-      judge(Target{.no_hunting = true}, drive.box(), std::numeric_limits<double>::quiet_NaN());
+      judge(always_at_rest(), drive.box(), std::numeric_limits<double>::quiet_NaN());
   // Growth at rest has nothing to do with the backlash: the whole range is as the present value is.
   if (at_present == Judgement::some) {
     ASSERT_EQ(values.undecided.size(), 1U);

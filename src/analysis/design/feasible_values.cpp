@@ -1,33 +1,18 @@
 #include "analysis/design/feasible_values.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
+#include <atomic>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
 #include "analysis/design/target.hpp"
-#include "base/bracketed_root.hpp"
+#include "analysis/design/value_scan.hpp"
 #include "base/on_threads.hpp"
 #include "base/range_check.hpp"
 #include "closed_form/growth_at_rest.hpp"
 
 namespace gearlash {
 namespace {
-
-/// A part of the range and its judgement.
-struct Part {
-  Bounds values;
-  Judgement judgement;
-  /// No cycle is known at one of its ends, or at a value tried between them.
-  bool is_unknown = false;
-};
-
-/// A value and the drive's performance there.
-struct TriedValue {
-  double value = 0.0;
-  Performance performance{};
-};
 
 /// Values spread over a range: by ratio where it is wide, over the last four decades where it
 /// begins at 0, evenly for a restitution.
@@ -46,11 +31,6 @@ std::vector<double> spread_over(const Bounds& range, std::size_t count, bool eve
   return values;
 }
 
-void sort_by_value(std::vector<TriedValue>& tried) {
-  std::sort(tried.begin(), tried.end(),
-            [](const TriedValue& a, const TriedValue& b) { return a.value < b.value; });
-}
-
 bool has_two_masses(const ChangeableDrive& drive) {
   return drive.drivetrain().motor_inertia > 0.0 && drive.drivetrain().load_inertia > 0.0;
 }
@@ -66,14 +46,14 @@ class Search {
     if (number.is_backlash() && has_bounces(drive, number)) {
       at_present_ = performance_of(drive.drivetrain());
     }
+    for (const Quantity quantity : {Quantity::amplitude, Quantity::frequency}) {
+      of_motion_.require(quantity, target.permitted(quantity));
+    }
   }
 
   std::size_t evaluations() const { return evaluations_; }
 
-  bool is_met_at(double value) {
-    ++evaluations_;
-    return is_met(target_, performance_at(value));
-  }
+  bool is_met_at(double value) { return judged(value).is_met; }
 
   /// The range in parts, in order: proved parts and undecided slivers. Each round halves all open
   /// parts, so that a difficult part does not leave others unsearched.
@@ -88,7 +68,7 @@ class Search {
           proved.push_back({values, judgement});
           continue;
         }
-        const double middle = middle_of(values.low, values.high);
+        const double middle = middle_value(values.low, values.high);
         halves.push_back({values.low, middle});
         halves.push_back({middle, values.high});
       }
@@ -104,90 +84,27 @@ class Search {
   }
 
   /// The parts of a scan. None is a sliver; the ends of each decide its judgement.
-  std::vector<Part> scanned(const Bounds& range) {
-    std::vector<Part> parts;
-    const std::vector<TriedValue> tried = tried_values(range);
-    for (std::size_t i = 0; i + 1 < tried.size(); ++i) {
-      const Performance& low = tried[i].performance;
-      const Performance& high = tried[i + 1].performance;
-      const bool met = is_met(target_, low);
-      const Judgement alike = met ? Judgement::all : Judgement::none;
-      parts.push_back({{tried[i].value, tried[i + 1].value},
-                       met == is_met(target_, high) ? alike : Judgement::some,
-                       !is_known(target_, low) || !is_known(target_, high)});
-    }
-    return parts;
-  }
+  std::vector<Part> scanned(const Bounds& range) { return parts_between(tried(range)); }
 
-  /// The last value that meets the target, between one that meets it and one that does not.
-  struct LastMet {
-    double value;
-    bool met_unknown = false;  ///< somewhere between the two no cycle is known
-  };
-  LastMet last_met(double met, double unmet) {
-    bool met_unknown = false;
-    const bool bounces = has_bounces(drive_, number_);
-    if (bounces) {
-      // Growth at rest is cheap, and what it does not rule out usually meets the target.
-      const double allowed = last_allowed_by_growth(met, unmet);
-      if (allowed == met || is_met_at(allowed)) return {allowed};
-      unmet = allowed;
-    }
-    double met_by = 1.0;
-    double missed_by = 1.0;
-    const auto signed_excess = [&](double value) {
-      ++evaluations_;
-      const Performance performance = performance_at(value);
-      const bool here = is_met(target_, performance);
-      met_unknown = met_unknown || (bounces && !is_known(target_, performance));
-      (here ? met : unmet) = value;
-      // Only the sign decides; the magnitude speeds up the root finder.
-      const double size = std::abs(excess(target_, performance));
-      const double usable = std::clamp(std::isnan(size) ? 1.0 : size, least, 1.0);
-      (here ? met_by : missed_by) = usable;
-      return here ? -usable : usable;
-    };
-    // At a jump higher resolution is not worth a search for cycles per step.
-    const auto resolution = [&] {
-      constexpr double near = 1e-3;
-      const bool jumps = bounces && !(met_by < near && missed_by < near);
-      return jumps ? 1e-6 : 4.0 * std::numeric_limits<double>::epsilon();
-    };
-    const auto is_close = [&](double low, double high) {
-      return high - low <= resolution() * high;
-    };
-    const double low = std::min(met, unmet);
-    const double high = std::max(met, unmet);
-    if (is_close(low, high)) return {met};
-    const double at_low = signed_excess(low);
-    const double at_high = signed_excess(high);
-    std::uintmax_t most = 400;
-    boost::math::tools::toms748_solve(signed_excess, low, high, at_low, at_high, is_close, most);
-    return {met, met_unknown};
+  LastMet last_met_between(double met, double unmet) {
+    const auto judge = [this](double value) { return judged(value); };
+    constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+    if (!has_bounces(drive_, number_)) return last_met(judge, met, unmet, {rounding, rounding});
+    // Growth at rest is cheap, and what it does not rule out usually meets the target.
+    const double allowed = last_allowed_by_growth(met, unmet);
+    if (allowed == met || is_met_at(allowed)) return {allowed, unmet};
+    constexpr double at_jump = 1e-6;  // more is not worth a search for cycles per step
+    return last_met(judge, met, allowed, {rounding, at_jump});
   }
 
   /// The tried value that comes closest to the target.
   double closest(const Bounds& range) {
-    std::vector<TriedValue> tried = tried_values(range);
-    tried.push_back(at(number_.present));
-    const auto beyond = [&](const TriedValue& one) { return excess(target_, one.performance); };
-    const auto nearest =
-        std::min_element(tried.begin(), tried.end(),
-                         [&](const auto& a, const auto& b) { return beyond(a) < beyond(b); });
-    return nearest->value;
+    std::vector<JudgedValue> all = tried(range);
+    all.push_back(judged(number_.present));
+    return closest_of(all);
   }
 
  private:
-  bool is_unknown(const TriedValue& tried) const { return !is_known(target_, tried.performance); }
-
-  static bool hunts(const TriedValue& tried) {
-    return tried.performance.verdict != Verdict::cannot_hunt;
-  }
-
-  static double middle_of(double low, double high) {
-    return low == 0.0 && high < least ? 0.5 * high : detail::middle_of(low, high);
-  }
-
   /// Undecided where there is no valid drive: next to a shaft without friction, a small friction on
   /// the other shaft is less than a servo may have.
   Performance performance_at(double value) const {
@@ -200,29 +117,23 @@ class Search {
     return validate(drive).empty() ? performance_for(target_, drive) : Performance{};
   }
 
-  TriedValue at(double value) const { return {value, performance_at(value)}; }
-
-  std::vector<TriedValue> at_all(const std::vector<double>& values) {
-    std::vector<TriedValue> tried(values.size());
-    on_threads(0, values.size(), [&](std::size_t i) { tried[i] = at(values[i]); });
-    evaluations_ += values.size();
-    return tried;
+  /// From several threads at a time.
+  JudgedValue judged(double value) {
+    ++evaluations_;
+    const Performance performance = performance_at(value);
+    return {.value = value,
+            .is_met = is_met(target_, performance),
+            .is_known = !has_bounces(drive_, number_) || is_known(target_, performance),
+            .moves = performance.verdict != Verdict::cannot_hunt,
+            .beyond = excess(target_, performance),
+            .moves_beyond = excess(of_motion_, performance)};
   }
 
   /// Values over the whole range, in order, denser near a limit.
-  const std::vector<TriedValue>& tried_values(const Bounds& range) {
-    if (!tried_.empty()) return tried_;
-    tried_ = at_all(first_values(range));
-    constexpr int most_halvings = 6;
-    constexpr int halvings_everywhere = 2;
-    for (int i = 0; i < most_halvings; ++i) {
-      const bool met_unknown = std::any_of(tried_.begin(), tried_.end(),
-                                           [&](const auto& one) { return is_unknown(one); });
-      const bool everywhere = met_unknown && i < halvings_everywhere;
-      const std::vector<TriedValue> between = at_all(middles_to_try(everywhere));
-      if (between.empty()) break;
-      tried_.insert(tried_.end(), between.begin(), between.end());
-      sort_by_value(tried_);
+  const std::vector<JudgedValue>& tried(const Bounds& range) {
+    if (tried_.empty()) {
+      tried_ = tried_values([this](double value) { return judged(value); },
+                            {.first = first_values(range)});
     }
     return tried_;
   }
@@ -261,47 +172,17 @@ class Search {
   /// rest from hunting there.
   double last_allowed_by_growth(double met, double unmet) const {
     constexpr double told_apart = 1e-6;
+    const bool asks_for_rest = target_.no_hunting || target_.no_hunting_if_disturbed;
     const auto is_allowed = [&](double value) {
       const double growth = growth_at(value);
-      return !is_ruled_out(target_, growth) && !(target_.no_hunting && growth > 1.0 - told_apart);
+      return !is_ruled_out(target_, growth) && !(asks_for_rest && growth > 1.0 - told_apart);
     };
     if (is_allowed(unmet)) return unmet;
     for (;;) {
-      const double middle = middle_of(std::min(met, unmet), std::max(met, unmet));
+      const double middle = middle_value(std::min(met, unmet), std::max(met, unmet));
       if (middle == met || middle == unmet) return met;
       (is_allowed(middle) ? met : unmet) = middle;
     }
-  }
-
-  /// The middles of intervals whose ends lie on one side of a limit of the cycle and no farther
-  /// from it than the performance changes there or in an adjacent interval; of intervals next to
-  /// motion without a known cycle; and, if `everywhere`, of all intervals that hunt, because
-  /// irregular motion has windows of other motion in it.
-  std::vector<double> middles_to_try(bool everywhere) const {
-    const Target of_cycles{.amplitude = target_.amplitude, .frequency = target_.frequency};
-    std::vector<double> beyond;
-    for (const TriedValue& one : tried_) beyond.push_back(excess(of_cycles, one.performance));
-    const auto change = [&](std::size_t i) {
-      return i + 1 < beyond.size() ? std::abs(beyond[i + 1] - beyond[i]) : 0.0;
-    };
-    std::vector<double> middles;
-    const auto is_near_limit = [&](std::size_t i) {
-      const bool is_crossed = (beyond[i] > 0.0) != (beyond[i + 1] > 0.0);
-      const double distance = std::min(std::abs(beyond[i]), std::abs(beyond[i + 1]));
-      const double steepest = std::max({change(i), i > 0 ? change(i - 1) : 0.0, change(i + 1)});
-      return !is_crossed && std::isfinite(distance) && steepest > distance;
-    };
-    const auto is_wanted = [&](std::size_t i) {
-      if (is_near_limit(i) || is_unknown(tried_[i]) != is_unknown(tried_[i + 1])) return true;
-      return everywhere && hunts(tried_[i]) && hunts(tried_[i + 1]);
-    };
-    for (std::size_t i = 0; i + 1 < beyond.size(); ++i) {
-      if (!is_wanted(i)) continue;
-      const double low = tried_[i].value;
-      const double high = tried_[i + 1].value;
-      middles.push_back(low == 0.0 ? 0.5 * high : middle_of(low, high));
-    }
-    return middles;
   }
 
   Judgement judge_part(const Bounds& values) {
@@ -311,7 +192,7 @@ class Search {
 
   /// The flight time at the middle, else at an end.
   double guessed_flight_time(const Bounds& values) {
-    for (const double value : {middle_of(values.low, values.high), values.low, values.high}) {
+    for (const double value : {middle_value(values.low, values.high), values.low, values.high}) {
       const double time = performance_at(value).flight_time;
       if (!std::isnan(time)) return time;
     }
@@ -323,7 +204,6 @@ class Search {
     return values.high - values.low <= width * values.high || values.high <= width * width * top;
   }
 
-  static constexpr double least = 1e-300;
   static constexpr std::size_t coarse = 64;  ///< a servo with bounces takes milliseconds
   static constexpr std::size_t fine = 1024;
 
@@ -331,8 +211,9 @@ class Search {
   const ChangeableNumber& number_;
   const Target& target_;
   std::optional<Performance> at_present_;  ///< for backlash: amplitudes are proportional to it
-  std::vector<TriedValue> tried_;
-  std::size_t evaluations_ = 0;
+  Target of_motion_;
+  std::vector<JudgedValue> tried_;
+  std::atomic<std::size_t> evaluations_ = 0;
 };
 
 /// Joins neighbors with the same judgement.
@@ -380,44 +261,9 @@ FeasibleValues feasible_values(const ChangeableDrive& drive, std::string_view pa
   const std::vector<Part> parts = found.kind == SearchKind::certified
                                       ? joined(search.certified(found.searched))
                                       : search.scanned(found.searched);
-  const auto add = [&](double low, double high) {
-    if (!found.intervals.empty() && found.intervals.back().high >= low) {
-      found.intervals.back().high = high;
-    } else {
-      found.intervals.push_back({low, high});
-    }
-  };
-  const auto add_undecided = [&](double low, double high) {
-    if (!found.undecided.empty() && found.undecided.back().high >= low) {
-      found.undecided.back().high = high;
-    } else {
-      found.undecided.push_back({low, high});
-    }
-  };
-  for (const Part& part : parts) {
-    const Bounds& values = part.values;
-    if (part.is_unknown) {
-      add_undecided(values.low, values.high);
-      continue;
-    }
-    if (part.judgement == Judgement::all) add(values.low, values.high);
-    if (part.judgement != Judgement::some) continue;
-    // The ends of a sliver belong to its neighbors, which are decided.
-    const bool low_met = search.is_met_at(values.low);
-    const bool high_met = search.is_met_at(values.high);
-    if (low_met == high_met) {
-      if (values.low > 0.0) add_undecided(values.low, values.high);  // a sliver at 0 ends the range
-      if (low_met) add(values.low, values.high);
-    } else if (low_met) {
-      const auto [last, met_unknown] = search.last_met(values.low, values.high);
-      add(values.low, last);
-      if (met_unknown) add_undecided(last, values.high);
-    } else {
-      const auto [first, met_unknown] = search.last_met(values.high, values.low);
-      if (met_unknown) add_undecided(values.low, first);
-      add(first, values.high);
-    }
-  }
+  put_together(
+      parts, [&](double value) { return search.is_met_at(value); },
+      [&](double met, double unmet) { return search.last_met_between(met, unmet); }, found);
   if (found.intervals.empty()) found.closest = search.closest(found.searched);
   found.evaluations = search.evaluations();
   return found;
@@ -425,7 +271,7 @@ FeasibleValues feasible_values(const ChangeableDrive& drive, std::string_view pa
 
 FeasibleValues feasible_values(const Drive& drive, std::string_view parameter,
                                const Target& target) {
-  require_none(faults(target));
+  require_none(faults_for_performance(target));
   return feasible_values(ChangeableDrive(drive), parameter, target);
 }
 

@@ -271,7 +271,7 @@ OverallMargin overall_margin(const Drivetrain& drive) {
 }
 
 ParameterMargin parameter_margin(const ChangeableDrive& drive, std::string_view parameter) {
-  const FeasibleValues quiet = feasible_values(drive, parameter, Target{.no_hunting = true});
+  const FeasibleValues quiet = feasible_values(drive, parameter, always_at_rest());
   ParameterMargin margin{.parameter = quiet.parameter,
                          .present = quiet.present,
                          .searched = quiet.searched,

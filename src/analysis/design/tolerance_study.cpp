@@ -157,7 +157,7 @@ void require_sound(const TolerancedDrive& drive, const SamplePlan& sampling,
 
 std::vector<Fault> validate(const StudyQuestions& questions) {
   RangeCheck check;
-  check.include(faults(questions.target));
+  check.include(faults_for_performance(questions.target));
   for (const double share : questions.shares) check.within("quantile", share, 0.0, 1.0);
   constexpr std::size_t most_bins = 1'000'000;
   if (questions.bins > most_bins) {

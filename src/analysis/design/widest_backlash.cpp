@@ -47,13 +47,14 @@ double largest_max(const Target& target, const detail::DrawnCycles& cycles, std:
   const double size = cycles.amplitude_per_backlash[row];
   performance.amplitude = min * size;
   if (is_met(target, performance) && !std::isnan(performance.amplitude)) {
-    return min + std::max(0.0, target.amplitude.high / size - min) / cycles.backlash[row];
+    return min + std::max(0.0, target.permitted(Quantity::amplitude).high / size - min) /
+                     cycles.backlash[row];
   }
   if (min > 0.0 || performance.verdict == Verdict::undamped) return never;
   // A sample without backlash does not hunt.
-  return is_met(target, {.verdict = Verdict::cannot_hunt,
-                         .growth_at_rest = performance.growth_at_rest,
-                         .amplitude = 0.0})
+  return is_met(target, Performance{.verdict = Verdict::cannot_hunt,
+                                    .growth_at_rest = performance.growth_at_rest,
+                                    .amplitude = 0.0})
              ? 0.0
              : never;
 }
@@ -106,9 +107,9 @@ class LargestMaxima {
 
 std::vector<Fault> validate(const BacklashDemand& demand) {
   RangeCheck check;
-  check.include(faults(demand.target));
-  if (demand.target.amplitude.low > 0.0) {
-    check.refuse("target", "amplitude >= " + exact_text(demand.target.amplitude.low),
+  check.include(faults_for_performance(demand.target));
+  if (const double low = demand.target.permitted(Quantity::amplitude).low; low > 0.0) {
+    check.refuse("target", "amplitude >= " + exact_text(low),
                  "must have no lower limit of amplitude: more backlash would then be better");
   }
   if (!(demand.yield > 0.0 && demand.yield <= 1.0)) {

@@ -137,6 +137,50 @@ const Parameter* parameter_of(const Axis& axis, const Drive& drive) {
   return is_single(axis, *parameter, drive) ? parameter : nullptr;
 }
 
+std::optional<double> present_value(const Axis& axis, const Drive& drive) {
+  const Parameter& parameter = *parameter_of(axis, drive);
+  Drive copy = drive;
+  const Slot slot = parameter.slot(copy);
+  if (const auto* choice = std::get_if<Choice>(&slot)) {
+    return static_cast<double>(choice->chosen(drive));
+  }
+  try {
+    return get(drive, axis.path);
+  } catch (const InvalidInput&) {
+    return std::nullopt;  // not given, without a default
+  }
+}
+
+Axis usual_axis(std::string_view field, const Drive& drive, std::string_view parameter) {
+  constexpr std::size_t count = 25;
+  Axis axis{.path = path_named(parameter, drive)};
+  const Parameter* const found = parameter_of(axis, drive);
+  if (found == nullptr)
+    refuse(field, std::string(parameter), "must be a number or a choice of this drive");
+  if (is_word(*found)) {
+    for (std::size_t i = 0; i < found->choices.size(); ++i) {
+      axis.values.push_back(static_cast<double>(i));
+    }
+    return axis;
+  }
+  if (found->permitted == Permitted::share) return linear(axis.path, 0.0, 1.0, count);
+  const double present = present_value(axis, drive).value_or(0.0);
+  constexpr double factor = 10.0;
+  if (present > 0.0 && std::isfinite(present)) {
+    axis = logarithmic(axis.path, present / factor, present * factor, count);
+    if (faults_of_value(axis, *found, 0.0).empty()) axis.values.insert(axis.values.begin(), 0.0);
+    return axis;
+  }
+  const UsualRange& usual = found->usual;
+  if (!(usual.low < usual.high)) {
+    refuse(field, std::string(parameter),
+           "must be above 0 at present, or have a range, as in " + axis.path + "=FROM:TO:COUNT");
+  }
+  const bool is_by_ratio = usual.is_logarithmic && usual.low > 0.0;
+  return is_by_ratio ? logarithmic(axis.path, usual.low, usual.high, count)
+                     : linear(axis.path, usual.low, usual.high, count);
+}
+
 void set_on(const Axis& axis, Drive& drive, double value) {
   add_section_of(drive, axis.path);
   const Parameter* parameter = find_parameter(axis.path, drive);

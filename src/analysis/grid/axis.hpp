@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,6 +42,13 @@ Axis spaced_axis(std::string_view field, std::string path, double from, double t
 /// The parameter that the axis varies; nullptr if the drive does not have it. An absent part of the
 /// drive (sampling, say) is treated as present.
 const Parameter* parameter_of(const Axis& axis, const Drive& drive);
+
+/// The number, or the choice's, that the drive has; empty where it is not given and has no default.
+/// Precondition: parameter_of(axis, drive).
+std::optional<double> present_value(const Axis& axis, const Drive& drive);
+
+/// usual_axis() of gearlash/design.hpp; faults name `field`.
+Axis usual_axis(std::string_view field, const Drive& drive, std::string_view parameter);
 
 /// Sets the drive's parameter to a value of the axis. Precondition: parameter_of(axis, drive).
 void set_on(const Axis& axis, Drive& drive, double value);

@@ -302,7 +302,13 @@ std::optional<AttractorSearch> follow_attractors(const ReducedDrive& drive,
     return std::nullopt;
   const std::vector<Outcome> wanted = representatives(known.outcomes);
   AttractorOptions options{.nearby = known.cycles, .most_edges = 0};
-  for (const Outcome& outcome : wanted) options.starts.push_back(outcome.start);
+  const double half = 0.5 * drive.backlash;
+  for (const Outcome& outcome : wanted) {
+    ShaftStates start = outcome.start;  // the gap may be narrower here
+    start.motor_position =
+        start.load_position + std::clamp(start.motor_position - start.load_position, -half, half);
+    options.starts.push_back(start);
+  }
   AttractorSearch found = find_attractors(drive, options, progress);
   if (!found.is_complete || found.cycles.size() != known.cycles.size()) return std::nullopt;
   for (std::size_t i = 0; i < found.cycles.size(); ++i) {

@@ -22,7 +22,7 @@ ChangeableDrive sample_drive() {
 
 Target at_most(double size) {
   Target target;
-  target.amplitude.high = size;
+  target.require(Quantity::amplitude, {0.0, size});
   return target;
 }
 Target no_hunting() {
@@ -32,7 +32,7 @@ Target no_hunting() {
 }
 Target at_least_as_fast_as(double frequency) {
   Target target;
-  target.frequency.low = frequency;
+  target.require(Quantity::frequency, {frequency, Target::infinity});
   return target;
 }
 
@@ -96,7 +96,7 @@ TEST(FeasibleValues, WithBouncesEndWhereGrowthAtRestPassesOne) {
 
 TEST(FeasibleValues, ThatDoNotExistHaveAClosestOne) {
   Target enormous;
-  enormous.amplitude.low = 100.0;
+  enormous.require(Quantity::amplitude, {100.0, Target::infinity});
   const FeasibleValues found = feasible_values(sample_drive(), "load_inertia", enormous);
   EXPECT_TRUE(found.intervals.empty());
   ASSERT_TRUE(found.closest.has_value());
@@ -127,14 +127,15 @@ Task drawn_task(SeededDraws& draws) {
       task.target.no_hunting = true;
       break;
     case 1:
-      task.target.amplitude.high = task.servo.backlash * draws.log_uniform(0.01, 3.0);
+      task.target = at_most(task.servo.backlash * draws.log_uniform(0.01, 3.0));
       break;
     case 2:
-      task.target.frequency.low = draws.uniform(0.02, 0.2);
+      task.target = at_least_as_fast_as(draws.uniform(0.02, 0.2));
       break;
     default:
-      task.target.frequency.low = draws.uniform(0.02, 0.15);
-      task.target.amplitude.high = task.servo.backlash * draws.log_uniform(0.03, 3.0);
+      task.target = at_least_as_fast_as(draws.uniform(0.02, 0.15));
+      task.target.require(Quantity::amplitude,
+                          {0.0, task.servo.backlash * draws.log_uniform(0.03, 3.0)});
   }
   return task;
 }
@@ -144,8 +145,8 @@ std::string describe(const Task& task) {
   return std::string(task.parameter) + " of damping " + exact_text(servo.damping) +
          " inertia_ratio " + exact_text(servo.inertia_ratio) + " friction_ratio " +
          exact_text(servo.friction_ratio) + " backlash " + exact_text(servo.backlash) +
-         " for size <= " + exact_text(task.target.amplitude.high) +
-         ", frequency >= " + exact_text(task.target.frequency.low) +
+         " for size <= " + exact_text(task.target.permitted(Quantity::amplitude).high) +
+         ", frequency >= " + exact_text(task.target.permitted(Quantity::frequency).low) +
          (task.target.no_hunting ? ", no hunting" : "");
 }
 
@@ -273,11 +274,11 @@ TEST(EdgeFeasibleValues, BesideAShaftWithoutFrictionAreFound) {
 
 TEST(EdgeTarget, ContradictionsAreFaults) {
   Target target = at_most(0.1);
-  target.amplitude.low = 0.2;
-  target.frequency = {5.0, 4.0};
+  target.require(Quantity::amplitude, {0.2, Target::infinity});
+  target.require(Quantity::frequency, {5.0, 4.0});
   EXPECT_EQ(faults(target).size(), 2U);
-  target = no_hunting();
-  target.amplitude.low = 0.1;
+  target = always_at_rest();
+  target.require(Quantity::amplitude, {0.1, Target::infinity});
   EXPECT_EQ(faults(target).size(), 1U);
   EXPECT_TRUE(faults(no_hunting()).empty());
 }

@@ -18,7 +18,7 @@ namespace {
 
 Target at_most(double size) {
   Target target;
-  target.amplitude.high = size;
+  target.require(Quantity::amplitude, {0.0, size});
   return target;
 }
 Target no_hunting() {

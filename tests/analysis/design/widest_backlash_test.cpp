@@ -14,7 +14,7 @@ namespace {
 
 Target at_most(double size) {
   Target target;
-  target.amplitude.high = size;
+  target.require(Quantity::amplitude, {0.0, size});
   return target;
 }
 
@@ -93,7 +93,7 @@ TEST(EdgeWidestBacklash, IsNothingWhereZeroToleranceDoesNotReachTheYield) {
   // The nominal backlash of 0.3 rad is the lowest where no other is given.
   EXPECT_FALSE(widest_backlash(toleranced({}), {at_most(limit), 0.5, {}}, sampling));
   Target fast;
-  fast.frequency.low = 1e3;
+  fast.require(Quantity::frequency, {1e3, Target::infinity});
   EXPECT_FALSE(widest_backlash(toleranced({}), {fast, 0.5, 0.1}, sampling));
 }
 
@@ -108,7 +108,7 @@ TEST(EdgeWidestBacklash, IsZeroWhereOnlyZeroBacklashDoes) {
 
 TEST(EdgeWidestBacklash, HasNoLimitWhereBacklashDoesNotMatter) {
   Target any_amplitude;
-  any_amplitude.frequency.high = 1e3;
+  any_amplitude.require(Quantity::frequency, {0.0, 1e3});
   const auto found = widest_backlash(toleranced({}), {any_amplitude, 0.99, {}}, sampling);
   ASSERT_TRUE(found);
   EXPECT_TRUE(std::isinf(found->max));
@@ -124,7 +124,7 @@ TEST(EdgeWidestBacklash, TheLowestValueIsThatOfItsDistribution) {
 
 TEST(EdgeWidestBacklash, EveryFaultIsNamed) {
   BacklashDemand demand{.target = at_most(1.0), .yield = 0.0, .min = -1.0};
-  demand.target.amplitude.low = 0.5;
+  demand.target.require(Quantity::amplitude, {0.5, Target::infinity});
   std::vector<std::string> lines;
   for (const Fault& fault : validate(demand)) lines.push_back(to_string(fault));
   EXPECT_THAT(lines,

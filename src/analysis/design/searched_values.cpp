@@ -1,0 +1,215 @@
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <utility>
+
+#include "analysis/analyse.hpp"
+#include "analysis/design/value_scan.hpp"
+#include "analysis/grid/axis.hpp"
+#include "gearlash/design.hpp"
+
+namespace gearlash {
+namespace {
+
+bool asks_for_ceiling(const Target& target) {
+  return std::any_of(target.limits.begin(), target.limits.end(), [](const QuantityLimit& limit) {
+    return limit.quantity == Quantity::ceiling || limit.quantity == Quantity::motor_ceiling ||
+           limit.quantity == Quantity::effort_ceiling;
+  });
+}
+
+/// A drive with other values of one parameter, as far as it was analysed.
+class AnalysedDrive {
+ public:
+  AnalysedDrive(const Drive& drive, const Axis& axis, const Target& target, Progress& progress)
+      : drive_(drive), axis_(axis), target_(target), progress_(progress) {
+    for (const QuantityLimit& limit : target.limits) {
+      if (info_of(limit.quantity).scope == QuantityScope::motion)
+        of_motion_.limits.push_back(limit);
+    }
+  }
+
+  std::size_t evaluations() const { return evaluations_; }
+  bool is_stopped() const { return is_stopped_; }
+
+  JudgedValue afresh(double value) { return judged(value, nullptr); }
+
+  /// From the nearest value that was analysed.
+  JudgedValue followed(double value) { return judged(value, nearest(value)); }
+
+ private:
+  using Known = std::shared_ptr<const Analysis>;
+
+  JudgedValue judged(double value, const Known& near) {
+    Drive drive = drive_;
+    set_on(axis_, drive, value);
+    if (!faults(drive).empty()) {
+      return {.value = value, .beyond = Target::infinity, .moves_beyond = Target::infinity};
+    }
+    if (is_stopped_) return {.value = value, .is_known = false, .beyond = Target::infinity};
+    Hearing hearing(*this);
+    const Wanted wanted{.proofs = false, .ceiling = asks_for_ceiling(target_)};
+    const auto analysis =
+        std::make_shared<const Analysis>(near ? analyse_near(drive, *near, wanted, hearing)
+                                              : analyse_in_full(drive, wanted, hearing));
+    ++evaluations_;
+    const Answer& answer = analysis->answer;
+    {
+      const std::scoped_lock lock(keeping_);
+      known_[value] = analysis;
+    }
+    return {.value = value,
+            .is_met = is_met(target_, answer),
+            .is_known = is_known(target_, answer),
+            .moves = answer.value(Quantity::amplitude).value_or(0.0) > 0.0,
+            .beyond = excess(target_, answer),
+            .moves_beyond = excess(of_motion_, answer)};
+  }
+
+  Known nearest(double value) {
+    const std::scoped_lock lock(keeping_);
+    const auto above = known_.lower_bound(value);
+    if (above == known_.end()) return known_.empty() ? nullptr : std::prev(above)->second;
+    if (above == known_.begin()) return above->second;
+    const auto below = std::prev(above);
+    return value - below->first < above->first - value ? below->second : above->second;
+  }
+
+  /// Asks whether to go on, from several threads.
+  class Hearing : public Progress {
+   public:
+    explicit Hearing(AnalysedDrive& of) : of_(of) {}
+    bool go_on(double share, std::size_t bytes = 0) override {
+      const std::scoped_lock lock(of_.hearing_);
+      const double done = static_cast<double>(of_.evaluations_) + share;
+      const double all = done + static_cast<double>(of_.axis_.values.size());
+      if (!of_.progress_.go_on(2.0 * done / (done + all), bytes)) of_.is_stopped_ = true;
+      return !of_.is_stopped_;
+    }
+
+   private:
+    AnalysedDrive& of_;
+  };
+
+  const Drive& drive_;
+  const Axis& axis_;
+  const Target& target_;
+  Target of_motion_;
+  Progress& progress_;
+  std::map<double, Known> known_;
+  std::mutex keeping_;
+  std::mutex hearing_;
+  std::atomic<std::size_t> evaluations_ = 0;
+  std::atomic<bool> is_stopped_ = false;
+};
+
+/// More is not worth a second or two for each value that is tried.
+Resolution resolution_over(const Bounds& range) {
+  constexpr double at_jump = 1e-4;
+  return {.smooth = 1e-9, .at_jump = at_jump, .least = 1e-3 * at_jump * (range.high - range.low)};
+}
+
+/// Whether a word asks for numbers that the drive does not have, as a cascade's gains.
+bool asks_for_more(const Axis& axis, double word, const Drive& drive) {
+  Drive changed = drive;
+  set_on(axis, changed, word);
+  const std::vector<Parameter>& all = all_parameters_of_drives();
+  return std::any_of(all.begin(), all.end(), [&](const Parameter& parameter) {
+    return parameter.is_required && exists(parameter, changed) && !exists(parameter, drive);
+  });
+}
+
+/// In place of a value that differs from it by rounding.
+void add_present(double present, std::vector<double>& grid) {
+  constexpr double rounding = 1e-12;
+  const auto above = std::lower_bound(grid.begin(), grid.end(), present);
+  for (const auto near : {above, above == grid.begin() ? above : std::prev(above)}) {
+    if (near == grid.end() || std::abs(*near - present) > rounding * std::abs(present)) continue;
+    *near = present;
+    return;
+  }
+  grid.insert(above, present);
+}
+
+std::vector<JudgedValue> of_words(AnalysedDrive& analysed, FeasibleValues& found) {
+  const auto afresh = [&](double value) { return analysed.afresh(value); };
+  std::vector<JudgedValue> tried =
+      tried_values(afresh, {.first = found.grid, .most_halvings = 0, .halvings_everywhere = 0});
+  for (const JudgedValue& one : tried) {
+    if (one.is_met) found.intervals.push_back({one.value, one.value});
+    if (!one.is_known) found.undecided.push_back({one.value, one.value});
+  }
+  return tried;
+}
+
+std::vector<JudgedValue> of_numbers(AnalysedDrive& analysed, const Resolution& resolution,
+                                    FeasibleValues& found) {
+  const auto afresh = [&](double value) { return analysed.afresh(value); };
+  const auto followed = [&](double value) { return analysed.followed(value); };
+  constexpr int most_halvings = 2;
+  std::vector<JudgedValue> tried = tried_values(
+      afresh, {.first = found.grid, .most_halvings = most_halvings, .halvings_everywhere = 0});
+  found.located = resolution.at_jump;
+  if (tried.size() == 1 && tried[0].is_met) found.intervals = {found.searched};
+  const auto is_met_at = [&](double value) {
+    return std::lower_bound(
+               tried.begin(), tried.end(), value,
+               [](const JudgedValue& one, double wanted) { return one.value < wanted; })
+        ->is_met;
+  };
+  put_together(
+      parts_between(tried), is_met_at,
+      [&](double met, double unmet) {
+        const LastMet last = last_met(followed, met, unmet, resolution);
+        if (last.value == met || afresh(last.value).is_met) return last;
+        return last_met(afresh, met, last.value, resolution);
+      },
+      found);
+  return tried;
+}
+
+}  // namespace
+
+Axis usual_axis(const Drive& drive, std::string_view parameter) {
+  return usual_axis("parameter", drive, parameter);
+}
+
+/// The drive is analysed afresh at each value of the axis, at the present one, and at the ends of
+/// intervals. Between two values, of which one meets the target, analyse_near() closes in on the
+/// last one that does. If that misses the target when it is analysed afresh, the search between is
+/// repeated without following. A value whose drive is unsound does not meet the target.
+FeasibleValues feasible_values(const Drive& drive, const Axis& axis, const Target& target,
+                               Progress& progress) {
+  std::vector<Fault> all = faults(drive);
+  for (const std::vector<Fault>& more : {faults_of_axis(axis, drive, "axis"), faults(target)}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  require_none(std::move(all));
+  const std::optional<double> present = present_value(axis, drive);
+  const auto [least, most] = std::minmax_element(axis.values.begin(), axis.values.end());
+  FeasibleValues found{.parameter = axis.path,
+                       .present = present.value_or(std::numeric_limits<double>::quiet_NaN()),
+                       .searched = {*least, *most},
+                       .kind = SearchKind::searched,
+                       .grid = axis.values};
+  const bool is_word = !parameter_of(axis, drive)->choices.empty();
+  std::sort(found.grid.begin(), found.grid.end());
+  if (is_word) {
+    std::erase_if(found.grid, [&](double word) { return asks_for_more(axis, word, drive); });
+  }
+  if (present && !is_word && found.searched.contains(*present)) add_present(*present, found.grid);
+  AnalysedDrive analysed(drive, axis, target, progress);
+  const std::vector<JudgedValue> tried =
+      is_word ? of_words(analysed, found)
+              : of_numbers(analysed, resolution_over(found.searched), found);
+  if (found.intervals.empty()) found.closest = closest_of(tried);
+  found.evaluations = analysed.evaluations();
+  found.stopped = analysed.is_stopped();
+  return found;
+}
+
+}  // namespace gearlash

@@ -1,0 +1,264 @@
+#include "output/searched_design_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/design/target.hpp"
+#include "analysis/grid/axis.hpp"
+#include "output/columns.hpp"
+#include "output/drive_text.hpp"
+#include "output/json_values.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr int digits = 6;
+constexpr int few_digits = 3;
+
+/// How values of one parameter are written.
+class ValueText {
+ public:
+  ValueText(const SearchedDesignReport& report, const FeasibleValues& values)
+      : drive_(report.drive), axis_{.path = values.parameter}, unit_(unit_of(axis_, drive_)) {
+    if (unit_ == "rad") {
+      unit_ = report.angle.name;
+      size_ = report.angle.radians;
+    }
+    if (unit_ == "1") unit_.clear();
+  }
+
+  bool is_word() const { return !parameter_of(axis_, drive_)->choices.empty(); }
+
+  std::string of(double value) const {
+    if (std::isnan(value)) return "";
+    return is_word() ? text_of(axis_, drive_, value)
+                     : with_unit(significant(value / size_, digits));
+  }
+
+  /// Rounded inwards.
+  std::string of(const Bounds& interval) const {
+    if (interval.low == interval.high) return of(interval.low);
+    return significant(rounded_up(interval.low / size_, digits), digits) + " to " +
+           with_unit(significant(rounded_down(interval.high / size_, digits), digits));
+  }
+
+ private:
+  std::string with_unit(const std::string& number) const {
+    return unit_.empty() ? number : number + " " + unit_;
+  }
+
+  const Drive& drive_;
+  Axis axis_;
+  std::string unit_;
+  double size_ = 1.0;
+};
+
+std::string result_text(const Answer& answer, const AngleUnit& angle) {
+  std::string text = name_of(answer.verdict);
+  const std::optional<double> load = answer.value(Quantity::amplitude);
+  const std::optional<double> motor = answer.value(Quantity::motor_amplitude);
+  constexpr double hardly = 1e-3;  // the load moves while the motor hunts within the gap
+  const bool is_of_motor = load && motor && *load < hardly * *motor;
+  const std::optional<double> amplitude = is_of_motor ? motor : load;
+  if (!amplitude || *amplitude == 0.0) return text;
+  text += (is_of_motor ? ": motor ±" : ": ±") + angle_text(*amplitude, angle, few_digits);
+  if (const auto frequency = answer.value(Quantity::frequency)) {
+    text += " at " + significant(*frequency, few_digits) + " Hz";
+  }
+  return text;
+}
+
+std::vector<std::string> costs_text(const DriveWithValue& one, const AngleUnit& angle) {
+  const auto error = one.answer.value(Quantity::static_error);
+  const drive::StepResponse& response = one.response;
+  const auto time = [](double seconds) {
+    return std::isnan(seconds) ? "" : significant(seconds, few_digits) + " s";
+  };
+  return {error ? angle_text(*error, angle, few_digits) : "", time(response.rise_time),
+          std::isnan(response.overshoot) ? "" : fmt::format("{:.1f} %", 100.0 * response.overshoot),
+          time(response.settling_time)};
+}
+
+std::vector<std::string> row_text(const SearchedDesignReport& report,
+                                  const SearchedParameter& parameter, std::size_t index) {
+  const FeasibleValues& values = parameter.values;
+  const ValueText text(report, values);
+  const DriveWithValue& one = parameter.results[index];
+  const bool has_ratio = !text.is_word() && values.present != 0.0 && !std::isnan(values.present);
+  const bool is_first = index == 0;
+  std::vector<std::string> row = {
+      is_first ? values.parameter : "  or", is_first ? text.of(values.present) : "",
+      text.of(values.intervals[index]),
+      !has_ratio                    ? ""
+      : one.value == values.present ? "0 %"
+                                    : change_text(one.value / values.present),
+      result_text(one.answer, report.angle)};
+  for (std::string& cell : costs_text(one, report.angle)) row.push_back(std::move(cell));
+  return row;
+}
+
+std::string table_of_results(const SearchedDesignReport& report) {
+  std::vector<std::vector<std::string>> rows = {{"parameter", "now", "meets the target", "change",
+                                                 "result", "static error", "rise", "overshoot",
+                                                 "settles"}};
+  for (const SearchedParameter& parameter : report.parameters) {
+    for (std::size_t i = 0; i < parameter.values.intervals.size(); ++i) {
+      rows.push_back(row_text(report, parameter, i));
+    }
+  }
+  if (rows.size() == 1) return "";
+  return "One change by itself, other parameters fixed; its result at the value nearest to the "
+         "present one,\nand a step of the reference of " +
+         angle_text(report.present.response.step, report.angle, few_digits) + "\n" +
+         table_text(rows) + "\n";
+}
+
+std::string reasons(const SearchedDesignReport& report) {
+  std::string text;
+  for (const SearchedParameter& parameter : report.parameters) {
+    const FeasibleValues& values = parameter.values;
+    if (!values.intervals.empty()) continue;
+    const ValueText shown(report, values);
+    text += "  " + values.parameter + ": no " +
+            (shown.is_word() ? "choice"
+                             : "value of those tried from " + shown.of(values.searched.low) +
+                                   " to " + shown.of(values.searched.high)) +
+            "; closest is " + shown.of(*values.closest) + " (" +
+            result_text(parameter.results.at(0).answer, report.angle) + ")\n";
+  }
+  return text.empty() ? "" : "No value meets the target\n" + text + "\n";
+}
+
+std::string undecided_text(const SearchedDesignReport& report) {
+  std::string parts;
+  for (const SearchedParameter& parameter : report.parameters) {
+    const ValueText shown(report, parameter.values);
+    for (const Bounds& part : parameter.values.undecided) {
+      parts += (parts.empty() ? "" : "; ") + parameter.values.parameter + " " + shown.of(part);
+    }
+  }
+  return parts.empty() ? "" : " Undecided: " + parts + ".";
+}
+
+std::string certainty(const SearchedDesignReport& report) {
+  std::string grids;
+  double located = 0.0;
+  bool is_stopped = false;
+  for (const SearchedParameter& parameter : report.parameters) {
+    const FeasibleValues& values = parameter.values;
+    const ValueText shown(report, values);
+    grids += (grids.empty() ? "" : "; ") +
+             fmt::format("{}, {} values", values.parameter, values.grid.size());
+    if (!shown.is_word()) {
+      grids += " from " + shown.of(values.searched.low) + " to " + shown.of(values.searched.high);
+    }
+    located = std::max(located, values.located);
+    is_stopped = is_stopped || values.stopped;
+  }
+  return "Searched, not proved: at each value of a grid the drive was followed from many starts (" +
+         grids + "). What is narrower than the distance of two values may be missed. " +
+         (located > 0.0 ? "Ends of intervals are located to " + significant(located, 1) +
+                              " of their value, by following the drive from value to value, and "
+                              "were searched again."
+                        : "") +
+         undecided_text(report) +
+         (is_stopped ? " The search was stopped: the values that it did not reach are undecided."
+                     : "");
+}
+
+// ---- JSON ---------------------------------------------------------------------------------------
+
+Json json_performance(const Answer& answer) {
+  return {{"verdict", name_of(answer.verdict)},
+          {"growth_at_rest", json_optional(answer.growth_at_rest)},
+          {"amplitude", json_optional(answer.value(Quantity::amplitude))},
+          {"frequency", json_optional(answer.value(Quantity::frequency))},
+          {"static_error", json_optional(answer.value(Quantity::static_error))}};
+}
+
+Json json_response(const drive::StepResponse& response) {
+  return {{"step", json_number(response.step)},
+          {"rise_time", json_number(response.rise_time)},
+          {"overshoot", json_number(response.overshoot)},
+          {"settling_time", json_number(response.settling_time)}};
+}
+
+/// A number, or the word of a choice.
+Json json_value(const Drive& drive, const FeasibleValues& values, double value) {
+  const Axis axis{.path = values.parameter};
+  const bool is_word = !parameter_of(axis, drive)->choices.empty() && !std::isnan(value);
+  return is_word ? Json(text_of(axis, drive, value)) : json_number(value);
+}
+
+Json json_result(const Drive& drive, const FeasibleValues& values, const DriveWithValue& one) {
+  const bool is_word = !parameter_of({.path = values.parameter}, drive)->choices.empty();
+  const bool has_ratio = !is_word && values.present != 0.0;
+  return {{"value", json_value(drive, values, one.value)},
+          {"change_percent",
+           has_ratio ? json_number(100.0 * (one.value / values.present - 1.0)) : Json(nullptr)},
+          {"performance", json_performance(one.answer)},
+          {"loop", nullptr},
+          {"response", json_response(one.response)}};
+}
+
+Json json_parameter(const Drive& drive, const SearchedParameter& parameter) {
+  const FeasibleValues& values = parameter.values;
+  const Axis axis{.path = values.parameter};
+  const auto of_interval = [&](const Bounds& interval) {
+    return Json{{"from", json_value(drive, values, interval.low)},
+                {"to", json_value(drive, values, interval.high)}};
+  };
+  const auto nearest = std::min_element(
+      parameter.results.begin(), parameter.results.end(), [&](const auto& a, const auto& b) {
+        const auto distance = [&](double value) {
+          return value > 0.0 && values.present > 0.0 ? std::abs(std::log(value / values.present))
+                                                     : std::abs(value - values.present);
+        };
+        return distance(a.value) < distance(b.value);
+      });
+  const Json best =
+      nearest == parameter.results.end() ? Json(nullptr) : json_result(drive, values, *nearest);
+  return {{"parameter", values.parameter},
+          {"description", parameter_of(axis, drive)->meaning},
+          {"unit", unit_of(axis, drive)},
+          {"present", json_value(drive, values, values.present)},
+          {"searched", of_interval(values.searched)},
+          {"certified", false},
+          {"grid",
+           json_list(values.grid, [&](double value) { return json_value(drive, values, value); })},
+          {"located", json_number(values.located)},
+          {"intervals", json_list(values.intervals, of_interval)},
+          {"undecided", json_list(values.undecided, of_interval)},
+          {"nearest", values.intervals.empty() ? Json(nullptr) : best},
+          {"closest", values.intervals.empty() ? best : Json(nullptr)}};
+}
+
+}  // namespace
+
+std::string design_text(const SearchedDesignReport& report) {
+  const Answer& present = report.present.answer;
+  const std::string met = !is_known(report.target, present) ? "undecided"
+                          : is_met(report.target, present)  ? "met"
+                                                            : "not met";
+  return fmt::format("target: {}\nat present: {}, {}\n\n", report.target_text,
+                     result_text(present, report.angle), met) +
+         table_of_results(report) + reasons(report) + wrapped(certainty(report));
+}
+
+std::string design_json(const SearchedDesignReport& report) {
+  const Answer& present = report.present.answer;
+  Json json = json_head("design", report.drive, report.provenance);
+  json["target"] = report.target_text;
+  json["met"] = is_known(report.target, present) ? Json(is_met(report.target, present)) : nullptr;
+  json["present"] = {{"performance", json_performance(present)},
+                     {"loop", nullptr},
+                     {"response", json_response(report.present.response)}};
+  json["answers"] = json_list(report.parameters, [&](const SearchedParameter& parameter) {
+    return json_parameter(report.drive, parameter);
+  });
+  return json.dump(2) + "\n";
+}
+
+}  // namespace gearlash

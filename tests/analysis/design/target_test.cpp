@@ -1,0 +1,90 @@
+// What meets a target: verdicts and quantities of answers that are made up.
+#include "analysis/design/target.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gearlash {
+namespace {
+
+Answer answer_with(Verdict verdict) {
+  Answer answer{.verdict = verdict};
+  answer.search = SearchRecord{};
+  return answer;
+}
+
+/// With a stable cycle of this amplitude, to which a start led.
+Answer hunting(Verdict verdict, double amplitude) {
+  Answer answer = answer_with(verdict);
+  answer.cycles.push_back({.stability = Stability::stable, .amplitude = amplitude, .starts = 1});
+  answer.search->starts.push_back({.end = "cycle", .which = 0});
+  return answer;
+}
+
+TEST(Target, PermitsVerdicts) {
+  const Target no_hunting{.no_hunting = true};
+  const Target no_runaway{.no_runaway = true};
+  struct Row {
+    Verdict verdict;
+    bool without_hunting;
+    bool at_rest;
+    bool without_runaway;
+  };
+  for (const Row& row :
+       {Row{Verdict::comes_to_rest, true, true, true}, Row{Verdict::cannot_hunt, true, true, true},
+        Row{Verdict::hunts, false, false, true},
+        Row{Verdict::hunts_irregularly, false, false, true},
+        Row{Verdict::forced, false, false, true},
+        Row{Verdict::hunts_if_disturbed, true, false, true},
+        Row{Verdict::runs_away, false, false, false},
+        Row{Verdict::runs_away_if_disturbed, true, true, false},
+        Row{Verdict::undecided, false, false, false}}) {
+    const Answer answer = answer_with(row.verdict);
+    EXPECT_EQ(is_met(no_hunting, answer), row.without_hunting) << name_of(row.verdict);
+    EXPECT_EQ(is_met(always_at_rest(), answer), row.at_rest) << name_of(row.verdict);
+    EXPECT_EQ(is_met(no_runaway, answer), row.without_runaway) << name_of(row.verdict);
+    EXPECT_EQ(is_known(no_hunting, answer), row.verdict != Verdict::undecided);
+  }
+}
+
+/// The worse of two ends gives the verdict.
+TEST(Target, SeesHuntingBesideRunningAway) {
+  const Answer answer = hunting(Verdict::runs_away_if_disturbed, 0.1);
+  EXPECT_TRUE(is_met(Target{.no_hunting = true}, answer));
+  EXPECT_FALSE(is_met(always_at_rest(), answer));
+  Answer beside = hunting(Verdict::hunts, 0.1);
+  beside.search->starts.push_back({.end = "diverges"});
+  EXPECT_FALSE(is_met(Target{.no_runaway = true}, beside));
+}
+
+TEST(Target, LimitsAnyQuantity) {
+  const Answer answer = hunting(Verdict::hunts, 0.1);
+  const auto within = [](Quantity quantity, const Bounds& permitted) {
+    return Target{}.require(quantity, permitted);
+  };
+  EXPECT_TRUE(is_met(within(Quantity::amplitude, {0.0, 0.1}), answer));
+  EXPECT_FALSE(is_met(within(Quantity::amplitude, {0.0, 0.09}), answer));
+  EXPECT_NEAR(excess(within(Quantity::amplitude, {0.0, 0.05}), answer), std::log(2.0), 1e-15);
+  EXPECT_NEAR(excess(within(Quantity::amplitude, {0.4, 1.0}), answer), std::log(4.0), 1e-15);
+  // A ceiling that is not known keeps no limit.
+  EXPECT_FALSE(is_met(within(Quantity::ceiling, {0.0, 1.0}), answer));
+  EXPECT_EQ(excess(within(Quantity::ceiling, {0.0, 1.0}), answer), Target::infinity);
+  Answer bounded = answer;
+  bounded.ceiling = Ceiling{.load = 0.5};
+  EXPECT_TRUE(is_met(within(Quantity::ceiling, {0.0, 1.0}), bounded));
+  // A drive at rest has no frequency, and its amplitude is 0.
+  const Answer rest = answer_with(Verdict::comes_to_rest);
+  EXPECT_TRUE(is_met(within(Quantity::frequency, {5.0, 6.0}), rest));
+  EXPECT_FALSE(is_met(within(Quantity::amplitude, {0.1, 1.0}), rest));
+}
+
+TEST(Target, NarrowsALimitThatIsGivenTwice) {
+  Target target;
+  target.require(Quantity::amplitude, {0.0, 2.0}).require(Quantity::amplitude, {1.0, 3.0});
+  EXPECT_EQ(target.permitted(Quantity::amplitude), (Bounds{1.0, 2.0}));
+  EXPECT_EQ(target.limits.size(), 1U);
+}
+
+}  // namespace
+}  // namespace gearlash
