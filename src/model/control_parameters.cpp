@@ -195,6 +195,18 @@ Slot of_terms(Drive& drive, Member PID::*member, PIDTerms with) {
   return has_it ? of_law(drive, member) : Slot{};
 }
 
+Slot input_of_derivative(Drive& d) {
+  const Slot filter = of_terms(d, &PID::filter, PIDTerms::PD);
+  if (std::holds_alternative<std::monostate>(filter)) return Slot{};
+  return Choice{[](const Drive& drive) {
+                  const PID& pid = std::get<PID>(drive.controller.law);
+                  return static_cast<std::size_t>(pid.derivative_of_speed);
+                },
+                [](Drive& drive, std::size_t choice) {
+                  std::get<PID>(drive.controller.law).derivative_of_speed = choice == 1;
+                }};
+}
+
 std::vector<Parameter> pid_parameters() {
   return {{.path = "controller.proportional",
            .slot = [](Drive& d) { return of_law(d, &PID::proportional); },
@@ -243,19 +255,7 @@ std::vector<Parameter> pid_parameters() {
            .permitted = Permitted::not_negative,
            .usual = {1e-4, 0.1}},
           {.path = "controller.derivative_of",
-           .slot =
-               [](Drive& d) {
-                 const Slot member = of_terms(d, &PID::filter, PIDTerms::PD);
-                 if (std::holds_alternative<std::monostate>(member)) return Slot{};
-                 return Slot{Choice{[](const Drive& drive) {
-                                      const PID& pid = std::get<PID>(drive.controller.law);
-                                      return static_cast<std::size_t>(pid.derivative_of_speed);
-                                    },
-                                    [](Drive& drive, std::size_t choice) {
-                                      std::get<PID>(drive.controller.law).derivative_of_speed =
-                                          choice == 1;
-                                    }}};
-               },
+           .slot = &input_of_derivative,
            .meaning = "input of the derivative: the error, or the measured speed",
            .choices = {"error", "speed"}}};
 }

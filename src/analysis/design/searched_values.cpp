@@ -50,7 +50,8 @@ class AnalysedDrive {
     if (!faults(drive).empty()) {
       return {.value = value, .beyond = Target::infinity, .moves_beyond = Target::infinity};
     }
-    if (is_stopped_) return {.value = value, .is_known = false, .beyond = Target::infinity};
+    const JudgedValue unknown{.value = value, .is_known = false, .beyond = Target::infinity};
+    if (is_stopped_) return unknown;
     Hearing hearing(*this);
     const Wanted wanted{.proofs = false, .ceiling = asks_for_ceiling(target_)};
     const auto analysis =
@@ -58,6 +59,7 @@ class AnalysedDrive {
                                               : analyse_in_full(drive, wanted, hearing));
     ++evaluations_;
     const Answer& answer = analysis->answer;
+    if (answer.search && !answer.search->is_complete) return unknown;
     {
       const std::scoped_lock lock(keeping_);
       known_[value] = analysis;
@@ -79,15 +81,16 @@ class AnalysedDrive {
     return value - below->first < above->first - value ? below->second : above->second;
   }
 
-  /// Asks whether to go on, from several threads.
+  /// Asks whether to go on, from several threads. The ends of intervals take about as many values
+  /// as the axis has.
   class Hearing : public Progress {
    public:
     explicit Hearing(AnalysedDrive& of) : of_(of) {}
     bool go_on(double share, std::size_t bytes = 0) override {
       const std::scoped_lock lock(of_.hearing_);
       const double done = static_cast<double>(of_.evaluations_) + share;
-      const double all = done + static_cast<double>(of_.axis_.values.size());
-      if (!of_.progress_.go_on(2.0 * done / (done + all), bytes)) of_.is_stopped_ = true;
+      const double left = std::max(1.0, 2.0 * static_cast<double>(of_.axis_.values.size()) - done);
+      if (!of_.progress_.go_on(done / (done + left), bytes)) of_.is_stopped_ = true;
       return !of_.is_stopped_;
     }
 

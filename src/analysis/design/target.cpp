@@ -282,10 +282,10 @@ std::vector<Fault> faults(const Target& target) {
   for (const QuantityLimit& limit : target.limits) {
     if (limit.permitted.low <= limit.permitted.high) continue;
     const std::string name = written(limit.quantity);
-    check.refuse("target",
-                 name + " >= " + exact_text(limit.permitted.low) + " and " + name +
-                     " <= " + exact_text(limit.permitted.high),
-                 "must not contradict itself");
+    std::string both = name + " >= " + exact_text(limit.permitted.low);
+    both += " and " + name;
+    both += " <= " + exact_text(limit.permitted.high);
+    check.refuse("target", both, "must not contradict itself");
   }
   if (!asks_for_rest(target)) return check.faults();
   const std::string rest =
