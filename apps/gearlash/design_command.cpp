@@ -34,9 +34,8 @@ constexpr char examples[] =
     "      --parameters gearbox.backlash,gearbox.ratio --format json | jq .answers[0].nearest\n"
     "  gearlash design examples/elinco-fd162.toml --target no-hunting \\\n"
     "      --vary load.friction,controller.proportional --plot region=region.svg\n"
-    "  gearlash design examples/pid-with-coulomb-friction.toml --target no-hunting-if-disturbed "
-    "\\\n"
-    "      --parameters controller.proportional,motor.coulomb=0:0.2:21\n"
+    "  gearlash design examples/robot-joint.toml --target \"motor-amplitude <= 0.1 deg\" \\\n"
+    "      --parameters controller.kind,controller.integral=0:100:5\n"
     "  gearlash design --damping 0.19 --inertia-ratio 2 --friction-ratio 1/10 --backlash 0.3 \\\n"
     "      --target \"amplitude <= 0.1\"\n";
 
