@@ -202,9 +202,11 @@ std::vector<Axis> read_axes(const DesignOptions& options, const Drive& drive, Fa
 
 DriveWithValue with_value(Drive drive, const Axis* axis, double value, const drive::Step& step) {
   if (axis != nullptr) set_on(*axis, drive, value);
+  const drive::ReducedDrive reduced = reduce(drive);
   return {.value = value,
           .answer = analyse(drive, {.proofs = false}),
-          .response = drive::step_response(reduce(drive), step.size, step.until)};
+          .response = drive::step_response(reduced, step.size, step.until),
+          .loop = drive::loop_figures(reduced)};
 }
 
 /// The value of each interval that is nearest to the present one, or the closest value.

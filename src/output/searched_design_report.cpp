@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "analysis/design/target.hpp"
 #include "analysis/grid/axis.hpp"
@@ -16,6 +18,8 @@ namespace {
 
 constexpr int digits = 6;
 constexpr int few_digits = 3;
+constexpr double turn = 2.0 * std::numbers::pi;
+constexpr double degree = std::numbers::pi / 180.0;
 
 /// How values of one parameter are written.
 class ValueText {
@@ -70,16 +74,24 @@ std::string result_text(const Answer& answer, const AngleUnit& angle) {
   return text;
 }
 
+/// In the order of `names_of_costs`.
 std::vector<std::string> costs_text(const DriveWithValue& one, const AngleUnit& angle) {
   const auto error = one.answer.value(Quantity::static_error);
   const drive::StepResponse& response = one.response;
+  const drive::LoopFigures loop = one.loop.value_or(drive::LoopFigures{});
   const auto time = [](double seconds) {
     return std::isnan(seconds) ? "" : significant(seconds, few_digits) + " s";
   };
-  return {error ? angle_text(*error, angle, few_digits) : "", time(response.rise_time),
+  return {error ? angle_text(*error, angle, few_digits) : "",
+          time(response.rise_time),
           std::isnan(response.overshoot) ? "" : fmt::format("{:.1f} %", 100.0 * response.overshoot),
-          time(response.settling_time)};
+          time(response.settling_time),
+          loop.bandwidth ? significant(*loop.bandwidth / turn, few_digits) + " Hz" : "",
+          loop.phase_margin ? fmt::format("{:.1f} deg", *loop.phase_margin / degree) : ""};
 }
+
+constexpr std::array names_of_costs = {"static error", "rise",      "overshoot",
+                                       "settles",      "bandwidth", "phase margin"};
 
 std::vector<std::string> row_text(const SearchedDesignReport& report,
                                   const SearchedParameter& parameter, std::size_t index) {
@@ -100,9 +112,9 @@ std::vector<std::string> row_text(const SearchedDesignReport& report,
 }
 
 std::string table_of_results(const SearchedDesignReport& report) {
-  std::vector<std::vector<std::string>> rows = {{"parameter", "now", "meets the target", "change",
-                                                 "result", "static error", "rise", "overshoot",
-                                                 "settles"}};
+  std::vector<std::vector<std::string>> rows = {
+      {"parameter", "now", "meets the target", "change", "result"}};
+  rows.front().insert(rows.front().end(), names_of_costs.begin(), names_of_costs.end());
   for (const SearchedParameter& parameter : report.parameters) {
     for (std::size_t i = 0; i < parameter.values.intervals.size(); ++i) {
       rows.push_back(row_text(report, parameter, i));
@@ -110,9 +122,9 @@ std::string table_of_results(const SearchedDesignReport& report) {
   }
   if (rows.size() == 1) return "";
   return "One change by itself, other parameters fixed; its result at the value nearest to the "
-         "present one,\nand a step of the reference of " +
-         angle_text(report.present.response.step, report.angle, few_digits) + "\n" +
-         table_text(rows) + "\n";
+         "present one,\na step of the reference of " +
+         angle_text(report.present.response.step, report.angle, few_digits) +
+         ", and the linear loop without the gap\n" + table_text(rows) + "\n";
 }
 
 std::string reasons(const SearchedDesignReport& report) {
@@ -185,6 +197,17 @@ Json json_response(const drive::StepResponse& response) {
           {"settling_time", json_number(response.settling_time)}};
 }
 
+Json json_loop(const std::optional<drive::LoopFigures>& loop) {
+  if (!loop) return nullptr;
+  const auto hertz = [](const std::optional<double>& frequency) {
+    return frequency ? json_number(*frequency / turn) : Json(nullptr);
+  };
+  return {{"stable", loop->is_stable},
+          {"bandwidth", hertz(loop->bandwidth)},
+          {"crossover", hertz(loop->crossover)},
+          {"phase_margin", json_optional(loop->phase_margin)}};
+}
+
 /// A number, or the word of a choice.
 Json json_value(const Drive& drive, const FeasibleValues& values, double value) {
   const Axis axis{.path = values.parameter};
@@ -199,7 +222,7 @@ Json json_result(const Drive& drive, const FeasibleValues& values, const DriveWi
           {"change_percent",
            has_ratio ? json_number(100.0 * (one.value / values.present - 1.0)) : Json(nullptr)},
           {"performance", json_performance(one.answer)},
-          {"loop", nullptr},
+          {"loop", json_loop(one.loop)},
           {"response", json_response(one.response)}};
 }
 
@@ -253,7 +276,7 @@ std::string design_json(const SearchedDesignReport& report) {
   json["target"] = report.target_text;
   json["met"] = is_known(report.target, present) ? Json(is_met(report.target, present)) : nullptr;
   json["present"] = {{"performance", json_performance(present)},
-                     {"loop", nullptr},
+                     {"loop", json_loop(report.present.loop)},
                      {"response", json_response(report.present.response)}};
   json["answers"] = json_list(report.parameters, [&](const SearchedParameter& parameter) {
     return json_parameter(report.drive, parameter);

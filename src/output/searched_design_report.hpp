@@ -1,9 +1,11 @@
 // The answer to "what must change?" for drives that are searched, as text and as JSON.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "analysis/linear_loop.hpp"
 #include "analysis/step_response.hpp"
 #include "gearlash/answer.hpp"
 #include "gearlash/design.hpp"
@@ -16,6 +18,7 @@ struct DriveWithValue {
   double value = 0.0;
   Answer answer{};
   drive::StepResponse response{};
+  std::optional<drive::LoopFigures> loop{};  ///< empty for a relay
 };
 
 struct SearchedParameter {

@@ -217,9 +217,16 @@ TEST(DesignCommand, OfAnyDriveAreItsAnswersThoseOfLimitCycle) {
   };
   EXPECT_LE(largest_with(end), limit);
   EXPECT_NE(answer["nearest"]["response"]["step"], nullptr);
+  // Less integral action turns the loop less.
+  const auto& present = design["present"]["loop"];
+  const auto& loop = answer["nearest"]["loop"];
+  EXPECT_EQ(loop["stable"], true);
+  EXPECT_GT(loop["phase_margin"], present["phase_margin"]);
+  EXPECT_NEAR(loop["bandwidth"], present["bandwidth"], 0.1 * present["bandwidth"].get<double>());
   const Outcome text = run_tool(words);
   EXPECT_THAT(text.out, HasSubstr("at present: hunts: motor ±0.218 deg at 0.261 Hz, not met"));
   EXPECT_THAT(text.out, HasSubstr("controller.integral, 5 values from 50 V/(rad s)"));
+  EXPECT_THAT(text.out, HasSubstr("overshoot  settles  bandwidth  phase margin\n"));
 }
 
 TEST(DesignCommand, OfAnyDriveTriesEveryWord) {

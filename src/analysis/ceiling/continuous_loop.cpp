@@ -206,10 +206,18 @@ class ContinuousLoop : public DisturbedLoop {
   DecayingMotion motion_;
 };
 
+Model model_of(const ReducedDrive& drive) {
+  return connected(plant_of(drive), drive::linear_controller(drive.controller));
+}
+
 }  // namespace
 
+bool continuous_loop_decays(const ReducedDrive& drive) {
+  return DecayingMotion::of(model_of(drive).flow, TimeKind::continuous).has_value();
+}
+
 std::unique_ptr<DisturbedLoop> continuous_loop(const ReducedDrive& drive) {
-  Model model = connected(plant_of(drive), drive::linear_controller(drive.controller));
+  Model model = model_of(drive);
   std::optional<DecayingMotion> motion = DecayingMotion::of(model.flow, TimeKind::continuous);
   if (!motion) return nullptr;
   return std::make_unique<ContinuousLoop>(std::move(model), *std::move(motion));

@@ -64,4 +64,11 @@ std::unique_ptr<DisturbedLoop> continuous_loop(const drive::ReducedDrive& drive)
 /// The same for a sampled controller.
 std::unique_ptr<DisturbedLoop> sampled_loop(const drive::ReducedDrive& drive);
 
+/// Whether it is proved that the loop of a continuous controller decays, with the faces together.
+/// Any faces.
+bool continuous_loop_decays(const drive::ReducedDrive& drive);
+
+/// The same for a sampled controller.
+bool sampled_loop_decays(const drive::ReducedDrive& drive);
+
 }  // namespace gearlash

@@ -51,7 +51,8 @@ struct Plant {
   std::size_t size() const { return flow.size(); }
 };
 
-/// Preconditions: rigid faces, or compliant ones without damping or without a gap.
+/// Precondition for what the gap adds: rigid faces, or compliant ones without damping or without a
+/// gap. All else holds for any faces that stay together.
 Plant plant_of(const drive::ReducedDrive& drive);
 
 }  // namespace gearlash

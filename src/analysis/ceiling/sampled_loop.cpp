@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/ceiling/held_torques.hpp"
 #include "analysis/ceiling/loop_gain.hpp"
 #include "analysis/ceiling/plant.hpp"
 #include "numeric/decaying_motion.hpp"
@@ -89,6 +90,7 @@ struct Spread {
 class SampledLoop : public DisturbedLoop {
  public:
   explicit SampledLoop(const ReducedDrive& drive);
+  bool decays() const { return DecayingMotion::of(changes(), TimeKind::stepwise).has_value(); }
   bool prove();
   LoopGain gain(Disturbance disturbance) override;
   StartGain start_gain(StartOutput output) override;
@@ -133,8 +135,7 @@ class SampledLoop : public DisturbedLoop {
   double peak(const IntervalVector& start) const;
 
   Plant plant_;
-  double period_in_doubles_;
-  drive::SplitDelay delay_;
+  std::vector<HeldTorque> held_;
   Interval period_;
   LinearController controller_;
   bool counts_ = false;  ///< the speed is a difference of positions, and the last one is kept
@@ -152,8 +153,7 @@ class SampledLoop : public DisturbedLoop {
 
 SampledLoop::SampledLoop(const ReducedDrive& drive)
     : plant_(plant_of(drive)),
-      period_in_doubles_(drive.sampling->period),
-      delay_(drive::split_delay(*drive.sampling)),
+      held_(held_torques(*drive.sampling)),
       period_(datum(drive.sampling->period)),
       controller_(drive::sampled_controller(drive.controller, *drive.sampling)),
       counts_(uses_speed(controller_) && drive.sampling->speed_by_differences),
@@ -211,14 +211,14 @@ Form SampledLoop::reading(const Interval& of_position, const Interval& of_speed)
 }
 
 std::vector<Hold> SampledLoop::holds() const {
-  const auto waiting = [&](std::size_t ticks) {
-    return ticks == 0 ? asked_ : state(queue_ + ticks - 1);
-  };
-  const bool changes_within = delay_.rest > 0.0 && delay_.rest < period_in_doubles_;
-  if (!changes_within) return {{0.0, period_, waiting(waiting_)}};
-  const Interval rest = datum(delay_.rest);
-  return {{0.0, rest, waiting(waiting_)},
-          {rest, not_negative(period_ - rest), waiting(waiting_ - 1)}};
+  std::vector<Hold> holds;
+  for (const HeldTorque& held : held_) {
+    const Interval from = datum(held.from);
+    const Interval until = datum(held.until);
+    holds.push_back({from, held.from == 0.0 ? until : not_negative(until - from),
+                     held.age == 0 ? asked_ : state(queue_ + held.age - 1)});
+  }
+  return holds;
 }
 
 /// The plant over a time with one torque, as segments of equal length.
@@ -241,7 +241,7 @@ void SampledLoop::pass(const Hold& hold, int parts, std::vector<Form>& states) {
 /// What happens from one tick to the next, in segments: `parts` for each torque.
 void SampledLoop::plan(int parts) {
   segments_.clear();
-  waiting_ = delay_.rest > 0.0 ? static_cast<std::size_t>(delay_.whole_periods) + 1 : 0;
+  waiting_ = held_.front().age;
   last_reading_ = first_controller_state_ + controller_.order();
   queue_ = last_reading_ + (counts_ ? 1 : 0);
   size_ = queue_ + waiting_;
@@ -481,6 +481,8 @@ bool uses_speed(const LinearController& controller) {
          std::any_of(controller.input_matrix.begin(), controller.input_matrix.end(),
                      [](const std::vector<double>& row) { return row[2] != 0.0; });
 }
+
+bool sampled_loop_decays(const ReducedDrive& drive) { return SampledLoop(drive).decays(); }
 
 std::unique_ptr<DisturbedLoop> sampled_loop(const ReducedDrive& drive) {
   auto loop = std::make_unique<SampledLoop>(drive);

@@ -59,9 +59,8 @@ Matrix of_shafts_as_one(const Matrix& matrix) {
   return as_one;
 }
 
-/// Eigenvalues of the loop with the faces together, 1/s. For a sampled loop, those of the
-/// continuous flow with the same motion from sample to sample.
-std::vector<std::complex<double>> loop_eigenvalues(const ReducedDrive& drive) {
+/// With those that are 0.
+std::vector<std::complex<double>> all_eigenvalues(const ReducedDrive& drive) {
   const ReducedDrive linear = linear_drive(drive);
   const DriveSystem built = drive_system(linear);
   const hybrid::AffineMode& mode =
@@ -105,11 +104,15 @@ std::vector<std::complex<double>> without_free_numbers(std::vector<std::complex<
 
 }  // namespace
 
+std::vector<std::complex<double>> loop_eigenvalues(const ReducedDrive& drive) {
+  return without_free_numbers(all_eigenvalues(drive));
+}
+
 TimeScales time_scales(const ReducedDrive& drive) {
   double slowest = infinity;
   double slowest_swing = infinity;
   double slowest_decay = infinity;
-  for (const auto& value : without_free_numbers(loop_eigenvalues(drive))) {
+  for (const auto& value : loop_eigenvalues(drive)) {
     const double rate = std::abs(value);
     constexpr double swinging = 0.1;  // share of the modulus; a smaller imaginary part counts as
                                       // decay

@@ -1,6 +1,9 @@
 // Time scales of a drive.
 #pragma once
 
+#include <complex>
+#include <vector>
+
 #include "model/drive.hpp"
 
 namespace gearlash::drive {
@@ -12,6 +15,11 @@ struct TimeScales {
   double swing = 1.0;
   double settling = 0.0;  ///< s: time in which the slowest decay falls to 1/e; 0 if there is none
 };
+
+/// Eigenvalues of the linear loop with the faces together, 1/s, without those that are 0 within
+/// rounding. For a sampled loop, those of the continuous flow with the same motion from sample to
+/// sample. A relay counts by its describing function. Precondition: sound.
+std::vector<std::complex<double>> loop_eigenvalues(const ReducedDrive& drive);
 
 /// Precondition: sound.
 TimeScales time_scales(const ReducedDrive& drive);

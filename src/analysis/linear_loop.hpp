@@ -1,0 +1,43 @@
+// Stability, bandwidth and phase margin of a drive's linear loop.
+#pragma once
+
+#include <optional>
+
+#include "model/drive.hpp"
+
+namespace gearlash::drive {
+
+/// A number is absent where there is none: of a loop that is not stable, of a response that never
+/// falls by 3 dB, of a gain that never crosses 1.
+struct LoopFigures {
+  bool is_stable = false;  ///< proved by interval bounds
+  /// rad/s: the first frequency at which |θ_L/r| falls below 1/√2 of its value at frequency 0.
+  std::optional<double> bandwidth{};
+  /// rad, 0 … π: the least |arg(L(jω)) ± π| where |L(jω)| = 1. By this angle the loop may turn
+  /// before it is unstable.
+  std::optional<double> phase_margin{};
+  std::optional<double> crossover{};  ///< rad/s, the ω of this margin
+};
+
+/// The loop is broken at the torque that the controller requests. With the plant G from there to
+/// the load's position θ_L, the sensed position y and the sensed speed v, and the controller
+/// τ = K_r r + K_y y + K_v v,
+///   L = −(K_y G_y + K_v G_v),   θ_L/r = K_r G_L/(1 + L).
+///
+/// The plant has inertia, viscous friction, the linearised weight, and the winding. With rigid
+/// faces both shafts turn as one. With compliant faces they are joined by stiffness and damping.
+/// Left out: the gap, dry friction, limits of torque and current, steps of encoders, a dead band
+/// and its compensation, feedforward, load torque.
+///
+/// A sampled loop is exact: z = e^{jωT}, the plant from tick to tick under the held and delayed
+/// torque, the speed from a tachometer or from differences, and θ_L at the ticks. Frequencies end
+/// at half the sampling frequency.
+///
+/// Crossings are searched among 64 frequencies a decade, more at each eigenvalue of the loop, and
+/// at the extremes between them; then they are refined to rounding. A pair of crossings within one
+/// step may be missed.
+///
+/// Empty for a relay, whose loop is not linear. Throws InvalidInput.
+std::optional<LoopFigures> loop_figures(const ReducedDrive& drive);
+
+}  // namespace gearlash::drive

@@ -1,0 +1,68 @@
+// What a searched design reports beside the values that meet the target.
+#include "output/searched_design_report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace gearlash {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr double turn = 2.0 * std::numbers::pi;
+
+/// One value of the gap that meets the target, with the loop that is given.
+SearchedDesignReport report_with(const std::optional<drive::LoopFigures>& loop) {
+  SearchedDesignReport report;
+  report.target_text = "no-hunting";
+  report.target.no_hunting = true;
+  SearchedParameter parameter;
+  parameter.values.parameter = "gearbox.backlash";
+  parameter.values.present = 0.2;
+  parameter.values.searched = {0.02, 2.0};
+  parameter.values.intervals = {{0.02, 0.1}};
+  parameter.values.grid = {0.02, 0.1, 0.2, 2.0};
+  DriveWithValue one{.value = 0.1, .loop = loop};
+  one.answer.verdict = Verdict::comes_to_rest;
+  parameter.results = {one};
+  report.parameters = {parameter};
+  return report;
+}
+
+TEST(SearchedDesignReport, ShowsBandwidthInHertzAndPhaseMarginInDegrees) {
+  const SearchedDesignReport report =
+      report_with(drive::LoopFigures{.is_stable = true,
+                                     .bandwidth = 12.5 * turn,
+                                     .phase_margin = std::numbers::pi / 4.0,
+                                     .crossover = 7.25 * turn});
+  const std::string text = design_text(report);
+  EXPECT_THAT(text, HasSubstr("settles  bandwidth  phase margin\n"));
+  EXPECT_THAT(text, HasSubstr("12.5 Hz    45.0 deg\n"));
+  const auto json = nlohmann::json::parse(design_json(report));
+  const auto& loop = json["answers"][0]["nearest"]["loop"];
+  EXPECT_EQ(loop["stable"], true);
+  EXPECT_DOUBLE_EQ(loop["bandwidth"], 12.5);
+  EXPECT_DOUBLE_EQ(loop["crossover"], 7.25);
+  EXPECT_DOUBLE_EQ(loop["phase_margin"], std::numbers::pi / 4.0);
+  EXPECT_EQ(json["present"]["loop"], nullptr);  // not given above
+}
+
+TEST(SearchedDesignReport, LeavesWhatThereIsNotBlank) {
+  const SearchedDesignReport unstable = report_with(drive::LoopFigures{});
+  EXPECT_THAT(design_text(unstable), Not(HasSubstr(" Hz")));
+  EXPECT_THAT(design_text(unstable), Not(HasSubstr(" deg\n")));
+  const auto loop = nlohmann::json::parse(design_json(unstable))["answers"][0]["nearest"]["loop"];
+  EXPECT_EQ(loop["stable"], false);
+  for (const char* key : {"bandwidth", "crossover", "phase_margin"}) {
+    EXPECT_TRUE(loop.contains(key) && loop[key].is_null()) << key;
+  }
+  const auto relay = nlohmann::json::parse(design_json(report_with(std::nullopt)));
+  EXPECT_EQ(relay["answers"][0]["nearest"]["loop"], nullptr);
+}
+
+}  // namespace
+}  // namespace gearlash
