@@ -26,7 +26,9 @@ constexpr char examples[] =
     "  gearlash tolerance examples/toleranced.toml --target \"amplitude <= 1 deg\" --yield \"95 "
     "%\"\n"
     "  gearlash tolerance examples/toleranced.toml --samples 10000000 --format json | jq "
-    ".hunting\n";
+    ".hunting\n"
+    "  gearlash tolerance examples/toleranced.toml --error \"0.1 %\"\n"
+    "  gearlash tolerance examples/toleranced-joint.toml --target \"motor-amplitude <= 0.3 deg\"\n";
 
 constexpr char explanation[] =
     "The numbers of DRIVE.toml carry tolerances:\n"
@@ -38,6 +40,8 @@ constexpr char explanation[] =
 struct ToleranceOptions {
   ServoOptions servo;
   std::string samples;
+  std::string error;
+  std::string amplitude;
   std::string seed = "1960";
   std::string target;
   std::string yield;
@@ -87,6 +91,7 @@ struct Task {
   AngleUnit angle;
   SamplePlan sampling;
   StudyQuestions questions;
+  double error = 0.0;  ///< asked for; 0: none
   double yield = 0.0;  ///< demanded; 0: none
   WorstSearch worst_search;
   std::vector<Plot> plots;
@@ -100,10 +105,23 @@ bool may_bounce(const WrittenDrive& written) {
                      [](const auto& varied) { return varied.path == "contact.restitution"; });
 }
 
-void read_sampling(const ToleranceOptions& options, bool may_bounce, Task& task, Faults& faults) {
-  // They take a fraction of a second, with bounces some minutes.
-  const std::string usual_samples = may_bounce ? "512" : "65536";
-  if (may_bounce) task.worst_search.samples = 256;
+/// Whether each sample is searched.
+bool are_searched(const WrittenDrive& written) {
+  return is_searched({written.drive, written.tolerances});
+}
+
+void read_sampling(const ToleranceOptions& options, const std::optional<WrittenDrive>& written,
+                   Task& task, Faults& faults) {
+  // They take a fraction of a second, with bounces or searches some minutes.
+  std::string usual_samples = "65536";
+  if (written && may_bounce(*written)) {
+    usual_samples = "512";
+    task.worst_search.samples = 256;
+  }
+  if (written && are_searched(*written)) {
+    usual_samples = "64";
+    task.worst_search = {.samples = 8, .starts = 1};
+  }
   const auto whole = [&](const char* field, const std::string& text, std::uint64_t least,
                          std::uint64_t most) {
     return faults.collect([&] { return read_whole(field, text, least, most); }, least);
@@ -111,6 +129,22 @@ void read_sampling(const ToleranceOptions& options, bool may_bounce, Task& task,
   task.sampling = sampling_of(whole(
       "--samples", options.samples.empty() ? usual_samples : options.samples, 32, most_samples));
   task.sampling.seed = whole("--seed", options.seed, 0, std::uint64_t{1} << 53U);
+  if (!options.error.empty()) {
+    task.error = read_share("--error", options.error, faults);
+    if (task.error < 1e-6 || task.error > 0.5) {
+      faults.add({"--error", options.error, "must be from 0.0001 % to 50 %", ""});
+    }
+  }
+}
+
+/// Of a searched drive the motor's, which may hunt within the gap while the load stands still.
+void read_amplitude(const ToleranceOptions& options, bool is_searched, Task& task, Faults& faults) {
+  if (!options.amplitude.empty()) {
+    faults.require_choice("--amplitude", options.amplitude, {"load", "motor"});
+  }
+  const bool is_of_motor = options.amplitude.empty() ? is_searched : options.amplitude == "motor";
+  task.questions.amplitude = is_of_motor ? Quantity::motor_amplitude : Quantity::amplitude;
+  task.worst_search.amplitude = task.questions.amplitude;
 }
 
 void read_questions(const ToleranceOptions& options, TimeScale scale, Task& task, Faults& faults) {
@@ -144,11 +178,17 @@ Task read_task(const ToleranceOptions& options) {
   faults.require_choice("--format", options.format, {"text", "json"});
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
   const bool has_time = !written || !is_normalized(written->drive);
-  read_sampling(options, written && may_bounce(*written), task, faults);
+  const bool is_searched = written && are_searched(*written);
+  read_sampling(options, written, task, faults);
+  read_amplitude(options, is_searched, task, faults);
   read_questions(options, has_time ? TimeScale::known : TimeScale::unknown, task, faults);
   read_outputs(options, task, faults);
+  if (is_searched && !options.yield.empty()) {
+    faults.add({"--yield", options.yield, permitted_with_closed_form, ""});
+  }
   faults.require_none();
-  task.drive = {closed_form_drive(*written, options.servo), written->tolerances};
+  task.drive = {is_searched ? written->drive : closed_form_drive(*written, options.servo),
+                written->tolerances};
   task.angle = written->angle;
   if (task.drive.varied.empty()) {
     throw InvalidInput(
@@ -169,13 +209,17 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
   ToleranceReport report{.drive = task.drive,
                          .target_text = options.target,
                          .demanded_yield = task.yield,
+                         .amplitude = task.questions.amplitude,
                          .angle = task.angle,
                          .provenance = provenance};
   const std::size_t samples = task.sampling.samples();
-  report.study =
-      study_tolerances(task.drive, task.sampling, task.questions, begin("Study", samples));
-  report.sensitivities = study_sensitivities(
-      task.drive, task.sampling, begin("Indices", samples * (task.drive.varied.size() + 2)));
+  report.study = task.error > 0.0 ? study_tolerances_to(task.error, task.drive, task.sampling,
+                                                        task.questions, begin("Study", samples))
+                                  : study_tolerances(task.drive, task.sampling, task.questions,
+                                                     begin("Study", samples));
+  report.sensitivities =
+      study_sensitivities(task.drive, task.sampling, task.questions,
+                          begin("Indices", samples * (task.drive.varied.size() + 2)));
   if (task.yield > 0.0) {
     report.backlash =
         widest_backlash(task.drive, {.target = task.questions.target, .yield = task.yield},
@@ -204,8 +248,18 @@ void add_tolerance_command(Command& app, Action& action) {
   command
       ->add_option("--samples", options->samples,
                    "Set the least number of samples, rounded up to 16 times a power of\n"
-                   "two; default 65536, with bounces 512")
+                   "two; default 65536, with bounces 512, of a drive that is searched 64")
       ->type_name("N");
+  command
+      ->add_option("--error", options->error,
+                   "Take as many samples as the probability of hunting and the yield need\n"
+                   "to be known to within this share: \"1 %\"")
+      ->type_name("SHARE");
+  command
+      ->add_option("--amplitude", options->amplitude,
+                   "Choose whose amplitude is reported: load, or motor; default load, of a\n"
+                   "drive that is searched motor")
+      ->type_name("SHAFT");
   command->add_option("--seed", options->seed, "Set the seed of the random shifts; default 1960")
       ->type_name("N");
   command

@@ -85,18 +85,19 @@ struct ParameterTolerance {
 };
 
 struct TolerancedDrive {
-  Drive nominal{};  ///< with a closed form; its varied parameters have no effect
+  Drive nominal{};  ///< its varied parameters have no effect
   std::vector<ParameterTolerance> varied{};
 
   bool operator==(const TolerancedDrive&) const = default;
 };
 
-/// Every fault: parameters that do not enter the closed form or are given twice; invalid
+/// Every fault: parameters that are no numbers of the drive or are given twice; invalid
 /// distributions, and distributions that can yield a value the parameter must not have; nominal
 /// values. If each parameter is valid by itself, all corners of the box of drawn values, and of the
-/// support (cut at three standard deviations), must be drives with a closed form. Backlashes
-/// between 0 and 1e-15 rad, which a drive must not have, may be drawn, because amplitudes are
-/// computed per unit of backlash.
+/// support (cut at three standard deviations), must be sound drives; of more than ten parameters
+/// that are searched, the ends of each. Where the closed form answers for the drive and for all
+/// that varies, it must answer for the corners too; backlashes between 0 and 1e-15 rad, which a
+/// drive must not have, may then be drawn, because amplitudes are computed per unit of backlash.
 [[nodiscard]] std::vector<Fault> faults(const TolerancedDrive& drive);
 
 // ---- how it is drawn ----------------------------------------------------------------------------
@@ -129,6 +130,7 @@ struct Estimate {
 
 /// What a study computes besides the probability of hunting.
 struct StudyQuestions {
+  Quantity amplitude = Quantity::amplitude;                    ///< of the load, or motor_amplitude
   Target target{};                                             ///< for the yield
   std::vector<double> shares = {0.05, 0.25, 0.5, 0.75, 0.95};  ///< for quantiles; each 0 … 1
   std::size_t bins = 40;                                       ///< of the histogram; 0: none
@@ -148,9 +150,11 @@ struct AmplitudeHistogram {
   std::size_t unknown = 0;  ///< amplitude unknown or unbounded
 };
 
-/// A drive hunts if it can oscillate permanently, by itself or after a disturbance (any verdict but
-/// cannot_hunt and undecided). An unknown amplitude (irregular hunting, undecided) counts as
-/// infinite in quantiles, and such a drive meets no target. The mean covers finite amplitudes only.
+/// A drive hunts if it can oscillate permanently, by itself or after a disturbance, or runs away
+/// (any verdict but cannot_hunt, comes_to_rest, forced and undecided). The amplitude of a drive
+/// that grows without bound or runs away is infinite. An unknown amplitude (irregular hunting,
+/// undecided) counts as infinite in quantiles, and such a drive meets no target. The mean covers
+/// finite amplitudes only.
 struct ToleranceStudy {
   SamplePlan sampling{};
   Estimate hunting{};                                    ///< probability
@@ -168,12 +172,23 @@ struct ToleranceStudy {
 
 /// Quasi-Monte Carlo over all varied parameters, on all cores, with the same bits for any number of
 /// cores. Keeps 16 bytes per sample. With plastic contact it solves millions of drives per second.
-/// A drive that bounces takes some milliseconds, so use few samples there. Throws InvalidInput with
-/// every fault of the drive, the sampling and the questions.
+/// A drive that bounces takes some milliseconds, so use few samples there; a drive without a closed
+/// form, which analyse() searches, some tenths of a second. Throws InvalidInput with every fault of
+/// the drive, the sampling and the questions.
 [[nodiscard]] ToleranceStudy study_tolerances(const TolerancedDrive& drive,
                                               const SamplePlan& sampling = {},
                                               const StudyQuestions& questions = {},
                                               Progress& progress = no_progress());
+
+/// study_tolerances() with the fewest points, of those of `sampling` doubled again and again, that
+/// give the probability of hunting, and the yield if there is a target, to within `error`: two
+/// standard errors, and 3/samples, which is what 95 % of runs without an exception leave open. Up
+/// to 10⁸ samples: where they do not suffice, the standard errors say so. Permitted: 1e-6 ≤ error ≤
+/// 0.5. Throws InvalidInput, as above.
+[[nodiscard]] ToleranceStudy study_tolerances_to(double error, const TolerancedDrive& drive,
+                                                 const SamplePlan& sampling = {},
+                                                 const StudyQuestions& questions = {},
+                                                 Progress& progress = no_progress());
 
 // ---- which tolerance is responsible -------------------------------------------------------------
 
@@ -201,9 +216,11 @@ struct SensitivityStudy {
   bool stopped = false;
 };
 
-/// Solves varied.size() + 2 drives for each point of the plan. Throws InvalidInput, as above.
+/// Solves varied.size() + 2 drives for each point of the plan. Of the questions it reads which
+/// amplitude is meant. Throws InvalidInput, as above.
 [[nodiscard]] SensitivityStudy study_sensitivities(const TolerancedDrive& drive,
                                                    const SamplePlan& sampling = {},
+                                                   const StudyQuestions& questions = {},
                                                    Progress& progress = no_progress());
 
 // ---- how much backlash production may permit ----------------------------------------------------

@@ -22,8 +22,21 @@ using Row = std::vector<std::string>;
 /// Whether text has frequencies: a normal form without a natural frequency has none.
 bool has_frequency(const ToleranceReport& report) { return !is_normalized(report.drive.nominal); }
 
-/// "12.3 ± 0.2 %": a probability with two standard errors.
-std::string percent_text(const Estimate& estimate) {
+/// "amplitude", "amplitude of the motor".
+std::string amplitude_name(const ToleranceReport& report) {
+  return report.amplitude == Quantity::motor_amplitude ? "amplitude of the motor" : "amplitude";
+}
+
+/// "12.3 ± 0.2 %": a probability with two standard errors. Where all of n samples agree, a share of
+/// 3/n stays open: that many exceptions are missed by 5 % of such samples.
+std::string percent_text(const Estimate& estimate, std::size_t samples) {
+  const double open = 300.0 / static_cast<double>(samples);
+  if (estimate.value == 0.0) {
+    return fmt::format("none of {}, so at most {} %", samples, significant(open, 2));
+  }
+  if (estimate.value == 1.0) {
+    return fmt::format("all {}, so at least {} %", samples, significant(100.0 - open, digits));
+  }
   return fmt::format("{} ± {} %", significant(100.0 * estimate.value, digits),
                      significant(100.0 * bar * *estimate.standard_error, 2));
 }
@@ -42,18 +55,20 @@ std::string frequency_text(const std::optional<Estimate>& estimate) {
 
 std::vector<Row> headline_rows(const ToleranceReport& report) {
   const ToleranceStudy& study = report.study;
-  std::vector<Row> rows = {{"hunt", percent_text(study.hunting)}};
+  const std::size_t samples = study.sampling.samples();
+  std::vector<Row> rows = {{"hunt", percent_text(study.hunting, samples)}};
   if (!report.target_text.empty()) {
-    rows.push_back({"meet \"" + report.target_text + "\"", percent_text(study.yield)});
+    rows.push_back({"meet \"" + report.target_text + "\"", percent_text(study.yield, samples)});
   }
-  rows.push_back({"amplitude, mean of all", amplitude_text(study.mean_amplitude, report)});
+  rows.push_back(
+      {amplitude_name(report) + ", mean of all", amplitude_text(study.mean_amplitude, report)});
   return rows;
 }
 
 std::vector<Row> quantile_rows(const ToleranceReport& report) {
   const ToleranceStudy& study = report.study;
   std::vector<Row> rows = {
-      {"share of samples up to", "amplitude", "amplitude, of those that hunt"}};
+      {"share of samples up to", amplitude_name(report), "amplitude, of those that hunt"}};
   if (has_frequency(report)) rows.front().emplace_back("frequency");
   for (std::size_t i = 0; i < study.amplitude.size(); ++i) {
     Row row = {significant(100.0 * study.amplitude[i].share, digits) + " %",
@@ -140,18 +155,24 @@ std::vector<Row> number_rows(const ToleranceReport& report) {
 
 std::string worst_text(const ToleranceReport& report) {
   const Performance& worst = report.worst.performance;
-  std::string text;
-  if (worst.verdict == Verdict::cannot_hunt) {
-    text = "The worst sample found within the tolerances cannot hunt (growth at rest " +
-           significant(worst.growth_at_rest, digits) + ")";
+  std::string text = "The worst sample found within the tolerances ";
+  if (worst.verdict == Verdict::cannot_hunt && !std::isnan(worst.growth_at_rest)) {
+    text += "cannot hunt (growth at rest " + significant(worst.growth_at_rest, digits) + ")";
   } else {
-    text = "The worst sample found within the tolerances hunts: " +
-           swing_text(worst.amplitude, report.angle, digits);
-    if (has_frequency(report)) text += " at " + significant(worst.frequency, digits) + " Hz";
+    text += name_of(worst.verdict);
+    if (worst.amplitude > 0.0 && std::isfinite(worst.amplitude)) {
+      text += ": " + swing_text(worst.amplitude, report.angle, digits);
+      if (has_frequency(report)) text += " at " + significant(worst.frequency, digits) + " Hz";
+    }
   }
-  return text +
-         ". A climbing search found it, with unlimited normal distributions cut at three standard "
-         "deviations.";
+  const std::string how =
+      is_searched(report.drive)
+          ? ". Ends of the tolerances were tried, unlimited normal distributions being cut at "
+            "three "
+            "standard deviations."
+          : ". A climbing search found it, with unlimited normal distributions cut at three "
+            "standard deviations.";
+  return text + how;
 }
 
 std::string backlash_text(const ToleranceReport& report) {
@@ -263,6 +284,7 @@ std::string tolerance_json(const ToleranceReport& report) {
   json["sampling"] = {{"points", study.sampling.points},
                       {"replicates", study.sampling.replicates},
                       {"seed", study.sampling.seed}};
+  json["amplitude_of"] = report.amplitude == Quantity::motor_amplitude ? "motor" : "load";
   json["hunting"] = json_estimate(study.hunting);
   json["target"] = has_target ? Json(report.target_text) : Json(nullptr);
   json["yield"] = has_target ? json_estimate(study.yield) : Json(nullptr);

@@ -15,6 +15,7 @@ struct ToleranceReport {
   TolerancedDrive drive;
   std::string target_text;  ///< as its author wrote it; empty without a target
   double demanded_yield = 0.0;
+  Quantity amplitude = Quantity::amplitude;  ///< whose amplitude: of the load, or motor_amplitude
   ToleranceStudy study = {};
   SensitivityStudy sensitivities = {};
   WorstCorner worst = {};

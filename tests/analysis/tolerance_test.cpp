@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/design/toleranced_samples.hpp"
 #include "gearlash/analyse.hpp"
 
 namespace gearlash {
@@ -90,7 +91,7 @@ TEST(Tolerance, AStudyThatIsStoppedSaysSo) {
   } impatient;
   const TolerancedDrive drive{sample_servo(), {{"servo.backlash", within_share(0.3, 0.1)}}};
   EXPECT_TRUE(study_tolerances(drive, {.points = 100'000}, {}, impatient).stopped);
-  EXPECT_TRUE(study_sensitivities(drive, {.points = 100'000}, impatient).stopped);
+  EXPECT_TRUE(study_sensitivities(drive, {.points = 100'000}, {}, impatient).stopped);
 }
 
 std::vector<std::string> faults_of(const TolerancedDrive& drive, const SamplePlan& sampling = {}) {
@@ -103,6 +104,57 @@ std::vector<std::string> faults_of(const TolerancedDrive& drive, const SamplePla
   return lines;
 }
 
+// ---- drives that are searched -------------------------------------------------------------------
+
+/// The servo of 1960 with dry friction at the motor; it hunts where the friction is small.
+Drive drive_with_dry_friction() {
+  Drive drive = sample_data_sheet();
+  drive.motor.friction.coulomb = 1e-3;
+  return drive;
+}
+
+/// A quarter of the drives has little friction, three quarters so much that they come to rest.
+TolerancedDrive two_lots() {
+  return {drive_with_dry_friction(), {{"motor.coulomb", DiscreteLots{{{1e-3, 1.0}, {3.0, 3.0}}}}}};
+}
+
+TEST(Tolerance, OfASearchedDriveAreItsDrivesThoseOfAnalyse) {
+  const TolerancedDrive drive = two_lots();
+  const Answer hunting = analyse(drive_with_dry_friction());
+  ASSERT_EQ(hunting.verdict, Verdict::hunts);
+  const double amplitude = hunting.value(Quantity::motor_amplitude).value();
+  const SamplePlan sampling{.points = 4, .replicates = 2};  // of four points one has u < 1/4
+  const StudyQuestions questions{
+      .amplitude = Quantity::motor_amplitude,
+      .target = Target{}.require(Quantity::motor_amplitude, {0.0, 0.5 * amplitude}),
+      .shares = {0.5}};
+  const ToleranceStudy study = study_tolerances(drive, sampling, questions);
+  EXPECT_EQ(study.hunting.value, 0.25);
+  EXPECT_EQ(study.yield.value, 0.75);
+  EXPECT_EQ(study.undecided + study.unknown_amplitudes + study.refused, 0U);
+  EXPECT_NEAR(study.amplitude_of_hunting[0].value->value, amplitude, 1e-9 * amplitude);
+  const SensitivityStudy indices = study_sensitivities(drive, sampling, questions);
+  EXPECT_EQ(indices.left_out, 0U);
+  EXPECT_NEAR(indices.hunting_variance.value, 0.25 * 0.75, 1e-12);
+  EXPECT_THROW((void)widest_backlash(drive, {.target = questions.target}), InvalidInput);
+}
+
+TEST(Tolerance, TakesAsManySamplesAsTheErrorNeeds) {
+  const TolerancedDrive drive{sample_servo(), {{"servo.backlash", within_share(0.3, 0.1)}}};
+  const StudyQuestions questions{.target = amplitude_up_to(0.315 * amplitude_per_backlash())};
+  const SamplePlan few{.points = 2};
+  for (const double error : {0.05, 0.002}) {
+    const ToleranceStudy study = study_tolerances_to(error, drive, few, questions);
+    EXPECT_NEAR(study.yield.value, 0.75, 2.0 * error);
+    EXPECT_LE(2.0 * study.yield.standard_error.value(), error);
+    // All of them hunt, and nobody knows it of those that were not drawn.
+    const auto samples = static_cast<double>(study.sampling.samples());
+    EXPECT_GE(samples, 3.0 / error);
+    EXPECT_LT(samples, 3000.0 / error);
+  }
+  EXPECT_THROW((void)study_tolerances_to(0.0, drive), InvalidInput);
+}
+
 TEST(EdgeTolerance, BadInputIsAFault) {
   EXPECT_THAT(faults_of({sample_servo(), {{"servo.dumping", within_share(0.2, 0.1)}}}),
               Contains(HasSubstr("servo.dumping")));
@@ -110,10 +162,11 @@ TEST(EdgeTolerance, BadInputIsAFault) {
               Contains(HasSubstr("must not fall below zero")));
   EXPECT_THAT(faults_of({sample_servo(), {}}, {.replicates = 1}),
               Contains(HasSubstr("sampling.replicates = 1")));
-  Drive compliant = sample_servo();
-  compliant.contact = CompliantContact{.stiffness = 1e4, .damping = 1e3};
-  EXPECT_THAT(faults_of({compliant, {{"servo.damping", within_share(0.19, 0.1)}}}),
-              Contains(HasSubstr("must have a closed-form answer for this: proportional")));
+  EXPECT_THAT(faults_of({drive_with_dry_friction(), {{"load.colour", within_share(0.2, 0.1)}}}),
+              Contains(HasSubstr("must be a number of this drive")));
+  EXPECT_THAT(
+      faults_of({drive_with_dry_friction(), {{"motor.coulomb", UniformBetween{-1.0, 1.0}}}}),
+      Contains(HasSubstr("the tolerances permit it where motor.coulomb = -0.99")));
 }
 
 }  // namespace

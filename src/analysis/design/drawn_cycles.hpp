@@ -26,9 +26,6 @@ struct DrawnCycles {
   double amplitude(std::size_t row) const {
     return verdict[row] == Verdict::cannot_hunt ? 0.0 : amplitude_per_backlash[row] * backlash[row];
   }
-  bool hunts(std::size_t row) const {
-    return verdict[row] != Verdict::cannot_hunt && verdict[row] != Verdict::undecided;
-  }
   Performance performance(std::size_t row) const;
 };
 

@@ -1,14 +1,13 @@
 #include "analysis/design/replicates.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
-#include <mutex>
 
 #include "base/on_threads.hpp"
+#include "base/shared_progress.hpp"
 #include "base/special_numbers.hpp"
 
 namespace gearlash::detail {
@@ -144,23 +143,18 @@ std::size_t block_count(const SamplePlan& sampling, std::size_t points_at_a_time
 
 bool for_all_blocks(const SamplePlan& sampling, std::size_t points_at_a_time,
                     const Workers& workers, Progress& progress,
-                    const std::function<void(const SampleBlock&)>& work) {
+                    const std::function<void(const SampleBlock&, Progress&)>& work) {
   const std::size_t blocks = block_count(sampling, points_at_a_time);
   const std::size_t of_replicate = blocks / sampling.replicates;
-  std::mutex telling;
-  std::size_t done = 0;
-  std::atomic<bool> stopped = false;
+  SharedProgress shared(progress, sampling.samples());
   on_threads(workers.threads, blocks, [&](std::size_t index) {
-    if (stopped) return;
+    if (shared.is_stopped()) return;
     const std::size_t first = index % of_replicate * points_at_a_time;
     const std::size_t count = std::min(points_at_a_time, sampling.points - first);
-    work({index, index / of_replicate, first, count});
-    const std::scoped_lock lock(telling);
-    done += count;
-    const double share = static_cast<double>(done) / static_cast<double>(sampling.samples());
-    if (!stopped && !progress.go_on(share)) stopped = true;
+    work({index, index / of_replicate, first, count}, shared);
+    if (!shared.is_stopped()) shared.finish(count);  // else it may have been broken off
   });
-  return !stopped || done == sampling.samples();
+  return shared.done() == sampling.samples();
 }
 
 }  // namespace gearlash::detail

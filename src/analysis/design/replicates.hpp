@@ -46,10 +46,11 @@ struct SampleBlock {
 };
 
 /// Works through all blocks of a sampling on all cores; false if progress stopped it. The division
-/// into blocks does not depend on the number of threads.
+/// into blocks does not depend on the number of threads. The work may ask its progress whether to
+/// go on.
 bool for_all_blocks(const SamplePlan& sampling, std::size_t points_at_a_time,
                     const Workers& workers, Progress& progress,
-                    const std::function<void(const SampleBlock&)>& work);
+                    const std::function<void(const SampleBlock&, Progress&)>& work);
 std::size_t block_count(const SamplePlan& sampling, std::size_t points_at_a_time);
 
 }  // namespace gearlash::detail

@@ -15,13 +15,6 @@
 namespace gearlash {
 namespace {
 
-bool asks_for_ceiling(const Target& target) {
-  return std::any_of(target.limits.begin(), target.limits.end(), [](const QuantityLimit& limit) {
-    return limit.quantity == Quantity::ceiling || limit.quantity == Quantity::motor_ceiling ||
-           limit.quantity == Quantity::effort_ceiling;
-  });
-}
-
 /// A drive with other values of one parameter, as far as it was analysed.
 class AnalysedDrive {
  public:

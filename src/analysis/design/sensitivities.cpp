@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/design/drawn_cycles.hpp"
+#include "analysis/design/drawn_results.hpp"
 #include "analysis/design/drawn_values.hpp"
 #include "analysis/design/replicates.hpp"
 #include "analysis/design/sampling.hpp"
@@ -84,13 +84,14 @@ std::vector<double> mixed_values(const std::vector<double>& both_sets, std::size
 }
 
 /// The sums of the drives of mixed_values(); `usual_amplitude` is subtracted from amplitudes.
-BlockSums sums_of(const detail::DrawnCycles& cycles, std::size_t numbers, double usual_amplitude) {
-  BlockSums sums{Sums(numbers), Sums(numbers), 0, cycles.refused};
-  for (std::size_t point = 0; point < cycles.rows(); point += numbers + 2) {
+BlockSums sums_of(const detail::DrawnResults& results, std::size_t numbers,
+                  double usual_amplitude) {
+  BlockSums sums{Sums(numbers), Sums(numbers), 0, results.refused};
+  for (std::size_t point = 0; point < results.rows(); point += numbers + 2) {
     const auto size = [&](std::size_t of) {
-      return cycles.amplitude(point + of) - usual_amplitude;
+      return results.amplitude(point + of) - usual_amplitude;
     };
-    const auto hunts = [&](std::size_t of) { return cycles.hunts(point + of) ? 1.0 : 0.0; };
+    const auto hunts = [&](std::size_t of) { return results.hunts(point + of) ? 1.0 : 0.0; };
     bool all_known = true;
     for (std::size_t i = 0; i < numbers + 2; ++i) all_known = all_known && std::isfinite(size(i));
     if (!all_known) {
@@ -108,11 +109,8 @@ BlockSums sums_of(const detail::DrawnCycles& cycles, std::size_t numbers, double
 }
 
 /// A constant near the mean amplitude; subtracting it avoids cancellation in a small variance.
-double amplitude_of_mean_drive(const TolerancedDrive& drive, VectorUnit unit) {
-  std::vector<double> values;
-  for (const ParameterTolerance& varied : drive.varied)
-    values.push_back(mean_of(varied.distribution));
-  const double size = detail::solve(drive, 1, values, unit).amplitude(0);
+double amplitude_of_mean_drive(const TolerancedDrive& drive, const detail::DrawnAnswers& answers) {
+  const double size = answers.of(1, means_of(drive), no_progress()).amplitude(0);
   return std::isfinite(size) ? size : 0.0;
 }
 
@@ -183,9 +181,11 @@ SensitivityStudy study_of(const TolerancedDrive& drive, const SamplePlan& sampli
 }  // namespace
 
 SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SamplePlan& sampling,
-                                     const Workers& workers, Progress& progress) {
+                                     const StudyQuestions& questions, const Workers& workers,
+                                     Progress& progress) {
   RangeCheck check;
-  require_none(check.include(faults(drive)).include(validate(sampling)).faults());
+  check.include(faults(drive)).include(validate(sampling)).include(validate(questions));
+  require_none(check.faults());
   const std::size_t numbers = drive.varied.size();
   if (numbers == 0) {
     SensitivityStudy nothing;
@@ -193,16 +193,18 @@ SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SampleP
     return nothing;
   }
   const detail::DrawnValues values(drive, sampling, 2);
+  const Target no_target;
+  const detail::DrawnAnswers answers(drive, no_target, questions.amplitude, workers.unit);
   // A quarter of the usual number, because each point needs numbers + 2 drives and each block a set
   // of sums.
-  const std::size_t at_a_time = detail::drives_at_a_time(drive) / 4;
-  const double usual_amplitude = amplitude_of_mean_drive(drive, workers.unit);
+  const std::size_t at_a_time = std::max<std::size_t>(answers.at_a_time() / 4, 1);
+  const double usual_amplitude = amplitude_of_mean_drive(drive, answers);
   std::vector<BlockSums> blocks(detail::block_count(sampling, at_a_time),
                                 {Sums(numbers), Sums(numbers)});
-  const auto work = [&](const detail::SampleBlock& block) {
-    const detail::DrawnCycles cycles = detail::solve(
-        drive, block.count * (numbers + 2), mixed_values(values.of(block), numbers), workers.unit);
-    blocks[block.index] = sums_of(cycles, numbers, usual_amplitude);
+  const auto work = [&](const detail::SampleBlock& block, Progress& of_block) {
+    const detail::DrawnResults results =
+        answers.of(block.count * (numbers + 2), mixed_values(values.of(block), numbers), of_block);
+    blocks[block.index] = sums_of(results, numbers, usual_amplitude);
   };
   const bool all_done = detail::for_all_blocks(sampling, at_a_time, workers, progress, work);
   SensitivityStudy study = study_of(drive, sampling, blocks, usual_amplitude);
@@ -211,8 +213,8 @@ SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SampleP
 }
 
 SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SamplePlan& sampling,
-                                     Progress& progress) {
-  return study_sensitivities(drive, sampling, Workers{}, progress);
+                                     const StudyQuestions& questions, Progress& progress) {
+  return study_sensitivities(drive, sampling, questions, Workers{}, progress);
 }
 
 }  // namespace gearlash

@@ -155,6 +155,13 @@ std::optional<double> Performance::value(Quantity quantity) const {
   }
 }
 
+bool asks_for_ceiling(const Target& target) {
+  return std::any_of(target.limits.begin(), target.limits.end(), [](const QuantityLimit& limit) {
+    return limit.quantity == Quantity::ceiling || limit.quantity == Quantity::motor_ceiling ||
+           limit.quantity == Quantity::effort_ceiling;
+  });
+}
+
 bool is_of_performance(Quantity quantity) {
   return quantity == Quantity::growth_at_rest || quantity == Quantity::amplitude ||
          quantity == Quantity::frequency;

@@ -35,6 +35,9 @@ bool is_ruled_out(const Target& target, double growth_at_rest);
 /// verdict is then `hunts` or `undecided`, and the rest NaN. Throws InvalidInput.
 Performance performance_for(const Target& target, const Drivetrain& drive);
 
+/// Whether a limit is of a ceiling, which is computed only if wanted.
+bool asks_for_ceiling(const Target& target);
+
 /// Whether the closed form's performance shows if a target is met: its limits are of growth at
 /// rest, amplitude and frequency alone.
 bool is_of_performance(const Target& target);

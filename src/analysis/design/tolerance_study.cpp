@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/design/drawn_cycles.hpp"
+#include "analysis/design/drawn_results.hpp"
 #include "analysis/design/drawn_values.hpp"
 #include "analysis/design/replicates.hpp"
 #include "analysis/design/sampling.hpp"
@@ -45,15 +45,14 @@ struct Columns {
   std::vector<double> frequency;  ///< no_cycle where there is none
 };
 
-Counts count_block(const detail::DrawnCycles& cycles, const Target& target, std::size_t place,
-                   Columns& columns) {
-  Counts counts{.refused = cycles.refused};
-  for (std::size_t row = 0; row < cycles.rows(); ++row) {
-    const double size = cycles.amplitude(row);
-    const double frequency = cycles.frequency[row];
-    if (cycles.hunts(row)) ++counts.hunting;
-    if (is_met(target, cycles.performance(row))) ++counts.meeting;
-    if (cycles.verdict[row] == Verdict::undecided) ++counts.undecided;
+Counts count_block(const detail::DrawnResults& results, std::size_t place, Columns& columns) {
+  Counts counts{.refused = results.refused};
+  for (std::size_t row = 0; row < results.rows(); ++row) {
+    const double size = results.amplitude(row);
+    const double frequency = results.performance[row].frequency;
+    if (results.hunts(row)) ++counts.hunting;
+    if (results.meets[row]) ++counts.meeting;
+    if (results.verdict(row) == Verdict::undecided) ++counts.undecided;
     if (std::isnan(size)) ++counts.unknown_amplitudes;
     if (std::isfinite(size)) {
       ++counts.finite_amplitudes;
@@ -157,7 +156,11 @@ void require_sound(const TolerancedDrive& drive, const SamplePlan& sampling,
 
 std::vector<Fault> validate(const StudyQuestions& questions) {
   RangeCheck check;
-  check.include(faults_for_performance(questions.target));
+  check.include(faults(questions.target));
+  const Quantity of = questions.amplitude;
+  if (of != Quantity::amplitude && of != Quantity::motor_amplitude) {
+    check.refuse("amplitude", std::string(name_of(of)), "must be amplitude or motor_amplitude");
+  }
   for (const double share : questions.shares) check.within("quantile", share, 0.0, 1.0);
   constexpr std::size_t most_bins = 1'000'000;
   if (questions.bins > most_bins) {
@@ -172,13 +175,12 @@ ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& 
                                 Progress& progress) {
   require_sound(drive, sampling, questions);
   const detail::DrawnValues values(drive, sampling, 1);
-  const std::size_t at_a_time = detail::drives_at_a_time(drive);
+  const detail::DrawnAnswers answers(drive, questions.target, questions.amplitude, workers.unit);
+  const std::size_t at_a_time = answers.at_a_time();
   Columns columns{std::vector<double>(sampling.samples()), std::vector<double>(sampling.samples())};
   std::vector<Counts> blocks(detail::block_count(sampling, at_a_time));
-  const auto work = [&](const detail::SampleBlock& block) {
-    const detail::DrawnCycles cycles =
-        detail::solve(drive, block.count, values.of(block), workers.unit);
-    blocks[block.index] = count_block(cycles, questions.target,
+  const auto work = [&](const detail::SampleBlock& block, Progress& of_block) {
+    blocks[block.index] = count_block(answers.of(block.count, values.of(block), of_block),
                                       block.replicate * sampling.points + block.first, columns);
   };
   const bool all_done = detail::for_all_blocks(sampling, at_a_time, workers, progress, work);
@@ -197,6 +199,32 @@ ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& 
 ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& sampling,
                                 const StudyQuestions& questions, Progress& progress) {
   return study_tolerances(drive, sampling, questions, Workers{}, progress);
+}
+
+namespace {
+
+/// Whether two standard errors are small enough; where all samples agree, three by their number.
+bool is_known_to(double error, const Estimate& share, std::size_t samples) {
+  if (3.0 > error * static_cast<double>(samples)) return false;
+  return share.standard_error && 2.0 * *share.standard_error <= error;
+}
+
+}  // namespace
+
+ToleranceStudy study_tolerances_to(double error, const TolerancedDrive& drive,
+                                   const SamplePlan& sampling, const StudyQuestions& questions,
+                                   Progress& progress) {
+  RangeCheck check;
+  require_none(check.within("error", error, 1e-6, 0.5).faults());
+  const bool has_target = questions.target != Target{};
+  SamplePlan plan = sampling;
+  while (true) {
+    ToleranceStudy study = study_tolerances(drive, plan, questions, progress);
+    const bool is_known = is_known_to(error, study.hunting, plan.samples()) &&
+                          (!has_target || is_known_to(error, study.yield, plan.samples()));
+    if (is_known || study.stopped || 2 * plan.samples() > most_samples) return study;
+    plan.points *= 2;
+  }
 }
 
 }  // namespace gearlash

@@ -24,6 +24,7 @@ ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& 
 ///   total        T_i = Σ (f(A) − f(AB_i))²/(2 N V) (Jansen, Comput. Phys. Commun. 117, 1999).
 /// Throws InvalidInput, as above.
 SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SamplePlan& sampling,
-                                     const Workers& workers, Progress& progress = no_progress());
+                                     const StudyQuestions& questions, const Workers& workers,
+                                     Progress& progress = no_progress());
 
 }  // namespace gearlash

@@ -7,6 +7,7 @@
 
 #include "analysis/final_servo.hpp"
 #include "base/range_check.hpp"
+#include "gearlash/parameter.hpp"
 #include "model/drivetrain_slopes.hpp"
 #include "model/parameters.hpp"
 #include "model/proportional_servo.hpp"
@@ -100,6 +101,18 @@ std::vector<Fault> faults_of_servo(const Drive& drive) {
   return found;
 }
 
+/// Says at which values of the varied parameters the faults were found.
+void add_place(const TolerancedDrive& drive, std::span<const double> values,
+               std::vector<Fault>& found) {
+  for (Fault& fault : found) {
+    fault.permitted += "; the tolerances permit it where";
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      fault.permitted +=
+          (i == 0 ? " " : ", ") + drive.varied[i].path + " = " + exact_text(values[i]);
+    }
+  }
+}
+
 /// The faults of the first corner that is no valid drive. Precondition: the parameters are the
 /// drive's.
 std::vector<Fault> validate_corners(const TolerancedDrive& drive, std::span<const Bounds> ranges) {
@@ -111,13 +124,7 @@ std::vector<Fault> validate_corners(const TolerancedDrive& drive, std::span<cons
     double& backlash = *place_in(at_corner, path_of_backlash(at_corner));
     if (is_taken_apart(backlash)) backlash = 1.0;
     std::vector<Fault> found = faults_of_servo(at_corner);
-    for (Fault& fault : found) {
-      fault.permitted += "; the tolerances permit it where";
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        fault.permitted +=
-            (i == 0 ? " " : ", ") + drive.varied[i].path + " = " + exact_text(values[i]);
-      }
-    }
+    add_place(drive, values, found);
     return found;
   }
   return {};
@@ -160,9 +167,99 @@ std::vector<Fault> validate_nominal(const TolerancedDrive& drive) {
   return found;
 }
 
+bool is_number_of(const Drive& drive, std::string_view path) {
+  const Parameter* parameter = find_parameter(path, drive);
+  if (parameter == nullptr || !parameter->choices.empty()) return false;
+  Drive copy = drive;
+  return place_in(copy, path) != nullptr;
+}
+
+/// The faults of each varied parameter of a searched drive, taken by itself.
+std::vector<Fault> faults_of_varied(const TolerancedDrive& drive) {
+  RangeCheck check;
+  std::set<std::string_view> seen;
+  for (const ParameterTolerance& varied : drive.varied) {
+    if (!is_number_of(drive.nominal, varied.path)) {
+      check.refuse(varied.path, text_of(varied.distribution), "must be a number of this drive");
+      continue;
+    }
+    if (!seen.insert(find_parameter(varied.path, drive.nominal)->path).second) {
+      check.refuse(varied.path, text_of(varied.distribution), "must be given once");
+    }
+    check.include(validate(varied.distribution, varied.path));
+  }
+  return check.faults();
+}
+
+/// Of many parameters only the ends of each are tried, the others being at their means.
+std::vector<std::vector<double>> corners_to_try(const TolerancedDrive& drive,
+                                                std::span<const Bounds> ranges) {
+  constexpr std::size_t most_parameters = 10;
+  std::vector<std::vector<double>> all;
+  if (ranges.size() <= most_parameters) {
+    for (std::size_t corner = 0; corner < std::size_t{1} << ranges.size(); ++corner) {
+      all.push_back(corner_of(ranges, corner));
+    }
+    return all;
+  }
+  const std::vector<double> means = means_of(drive);
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    for (const double end : {ranges[i].low, ranges[i].high}) {
+      all.push_back(means);
+      all.back()[i] = end;
+    }
+  }
+  return all;
+}
+
+std::vector<Fault> faults_of_searched(const TolerancedDrive& drive) {
+  std::vector<Fault> found = faults_of_varied(drive);
+  if (!found.empty()) return found;
+  for (const auto& range_of : {drawn_range_of, three_sigma_range_of}) {
+    std::vector<Bounds> ranges;
+    for (const ParameterTolerance& varied : drive.varied) {
+      ranges.push_back(range_of(varied.distribution));
+    }
+    for (const std::vector<double>& values : corners_to_try(drive, ranges)) {
+      found = faults(searched_drive_with(drive, values));
+      if (found.empty()) continue;
+      add_place(drive, values, found);
+      return found;
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
-std::vector<Fault> faults(const TolerancedDrive& given) {
+bool is_searched(const TolerancedDrive& drive) {
+  if (faults(drive.nominal).empty() && !closed_form_drive(drive.nominal)) return true;
+  return std::any_of(drive.varied.begin(), drive.varied.end(),
+                     [&](const ParameterTolerance& varied) {
+                       return is_number_of(drive.nominal, varied.path) &&
+                              !drivetrain_slopes(drive.nominal, varied.path);
+                     });
+}
+
+Drive searched_drive_with(const TolerancedDrive& drive, std::span<const double> values) {
+  Drive changed = drive.nominal;
+  for (std::size_t i = 0; i < values.size(); ++i) set(changed, drive.varied[i].path, values[i]);
+  return changed;
+}
+
+std::vector<double> means_of(const TolerancedDrive& drive) {
+  std::vector<double> means;
+  for (const ParameterTolerance& varied : drive.varied) {
+    means.push_back(mean_of(varied.distribution));
+  }
+  return means;
+}
+
+std::vector<Fault> faults(const TolerancedDrive& drive) {
+  return is_searched(drive) ? faults_of_searched(drive) : faults_of_toleranced_servo(drive);
+}
+
+std::vector<Fault> faults_of_toleranced_servo(const TolerancedDrive& given) {
   RangeCheck check;
   TolerancedDrive drive = given;
   const std::vector<Fault> of_nominal = validate_nominal(drive);

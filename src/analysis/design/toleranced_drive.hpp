@@ -21,6 +21,17 @@ std::optional<std::size_t> place_of_backlash(const TolerancedDrive& drive);
 /// The unit of a parameter of the drive; "1" for a pure number.
 std::string_view unit_of(const Drive& drive, std::string_view path);
 
+/// Whether the closed form does not answer for the drive, or for a parameter that varies.
+bool is_searched(const TolerancedDrive& drive);
+/// faults(), and that the drive must have a closed form, as its varied parameters must.
+std::vector<Fault> faults_of_toleranced_servo(const TolerancedDrive& drive);
+
+/// The means of the varied parameters.
+std::vector<double> means_of(const TolerancedDrive& drive);
+/// The drive with `values` of the varied parameters, in their order. It may be unsound. Throws
+/// InvalidInput where one is no number of the drive.
+Drive searched_drive_with(const TolerancedDrive& drive, std::span<const double> values);
+
 /// The servo of the drive with `values` of the varied parameters, in their order. Throws
 /// InvalidInput where the drive has no closed form, and std::invalid_argument for another number of
 /// values.

@@ -124,13 +124,14 @@ std::optional<WidestBacklash> widest_backlash(const TolerancedDrive& drive,
                                               const SamplePlan& sampling, const Workers& workers,
                                               Progress& progress) {
   RangeCheck check;
-  check.include(faults(drive)).include(validate(sampling)).include(validate(demand));
+  check.include(faults_of_toleranced_servo(drive));
+  check.include(validate(sampling)).include(validate(demand));
   require_none(check.faults());
   const double min = lowest_backlash(drive, demand);
   const TolerancedDrive unit_drive = with_unit_backlash(drive);
   const detail::DrawnValues values(unit_drive, sampling, 1);
   std::vector<double> column(sampling.samples());
-  const auto work = [&](const detail::SampleBlock& block) {
+  const auto work = [&](const detail::SampleBlock& block, Progress&) {
     const detail::DrawnCycles cycles =
         detail::solve(unit_drive, block.count, values.of(block), workers.unit);
     const std::size_t place = block.replicate * sampling.points + block.first;

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <numeric>
 
-#include "analysis/design/drawn_cycles.hpp"
+#include "analysis/design/drawn_results.hpp"
 #include "analysis/design/shifted_sobol.hpp"
 #include "base/on_threads.hpp"
 #include "base/range_check.hpp"
+#include "base/shared_progress.hpp"
 #include "base/special_numbers.hpp"
 
 namespace gearlash {
@@ -34,25 +35,28 @@ bool is_notably_worse(const Badness& a, const Badness& b) {
   return a.amplitude == b.amplitude && a.amplitude <= 0.0 && a.growth > b.growth * (1.0 + notable);
 }
 
-Badness badness_of(const detail::DrawnCycles& cycles, std::size_t row) {
-  const double size = cycles.amplitude(row);
-  const double growth = cycles.growth_at_rest[row];
-  if (cycles.verdict[row] == Verdict::cannot_hunt)
+Badness badness_of(const detail::DrawnResults& results, std::size_t row) {
+  const auto& [verdict, growth, size, frequency, flight_time] = results.performance[row];
+  if (verdict != Verdict::undecided && !results.hunts(row)) {
     return {-1.0, std::isnan(growth) ? -1.0 : growth};
+  }
   return std::isnan(size) ? Badness{-2.0, -1.0} : Badness{size, 0.0};
 }
 
 /// The possible values of one parameter.
 struct Coordinate {
   Bounds range;
-  Values choices;  ///< of lots, rising; empty where the whole range is possible
+  Values choices;  ///< to try, rising; empty where the whole range is
 
   double width() const { return range.high - range.low; }
 };
 
-Coordinate coordinate_of(const Distribution& distribution) {
+/// Lots have their values to try; of searched drives other parameters have their ends alone.
+Coordinate coordinate_of(const Distribution& distribution, bool is_searched) {
   Coordinate coordinate{three_sigma_range_of(distribution), {}};
+  if (is_searched) coordinate.choices = {coordinate.range.low, coordinate.range.high};
   if (const DiscreteLots* discrete = std::get_if<DiscreteLots>(&distribution)) {
+    coordinate.choices.clear();
     for (const Lot& lot : discrete->lots) coordinate.choices.push_back(lot.value);
     std::sort(coordinate.choices.begin(), coordinate.choices.end());
   }
@@ -68,9 +72,13 @@ class Climb {
  public:
   Climb(const TolerancedDrive& drive, const WorstSearch& search, const Workers& workers,
         Progress& progress)
-      : drive_(drive), search_(search), workers_(workers), progress_(progress) {
+      : search_(search),
+        workers_(workers),
+        progress_(progress),
+        answers_(drive, no_target_, search.amplitude, workers.unit),
+        shared_(progress, search.samples + most_corners) {
     for (const ParameterTolerance& varied : drive.varied) {
-      coordinates_.push_back(coordinate_of(varied.distribution));
+      coordinates_.push_back(coordinate_of(varied.distribution, answers_.are_one_by_one()));
     }
   }
 
@@ -79,7 +87,9 @@ class Climb {
     for (Candidate& sample : worst_of(samples())) starts.push_back(std::move(sample));
     Candidate worst = starts.front();
     for (std::size_t i = 0; i < starts.size(); ++i) {
-      progress_.go_on(static_cast<double>(i) / static_cast<double>(starts.size()));
+      if (!answers_.are_one_by_one()) {
+        progress_.go_on(static_cast<double>(i) / static_cast<double>(starts.size()));
+      }
       Candidate top = climbed(starts[i]);
       if (worst.badness < top.badness) worst = std::move(top);
     }
@@ -89,10 +99,18 @@ class Climb {
   const std::vector<Coordinate>& coordinates() const { return coordinates_; }
   std::size_t evaluations() const { return evaluations_; }
   std::size_t unknown() const { return unknown_; }
+  bool is_stopped() const { return shared_.is_stopped(); }
+  Performance performance(const Values& values) {
+    return answers_.of(1, values, shared_).performance[0];
+  }
 
  private:
+  static constexpr std::size_t most_corners = 64;  ///< of a searched drive
+
   std::vector<Values> corners() const {
     std::vector<Values> all = {{}};
+    if (answers_.are_one_by_one() && std::size_t{1} << coordinates_.size() > most_corners)
+      return {};
     for (const Coordinate& coordinate : coordinates_) {
       const std::size_t others = all.size();
       for (std::size_t i = 0; i < others; ++i) {
@@ -127,7 +145,7 @@ class Climb {
   }
 
   std::vector<Badness> evaluate(const std::vector<Values>& all) {
-    const std::size_t at_a_time = detail::drives_at_a_time(drive_);
+    const std::size_t at_a_time = answers_.at_a_time();
     std::vector<Badness> badness(all.size());
     std::atomic<std::size_t> unknown = 0;
     const auto work = [&](std::size_t block) {
@@ -137,9 +155,10 @@ class Climb {
       for (std::size_t i = first; i < first + count; ++i) {
         values.insert(values.end(), all[i].begin(), all[i].end());
       }
-      const detail::DrawnCycles cycles = detail::solve(drive_, count, values, workers_.unit);
+      const detail::DrawnResults results = answers_.of(count, values, shared_);
+      if (answers_.are_one_by_one()) shared_.finish(count);
       for (std::size_t row = 0; row < count; ++row) {
-        badness[first + row] = badness_of(cycles, row);
+        badness[first + row] = badness_of(results, row);
         if (badness[first + row].amplitude == -2.0) ++unknown;
       }
     };
@@ -181,8 +200,10 @@ class Climb {
           try_line(top, along);
         }
       }
-      try_line(top, way_from(before, top));
-      try_line(top, slope_at(top));
+      if (!answers_.are_one_by_one()) {
+        try_line(top, way_from(before, top));
+        try_line(top, slope_at(top));
+      }
       if (!is_notably_worse(top.badness, before.badness)) return top;
     }
     return top;
@@ -293,10 +314,12 @@ class Climb {
     return values;
   }
 
-  const TolerancedDrive& drive_;
+  const Target no_target_{};
   const WorstSearch& search_;
   const Workers& workers_;
   Progress& progress_;
+  detail::DrawnAnswers answers_;
+  SharedProgress shared_;
   std::vector<Coordinate> coordinates_;
   std::size_t evaluations_ = 0;
   std::size_t unknown_ = 0;
@@ -339,7 +362,8 @@ WorstCorner worst_corner(const TolerancedDrive& drive, const WorstSearch& search
     worst.numbers.push_back({drive.varied[i].path, top.values[i], place_of(top.values[i], range),
                              range, std::isinf(support.low), std::isinf(support.high)});
   }
-  worst.performance = detail::solve(drive, 1, top.values, workers.unit).performance(0);
+  worst.performance = climb.performance(top.values);
+  worst.stopped = climb.is_stopped();
   worst.evaluations = climb.evaluations();
   worst.unknown = climb.unknown();
   return worst;

@@ -15,6 +15,7 @@ namespace gearlash {
 struct WorstSearch {
   std::size_t samples = 4096;  ///< Sobol points of the box, evaluated besides its corners
   std::size_t starts = 4;      ///< worst corners, and as many worst samples, to climb from; ≥ 1
+  Quantity amplitude = Quantity::amplitude;  ///< of the load, or motor_amplitude
 };
 
 enum class PlaceInRange {
@@ -41,6 +42,7 @@ struct WorstCorner {
   Performance performance;
   std::size_t evaluations = 0;
   std::size_t unknown = 0;  ///< evaluations with an unknown amplitude, not compared
+  bool stopped = false;     ///< by Progress, of a searched drive: then nothing holds
 };
 
 /// The drive with the largest amplitude (infinite where a drive grows without bound) in the box of
@@ -52,7 +54,10 @@ struct WorstCorner {
 /// relative 1e-12. Of lots only their values are tried. There is no proof that none is worse: a
 /// narrow peak inside can be missed. The result is the same to the bit for any number of threads.
 /// `progress` receives the share of the climbs (2·starts at most) that is done; its wish to stop is
-/// ignored. Throws InvalidInput.
+/// ignored.
+///
+/// Of a drive that is searched only the ends of each range are tried: all corners up to 64 of them,
+/// or Sobol's choice of corners, then one parameter after another. Throws InvalidInput.
 WorstCorner worst_corner(const TolerancedDrive& drive, const WorstSearch& search = {},
                          const Workers& workers = {}, Progress& progress = no_progress());
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <mutex>
 
 #include "analysis/ceiling/ceiling.hpp"
 #include "base/on_threads.hpp"
+#include "base/shared_progress.hpp"
 #include "base/special_numbers.hpp"
 #include "gearlash/analyse.hpp"
 #include "model/reduced_drive.hpp"
@@ -123,30 +123,6 @@ class GridWalk {
   const Grid& grid_;
   std::vector<std::size_t> places_;  ///< of the point on the axes
   std::vector<double> values_;
-};
-
-/// The progress of several simultaneous searches, through which they learn of a stop.
-class ProgressOfSearches : public Progress {
- public:
-  ProgressOfSearches(Progress& whole, std::size_t points)
-      : whole_(whole), points_(static_cast<double>(points)) {}
-
-  bool go_on(double /*share*/, std::size_t bytes = 0) override { return tell(0, bytes); }
-  bool tell(std::size_t more, std::size_t bytes = 0) {
-    const std::scoped_lock lock(telling_);
-    done_ += more;
-    if (!stopped_ && !whole_.go_on(static_cast<double>(done_) / points_, bytes)) stopped_ = true;
-    return !stopped_;
-  }
-  bool is_stopped() const { return stopped_; }
-  std::size_t done() const { return done_; }
-
- private:
-  Progress& whole_;
-  double points_;
-  std::mutex telling_;
-  std::size_t done_ = 0;
-  std::atomic<bool> stopped_ = false;
 };
 
 /// A run of consecutive points: those in closed form are solved as a batch, the others searched one
@@ -311,7 +287,7 @@ GridCount evaluate(const Grid& grid, const GridPoints& points, std::size_t first
   const std::size_t part = points_at_a_time(points.engines(), columns);
   GridCount total;
   std::mutex adding;
-  ProgressOfSearches searches(progress, count);
+  SharedProgress searches(progress, count);
   const auto work = [&](std::size_t index) {
     if (searches.is_stopped()) return;
     const std::size_t begin = index * part;
@@ -323,7 +299,7 @@ GridCount evaluate(const Grid& grid, const GridPoints& points, std::size_t first
       const std::scoped_lock lock(adding);
       total.add(of_part);
     }
-    searches.tell(rows);
+    searches.finish(rows);
   };
   on_threads(workers.threads, (count + part - 1) / part, work);
   total.stopped = searches.is_stopped() && searches.done() < count;

@@ -214,7 +214,7 @@ TEST(PropertyToleranceStudy, AnyNumberOfThreadsGivesTheSameBits) {
   const TolerancedDrive drive = widely_toleranced();
   const StudyQuestions questions{.target = at_most(0.1)};
   const ToleranceStudy one = study_tolerances(drive, sampling, questions, {.threads = 1});
-  const SensitivityStudy one_index = study_sensitivities(drive, sampling, {.threads = 1});
+  const SensitivityStudy one_index = study_sensitivities(drive, sampling, {}, {.threads = 1});
   for (const std::size_t threads : {2U, 3U}) {
     const ToleranceStudy other = study_tolerances(drive, sampling, questions, {.threads = threads});
     expect_same(one.hunting, other.hunting);
@@ -225,7 +225,7 @@ TEST(PropertyToleranceStudy, AnyNumberOfThreadsGivesTheSameBits) {
     expect_same(one.frequency, other.frequency);
     EXPECT_EQ(one.histogram.edges, other.histogram.edges);
     EXPECT_EQ(one.histogram.counts, other.histogram.counts);
-    const SensitivityStudy index = study_sensitivities(drive, sampling, {.threads = threads});
+    const SensitivityStudy index = study_sensitivities(drive, sampling, {}, {.threads = threads});
     for (std::size_t i = 0; i < drive.varied.size(); ++i) {
       expect_same(one_index.numbers[i].of_amplitude->first_order,
                   index.numbers[i].of_amplitude->first_order);
@@ -358,7 +358,7 @@ TEST(EdgeToleranceStudy, CanBeStopped) {
   };
   Stop stop;
   EXPECT_TRUE(study_tolerances(widely_toleranced(), sampling, {}, {.threads = 1}, stop).stopped);
-  EXPECT_TRUE(study_sensitivities(widely_toleranced(), sampling, {.threads = 1}, stop).stopped);
+  EXPECT_TRUE(study_sensitivities(widely_toleranced(), sampling, {}, {.threads = 1}, stop).stopped);
 }
 
 using test::faults_of;

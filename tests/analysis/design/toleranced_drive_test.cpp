@@ -44,6 +44,7 @@ std::vector<std::string> faults_of(const TolerancedDrive& drive) {
 TEST(TolerancedDrive, IsTheDriveWithItsValues) {
   TolerancedDrive drive = with("motor.resistance", within_share(282.0, 0.1));
   drive.varied.push_back({"load.inertia", Normal{2e-5, 1e-6}});
+  EXPECT_FALSE(is_searched(drive));
   ASSERT_THAT(faults_of(drive), IsEmpty());
   Drive expected = sound_drive();
   std::get<ArmatureControl>(expected.motor.kind).resistance = 300.0;
@@ -63,7 +64,8 @@ std::size_t count_varied(const Drive& nominal) {
     if (!exists(parameter, nominal)) continue;
     const TolerancedDrive drive{nominal,
                                 {{std::string(parameter.path), UniformBetween{0.01, 0.02}}}};
-    if (!faults_of(drive).empty()) continue;
+    if (!faults_of_toleranced_servo(drive).empty()) continue;
+    EXPECT_FALSE(is_searched(drive)) << parameter.path;
     ++numbers;
     const ClosedFormServo low = drive_with(drive, std::vector{0.01});
     const ClosedFormServo high = drive_with(drive, std::vector{0.02});
@@ -89,8 +91,9 @@ TEST(TolerancedDrive, ATachometersGainCanBeVaried) {
   TolerancedDrive drive{sound_drive(), {{"controller.derivative", UniformBetween{0.0, 0.01}}}};
   drive.nominal.controller.law =
       PID{.terms = PIDTerms::PD, .proportional = 10.0, .derivative_of_speed = true};
-  EXPECT_FALSE(faults_of(drive).empty());  // the speed is the load's
+  EXPECT_TRUE(is_searched(drive));  // the speed is the load's
   drive.nominal.sensor.speed = ShaftName::motor;
+  EXPECT_FALSE(is_searched(drive));
   ASSERT_THAT(faults_of(drive), IsEmpty());
   Drive expected = drive.nominal;
   std::get<PID>(expected.controller.law).derivative = 0.004;
@@ -156,10 +159,16 @@ TEST(EdgeTolerancedDrive, NothingVariedIsTheNominalDrive) {
   EXPECT_EQ(place_of_backlash(drive), std::nullopt);
 }
 
-TEST(EdgeTolerancedDrive, WithoutAClosedFormIsOneFault) {
+TEST(EdgeTolerancedDrive, WithoutAClosedFormItIsSearched) {
   TolerancedDrive drive = with("motor.resistance", within_share(282.0, 0.1));
+  EXPECT_FALSE(is_searched(drive));
   drive.nominal.motor.friction.coulomb = 1e-4;
-  EXPECT_THAT(faults_of(drive), ElementsAre(HasSubstr("must have a closed-form answer")));
+  EXPECT_TRUE(is_searched(drive));
+  EXPECT_THAT(faults_of(drive), IsEmpty());
+  EXPECT_THAT(to_string(faults_of_toleranced_servo(drive).at(0)),
+              HasSubstr("must have a closed-form answer"));
+  EXPECT_TRUE(is_searched(with("motor.coulomb", UniformBetween{0.0, 1e-4})));
+  EXPECT_THAT(faults_of(with("motor.coulomb", UniformBetween{0.0, 1e-4})), IsEmpty());
 }
 
 }  // namespace
