@@ -20,8 +20,9 @@ function(gearlash_install_pkgconfig name)
   install(FILES "${PROJECT_BINARY_DIR}/${name}.pc" DESTINATION "${gearlash_pkgconfig_dir}")
 endfunction()
 
+set(packages_of_pc "nlopt >= 2.7")
 if(GEARLASH_THREADS)
-  set(threads_of_pc "tbb >= 2021")
+  string(APPEND packages_of_pc ", tbb >= 2021")
 endif()
 set(numerics gearlash_base gearlash_numeric gearlash_model gearlash_hybrid gearlash_closed_form
              gearlash_general gearlash_analysis)

@@ -63,7 +63,7 @@ size to choose.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libgearlash-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-    "libfmt-dev, ${NetCDF_PACKAGE}, libtbb-dev, libtomlplusplus-dev")
+    "libfmt-dev, libnlopt-dev, ${NetCDF_PACKAGE}, libtbb-dev, libtomlplusplus-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "limit cycles of geared servos with backlash (C++ library)
 Headers and static libraries of Gearlash, with its CMake package and its
 pkg-config files.")

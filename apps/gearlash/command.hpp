@@ -29,6 +29,7 @@ void add_sweep_command(Command& app, Action& action);
 void add_design_command(Command& app, Action& action);
 void add_describe_command(Command& app, Action& action);
 void add_motor_command(Command& app, Action& action);
+void add_tune_command(Command& app, Action& action);
 void add_tolerance_command(Command& app, Action& action);
 void add_compare_command(Command& app, Action& action);
 void add_show_command(Command& app, Action& action);

@@ -53,6 +53,7 @@ ExitStatus parse_and_run(int argument_count, char** arguments) {
   add_limit_cycle_command(app, action);
   add_simulate_command(app, action);
   add_design_command(app, action);
+  add_tune_command(app, action);
   add_tolerance_command(app, action);
   add_compare_command(app, action);
   add_describe_command(app, action);

@@ -282,6 +282,17 @@ double read_time(const char* field, const std::string& text, Faults& faults) {
   return time;
 }
 
+double read_share(const std::string& field, std::string text, Faults& faults) {
+  const bool in_percent = text.ends_with('%');
+  if (in_percent) text.pop_back();
+  const double number = faults.collect([&] { return read_number(field, text); }, 0.5);
+  const double share = in_percent ? 0.01 * number : number;
+  if (!(share > 0.0 && share <= 1.0)) {
+    faults.add({field, shown(text), "must be a share above 0 and up to 1, or \"95 %\"", ""});
+  }
+  return share;
+}
+
 std::optional<WrittenDrive> resolve_drive(const ServoOptions& options, Faults& faults) {
   std::vector<Setting> settings = settings_of(options, faults);
   if (options.file.empty() && options.sensor) {

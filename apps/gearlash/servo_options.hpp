@@ -77,6 +77,9 @@ double read_si(std::string_view field, std::string_view text, const Dimension& d
 /// A positive time of an option, in s or with its unit; a fault otherwise.
 double read_time(const char* field, const std::string& text, Faults& faults);
 
+/// A share above 0 and up to 1, "95 %" or 0.95; a fault otherwise, and 0.5.
+double read_share(const std::string& field, std::string text, Faults& faults);
+
 /// The drive as its user has it: the file, or the normal form of the options, with the settings of
 /// --set. Adds faults to `faults`. Without faults there is a result, and it is valid.
 std::optional<WrittenDrive> resolve_drive(const ServoOptions& options, Faults& faults);

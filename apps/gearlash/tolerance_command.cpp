@@ -74,18 +74,6 @@ TolerancePicture picture_of(const Plot& plot) {
       ->second;
 }
 
-/// "95 %" or 0.95.
-double read_share(const std::string& field, std::string text, Faults& faults) {
-  const bool in_percent = text.ends_with('%');
-  if (in_percent) text.pop_back();
-  const double number = faults.collect([&] { return read_number(field, text); }, 0.5);
-  const double share = in_percent ? 0.01 * number : number;
-  if (!(share > 0.0 && share <= 1.0)) {
-    faults.add({field, shown(text), "must be a share above 0 and up to 1, or \"95 %\"", ""});
-  }
-  return share;
-}
-
 struct Task {
   TolerancedDrive drive;
   AngleUnit angle;

@@ -21,4 +21,5 @@
 #include "gearlash/sensitivity.hpp"
 #include "gearlash/signal.hpp"
 #include "gearlash/tolerance.hpp"
+#include "gearlash/tune.hpp"
 #include "gearlash/version.hpp"

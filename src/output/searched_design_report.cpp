@@ -12,67 +12,14 @@
 #include "output/columns.hpp"
 #include "output/drive_text.hpp"
 #include "output/json_values.hpp"
+#include "output/parameter_text.hpp"
 
 namespace gearlash {
 namespace {
 
-constexpr int digits = 6;
 constexpr int few_digits = 3;
 constexpr double turn = 2.0 * std::numbers::pi;
 constexpr double degree = std::numbers::pi / 180.0;
-
-/// How values of one parameter are written.
-class ValueText {
- public:
-  ValueText(const SearchedDesignReport& report, const FeasibleValues& values)
-      : drive_(report.drive), axis_{.path = values.parameter}, unit_(unit_of(axis_, drive_)) {
-    if (unit_ == "rad") {
-      unit_ = report.angle.name;
-      size_ = report.angle.radians;
-    }
-    if (unit_ == "1") unit_.clear();
-  }
-
-  bool is_word() const { return !parameter_of(axis_, drive_)->choices.empty(); }
-
-  std::string of(double value) const {
-    if (std::isnan(value)) return "";
-    return is_word() ? text_of(axis_, drive_, value)
-                     : with_unit(significant(value / size_, digits));
-  }
-
-  /// Rounded inwards.
-  std::string of(const Bounds& interval) const {
-    if (interval.low == interval.high) return of(interval.low);
-    return significant(rounded_up(interval.low / size_, digits), digits) + " to " +
-           with_unit(significant(rounded_down(interval.high / size_, digits), digits));
-  }
-
- private:
-  std::string with_unit(const std::string& number) const {
-    return unit_.empty() ? number : number + " " + unit_;
-  }
-
-  const Drive& drive_;
-  Axis axis_;
-  std::string unit_;
-  double size_ = 1.0;
-};
-
-std::string result_text(const Answer& answer, const AngleUnit& angle) {
-  std::string text = name_of(answer.verdict);
-  const std::optional<double> load = answer.value(Quantity::amplitude);
-  const std::optional<double> motor = answer.value(Quantity::motor_amplitude);
-  constexpr double hardly = 1e-3;  // the load moves while the motor hunts within the gap
-  const bool is_of_motor = load && motor && *load < hardly * *motor;
-  const std::optional<double> amplitude = is_of_motor ? motor : load;
-  if (!amplitude || *amplitude == 0.0) return text;
-  text += (is_of_motor ? ": motor ±" : ": ±") + angle_text(*amplitude, angle, few_digits);
-  if (const auto frequency = answer.value(Quantity::frequency)) {
-    text += " at " + significant(*frequency, few_digits) + " Hz";
-  }
-  return text;
-}
 
 /// In the order of `names_of_costs`.
 std::vector<std::string> costs_text(const DriveWithValue& one, const AngleUnit& angle) {
@@ -96,7 +43,7 @@ constexpr std::array names_of_costs = {"static error", "rise",      "overshoot",
 std::vector<std::string> row_text(const SearchedDesignReport& report,
                                   const SearchedParameter& parameter, std::size_t index) {
   const FeasibleValues& values = parameter.values;
-  const ValueText text(report, values);
+  const ParameterText text(report.drive, values.parameter, report.angle);
   const DriveWithValue& one = parameter.results[index];
   const bool has_ratio = !text.is_word() && values.present != 0.0 && !std::isnan(values.present);
   const bool is_first = index == 0;
@@ -132,7 +79,7 @@ std::string reasons(const SearchedDesignReport& report) {
   for (const SearchedParameter& parameter : report.parameters) {
     const FeasibleValues& values = parameter.values;
     if (!values.intervals.empty()) continue;
-    const ValueText shown(report, values);
+    const ParameterText shown(report.drive, values.parameter, report.angle);
     text += "  " + values.parameter + ": no " +
             (shown.is_word() ? "choice"
                              : "value of those tried from " + shown.of(values.searched.low) +
@@ -146,7 +93,7 @@ std::string reasons(const SearchedDesignReport& report) {
 std::string undecided_text(const SearchedDesignReport& report) {
   std::string parts;
   for (const SearchedParameter& parameter : report.parameters) {
-    const ValueText shown(report, parameter.values);
+    const ParameterText shown(report.drive, parameter.values.parameter, report.angle);
     for (const Bounds& part : parameter.values.undecided) {
       parts += (parts.empty() ? "" : "; ") + parameter.values.parameter + " " + shown.of(part);
     }
@@ -160,7 +107,7 @@ std::string certainty(const SearchedDesignReport& report) {
   bool is_stopped = false;
   for (const SearchedParameter& parameter : report.parameters) {
     const FeasibleValues& values = parameter.values;
-    const ValueText shown(report, values);
+    const ParameterText shown(report.drive, values.parameter, report.angle);
     grids += (grids.empty() ? "" : "; ") +
              fmt::format("{}, {} values", values.parameter, values.grid.size());
     if (!shown.is_word()) {

@@ -39,7 +39,7 @@ EIGEN = ("Eigen/", "unsupported/Eigen/MatrixFunctions")
 MATRICES = "Eigen/Core"
 PERMITTED_LIBRARIES = {
     "base": ("boost/math/", "tbb/"),
-    "numeric": ("boost/math/", *EIGEN),
+    "numeric": ("boost/math/", "nlopt.h", *EIGEN),
     "model": ("boost/math/", "boost/multiprecision/"),
     "hybrid": ("boost/math/", MATRICES),
     "closed_form": ("boost/math/", "boost/multiprecision/", MATRICES,

@@ -30,28 +30,25 @@ TEST_P(Help, OpensWithWhatTheVerbGivesAndEndsWithExamples) {
   EXPECT_EQ(help.find("\n\n", examples), std::string::npos) << "nothing after them";
 }
 
-INSTANTIATE_TEST_SUITE_P(Everywhere, Help,
-                         testing::Values(std::vector<std::string>{"--help"},
-                                         std::vector<std::string>{"-h"},
-                                         std::vector<std::string>{"limit-cycle", "--help"},
-                                         std::vector<std::string>{"simulate", "--help"},
-                                         std::vector<std::string>{"describe", "--help"},
-                                         std::vector<std::string>{"motor", "--help"},
-                                         std::vector<std::string>{"chart", "--help"},
-                                         std::vector<std::string>{"map", "--help"},
-                                         std::vector<std::string>{"sweep", "--help"},
-                                         std::vector<std::string>{"compare", "--help"},
-                                         std::vector<std::string>{"design", "--help"},
-                                         std::vector<std::string>{"tolerance", "--help"},
-                                         std::vector<std::string>{"show", "--help"},
-                                         std::vector<std::string>{"thesis", "--help"},
-                                         std::vector<std::string>{"thesis", "table-2", "--help"},
-                                         std::vector<std::string>{"thesis", "machine", "--help"},
-                                         std::vector<std::string>{"thesis", "figure", "--help"},
-                                         std::vector<std::string>{"thesis", "all", "--help"},
-                                         std::vector<std::string>{"thesis", "chart-reading", "-h"},
-                                         std::vector<std::string>{"thesis", "extension", "-h"},
-                                         std::vector<std::string>{"thesis", "run", "--help"}));
+INSTANTIATE_TEST_SUITE_P(
+    Everywhere, Help,
+    testing::Values(
+        std::vector<std::string>{"--help"}, std::vector<std::string>{"-h"},
+        std::vector<std::string>{"limit-cycle", "--help"},
+        std::vector<std::string>{"simulate", "--help"},
+        std::vector<std::string>{"describe", "--help"}, std::vector<std::string>{"motor", "--help"},
+        std::vector<std::string>{"chart", "--help"}, std::vector<std::string>{"map", "--help"},
+        std::vector<std::string>{"sweep", "--help"}, std::vector<std::string>{"compare", "--help"},
+        std::vector<std::string>{"design", "--help"}, std::vector<std::string>{"tune", "--help"},
+        std::vector<std::string>{"tolerance", "--help"}, std::vector<std::string>{"show", "--help"},
+        std::vector<std::string>{"thesis", "--help"},
+        std::vector<std::string>{"thesis", "table-2", "--help"},
+        std::vector<std::string>{"thesis", "machine", "--help"},
+        std::vector<std::string>{"thesis", "figure", "--help"},
+        std::vector<std::string>{"thesis", "all", "--help"},
+        std::vector<std::string>{"thesis", "chart-reading", "-h"},
+        std::vector<std::string>{"thesis", "extension", "-h"},
+        std::vector<std::string>{"thesis", "run", "--help"}));
 
 TEST(Help, EveryOptionOfTheContractIsNamed) {
   const std::string limit_cycle = run_tool({"limit-cycle", "--help"}).out;

@@ -1,0 +1,245 @@
+// gearlash tune: the best values of several parameters for a whole series.
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <numbers>
+
+#include "analysis/grid/axis.hpp"
+#include "command.hpp"
+#include "gearlash/analyse.hpp"
+#include "gearlash/parameter.hpp"
+#include "gearlash/tune.hpp"
+#include "input/axis_text.hpp"
+#include "input/target_text.hpp"
+#include "model/reduced_drive.hpp"
+#include "output/output_file.hpp"
+#include "output/tune_report.hpp"
+#include "servo_options.hpp"
+#include "terminal.hpp"
+
+namespace gearlash::cli {
+namespace {
+
+constexpr char examples[] =
+    "  gearlash tune examples/toleranced-joint.toml --set controller.kind=PD\n"
+    "  gearlash tune examples/toleranced-joint.toml --target \"motor-amplitude <= 0.3 deg\" \\\n"
+    "      --parameters controller.integral=20:600,controller.proportional --share \"95 %\"\n"
+    "  gearlash tune examples/robot-joint.toml --set controller.kind=PD --for static-error \\\n"
+    "      --write tuned.toml\n";
+
+constexpr char explanation[] =
+    "The series is what the tolerances of DRIVE.toml permit (gearlash tolerance --help shows how "
+    "to\n"
+    "write them); without tolerances it is the one drive. The target, if none is given, is to come "
+    "to\n"
+    "rest, or to hunt by no more than one step of the encoder.\n\n";
+
+struct TuneOptions {
+  ServoOptions servo;
+  std::vector<std::string> parameters;
+  std::string target;
+  std::string aim = "bandwidth";
+  std::string share = "100 %";
+  std::string phase_margin = "30 deg";
+  std::string units = "64";
+  std::string seed = "1960";
+  std::string write;
+  std::string format = "text";
+};
+
+/// The gains that are above 0.
+std::vector<std::string> usual_gains(const Drive& drive) {
+  constexpr std::array gains = {"controller.proportional", "controller.integral",
+                                "controller.derivative",   "controller.position",
+                                "controller.speed",        "controller.speed_integral",
+                                "controller.gain"};
+  std::vector<std::string> usual;
+  for (const char* gain : gains) {
+    const Axis axis{.path = gain};
+    if (parameter_of(axis, drive) == nullptr) continue;
+    if (present_value(axis, drive).value_or(0.0) > 0.0) usual.emplace_back(gain);
+  }
+  return usual;
+}
+
+/// PATH=FROM:TO, by ratio where both ends are positive; or an axis as of design.
+Axis read_range(const std::string& text, const Drive& drive) {
+  const bool has_two_ends = std::count(text.begin(), text.end(), ':') == 1;
+  Axis axis = read_axis_or_name("--parameters", has_two_ends ? text + ":2" : text, drive);
+  const bool is_usual = text.find('=') == std::string::npos;  // it has 0 besides values by ratio
+  if (is_usual && axis.values.size() > 2 && axis.values.front() == 0.0) {
+    axis.values.erase(axis.values.begin());
+  }
+  if (!axis.values.empty()) axis.logarithmic = axis.values.front() > 0.0;
+  return axis;
+}
+
+struct NamedTarget {
+  Target target{};
+  std::string text{};
+};
+
+/// To rest, or to move the sensed shaft by one step of its encoder at most.
+NamedTarget usual_target(const Drive& drive, const AngleUnit& angle) {
+  NamedTarget usual{.target = {.no_runaway = true}};
+  const drive::ReducedDrive reduced = reduce(drive);
+  const double step = reduced.sensing.resolution;
+  if (step == 0.0) {
+    usual.target.no_hunting = true;
+    usual.text = "no-hunting and no-runaway";
+    return usual;
+  }
+  const bool is_of_motor = reduced.sensing.load_share_of_position < 0.5;
+  usual.target.require(is_of_motor ? Quantity::motor_amplitude : Quantity::amplitude, {0.0, step});
+  usual.text = std::string(is_of_motor ? "motor-amplitude" : "amplitude") +
+               " <= " + angle_text(step, angle, 4) + " (one step of the encoder) and no-runaway";
+  return usual;
+}
+
+struct Task {
+  TuneTask task;
+  TuneEffort effort;
+  std::string target_text;
+  AngleUnit angle;
+};
+
+Aim read_aim(const std::string& text, Faults& faults) {
+  faults.require_choice("--for", text, {"bandwidth", "settling", "static-error"});
+  if (text == "settling") return Aim::settling;
+  return text == "static-error" ? Aim::static_error : Aim::bandwidth;
+}
+
+void read_numbers(const TuneOptions& options, Task& task, Faults& faults) {
+  task.task.aim = read_aim(options.aim, faults);
+  task.task.share = read_share("--share", options.share, faults);
+  task.task.least_phase_margin = faults.collect(
+      [&] { return read_si("--phase-margin", options.phase_margin, dimensions::angle); }, 0.5);
+  constexpr std::size_t most_units = 100'000;
+  const auto whole = [&](const char* field, const std::string& text, std::uint64_t least,
+                         std::uint64_t most) {
+    return faults.collect([&] { return read_whole(field, text, least, most); }, least);
+  };
+  task.effort.units = whole("--units", options.units, 1, most_units);
+  task.effort.seed = whole("--seed", options.seed, 0, std::uint64_t{1} << 53U);
+}
+
+Task read_task(const TuneOptions& options) {
+  Task task;
+  Faults faults;
+  faults.require_choice("--format", options.format, {"text", "json"});
+  faults.require_distinct({"DRIVE.toml", options.servo.file}, {{"--write", options.write}});
+  read_numbers(options, task, faults);
+  const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
+  if (!written) faults.require_none();
+  const Drive& drive = written->drive;
+  task.angle = written->angle;
+  task.task.series = {drive, written->tolerances};
+  for (const std::string& text :
+       options.parameters.empty() ? usual_gains(drive) : options.parameters) {
+    task.task.tuned.push_back(faults.collect([&] { return read_range(text, drive); }, Axis{}));
+  }
+  if (task.task.tuned.empty()) {
+    faults.add({"--parameters", "", "must name what to tune: the drive has no gain above 0", ""});
+  }
+  task.target_text = options.target;
+  if (options.target.empty()) {
+    auto [target, text] = usual_target(drive, task.angle);
+    task.task.target = std::move(target);
+    task.target_text = std::move(text);
+  } else {
+    const TimeScale scale = is_normalized(drive) ? TimeScale::unknown : TimeScale::known;
+    task.task.target =
+        faults.collect([&] { return read_target("--target", options.target, scale); }, Target{});
+  }
+  faults.require_none();
+  std::erase_if(task.task.series.varied, [&](const ParameterTolerance& varied) {
+    return std::any_of(task.task.tuned.begin(), task.task.tuned.end(), [&](const Axis& axis) {
+      return parameter_of(axis, drive)->path == varied.path;
+    });
+  });
+  return task;
+}
+
+/// The task without integral action; empty where there is none to give up.
+std::optional<TuneTask> without_integral(const TuneTask& task) {
+  TuneTask without = task;
+  auto* pid = std::get_if<PID>(&without.series.nominal.controller.law);
+  if (pid == nullptr || (pid->terms != PIDTerms::PI && pid->terms != PIDTerms::PID)) return {};
+  set(without.series.nominal, "controller.kind",
+      std::string_view(pid->terms == PIDTerms::PI ? "P" : "PD"));
+  std::erase_if(without.tuned, [](const Axis& axis) { return axis.path == "controller.integral"; });
+  std::erase_if(without.series.varied, [&](const ParameterTolerance& varied) {
+    return parameter_of({.path = varied.path}, without.series.nominal) == nullptr;
+  });
+  if (without.tuned.empty() || !faults(without).empty()) return {};
+  return without;
+}
+
+ExitStatus run(const TuneOptions& options, const Provenance& provenance) {
+  const Task task = read_task(options);
+  TuneReport report{.task = task.task,
+                    .target_text = task.target_text,
+                    .angle = task.angle,
+                    .provenance = provenance};
+  {
+    TerminalProgress progress("Tune");
+    report.tuned = tune(task.task, task.effort, progress);
+  }
+  const auto lesser = without_integral(task.task);
+  if (!report.tuned.meets && lesser) {
+    TerminalProgress progress("Tune without integral action");
+    report.without_integral = tune(*lesser, task.effort, progress);
+  }
+  report.present = analyse(task.task.series.nominal, {.proofs = false});
+  report.nominal = analyse(report.tuned.drive, {.proofs = false});
+  if (!options.write.empty()) write_file(options.write, tuned_toml(report));
+  write_file("-", options.format == "json" ? tune_json(report) : tune_text(report));
+  return report.tuned.stopped ? ExitStatus::undecided : ExitStatus::done;
+}
+
+}  // namespace
+
+void add_tune_command(Command& app, Action& action) {
+  const auto options = std::make_shared<TuneOptions>();
+  Command* command = app.add_subcommand(
+      "tune", "Find the best values of several parameters for a whole series of drives");
+  add_servo_or_drive_options(*command, options->servo);
+  command
+      ->add_option("--parameters", options->parameters,
+                   "List the numbers to tune, by path, separated by commas, each from 0.1\n"
+                   "to 10 times its present value, or over PATH=FROM:TO with units;\n"
+                   "default: the controller's gains that are above 0")
+      ->type_name("NAMES")
+      ->delimiter(',');
+  command
+      ->add_option("--target", options->target,
+                   "Set the target that each unit must meet, written as for design")
+      ->type_name("TARGET");
+  command
+      ->add_option("--for", options->aim,
+                   "Choose what is best: the greatest bandwidth (default), the shortest\n"
+                   "settling or the least static-error, of the worst unit")
+      ->type_name("AIM");
+  command
+      ->add_option("--share", options->share,
+                   "Set the share of the units that must meet the target; default 100 %")
+      ->type_name("SHARE");
+  command
+      ->add_option("--phase-margin", options->phase_margin,
+                   "Set the least phase margin of the linear loop; default 30 deg")
+      ->type_name("ANGLE");
+  command
+      ->add_option("--units", options->units,
+                   "Set the number of units to which each proposal is put; default 64")
+      ->type_name("N");
+  command->add_option("--seed", options->seed, "Set the seed of the units; default 1960")
+      ->type_name("N");
+  command->add_option("--write", options->write, "Write the tuned drive to this file")
+      ->type_name("FILE");
+  command->add_option("--format", options->format, "Choose the format: text (default) or json")
+      ->type_name("FORMAT");
+  command->footer(explanation + help_footer(examples));
+  set_action(*command, action, options, run);
+}
+
+}  // namespace gearlash::cli

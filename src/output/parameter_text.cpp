@@ -1,0 +1,44 @@
+#include "output/parameter_text.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace gearlash {
+
+ParameterText::ParameterText(const Drive& drive, std::string parameter, const AngleUnit& angle)
+    : drive_(drive), axis_{.path = std::move(parameter)}, unit_(unit_of(axis_, drive)) {
+  if (unit_ == "rad") {
+    unit_ = angle.name;
+    size_ = angle.radians;
+  }
+  if (unit_ == "1") unit_.clear();
+}
+
+std::string ParameterText::of(double value) const {
+  if (std::isnan(value)) return "";
+  return is_word() ? text_of(axis_, drive_, value) : with_unit(significant(value / size_, digits));
+}
+
+std::string ParameterText::of(const Bounds& interval) const {
+  if (interval.low == interval.high) return of(interval.low);
+  return significant(rounded_up(interval.low / size_, digits), digits) + " to " +
+         with_unit(significant(rounded_down(interval.high / size_, digits), digits));
+}
+
+std::string result_text(const Answer& answer, const AngleUnit& angle) {
+  std::string text = name_of(answer.verdict);
+  const std::optional<double> load = answer.value(Quantity::amplitude);
+  const std::optional<double> motor = answer.value(Quantity::motor_amplitude);
+  constexpr double hardly = 1e-3;  // the load moves while the motor hunts within the gap
+  const bool is_of_motor = load && motor && *load < hardly * *motor;
+  const std::optional<double> amplitude = is_of_motor ? motor : load;
+  if (!amplitude || *amplitude == 0.0) return text;
+  constexpr int few_digits = 3;
+  text += (is_of_motor ? ": motor ±" : ": ±") + angle_text(*amplitude, angle, few_digits);
+  if (const auto frequency = answer.value(Quantity::frequency)) {
+    text += " at " + significant(*frequency, few_digits) + " Hz";
+  }
+  return text;
+}
+
+}  // namespace gearlash

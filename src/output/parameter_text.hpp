@@ -1,0 +1,42 @@
+// Values of one parameter of a drive, and what the drive does, as they stand in tables.
+#pragma once
+
+#include <string>
+
+#include "analysis/grid/axis.hpp"
+#include "gearlash/answer.hpp"
+#include "output/report_units.hpp"
+
+namespace gearlash {
+
+/// Angles are in the author's unit, other numbers in SI, choices are words. Precondition: the drive
+/// has the parameter, and outlives this.
+class ParameterText {
+ public:
+  ParameterText(const Drive& drive, std::string parameter, const AngleUnit& angle);
+
+  bool is_word() const { return !parameter_of(axis_, drive_)->choices.empty(); }
+
+  /// Empty for NaN.
+  std::string of(double value) const;
+  /// "0.5 to 2 deg", rounded inwards.
+  std::string of(const Bounds& interval) const;
+
+ private:
+  static constexpr int digits = 6;
+
+  std::string with_unit(const std::string& number) const {
+    return unit_.empty() ? number : number + " " + unit_;
+  }
+
+  const Drive& drive_;
+  Axis axis_;
+  std::string unit_;
+  double size_ = 1.0;  ///< of the unit, in SI
+};
+
+/// "hunts: motor ±0.218 deg at 0.261 Hz": the verdict and the largest motion, of the motor where it
+/// hunts within the gap.
+std::string result_text(const Answer& answer, const AngleUnit& angle);
+
+}  // namespace gearlash

@@ -1,0 +1,205 @@
+#include "output/tune_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "output/columns.hpp"
+#include "output/drive_text.hpp"
+#include "output/json_values.hpp"
+#include "output/parameter_text.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr int few_digits = 4;
+constexpr double turn = 2.0 * std::numbers::pi;
+
+const Drive& present_drive(const TuneReport& report) { return report.task.series.nominal; }
+
+std::string parameter_text(const TuneReport& report, const std::string& path, double value) {
+  return ParameterText(present_drive(report), path, report.angle).of(value);
+}
+
+std::string table_of_values(const TuneReport& report) {
+  std::vector<std::vector<std::string>> rows = {{"parameter", "now", "tuned", "change", "sought"}};
+  for (std::size_t i = 0; i < report.tuned.values.size(); ++i) {
+    const Axis& axis = report.task.tuned[i];
+    const double now = present_value(axis, present_drive(report)).value_or(std::nan(""));
+    const double tuned = report.tuned.values[i];
+    rows.push_back({axis.path, parameter_text(report, axis.path, now),
+                    parameter_text(report, axis.path, tuned),
+                    now > 0.0 ? change_text(tuned / now) : "",
+                    ParameterText(present_drive(report), axis.path, report.angle)
+                        .of(Bounds{axis.values.front(), axis.values.back()})});
+  }
+  return table_text(rows);
+}
+
+std::string reached_text(const TuneReport& report, const TunedDrive& tuned) {
+  if (std::isnan(tuned.reached)) return "";
+  switch (report.task.aim) {
+    case Aim::bandwidth:
+      return ", with a bandwidth of at least " + significant(tuned.reached / turn, few_digits) +
+             " Hz";
+    case Aim::settling:
+      return ", settling within " + significant(tuned.reached, few_digits) + " s";
+    case Aim::static_error:
+      return ", with a static error of at most " +
+             angle_text(tuned.reached, report.angle, few_digits);
+  }
+  return "";
+}
+
+std::string count_text(const TunedDrive& tuned) {
+  if (tuned.units == 1) return tuned.met == 1 ? "The drive meets" : "The drive does not meet";
+  if (tuned.met == tuned.units) return fmt::format("All {} units tried meet", tuned.units);
+  return fmt::format("{} of {} units tried meet", tuned.met, tuned.units);
+}
+
+std::string outcome_text(const TuneReport& report) {
+  const TunedDrive& tuned = report.tuned;
+  std::string text = count_text(tuned) + " the target";
+  if (tuned.meets) return text + reached_text(report, tuned) + ".";
+  text = "Nothing found that meets the target; the best by count is shown. " + text + ".";
+  if (tuned.undecided > 0) {
+    text += fmt::format(" What {} of the others do was not decided.", tuned.undecided);
+  }
+  return text;
+}
+
+std::string limiting_text(const TuneReport& report) {
+  const std::optional<TunedUnit>& unit = report.tuned.limiting;
+  if (!unit) return "";
+  std::string text;
+  for (std::size_t i = 0; i < unit->values.size(); ++i) {
+    const std::string& path = report.task.series.varied[i].path;
+    text += (i == 0 ? " " : ", ") + path + " = " + parameter_text(report, path, unit->values[i]);
+  }
+  const bool is_searched = unit->answer.verdict != Verdict::undecided || unit->answer.search;
+  const std::string what = is_searched ? result_text(unit->answer, report.angle)
+                                       : "its linear loop lacks the phase margin";
+  if (text.empty()) return "What it does then: " + what + ".";
+  const bool all_meet = report.tuned.met == report.tuned.units;
+  return (all_meet ? "The unit that limits, as an earlier proposal had it:"
+                   : "The unit that misses it most:") +
+         text + " (" + what + ").";
+}
+
+/// What to give up where nothing meets the target.
+std::string advice_text(const TuneReport& report) {
+  if (report.tuned.meets) return "";
+  std::string text;
+  if (const auto why = why_integral_action_hunts(present_drive(report))) text = *why + ". ";
+  if (const std::optional<TunedDrive>& without = report.without_integral) {
+    text += "Without integral action: " + count_text(*without) + " the target" +
+            reached_text(report, *without);
+    std::size_t next = 0;
+    for (const Axis& axis : report.task.tuned) {
+      if (axis.path == "controller.integral") continue;
+      text += (next == 0 ? " (" : ", ") + axis.path + " = " +
+              parameter_text(report, axis.path, without->values[next]);
+      ++next;
+    }
+    text += "). A static error then remains, and a steady torque on the load adds to it.";
+  }
+  return text;
+}
+
+std::string effort_text(const TuneReport& report) {
+  const TunedDrive& tuned = report.tuned;
+  std::string text = fmt::format("Searched, not proved, by {} analyses", tuned.analyses);
+  if (tuned.units > 1) {
+    text += fmt::format(
+        ". Each of {} proposals was put to {} units: the mean one, corners of the tolerances and "
+        "points of Sobol's sequence. Other units may miss the target",
+        tuned.rounds, tuned.units);
+  }
+  text += ". Other values may be better.";
+  return tuned.stopped ? text + " The search was stopped." : text;
+}
+
+std::string paragraph(const std::string& text) { return text.empty() ? "" : wrapped(text) + "\n"; }
+
+Json json_performance(const Answer& answer) {
+  return {{"verdict", name_of(answer.verdict)},
+          {"amplitude", json_optional(answer.value(Quantity::amplitude))},
+          {"motor_amplitude", json_optional(answer.value(Quantity::motor_amplitude))},
+          {"frequency", json_optional(answer.value(Quantity::frequency))},
+          {"static_error", json_optional(answer.value(Quantity::static_error))}};
+}
+
+Json json_limiting(const TuneReport& report) {
+  if (!report.tuned.limiting) return nullptr;
+  Json values = Json::object();
+  for (std::size_t i = 0; i < report.tuned.limiting->values.size(); ++i) {
+    values[report.task.series.varied[i].path] = json_number(report.tuned.limiting->values[i]);
+  }
+  return {{"values", values}, {"performance", json_performance(report.tuned.limiting->answer)}};
+}
+
+Json json_tuned(const TuneReport& report, const TunedDrive& tuned) {
+  Json values = Json::object();
+  for (std::size_t i = 0; i < tuned.values.size(); ++i) {
+    values[report.task.tuned[i].path] = json_number(tuned.values[i]);
+  }
+  const double unit = report.task.aim == Aim::bandwidth ? turn : 1.0;
+  return {{"values", values},
+          {"meets", tuned.meets},
+          {"units", tuned.units},
+          {"met", tuned.met},
+          {"undecided", tuned.undecided},
+          {"reached", json_number(tuned.reached / unit)}};
+}
+
+}  // namespace
+
+const char* name_of(Aim aim) {
+  switch (aim) {
+    case Aim::bandwidth:
+      return "bandwidth";
+    case Aim::settling:
+      return "settling";
+    case Aim::static_error:
+      return "static-error";
+  }
+  return "";
+}
+
+std::string tune_text(const TuneReport& report) {
+  return fmt::format("target: {}\nat present: {}\ntuned: {}\n\n", report.target_text,
+                     result_text(report.present, report.angle),
+                     result_text(report.nominal, report.angle)) +
+         table_of_values(report) + "\n" + paragraph(outcome_text(report)) +
+         paragraph(limiting_text(report)) + paragraph(advice_text(report)) +
+         wrapped(effort_text(report));
+}
+
+std::string tune_json(const TuneReport& report) {
+  Json json = json_head("tune", present_drive(report), report.provenance);
+  json["target"] = report.target_text;
+  json["aim"] = name_of(report.task.aim);
+  json["share"] = json_number(report.task.share);
+  json["present"] = json_performance(report.present);
+  json["nominal"] = json_performance(report.nominal);
+  json["tuned"] = json_tuned(report, report.tuned);
+  json["limiting"] = json_limiting(report);
+  const std::optional<std::string> why = why_integral_action_hunts(present_drive(report));
+  json["why_integral_action_hunts"] = why ? Json(*why) : Json(nullptr);
+  json["without_integral"] =
+      report.without_integral ? json_tuned(report, *report.without_integral) : Json(nullptr);
+  json["rounds"] = report.tuned.rounds;
+  json["analyses"] = report.tuned.analyses;
+  json["stopped"] = report.tuned.stopped;
+  return json.dump(2) + "\n";
+}
+
+std::string tuned_toml(const TuneReport& report) {
+  return fmt::format("# Tuned by: {}\n# {} the target: {}\n\n", report.provenance.command,
+                     count_text(report.tuned), report.target_text) +
+         to_toml(report.tuned.drive);
+}
+
+}  // namespace gearlash
