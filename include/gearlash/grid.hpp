@@ -84,9 +84,11 @@ class Table {
 
 /// The answer of each drive of the grid, on all cores, with the same bits for any number of cores.
 /// Drives that are physically the servo of 1960 are answered in closed form, millions per second
-/// with plastic contact. Others are searched, which takes seconds each. Combinations that are no
-/// valid drive, and points not reached when `progress` stopped the work, stay unknown. Throws
-/// InvalidInput for a grid with faults().
+/// with plastic contact. Others are searched, which takes seconds each, or followed along the last
+/// axis: in runs of at most 32 whose ends are searched afresh, and the middle where they differ in
+/// kind, and so on. What appears and vanishes again within a run may be missed. Combinations that
+/// are no valid drive, and points not reached when `progress` stopped the work, stay unknown.
+/// Throws InvalidInput for a grid with faults().
 [[nodiscard]] Table evaluate(const Grid& grid, std::span<const Quantity> quantities,
                              Progress& progress = no_progress());
 [[nodiscard]] inline Table evaluate(const Grid& grid, std::initializer_list<Quantity> quantities,

@@ -127,4 +127,16 @@ std::optional<PeriodicOrbit> neighbouring_orbit(const HybridSystem& system,
   return neighbouring_orbit(PreparedSystem(system), near, options);
 }
 
+std::optional<PeriodicOrbit> neighbouring_orbit(const PreparedSystem& system,
+                                                const PeriodicOrbit& near,
+                                                const PreparedSystem& system_of_near,
+                                                const ShootingOptions& options) {
+  if (has_periodic_clocks(system.system())) return std::nullopt;
+  const auto known = Shooting::about(system_of_near, near.start, near.start_time, near.period,
+                                     near.events.size(), options.phases);
+  if (!known) return std::nullopt;
+  Shooting shooting = known->of(system);
+  return solved_by_newton(shooting, options.most_steps);
+}
+
 }  // namespace gearlash::hybrid

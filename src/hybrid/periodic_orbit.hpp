@@ -59,4 +59,11 @@ std::optional<PeriodicOrbit> neighbouring_orbit(const HybridSystem& system,
                                                 const PeriodicOrbit& near,
                                                 const ShootingOptions& options = {});
 
+/// The same without periodic clocks, for an orbit that is known in its own system: Newton's method
+/// starts with all phases on it, and so finds unstable orbits too.
+std::optional<PeriodicOrbit> neighbouring_orbit(const PreparedSystem& system,
+                                                const PeriodicOrbit& near,
+                                                const PreparedSystem& system_of_near,
+                                                const ShootingOptions& options = {});
+
 }  // namespace gearlash::hybrid

@@ -427,6 +427,38 @@ TEST(FollowAttractors, GivesUpWhereTheDriveEndsInSomethingElse) {
   EXPECT_FALSE(follow_attractors(servo(0.9, 2.0, 0.1), running_away));
 }
 
+/// A PD with friction, which hunts if disturbed: the cycle between rest and hunting multiplies a
+/// disturbance by 24.
+ReducedDrive pd_drive(double gain, double filter = 1e-3) {
+  ReducedDrive drive;
+  drive.motor = {8e-3, {.viscous = 4e-3, .coulomb = 2e-2, .breakaway = 2e-2}};
+  drive.load = {5e-3, {.viscous = 1e-3, .coulomb = 5e-3, .breakaway = 5e-3}};
+  drive.backlash = 2e-3;
+  drive.contact = RigidContact{};
+  drive.controller = ProportionalIntegralDerivative{
+      .proportional = 20.0 * gain, .derivative = 0.4, .filter = filter};
+  return drive;
+}
+
+TEST(FollowAttractors, FollowsUnstableCyclesToo) {
+  const AttractorSearch known = find_attractors(pd_drive(4.0));
+  ASSERT_EQ(known.cycles.size(), 2U);
+  ASSERT_EQ(known.cycles[1].stability, Stability::unstable);
+  EXPECT_GT(known.cycles[1].multiplier, 20.0);
+  const ReducedDrive near = pd_drive(4.07);
+  const auto followed = follow_attractors(near, known);
+  ASSERT_TRUE(followed);
+  const AttractorSearch searched = find_attractors(near);
+  ASSERT_EQ(searched.cycles.size(), 2U);
+  for (const std::size_t i : {0U, 1U}) {
+    EXPECT_NEAR(followed->cycles[i].amplitude, searched.cycles[i].amplitude, 1e-11);
+  }
+}
+
+TEST(FollowAttractors, GivesUpWhereTheStateHasOtherNumbers) {
+  EXPECT_FALSE(follow_attractors(pd_drive(4.0, 0.0), find_attractors(pd_drive(4.0))));
+}
+
 /// Starts in the gap are then moved to its faces.
 TEST(FollowAttractors, StartsInANarrowerGapToo) {
   const AttractorSearch known = find_attractors(servo(0.19, 2.0, 0.1));

@@ -6,10 +6,10 @@
 #include <mutex>
 
 #include "analysis/ceiling/ceiling.hpp"
+#include "analysis/grid/followed_drives.hpp"
 #include "base/on_threads.hpp"
 #include "base/shared_progress.hpp"
 #include "base/special_numbers.hpp"
-#include "gearlash/analyse.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash {
@@ -23,10 +23,9 @@ bool has_ceilings(const CycleColumns& columns) {
                      [&](Quantity quantity) { return !columns[quantity].empty(); });
 }
 
-/// The number of points that a thread solves at a time: some tenths of a millisecond without
-/// bounces, some tens of milliseconds with them or with ceilings, or one search.
+/// The number of points in closed form that a thread solves at a time: some tenths of a millisecond
+/// without bounces, some tens of milliseconds with them or with ceilings.
 std::size_t points_at_a_time(const EnginesNeeded& engines, const CycleColumns& columns) {
-  if (engines.search) return 1;
   if (has_ceilings(columns)) return 16;
   return engines.bounces ? 8 : 4096;
 }
@@ -125,14 +124,13 @@ class GridWalk {
   std::vector<double> values_;
 };
 
-/// A run of consecutive points: those in closed form are solved as a batch, the others searched one
-/// by one.
+/// Consecutive points: those in closed form are solved as a batch, the others searched as a run.
 class Part {
  public:
   Part(const GridPoints& points, const CycleColumns& columns)
       : points_(points), columns_(columns), servos_(columns.verdict.size()) {}
 
-  GridCount work_out(GridWalk walk, bool proved, VectorUnit unit, Progress& progress) {
+  GridCount work_out(GridWalk walk, bool proved, VectorUnit unit, SharedProgress& progress) {
     GridWalk walk_of_ceilings = walk;
     for (std::size_t row = 0; row < servos_.size(); ++row, walk.go_on()) {
       points_.are_of_normal_form() ? place(row, points_.normal_form_at(walk.values()))
@@ -143,9 +141,7 @@ class Part {
     count.solved.one_by_one -= refused_.size() + searched_.size();  // less the stand-ins
     if (proved) count.unproved = keep_proved(servos_, columns_);
     bring_to_si();
-    for (const auto& [row, drive] : searched_) {
-      write(columns_, row, analyse(drive, {.proofs = false}, progress));
-    }
+    search(progress);
     for (const std::size_t row : refused_) write(columns_, row, Answer{});
     for (std::size_t row = 0; row < servos_.size(); ++row) complete(columns_, row);
     if (has_ceilings(columns_)) {
@@ -153,16 +149,12 @@ class Part {
         write_ceilings(columns_, row, points_.drive_at(walk_of_ceilings.values()));
       }
     }
-    count.searched = searched_.size();
+    count.searched = searched_rows_.size();
     count.refused = refused_.size();
     return count;
   }
 
  private:
-  struct Searched {
-    std::size_t row;
-    Drive drive;
-  };
   struct Scale {
     std::size_t row;
     double natural_frequency;
@@ -188,8 +180,17 @@ class Part {
       scales_.push_back(
           {row, servo->closed_form.natural_frequency, servo->stiffness.value_or(not_a_number)});
     } else {
-      searched_.push_back({row, std::move(drive)});
+      searched_rows_.push_back(row);
+      searched_.push_back(std::move(drive));
     }
+  }
+
+  void search(SharedProgress& progress) {
+    const auto take = [&](std::size_t index, const Answer& answer) {
+      write(columns_, searched_rows_[index], answer);
+      return progress.finish(1);
+    };
+    search_run(searched_, {.proofs = false}, take, progress);
   }
 
   /// Scales all rows from the normal form to SI.
@@ -212,7 +213,8 @@ class Part {
   CycleColumns columns_;
   std::vector<NormalizedServo> servos_;
   std::vector<Scale> scales_;
-  std::vector<Searched> searched_;
+  std::vector<std::size_t> searched_rows_;
+  std::vector<Drive> searched_;
   std::vector<std::size_t> refused_;
 };
 
@@ -282,16 +284,50 @@ std::size_t box_length(const Grid& grid, std::size_t first, std::size_t most) {
   return whole;
 }
 
+namespace {
+
+/// The last axis of a grid of searches. Drives beside each other on it are followed, if it has
+/// numbers.
+struct SearchedLine {
+  std::size_t points = 1;
+  std::size_t run = 1;
+};
+
+SearchedLine searched_line(const Grid& grid) {
+  if (grid.axes.empty()) return {};
+  const Axis& axis = grid.axes.back();
+  const bool is_word = !parameter_of(axis, grid.drive)->choices.empty();
+  return {.points = axis.values.size(), .run = is_word ? 1 : longest_run};
+}
+
+/// Where the parts of the points begin, and the last one's end. Runs of searches lie on one line of
+/// the grid each.
+std::vector<std::size_t> parts_of(const Grid& grid, const EnginesNeeded& engines, std::size_t first,
+                                  std::size_t count, std::size_t points) {
+  const SearchedLine line = engines.search ? searched_line(grid) : SearchedLine{};
+  std::vector<std::size_t> begins;
+  for (std::size_t begin = 0; begin < count;) {
+    begins.push_back(begin);
+    const std::size_t place = (first + begin) % line.points;
+    begin += engines.search ? std::min(line.run, line.points - place) : points;
+  }
+  begins.push_back(count);
+  return begins;
+}
+
+}  // namespace
+
 GridCount evaluate(const Grid& grid, const GridPoints& points, std::size_t first, std::size_t count,
                    const CycleColumns& columns, Progress& progress, const Workers& workers) {
-  const std::size_t part = points_at_a_time(points.engines(), columns);
   GridCount total;
   std::mutex adding;
   SharedProgress searches(progress, count);
+  const std::vector<std::size_t> begins =
+      parts_of(grid, points.engines(), first, count, points_at_a_time(points.engines(), columns));
   const auto work = [&](std::size_t index) {
     if (searches.is_stopped()) return;
-    const std::size_t begin = index * part;
-    const std::size_t rows = std::min(part, count - begin);
+    const std::size_t begin = begins[index];
+    const std::size_t rows = begins[index + 1] - begin;
     Part points_of_part(points, rows_of(columns, begin, rows));
     const GridCount of_part =
         points_of_part.work_out(GridWalk(grid, first + begin), grid.proved, workers.unit, searches);
@@ -299,9 +335,9 @@ GridCount evaluate(const Grid& grid, const GridPoints& points, std::size_t first
       const std::scoped_lock lock(adding);
       total.add(of_part);
     }
-    searches.finish(rows);
+    searches.finish(rows - of_part.searched);
   };
-  on_threads(workers.threads, (count + part - 1) / part, work);
+  on_threads(workers.threads, begins.size() - 1, work);
   total.stopped = searches.is_stopped() && searches.done() < count;
   return total;
 }

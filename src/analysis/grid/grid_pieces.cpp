@@ -6,6 +6,7 @@
 #include <mutex>
 #include <thread>
 
+#include "analysis/grid/followed_drives.hpp"
 #include "base/progress_part.hpp"
 
 namespace gearlash {
@@ -16,9 +17,9 @@ class PieceLength {
  public:
   PieceLength(const EnginesNeeded& engines, std::size_t longest, const Stopwatch& seconds)
       : longest_(longest),
-        shortest_(std::min<std::size_t>(
-            longest,
-            (engines.search ? 1U : 8U) * std::max(1U, std::thread::hardware_concurrency()))),
+        shortest_(
+            std::min<std::size_t>(longest, (engines.search ? longest_run : 8U) *
+                                               std::max(1U, std::thread::hardware_concurrency()))),
         points_(longest),
         may_change_(seconds && (engines.bounces || engines.search)) {
     if (engines.bounces || engines.search) points_ = shortest_;

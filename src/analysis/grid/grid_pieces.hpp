@@ -29,7 +29,8 @@ using Stopwatch = std::function<double()>;
 /// each core. Two pieces are held in memory. `progress` receives the share of the whole grid,
 /// before the work and now and then. It can stop the work after a piece or within one, which is
 /// then lost; the count reports the stop. Precondition: as in evaluate(), longest > 0, `first` is 0
-/// or the end of a box.
+/// or the end of a box. Searched drives have the same answers in pieces as at once if `longest` is
+/// a multiple of longest_run.
 GridCount evaluate_in_pieces(const Grid& grid, std::span<const Quantity> quantities,
                              std::size_t first, std::size_t longest, const GridSink& take,
                              Progress& progress = no_progress(), const Stopwatch& seconds = {});

@@ -45,7 +45,7 @@ class Search {
   }
 
   AttractorSearch run() {
-    for (const FoundCycle& cycle : options_.nearby) close_near(cycle);
+    if (options_.nearby != nullptr) close_near(*options_.nearby);
     for (const ShaftStates& start : starts_) {
       if (!goes_on()) break;
       verdicts_.push_back(classifier_.end_of(setting_.start(start), budget_.patience));
@@ -88,12 +88,26 @@ class Search {
                      .step_limit = steps_kept(unscaled_, budget_)});
   }
 
-  void close_near(const FoundCycle& cycle) {
-    hybrid::ShootingOptions shooting = options_.shooting;
-    const auto orbit = neighbouring_orbit(
-        setting_.system, unscaled(cycle.orbit, setting_.frame.scale.cwiseInverse()), shooting);
-    if (!orbit || !(orbit->residual < tolerances_.cycle.residual)) return;
-    result_.cycles.push_back(measured(setting_, *orbit, tolerances_));
+  void close_near(const AttractorSearch& known) {
+    const hybrid::Vector& scale = setting_.frame.scale;
+    const hybrid::HybridSystem& own = setting_.system.system();
+    const bool has_same_states =
+        known.system.size() == own.size() && known.system.mode_count() == own.mode_count();
+    if (!has_same_states) return;
+    const hybrid::Vector none = hybrid::Vector::Zero(scale.size());
+    std::optional<hybrid::PreparedSystem> system_of_known;
+    for (const FoundCycle& cycle : known.cycles) {
+      const hybrid::PeriodicOrbit near = unscaled(cycle.orbit, scale.cwiseInverse());
+      auto orbit = neighbouring_orbit(setting_.system, near, options_.shooting);
+      if (!orbit) {
+        if (!system_of_known) {
+          system_of_known = hybrid::PreparedSystem(seen_in(known.system, {scale, none, none}));
+        }
+        orbit = neighbouring_orbit(setting_.system, near, *system_of_known, options_.shooting);
+      }
+      if (!orbit || !(orbit->residual < tolerances_.cycle.residual)) continue;
+      result_.cycles.push_back(measured(setting_, *orbit, tolerances_));
+    }
   }
 
   // ---- the record -------------------------------------------------------------------------------
@@ -301,7 +315,7 @@ std::optional<AttractorSearch> follow_attractors(const ReducedDrive& drive,
   if (!known.is_complete || known.outcomes.empty() || known.count(MotionEnd::undecided) > 0)
     return std::nullopt;
   const std::vector<Outcome> wanted = representatives(known.outcomes);
-  AttractorOptions options{.nearby = known.cycles, .most_edges = 0};
+  AttractorOptions options{.nearby = &known, .most_edges = 0};
   const double half = 0.5 * drive.backlash;
   for (const Outcome& outcome : wanted) {
     ShaftStates start = outcome.start;  // the gap may be narrower here

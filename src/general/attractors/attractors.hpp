@@ -139,9 +139,9 @@ struct AttractorOptions {
   /// equivalent to friction, load torque, torque limit and a sine reference, widen that range.)
   /// Absolute positions.
   std::vector<ShaftStates> starts{};
-  /// Cycles of a drive that differs slightly from this one. Those that Newton's method finds again
-  /// near them are known from the beginning.
-  std::vector<FoundCycle> nearby{};
+  /// The search of a drive that differs slightly from this one. Those of its cycles that Newton's
+  /// method finds again are known from the beginning.
+  const AttractorSearch* nearby = nullptr;
   double swing_times = 200.0;         ///< that a start is watched; and the budget's settling
                                       ///< times, but twice as long at most
   std::size_t most_events = 100'000;  ///< of a start; ten times as many ticks of a clock
