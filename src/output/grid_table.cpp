@@ -21,6 +21,17 @@ void write_curves(const std::vector<MapCurve>& curves, const TextSink& sink) {
   sink(curves.empty() ? "]" : "\n  ]");
 }
 
+void write_regions(const std::vector<MotionRegion>& regions, const TextSink& sink) {
+  sink(",\n  \"regions\": [");
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    const Json kind = std::string(name_of(regions[i].kind));
+    sink((i == 0 ? "{\"kind\": " : ", {\"kind\": ") + kind.dump() + ", \"outlines\": ");
+    write_curves(regions[i].outlines, sink);
+    sink("}");
+  }
+  sink("]");
+}
+
 /// "[1, null, …]".
 template <class Values, class Convert>
 void write_list(const Values& values, const Convert& convert, const TextSink& sink) {
@@ -137,6 +148,7 @@ void write_grid_json(const GridTable& table, const std::string& verb, const Text
     sink(",\n  \"dissipative_boundary\": ");
     write_curves(*table.dissipative_boundary, sink);
   }
+  if (table.regions) write_regions(*table.regions, sink);
   sink("\n}\n");
 }
 

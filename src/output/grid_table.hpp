@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/grid/grid_points.hpp"
-#include "analysis/grid/region_boundary.hpp"
+#include "analysis/grid/motion_regions.hpp"
 #include "output/output_file.hpp"
 #include "output/report_units.hpp"
 
@@ -20,6 +20,7 @@ struct GridTable {
   Provenance provenance{};
   std::optional<std::vector<MapCurve>> hunting_boundary{};      ///< for a map only
   std::optional<std::vector<MapCurve>> dissipative_boundary{};  ///< for a map only
+  std::optional<std::vector<MotionRegion>> regions{};  ///< for a map of searched drives only
 };
 
 /// The certainty of the grid's verdicts: "computed", "enclosed", "searched", or two of them with

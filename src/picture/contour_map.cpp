@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "output/columns.hpp"
 #include "picture/contour_labels.hpp"
@@ -33,6 +34,7 @@ std::string line_style(double width, const std::string& colour) {
 std::string boundary_style() { return line_style(3.0, "#d55e00"); }
 std::string inner_boundary_style() { return line_style(1.5, "#606060") + " dashtype 2"; }
 std::string mark_style() { return "pointtype 7 pointsize 1 linecolor rgb '#000000'"; }
+std::string other_contour_style() { return line_style(1.0, "#7b3294") + " dashtype 3"; }
 std::string hatching_style() { return line_style(0.6, "#a8a8a8"); }
 
 /// A colour from light to dark blue.
@@ -80,6 +82,26 @@ struct Drawing {
   }
 };
 
+/// Adds the regions, the largest outline first: what lies in a hole of one covers it.
+void add_regions(const ContourMap& map, const Paper& paper, Drawing& drawing) {
+  std::vector<std::pair<double, std::string>> layers;
+  for (const ColouredRegion& region : map.regions) {
+    for (const MapCurve& outline : region.outlines) {
+      const double area = area_within(paper.line_on_paper(outline));
+      if (!(area > 0.0)) continue;  // a hole
+      const std::string name = fmt::format("region{}", layers.size());
+      drawing.commands += curves_block(name, {outline}, paper).text();
+      layers.emplace_back(
+          area, fmt::format("${} using 1:2 with filledcurves closed fillcolor rgb '{}' fillstyle "
+                            "solid noborder notitle",
+                            name, region.colour));
+    }
+  }
+  std::stable_sort(layers.begin(), layers.end(),
+                   [](const auto& one, const auto& other) { return one.first > other.first; });
+  for (auto& [area, layer] : layers) drawing.layers.push_back(std::move(layer));
+}
+
 /// Adds the contours, with numbers in their longer parts.
 void add_contours(const ContourMap& map, const Paper& paper, PictureFormat format,
                   Drawing& drawing) {
@@ -95,17 +117,22 @@ void add_contours(const ContourMap& map, const Paper& paper, PictureFormat forma
     return lines;
   };
   keep(map.boundary);
-  for (const Contour& contour : map.contours) contours.push_back(keep(contour.curves));
+  std::vector<Contour> shown = map.contours;
+  shown.insert(shown.end(), map.other_contours.begin(), map.other_contours.end());
+  for (const Contour& contour : shown) contours.push_back(keep(contour.curves));
   LabelPlacer placer(all, letter_size(format));
   for (std::size_t i = 0; i < contours.size(); ++i) {
     const std::string name = fmt::format("contour{}", i);
     DataBlock block(name);
     for (const PaperLine& line : contours[i]) {
-      const auto labelled = placer.place(line, fmt::format("{:.4g}", map.contours[i].level));
+      const auto labelled = placer.place(line, fmt::format("{:.4g}", shown[i].level));
       if (labelled.label) drawing.commands += label_command(*labelled.label, paper);
       for (const PaperLine& piece : labelled.pieces) add_line(block, piece, paper);
     }
-    drawing.add(block, name, line_style(1.3, colour_of(i, contours.size())));
+    const bool is_first_kind = i < map.contours.size();
+    drawing.add(
+        block, name,
+        is_first_kind ? line_style(1.3, colour_of(i, map.contours.size())) : other_contour_style());
   }
 }
 
@@ -116,46 +143,97 @@ std::string screen_line(double from_right, double from_up, double to_right, doub
                      from_right, from_up, to_right, to_up, style);
 }
 
-/// A sample of each kind of line with its meaning, side by side below the axis. gnuplot's own
-/// legend has no hatching that looks the same in all formats.
+/// A sample of the legend.
+struct LegendEntry {
+  enum class Sample { line, hatching, dense_hatching, point, area } sample{};
+  std::string style;  ///< of a line, or an area's colour
+  std::string meaning;
+};
+
+std::vector<LegendEntry> legend_entries(const ContourMap& map) {
+  using enum LegendEntry::Sample;
+  std::vector<LegendEntry> entries;
+  for (const ColouredRegion& region : map.regions) {
+    entries.push_back({area, region.colour, region.meaning});
+  }
+  const auto add = [&](bool is_shown, LegendEntry entry) {
+    if (is_shown) entries.push_back(std::move(entry));
+  };
+  add(!map.contours.empty(), {line, line_style(1.3, "#2e6fa8"), map.contour_meaning});
+  add(!map.other_contours.empty(), {line, other_contour_style(), map.other_meaning});
+  add(!map.boundary.empty(), {line, boundary_style(), map.boundary_meaning});
+  add(!map.hatching.empty(), {hatching, "", map.hatching_meaning});
+  add(!map.inner_hatching.empty(), {dense_hatching, "", map.inner_meaning});
+  add(map.mark.has_value(), {point, "", map.mark_meaning});
+  return entries;
+}
+
+constexpr double sample_width = 0.05;  // shares of the picture's width
+constexpr double half_height = 0.013;  // share of its height
+
+std::string sample_commands(const LegendEntry& entry, double right, double middle) {
+  using enum LegendEntry::Sample;
+  constexpr double slant = 2.0 * half_height * 7.0 / 9.0;
+  std::string commands;
+  switch (entry.sample) {
+    case line:
+      return screen_line(right, middle, right + sample_width, middle, entry.style);
+    case hatching:
+    case dense_hatching: {
+      const double spacing = entry.sample == hatching ? 0.0085 : 0.00425;
+      for (double place = 0.0; place + slant <= sample_width; place += spacing) {
+        commands += screen_line(right + place, middle - half_height, right + place + slant,
+                                middle + half_height, hatching_style());
+      }
+      return commands;
+    }
+    case point:
+      return fmt::format("set label '' at screen {:.4f}, {:.4f} point {}\n",
+                         right + 0.5 * sample_width, middle, mark_style());
+    case area:
+      return fmt::format(
+          "set object rectangle from screen {:.4f}, {:.4f} to screen {:.4f}, {:.4f} fillcolor rgb "
+          "'{}' fillstyle solid border linecolor rgb '#909090'\n",
+          right, middle - half_height, right + sample_width, middle + half_height, entry.style);
+  }
+  return commands;
+}
+
+/// A sample of each kind of line and area with its meaning, side by side below the axis, in two
+/// lines if one is too short. gnuplot's own legend has no hatching that looks the same in all
+/// formats.
 std::string legend(const ContourMap& map, PictureFormat format) {
-  constexpr double sample = 0.05;  // shares of the picture's width
   constexpr double space = 0.012;
   constexpr double between = 0.05;
-  constexpr double middle = 0.04;  // shares of its height
-  constexpr double half_height = 0.013;
-  constexpr double slant = 2.0 * half_height * 7.0 / 9.0;
+  constexpr double widest = 0.95;  // of a line
   const double letter = letter_size(format).width / label_scale / 9.0;
-  const std::array shown = {!map.contours.empty(), !map.boundary.empty(), !map.hatching.empty(),
-                            !map.inner_hatching.empty(), map.mark.has_value()};
-  const std::array meanings = {map.contour_meaning, map.boundary_meaning, map.hatching_meaning,
-                               map.inner_meaning, map.mark_meaning};
+  const std::vector<LegendEntry> entries = legend_entries(map);
+  const auto width_of = [&](const LegendEntry& entry) {
+    return sample_width + space + letter * static_cast<double>(width_in_columns(entry.meaning));
+  };
+  std::vector<std::vector<LegendEntry>> lines(1);
   double width = -between;
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    const double text = letter * static_cast<double>(width_in_columns(meanings[i]));
-    if (shown[i]) width += sample + space + text + between;
+  for (const LegendEntry& entry : entries) {
+    width += width_of(entry) + between;
+    if (width > widest && lines.size() == 1) {
+      lines.emplace_back();
+      width = width_of(entry);
+    }
+    lines.back().push_back(entry);
   }
-  double right = 0.5 * (Paper::left_margin + Paper::right_margin - width);
   std::string commands = "unset key\n";
-  for (std::size_t i = 0; i < shown.size(); ++i) {
-    if (!shown[i]) continue;
-    if (i < 2) {
-      commands += screen_line(right, middle, right + sample, middle,
-                              i == 0 ? line_style(1.3, "#2e6fa8") : boundary_style());
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    constexpr double lowest = 0.04;  // shares of the picture's height
+    const double middle = lines.size() == 1 ? lowest : 0.065 - 0.04 * static_cast<double>(i);
+    double whole = -between;
+    for (const LegendEntry& entry : lines[i]) whole += width_of(entry) + between;
+    double right = 0.5 * (Paper::left_margin + Paper::right_margin - whole);
+    for (const LegendEntry& entry : lines[i]) {
+      commands += sample_commands(entry, right, middle);
+      commands += fmt::format("set label {} at screen {:.4f}, {:.4f} left\n", quoted(entry.meaning),
+                              right + sample_width + space, middle);
+      right += width_of(entry) + between;
     }
-    const bool is_hatched = i == 2 || i == 3;
-    const double spacing = i == 2 ? 0.0085 : 0.00425;
-    for (double place = 0.0; is_hatched && place + slant <= sample; place += spacing) {
-      commands += screen_line(right + place, middle - half_height, right + place + slant,
-                              middle + half_height, hatching_style());
-    }
-    if (i == 4) {
-      commands += fmt::format("set label '' at screen {:.4f}, {:.4f} point {}\n",
-                              right + 0.5 * sample, middle, mark_style());
-    }
-    commands += fmt::format("set label {} at screen {:.4f}, {:.4f} left\n", quoted(meanings[i]),
-                            right + sample + space, middle);
-    right += sample + space + between + letter * static_cast<double>(width_in_columns(meanings[i]));
   }
   return commands;
 }
@@ -170,6 +248,7 @@ std::string draw_contour_map(const ContourMap& map, PictureFormat format) {
       fmt::format("set lmargin screen {}\nset rmargin screen {}\nset bmargin screen {}\n",
                   Paper::left_margin, Paper::right_margin, Paper::bottom_margin);
   drawing.commands += axis_commands('x', map.x) + axis_commands('y', map.y) + legend(map, format);
+  add_regions(map, paper, drawing);
   drawing.add(curves_block("hatching", map.hatching, paper), "hatching", hatching_style());
   drawing.add(curves_block("inner_hatching", map.inner_hatching, paper), "inner_hatching",
               hatching_style());

@@ -26,6 +26,48 @@ std::vector<double> levels_of(const GridTable& table, Quantity quantity) {
 
 }  // namespace
 
+namespace {
+
+/// Light enough for contours on them, and of different lightness.
+const char* colour_of(MotionKind kind) {
+  switch (kind) {
+    case MotionKind::rests:
+      return "#eef6ee";
+    case MotionKind::hunts_if_disturbed:
+      return "#fdf0c8";
+    case MotionKind::hunts:
+      return "#fbd9bd";
+    case MotionKind::runs_away:
+      return "#e0b3c4";
+    case MotionKind::not_known:
+      break;
+  }
+  return "#d4d4d4";
+}
+
+/// The quantity that bounds another one in every motion; none has its own.
+std::optional<Quantity> ceiling_over(Quantity quantity) {
+  if (quantity == Quantity::amplitude) return Quantity::ceiling;
+  if (quantity == Quantity::motor_amplitude) return Quantity::motor_ceiling;
+  return std::nullopt;
+}
+
+void add_regions(const GridTable& table, Quantity quantity, ContourMap& map) {
+  for (const MotionRegion& region : *table.regions) {
+    map.regions.push_back(
+        {std::string(name_of(region.kind)), colour_of(region.kind), region.outlines});
+  }
+  map.boundary = borders_of(*table.regions, table.grid);
+  map.boundary_meaning = "border";
+  map.contour_meaning = in_words(std::string(gearlash::name_of(quantity)));
+  const std::optional<Quantity> ceiling = ceiling_over(quantity);
+  if (!ceiling || !table.table.has(*ceiling)) return;
+  map.other_contours = contours_of(table.grid, table.table, *ceiling, levels_of(table, *ceiling));
+  map.other_meaning = "ceiling, proved";
+}
+
+}  // namespace
+
 ContourMap map_of(const GridTable& table, Quantity quantity) {
   const Grid& grid = table.grid;
   ContourMap map{.title = title_of(quantity) + unit_in_brackets(quantity, grid),
@@ -37,6 +79,10 @@ ContourMap map_of(const GridTable& table, Quantity quantity) {
                  .contour_meaning = "contours",
                  .boundary_meaning = "hunting ends",
                  .hatching_meaning = "no limit cycle"};
+  if (table.regions) {
+    add_regions(table, quantity, map);
+    return map;
+  }
   const Paper paper(map.x, map.y);
   map.hatching = hatching(table, paper);
   if (!table.dissipative_boundary) return map;

@@ -48,6 +48,14 @@ double length_of(const PaperLine& line) {
   return length;
 }
 
+double area_within(const PaperLine& line) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    twice += line[i].right * line[i + 1].up - line[i + 1].right * line[i].up;
+  }
+  return 0.5 * twice;
+}
+
 Paper::Paper(const ChartAxis& x, const ChartAxis& y) : x_(scale_of(x)), y_(scale_of(y)) {}
 
 PaperPoint Paper::point_on_paper(const MapPoint& point) const {

@@ -22,6 +22,9 @@ double distance_from_chord(const PaperPoint& point, const PaperPoint& from, cons
 
 double length_of(const PaperLine& line);
 
+/// Of a closed line, positive if it runs counterclockwise.
+double area_within(const PaperLine& line);
+
 /// The rectangle between the axes of a map.
 class Paper {
  public:

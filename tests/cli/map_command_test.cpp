@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "closed_form/growth_at_rest.hpp"
@@ -83,6 +84,51 @@ TEST(MapCommand, TheRegionOfAnyRestitutionIsTheEnergys) {
   ASSERT_EQ(run_tool(map_into(scratch / "bouncing.json", {"--restitution", "0.5"})).status, 0);
   const auto bouncing = nlohmann::json::parse(file_text(scratch / "bouncing.json"));
   EXPECT_EQ(bouncing["certainty"], "computed for plastic contact, searched for restitution > 0");
+}
+
+/// A torque-controlled motor under a PD: it rests, or hunts if disturbed where its gain is high.
+constexpr char pd_drive[] = R"(
+[motor]
+kind = "torque-controlled"
+inertia = "2e-5 kg m2"
+friction = "1e-5 N m s/rad"
+coulomb = "1 mN m"
+[gearbox]
+ratio = 20
+backlash = "2 mrad"
+[load]
+inertia = "5e-3 kg m2"
+friction = "1 mN m s/rad"
+coulomb = "5 mN m"
+[sensor]
+position = "load"
+[controller]
+kind = "PD"
+proportional = "2 N m/rad"
+derivative = "0.02 N m s/rad"
+filter = "1 ms"
+)";
+
+TEST(MapCommand, OfSearchedDrivesHasRegionsOfOneKindOfMotion) {
+  const Scratch scratch;
+  std::ofstream(scratch / "pd.toml") << pd_drive;
+  const Outcome run = run_tool({"map", (scratch / "pd.toml").string(), "--x",
+                                "controller.proportional=1 N m/rad:6 N m/rad:13", "--y",
+                                "controller.derivative=0.02 N m s/rad:0.04 N m s/rad:2", "--output",
+                                (scratch / "map.json").string(), "--plot",
+                                "map=" + (scratch / "map.svg").string()});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto map = nlohmann::json::parse(file_text(scratch / "map.json"));
+  ASSERT_EQ(map["regions"].size(), 2U);
+  EXPECT_EQ(map["regions"][0]["kind"], "comes to rest");
+  EXPECT_EQ(map["regions"][1]["kind"], "hunts if disturbed");
+  const auto verdicts = map["columns"]["verdict"];
+  EXPECT_EQ(verdicts[0], "comes to rest");
+  EXPECT_EQ(verdicts[12], "hunts if disturbed");
+  const std::string svg = file_text(scratch / "map.svg");
+  for (const char* text : {"comes to rest", "hunts if disturbed", "border", "ceiling, proved"}) {
+    EXPECT_THAT(svg, HasSubstr(text));
+  }
 }
 
 TEST(MapCommand, TableHasALineAPoint) {

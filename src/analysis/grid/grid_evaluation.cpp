@@ -247,7 +247,8 @@ std::span<const Quantity> quantities_known(const EnginesNeeded& engines) {
   return engines.search ? std::span<const Quantity>(all) : closed_form_quantities;
 }
 
-PointAnswer answer_at(const GridPoints& points, std::span<const double> place, Quantity quantity) {
+PointAnswer answer_at(const GridPoints& points, std::span<const double> place, Quantity quantity,
+                      Progress& progress) {
   PointAnswer answer;
   CycleColumns columns{.verdict = {&answer.verdict, 1}};
   columns[quantity] = {&answer.value, 1};
@@ -260,7 +261,7 @@ PointAnswer answer_at(const GridPoints& points, std::span<const double> place, Q
   }
   const Drive drive = points.drive_at(place);
   answer.is_drive = faults(drive).empty();
-  if (answer.is_drive) write(columns, 0, analyse(drive, {.proofs = false}));
+  if (answer.is_drive) write(columns, 0, analyse(drive, {.proofs = false}, progress));
   return answer;
 }
 

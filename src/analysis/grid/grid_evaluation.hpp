@@ -55,7 +55,8 @@ struct PointAnswer {
   bool is_drive = true;
 };
 /// As evaluate(). Allocates nothing for a normal form that is solved in a vector lane.
-PointAnswer answer_at(const GridPoints& points, std::span<const double> place, Quantity quantity);
+PointAnswer answer_at(const GridPoints& points, std::span<const double> place, Quantity quantity,
+                      Progress& progress = no_progress());
 
 /// The number of points from `first` on, `most` at most, that form a box of the grid: some values
 /// of one axis with all values of the axes after it. Precondition: `first` is 0 or the end of such
