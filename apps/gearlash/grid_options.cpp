@@ -16,6 +16,7 @@
 #include "base/range_check.hpp"
 #include "input/axis_text.hpp"
 #include "machine_faults.hpp"
+#include "picture/grid_map.hpp"
 #include "terminal.hpp"
 
 namespace gearlash::cli {
@@ -174,8 +175,14 @@ void require_room(const Grid& grid) {
 
 /// All quantities for a table; only the needed ones for pictures alone.
 std::vector<Quantity> quantities_of(const GridTask& task) {
-  if (task.table.empty()) return {Quantity::growth_at_rest, task.quantity};
-  const auto known = quantities_known(GridPoints(task.grid).engines());
+  const EnginesNeeded engines = GridPoints(task.grid).engines();
+  if (task.table.empty()) {
+    std::vector<Quantity> drawn = {Quantity::growth_at_rest, task.quantity};
+    const auto ceiling = ceiling_over(task.quantity);
+    if (task.has_boundary && engines.search && ceiling) drawn.push_back(*ceiling);
+    return drawn;
+  }
+  const auto known = quantities_known(engines);
   std::vector<Quantity> all(known.begin(), known.end());
   if (std::find(all.begin(), all.end(), task.quantity) == all.end()) all.push_back(task.quantity);
   return all;

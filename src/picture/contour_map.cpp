@@ -205,7 +205,7 @@ std::string sample_commands(const LegendEntry& entry, double right, double middl
 std::string legend(const ContourMap& map, PictureFormat format) {
   constexpr double space = 0.012;
   constexpr double between = 0.05;
-  constexpr double widest = 0.95;  // of a line
+  constexpr double widest = 0.88;  // of a line
   const double letter = letter_size(format).width / label_scale / 9.0;
   const std::vector<LegendEntry> entries = legend_entries(map);
   const auto width_of = [&](const LegendEntry& entry) {

@@ -45,13 +45,6 @@ const char* colour_of(MotionKind kind) {
   return "#d4d4d4";
 }
 
-/// The quantity that bounds another one in every motion; none has its own.
-std::optional<Quantity> ceiling_over(Quantity quantity) {
-  if (quantity == Quantity::amplitude) return Quantity::ceiling;
-  if (quantity == Quantity::motor_amplitude) return Quantity::motor_ceiling;
-  return std::nullopt;
-}
-
 void add_regions(const GridTable& table, Quantity quantity, ContourMap& map) {
   for (const MotionRegion& region : *table.regions) {
     map.regions.push_back(
@@ -131,6 +124,12 @@ CellMap cells_of(const GridTable& table, Quantity quantity) {
 }
 
 }  // namespace
+
+std::optional<Quantity> ceiling_over(Quantity quantity) {
+  if (quantity == Quantity::amplitude) return Quantity::ceiling;
+  if (quantity == Quantity::motor_amplitude) return Quantity::motor_ceiling;
+  return std::nullopt;
+}
 
 std::string draw_grid_map(const GridTable& table, Quantity quantity, PictureFormat format) {
   constexpr std::size_t most_cells = 12;  // in a line with numbers

@@ -1,6 +1,7 @@
 // The answers of a grid as a map.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "output/grid_table.hpp"
@@ -17,5 +18,9 @@ ContourMap map_of(const GridTable& table, Quantity quantity);
 /// point is a cell instead, with its number if there is room; a dot stands for rest. Precondition:
 /// two axes, y and x, each with at least two values.
 std::string draw_grid_map(const GridTable& table, Quantity quantity, PictureFormat format);
+
+/// The quantity whose contours a map of searched drives shows too: the proved bound of every
+/// motion. Empty for a quantity without one.
+std::optional<Quantity> ceiling_over(Quantity quantity);
 
 }  // namespace gearlash

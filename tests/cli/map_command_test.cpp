@@ -129,6 +129,12 @@ TEST(MapCommand, OfSearchedDrivesHasRegionsOfOneKindOfMotion) {
   for (const char* text : {"comes to rest", "hunts if disturbed", "border", "ceiling, proved"}) {
     EXPECT_THAT(svg, HasSubstr(text));
   }
+  const Outcome alone = run_tool({"map", (scratch / "pd.toml").string(), "--x",
+                                  "controller.proportional=1 N m/rad:2 N m/rad:13", "--y",
+                                  "controller.derivative=0.02 N m s/rad:0.04 N m s/rad:2", "--plot",
+                                  "map=" + (scratch / "alone.svg").string()});
+  ASSERT_EQ(alone.status, 0) << alone.err;
+  EXPECT_THAT(file_text(scratch / "alone.svg"), HasSubstr("ceiling, proved"));
 }
 
 TEST(MapCommand, TableHasALineAPoint) {
