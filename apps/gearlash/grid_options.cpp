@@ -291,10 +291,6 @@ GridCount write_netcdf(const GridTask& task, const Provenance& provenance, const
   return count;
 }
 
-}  // namespace
-
-namespace {
-
 /// Regions of kinds of motion need a search, and axes on which one number lies between two others.
 bool has_regions(const Grid& grid) {
   const auto is_of_numbers = [&](const Axis& axis) {

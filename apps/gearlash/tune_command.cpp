@@ -160,21 +160,6 @@ Task read_task(const TuneOptions& options) {
   return task;
 }
 
-/// The task without integral action; empty where there is none to give up.
-std::optional<TuneTask> without_integral(const TuneTask& task) {
-  TuneTask without = task;
-  auto* pid = std::get_if<PID>(&without.series.nominal.controller.law);
-  if (pid == nullptr || (pid->terms != PIDTerms::PI && pid->terms != PIDTerms::PID)) return {};
-  set(without.series.nominal, "controller.kind",
-      std::string_view(pid->terms == PIDTerms::PI ? "P" : "PD"));
-  std::erase_if(without.tuned, [](const Axis& axis) { return axis.path == "controller.integral"; });
-  std::erase_if(without.series.varied, [&](const ParameterTolerance& varied) {
-    return parameter_of({.path = varied.path}, without.series.nominal) == nullptr;
-  });
-  if (without.tuned.empty() || !faults(without).empty()) return {};
-  return without;
-}
-
 ExitStatus run(const TuneOptions& options, const Provenance& provenance) {
   const Task task = read_task(options);
   TuneReport report{.task = task.task,
@@ -185,7 +170,7 @@ ExitStatus run(const TuneOptions& options, const Provenance& provenance) {
     TerminalProgress progress("Tune");
     report.tuned = tune(task.task, task.effort, progress);
   }
-  const auto lesser = without_integral(task.task);
+  const auto lesser = without_integral_action(task.task);
   if (!report.tuned.meets && lesser) {
     TerminalProgress progress("Tune without integral action");
     report.without_integral = tune(*lesser, task.effort, progress);

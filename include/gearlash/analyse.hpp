@@ -15,6 +15,9 @@ struct Wanted {
   bool proofs = true;
   /// The ceiling: Answer::ceiling.
   bool ceiling = false;
+  /// What lies between starts that end differently: unstable cycles, and from which step on a drive
+  /// hunts (Answer::thresholds). The verdict does not need it.
+  bool borders = true;
   /// Bytes that a search keeps of a motion at most. It takes some two to three times as many in
   /// all.
   std::size_t motion_bytes = 64'000'000;

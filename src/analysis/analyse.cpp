@@ -363,7 +363,10 @@ Analysis analysed(const Drive& drive, const Analysis* near, const Wanted& wanted
     }
     if (!analysis.search) {
       analysis.search = drive::find_attractors(
-          analysis.reduced, {.budget = {.bytes_kept = wanted.motion_bytes}}, progress);
+          analysis.reduced,
+          {.most_edges = wanted.borders ? drive::AttractorOptions{}.most_edges : 0,
+           .budget = {.bytes_kept = wanted.motion_bytes}},
+          progress);
     }
     analysis.answer = answer_of(*analysis.search, analysis.reduced);
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/analyse.hpp"
+#include "analysis/pd_drive.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash {
@@ -62,6 +63,21 @@ TEST(EdgeAnalyse, BoundsCoverTheDataWhereTheFrictionIsADifference) {
 }
 
 /// A verdict on all starts needs all of them decided.
+TEST(Analyse, WithoutBordersTheVerdictIsTheSame) {
+  Drive drive = pd_drive();
+  std::get<PID>(drive.controller.law).proportional = 4.0;
+  const Answer with = analyse(drive);
+  const Answer without = analyse(drive, {.borders = false});
+  EXPECT_EQ(with.verdict, Verdict::hunts_if_disturbed);
+  EXPECT_EQ(without.verdict, with.verdict);
+  EXPECT_EQ(without.value(Quantity::amplitude), with.value(Quantity::amplitude));
+  ASSERT_EQ(with.cycles.size(), 2U);
+  EXPECT_EQ(with.cycles[1].stability, Stability::unstable);
+  EXPECT_FALSE(with.thresholds.empty());
+  EXPECT_EQ(without.cycles.size(), 1U);
+  EXPECT_TRUE(without.thresholds.empty());
+}
+
 TEST(Analyse, IsNoVerdictOnStartsThatAreUndecided) {
   const drive::ReducedDrive drive = reduce(almost_undamped_motor(0.5));
   const auto verdict = [&](std::vector<drive::MotionEnd> ends, bool is_complete = true) {

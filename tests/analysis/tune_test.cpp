@@ -9,6 +9,7 @@
 #include "analysis/design/toleranced_drive.hpp"
 #include "analysis/design/toleranced_samples.hpp"
 #include "analysis/linear_loop.hpp"
+#include "analysis/pd_drive.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
 #include "model/reduced_drive.hpp"
@@ -112,6 +113,23 @@ std::vector<std::string> faults_of(const TuneTask& task, const TuneEffort& effor
   std::vector<std::string> lines;
   for (const Fault& fault : faults(task, effort)) lines.push_back(to_string(fault));
   return lines;
+}
+
+TEST(Tune, IntegralActionCanBeGivenUp) {
+  TuneTask task{.series = {pd_drive(), {}},
+                .tuned = {logarithmic("controller.integral", 1.0, 10.0, 2),
+                          logarithmic("controller.proportional", 1.0, 10.0, 2)}};
+  auto& pid = std::get<PID>(task.series.nominal.controller.law);
+  pid.terms = PIDTerms::PID;
+  pid.integral = 2.0;
+  const auto without = without_integral_action(task);
+  ASSERT_TRUE(without);
+  EXPECT_EQ(std::get<PID>(without->series.nominal.controller.law).terms, PIDTerms::PD);
+  ASSERT_EQ(without->tuned.size(), 1U);
+  EXPECT_EQ(without->tuned[0].path, "controller.proportional");
+  EXPECT_FALSE(without_integral_action(*without));
+  task.tuned.resize(1);
+  EXPECT_FALSE(without_integral_action(task));
 }
 
 TEST(EdgeTune, EveryFaultIsToldAtOnce) {

@@ -384,6 +384,22 @@ TunedDrive tune(const TuneTask& task, const TuneEffort& effort, Progress& progre
   return Tuning(task, effort, progress).result();
 }
 
+std::optional<TuneTask> without_integral_action(const TuneTask& task) {
+  TuneTask without = task;
+  Drive& nominal = without.series.nominal;
+  const auto* pid = std::get_if<PID>(&nominal.controller.law);
+  if (pid == nullptr || (pid->terms != PIDTerms::PI && pid->terms != PIDTerms::PID)) return {};
+  const PIDTerms left = pid->terms == PIDTerms::PI ? PIDTerms::P : PIDTerms::PD;
+  set_on({.path = "controller.kind"}, nominal, static_cast<double>(left));
+  std::erase_if(without.tuned,
+                [&](const Axis& axis) { return parameter_of(axis, nominal) == nullptr; });
+  std::erase_if(without.series.varied, [&](const ParameterTolerance& varied) {
+    return parameter_of({.path = varied.path}, nominal) == nullptr;
+  });
+  if (without.tuned.empty() || !faults(without).empty()) return {};
+  return without;
+}
+
 std::optional<std::string> why_integral_action_hunts(const Drive& drive) {
   const auto* pid = std::get_if<PID>(&drive.controller.law);
   const bool integrates = pid != nullptr && pid->integral > 0.0 &&

@@ -190,7 +190,7 @@ class Part {
       write(columns_, searched_rows_[index], answer);
       return progress.finish(1);
     };
-    search_run(searched_, {.proofs = false}, take, progress);
+    search_run(searched_, {.proofs = false, .borders = false}, take, progress);
   }
 
   /// Scales all rows from the normal form to SI.
@@ -261,7 +261,8 @@ PointAnswer answer_at(const GridPoints& points, std::span<const double> place, Q
   }
   const Drive drive = points.drive_at(place);
   answer.is_drive = faults(drive).empty();
-  if (answer.is_drive) write(columns, 0, analyse(drive, {.proofs = false}, progress));
+  if (answer.is_drive)
+    write(columns, 0, analyse(drive, {.proofs = false, .borders = false}, progress));
   return answer;
 }
 

@@ -56,7 +56,7 @@ class Search {
       watch_transients();
       seek_edges();
     }
-    if (result_.is_complete && options_.starts.empty()) {
+    if (result_.is_complete && options_.starts.empty() && options_.most_edges > 0) {
       result_.thresholds = thresholds_of(
           setting_, result_.outcomes, budget_.bisections_of_steps, [&](const ShaftStates& start) {
             return goes_on()

@@ -145,7 +145,8 @@ struct AttractorOptions {
   double swing_times = 200.0;         ///< that a start is watched; and the budget's settling
                                       ///< times, but twice as long at most
   std::size_t most_events = 100'000;  ///< of a start; ten times as many ticks of a clock
-  std::size_t most_edges = 3;         ///< sought between starts with different outcomes; 0: none
+  std::size_t most_edges = 3;         ///< sought between starts with different outcomes; 0: none,
+                                      ///< and no thresholds
   hybrid::ShootingOptions shooting{.most_events = 2000};
   SearchTolerances tolerances{};
   SearchBudget budget{};

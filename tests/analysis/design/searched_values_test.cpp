@@ -9,6 +9,7 @@
 
 #include "analysis/design/target.hpp"
 #include "analysis/faults_of.hpp"
+#include "analysis/pd_drive.hpp"
 #include "base/seeded_draws.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/design.hpp"
@@ -23,21 +24,6 @@ using testing::HasSubstr;
 
 Drive with(Drive drive, std::string_view path, double value) {
   set(drive, path, value);
-  return drive;
-}
-
-/// A torque-controlled motor under a PID, both shafts with Coulomb friction, the gap behind the
-/// motor's encoder.
-Drive pid_drive() {
-  Drive drive;
-  drive.motor = {
-      .kind = TorqueControl{}, .inertia = 2e-5, .friction = {.viscous = 1e-5, .coulomb = 1e-3}};
-  drive.gearbox = {.ratio = 20.0, .backlash = 2e-3};
-  drive.load = {.inertia = 5e-3, .friction = {.viscous = 1e-3, .coulomb = 5e-3}};
-  drive.contact = RigidContact{};
-  drive.sensor.position = SensorPlace::load;
-  drive.controller.law =
-      PID{.terms = PIDTerms::PD, .proportional = 2.0, .derivative = 0.02, .filter = 1e-3};
   return drive;
 }
 
@@ -75,7 +61,7 @@ TEST(SearchedValues, OfTheServoOf1960AreThoseOfTheClosedForm) {
 }
 
 TEST(SearchedValues, OfAGainEndWhereTheDriveBeginsToHunt) {
-  const Drive drive = pid_drive();
+  const Drive drive = pd_drive();
   const FeasibleValues found = feasible_values(
       drive, logarithmic("controller.proportional", 0.5, 50.0, 9), always_at_rest());
   ASSERT_FALSE(found.intervals.empty());
@@ -85,7 +71,7 @@ TEST(SearchedValues, OfAGainEndWhereTheDriveBeginsToHunt) {
 
 /// A ceiling is in proportion to the gap where the gap is its only source.
 TEST(SearchedValues, OfABacklashThatKeepsACeiling) {
-  Drive drive = pid_drive();
+  Drive drive = pd_drive();
   drive.motor.friction.coulomb = 0.0;
   drive.load.friction.coulomb = 0.0;
   const double ceiling = analyse(drive, {.ceiling = true}).value(Quantity::ceiling).value();
@@ -98,7 +84,7 @@ TEST(SearchedValues, OfABacklashThatKeepsACeiling) {
 }
 
 TEST(SearchedValues, OfAChoiceAreWords) {
-  const Drive drive = pid_drive();
+  const Drive drive = pd_drive();
   const FeasibleValues found =
       feasible_values(drive, usual_axis(drive, "sensor.position"), always_at_rest());
   EXPECT_EQ(found.grid.size(), 3U);
@@ -110,7 +96,7 @@ TEST(SearchedValues, OfAChoiceAreWords) {
 }
 
 TEST(SearchedValues, OfAnUnsoundDriveDoNotMeetATarget) {
-  Drive drive = pid_drive();
+  Drive drive = pd_drive();
   drive.load.friction.breakaway = 6e-3;
   const FeasibleValues found =
       feasible_values(drive, linear("load.coulomb", 1e-3, 1e-2, 4), Target{.no_runaway = true});
@@ -126,7 +112,7 @@ TEST(SearchedValues, CanBeStopped) {
     int calls = 0;
   };
   Stop stop;
-  const Drive drive = pid_drive();
+  const Drive drive = pd_drive();
   const FeasibleValues found = feasible_values(
       drive, logarithmic("controller.proportional", 0.5, 50.0, 9), always_at_rest(), stop);
   EXPECT_TRUE(found.stopped);
@@ -134,7 +120,7 @@ TEST(SearchedValues, CanBeStopped) {
 }
 
 TEST(SearchedValues, AreSoughtByDefaultAboutThePresentValue) {
-  const Drive drive = pid_drive();
+  const Drive drive = pd_drive();
   const Axis gain = usual_axis(drive, "controller.proportional");
   EXPECT_EQ(gain.values.size(), 26U);
   EXPECT_EQ(gain.values[0], 0.0);
@@ -156,7 +142,7 @@ struct Task {
 };
 
 Drive random_drive(SeededDraws& draws) {
-  Drive drive = pid_drive();
+  Drive drive = pd_drive();
   const auto vary = [&](double& number, double factor) {
     number *= draws.log_uniform(1.0 / factor, factor);
   };
@@ -243,7 +229,7 @@ TEST(PropertySearchedValues, MeetTheirTargetAndMissNothingWiderThanTheGrid) {
 }
 
 TEST(EdgeSearchedValues, FaultsAreToldAllAtOnce) {
-  Drive drive = pid_drive();
+  Drive drive = pd_drive();
   drive.load.inertia = -1.0;
   Target target;
   target.require(Quantity::amplitude, {0.2, 0.1});
@@ -252,7 +238,7 @@ TEST(EdgeSearchedValues, FaultsAreToldAllAtOnce) {
               }),
               ElementsAre(HasSubstr("load.inertia = -1"), HasSubstr("load.colour"),
                           HasSubstr("must not contradict itself")));
-  EXPECT_THAT(faults_of([&] { (void)usual_axis(pid_drive(), "load.colour"); }),
+  EXPECT_THAT(faults_of([&] { (void)usual_axis(pd_drive(), "load.colour"); }),
               ElementsAre("parameter = load.colour: must be a number or a choice of this drive"));
   const Target ceiling = Target{}.require(Quantity::ceiling, {0.0, 1.0});
   EXPECT_THAT(faults_of([&] {
@@ -262,7 +248,7 @@ TEST(EdgeSearchedValues, FaultsAreToldAllAtOnce) {
 }
 
 TEST(EdgeSearchedValues, WhereNothingMeetsATargetThereIsAClosestOne) {
-  const Drive drive = pid_drive();
+  const Drive drive = pd_drive();
   const Target impossible = Target{}.require(Quantity::amplitude, {1e3, Target::infinity});
   const FeasibleValues found =
       feasible_values(drive, linear("load.inertia", 1e-3, 1e-2, 3), impossible);

@@ -10,24 +10,11 @@
 #include "analysis/grid/axis.hpp"
 #include "analysis/grid/grid_pieces.hpp"
 #include "analysis/grid/servo_grids.hpp"
+#include "analysis/pd_drive.hpp"
 #include "gearlash/analyse.hpp"
 
 namespace gearlash {
 namespace {
-
-/// A torque-controlled motor under a PD; it hunts if its gain is high.
-Drive pd_drive() {
-  Drive drive;
-  drive.motor = {
-      .kind = TorqueControl{}, .inertia = 2e-5, .friction = {.viscous = 1e-5, .coulomb = 1e-3}};
-  drive.gearbox = {.ratio = 20.0, .backlash = 2e-3};
-  drive.load = {.inertia = 5e-3, .friction = {.viscous = 1e-3, .coulomb = 5e-3}};
-  drive.contact = RigidContact{};
-  drive.sensor.position = SensorPlace::load;
-  drive.controller.law =
-      PID{.terms = PIDTerms::PD, .proportional = 2.0, .derivative = 0.02, .filter = 1e-3};
-  return drive;
-}
 
 /// From rest to hunting.
 Axis gains(std::size_t count) {
