@@ -13,7 +13,7 @@ BUILD := cmake --build --parallel $(JOBS) --preset
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo tool test bench versions clang sanitize fuzz browser oracle million followed designed seeded-faults \
+.PHONY: help demo tool test bench versions clang sanitize fuzz browser oracle million followed designed derivatives seeded-faults \
         coverage readme format format-check tidy clean package package-check
 
 help:  ## this list
@@ -91,6 +91,9 @@ followed: programs  ## 2,000 random drives: no ceiling and no proof by energy is
 
 designed: programs  ## 300 random design tasks of drives without a closed form, put back into them
 	GEARLASH_TASKS=300 $(RELEASE)/tests/test_analysis --gtest_filter='PropertySearchedValues*'
+
+derivatives: programs  ## 300 random limit cycles: their derivatives beside differences
+	GEARLASH_CYCLES=300 $(RELEASE)/tests/test_analysis --gtest_filter='PropertySearchedSensitivity*'
 
 seeded-faults: programs  ## put small faults into the code: which does no test notice?
 	tests/seeded_faults/run $(RELEASE)

@@ -5,7 +5,9 @@
 #include <numbers>
 
 #include "analysis/analyse.hpp"
+#include "analysis/design/drive_sensitivity.hpp"
 #include "analysis/design/hunting_margin.hpp"
+#include "analysis/design/searched_sensitivity.hpp"
 #include "analysis/final_servo.hpp"
 #include "base/special_numbers.hpp"
 #include "command.hpp"
@@ -140,8 +142,11 @@ MotionPicture servo_picture(const Work& work) {
 std::string draw_tornado(const Work& work, PictureFormat format) {
   const BarChart chart = tornado_of(*work.report.sensitivity);
   if (chart.bars.empty()) {
+    const std::string& why = work.report.sensitivity->reason;
     throw InvalidInput(
-        {{"--plot", "tornado", "must be left out: this servo has no sensitivities", ""}});
+        {{"--plot", "tornado",
+          "must be left out: this drive has no sensitivities" + (why.empty() ? why : "; " + why),
+          ""}});
   }
   return draw_bar_chart(chart, format);
 }
@@ -186,8 +191,12 @@ bool is_decided(const Answer& answer) {
 constexpr double tool_bytes = 30e6;
 constexpr double least_memory_limit = 100e6;
 
-/// Adds margins and sensitivities of a drive with a closed form.
+/// Adds margins, of a drive with a closed form, and sensitivities.
 void add_changes(Work& work, const Drive& drive, bool wants_margins, bool wants_sensitivities) {
+  if (!work.analysis.closed) {
+    work.report.sensitivity = searched_derivatives(drive, work.analysis);
+    return;
+  }
   const ChangeableDrive changeable(drive);
   // At the very ends of the ranges, rounding may put the ratios outside them.
   const bool is_sound = validate(changeable.drivetrain()).empty();
@@ -197,7 +206,7 @@ void add_changes(Work& work, const Drive& drive, bool wants_margins, bool wants_
     work.report.changeable = changeable;
   }
   if (wants_sensitivities) {
-    work.report.sensitivity = is_sound ? drive_sensitivity(changeable) : DriveSensitivity{};
+    work.report.sensitivity = is_sound ? drive_sensitivity(changeable) : Jacobian{};
   }
 }
 
@@ -226,13 +235,10 @@ Work analysed(const WrittenDrive& written, const Limits& limits, const Provenanc
 }
 
 /// Refuses options that need a closed form.
-void refuse_without_closed_form(const LimitCycleOptions& options, const std::vector<Plot>& plots,
-                                Faults& faults) {
+void refuse_without_closed_form(const LimitCycleOptions& options, Faults& faults) {
   const std::string why =
       "must be left out: it needs a closed-form answer, and this drive has none";
   if (options.margins) faults.add({"--margins", "given", why, ""});
-  if (options.sensitivities) faults.add({"--sensitivities", "given", why, ""});
-  if (has_kind(plots, "tornado")) faults.add({"--plot", "tornado", why, ""});
 }
 
 /// "200 MB", in bytes.
@@ -287,7 +293,7 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   faults.require_distinct({"DRIVE.toml", options.servo.file}, files_of(plots));
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
   if (written && !closed_form_drive(written->drive)) {
-    refuse_without_closed_form(options, plots, faults);
+    refuse_without_closed_form(options, faults);
   }
   Limits limits;
   if (!options.time_limit.empty()) {
@@ -365,7 +371,8 @@ void add_limit_cycle_command(Command& app, Action& action) {
                     "Add how far each parameter may change before hunting ends or begins;\n"
                     "with bounces this takes a minute or more");
   command->add_flag("--sensitivities", options->sensitivities,
-                    "Add exact sensitivities to every parameter, in per cent for one per cent");
+                    "Add exact sensitivities to every parameter, in per cent for one per cent; of\n"
+                    "searched drives for a continuous controller without encoder");
   command->footer(help_footer(examples));
   set_action(*command, action, options, run);
 }

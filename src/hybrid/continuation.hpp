@@ -1,18 +1,15 @@
 // Follows a periodic orbit through folds as one parameter of its system changes.
 #pragma once
 
-#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "hybrid/periodic_orbit.hpp"
+#include "hybrid/system_slopes.hpp"
 
 namespace gearlash::hybrid {
-
-/// The system for a parameter's value. The state's numbers and the modes stay the same.
-using Family = std::function<HybridSystem(double parameter)>;
 
 struct BranchPoint {
   double parameter = std::numeric_limits<double>::quiet_NaN();

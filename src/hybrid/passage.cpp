@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "hybrid/disturbances.hpp"
 #include "numeric/linear_algebra.hpp"
 
 namespace gearlash::hybrid {
-
-Vector velocity(const AffineFlow& flow, const Vector& numbers) {
-  return flow.matrix * numbers + flow.offset;
-}
 
 Vector flown(const AffineFlow& flow, const Vector& numbers, double time) {
   const Eigen::Index size = numbers.size();
@@ -21,69 +17,6 @@ Vector flown(const AffineFlow& flow, const Vector& numbers, double time) {
 }
 
 namespace {
-
-const AffineReset& reset_of(const AffineMode& mode, const Event& event) {
-  switch (event.kind) {
-    case EventKind::timed:
-      return mode.timed[event.transition].reset;
-    case EventKind::settling:
-      return mode.transitions[event.transition].settling->reset;
-    case EventKind::transition:
-      break;
-  }
-  return mode.transitions[event.transition].reset;
-}
-
-/// ∂x/∂start across flows and events, each event at its own disturbed time.
-class Disturbances {
- public:
-  Disturbances(const HybridSystem& system, const State& start, double time)
-      : system_(system),
-        mode_(start.mode),
-        time_(time),
-        slope_(Matrix::Identity(system.size(), system.size())),
-        delay_(Eigen::RowVectorXd::Zero(system.size())) {}
-
-  void flow_to(double time) {
-    if (time > time_) slope_ = exponential(flow().matrix * (time - time_)) * slope_;
-    time_ = time;
-  }
-
-  /// False if the guard is met at no speed.
-  bool meet(const Event& event) {
-    const bool is_chained = event.time == last_event_;
-    last_event_ = event.time;
-    flow_to(event.time);
-    const AffineMode& before = system_.mode(mode_);
-    const Matrix reset = reset_of(system_.mode(event.mode), event).slope(system_.size());
-    const Vector flow_before = velocity(before.flow, event.before);
-    mode_ = event.mode_after;
-    if (event.kind == EventKind::timed) {
-      delay_.setZero();
-    } else if (!is_chained) {
-      // An event that another one causes at its own instant is delayed as that one is.
-      const Vector& normal = before.transitions[event.transition].guard.normal;
-      const double speed = normal.dot(flow_before);
-      if (speed == 0.0) return false;
-      delay_ = -(normal.transpose() * slope_) / speed;
-    }
-    const Vector jump = velocity(system_.mode(mode_).flow, event.after) - reset * flow_before;
-    slope_ = reset * slope_ - jump * delay_;
-    return true;
-  }
-
-  const Matrix& slope() const { return slope_; }
-
- private:
-  const AffineFlow& flow() const { return system_.mode(mode_).flow; }
-
-  const HybridSystem& system_;
-  std::size_t mode_;
-  double time_;
-  double last_event_ = std::numeric_limits<double>::quiet_NaN();
-  Matrix slope_;
-  Eigen::RowVectorXd delay_;  ///< ∂/∂start of the last event's time
-};
 
 /// How much later, or earlier, the flow of a mode crosses a plane. Empty if it does not.
 std::optional<double> time_to_plane(const AffineMode& mode, const Vector& numbers, double time,

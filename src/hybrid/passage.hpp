@@ -4,14 +4,13 @@
 #include <cstddef>
 #include <optional>
 
+#include "hybrid/disturbances.hpp"
 #include "hybrid/hybrid_trajectory.hpp"
 
 namespace gearlash::hybrid {
 
 /// A shot that takes more steps, as at a stiff drive's slow slide, has no passage.
 inline constexpr std::size_t most_steps_of_a_shot = 300'000;
-
-Vector velocity(const AffineFlow& flow, const Vector& numbers);
 
 /// The state after a time: x + ∫₀ᵗ exp(As) ds (A x + b). The time may be negative.
 Vector flown(const AffineFlow& flow, const Vector& numbers, double time);
@@ -31,15 +30,9 @@ struct Passage {
   std::vector<Event> events;
 };
 
-/// The passage from a state at time `from` over a number of events to the finish. Let f be the flow
-/// before an event, f⁺ after it, g = c·x its guard and R its reset. A disturbance δ becomes
-///   R δ + (f⁺ − R f)(c·δ)/(c·f)
-/// (saltation), and at a tick of a clock R δ. An event that another one causes at its own instant
-/// is as late as that one: R δ − (f⁺ − R f)τ, with τ = −(c·δ)/(c·f) of the first, 0 for a tick.
-/// Empty if the events do not come, if another one comes before the finish, or if a guard is met at
-/// no speed (c·f = 0).
-/// Source: Aizerman & Gantmakher 1958; Leine & Nijmeijer, Dynamics and Bifurcations of Non-Smooth
-/// Mechanical Systems (2004), ch. 7.
+/// The passage from a state at time `from` over a number of events to the finish, with slopes as
+/// Disturbances gives them. Empty if the events do not come, if another one comes before the
+/// finish, or if a guard is met at no speed.
 std::optional<Passage> pass(const PreparedSystem& system, const State& start, double from,
                             std::size_t events, const Finish& finish);
 

@@ -8,7 +8,8 @@ namespace gearlash {
 
 // ---- matrices of any size -----------------------------------------------------------------------
 
-/// e^matrix, by scaling and squaring of Padé approximants (Higham 2005).
+/// e^matrix, by scaling and squaring of Padé approximants (Higham 2005) of the balanced matrix:
+/// numbers in units of very different sizes cost no digits.
 Eigen::MatrixXd exponential(const Eigen::MatrixXd& matrix);
 
 /// All eigenvalues, by the QR algorithm.

@@ -5,10 +5,11 @@
 #include <optional>
 #include <string>
 
-#include "analysis/design/drive_sensitivity.hpp"
+#include "analysis/design/changeable_drive.hpp"
 #include "gearlash/answer.hpp"
 #include "gearlash/design.hpp"
 #include "gearlash/drive.hpp"
+#include "gearlash/sensitivity.hpp"
 #include "input/units.hpp"
 #include "output/report_units.hpp"
 
@@ -27,10 +28,10 @@ struct AnswerReport {
   /// The normal form without a natural frequency: text has times in units of 1/ω_n.
   bool is_normalized = false;
   Provenance provenance{};
-  /// The drive of `margin` and `sensitivity`; all three on request only.
+  /// The drive of `margin`; all three on request only.
   std::optional<ChangeableDrive> changeable{};
   std::optional<HuntingMargin> margin{};
-  std::optional<DriveSensitivity> sensitivity{};
+  std::optional<Jacobian> sensitivity{};
   /// rad: an amplitude of the load for which the widest backlash is to be stated that provably
   /// keeps it. Needs the ceiling.
   std::optional<double> specification{};

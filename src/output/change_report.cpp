@@ -48,38 +48,29 @@ std::string overall_text(const OverallMargin& overall, bool hunts) {
       change_text(std::exp(change.load_friction)), change_text(std::exp(change.stiffness)));
 }
 
-std::string reason(SensitivityOutcome outcome) {
-  switch (outcome) {
-    case SensitivityOutcome::no_cycle:
-      return "there is no limit cycle, so only growth at rest has them";
-    case SensitivityOutcome::undecided:
-      return "the servo lies on the boundary of hunting, so only growth at rest has them";
-    case SensitivityOutcome::undamped:
-      return "not computed without damping";
-    case SensitivityOutcome::bounces:
-      return "not computed for this motion, in which faces bounce";
-    case SensitivityOutcome::available:
-      break;
-  }
-  return "";
+/// "motor amplitude".
+std::string words_of(Quantity quantity) {
+  std::string words(name_of(quantity));
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
 }
 
 }  // namespace
 
-Quantity quantity_of_effect(const DriveSensitivity& sensitivity) {
-  return sensitivity.outcome == SensitivityOutcome::available ? Quantity::amplitude
-                                                              : Quantity::growth_at_rest;
+Quantity quantity_of_effect(const Jacobian& sensitivity) {
+  return sensitivity.reason.empty() ? Quantity::amplitude : Quantity::growth_at_rest;
 }
 
-std::optional<double> elasticity_of(const DriveSensitivity& sensitivity, Quantity quantity,
+std::optional<double> elasticity_of(const Jacobian& sensitivity, Quantity quantity,
                                     std::size_t parameter) {
-  const std::vector<Quantity>& quantities = sensitivity.jacobian.quantities;
-  const auto row = std::find(quantities.begin(), quantities.end(), quantity) - quantities.begin();
-  return sensitivity.jacobian.elasticity(static_cast<std::size_t>(row), parameter);
+  const std::vector<Quantity>& quantities = sensitivity.quantities;
+  const auto found = std::find(quantities.begin(), quantities.end(), quantity);
+  if (found == quantities.end()) return std::nullopt;
+  return sensitivity.elasticity(static_cast<std::size_t>(found - quantities.begin()), parameter);
 }
 
-std::vector<std::size_t> by_falling_effect(const DriveSensitivity& sensitivity) {
-  std::vector<std::size_t> order(sensitivity.jacobian.paths.size());
+std::vector<std::size_t> by_falling_effect(const Jacobian& sensitivity) {
+  std::vector<std::size_t> order(sensitivity.paths.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const Quantity quantity = quantity_of_effect(sensitivity);
   const auto effect = [&](std::size_t parameter) {
@@ -117,21 +108,30 @@ std::string margin_text(const ChangeableDrive& drive, const HuntingMargin& margi
   return rest.empty() ? text : text + wrapped(rest);
 }
 
-std::string sensitivity_text(const DriveSensitivity& sensitivity) {
-  const std::string why = reason(sensitivity.outcome);
+std::string sensitivity_text(const Jacobian& sensitivity) {
+  const std::string& why = sensitivity.reason;
   std::string text = "Sensitivities: per cent for one per cent more";
   text += why.empty() ? "\n" : "; " + why + "\n";
-  if (sensitivity.outcome == SensitivityOutcome::undamped) return text;
-  const auto shown = [&](Quantity quantity, std::size_t parameter) {
-    const std::optional<double> elasticity = elasticity_of(sensitivity, quantity, parameter);
-    return elasticity ? fmt::format("{:+.3f}", *elasticity) : std::string("–");
-  };
-  std::vector<std::vector<std::string>> rows = {
-      {"number", "amplitude", "frequency", "multiplier", "growth at rest"}};
+  const bool has_any = std::any_of(sensitivity.slopes.begin(), sensitivity.slopes.end(),
+                                   [](const auto& slope) { return slope.has_value(); });
+  if (!has_any) return text;
+  std::vector<Quantity> columns;
+  std::vector<std::string> titles = {"number"};
+  for (const Quantity quantity : sensitivity.quantities) {
+    if (quantity == Quantity::period || quantity == Quantity::center) continue;
+    columns.push_back(quantity);
+    titles.push_back(words_of(quantity));
+  }
+  std::vector<std::vector<std::string>> rows = {titles};
   for (const std::size_t parameter : by_falling_effect(sensitivity)) {
-    rows.push_back({sensitivity.jacobian.paths[parameter], shown(Quantity::amplitude, parameter),
-                    shown(Quantity::frequency, parameter), shown(Quantity::multiplier, parameter),
-                    shown(Quantity::growth_at_rest, parameter)});
+    std::vector<std::string> row = {sensitivity.paths[parameter]};
+    bool has_one = false;
+    for (const Quantity quantity : columns) {
+      const std::optional<double> elasticity = elasticity_of(sensitivity, quantity, parameter);
+      row.push_back(elasticity ? fmt::format("{:+.3f}", *elasticity) : "–");
+      has_one = has_one || elasticity;
+    }
+    if (has_one) rows.push_back(std::move(row));
   }
   return text + table_text(rows);
 }
@@ -156,8 +156,7 @@ nlohmann::ordered_json margin_json(const ChangeableDrive& drive, const HuntingMa
   return json;
 }
 
-nlohmann::ordered_json sensitivity_json(const DriveSensitivity& sensitivity) {
-  const Jacobian& jacobian = sensitivity.jacobian;
+nlohmann::ordered_json sensitivity_json(const Jacobian& jacobian) {
   Json numbers = Json::array();
   for (std::size_t j = 0; j < jacobian.paths.size(); ++j) {
     Json json = {{"parameter", jacobian.paths[j]}, {"present", json_number(jacobian.present[j])}};
@@ -168,7 +167,8 @@ nlohmann::ordered_json sensitivity_json(const DriveSensitivity& sensitivity) {
     }
     numbers.push_back(std::move(json));
   }
-  return {{"available", sensitivity.outcome == SensitivityOutcome::available},
+  return {{"available", jacobian.reason.empty()},
+          {"reason", jacobian.reason.empty() ? Json() : Json(jacobian.reason)},
           {"numbers", std::move(numbers)}};
 }
 

@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "analysis/design/drive_sensitivity.hpp"
+#include "analysis/design/changeable_drive.hpp"
 #include "gearlash/design.hpp"
+#include "gearlash/sensitivity.hpp"
 #include "output/report_units.hpp"
 
 namespace gearlash {
@@ -18,18 +19,19 @@ namespace gearlash {
 std::string margin_text(const ChangeableDrive& drive, const HuntingMargin& margin,
                         const AngleUnit& angle);
 /// Elasticities, the largest first; or one line that says why there are none.
-std::string sensitivity_text(const DriveSensitivity& sensitivity);
+std::string sensitivity_text(const Jacobian& sensitivity);
 
 nlohmann::ordered_json margin_json(const ChangeableDrive& drive, const HuntingMargin& margin);
-nlohmann::ordered_json sensitivity_json(const DriveSensitivity& sensitivity);
+nlohmann::ordered_json sensitivity_json(const Jacobian& jacobian);
 
 /// The quantity by which effects are compared: the amplitude, or growth at rest without a limit
 /// cycle.
-Quantity quantity_of_effect(const DriveSensitivity& sensitivity);
-/// The elasticity of a quantity of the Jacobian with respect to the parameter of that index.
-std::optional<double> elasticity_of(const DriveSensitivity& sensitivity, Quantity quantity,
+Quantity quantity_of_effect(const Jacobian& sensitivity);
+/// The elasticity of a quantity with respect to the parameter of that index; empty if the Jacobian
+/// has no such quantity.
+std::optional<double> elasticity_of(const Jacobian& sensitivity, Quantity quantity,
                                     std::size_t parameter);
 /// The parameters of the Jacobian ordered by effect, the largest first.
-std::vector<std::size_t> by_falling_effect(const DriveSensitivity& sensitivity);
+std::vector<std::size_t> by_falling_effect(const Jacobian& sensitivity);
 
 }  // namespace gearlash

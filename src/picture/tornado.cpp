@@ -6,7 +6,7 @@
 
 namespace gearlash {
 
-BarChart tornado_of(const DriveSensitivity& sensitivity) {
+BarChart tornado_of(const Jacobian& sensitivity) {
   const Quantity quantity = quantity_of_effect(sensitivity);
   const bool has_amplitude = quantity == Quantity::amplitude;
   BarChart chart{.title = has_amplitude ? "What the amplitude of the limit cycle depends on"
@@ -16,7 +16,7 @@ BarChart tornado_of(const DriveSensitivity& sensitivity) {
   for (const std::size_t parameter : by_falling_effect(sensitivity)) {
     const auto elasticity = elasticity_of(sensitivity, quantity, parameter);
     if (elasticity && std::isfinite(*elasticity)) {
-      chart.bars.push_back({sensitivity.jacobian.paths[parameter], *elasticity});
+      chart.bars.push_back({sensitivity.paths[parameter], *elasticity});
     }
   }
   return chart;

@@ -1,13 +1,13 @@
 // The sensitivities of the limit cycle as bars.
 #pragma once
 
-#include "analysis/design/drive_sensitivity.hpp"
+#include "gearlash/sensitivity.hpp"
 #include "picture/bar_chart.hpp"
 
 namespace gearlash {
 
 /// The elasticities of the amplitude, or of growth at rest without a limit cycle, the longest on
 /// top.
-BarChart tornado_of(const DriveSensitivity& sensitivity);
+BarChart tornado_of(const Jacobian& sensitivity);
 
 }  // namespace gearlash

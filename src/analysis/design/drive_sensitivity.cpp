@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "analysis/design/searched_sensitivity.hpp"
+#include "analysis/final_servo.hpp"
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
 
@@ -109,10 +111,26 @@ DrivetrainSensitivity drivetrain_sensitivity(const Drivetrain& drive) {
 
 namespace {
 
+std::string reason(SensitivityOutcome outcome) {
+  switch (outcome) {
+    case SensitivityOutcome::no_cycle:
+      return "there is no limit cycle, so only growth at rest has them";
+    case SensitivityOutcome::undecided:
+      return "the servo lies on the boundary of hunting, so only growth at rest has them";
+    case SensitivityOutcome::undamped:
+      return "not computed without damping";
+    case SensitivityOutcome::bounces:
+      return "not computed for this motion, in which faces bounce";
+    case SensitivityOutcome::available:
+      break;
+  }
+  return "";
+}
+
 /// The Jacobian with respect to numbers of the drive, by the chain rule.
 Jacobian jacobian_of(const DrivetrainSensitivity& found, std::span<const Quantity> quantities,
                      const ChangeableDrive& drive, const std::vector<std::string>& names) {
-  Jacobian jacobian;
+  Jacobian jacobian{.reason = reason(found.outcome)};
   jacobian.quantities.assign(quantities.begin(), quantities.end());
   std::vector<DrivetrainSlopes> by_name;
   for (const std::string& name : names) {
@@ -134,13 +152,11 @@ Jacobian jacobian_of(const DrivetrainSensitivity& found, std::span<const Quantit
 
 }  // namespace
 
-DriveSensitivity drive_sensitivity(const ChangeableDrive& drive,
-                                   const std::vector<std::string>& names) {
-  const DrivetrainSensitivity found = drivetrain_sensitivity(drive.drivetrain());
-  return {found.outcome, jacobian_of(found, differentiable, drive, names)};
+Jacobian drive_sensitivity(const ChangeableDrive& drive, const std::vector<std::string>& names) {
+  return jacobian_of(drivetrain_sensitivity(drive.drivetrain()), differentiable, drive, names);
 }
 
-DriveSensitivity drive_sensitivity(const ChangeableDrive& drive) {
+Jacobian drive_sensitivity(const ChangeableDrive& drive) {
   if (drive.drive().servo) return drive_sensitivity(drive, drive.usual_names());
   std::vector<std::string> names;
   for (const Parameter& parameter : all_parameters_of_drives()) {
@@ -166,17 +182,21 @@ Jacobian derivatives(const Drive& drive, std::span<const Quantity> quantities,
                      std::span<const std::string_view> paths) {
   RangeCheck check;
   for (const Quantity quantity : quantities) {
-    const bool has_derivatives =
-        std::find(differentiable.begin(), differentiable.end(), quantity) != differentiable.end();
-    if (!has_derivatives) {
+    const auto is_among = [&](const auto& all) {
+      return std::find(all.begin(), all.end(), quantity) != all.end();
+    };
+    if (!is_among(differentiable) && !is_among(differentiable_by_search)) {
       check.refuse("quantities", std::string(name_of(quantity)),
-                   "must be amplitude, period, frequency, multiplier or growth_at_rest");
+                   "must be amplitude, motor_amplitude, center, period, frequency, multiplier or "
+                   "growth_at_rest");
     }
   }
   require_none(check.faults());
+  const std::vector<std::string> names(paths.begin(), paths.end());
+  if (!closed_form_drive(drive)) return searched_derivatives(drive, quantities, names);
   const ChangeableDrive changeable(drive);
   return jacobian_of(drivetrain_sensitivity(changeable.drivetrain()), quantities, changeable,
-                     {paths.begin(), paths.end()});
+                     names);
 }
 
 Jacobian derivatives(const Drive& drive, std::initializer_list<Quantity> quantities,

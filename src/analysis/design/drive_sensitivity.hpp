@@ -41,18 +41,12 @@ DrivetrainSensitivity drivetrain_sensitivity(const Drivetrain& drive);
 /// Growth at rest alone, with its derivatives: growth_sensitivity(). Throws InvalidInput.
 QuantitySlopes drivetrain_growth(const Drivetrain& drive);
 
-struct DriveSensitivity {
-  SensitivityOutcome outcome = SensitivityOutcome::no_cycle;
-  Jacobian jacobian{};  ///< usually of all quantities of `differentiable`
-};
-
 /// Derivatives of all quantities with respect to the named numbers. Throws InvalidInput for an
 /// unknown name.
-DriveSensitivity drive_sensitivity(const ChangeableDrive& drive,
-                                   const std::vector<std::string>& names);
+Jacobian drive_sensitivity(const ChangeableDrive& drive, const std::vector<std::string>& names);
 
 /// Derivatives with respect to every parameter that enters the closed form; for a normal form, with
 /// respect to those that a designer considers first.
-DriveSensitivity drive_sensitivity(const ChangeableDrive& drive);
+Jacobian drive_sensitivity(const ChangeableDrive& drive);
 
 }  // namespace gearlash
