@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <functional>
 
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
@@ -116,7 +118,7 @@ class Continuation {
         end_without_neighbour(branch);
         return branch;
       }
-      if (turned[size_] * tangent_[size_] < 0.0) find_fold(branch, step);
+      find_bifurcations(branch, *next, turned, step);
       const double parameter = parameter_of(next->point);
       if (parameter < options_.low || parameter > options_.high) {
         end_at(branch, parameter < options_.low ? options_.low : options_.high);
@@ -275,19 +277,67 @@ class Continuation {
     tangent_ = before.tangent_;
   }
 
-  /// Bisects between the last point and the next one, on the sign of the parameter's tangent.
-  void find_fold(Branch& branch, double step) const {
-    double before = 0.0;
-    double after = step;
+  /// Halves the distance of the last point and the next one, between which a measure changes its
+  /// sign, and then takes it as linear: where a multiplier is 1 Newton's method ends before.
+  void find(Branch& branch, BifurcationKind kind, double step, double at_last, double at_next,
+            const std::function<double(const Solved&)>& measure) const {
+    struct Side {
+      double along, measure;
+    };
+    Side before{0.0, at_last};
+    Side after{step, at_next};
     std::optional<Solved> nearest;
-    for (int i = 0; i < 30; ++i) {
-      const double middle = 0.5 * (before + after);
+    constexpr int halvings = 24;
+    for (int i = 0; i < halvings; ++i) {
+      const double middle = 0.5 * (before.along + after.along);
       const auto solved = corrected(point_ + middle * tangent_, tangent_);
       if (!solved) break;
       nearest = solved;
-      (tangent_of(*solved)[size_] * tangent_[size_] > 0.0 ? before : after) = middle;
+      const double here = measure(*solved);
+      ((here < 0.0) == (before.measure < 0.0) ? before : after) = {middle, here};
     }
-    if (nearest) branch.folds.push_back({parameter_of(nearest->point), nearest->orbit});
+    if (!nearest) return;
+    const double share = before.measure / (before.measure - after.measure);
+    const double along = before.along + share * (after.along - before.along);
+    const auto solved = corrected(point_ + along * tangent_, tangent_);
+    const double parameter = parameter_of(
+        solved ? solved->point
+               : Vector(nearest->point + (along - tangent_.dot(nearest->point - point_)) *
+                                             tangent_of(*nearest) /
+                                             tangent_of(*nearest).dot(tangent_)));
+    branch.bifurcations.push_back({kind, parameter, (solved ? solved : nearest)->orbit});
+  }
+
+  void find_bifurcations(Branch& branch, const Solved& next, const Vector& turned,
+                         double step) const {
+    if (turned[size_] * tangent_[size_] < 0.0) {
+      find(branch, BifurcationKind::fold, step, tangent_[size_], turned[size_],
+           [&](const Solved& at) { return tangent_of(at)[size_]; });
+      return;
+    }
+    const PeriodicOrbit& last = branch.points.back().orbit;
+    const std::size_t before = unstable_count(last);
+    const std::size_t after = unstable_count(next.orbit);
+    if (before == after) return;
+    // Moduli in falling order change continuously. Of those that pass 1, the largest.
+    const std::size_t passing = std::min(before, after);
+    const auto beyond = [passing](const PeriodicOrbit& orbit) {
+      return std::abs(orbit.multipliers[passing]) - 1.0;
+    };
+    const PeriodicOrbit& unstable = before > after ? last : next.orbit;
+    find(branch, kind_of(unstable.multipliers[passing]), step, beyond(last), beyond(next.orbit),
+         [&](const Solved& at) { return beyond(at.orbit); });
+  }
+
+  static std::size_t unstable_count(const PeriodicOrbit& orbit) {
+    return static_cast<std::size_t>(
+        std::count_if(orbit.multipliers.begin(), orbit.multipliers.end(),
+                      [](const std::complex<double>& one) { return std::abs(one) > 1.0; }));
+  }
+
+  static BifurcationKind kind_of(const std::complex<double>& passing) {
+    if (passing.imag() != 0.0) return BifurcationKind::neimark_sacker;
+    return passing.real() < 0.0 ? BifurcationKind::flip : BifurcationKind::branching;
   }
 
   void end_at(Branch& branch, double parameter) {

@@ -16,6 +16,21 @@ struct BranchPoint {
   PeriodicOrbit orbit;
 };
 
+/// What happens to an orbit as the parameter passes a value.
+enum class BifurcationKind {
+  fold,       ///< the branch turns back: a stable and an unstable orbit meet; a multiplier is 1
+  branching,  ///< a multiplier passes 1 and the branch goes on: another one crosses it, as where
+              ///< an orbit loses its symmetry
+  flip,       ///< a multiplier passes −1: an orbit of twice the period begins
+  neimark_sacker  ///< two conjugate multipliers leave the unit circle: motion on a torus begins
+};
+
+struct Bifurcation {
+  BifurcationKind kind = BifurcationKind::fold;
+  double parameter = std::numeric_limits<double>::quiet_NaN();
+  PeriodicOrbit orbit;
+};
+
 enum class BranchEnd {
   left_range,  ///< the last point is at an end of the range
   grazing,     ///< a guard without an event is touched, or a guard is met at no speed: `culprit`.
@@ -27,8 +42,8 @@ enum class BranchEnd {
 };
 
 struct Branch {
-  std::vector<BranchPoint> points;  ///< from the given orbit on, in the order of the branch
-  std::vector<BranchPoint> folds;   ///< where the parameter turns back: a multiplier is 1
+  std::vector<BranchPoint> points;        ///< from the given orbit on, in the order of the branch
+  std::vector<Bifurcation> bifurcations;  ///< in the order of the branch
   BranchEnd end = BranchEnd::lost;
   std::string culprit;  ///< "mode: transition" of a grazing
 };
@@ -49,7 +64,9 @@ struct ContinuationOptions {
 /// has a neighbouring solution, beyond a fold too. Steps are doubled where Newton's method
 /// converges quickly, and halved where it fails. Below 1e-5 the branch ends. (Towards the grazing
 /// of its own impact they shrink as the square of its speed, which leaves about 1e-4 of the
-/// parameter.) Folds are closed in on until the tangent has no component along the parameter.
+/// parameter.) Folds are closed in on until the tangent has no component along the parameter, the
+/// other bifurcations until the multiplier that passes has modulus 1. Two multipliers that pass
+/// within one step in opposite directions are missed.
 /// Central differences differentiate G by the parameter; that costs Newton's method steps, not
 /// digits.
 ///

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "base/correct_digits.hpp"
@@ -55,7 +56,7 @@ TEST(OracleContinuation, TheDrivenOscillatorGrazesItsStopAtATenth) {
   EXPECT_EQ(branch.end, BranchEnd::grazing);
   EXPECT_EQ(branch.culprit, "free: stop");
   expect_digits("grazing_amplitude", branch.points.back().parameter, 0.1, 6.5);
-  EXPECT_TRUE(branch.folds.empty());
+  EXPECT_TRUE(branch.bifurcations.empty());
 }
 
 /// θ″ + θ′ = −K × (the output of a play of half width 1 that θ drives): friction-controlled
@@ -123,7 +124,7 @@ TEST(OracleContinuation, TheCycleOfALoopWithPlayEndsWhereGrowthAtRestIsOne) {
       continue_orbit(loop_with_play, 5.0, *orbit,
                      {.low = 1.0, .high = 5.0, .upwards = false, .longest_period = 8.0});
   EXPECT_EQ(branch.end, BranchEnd::endless_period);
-  EXPECT_TRUE(branch.folds.empty());
+  EXPECT_TRUE(branch.bifurcations.empty());
   const double end = branch.points.back().parameter;
   EXPECT_GT(growth_at_rest(end + 1e-6), 1.0);
   EXPECT_LT(growth_at_rest(end - 1e-6), 1.0);
@@ -156,12 +157,13 @@ TEST(OracleContinuation, TheImpactingOrbitTurnsBackJustBelowGrazing) {
   ASSERT_TRUE(orbit);
   const Branch branch =
       continue_orbit(driven_towards_stop, 1.0, *orbit, {.low = 0.01, .upwards = false});
-  ASSERT_EQ(branch.folds.size(), 1U);
-  EXPECT_NEAR(branch.folds[0].parameter, amplitude_of_fold(), 1e-12);
-  EXPECT_NEAR(std::abs(branch.folds[0].orbit.multipliers.at(0)), 1.0, 1e-6);
+  ASSERT_EQ(branch.bifurcations.size(), 1U);
+  EXPECT_EQ(branch.bifurcations[0].kind, BifurcationKind::fold);
+  EXPECT_NEAR(branch.bifurcations[0].parameter, amplitude_of_fold(), 1e-12);
+  EXPECT_NEAR(std::abs(branch.bifurcations[0].orbit.multipliers.at(0)), 1.0, 1e-6);
   for (const double below : {1e-5, 1e-6, 1e-7}) {  // where none is, but one is nearly
     const HybridSystem none = driven_towards_stop((1.0 - below) * amplitude_of_fold());
-    EXPECT_FALSE(neighbouring_orbit(none, branch.folds[0].orbit)) << below;
+    EXPECT_FALSE(neighbouring_orbit(none, branch.bifurcations[0].orbit)) << below;
   }
   // Beyond it the orbit is unstable, and ends as its impact comes to graze, at A = 0.1 again.
   EXPECT_EQ(branch.end, BranchEnd::grazing);
@@ -171,6 +173,159 @@ TEST(OracleContinuation, TheImpactingOrbitTurnsBackJustBelowGrazing) {
 }
 
 }  // namespace
+
+/// A relay with hysteresis before a lag, of period 2 ln 4, drives two more numbers, which oscillate
+/// at a rate and decay: their multipliers are e^{(−decay ± i rate) period}.
+HybridSystem relay_beside(double decay, double rate) {
+  HybridSystem system{.state_names = {"x", "y", "z"}, .modes = {}, .clocks = {}};
+  for (const double sign : {1.0, -1.0}) {
+    const Matrix flow{{-1.0, 0.0, 0.0}, {0.1, -decay, rate}, {0.0, -rate, -decay}};
+    AffineMode mode{.name = sign > 0.0 ? "up" : "down", .flow = {flow, sign * Vector::Unit(3, 0)}};
+    mode.transitions = {{.name = "turns",
+                         .guard = {Vector::Unit(3, 0), -0.6 * sign},
+                         .direction = sign > 0.0 ? Direction::rising : Direction::falling,
+                         .target = sign > 0.0 ? 1U : 0U}};
+    system.modes.push_back(std::move(mode));
+  }
+  return system;
+}
+
+TEST(OracleContinuation, NamesWhatLeavesTheUnitCircleAndWhere) {
+  const double period = 2.0 * std::log(4.0);
+  const struct {
+    double rate;
+    BifurcationKind kind;
+  } cases[] = {{0.7, BifurcationKind::neimark_sacker},
+               {std::numbers::pi / period, BifurcationKind::flip},
+               {0.0, BifurcationKind::branching}};
+  for (const auto& [rate, kind] : cases) {
+    const Family family = [rate = rate](double decay) { return relay_beside(decay - 0.3, rate); };
+    const HybridSystem system = family(0.5);
+    const auto orbit =
+        closing_orbit(system, simulate(system, {0, Vector::Zero(3)}, {.until = 60.0}));
+    ASSERT_TRUE(orbit) << rate;
+    EXPECT_TRUE(orbit->is_stable());
+    const Branch branch =
+        continue_orbit(family, 0.5, *orbit, {.low = 0.1, .high = 1.0, .upwards = false});
+    EXPECT_EQ(branch.end, BranchEnd::left_range);
+    ASSERT_FALSE(branch.bifurcations.empty()) << rate;
+    EXPECT_EQ(branch.bifurcations[0].kind, kind) << rate;
+    EXPECT_NEAR(branch.bifurcations[0].parameter, 0.3, 1e-9) << rate;
+  }
+}
+
+/// x″ + 0.1x′ + x = cos 2.7t with a stop at x = 0 and this restitution.
+HybridSystem driven_at_stop(double restitution) {
+  HybridSystem system = driven_towards_stop(1.0);
+  AffineMode& mode = system.modes[0];
+  mode.flow.matrix(2, 3) = 2.7;
+  mode.flow.matrix(3, 2) = -2.7;
+  mode.transitions.pop_back();
+  mode.transitions[0].guard.offset = 0.0;
+  mode.transitions[0].reset.matrix(1, 1) = -restitution;
+  return system;
+}
+
+std::optional<PeriodicOrbit> orbit_at_stop(double restitution) {
+  const HybridSystem system = driven_at_stop(restitution);
+  return closing_orbit(system,
+                       simulate(system, {0, Vector{{-0.1, 0.0, 1.0, 0.0}}}, {.until = 900.0}));
+}
+
+TEST(OracleContinuation, AnOrbitOfTwiceThePeriodBeginsAtAFlip) {
+  const auto orbit = orbit_at_stop(0.2);
+  ASSERT_TRUE(orbit);
+  const Branch branch = continue_orbit(driven_at_stop, 0.2, *orbit, {.low = 0.1, .high = 0.4});
+  ASSERT_EQ(branch.bifurcations.size(), 1U);
+  const Bifurcation& flip = branch.bifurcations[0];
+  EXPECT_EQ(flip.kind, BifurcationKind::flip);
+  EXPECT_NEAR(std::abs(flip.orbit.multipliers.at(0) + 1.0), 0.0, 1e-9);
+  // Settled motion goes round once in a period of the force just below it, just above it twice.
+  const double period = 2.0 * std::numbers::pi / 2.7;
+  for (const auto& [aside, rounds] : {std::pair{-3e-3, 1.0}, {3e-3, 2.0}}) {
+    const auto beside = orbit_at_stop(flip.parameter + aside);
+    ASSERT_TRUE(beside) << aside;
+    EXPECT_NEAR(beside->period, rounds * period, 1e-9) << aside;
+  }
+}
+
+/// A relay with a dead zone of ±1 switches ±height into 1/(s (s + 1)²), fed back. Above some height
+/// it has a stable and an unstable cycle, below none.
+HybridSystem dead_zone_relay(double height) {
+  HybridSystem system{.state_names = {"y", "speed", "acceleration"}, .modes = {}, .clocks = {}};
+  const Matrix flow{{0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}, {0.0, -1.0, -2.0}};
+  const auto mode = [&](const char* name, double output) {
+    system.modes.push_back({.name = name, .flow = {flow, output * Vector::Unit(3, 2)}});
+  };
+  mode("off", 0.0);
+  mode("on", height);         // y < −1
+  mode("reversed", -height);  // y > 1
+  const auto at = [](double level, Direction direction, std::size_t target) {
+    return Transition{.name = "switches",
+                      .guard = {Vector::Unit(3, 0), -level},
+                      .direction = direction,
+                      .target = target};
+  };
+  system.modes[0].transitions = {at(-1.0, Direction::falling, 1), at(1.0, Direction::rising, 2)};
+  system.modes[1].transitions = {at(-1.0, Direction::rising, 0)};
+  system.modes[2].transitions = {at(1.0, Direction::falling, 0)};
+  return system;
+}
+
+/// The height with which a symmetric cycle exists that is on for a share of its period, by its
+/// Fourier series (Tsypkin): y(0) = y(share period) = −1, which gives the frequency first.
+double height_of_cycle(double share) {
+  using Complex = std::complex<double>;
+  const auto response = [&](double frequency, double time_share) {
+    constexpr int harmonics = 2001;
+    const double period = 2.0 * std::numbers::pi / frequency;
+    double sum = 0.0;
+    for (int k = harmonics; k > 0; k -= 2) {
+      const Complex s(0.0, k * frequency);
+      const Complex size = 2.0 / period * (1.0 - std::exp(-s * share * period)) / s;
+      sum += 2.0 * (size / (s * (s + 1.0) * (s + 1.0)) * std::exp(s * time_share * period)).real();
+    }
+    return sum;
+  };
+  const auto difference = [&](double frequency) {
+    return response(frequency, 0.0) - response(frequency, share);
+  };
+  double low = 0.8;
+  double high = 1.2;
+  const bool rises = difference(low) < 0.0;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    ((difference(middle) < 0.0) == rises ? low : high) = middle;
+  }
+  return -1.0 / response(low, 0.0);
+}
+
+TEST(OracleContinuation, TheFoldOfARelayWithADeadZoneIsThatOfItsFourierSeries) {
+  double low = 0.1;
+  double high = 0.4;
+  for (int i = 0; i < 40; ++i) {  // golden sections for the least height
+    constexpr double golden = 0.3819660112501051;
+    const double a = low + golden * (high - low);
+    const double b = high - golden * (high - low);
+    if (height_of_cycle(a) < height_of_cycle(b)) {
+      high = b;
+    } else {
+      low = a;
+    }
+  }
+  const double fold = height_of_cycle(0.5 * (low + high));
+  // The describing function, 4 h √(1 − 1/A²)/(πA), is at most 2h/π; the plant's gain at −180° is ½.
+  EXPECT_NEAR(fold, std::numbers::pi, 0.1 * std::numbers::pi);
+  const HybridSystem system = dead_zone_relay(1.3 * fold);
+  const auto orbit =
+      closing_orbit(system, simulate(system, {0, Vector{{0.0, 3.0, 0.0}}}, {.until = 300.0}));
+  ASSERT_TRUE(orbit);
+  const Branch branch = continue_orbit(dead_zone_relay, 1.3 * fold, *orbit,
+                                       {.low = 0.5 * fold, .high = 2.0 * fold, .upwards = false});
+  ASSERT_FALSE(branch.bifurcations.empty());
+  EXPECT_EQ(branch.bifurcations[0].kind, BifurcationKind::fold);
+  EXPECT_NEAR(branch.bifurcations[0].parameter, fold, 1e-9 * fold);
+}
 
 TEST(OracleContinuation, OfAServoAgreesWithTheClosedFormAllAlong) {
   const auto servo_of = [](double friction_ratio) {
