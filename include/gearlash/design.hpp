@@ -74,6 +74,29 @@ enum class SearchKind : std::uint8_t {
   searched    ///< any drive: analysed at each value of a grid, and followed between
 };
 
+/// What happens at an end of an interval.
+enum class BorderKind : std::uint8_t {
+  limit,           ///< a quantity reaches its limit, and the motion goes on
+  fold,            ///< a stable and an unstable cycle meet, beyond which neither exists
+  branching,       ///< a multiplier of a cycle passes 1: another cycle crosses it
+  flip,            ///< a multiplier of a cycle passes −1: a cycle of twice the period begins
+  neimark_sacker,  ///< two multipliers of a cycle leave the unit circle: motion on a torus begins
+  grazing,         ///< a cycle comes to touch a border between two motions, or leaves it
+  endless_period,  ///< the period of a cycle grows beyond all bounds
+  rest,            ///< starts cease to lead to rest, or begin to
+  unnamed          ///< the verdict changes, and no cycle that was followed accounts for it
+};
+/// "limit", "fold", "flip", "Neimark–Sacker", …
+[[nodiscard]] const char* name_of(BorderKind kind);
+
+struct Border {
+  double end = 0.0;  ///< of an interval of FeasibleValues
+  BorderKind kind = BorderKind::unnamed;
+  double at = 0.0;       ///< where it happens; the end where that is not known more closely
+  double located = 0.0;  ///< the relative distance to which `at` is located
+  std::string event{};   ///< of a grazing: "mode: event"
+};
+
 /// The values of one parameter that meet a target.
 struct FeasibleValues {
   std::string parameter{};  ///< its path, or "tachometer" and so on
@@ -99,6 +122,12 @@ struct FeasibleValues {
   /// Searched: the relative distance to which ends are located where the motion changes abruptly,
   /// and 1e-9 where it does not.
   double located = 0.0;
+  /// Searched: what happens at each end of an interval within the range. Folds and other
+  /// bifurcations are located on the cycle that one side has alone, to 1e-9. They may lie beyond the
+  /// first value that misses the target, where starts cease to lead to the cycle before it ends. Where
+  /// a stable cycle that misses the target goes on into an interval in which no start leads to it, the
+  /// interval ends with it; one that it fills is undecided.
+  std::vector<Border> borders{};
   bool stopped = false;  ///< by Progress: values not reached are undecided
 
   [[nodiscard]] bool contains(double value) const;

@@ -90,6 +90,45 @@ std::string reasons(const SearchedDesignReport& report) {
   return text.empty() ? "" : "No value meets the target\n" + text + "\n";
 }
 
+std::string border_text(const ParameterText& shown, const Border& border) {
+  const std::string at = shown.of(border.at);
+  switch (border.kind) {
+    case BorderKind::limit:
+      return "the target's limit is reached";
+    case BorderKind::fold:
+      return "fold at " + at + ": a stable and an unstable limit cycle meet and end";
+    case BorderKind::branching:
+      return "branching at " + at + ": another limit cycle crosses this one";
+    case BorderKind::flip:
+      return "flip at " + at + ": a limit cycle of twice the period begins";
+    case BorderKind::neimark_sacker:
+      return "Neimark–Sacker bifurcation at " + at + ": a limit cycle gives way to motion on a torus";
+    case BorderKind::grazing:
+      return "grazing at " + at + ": a limit cycle touches \"" + border.event + "\"";
+    case BorderKind::endless_period:
+      return "the period of a limit cycle grows beyond all bounds near " + at;
+    case BorderKind::rest:
+      return "beyond, no start leads to rest, or first ones do";
+    case BorderKind::unnamed:
+      break;
+  }
+  return "the verdict changes; no limit cycle that was followed accounts for it";
+}
+
+std::string borders_text(const SearchedDesignReport& report) {
+  std::vector<std::vector<std::string>> rows;
+  for (const SearchedParameter& parameter : report.parameters) {
+    const ParameterText shown(report.drive, parameter.values.parameter, report.angle);
+    for (const Border& border : parameter.values.borders) {
+      rows.push_back(
+          {parameter.values.parameter, shown.of(border.end), border_text(shown, border)});
+    }
+  }
+  if (rows.empty()) return "";
+  rows.insert(rows.begin(), {"parameter", "end", "what happens there"});
+  return "Where intervals end\n" + table_text(rows) + "\n";
+}
+
 std::string undecided_text(const SearchedDesignReport& report) {
   std::string parts;
   for (const SearchedParameter& parameter : report.parameters) {
@@ -200,6 +239,13 @@ Json json_parameter(const Drive& drive, const SearchedParameter& parameter) {
            json_list(values.grid, [&](double value) { return json_value(drive, values, value); })},
           {"located", json_number(values.located)},
           {"intervals", json_list(values.intervals, of_interval)},
+          {"borders", json_list(values.borders, [](const Border& border) {
+             return Json{{"end", json_number(border.end)},
+                         {"kind", name_of(border.kind)},
+                         {"at", json_number(border.at)},
+                         {"located", json_number(border.located)},
+                         {"event", border.event.empty() ? Json(nullptr) : Json(border.event)}};
+           })},
           {"undecided", json_list(values.undecided, of_interval)},
           {"nearest", values.intervals.empty() ? Json(nullptr) : best},
           {"closest", values.intervals.empty() ? best : Json(nullptr)}};
@@ -214,7 +260,7 @@ std::string design_text(const SearchedDesignReport& report) {
                                                             : "not met";
   return fmt::format("target: {}\nat present: {}, {}\n\n", report.target_text,
                      result_text(present, report.angle), met) +
-         table_of_results(report) + reasons(report) + wrapped(certainty(report));
+         table_of_results(report) + borders_text(report) + reasons(report) + wrapped(certainty(report));
 }
 
 std::string design_json(const SearchedDesignReport& report) {

@@ -8,8 +8,10 @@
 #include <utility>
 
 #include "analysis/analyse.hpp"
+#include "analysis/design/border.hpp"
 #include "analysis/design/value_scan.hpp"
 #include "analysis/grid/axis.hpp"
+#include "base/on_threads.hpp"
 #include "gearlash/design.hpp"
 
 namespace gearlash {
@@ -31,11 +33,28 @@ class AnalysedDrive {
 
   JudgedValue afresh(double value) { return judged(value, nullptr); }
 
+  /// What happens between the end of an interval, upwards or downwards, and the nearest value beyond
+  /// that was analysed. Empty if there is none, or it meets the target. A cycle is followed as far as
+  /// `far`.
+  std::optional<Border> border_at(double end, bool upwards, double far) {
+    const auto at_end = known_.find(end);
+    if (at_end == known_.end()) return std::nullopt;
+    if (upwards ? std::next(at_end) == known_.end() : at_end == known_.begin()) return std::nullopt;
+    const auto beyond = upwards ? std::next(at_end) : std::prev(at_end);
+    if (beyond->second.is_met) return std::nullopt;
+    return border_between(drive_, axis_, {end, *at_end->second.analysis},
+                          {beyond->first, *beyond->second.analysis}, far);
+  }
+
   /// From the nearest value that was analysed.
   JudgedValue followed(double value) { return judged(value, nearest(value)); }
 
  private:
   using Known = std::shared_ptr<const Analysis>;
+  struct Judged {
+    Known analysis;
+    bool is_met = false;
+  };
 
   JudgedValue judged(double value, const Known& near) {
     Drive drive = drive_;
@@ -55,7 +74,7 @@ class AnalysedDrive {
     if (answer.search && !answer.search->is_complete) return unknown;
     {
       const std::scoped_lock lock(keeping_);
-      known_[value] = analysis;
+      known_[value] = {analysis, is_met(target_, answer)};
     }
     return {.value = value,
             .is_met = is_met(target_, answer),
@@ -68,10 +87,10 @@ class AnalysedDrive {
   Known nearest(double value) {
     const std::scoped_lock lock(keeping_);
     const auto above = known_.lower_bound(value);
-    if (above == known_.end()) return known_.empty() ? nullptr : std::prev(above)->second;
-    if (above == known_.begin()) return above->second;
+    if (above == known_.end()) return known_.empty() ? nullptr : std::prev(above)->second.analysis;
+    if (above == known_.begin()) return above->second.analysis;
     const auto below = std::prev(above);
-    return value - below->first < above->first - value ? below->second : above->second;
+    return (value - below->first < above->first - value ? below : above)->second.analysis;
   }
 
   /// Asks whether to go on, from several threads. The ends of intervals take about as many values
@@ -96,7 +115,7 @@ class AnalysedDrive {
   const Target& target_;
   Target of_motion_;
   Progress& progress_;
-  std::map<double, Known> known_;
+  std::map<double, Judged> known_;
   std::mutex keeping_;
   std::mutex hearing_;
   std::atomic<std::size_t> evaluations_ = 0;
@@ -142,6 +161,65 @@ std::vector<JudgedValue> of_words(AnalysedDrive& analysed, FeasibleValues& found
   return tried;
 }
 
+/// An end of an interval within the range.
+struct IntervalEnd {
+  std::size_t interval = 0;
+  bool is_upper = false;
+  std::optional<Border> border{};
+};
+
+/// What happens at each end of an interval within the range. Cycles are followed as far as the next
+/// value of the grid.
+std::vector<IntervalEnd> ends_with_borders(AnalysedDrive& analysed, const FeasibleValues& found) {
+  std::vector<IntervalEnd> ends;
+  for (std::size_t i = 0; i < found.intervals.size(); ++i) {
+    if (found.intervals[i].low > found.searched.low) ends.push_back({i, false});
+    if (found.intervals[i].high < found.searched.high) ends.push_back({i, true});
+  }
+  const std::vector<double>& grid = found.grid;
+  on_threads(0, ends.size(), [&](std::size_t i) {
+    IntervalEnd& end = ends[i];
+    const Bounds& interval = found.intervals[end.interval];
+    const double value = end.is_upper ? interval.high : interval.low;
+    const double far = end.is_upper ? *std::upper_bound(grid.begin(), grid.end(), value)
+                                    : *std::prev(std::lower_bound(grid.begin(), grid.end(), value));
+    end.border = analysed.border_at(value, end.is_upper, far);
+  });
+  return ends;
+}
+
+/// Names the ends of intervals. A cycle that misses the target may go on into an interval, where no
+/// start led to it: the interval begins where it ends. Of one that it fills nothing is known.
+void name_borders(AnalysedDrive& analysed, FeasibleValues& found) {
+  if (analysed.is_stopped()) return;
+  std::vector<IntervalEnd> ends = ends_with_borders(analysed, found);
+  std::vector<bool> is_filled(found.intervals.size(), false);
+  for (IntervalEnd& end : ends) {
+    if (!end.border) continue;
+    Border& border = *end.border;
+    Bounds& interval = found.intervals[end.interval];
+    double& edge = end.is_upper ? interval.high : interval.low;
+    const bool goes_on = end.is_upper ? border.at < edge : border.at > edge;
+    if (!goes_on) continue;
+    const double aside = 2.0 * border.located * std::abs(border.at);
+    const double within = border.at + (end.is_upper ? -aside : aside);
+    if (interval.contains(within) && analysed.afresh(within).is_met) {
+      border.end = edge = within;
+    } else {
+      is_filled[end.interval] = true;
+    }
+  }
+  for (IntervalEnd& end : ends) {
+    if (end.border && !is_filled[end.interval]) found.borders.push_back(std::move(*end.border));
+  }
+  for (std::size_t i = is_filled.size(); i-- > 0;) {
+    if (!is_filled[i]) continue;
+    const auto filled = found.intervals.begin() + static_cast<std::ptrdiff_t>(i);
+    found.undecided.push_back(*filled);
+    found.intervals.erase(filled);
+  }
+}
+
 std::vector<JudgedValue> of_numbers(AnalysedDrive& analysed, const Resolution& resolution,
                                     FeasibleValues& found) {
   const auto afresh = [&](double value) { return analysed.afresh(value); };
@@ -165,6 +243,7 @@ std::vector<JudgedValue> of_numbers(AnalysedDrive& analysed, const Resolution& r
         return last_met(afresh, met, last.value, resolution);
       },
       found);
+  name_borders(analysed, found);
   return tried;
 }
 

@@ -1,0 +1,21 @@
+// What happens where a searched drive ceases to meet its target.
+#pragma once
+
+#include "analysis/analyse.hpp"
+#include "gearlash/design.hpp"
+
+namespace gearlash {
+
+/// A value of a parameter and the analysis of the drive with it.
+struct AnalysedValue {
+  double value = 0.0;
+  const Analysis& analysis;
+};
+
+/// Compares the motions on both sides of a border, and follows the largest stable cycle that one side
+/// has alone across it (continue_orbit()), as far as `far`. `met`: the last value that meets the
+/// target; `unmet`: one beyond.
+Border border_between(const Drive& drive, const Axis& axis, const AnalysedValue& met,
+                      const AnalysedValue& unmet, double far);
+
+}  // namespace gearlash
