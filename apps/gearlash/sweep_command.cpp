@@ -32,6 +32,8 @@ constexpr char explanation[] =
     "  [sweep]\n"
     "  axes = [\"damping=0.05:0.6:56\", \"inertia-ratio=1/9:9:100:log\"]\n"
     "  quantities = [\"amplitude\", \"period\"]   # all if left out\n"
+    "  keep = [\"counts\", \"quantiles\"]           # every point if left out; also extremes,\n"
+    "                                           # histograms and border\n"
     "  [servo]\n"
     "  friction_ratio = 0.1          # without backlash, amplitudes are in backlashes\n\n"
     "During the sweep FILE.part holds the results so far, and FILE.part.json their number.\n"
@@ -106,7 +108,8 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
     report_stop(done, sweep, options.output);
     stop.obey();
   }
-  write_file("-", shown(options.output, std::string::npos) + ": " + solved_text(done.count) + "\n");
+  write_file("-", shown(options.output, std::string::npos) + ": " + solved_text(done.count) + "\n" +
+                      (done.summary.empty() ? "" : "\n" + done.summary));
   return ExitStatus::done;
 }
 

@@ -39,7 +39,8 @@ bool is_there(const fs::path& path) {
 
 /// Marks a record as that of a sweep.
 constexpr char kind[] = "unfinished gearlash sweep";
-constexpr std::size_t largest_record = 16 * largest_sweep_file;
+/// The state of a sweep that keeps its border has some characters for each of its points.
+constexpr std::size_t largest_record = 256 * largest_sweep_file;
 constexpr char unchanged[] = "must be unchanged since the sweep stopped";
 
 std::string text_of(const Json& record) {
@@ -164,14 +165,15 @@ SweepRecord SweepPart::read_record(const SweepFile& sweep, const Provenance& pro
     if (json.at("sweep") != sweep.text || count_in(json, "points") != sweep.grid.size()) {
       refuse("must be of the same sweep file");
     }
-    const SweepRecord record{
+    SweepRecord record{
         .run = {.count = {.solved = {.side_by_side = count_in(json, "side_by_side"),
                                      .one_by_one = count_in(json, "one_by_one")},
                           .searched = count_in(json, "searched"),
                           .refused = count_in(json, "refused"),
                           .unproved = count_in(json, "unproved")},
                 .points_done = count_in(json, "points_done")},
-        .checksum_of_data = checksum_in(json, "checksum_of_data")};
+        .checksum_of_data = checksum_in(json, "checksum_of_data"),
+        .reduced = json.value("reduced", "")};
     const SweepRun& run = record.run;
     if (run.points_done <= sweep.grid.size() && run.count.points() == run.points_done) {
       return record;
@@ -198,6 +200,7 @@ void SweepPart::write_record(const SweepFile& sweep, const Provenance& provenanc
       {"unproved", run.count.unproved},
       {"sweep", sweep.text},
       {"checksum_of_data", hexadecimal(record.checksum_of_data)}};
+  if (!record.reduced.empty()) json["reduced"] = record.reduced;
   json["checksum"] = checksum_of_record(json);
   may_remove_data_ = may_remove_record_ = run.points_done == 0;
   write_file(record_, text_of(json));
@@ -210,6 +213,23 @@ void SweepPart::finish() {
   may_remove_data_ = false;
   fs::remove(record_, error);
   bring_name_to_disk(output_);
+}
+
+void SweepPart::begin_without_data() {
+  constexpr std::string_view note = "Unfinished: the record beside this file has what is known.\n";
+  if (is_begun_) return;
+  if (pwrite(descriptor_, note.data(), note.size(), 0) != static_cast<ssize_t>(note.size())) {
+    throw OutputError(whole_name(data_) +
+                      ": cannot be written: " + std::generic_category().message(errno));
+  }
+  is_begun_ = true;
+}
+
+void SweepPart::finish_without_data() {
+  std::error_code ignored;
+  fs::remove(record_, ignored);
+  fs::remove(data_, ignored);
+  may_remove_data_ = may_remove_record_ = false;
 }
 
 std::size_t SweepPart::bytes() const {

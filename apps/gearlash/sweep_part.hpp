@@ -16,6 +16,7 @@ namespace gearlash {
 struct SweepRecord {
   SweepRun run;
   std::uint64_t checksum_of_data = 0;
+  std::string reduced{};  ///< the state of a sweep that keeps no points, ReducedGrid::packed()
 };
 
 /// OUTPUT.part and OUTPUT.part.json, beside the file that a symbolic link leads to.
@@ -45,6 +46,10 @@ class SweepPart {
                     const SweepRecord& record);
   /// Gives the data their name.
   void finish();
+  /// In place of data: marks the sweep as begun. All that it keeps is in its record.
+  void begin_without_data();
+  /// Removes both files of a sweep without data, which is complete under its own name.
+  void finish_without_data();
 
   const std::filesystem::path& data() const { return data_; }
   /// Bytes of the data on the disk.

@@ -12,6 +12,7 @@
 #include "base/checksum.hpp"
 #include "output/grid_netcdf.hpp"
 #include "output/output_file.hpp"
+#include "output/reduced_grid_data.hpp"
 #include "sweep_part.hpp"
 #include "terminal.hpp"
 
@@ -132,7 +133,7 @@ class Sweeping {
   }
 
   void record(const SweepRun& run) {
-    part_.write_record(sweep_, provenance_, {run, checksum_.value()});
+    part_.write_record(sweep_, provenance_, {.run = run, .checksum_of_data = checksum_.value()});
     recorded_ = run;
   }
 
@@ -142,6 +143,71 @@ class Sweeping {
   SweepRun recorded_;
   ChecksumOfData checksum_;
   GridNetcdf file_;
+};
+
+/// One sweep that keeps no points.
+class Reducing {
+ public:
+  Reducing(const SweepFile& sweep, const Provenance& provenance, SweepPart& part,
+           const SweepRecord& begun)
+      : sweep_(sweep),
+        provenance_(provenance),
+        part_(part),
+        done_(begun.run),
+        reduced_(sweep.grid, sweep.quantities, sweep.keep) {
+    if (done_.points_done == 0) {
+      record();
+      part_.begin_without_data();
+    } else if (!reduced_.unpack(begun.reduced) || reduced_.points() != done_.points_done) {
+      part_.refuse("must be unchanged since the sweep stopped");
+    }
+  }
+
+  SweepRun run(const std::filesystem::path& output, Progress& progress) {
+    const auto take = [&](const GridPiece& piece) {
+      reduced_.add(piece.table);
+      done_.count.add(piece.count);
+      done_.points_done += piece.table.rows();
+      record_now_and_then();
+    };
+    evaluate_in_pieces(sweep_.grid, sweep_.quantities, done_.points_done, longest_reduced_piece,
+                       take, progress, cli::steady_seconds);
+    record();
+    if (done_.points_done < sweep_.grid.size()) return done_;
+    const GridContents contents{sweep_.grid, sweep_.quantities, provenance_, sweep_.text};
+    OutputFile file(output);
+    write_reduced_netcdf(contents, reduced_, file);
+    file.commit();
+    part_.finish_without_data();
+    done_.summary = reduced_text(contents, reduced_);
+    return done_;
+  }
+
+ private:
+  /// Points that are held in memory together; a multiple of longest_run.
+  static constexpr std::size_t longest_reduced_piece = std::size_t{1} << 15U;
+
+  /// Takes some percent of the time at most.
+  void record_now_and_then() {
+    constexpr double share = 0.03;
+    constexpr double least_pause = 1.0;
+    const double now = cli::steady_seconds();
+    if (now < next_record_) return;
+    record();
+    const double end = cli::steady_seconds();
+    next_record_ = end + std::max(least_pause, (end - now) / share);
+  }
+
+  void record() {
+    part_.write_record(sweep_, provenance_, {.run = done_, .reduced = reduced_.packed()});
+  }
+
+  const SweepFile& sweep_;
+  const Provenance& provenance_;
+  SweepPart& part_;
+  SweepRun done_;
+  ReducedGrid reduced_;
+  double next_record_ = 0.0;
 };
 
 }  // namespace
@@ -156,9 +222,12 @@ SweepRun run_sweep(const SweepFile& sweep, const Provenance& provenance,
                          ""}});
   }
   const SweepRecord begun = part.is_begun() ? part.read_record(sweep, provenance) : SweepRecord{};
+  if (sweep.keep.anything()) {
+    return Reducing(sweep, provenance, part, begun).run(output, progress);
+  }
   require_room(part, netcdf_bytes({sweep.grid, sweep.quantities, provenance, ""}));
   Sweeping sweeping(sweep, provenance, part, begun);
-  const SweepRun run = sweeping.run(progress);
+  SweepRun run = sweeping.run(progress);
   if (run.points_done == sweep.grid.size()) part.finish();
   return run;
 }

@@ -8,25 +8,11 @@
 #include <vector>
 
 #include "analysis/grid/hunting_boundary.hpp"
-#include "gearlash/parameter.hpp"
-#include "model/reduced_drive.hpp"
-#include "output/grid_table.hpp"
-#include "output/json_values.hpp"
 
 namespace gearlash {
 namespace {
 
 constexpr char verdict_name[] = "verdict";
-
-/// "cannot_hunt", "hunts", … in the order of the enumeration.
-std::vector<std::string> verdict_words() {
-  std::vector<std::string> words;
-  for (int number = 0; number <= static_cast<int>(Verdict::undecided); ++number) {
-    words.emplace_back(name_of(static_cast<Verdict>(number)));
-    std::replace(words.back().begin(), words.back().end(), ' ', '_');
-  }
-  return words;
-}
 
 /// Consecutive points as a box: its start and extent on each axis.
 struct GridBox {
@@ -45,88 +31,6 @@ GridBox box_of(const Grid& grid, std::size_t first, std::size_t count) {
     count = (count + values - 1) / values;
   }
   return box;
-}
-
-/// A number of the drive that is not on an axis.
-struct FixedNumber {
-  std::string name;
-  std::string meaning;
-  std::string unit;
-  double value;
-};
-
-std::vector<FixedNumber> fixed_numbers(const Grid& grid) {
-  std::vector<FixedNumber> fixed;
-  const Json parameters = fixed_parameters(grid);  // a variable, because items() refers to it
-  for (const auto& [path, value] : parameters.items()) {
-    if (!value.is_number() && value != "inf") continue;
-    const Axis axis{.path = path};
-    fixed.push_back({column_name(path), std::string(parameter_of(axis, grid.drive)->meaning),
-                     unit_of(axis, grid.drive), get(grid.drive, path)});
-  }
-  return fixed;
-}
-
-/// The words of an axis in the order of their numbers: "load motor".
-std::string words_of(const Axis& axis, const Drive& drive) {
-  const Parameter& parameter = *parameter_of(axis, drive);
-  std::string words;
-  for (const std::string_view word : parameter.choices) {
-    words += (words.empty() ? "" : " ") + std::string(word);
-  }
-  return words;
-}
-
-std::string meaning_of(const Axis& axis, const Grid& grid) {
-  return std::string(parameter_of(axis, grid.drive)->meaning);
-}
-
-using Attributes = std::vector<std::pair<std::string, std::string>>;
-
-Attributes attributes_of_file(const GridContents& contents) {
-  const Grid& grid = contents.grid;
-  Attributes attributes = {
-      {"Conventions", "CF-1.8"},
-      {"title", "What geared drives with backlash end in"},
-      {"source", "gearlash " + contents.provenance.version},
-      {"history", contents.provenance.command},
-      {"certainty", certainty_of(grid)},
-      {"drive", fixed_parameters(grid).dump()},
-      {"comment", is_normalized(grid.drive)
-                      ? "SI units, with an undamped natural frequency of 1 rad/s and a loop "
-                        "stiffness of 1 N m/rad."
-                      : "SI units."}};
-  if (!contents.source_text.empty()) attributes.emplace_back("sweep", contents.source_text);
-  return attributes;
-}
-
-void describe_axis(NetcdfFile& file, const Axis& axis, const Grid& grid,
-                   NetcdfDimension dimension) {
-  const std::string unit = unit_of(axis, grid.drive);
-  const NetcdfVariable variable = file.add_numbers(
-      column_name(axis.path), {dimension}, meaning_of(axis, grid), unit.empty() ? "1" : unit);
-  file.set_attribute(variable, "path", axis.path);
-  file.set_attribute(variable, "spacing", axis.logarithmic ? "logarithmic" : "linear");
-  if (unit.empty()) file.set_attribute(variable, "words", words_of(axis, grid.drive));
-}
-
-/// Declares the fixed numbers as variables. Returns their names, separated by blanks.
-std::string describe_fixed_numbers(NetcdfFile& file, const Grid& grid) {
-  std::string names;
-  for (const FixedNumber& number : fixed_numbers(grid)) {
-    file.add_numbers(number.name, {}, number.meaning, number.unit);
-    names += (names.empty() ? "" : " ") + number.name;
-  }
-  return names;
-}
-
-void write_parameters(NetcdfFile& file, const Grid& grid) {
-  for (const Axis& axis : grid.axes) {
-    file.write(file.variable(column_name(axis.path)), {0}, {axis.values.size()}, axis.values);
-  }
-  for (const FixedNumber& number : fixed_numbers(grid)) {
-    file.write(file.variable(number.name), {}, {}, std::span(&number.value, 1));
-  }
 }
 
 /// The coordinates by axis: y, x.
@@ -153,13 +57,7 @@ void GridNetcdf::describe(const GridContents& contents) {
   for (const auto& [name, text] : attributes_of_file(contents)) {
     file_.set_attribute_of_file(name, text);
   }
-  std::vector<NetcdfDimension> dimensions;
-  for (const Axis& axis : grid_.axes) {
-    dimensions.push_back(file_.add_dimension(column_name(axis.path), axis.values.size()));
-  }
-  for (std::size_t i = 0; i < grid_.axes.size(); ++i) {
-    describe_axis(file_, grid_.axes[i], grid_, dimensions[i]);
-  }
+  const std::vector<NetcdfDimension> dimensions = describe_axes(file_, grid_);
   const std::string fixed = describe_fixed_numbers(file_, grid_);
   const NetcdfVariable verdict =
       file_.add_flags(verdict_name, dimensions, "verdict on the drive", verdict_words());

@@ -8,19 +8,11 @@
 
 #include "analysis/grid/grid_pieces.hpp"
 #include "analysis/grid/region_boundary.hpp"
+#include "output/grid_description.hpp"
 #include "output/netcdf_file.hpp"
 #include "output/output_file.hpp"
-#include "output/report_units.hpp"
 
 namespace gearlash {
-
-/// The description that a grid's file holds.
-struct GridContents {
-  Grid grid;
-  std::vector<Quantity> quantities;  ///< besides the verdict
-  Provenance provenance;
-  std::string source_text = {};  ///< of the sweep file; empty without one
-};
 
 /// A file that is being written. Each axis is a dimension, named as its column (column_name()),
 /// with the axis's values or the words of its choices. Over all dimensions the file has the verdict

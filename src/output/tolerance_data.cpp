@@ -7,7 +7,7 @@
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
 #include "output/csv_table.hpp"
-#include "output/netcdf_file.hpp"
+#include "output/two_pass_file.hpp"
 
 namespace gearlash {
 namespace {
@@ -77,59 +77,23 @@ std::vector<std::pair<const char*, std::optional<Estimate>>> single_estimates(
 
 // --- NetCDF ---
 
-/// Describes variables at once and writes their values after the last description.
-class TwoPassFile {
- public:
-  explicit TwoPassFile(NetcdfFile file) : file_(std::move(file)) {}
-
-  NetcdfFile& file() { return file_; }
-
-  NetcdfVariable add(const std::string& name, const std::vector<NetcdfDimension>& dimensions,
-                     const std::string& long_name, const std::string& units,
-                     std::vector<double> values) {
-    const NetcdfVariable variable = file_.add_numbers(name, dimensions, long_name, units);
-    written_.push_back({variable, dimensions.empty(), std::move(values)});
-    return variable;
+void add_estimates(TwoPassFile& file, const std::string& name,
+                   const std::vector<NetcdfDimension>& dimensions, const std::string& long_name,
+                   const std::string& units,
+                   const std::vector<std::optional<Estimate>>& estimates) {
+  std::vector<double> values;
+  std::vector<double> errors;
+  for (const std::optional<Estimate>& estimate : estimates) {
+    values.push_back(value_of(estimate));
+    errors.push_back(error_of(estimate));
   }
-
-  void add_estimates(const std::string& name, const std::vector<NetcdfDimension>& dimensions,
-                     const std::string& long_name, const std::string& units,
-                     const std::vector<std::optional<Estimate>>& estimates) {
-    std::vector<double> values;
-    std::vector<double> errors;
-    for (const std::optional<Estimate>& estimate : estimates) {
-      values.push_back(value_of(estimate));
-      errors.push_back(error_of(estimate));
-    }
-    for (const NetcdfVariable variable :
-         {add(name, dimensions, long_name, units, std::move(values)),
-          add(name + "_standard_error", dimensions, "standard error of the " + long_name, units,
-              std::move(errors))}) {
-      if (!dimensions.empty()) file_.declare_nan_missing(variable);
-    }
+  for (const NetcdfVariable variable :
+       {file.add(name, dimensions, long_name, units, std::move(values)),
+        file.add(name + "_standard_error", dimensions, "standard error of the " + long_name, units,
+                 std::move(errors))}) {
+    if (!dimensions.empty()) file.file().declare_nan_missing(variable);
   }
-
-  void finish() {
-    file_.end_description();
-    for (const Written& one : written_) {
-      if (one.is_single) {
-        file_.write(one.variable, {}, {}, one.values);
-      } else {
-        file_.write(one.variable, {0}, {one.values.size()}, one.values);
-      }
-    }
-    file_.close();
-  }
-
- private:
-  struct Written {
-    NetcdfVariable variable;
-    bool is_single;
-    std::vector<double> values;
-  };
-  NetcdfFile file_;
-  std::vector<Written> written_;
-};
+}
 
 void add_quantiles(const ToleranceReport& report, TwoPassFile& file) {
   std::vector<double> shares;
@@ -139,8 +103,8 @@ void add_quantiles(const ToleranceReport& report, TwoPassFile& file) {
   for (const QuantileSeries& series : quantile_series(report)) {
     std::vector<std::optional<Estimate>> estimates;
     for (const QuantileEstimate& quantile : series.quantiles) estimates.push_back(quantile.value);
-    file.add_estimates(std::string(series.name) + "_quantile", {share}, series.long_name,
-                       series.units, estimates);
+    add_estimates(file, std::string(series.name) + "_quantile", {share}, series.long_name,
+                  series.units, estimates);
   }
 }
 
@@ -159,7 +123,7 @@ void add_indices(const ToleranceReport& report, TwoPassFile& file) {
   for (const IndexSeries& series : index_series()) {
     std::vector<std::optional<Estimate>> estimates;
     for (const NumberSensitivity& one : numbers) estimates.push_back(series.of(one));
-    file.add_estimates(series.name, {number}, series.long_name, "1", estimates);
+    add_estimates(file, series.name, {number}, series.long_name, "1", estimates);
   }
 }
 
@@ -214,9 +178,9 @@ void write_tolerance_netcdf(const ToleranceReport& report, const OutputFile& out
   }
   for (const auto& [name, estimate] : single_estimates(report)) {
     const bool is_amplitude = std::string(name) == "mean_amplitude";
-    file.add_estimates(name, {},
-                       is_amplitude ? "mean amplitude of all samples" : "share of all samples",
-                       is_amplitude ? "rad" : "1", {estimate});
+    add_estimates(file, name, {},
+                  is_amplitude ? "mean amplitude of all samples" : "share of all samples",
+                  is_amplitude ? "rad" : "1", {estimate});
   }
   add_quantiles(report, file);
   add_indices(report, file);

@@ -48,6 +48,25 @@ TEST(SweepFile, WhatIsVariedNeedNotBeGiven) {
   EXPECT_EQ(std::get<RigidContact>(in_backlashes.grid.drive.contact).restitution, 0.0);
 }
 
+TEST(SweepFile, WhatIsKeptIsRead) {
+  const std::string head = "[sweep]\naxes = ['damping=0.1,0.2']\n";
+  const std::string servo = "[servo]\ninertia_ratio = 1\nfriction_ratio = 0.1\n";
+  EXPECT_FALSE(parse_sweep(head + servo, "s.toml").keep.anything());
+  const SweepFile border = parse_sweep(head + "keep = ['border', 'counts']\n" + servo, "s.toml");
+  EXPECT_EQ(border.keep, (Kept{.counts = true, .border = true}));
+  EXPECT_TRUE(border.quantities.empty());
+  const SweepFile values =
+      parse_sweep(head + "keep = ['quantiles', 'extremes', 'histograms']\n" + servo, "s.toml");
+  EXPECT_EQ(values.keep, (Kept{.extremes = true, .histograms = true, .quantiles = true}));
+  EXPECT_EQ(values.quantities.size(), 13U);
+  EXPECT_THAT(faults(head + "keep = ['counts', 'mean']\n" + servo),
+              ElementsAre("s.toml:3:19: sweep.keep[1] = mean: must be one of counts, extremes, "
+                          "histograms, quantiles, border"));
+  EXPECT_THAT(
+      faults(head + "keep = ['counts']\nquantities = ['period']\n" + servo),
+      ElementsAre(testing::HasSubstr("must be left out: what is kept is not of quantities")));
+}
+
 TEST(SweepFile, AnyDriveIsSwept) {
   const SweepFile file = parse_sweep(
       "[sweep]\naxes = ['backlash = 1 arcmin:10 arcmin:4', 'controller.proportional=1,2']\n"
@@ -67,7 +86,7 @@ TEST(SweepFile, FaultsAreToldWithTheirPlaces) {
       faults("[sweep]\naxes = []\nspeed = 1\n"),
       ElementsAre("s.toml:2:8: sweep.axes = []: must be a list of texts: [\"…\", \"…\"]",
                   "s.toml:3:1: sweep.speed = 1: is not a key of [sweep]: must be one of axes, "
-                  "quantities, verdicts"));
+                  "quantities, keep, verdicts"));
   EXPECT_THAT(
       faults("[sweep]\naxes = ['damping=0.1,0.2']\n[servo]\ninertia_ratio = 1\n"
              "friction_ratio=1\n[contact]\nrestitution = 2\n[gearbox]\n"),

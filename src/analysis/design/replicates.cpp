@@ -3,29 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 
+#include "base/bits_of_double.hpp"
 #include "base/on_threads.hpp"
 #include "base/shared_progress.hpp"
 #include "base/special_numbers.hpp"
 
 namespace gearlash::detail {
-namespace {
-
-/// For doubles ≥ 0 the bits have the same order as the values.
-std::uint64_t bits_of(double value) {
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, &value, sizeof bits);
-  return bits;
-}
-double from_bits(std::uint64_t bits) {
-  double value = 0.0;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
-}
-
-}  // namespace
 
 Estimate estimate_of(double value, std::span<const double> of_replicates) {
   double sum = 0.0;
@@ -74,7 +59,7 @@ double SortedReplicates::smallest(std::size_t k) const {
   std::uint64_t high = bits_of(std::numeric_limits<double>::infinity());
   while (low < high) {
     const std::uint64_t middle = low + (high - low) / 2;
-    const double value = from_bits(middle);
+    const double value = double_of_bits(middle);
     std::size_t not_above = 0;
     for (const auto& replicate : replicates) {
       not_above += static_cast<std::size_t>(
@@ -86,7 +71,7 @@ double SortedReplicates::smallest(std::size_t k) const {
       low = middle + 1;
     }
   }
-  return from_bits(low);
+  return double_of_bits(low);
 }
 
 double SortedReplicates::quantile(double p) const {

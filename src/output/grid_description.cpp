@@ -1,0 +1,116 @@
+#include "output/grid_description.hpp"
+
+#include <algorithm>
+
+#include "analysis/grid/grid_evaluation.hpp"
+#include "gearlash/parameter.hpp"
+#include "model/reduced_drive.hpp"
+#include "output/grid_table.hpp"
+#include "output/json_values.hpp"
+
+namespace gearlash {
+namespace {
+
+/// A number of the drive that is not on an axis.
+struct FixedNumber {
+  std::string name;
+  std::string meaning;
+  std::string unit;
+  double value;
+};
+
+std::vector<FixedNumber> fixed_numbers(const Grid& grid) {
+  std::vector<FixedNumber> fixed;
+  const Json parameters = fixed_parameters(grid);  // a variable, because items() refers to it
+  for (const auto& [path, value] : parameters.items()) {
+    if (!value.is_number() && value != "inf") continue;
+    const Axis axis{.path = path};
+    fixed.push_back({column_name(path), std::string(parameter_of(axis, grid.drive)->meaning),
+                     unit_of(axis, grid.drive), get(grid.drive, path)});
+  }
+  return fixed;
+}
+
+/// The words of an axis in the order of their numbers: "load motor".
+std::string words_of(const Axis& axis, const Drive& drive) {
+  const Parameter& parameter = *parameter_of(axis, drive);
+  std::string words;
+  for (const std::string_view word : parameter.choices) {
+    words += (words.empty() ? "" : " ") + std::string(word);
+  }
+  return words;
+}
+
+void describe_axis(NetcdfFile& file, const Axis& axis, const Grid& grid,
+                   NetcdfDimension dimension) {
+  const std::string unit = unit_of(axis, grid.drive);
+  const NetcdfVariable variable = file.add_numbers(
+      column_name(axis.path), {dimension}, std::string(parameter_of(axis, grid.drive)->meaning),
+      unit.empty() ? "1" : unit);
+  file.set_attribute(variable, "path", axis.path);
+  file.set_attribute(variable, "spacing", axis.logarithmic ? "logarithmic" : "linear");
+  if (unit.empty()) file.set_attribute(variable, "words", words_of(axis, grid.drive));
+}
+
+}  // namespace
+
+std::string meaning_of(const Axis& axis, const Grid& grid) {
+  return std::string(parameter_of(axis, grid.drive)->meaning);
+}
+
+std::vector<std::pair<std::string, std::string>> attributes_of_file(const GridContents& contents) {
+  const Grid& grid = contents.grid;
+  std::vector<std::pair<std::string, std::string>> attributes = {
+      {"Conventions", "CF-1.8"},
+      {"title", "What geared drives with backlash end in"},
+      {"source", "gearlash " + contents.provenance.version},
+      {"history", contents.provenance.command},
+      {"certainty", certainty_of(grid)},
+      {"drive", fixed_parameters(grid).dump()},
+      {"comment", is_normalized(grid.drive)
+                      ? "SI units, with an undamped natural frequency of 1 rad/s and a loop "
+                        "stiffness of 1 N m/rad."
+                      : "SI units."}};
+  if (!contents.source_text.empty()) attributes.emplace_back("sweep", contents.source_text);
+  return attributes;
+}
+
+std::vector<NetcdfDimension> describe_axes(NetcdfFile& file, const Grid& grid) {
+  std::vector<NetcdfDimension> dimensions;
+  for (const Axis& axis : grid.axes) {
+    dimensions.push_back(file.add_dimension(column_name(axis.path), axis.values.size()));
+  }
+  for (std::size_t i = 0; i < grid.axes.size(); ++i) {
+    describe_axis(file, grid.axes[i], grid, dimensions[i]);
+  }
+  return dimensions;
+}
+
+std::string describe_fixed_numbers(NetcdfFile& file, const Grid& grid) {
+  std::string names;
+  for (const FixedNumber& number : fixed_numbers(grid)) {
+    file.add_numbers(number.name, {}, number.meaning, number.unit);
+    names += (names.empty() ? "" : " ") + number.name;
+  }
+  return names;
+}
+
+void write_parameters(NetcdfFile& file, const Grid& grid) {
+  for (const Axis& axis : grid.axes) {
+    file.write(file.variable(column_name(axis.path)), {0}, {axis.values.size()}, axis.values);
+  }
+  for (const FixedNumber& number : fixed_numbers(grid)) {
+    file.write(file.variable(number.name), {}, {}, std::span(&number.value, 1));
+  }
+}
+
+std::vector<std::string> verdict_words() {
+  std::vector<std::string> words;
+  for (int number = 0; number <= static_cast<int>(Verdict::undecided); ++number) {
+    words.emplace_back(name_of(static_cast<Verdict>(number)));
+    std::replace(words.back().begin(), words.back().end(), ' ', '_');
+  }
+  return words;
+}
+
+}  // namespace gearlash

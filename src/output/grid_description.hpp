@@ -1,0 +1,38 @@
+// What the NetCDF files of a grid say of the grid itself: axes, fixed numbers, origin.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gearlash/grid.hpp"
+#include "output/netcdf_file.hpp"
+#include "output/report_units.hpp"
+
+namespace gearlash {
+
+/// The description that a grid's file holds.
+struct GridContents {
+  Grid grid;
+  std::vector<Quantity> quantities;  ///< besides the verdict
+  Provenance provenance;
+  std::string source_text = {};  ///< of the sweep file; empty without one
+};
+
+/// Names and texts, the same for equal contents.
+std::vector<std::pair<std::string, std::string>> attributes_of_file(const GridContents& contents);
+
+/// "cannot_hunt", "hunts", … in the order of the enumeration.
+std::vector<std::string> verdict_words();
+
+/// What the axis's parameter means.
+std::string meaning_of(const Axis& axis, const Grid& grid);
+
+/// Declares the axes as dimensions with their coordinates. Returns the dimensions.
+std::vector<NetcdfDimension> describe_axes(NetcdfFile& file, const Grid& grid);
+/// Declares the fixed numbers as variables. Returns their names, separated by blanks.
+std::string describe_fixed_numbers(NetcdfFile& file, const Grid& grid);
+/// Writes the values of both, after the description.
+void write_parameters(NetcdfFile& file, const Grid& grid);
+
+}  // namespace gearlash
