@@ -134,6 +134,9 @@ struct StudyQuestions {
   Target target{};                                             ///< for the yield
   std::vector<double> shares = {0.05, 0.25, 0.5, 0.75, 0.95};  ///< for quantiles; each 0 … 1
   std::size_t bins = 40;                                       ///< of the histogram; 0: none
+  /// Up to so many samples keep every amplitude and frequency, 16 bytes each. Of more, quantiles
+  /// and histogram come from buckets; see ToleranceStudy::relative_accuracy.
+  std::size_t most_exact = std::size_t{1} << 20U;
 };
 
 struct QuantileEstimate {
@@ -164,6 +167,10 @@ struct ToleranceStudy {
   std::vector<QuantileEstimate> amplitude_of_hunting{};  ///< rad, of the drives that hunt
   std::vector<QuantileEstimate> frequency{};             ///< Hz, of the drives with a cycle
   AmplitudeHistogram histogram{};
+  /// 0: quantiles are those of all values. Else they are that close to them, relatively, and the
+  /// histogram counts a value this close to an edge on either side of it. The lowest and the
+  /// highest value are exact. (DDSketch: Masson, Rim and Lee, VLDB 2019.)
+  double relative_accuracy = 0.0;
   std::size_t undecided = 0;
   std::size_t unknown_amplitudes = 0;
   std::size_t refused = 0;  ///< draws that are no valid drive; 0 for a drive without faults()
@@ -171,10 +178,10 @@ struct ToleranceStudy {
 };
 
 /// Quasi-Monte Carlo over all varied parameters, on all cores, with the same bits for any number of
-/// cores. Keeps 16 bytes per sample. With plastic contact it solves millions of drives per second.
-/// A drive that bounces takes some milliseconds, so use few samples there; a drive without a closed
-/// form, which analyse() searches, some tenths of a second. Throws InvalidInput with every fault of
-/// the drive, the sampling and the questions.
+/// cores. Memory: StudyQuestions::most_exact. With plastic contact it solves millions of drives per
+/// second. A drive that bounces takes some milliseconds, so use few samples there; a drive without
+/// a closed form, which analyse() searches, some tenths of a second. Throws InvalidInput with every
+/// fault of the drive, the sampling and the questions.
 [[nodiscard]] ToleranceStudy study_tolerances(const TolerancedDrive& drive,
                                               const SamplePlan& sampling = {},
                                               const StudyQuestions& questions = {},

@@ -149,6 +149,9 @@ void write_tolerance_csv(const ToleranceReport& report, const TextSink& sink) {
     table.row(quantity, of, value_of(estimate), error_of(estimate));
   };
   for (const auto& [name, estimate] : single_estimates(report)) line(name, "", estimate);
+  if (report.study.relative_accuracy > 0.0) {
+    line("relative_accuracy_of_quantiles", "", Estimate{.value = report.study.relative_accuracy});
+  }
   for (const QuantileSeries& series : quantile_series(report)) {
     for (const QuantileEstimate& quantile : series.quantiles) {
       line(std::string(series.name) + "_quantile", exact_text(quantile.share), quantile.value);
@@ -175,6 +178,10 @@ void write_tolerance_netcdf(const ToleranceReport& report, const OutputFile& out
   description.set_attribute_of_file("history", report.provenance.command);
   if (!report.target_text.empty()) {
     description.set_attribute_of_file("target", report.target_text);
+  }
+  if (report.study.relative_accuracy > 0.0) {
+    description.set_attribute_of_file("relative_accuracy_of_quantiles",
+                                      exact_text(report.study.relative_accuracy));
   }
   for (const auto& [name, estimate] : single_estimates(report)) {
     const bool is_amplitude = std::string(name) == "mean_amplitude";

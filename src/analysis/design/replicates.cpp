@@ -122,6 +122,18 @@ SortedReplicates SortedReplicates::finite() const {
   return part;
 }
 
+SketchedReplicates::SketchedReplicates(std::span<const QuantileSketch> replicates)
+    : replicates_(replicates) {
+  for (const QuantileSketch& replicate : replicates) whole_.merge(replicate);
+}
+
+std::optional<Estimate> SketchedReplicates::estimated_quantile(double p) const {
+  if (whole_.size() == 0) return std::nullopt;
+  std::vector<double> each;
+  for (const QuantileSketch& replicate : replicates_) each.push_back(replicate.quantile(p));
+  return estimate_of(whole_.quantile(p), each);
+}
+
 std::size_t block_count(const SamplePlan& sampling, std::size_t points_at_a_time) {
   return (sampling.points + points_at_a_time - 1) / points_at_a_time * sampling.replicates;
 }

@@ -9,6 +9,7 @@
 
 #include "analysis/grid/grid_evaluation.hpp"
 #include "gearlash/tolerance.hpp"
+#include "numeric/quantile_sketch.hpp"
 
 namespace gearlash::detail {
 
@@ -35,6 +36,19 @@ struct SortedReplicates {
   std::size_t count_between(double low, double high) const;    ///< low ≤ x < high
   SortedReplicates above(double floor) const;
   SortedReplicates finite() const;
+};
+
+/// The same estimates from sketches, within their relative accuracy.
+class SketchedReplicates {
+ public:
+  explicit SketchedReplicates(std::span<const QuantileSketch> replicates);
+  /// All replicates together.
+  const QuantileSketch& whole() const { return whole_; }
+  std::optional<Estimate> estimated_quantile(double p) const;  ///< empty where there are none
+
+ private:
+  std::span<const QuantileSketch> replicates_;
+  QuantileSketch whole_;
 };
 
 /// A range of points of one replicate.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 #include "analysis/design/drawn_results.hpp"
 #include "analysis/design/drawn_values.hpp"
@@ -11,6 +12,7 @@
 #include "base/on_threads.hpp"
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
+#include "numeric/quantile_sketch.hpp"
 
 namespace gearlash {
 namespace {
@@ -39,17 +41,30 @@ struct Counts {
   }
 };
 
-/// Columns, replicate by replicate.
+/// Every value, replicate by replicate.
 struct Columns {
   std::vector<double> amplitude;  ///< infinite where unknown
   std::vector<double> frequency;  ///< no_cycle where there is none
 };
 
-Counts count_block(const detail::DrawnResults& results, std::size_t place, Columns& columns) {
+/// Values of each replicate that are too many to keep.
+struct Sketches {
+  explicit Sketches(std::size_t replicates)
+      : amplitude(replicates),
+        amplitude_of_hunting(replicates),
+        frequency(replicates),
+        adding(replicates) {}
+
+  std::vector<QuantileSketch> amplitude;
+  std::vector<QuantileSketch> amplitude_of_hunting;  ///< those above 0
+  std::vector<QuantileSketch> frequency;             ///< of drives with a cycle
+  std::vector<std::mutex> adding;
+};
+
+Counts count_block(const detail::DrawnResults& results) {
   Counts counts{.refused = results.refused};
   for (std::size_t row = 0; row < results.rows(); ++row) {
     const double size = results.amplitude(row);
-    const double frequency = results.performance[row].frequency;
     if (results.hunts(row)) ++counts.hunting;
     if (results.meets[row]) ++counts.meeting;
     if (results.verdict(row) == Verdict::undecided) ++counts.undecided;
@@ -58,10 +73,35 @@ Counts count_block(const detail::DrawnResults& results, std::size_t place, Colum
       ++counts.finite_amplitudes;
       counts.sum_of_amplitudes += size;
     }
-    columns.amplitude[place + row] = std::isnan(size) ? infinity : size;
-    columns.frequency[place + row] = std::isnan(frequency) ? no_cycle : frequency;
   }
   return counts;
+}
+
+double known_amplitude(const detail::DrawnResults& results, std::size_t row) {
+  const double size = results.amplitude(row);
+  return std::isnan(size) ? infinity : size;
+}
+
+void keep_block(const detail::DrawnResults& results, std::size_t place, Columns& columns) {
+  for (std::size_t row = 0; row < results.rows(); ++row) {
+    const double frequency = results.performance[row].frequency;
+    columns.amplitude[place + row] = known_amplitude(results, row);
+    columns.frequency[place + row] = std::isnan(frequency) ? no_cycle : frequency;
+  }
+}
+
+/// In any order of the blocks: the sketches are the same.
+void keep_block(const detail::DrawnResults& results, const detail::SampleBlock& block,
+                Sketches& sketches) {
+  const std::size_t replicate = block.replicate;
+  const std::scoped_lock lock(sketches.adding[replicate]);
+  for (std::size_t row = 0; row < results.rows(); ++row) {
+    const double size = known_amplitude(results, row);
+    const double frequency = results.performance[row].frequency;
+    sketches.amplitude[replicate].add(size);
+    if (size > 0.0) sketches.amplitude_of_hunting[replicate].add(size);
+    if (frequency > no_cycle) sketches.frequency[replicate].add(frequency);
+  }
 }
 
 /// Sorts the numbers of each replicate.
@@ -77,7 +117,8 @@ detail::SortedReplicates sorted(std::vector<double>& column, const SamplePlan& s
   return all;
 }
 
-std::vector<QuantileEstimate> quantiles_of(const detail::SortedReplicates& numbers,
+template <class Replicates>  // SortedReplicates or SketchedReplicates
+std::vector<QuantileEstimate> quantiles_of(const Replicates& numbers,
                                            const std::vector<double>& shares) {
   std::vector<QuantileEstimate> quantiles;
   for (const double share : shares) {
@@ -86,24 +127,51 @@ std::vector<QuantileEstimate> quantiles_of(const detail::SortedReplicates& numbe
   return quantiles;
 }
 
-AmplitudeHistogram histogram_of(const detail::SortedReplicates& sizes, std::size_t bins) {
-  const detail::SortedReplicates hunting = sizes.above(0.0).finite();
-  const std::size_t count = hunting.size();
+/// Empty bins from `low` to `high`.
+AmplitudeHistogram bins_between(double low, double high, std::size_t bins) {
   AmplitudeHistogram histogram;
-  histogram.quiet = sizes.count_between(0.0, std::numeric_limits<double>::denorm_min());
-  histogram.unknown = sizes.size() - histogram.quiet - count;
-  if (count == 0 || bins == 0) return histogram;
-  const double low = hunting.smallest(0);
-  const double high = hunting.smallest(count - 1);
   for (std::size_t i = 0; i < bins; ++i) {
     histogram.edges.push_back(low +
                               (high - low) * static_cast<double>(i) / static_cast<double>(bins));
   }
   histogram.edges.push_back(high);
-  for (std::size_t i = 0; i < bins; ++i) {
+  histogram.counts.assign(bins, 0);
+  return histogram;
+}
+
+AmplitudeHistogram histogram_of(const detail::SortedReplicates& sizes, std::size_t bins) {
+  const detail::SortedReplicates hunting = sizes.above(0.0).finite();
+  const std::size_t count = hunting.size();
+  AmplitudeHistogram histogram;
+  if (count > 0 && bins > 0) {
+    histogram = bins_between(hunting.smallest(0), hunting.smallest(count - 1), bins);
+  }
+  histogram.quiet = sizes.count_between(0.0, std::numeric_limits<double>::denorm_min());
+  histogram.unknown = sizes.size() - histogram.quiet - count;
+  for (std::size_t i = 0; i < histogram.counts.size(); ++i) {
     const bool is_last = i + 1 == bins;
-    histogram.counts.push_back(
-        hunting.count_between(histogram.edges[i], is_last ? infinity : histogram.edges[i + 1]));
+    histogram.counts[i] =
+        hunting.count_between(histogram.edges[i], is_last ? infinity : histogram.edges[i + 1]);
+  }
+  return histogram;
+}
+
+/// Each value is counted where the middle of its bucket lies.
+AmplitudeHistogram histogram_of(const detail::SketchedReplicates& sizes,
+                                const detail::SketchedReplicates& hunting, std::size_t bins) {
+  const QuantileSketch& all = hunting.whole();
+  AmplitudeHistogram histogram;
+  const double low = all.smallest_finite();
+  const double high = all.largest_finite();
+  if (all.finite() > 0 && bins > 0) histogram = bins_between(low, high, bins);
+  histogram.quiet = sizes.whole().size() - all.size();
+  histogram.unknown = all.size() - all.finite();
+  if (histogram.counts.empty()) return histogram;
+  for (const QuantileSketch::Bucket& bucket : all.buckets()) {
+    const double middle = std::clamp(bucket.low + 0.5 * (bucket.high - bucket.low), low, high);
+    const auto above =
+        std::upper_bound(histogram.edges.begin() + 1, histogram.edges.end() - 1, middle);
+    histogram.counts[static_cast<std::size_t>(above - histogram.edges.begin()) - 1] += bucket.count;
   }
   return histogram;
 }
@@ -145,6 +213,17 @@ ToleranceStudy counted(const SamplePlan& sampling, const std::vector<Counts>& bl
   return study;
 }
 
+/// What is known from the sketches.
+void add_values(const Sketches& sketches, const StudyQuestions& questions, ToleranceStudy& study) {
+  const detail::SketchedReplicates sizes(sketches.amplitude);
+  const detail::SketchedReplicates hunting(sketches.amplitude_of_hunting);
+  study.relative_accuracy = QuantileSketch::relative_accuracy;
+  study.amplitude = quantiles_of(sizes, questions.shares);
+  study.amplitude_of_hunting = quantiles_of(hunting, questions.shares);
+  study.frequency = quantiles_of(detail::SketchedReplicates(sketches.frequency), questions.shares);
+  study.histogram = histogram_of(sizes, hunting, questions.bins);
+}
+
 void require_sound(const TolerancedDrive& drive, const SamplePlan& sampling,
                    const StudyQuestions& questions) {
   RangeCheck check;
@@ -177,16 +256,28 @@ ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& 
   const detail::DrawnValues values(drive, sampling, 1);
   const detail::DrawnAnswers answers(drive, questions.target, questions.amplitude, workers.unit);
   const std::size_t at_a_time = answers.at_a_time();
-  Columns columns{std::vector<double>(sampling.samples()), std::vector<double>(sampling.samples())};
+  const bool keeps_all = sampling.samples() <= questions.most_exact;
+  const std::size_t kept = keeps_all ? sampling.samples() : 0;
+  Columns columns{std::vector<double>(kept), std::vector<double>(kept)};
+  Sketches sketches(keeps_all ? 0 : sampling.replicates);
   std::vector<Counts> blocks(detail::block_count(sampling, at_a_time));
   const auto work = [&](const detail::SampleBlock& block, Progress& of_block) {
-    blocks[block.index] = count_block(answers.of(block.count, values.of(block), of_block),
-                                      block.replicate * sampling.points + block.first, columns);
+    const detail::DrawnResults results = answers.of(block.count, values.of(block), of_block);
+    blocks[block.index] = count_block(results);
+    if (keeps_all) {
+      keep_block(results, block.replicate * sampling.points + block.first, columns);
+    } else {
+      keep_block(results, block, sketches);
+    }
   };
   const bool all_done = detail::for_all_blocks(sampling, at_a_time, workers, progress, work);
   ToleranceStudy study = counted(sampling, blocks);
   study.stopped = !all_done;
   if (study.stopped) return study;
+  if (!keeps_all) {
+    add_values(sketches, questions, study);
+    return study;
+  }
   const detail::SortedReplicates sizes = sorted(columns.amplitude, sampling, workers.threads);
   study.amplitude = quantiles_of(sizes, questions.shares);
   study.amplitude_of_hunting = quantiles_of(sizes.above(0.0), questions.shares);

@@ -279,6 +279,62 @@ TEST(PropertyToleranceStudy, APlainCountOfDrivesAgrees) {
   EXPECT_EQ(counted, sampling.samples());
 }
 
+void expect_close(const std::vector<QuantileEstimate>& sketched,
+                  const std::vector<QuantileEstimate>& exact) {
+  ASSERT_EQ(sketched.size(), exact.size());
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    const double value = exact[i].value->value;
+    EXPECT_NEAR(sketched[i].value->value, value, 1.001 / 1024.0 * value) << exact[i].share;
+    EXPECT_NEAR(*sketched[i].value->standard_error, *exact[i].value->standard_error,
+                1.0 / 1024.0 * value);
+  }
+}
+
+TEST(PropertyToleranceStudy, SketchesAreWithinTheirAccuracyOfAllValues) {
+  const SamplePlan sampling{.points = 4096, .replicates = 8, .seed = 46};
+  SCOPED_TRACE(sampling.seed);
+  const TolerancedDrive drive = widely_toleranced();
+  StudyQuestions questions{.shares = {0.0, 0.02, 0.3, 0.5, 0.9, 0.999, 1.0}};
+  questions.most_exact = sampling.samples();
+  const ToleranceStudy exact = study_tolerances(drive, sampling, questions);
+  EXPECT_EQ(exact.relative_accuracy, 0.0);
+  questions.most_exact = sampling.samples() - 1;
+  const ToleranceStudy sketched = study_tolerances(drive, sampling, questions);
+  EXPECT_EQ(sketched.relative_accuracy, 1.0 / 1024.0);
+  EXPECT_EQ(sketched.hunting.value, exact.hunting.value);
+  EXPECT_EQ(sketched.mean_amplitude->value, exact.mean_amplitude->value);
+  expect_close(sketched.amplitude, exact.amplitude);
+  expect_close(sketched.amplitude_of_hunting, exact.amplitude_of_hunting);
+  expect_close(sketched.frequency, exact.frequency);
+  EXPECT_EQ(sketched.amplitude_of_hunting.front().value->value,
+            exact.amplitude_of_hunting.front().value->value);
+  EXPECT_EQ(sketched.amplitude.back().value->value, exact.amplitude.back().value->value);
+  EXPECT_NE(sketched.amplitude[4].value->value, exact.amplitude[4].value->value);
+  EXPECT_EQ(sketched.histogram.edges, exact.histogram.edges);
+  EXPECT_EQ(sketched.histogram.quiet, exact.histogram.quiet);
+  EXPECT_EQ(sketched.histogram.unknown, exact.histogram.unknown);
+  std::size_t of_sketches = 0;
+  std::size_t of_values = 0;
+  for (std::size_t i = 0; i < exact.histogram.counts.size(); ++i) {
+    of_sketches += sketched.histogram.counts[i];
+    of_values += exact.histogram.counts[i];
+    // What lies within a thousandth of an edge, of a smooth distribution.
+    EXPECT_NEAR(static_cast<double>(of_sketches), static_cast<double>(of_values),
+                4e-3 * static_cast<double>(sampling.samples()));
+  }
+  EXPECT_EQ(of_sketches, of_values);
+  for (const std::size_t threads : {1U, 3U}) {
+    const ToleranceStudy again =
+        study_tolerances(drive, sampling, questions, Workers{.threads = threads});
+    for (std::size_t i = 0; i < again.amplitude.size(); ++i) {
+      EXPECT_EQ(again.amplitude[i].value->value, sketched.amplitude[i].value->value);
+      EXPECT_EQ(again.amplitude[i].value->standard_error,
+                sketched.amplitude[i].value->standard_error);
+    }
+    EXPECT_EQ(again.histogram.counts, sketched.histogram.counts);
+  }
+}
+
 TEST(PropertyToleranceStudy, IndicesAreSharesOfOneWhole) {
   const SamplePlan sampling{.points = 4096, .replicates = 8, .seed = 47};
   SCOPED_TRACE(sampling.seed);
