@@ -215,6 +215,7 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
   }
   report.worst = worst_corner(task.drive, task.worst_search, {},
                               begin("Worst sample", 2 * task.worst_search.starts, "climbs"));
+  report.proved = ceiling_of_all(task.drive, task.questions.amplitude, begin("Proof", 0, ""));
   progress.reset();
   Extras extras;
   if (!options.output.empty()) extras.make([&] { write_data(report, options.output); });

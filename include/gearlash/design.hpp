@@ -97,6 +97,17 @@ struct Border {
   std::string event{};   ///< of a grazing: "mode: event"
 };
 
+/// How far a target on ceilings alone is proved over an interval of values.
+struct IntervalProof {
+  /// Rising, apart from each other: every value within meets the target, proved with outward
+  /// rounding over all of it. What lies between them, usually next to the ends of the interval,
+  /// where the limit is nearly reached, is searched.
+  std::vector<Bounds> parts{};
+  std::size_t boxes = 0;        ///< by whose bounds it is proved
+  std::size_t evaluations = 0;  ///< of boxes
+  std::string reason{};         ///< why nothing is proved
+};
+
 /// The values of one parameter that meet a target.
 struct FeasibleValues {
   std::string parameter{};  ///< its path, or "tachometer" and so on
@@ -128,6 +139,9 @@ struct FeasibleValues {
   /// a stable cycle that misses the target goes on into an interval in which no start leads to it, the
   /// interval ends with it; one that it fills is undecided.
   std::vector<Border> borders{};
+  /// Searched: one for each interval, if the target limits ceilings alone and the parameter is a
+  /// number.
+  std::vector<IntervalProof> proofs{};
   bool stopped = false;  ///< by Progress: values not reached are undecided
 
   [[nodiscard]] bool contains(double value) const;

@@ -140,6 +140,29 @@ std::string undecided_text(const SearchedDesignReport& report) {
   return parts.empty() ? "" : " Undecided: " + parts + ".";
 }
 
+/// What is proved of the intervals of a target on ceilings; empty for other targets.
+std::string proofs_text(const SearchedDesignReport& report) {
+  std::string text;
+  for (const SearchedParameter& parameter : report.parameters) {
+    const FeasibleValues& values = parameter.values;
+    const ParameterText shown(report.drive, values.parameter, report.angle);
+    for (std::size_t i = 0; i < values.proofs.size(); ++i) {
+      const IntervalProof& proof = values.proofs[i];
+      text += "  " + values.parameter + " " + shown.of(values.intervals[i]) + ": ";
+      if (proof.parts.empty()) {
+        text += "searched, not proved: " + proof.reason + "\n";
+        continue;
+      }
+      text += "proved for";
+      for (const Bounds& part : proof.parts) {
+        text += (&part == &proof.parts.front() ? " " : " and ") + shown.of(part);
+      }
+      text += fmt::format(" ({} {})\n", proof.boxes, proof.boxes == 1 ? "box" : "boxes");
+    }
+  }
+  return text.empty() ? "" : "Every value of these parts meets the target\n" + text + "\n";
+}
+
 std::string certainty(const SearchedDesignReport& report) {
   std::string grids;
   double located = 0.0;
@@ -155,8 +178,13 @@ std::string certainty(const SearchedDesignReport& report) {
     located = std::max(located, values.located);
     is_stopped = is_stopped || values.stopped;
   }
-  return "Searched, not proved: at each value of a grid the drive was followed from many starts (" +
-         grids + "). What is narrower than the distance of two values may be missed. " +
+  const bool has_proofs = std::any_of(
+      report.parameters.begin(), report.parameters.end(),
+      [](const SearchedParameter& parameter) { return !parameter.values.proofs.empty(); });
+  return (has_proofs ? "All else is searched, not proved: at each"
+                     : "Searched, not proved: at each") +
+         std::string(" value of a grid the drive was followed from many starts (") + grids +
+         "). What is narrower than the distance of two values may be missed. " +
          (located > 0.0 ? "Ends of intervals are located to " + significant(located, 1) +
                               " of their value, by following the drive from value to value, and "
                               "were searched again."
@@ -246,6 +274,14 @@ Json json_parameter(const Drive& drive, const SearchedParameter& parameter) {
                          {"located", json_number(border.located)},
                          {"event", border.event.empty() ? Json(nullptr) : Json(border.event)}};
            })},
+          {"proofs", json_list(values.proofs,
+                               [&](const IntervalProof& proof) {
+                                 const bool is_proved = !proof.parts.empty();
+                                 return Json{
+                                     {"proved", json_list(proof.parts, of_interval)},
+                                     {"boxes", proof.boxes},
+                                     {"reason", is_proved ? Json(nullptr) : Json(proof.reason)}};
+                               })},
           {"undecided", json_list(values.undecided, of_interval)},
           {"nearest", values.intervals.empty() ? Json(nullptr) : best},
           {"closest", values.intervals.empty() ? best : Json(nullptr)}};
@@ -260,7 +296,8 @@ std::string design_text(const SearchedDesignReport& report) {
                                                             : "not met";
   return fmt::format("target: {}\nat present: {}, {}\n\n", report.target_text,
                      result_text(present, report.angle), met) +
-         table_of_results(report) + borders_text(report) + reasons(report) + wrapped(certainty(report));
+         table_of_results(report) + borders_text(report) + reasons(report) + proofs_text(report) +
+         wrapped(certainty(report));
 }
 
 std::string design_json(const SearchedDesignReport& report) {

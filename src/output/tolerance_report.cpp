@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/overloaded.hpp"
+#include "model/reduced_drive.hpp"
 #include "output/columns.hpp"
 #include "output/drive_text.hpp"
 #include "output/json_values.hpp"
@@ -175,6 +176,28 @@ std::string worst_text(const ToleranceReport& report) {
   return text + how;
 }
 
+bool has_limit(const Drive& drive) {
+  const drive::ReducedDrive reduced = reduce(drive);
+  return std::isfinite(reduced.torque_limit) || std::isfinite(reduced.winding.torque_limit);
+}
+
+std::string proved_text(const ToleranceReport& report) {
+  const EnclosedCeiling& proved = report.proved;
+  if (!proved.bound) {
+    return "Not proved: a bound of all samples within the tolerances (" + proved.reason + ").";
+  }
+  std::string text = "Proved: no sample within the tolerances swings by more than " +
+                     swing_bound_text(*proved.bound, report.angle, digits) + " in the end" +
+                     (has_limit(report.drive.nominal) ? ", if its torque stays off the limit" : "");
+  text += fmt::format(" (the ceiling, over {} {}", proved.parts,
+                      proved.parts == 1 ? "box" : "boxes of parameters");
+  if (proved.largest) {
+    text +=
+        "; of single drives it reaches " + swing_bound_text(*proved.largest, report.angle, digits);
+  }
+  return text + ").";
+}
+
 std::string backlash_text(const ToleranceReport& report) {
   if (report.demanded_yield == 0.0) return "";
   const std::string demand = significant(100.0 * report.demanded_yield, digits) + " %";
@@ -277,8 +300,8 @@ std::string tolerance_text(const ToleranceReport& report) {
              "each\nparameter causes alone, and in all, together with others (Sobol's indices, "
              "± {})\n",
              significant(widest_bar(report.sensitivities), 1)) +
-         table_text(number_rows(report)) + "\n" + wrapped(worst_text(report)) +
-         backlash_text(report) + "\n" + counts_text(report);
+         table_text(number_rows(report)) + "\n" + wrapped(worst_text(report)) + "\n" +
+         wrapped(proved_text(report)) + backlash_text(report) + "\n" + counts_text(report);
 }
 
 std::string tolerance_json(const ToleranceReport& report) {
@@ -300,6 +323,10 @@ std::string tolerance_json(const ToleranceReport& report) {
   json["histogram"] = json_histogram(study.histogram);
   json["parameters"] = json_parameters(report);
   json["worst"] = json_performance(report.worst.performance);
+  json["proved"] = {{"bound", json_optional(report.proved.bound)},
+                    {"reason", report.proved.bound ? Json(nullptr) : Json(report.proved.reason)},
+                    {"largest_of_single_drives", json_optional(report.proved.largest)},
+                    {"boxes", report.proved.parts}};
   json["backlash"] = json_backlash(report);
   json["undecided"] = study.undecided;
   json["unknown_amplitudes"] = study.unknown_amplitudes;

@@ -18,6 +18,7 @@ struct ToleranceReport {
   Quantity amplitude = Quantity::amplitude;  ///< whose amplitude: of the load, or motor_amplitude
   ToleranceStudy study = {};
   SensitivityStudy sensitivities = {};
+  EnclosedCeiling proved{};  ///< of the amplitude of all samples
   WorstCorner worst = {};
   std::optional<WidestBacklash> backlash = {};  ///< if a yield was demanded and can be reached
   AngleUnit angle = {};                         ///< of text

@@ -130,6 +130,10 @@ TEST(EdgeQuantileSketch, SpecialValuesHaveTheirPlaces) {
   EXPECT_EQ(sketch.largest_finite(), 3.0);
   EXPECT_EQ(sketch.quantile(1.0), infinity);
   EXPECT_EQ(sketch.quantile(0.5), 0.0);
+  QuantileSketch mixed;
+  for (const double value : {4.0, 0.0, 2.0, 0.0, 8.0}) mixed.add(value);
+  EXPECT_NEAR(mixed.value_at(2), 2.0, accuracy * 2.0);
+  EXPECT_NEAR(mixed.value_at(3), 4.0, accuracy * 4.0);
   QuantileSketch one;
   one.add(7.0);
   for (const double share : {0.0, 0.5, 1.0}) EXPECT_EQ(one.quantile(share), 7.0);

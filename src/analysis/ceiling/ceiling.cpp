@@ -41,35 +41,48 @@ std::string obstacle(const ReducedDrive& drive) {
   return {};
 }
 
-std::vector<Source> sources_of(const ReducedDrive& drive) {
+std::vector<Source> sources_of(const EnclosedDrive& drive) {
+  const ReducedDrive& form = drive.form();
   std::vector<Source> sources;
   const auto add = [&](std::string_view name, Disturbance disturbance, const Interval& size) {
     if (size.high > 0.0) sources.push_back({name, disturbance, size});
   };
-  add("gap", Disturbance::gap, 0.5 * datum(drive.backlash));
-  add("motor friction", Disturbance::torque_on_motor, datum(drive.motor.friction.breakaway));
-  add("load friction", Disturbance::torque_on_load, datum(drive.load.friction.breakaway));
-  const drive::Sensing& sensing = drive.sensing;
-  const Interval of_position = 0.5 * datum(sensing.resolution);
-  const Interval of_speed = 0.5 * datum(sensing.resolution_of_speed);
-  const bool counts = drive.sampling && drive.sampling->speed_by_differences;
-  if (counts && sensing.load_share_of_position == sensing.load_share_of_speed &&
-      sensing.resolution == sensing.resolution_of_speed) {
+  add("gap", Disturbance::gap,
+      0.5 * drive.number([](const ReducedDrive& d) { return d.backlash; }));
+  add("motor friction", Disturbance::torque_on_motor,
+      drive.number([](const ReducedDrive& d) { return d.motor.friction.breakaway; }));
+  add("load friction", Disturbance::torque_on_load,
+      drive.number([](const ReducedDrive& d) { return d.load.friction.breakaway; }));
+  const Interval of_position =
+      0.5 * drive.number([](const ReducedDrive& d) { return d.sensing.resolution; });
+  const Interval of_speed =
+      0.5 * drive.number([](const ReducedDrive& d) { return d.sensing.resolution_of_speed; });
+  const bool counts = form.sampling && form.sampling->speed_by_differences;
+  // Else as of two encoders, whose gains add up to no less.
+  const bool is_one_encoder = !drive.any_of([](const ReducedDrive& d) {
+    return d.sensing.load_share_of_position != d.sensing.load_share_of_speed ||
+           d.sensing.resolution != d.sensing.resolution_of_speed;
+  });
+  if (counts && is_one_encoder) {
     add("encoder", Disturbance::both_readings, of_position);
   } else {
     add("encoder", Disturbance::position_reading, of_position);
     if (counts) add("speed encoder", Disturbance::speed_reading, of_speed);
   }
   // What it changes the error by is an error of the position.
-  add(drive.error_shape.inner_gain == 0.0 ? "dead band" : "backlash compensation",
-      Disturbance::position_reading, datum(drive.error_shape.largest_change()));
-  if (!std::holds_alternative<double>(drive.reference)) {
-    add(friction_compensation, Disturbance::torque_on_motor, abs(datum(drive.feedforward.torque)));
+  add(form.error_shape.inner_gain == 0.0 ? "dead band" : "backlash compensation",
+      Disturbance::position_reading,
+      drive.number([](const ReducedDrive& d) { return d.error_shape.largest_change(); }));
+  if (!std::holds_alternative<double>(form.reference)) {
+    add(friction_compensation, Disturbance::torque_on_motor,
+        abs(drive.number([](const ReducedDrive& d) { return d.feedforward.torque; })));
     add("backlash compensation", Disturbance::position_reading,
-        abs(datum(drive.feedforward.half_gap)));
+        abs(drive.number([](const ReducedDrive& d) { return d.feedforward.half_gap; })));
   }
-  if (const auto* sine = std::get_if<drive::Sine>(&drive.load_torque)) {
-    add("load torque", Disturbance::torque_on_load, abs(datum(sine->amplitude)));
+  if (std::holds_alternative<drive::Sine>(form.load_torque)) {
+    add("load torque", Disturbance::torque_on_load, abs(drive.number([](const ReducedDrive& d) {
+          return std::get<drive::Sine>(d.load_torque).amplitude;
+        })));
   }
   return sources;
 }
@@ -91,45 +104,62 @@ bool follows_error(const drive::LinearController& controller) {
 
 /// Of rest, or of an even motion along a ramp; empty where the reference or the load torque moves
 /// in another way, but for a sine of the load torque, which is a source.
-std::optional<Carried> carried_by(const ReducedDrive& drive, DisturbedLoop& loop) {
-  if (std::holds_alternative<drive::Ramp>(drive.load_torque)) return std::nullopt;
-  const Interval load_torque = datum(drive::middle_of(drive.load_torque));
-  const auto* ramp = std::get_if<drive::Ramp>(&drive.reference);
-  if (ramp == nullptr && !std::holds_alternative<double>(drive.reference)) return std::nullopt;
-  if (drive.gravity.stiffness != 0.0) {
+std::optional<Carried> carried_by(const EnclosedDrive& drive, DisturbedLoop& loop) {
+  const ReducedDrive& form = drive.form();
+  if (std::holds_alternative<drive::Ramp>(form.load_torque)) return std::nullopt;
+  const Interval load_torque =
+      drive.number([](const ReducedDrive& d) { return drive::middle_of(d.load_torque); });
+  const auto* ramp = std::get_if<drive::Ramp>(&form.reference);
+  if (ramp == nullptr && !std::holds_alternative<double>(form.reference)) return std::nullopt;
+  if (drive.any_of([](const ReducedDrive& d) { return d.gravity.stiffness != 0.0; })) {
     const drive::LinearController controller =
-        drive.sampling ? drive::sampled_controller(drive.controller, *drive.sampling)
-                       : drive::linear_controller(drive.controller);
+        form.sampling ? drive::sampled_controller(form.controller, *form.sampling)
+                      : drive::linear_controller(form.controller);
     if (ramp != nullptr || !follows_error(controller)) return std::nullopt;
     // A constant torque displaces the loop by no more than any torque of that size.
     const LoopGain gain = loop.gain(Disturbance::torque_on_load);
     const Interval displacement = abs(load_torque) * Interval(gain.load);
     return Carried{abs(load_torque) * Interval(gain.effort),
-                   abs(load_torque) + abs(datum(drive.gravity.stiffness)) * displacement};
+                   abs(load_torque) + abs(drive.number([](const ReducedDrive& d) {
+                                        return d.gravity.stiffness;
+                                      })) *
+                                          displacement};
   }
-  const Interval speed = ramp == nullptr ? Interval(0.0) : datum(ramp->rate);
-  Interval friction = datum(drive.motor.friction.viscous) + datum(drive.load.friction.viscous);
-  if (drive.winding.time_constant > 0.0) friction = friction + datum(drive.winding.back_emf);
-  return Carried{friction * speed - load_torque,
-                 datum(drive.load.friction.viscous) * speed - load_torque};
+  Interval speed = 0.0;
+  if (ramp != nullptr) {
+    speed =
+        drive.number([](const ReducedDrive& d) { return std::get<drive::Ramp>(d.reference).rate; });
+  }
+  const Interval load_friction =
+      drive.number([](const ReducedDrive& d) { return d.load.friction.viscous; });
+  Interval friction =
+      drive.number([](const ReducedDrive& d) { return d.motor.friction.viscous; }) + load_friction;
+  if (form.winding.time_constant > 0.0) {
+    friction = friction + drive.number([](const ReducedDrive& d) { return d.winding.back_emf; });
+  }
+  return Carried{friction * speed - load_torque, load_friction * speed - load_torque};
 }
 
 // ---- the gap's speed ----------------------------------------------------------------------------
 
 /// Empty if the torque that the mesh carries is not known.
-std::optional<GapMotion> gap_motion(const ReducedDrive& drive, DisturbedLoop& loop,
+std::optional<GapMotion> gap_motion(const EnclosedDrive& drive, DisturbedLoop& loop,
                                     const std::vector<ScaledSource>& sources,
                                     const std::optional<Carried>& carried) {
-  const auto* faces = std::get_if<drive::RigidContact>(&drive.contact);
-  if (!carried || faces == nullptr) return std::nullopt;
+  using drive::RigidContact;
+  if (!carried || !std::holds_alternative<RigidContact>(drive.form().contact)) return std::nullopt;
   // Once the faces part the mesh torque is gone.
   Interval acceleration =
-      abs(carried->mesh) * (1.0 / datum(drive.motor.inertia) + 1.0 / datum(drive.load.inertia));
+      abs(carried->mesh) * (1.0 / drive.number([](const ReducedDrive& d) {
+        return d.motor.inertia;
+      }) + 1.0 / drive.number([](const ReducedDrive& d) { return d.load.inertia; }));
   for (const ScaledSource& one : sources) {
     acceleration = acceleration + one.source.size * Interval(one.gain.gap_acceleration);
   }
-  return GapMotion{.backlash = datum(drive.backlash),
-                   .restitution = datum(faces->restitution),
+  return GapMotion{.backlash = drive.number([](const ReducedDrive& d) { return d.backlash; }),
+                   .restitution = drive.number([](const ReducedDrive& d) {
+                     return std::get<RigidContact>(d.contact).restitution;
+                   }),
                    .acceleration = acceleration,
                    .per_speed = loop.gain(Disturbance::gap_speed).gap_acceleration,
                    .slope = loop.gap_acceleration_per_speed()};
@@ -213,12 +243,13 @@ std::string obstacle_of_gap_speed(const std::optional<Carried>& carried) {
 
 }  // namespace
 
-Ceiling ceiling_of(const ReducedDrive& drive) {
+Ceiling ceiling_of(const EnclosedDrive& drive) {
+  const ReducedDrive& form = drive.form();
   Ceiling ceiling;
-  ceiling.reason = obstacle(drive);
+  ceiling.reason = obstacle(form);
   if (!ceiling.reason.empty()) return ceiling;
   const std::unique_ptr<DisturbedLoop> loop =
-      drive.sampling ? sampled_loop(drive) : continuous_loop(drive);
+      form.sampling ? sampled_loop(drive) : continuous_loop(drive);
   if (loop == nullptr) {
     ceiling.reason = "the loop with the gap closed is not proved stable";
     return ceiling;
@@ -232,8 +263,8 @@ Ceiling ceiling_of(const ReducedDrive& drive) {
       gain.effort = (Interval(gain.effort) + 1.0).high;
     }
   }
-  const bool has_current_limit = std::isfinite(drive.winding.torque_limit);
-  ceiling.is_below_limit = std::isfinite(drive.torque_limit) || has_current_limit;
+  const bool has_current_limit = std::isfinite(form.winding.torque_limit);
+  ceiling.is_below_limit = std::isfinite(form.torque_limit) || has_current_limit;
   std::optional<Carried> carried;
   if (ceiling.is_below_limit || loop->reads_gap_speed()) carried = carried_by(drive, *loop);
 
@@ -262,14 +293,19 @@ Ceiling ceiling_of(const ReducedDrive& drive) {
   }
   if (!ceiling.effort) ceiling.effort_reason = obstacle_of_gap_speed(carried);
   if (!carried || !ceiling.effort || !ceiling.is_below_limit || has_current_limit) return ceiling;
-  margin.left = Interval(drive.torque_limit) - abs(carried->requested) - effort;
+  double torque_limit = infinity;
+  for (const ReducedDrive& end : drive.ends()) {
+    torque_limit = std::min(torque_limit, end.torque_limit);
+  }
+  margin.left = Interval(torque_limit) - abs(carried->requested) - effort;
   ceiling.meets_limit = margin.left.low >= 0.0;
   if (loop->reads_gap_speed()) {
     // The line above the gap's speed replaces its term.
     margin.left = margin.left + Interval(*ceiling.terms.back().effort);
   }
   if (*ceiling.meets_limit) {
-    ceiling.safe_starts = starts_within(margin, *loop, 0.5 * datum(drive.backlash));
+    ceiling.safe_starts = starts_within(
+        margin, *loop, 0.5 * drive.number([](const ReducedDrive& d) { return d.backlash; }));
   }
   return ceiling;
 }

@@ -1,13 +1,14 @@
 // The ceiling of a drive's motion.
 #pragma once
 
+#include "analysis/ceiling/enclosed.hpp"
 #include "gearlash/answer.hpp"
-#include "model/drive.hpp"
 
 namespace gearlash {
 
-/// Proved, with outward rounding, of every drive whose numbers agree with the given ones to 64
-/// units in the last place. Precondition: a sound drive with settled signals.
-Ceiling ceiling_of(const drive::ReducedDrive& drive);
+/// Proved, with outward rounding, of every drive whose numbers are enclosed: of a single drive
+/// those that agree to 64 units in the last place. Precondition: sound drives with settled signals,
+/// of one form: see enclosed_drive().
+Ceiling ceiling_of(const EnclosedDrive& drive);
 
 }  // namespace gearlash

@@ -46,9 +46,8 @@ IntervalVector extended(IntervalVector of_plant, std::size_t size) {
 }
 
 /// weight_of_position · position + weight_of_speed · speed, as the controller receives them.
-LoopOutput sensed(const Plant& plant, std::size_t size, double of_position, double of_speed) {
-  const Interval position = datum(of_position);
-  const Interval speed = datum(of_speed);
+LoopOutput sensed(const Plant& plant, std::size_t size, const Interval& position,
+                  const Interval& speed) {
   LoopOutput output;
   output.of_state = extended(
       added(scaled(position, plant.position.of_state), scaled(speed, plant.speed.of_state)), size);
@@ -81,14 +80,21 @@ void eliminate_gap_speed(Model& model) {
   model.start_of_gap = added(model.start_of_gap, scaled(-1.0, model.gap_speed));
 }
 
-Model connected(const Plant& plant, const LinearController& controller) {
-  const std::size_t order = controller.order();
+Model connected(const Plant& plant, const EnclosedController& controller) {
+  const std::size_t order = controller.form().order();
+  const auto direct = [&](std::size_t i) {
+    return controller.number([i](const LinearController& c) { return c.direct[i]; });
+  };
+  const auto input = [&](std::size_t i, std::size_t j) {
+    return controller.number([i, j](const LinearController& c) { return c.input_matrix[i][j]; });
+  };
   const std::size_t first = plant.size();  // of the controller
   const std::size_t size = first + order;
   Model model{.flow = IntervalMatrix(size)};
-  model.effort = sensed(plant, size, controller.direct[1], controller.direct[2]);
+  model.effort = sensed(plant, size, direct(1), direct(2));
   for (std::size_t i = 0; i < order; ++i) {
-    model.effort.of_state[first + i] = datum(controller.output[i]);
+    model.effort.of_state[first + i] =
+        controller.number([i](const LinearController& c) { return c.output[i]; });
   }
   const IntervalVector torque = extended(plant.torque, size);
   for (std::size_t i = 0; i < first; ++i) {
@@ -99,10 +105,10 @@ Model connected(const Plant& plant, const LinearController& controller) {
   model.gap_speed = scaled(model.effort.of_gap_speed, torque);
   model.reading = scaled(model.effort.of_reading, torque);
   for (std::size_t i = 0; i < order; ++i) {
-    const std::vector<double>& input = controller.input_matrix[i];
-    LoopOutput slope = sensed(plant, size, input[1], input[2]);
+    LoopOutput slope = sensed(plant, size, input(i, 1), input(i, 2));
     for (std::size_t j = 0; j < order; ++j) {
-      slope.of_state[first + j] = datum(controller.state_matrix[i][j]);
+      slope.of_state[first + j] =
+          controller.number([i, j](const LinearController& c) { return c.state_matrix[i][j]; });
     }
     model.flow.rows[first + i] = slope.of_state;
     model.gap[first + i] = slope.of_gap;
@@ -206,8 +212,10 @@ class ContinuousLoop : public DisturbedLoop {
   DecayingMotion motion_;
 };
 
-Model model_of(const ReducedDrive& drive) {
-  return connected(plant_of(drive), drive::linear_controller(drive.controller));
+Model model_of(const EnclosedDrive& drive) {
+  return connected(plant_of(drive), drive.made([](const ReducedDrive& d) {
+    return drive::linear_controller(d.controller);
+  }));
 }
 
 }  // namespace
@@ -216,7 +224,7 @@ bool continuous_loop_decays(const ReducedDrive& drive) {
   return DecayingMotion::of(model_of(drive).flow, TimeKind::continuous).has_value();
 }
 
-std::unique_ptr<DisturbedLoop> continuous_loop(const ReducedDrive& drive) {
+std::unique_ptr<DisturbedLoop> continuous_loop(const EnclosedDrive& drive) {
   Model model = model_of(drive);
   std::optional<DecayingMotion> motion = DecayingMotion::of(model.flow, TimeKind::continuous);
   if (!motion) return nullptr;

@@ -4,8 +4,7 @@
 
 #include <memory>
 
-#include "base/interval.hpp"
-#include "model/drive.hpp"
+#include "analysis/ceiling/enclosed.hpp"
 
 namespace gearlash {
 
@@ -59,10 +58,10 @@ bool uses_speed(const drive::LinearController& controller);
 
 /// Null if it is not proved that the loop decays. Preconditions: a continuous controller; rigid
 /// faces, or compliant ones without damping or without a gap.
-std::unique_ptr<DisturbedLoop> continuous_loop(const drive::ReducedDrive& drive);
+std::unique_ptr<DisturbedLoop> continuous_loop(const EnclosedDrive& drive);
 
-/// The same for a sampled controller.
-std::unique_ptr<DisturbedLoop> sampled_loop(const drive::ReducedDrive& drive);
+/// The same for a sampled controller, whose sampling is that of the form.
+std::unique_ptr<DisturbedLoop> sampled_loop(const EnclosedDrive& drive);
 
 /// Whether it is proved that the loop of a continuous controller decays, with the faces together.
 /// Any faces.

@@ -9,17 +9,19 @@ using drive::ReducedDrive;
 
 /// The data of a drive, with their error.
 struct Data {
-  explicit Data(const ReducedDrive& drive)
-      : motor_inertia(datum(drive.motor.inertia)),
-        load_inertia(datum(drive.load.inertia)),
-        motor_friction(datum(drive.motor.friction.viscous)),
-        load_friction(datum(drive.load.friction.viscous)),
-        weight(datum(drive.gravity.stiffness)),
-        back_emf(datum(drive.winding.back_emf)),
-        electrical_time(datum(drive.winding.time_constant)),
-        lags(drive.winding.time_constant > 0.0),
-        of_position(drive.sensing.load_share_of_position),
-        of_speed(drive.sensing.load_share_of_speed) {}
+  explicit Data(const EnclosedDrive& drive)
+      : motor_inertia(drive.number([](const ReducedDrive& d) { return d.motor.inertia; })),
+        load_inertia(drive.number([](const ReducedDrive& d) { return d.load.inertia; })),
+        motor_friction(
+            drive.number([](const ReducedDrive& d) { return d.motor.friction.viscous; })),
+        load_friction(drive.number([](const ReducedDrive& d) { return d.load.friction.viscous; })),
+        weight(drive.number([](const ReducedDrive& d) { return d.gravity.stiffness; })),
+        back_emf(drive.number([](const ReducedDrive& d) { return d.winding.back_emf; })),
+        electrical_time(
+            drive.number([](const ReducedDrive& d) { return d.winding.time_constant; })),
+        lags(drive.form().winding.time_constant > 0.0),
+        of_position(drive.form().sensing.load_share_of_position),
+        of_speed(drive.form().sensing.load_share_of_speed) {}
   Interval motor_inertia;
   Interval load_inertia;
   Interval motor_friction;
@@ -126,10 +128,8 @@ Plant rigid_plant(const Data& data) {
   return plant;
 }
 
-Plant sprung_plant(const Data& data, const drive::CompliantContact& faces) {
+Plant sprung_plant(const Data& data, const Interval& stiffness, const Interval& damping) {
   enum : std::size_t { motor, motor_speed, load, load_speed, states };
-  const Interval stiffness = datum(faces.stiffness);
-  const Interval damping = datum(faces.damping);
   const Interval per_motor = 1.0 / data.motor_inertia;
   const Interval per_load = 1.0 / data.load_inertia;
 
@@ -168,10 +168,14 @@ Plant sprung_plant(const Data& data, const drive::CompliantContact& faces) {
 
 }  // namespace
 
-Plant plant_of(const ReducedDrive& drive) {
+Plant plant_of(const EnclosedDrive& drive) {
+  using drive::CompliantContact;
   const Data data(drive);
-  const auto* faces = std::get_if<drive::CompliantContact>(&drive.contact);
-  return faces == nullptr ? rigid_plant(data) : sprung_plant(data, *faces);
+  if (!std::holds_alternative<CompliantContact>(drive.form().contact)) return rigid_plant(data);
+  const auto faces =
+      drive.made([](const ReducedDrive& d) { return std::get<CompliantContact>(d.contact); });
+  return sprung_plant(data, faces.number([](const CompliantContact& f) { return f.stiffness; }),
+                      faces.number([](const CompliantContact& f) { return f.damping; }));
 }
 
 }  // namespace gearlash

@@ -3,8 +3,7 @@
 
 #include <optional>
 
-#include "base/datum.hpp"
-#include "model/drive.hpp"
+#include "analysis/ceiling/enclosed.hpp"
 #include "numeric/interval_algebra.hpp"
 
 namespace gearlash {
@@ -53,6 +52,6 @@ struct Plant {
 
 /// Precondition for what the gap adds: rigid faces, or compliant ones without damping or without a
 /// gap. All else holds for any faces that stay together.
-Plant plant_of(const drive::ReducedDrive& drive);
+Plant plant_of(const EnclosedDrive& drive);
 
 }  // namespace gearlash

@@ -89,14 +89,14 @@ struct Spread {
 
 class SampledLoop : public DisturbedLoop {
  public:
-  explicit SampledLoop(const ReducedDrive& drive);
+  explicit SampledLoop(const EnclosedDrive& drive);
   bool decays() const { return DecayingMotion::of(changes(), TimeKind::stepwise).has_value(); }
   bool prove();
   LoopGain gain(Disturbance disturbance) override;
   StartGain start_gain(StartOutput output) override;
   bool reads_gap_speed() const override {
     const Interval& share = plant_.speed.of_gap_speed;
-    return uses_speed(controller_) && !counts_ && (share.low != 0.0 || share.high != 0.0);
+    return uses_speed_ && !counts_ && (share.low != 0.0 || share.high != 0.0);
   }
   Interval gap_acceleration_per_speed() const override {
     return plant_.gap_acceleration->of_gap_speed;
@@ -137,7 +137,8 @@ class SampledLoop : public DisturbedLoop {
   Plant plant_;
   std::vector<HeldTorque> held_;
   Interval period_;
-  LinearController controller_;
+  EnclosedController controller_;
+  bool uses_speed_ = false;
   bool counts_ = false;  ///< the speed is a difference of positions, and the last one is kept
   std::size_t first_controller_state_ = 0;
   std::size_t last_reading_ = 0;
@@ -151,12 +152,15 @@ class SampledLoop : public DisturbedLoop {
   std::optional<DecayingMotion> motion_;
 };
 
-SampledLoop::SampledLoop(const ReducedDrive& drive)
+SampledLoop::SampledLoop(const EnclosedDrive& drive)
     : plant_(plant_of(drive)),
-      held_(held_torques(*drive.sampling)),
-      period_(datum(drive.sampling->period)),
-      controller_(drive::sampled_controller(drive.controller, *drive.sampling)),
-      counts_(uses_speed(controller_) && drive.sampling->speed_by_differences),
+      held_(held_torques(*drive.form().sampling)),
+      period_(datum(drive.form().sampling->period)),
+      controller_(drive.made([](const ReducedDrive& d) {
+        return drive::sampled_controller(d.controller, *d.sampling);
+      })),
+      uses_speed_(controller_.any_of(&uses_speed)),
+      counts_(uses_speed_ && drive.form().sampling->speed_by_differences),
       first_controller_state_(plant_.size()) {
   plan(1);
 }
@@ -242,14 +246,21 @@ void SampledLoop::pass(const Hold& hold, int parts, std::vector<Form>& states) {
 void SampledLoop::plan(int parts) {
   segments_.clear();
   waiting_ = held_.front().age;
-  last_reading_ = first_controller_state_ + controller_.order();
+  last_reading_ = first_controller_state_ + controller_.form().order();
   queue_ = last_reading_ + (counts_ ? 1 : 0);
   size_ = queue_ + waiting_;
 
-  const std::size_t order = controller_.order();
-  asked_ = reading(datum(controller_.direct[1]), datum(controller_.direct[2]));
+  const std::size_t order = controller_.form().order();
+  const auto direct = [&](std::size_t i) {
+    return controller_.number([i](const LinearController& c) { return c.direct[i]; });
+  };
+  const auto input = [&](std::size_t i, std::size_t j) {
+    return controller_.number([i, j](const LinearController& c) { return c.input_matrix[i][j]; });
+  };
+  asked_ = reading(direct(1), direct(2));
   for (std::size_t i = 0; i < order; ++i) {
-    asked_.of_state[first_controller_state_ + i] = datum(controller_.output[i]);
+    asked_.of_state[first_controller_state_ + i] =
+        controller_.number([i](const LinearController& c) { return c.output[i]; });
   }
   std::vector<Form> states;
   for (std::size_t i = 0; i < plant_.size(); ++i) states.push_back(state(i));
@@ -257,10 +268,10 @@ void SampledLoop::plan(int parts) {
 
   next_ = std::move(states);
   for (std::size_t i = 0; i < order; ++i) {
-    Form next =
-        reading(datum(controller_.input_matrix[i][1]), datum(controller_.input_matrix[i][2]));
+    Form next = reading(input(i, 1), input(i, 2));
     for (std::size_t j = 0; j < order; ++j) {
-      next.of_state[first_controller_state_ + j] = datum(controller_.state_matrix[i][j]);
+      next.of_state[first_controller_state_ + j] =
+          controller_.number([i, j](const LinearController& c) { return c.state_matrix[i][j]; });
     }
     next_.push_back(std::move(next));
   }
@@ -484,7 +495,7 @@ bool uses_speed(const LinearController& controller) {
 
 bool sampled_loop_decays(const ReducedDrive& drive) { return SampledLoop(drive).decays(); }
 
-std::unique_ptr<DisturbedLoop> sampled_loop(const ReducedDrive& drive) {
+std::unique_ptr<DisturbedLoop> sampled_loop(const EnclosedDrive& drive) {
   auto loop = std::make_unique<SampledLoop>(drive);
   if (!loop->prove()) return nullptr;
   return loop;

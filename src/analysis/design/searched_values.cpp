@@ -9,6 +9,7 @@
 
 #include "analysis/analyse.hpp"
 #include "analysis/design/border.hpp"
+#include "analysis/design/proved_values.hpp"
 #include "analysis/design/value_scan.hpp"
 #include "analysis/grid/axis.hpp"
 #include "base/on_threads.hpp"
@@ -282,6 +283,13 @@ FeasibleValues feasible_values(const Drive& drive, const Axis& axis, const Targe
       is_word ? of_words(analysed, found)
               : of_numbers(analysed, resolution_over(found.searched), found);
   if (found.intervals.empty()) found.closest = closest_of(tried);
+  if (!is_word && is_of_ceilings(target)) {
+    for (const Bounds& interval : found.intervals) {
+      constexpr std::size_t most_boxes = 8000;
+      found.proofs.push_back(
+          prove_target(drive, axis.path, interval, target, most_boxes, progress));
+    }
+  }
   found.evaluations = analysed.evaluations();
   found.stopped = analysed.is_stopped();
   return found;

@@ -247,6 +247,18 @@ Drive searched_drive_with(const TolerancedDrive& drive, std::span<const double> 
   return changed;
 }
 
+EnclosedCeiling ceiling_of_all(const TolerancedDrive& drive, Quantity amplitude,
+                               Progress& progress) {
+  std::vector<BoxSide> box;
+  for (const ParameterTolerance& varied : drive.varied) {
+    box.push_back({varied.path, three_sigma_range_of(varied.distribution)});
+  }
+  const bool is_of_motor = amplitude == Quantity::motor_amplitude;
+  return enclosed_ceiling(drive.nominal, box,
+                          {.quantity = is_of_motor ? Quantity::motor_ceiling : Quantity::ceiling},
+                          progress);
+}
+
 std::vector<double> means_of(const TolerancedDrive& drive) {
   std::vector<double> means;
   for (const ParameterTolerance& varied : drive.varied) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "analysis/ceiling/enclosed_ceiling.hpp"
 #include "analysis/design/distribution.hpp"
 #include "gearlash/drive.hpp"
 #include "model/reduced_drive.hpp"
@@ -31,6 +32,12 @@ std::vector<double> means_of(const TolerancedDrive& drive);
 /// The drive with `values` of the varied parameters, in their order. It may be unsound. Throws
 /// InvalidInput where one is no number of the drive.
 Drive searched_drive_with(const TolerancedDrive& drive, std::span<const double> values);
+
+/// The ceiling of all that the tolerances permit: of the load's amplitude, or motor_amplitude.
+/// Unlimited normal distributions are cut at three standard deviations; of lots all values between
+/// the lowest and the highest count.
+EnclosedCeiling ceiling_of_all(const TolerancedDrive& drive, Quantity amplitude,
+                               Progress& progress = no_progress());
 
 /// The servo of the drive with `values` of the varied parameters, in their order. Throws
 /// InvalidInput where the drive has no closed form, and std::invalid_argument for another number of
