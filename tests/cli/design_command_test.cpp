@@ -229,6 +229,24 @@ TEST(DesignCommand, OfAnyDriveAreItsAnswersThoseOfLimitCycle) {
   EXPECT_THAT(text.out, HasSubstr("overshoot  settles  bandwidth  phase margin\n"));
 }
 
+TEST(DesignCommand, ATargetOnCeilingsIsProved) {
+  const std::vector<std::string> words = {"design",       "examples/telescope-axis.toml",
+                                          "--target",     "ceiling <= 6.3 arcmin",
+                                          "--parameters", "gearbox.backlash=5 arcmin:20 arcmin:2"};
+  const Outcome run = run_tool(words);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("Every value of these parts meets the target\n"
+                                 "  gearbox.backlash 5 to 20 arcmin: proved for 5 to 20 arcmin "
+                                 "(1 box)\n"));
+  EXPECT_THAT(run.out, HasSubstr("All else is searched, not proved"));
+  std::vector<std::string> as_json = words;
+  as_json.insert(as_json.end(), {"--format", "json"});
+  const auto answer = nlohmann::json::parse(run_tool(as_json).out)["answers"][0];
+  ASSERT_EQ(answer["proofs"].size(), 1U);
+  EXPECT_EQ(answer["proofs"][0]["proved"], answer["intervals"]);
+  EXPECT_EQ(answer["proofs"][0]["reason"], nullptr);
+}
+
 TEST(DesignCommand, OfAnyDriveTriesEveryWord) {
   const Outcome run = run_tool({"design", "examples/robot-joint.toml", "--target", "no-hunting",
                                 "--parameters", "sensor.position"});

@@ -47,6 +47,8 @@ COMMANDS = [
     ["design", *SERVO, "--target", "amplitude <= 0.1", "--parameters", "backlash,servo.damping"],
     ["design", "examples/robot-joint.toml", "--target", "motor-amplitude <= 0.15 deg",
      "--parameters", "sensor.position,controller.integral=50:300:3"],
+    ["design", "examples/telescope-axis.toml", "--target", "ceiling <= 6.3 arcmin", "--parameters",
+     "gearbox.backlash=5 arcmin:20 arcmin:2"],
     ["tune", "examples/elinco-fd162.toml", "--target", "no-hunting", "--phase-margin", "0 deg"],
     ["tune", "examples/toleranced.toml", "--target", "amplitude <= 1 deg", "--units", "8",
      "--parameters", "load.friction=0.03 ozf in/(rad/s):0.3 ozf in/(rad/s)"],

@@ -54,6 +54,12 @@ TEST(ToleranceCommand, SizesAreDistributedAsTheBacklash) {
   EXPECT_NEAR(study["parameters"][0]["indices_of_amplitude"]["first_order"]["value"], 1.0, 1e-3);
   EXPECT_EQ(study["parameters"][0]["worst"]["value"], 0.3);
   EXPECT_NEAR(study["worst"]["amplitude"], 0.241611108, 1e-9);
+  // The ceiling is 0.8542 backlashes (OracleCeiling).
+  EXPECT_NEAR(study["proved"]["bound"], 0.8542 * 0.3, 1e-4);
+  EXPECT_EQ(study["proved"]["reason"], nullptr);
+  const Outcome text = run_tool({"tolerance", only_backlash(scratch), "--samples", "512"});
+  EXPECT_THAT(text.out, HasSubstr("Proved: no sample within the tolerances swings by more than "
+                                  "±0.2563 rad"));
 }
 
 TEST(ToleranceCommand, TheSameSeedGivesTheSameStudy) {

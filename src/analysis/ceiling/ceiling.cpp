@@ -241,6 +241,25 @@ std::string obstacle_of_gap_speed(const std::optional<Carried>& carried) {
              : "the speed of the gap has no bound here: the reference or the load torque moves";
 }
 
+std::vector<ScaledSource> scaled_sources(const EnclosedDrive& drive, DisturbedLoop& loop) {
+  std::vector<ScaledSource> sources;
+  for (const Source& source : sources_of(drive)) {
+    sources.push_back({source, loop.gain(source.disturbance)});
+    // It is requested by the controller too.
+    if (source.name == friction_compensation) {
+      LoopGain& gain = sources.back().gain;
+      gain.effort = (Interval(gain.effort) + 1.0).high;
+    }
+  }
+  return sources;
+}
+
+double lowest_torque_limit(const EnclosedDrive& drive) {
+  double lowest = infinity;
+  for (const ReducedDrive& end : drive.ends()) lowest = std::min(lowest, end.torque_limit);
+  return lowest;
+}
+
 }  // namespace
 
 Ceiling ceiling_of(const EnclosedDrive& drive) {
@@ -254,15 +273,7 @@ Ceiling ceiling_of(const EnclosedDrive& drive) {
     ceiling.reason = "the loop with the gap closed is not proved stable";
     return ceiling;
   }
-  std::vector<ScaledSource> sources;
-  for (const Source& source : sources_of(drive)) {
-    sources.push_back({source, loop->gain(source.disturbance)});
-    // It is requested by the controller too.
-    if (source.name == friction_compensation) {
-      LoopGain& gain = sources.back().gain;
-      gain.effort = (Interval(gain.effort) + 1.0).high;
-    }
-  }
+  std::vector<ScaledSource> sources = scaled_sources(drive, *loop);
   const bool has_current_limit = std::isfinite(form.winding.torque_limit);
   ceiling.is_below_limit = std::isfinite(form.torque_limit) || has_current_limit;
   std::optional<Carried> carried;
@@ -293,11 +304,7 @@ Ceiling ceiling_of(const EnclosedDrive& drive) {
   }
   if (!ceiling.effort) ceiling.effort_reason = obstacle_of_gap_speed(carried);
   if (!carried || !ceiling.effort || !ceiling.is_below_limit || has_current_limit) return ceiling;
-  double torque_limit = infinity;
-  for (const ReducedDrive& end : drive.ends()) {
-    torque_limit = std::min(torque_limit, end.torque_limit);
-  }
-  margin.left = Interval(torque_limit) - abs(carried->requested) - effort;
+  margin.left = Interval(lowest_torque_limit(drive)) - abs(carried->requested) - effort;
   ceiling.meets_limit = margin.left.low >= 0.0;
   if (loop->reads_gap_speed()) {
     // The line above the gap's speed replaces its term.
