@@ -73,7 +73,7 @@ struct TunedDrive {
 
 /// Proposes values by an optimiser without derivatives (NLopt: DIRECT-L, then Subplex) on the few
 /// units that limited earlier proposals, puts each proposal to all units of a fixed sample (the
-/// mean, the corners up to 16 of them, then Sobol's points), and adds those that miss the target
+/// mean, 16 corners at most, then Sobol's points), and adds those that miss the target
 /// most, until a proposal holds for the share of them (Mutapcic and Boyd, Optimization Methods and
 /// Software 24, 2009). Searched, not proved: neither that all units of the series keep the target,
 /// nor that no other values are better. Takes minutes. The same on every machine and any number of
@@ -86,8 +86,8 @@ struct TunedDrive {
 /// 1996). Empty where that does not apply. Precondition: a sound drive.
 [[nodiscard]] std::optional<std::string> why_integral_action_hunts(const Drive& drive);
 
-/// The task for the drive without integral action, P in place of PI or PD of PID, and without what
-/// then does not exist. Empty where there is none to give up, or nothing is left to tune.
+/// The task for the drive without integral action, P in place of PI or PD of PID or a cascade whose
+/// speed has no integral, and without what then does not exist. Empty where there is none to give up, or nothing is left to tune.
 /// Precondition: a task without faults().
 [[nodiscard]] std::optional<TuneTask> without_integral_action(const TuneTask& task);
 

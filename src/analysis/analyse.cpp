@@ -333,8 +333,10 @@ Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive
 
 namespace {
 
+using IsEnough = std::function<bool(const drive::AttractorSearch&)>;
+
 Analysis analysed(const Drive& drive, const Analysis* near, const Wanted& wanted,
-                  Progress& progress) {
+                  Progress& progress, const IsEnough& is_enough = {}) {
   require_none(faults(drive));
   Analysis analysis;
   analysis.reduced = reduce_settled(drive);
@@ -364,7 +366,8 @@ Analysis analysed(const Drive& drive, const Analysis* near, const Wanted& wanted
     if (!analysis.search) {
       analysis.search = drive::find_attractors(
           analysis.reduced,
-          {.most_edges = wanted.borders ? drive::AttractorOptions{}.most_edges : 0,
+          {.is_enough = is_enough,
+           .most_edges = wanted.borders ? drive::AttractorOptions{}.most_edges : 0,
            .budget = {.bytes_kept = wanted.motion_bytes}},
           progress);
     }
@@ -385,6 +388,11 @@ Analysis analyse_in_full(const Drive& drive, const Wanted& wanted, Progress& pro
 Analysis analyse_near(const Drive& drive, const Analysis& near, const Wanted& wanted,
                       Progress& progress) {
   return analysed(drive, &near, wanted, progress);
+}
+
+Answer analyse_until(const Drive& drive, const Wanted& wanted, const IsEnough& is_enough,
+                     Progress& progress) {
+  return analysed(drive, nullptr, wanted, progress, is_enough).answer;
 }
 
 Answer analyse(const Drive& drive, const Wanted& wanted, Progress& progress) {

@@ -1,6 +1,7 @@
 // Analysis of a drive: by the closed form where it applies, else by a search.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "closed_form/limit_cycle.hpp"
@@ -29,6 +30,11 @@ Analysis analyse_in_full(const Drive& drive, const Wanted& wanted = {},
 /// else by a search. Other drives are analysed afresh.
 Analysis analyse_near(const Drive& drive, const Analysis& near, const Wanted& wanted = {},
                       Progress& progress = no_progress());
+
+/// The same, but where a search is needed it ends with the first start after which `is_enough`.
+Answer analyse_until(const Drive& drive, const Wanted& wanted,
+                     const std::function<bool(const drive::AttractorSearch&)>& is_enough,
+                     Progress& progress = no_progress());
 
 /// The answer for a servo in the normal form, in SI. `stiffness`: K, N m/rad; without it there are
 /// no energies. Proved bounds are left out, because they need the error of the data.

@@ -96,12 +96,10 @@ std::string advice_text(const TuneReport& report) {
   if (const std::optional<TunedDrive>& without = report.without_integral) {
     text += "Without integral action: " + count_text(*without) + " the target" +
             reached_text(report, *without);
-    std::size_t next = 0;
-    for (const Axis& axis : report.task.tuned) {
-      if (axis.path == "controller.integral") continue;
-      text += (next == 0 ? " (" : ", ") + axis.path + " = " +
-              parameter_text(report, axis.path, without->values[next]);
-      ++next;
+    const std::vector<Axis> axes = without_integral_action(report.task)->tuned;
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      text += (i == 0 ? " (" : ", ") + axes[i].path + " = " +
+              parameter_text(report, axes[i].path, without->values[i]);
     }
     text += "). A static error then remains, and a steady torque on the load adds to it.";
   }
@@ -140,10 +138,11 @@ Json json_limiting(const TuneReport& report) {
   return {{"values", values}, {"performance", json_performance(report.tuned.limiting->answer)}};
 }
 
-Json json_tuned(const TuneReport& report, const TunedDrive& tuned) {
+/// `axes`: those that were tuned.
+Json json_tuned(const TuneReport& report, const std::vector<Axis>& axes, const TunedDrive& tuned) {
   Json values = Json::object();
   for (std::size_t i = 0; i < tuned.values.size(); ++i) {
-    values[report.task.tuned[i].path] = json_number(tuned.values[i]);
+    values[axes[i].path] = json_number(tuned.values[i]);
   }
   const double unit = report.task.aim == Aim::bandwidth ? turn : 1.0;
   return {{"values", values},
@@ -184,12 +183,14 @@ std::string tune_json(const TuneReport& report) {
   json["share"] = json_number(report.task.share);
   json["present"] = json_performance(report.present);
   json["nominal"] = json_performance(report.nominal);
-  json["tuned"] = json_tuned(report, report.tuned);
+  json["tuned"] = json_tuned(report, report.task.tuned, report.tuned);
   json["limiting"] = json_limiting(report);
   const std::optional<std::string> why = why_integral_action_hunts(present_drive(report));
   json["why_integral_action_hunts"] = why ? Json(*why) : Json(nullptr);
-  json["without_integral"] =
-      report.without_integral ? json_tuned(report, *report.without_integral) : Json(nullptr);
+  json["without_integral"] = report.without_integral
+                                 ? json_tuned(report, without_integral_action(report.task)->tuned,
+                                              *report.without_integral)
+                                 : Json(nullptr);
   json["rounds"] = report.tuned.rounds;
   json["analyses"] = report.tuned.analyses;
   json["stopped"] = report.tuned.stopped;

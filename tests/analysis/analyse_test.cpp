@@ -78,6 +78,17 @@ TEST(Analyse, WithoutBordersTheVerdictIsTheSame) {
   EXPECT_TRUE(without.thresholds.empty());
 }
 
+TEST(Analyse, EndsWithTheStartAfterWhichNoMoreAreWanted) {
+  const Drive drive = pd_drive();
+  const Answer whole = analyse(drive, {.borders = false});
+  const Answer part = analyse_until(
+      drive, {.borders = false},
+      [](const drive::AttractorSearch& search) { return search.outcomes.size() == 3; });
+  ASSERT_GT(whole.search->starts.size(), 3U);
+  EXPECT_EQ(part.search->starts.size(), 3U);
+  EXPECT_EQ(part.search->starts[2].end, whole.search->starts[2].end);
+}
+
 TEST(Analyse, IsNoVerdictOnStartsThatAreUndecided) {
   const drive::ReducedDrive drive = reduce(almost_undamped_motor(0.5));
   const auto verdict = [&](std::vector<drive::MotionEnd> ends, bool is_complete = true) {

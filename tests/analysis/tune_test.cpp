@@ -109,6 +109,23 @@ TEST(Tune, KnowsWhenIntegralActionAlwaysHunts) {
   EXPECT_FALSE(why_integral_action_hunts(drive));
 }
 
+/// As a cascade has it, of its speed.
+TEST(Tune, IntegralActionOfACascadeCanBeGivenUp) {
+  TuneTask task{.series = {pd_drive(), {}},
+                .tuned = {logarithmic("controller.speed_integral", 1.0, 10.0, 2),
+                          logarithmic("controller.speed", 1.0, 10.0, 2)}};
+  task.series.nominal.controller.law =
+      CascadeController{.position = 2.0, .speed = 3.0, .speed_integral = 4.0};
+  const auto without = without_integral_action(task);
+  ASSERT_TRUE(without);
+  const auto& law = std::get<CascadeController>(without->series.nominal.controller.law);
+  EXPECT_EQ(law.speed_integral, 0.0);
+  EXPECT_EQ(law.speed, 3.0);
+  ASSERT_EQ(without->tuned.size(), 1U);
+  EXPECT_EQ(without->tuned[0].path, "controller.speed");
+  EXPECT_FALSE(without_integral_action(*without));
+}
+
 std::vector<std::string> faults_of(const TuneTask& task, const TuneEffort& effort = {}) {
   std::vector<std::string> lines;
   for (const Fault& fault : faults(task, effort)) lines.push_back(to_string(fault));

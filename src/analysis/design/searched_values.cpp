@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <memory>
@@ -66,7 +67,7 @@ class AnalysedDrive {
     const JudgedValue unknown{.value = value, .is_known = false, .beyond = Target::infinity};
     if (is_stopped_) return unknown;
     Hearing hearing(*this);
-    const Wanted wanted{.proofs = false, .ceiling = asks_for_ceiling(target_)};
+    const Wanted wanted{.proofs = false, .ceiling = asks_for_ceiling(target_), .borders = false};
     const auto analysis =
         std::make_shared<const Analysis>(near ? analyse_near(drive, *near, wanted, hearing)
                                               : analyse_in_full(drive, wanted, hearing));
@@ -221,6 +222,22 @@ void name_borders(AnalysedDrive& analysed, FeasibleValues& found) {
   }
 }
 
+/// Near a border where few starts lead to another motion, verdicts do not repeat from value to
+/// value. The interval then ends before the values just inside that miss the target.
+LastMet where_verdicts_repeat(const Judge& afresh, double met, LastMet last,
+                              const Resolution& resolution) {
+  constexpr double inside[] = {0.003, 0.01, 0.05};  // of the way from the end to `met`
+  constexpr int most_times = 4;
+  for (int times = 0; times < most_times && last.value != met; ++times) {
+    const auto* const missed = std::find_if_not(
+        std::begin(inside), std::end(inside),
+        [&](double share) { return afresh(last.value + share * (met - last.value)).is_met; });
+    if (missed == std::end(inside)) break;
+    last = last_met(afresh, met, last.value + *missed * (met - last.value), resolution);
+  }
+  return last;
+}
+
 std::vector<JudgedValue> of_numbers(AnalysedDrive& analysed, const Resolution& resolution,
                                     FeasibleValues& found) {
   const auto afresh = [&](double value) { return analysed.afresh(value); };
@@ -239,9 +256,11 @@ std::vector<JudgedValue> of_numbers(AnalysedDrive& analysed, const Resolution& r
   put_together(
       parts_between(tried), is_met_at,
       [&](double met, double unmet) {
-        const LastMet last = last_met(followed, met, unmet, resolution);
-        if (last.value == met || afresh(last.value).is_met) return last;
-        return last_met(afresh, met, last.value, resolution);
+        LastMet last = last_met(followed, met, unmet, resolution);
+        if (last.value != met && !afresh(last.value).is_met) {
+          last = last_met(afresh, met, last.value, resolution);
+        }
+        return where_verdicts_repeat(afresh, met, last, resolution);
       },
       found);
   name_borders(analysed, found);
@@ -257,7 +276,8 @@ Axis usual_axis(const Drive& drive, std::string_view parameter) {
 /// The drive is analysed afresh at each value of the axis, at the present one, and at the ends of
 /// intervals. Between two values, of which one meets the target, analyse_near() closes in on the
 /// last one that does. If that misses the target when it is analysed afresh, the search between is
-/// repeated without following. A value whose drive is unsound does not meet the target.
+/// repeated without following; if values just inside do, the interval ends before them. A value
+/// whose drive is unsound does not meet the target.
 FeasibleValues feasible_values(const Drive& drive, const Axis& axis, const Target& target,
                                Progress& progress) {
   std::vector<Fault> all = faults(drive);

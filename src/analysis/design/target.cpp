@@ -87,15 +87,36 @@ bool is_idle(Verdict verdict, Quantity quantity) {
          quantity != Quantity::motor_amplitude && info_of(quantity).scope == QuantityScope::motion;
 }
 
-/// The excess of one quantity.
-double excess_of(const Bounds& limits, const std::optional<double>& value) {
+/// The value that an upper limit is for. Of an amplitude it is the largest of all motions that are
+/// not unstable, irregular ones beside stable cycles included.
+std::optional<double> highest_value(const Performance& performance, Quantity quantity) {
+  return performance.value(quantity);
+}
+
+std::optional<double> highest_value(const Answer& answer, Quantity quantity) {
+  std::optional<double> value = answer.value(quantity);
+  const bool is_of_motor = quantity == Quantity::motor_amplitude;
+  if (!value || (!is_of_motor && quantity != Quantity::amplitude)) return value;
+  for (const Cycle& cycle : answer.cycles) {
+    if (cycle.stability == Stability::unstable) continue;
+    value = std::max(*value, is_of_motor ? cycle.motor_amplitude : cycle.amplitude);
+  }
+  for (const IrregularMotion& motion : answer.irregular) {
+    value = std::max(*value, is_of_motor ? motion.motor_amplitude.value_or(0.0) : motion.amplitude);
+  }
+  return value;
+}
+
+/// The excess of one quantity. `highest`: the value that the upper limit is for.
+double excess_of(const Bounds& limits, const std::optional<double>& value,
+                 const std::optional<double>& highest) {
   if (!value) return infinity;
   const auto beyond = [](double more, double less) {
     if (more == less) return 0.0;
     if (more >= 0.0 && less >= 0.0) return std::log(more / less);
     return more > less ? 1.0 : -1.0;  // no ratio
   };
-  const double above = std::isinf(limits.high) ? -infinity : beyond(*value, limits.high);
+  const double above = std::isinf(limits.high) ? -infinity : beyond(*highest, limits.high);
   const double below =
       std::isinf(limits.low) || limits.low == 0.0 ? -infinity : beyond(limits.low, *value);
   return std::max(above, below);
@@ -206,7 +227,8 @@ bool is_met(const Target& target, const Judged& judged) {
   return std::all_of(target.limits.begin(), target.limits.end(), [&](const QuantityLimit& limit) {
     if (is_idle(judged.verdict, limit.quantity)) return true;
     const std::optional<double> value = judged.value(limit.quantity);
-    return value && limit.permitted.contains(*value);
+    return value && *value >= limit.permitted.low &&
+           *highest_value(judged, limit.quantity) <= limit.permitted.high;
   });
 }
 
@@ -240,7 +262,8 @@ double excess(const Target& target, const Judged& judged) {
   }
   for (const QuantityLimit& limit : target.limits) {
     if (is_idle(judged.verdict, limit.quantity)) continue;
-    worst = std::max(worst, excess_of(limit.permitted, judged.value(limit.quantity)));
+    worst = std::max(worst, excess_of(limit.permitted, judged.value(limit.quantity),
+                                      highest_value(judged, limit.quantity)));
   }
   return worst;
 }

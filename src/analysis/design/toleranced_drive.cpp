@@ -191,6 +191,22 @@ std::vector<Fault> faults_of_varied(const TolerancedDrive& drive) {
   return check.faults();
 }
 
+/// A breakaway torque without a tolerance of its own varies with its shaft's Coulomb friction.
+void keep_ratio_of_breakaway(const TolerancedDrive& drive, Friction& changed,
+                             const Friction& nominal, std::string_view path) {
+  const bool is_changed = changed.coulomb != nominal.coulomb && nominal.coulomb > 0.0;
+  if (!changed.breakaway || !is_changed) return;
+  const bool is_varied =
+      std::any_of(drive.varied.begin(), drive.varied.end(), [&](const ParameterTolerance& varied) {
+        const Parameter* parameter = find_parameter(varied.path, drive.nominal);
+        return parameter != nullptr && parameter->path == path;
+      });
+  if (is_varied) return;
+  // Rounding must not make it the smaller of the two.
+  changed.breakaway =
+      std::max(*changed.breakaway * (changed.coulomb / nominal.coulomb), changed.coulomb);
+}
+
 /// Of many parameters only the ends of each are tried, the others being at their means.
 std::vector<std::vector<double>> corners_to_try(const TolerancedDrive& drive,
                                                 std::span<const Bounds> ranges) {
@@ -244,6 +260,10 @@ bool is_searched(const TolerancedDrive& drive) {
 Drive searched_drive_with(const TolerancedDrive& drive, std::span<const double> values) {
   Drive changed = drive.nominal;
   for (std::size_t i = 0; i < values.size(); ++i) set(changed, drive.varied[i].path, values[i]);
+  keep_ratio_of_breakaway(drive, changed.motor.friction, drive.nominal.motor.friction,
+                          "motor.breakaway");
+  keep_ratio_of_breakaway(drive, changed.load.friction, drive.nominal.load.friction,
+                          "load.breakaway");
   return changed;
 }
 

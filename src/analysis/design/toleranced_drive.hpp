@@ -29,8 +29,9 @@ std::vector<Fault> faults_of_toleranced_servo(const TolerancedDrive& drive);
 
 /// The means of the varied parameters.
 std::vector<double> means_of(const TolerancedDrive& drive);
-/// The drive with `values` of the varied parameters, in their order. It may be unsound. Throws
-/// InvalidInput where one is no number of the drive.
+/// The drive with `values` of the varied parameters, in their order. A breakaway torque that does
+/// not vary by itself keeps its ratio to the Coulomb friction of its shaft. It may be unsound.
+/// Throws InvalidInput where one is no number of the drive.
 Drive searched_drive_with(const TolerancedDrive& drive, std::span<const double> values);
 
 /// The ceiling of all that the tolerances permit: of the load's amplitude, or motor_amplitude.

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "analysis/analyse.hpp"
+#include "analysis/design/corner_sample.hpp"
 #include "analysis/design/drawn_values.hpp"
 #include "analysis/design/target.hpp"
 #include "analysis/design/toleranced_drive.hpp"
@@ -35,6 +37,7 @@ constexpr double without_margin = 50.0;
 constexpr double most_missed = 40.0;
 
 struct JudgedUnit {
+  bool is_tried = false;
   bool is_met = false;
   bool is_known = true;
   double missed_by = 0.0;  ///< > 0 where not met
@@ -47,8 +50,36 @@ double missed_by(const Target& target, const Answer& answer, double backlash) {
   const double amplitude = answer.value(Quantity::motor_amplitude).value_or(infinity);
   const double scale = backlash > 0.0 ? backlash : 1e-3;
   const double share = std::isinf(amplitude) ? 1.0 : amplitude / (amplitude + scale);
-  return std::clamp(excess(target, answer), 0.0, most_missed - 1.0) + share;
+  constexpr double least = 1e-6;  // so that what is not met is seen to be missed
+  return std::clamp(excess(target, answer), least, most_missed - 1.0) + share;
 }
+
+/// Whether what the starts by now led to misses the target, wherever all others lead. Irregular
+/// motion counts behind a computer only: without one it may still end in a cycle.
+bool is_missed_already(const Target& target, const drive::AttractorSearch& search,
+                       bool irregular_counts) {
+  const double most_of_load = target.permitted(Quantity::amplitude).high;
+  const double most_of_motor = target.permitted(Quantity::motor_amplitude).high;
+  const auto is_too_much = [&](const auto& motion) {
+    return motion.starts > 0 &&
+           (target.no_hunting_if_disturbed || motion.amplitude > most_of_load ||
+            motion.motor_amplitude > most_of_motor);
+  };
+  if (target.no_runaway && search.count(drive::MotionEnd::diverges) > 0) return true;
+  if (std::any_of(search.cycles.begin(), search.cycles.end(), [&](const auto& cycle) {
+        return cycle.stability != Stability::unstable && is_too_much(cycle);
+      })) {
+    return true;
+  }
+  return irregular_counts &&
+         std::any_of(search.irregular.begin(), search.irregular.end(), is_too_much);
+}
+
+/// What a unit's linear loop says before any search.
+struct JudgedLoop {
+  double lacks = 0.0;  ///< how far the drive is from one that is worth a search; 0 if it is
+  double bandwidth = not_a_number;
+};
 
 /// The units of a series with tuned values.
 class Units {
@@ -81,32 +112,50 @@ class Units {
     return searched_drive_with({nominal(tuned), task_.series.varied}, all_[unit]);
   }
 
-  /// Without a search: how far the drive is from one that is worth it; 0 if it is.
-  double lacks(std::size_t unit, const Values& tuned) const {
+  JudgedLoop loop(std::size_t unit, const Values& tuned) const {
     const Drive drive = this->drive(unit, tuned);
-    if (!faults(drive).empty()) return unsound;
+    if (!faults(drive).empty()) return {.lacks = unsound};
     const auto loop = drive::loop_figures(reduce(drive));
-    if (!loop) return 0.0;  // of a relay
-    if (!loop->is_stable) return without_margin + 1.0;
+    if (!loop) return {};  // of a relay
+    if (!loop->is_stable) return {.lacks = without_margin + 1.0};
     const double margin = loop->phase_margin.value_or(infinity);
-    return margin >= task_.least_phase_margin
-               ? 0.0
-               : without_margin + (task_.least_phase_margin - margin) / std::numbers::pi;
+    const double lacks =
+        margin >= task_.least_phase_margin
+            ? 0.0
+            : without_margin + (task_.least_phase_margin - margin) / std::numbers::pi;
+    return {lacks, loop->bandwidth.value_or(not_a_number)};
   }
 
   JudgedUnit judged(std::size_t unit, const Values& tuned, Progress& progress) const {
-    JudgedUnit judged{.missed_by = lacks(unit, tuned)};
+    const JudgedLoop loop = this->loop(unit, tuned);
+    JudgedUnit judged{.is_tried = true, .missed_by = loop.lacks};
     if (judged.missed_by > 0.0) return judged;
     const Drive drive = this->drive(unit, tuned);
-    judged.answer =
-        analyse(drive, {.proofs = false, .ceiling = asks_for_ceiling(task_.target)}, progress);
+    judged.answer = analyse_until(
+        drive, {.proofs = false, .ceiling = asks_for_ceiling(task_.target), .borders = false},
+        [&](const drive::AttractorSearch& search) {
+          return is_missed_already(task_.target, search, drive.sampling.has_value());
+        },
+        progress);
     judged.is_met = is_met(task_.target, judged.answer);
     judged.is_known = is_known(task_.target, judged.answer);
     if (!judged.is_met) {
       judged.missed_by = missed_by(task_.target, judged.answer, drive.gearbox.backlash);
     }
-    judged.reached = reached(drive, judged.answer);
+    judged.reached = task_.aim == Aim::static_error
+                         ? judged.answer.value(Quantity::static_error).value_or(not_a_number)
+                         : reached_without_search(unit, tuned, loop);
     return judged;
+  }
+
+  bool needs_search() const { return task_.aim == Aim::static_error; }
+  /// Precondition: not needs_search().
+  double reached_without_search(std::size_t unit, const Values& tuned,
+                                const JudgedLoop& loop) const {
+    if (task_.aim == Aim::bandwidth) return loop.bandwidth;
+    const drive::ReducedDrive reduced = reduce(drive(unit, tuned));
+    const drive::Step step = drive::usual_step(reduced);
+    return drive::step_response(reduced, step.size, step.until).settling_time;
   }
 
   /// Whether one reached less of the aim than another. An unknown number is the worst.
@@ -119,30 +168,17 @@ class Units {
   void add(Values values) { all_.push_back(std::move(values)); }
 
   void add_corners(std::size_t most) {
-    constexpr std::size_t most_corners = 16;
     const std::size_t width = task_.series.varied.size();
-    if (width > 4 || (std::size_t{1} << width) > std::min(most_corners, most)) return;
-    for (std::size_t corner = 0; corner < std::size_t{1} << width; ++corner) {
+    const std::vector<std::vector<bool>> corners = corner_sample(width);
+    if (corners.size() > most) return;
+    for (const std::vector<bool>& is_high : corners) {
       Values values;
       for (std::size_t i = 0; i < width; ++i) {
         const Bounds range = three_sigma_range_of(task_.series.varied[i].distribution);
-        values.push_back((corner >> i & 1U) != 0 ? range.high : range.low);
+        values.push_back(is_high[i] ? range.high : range.low);
       }
       add(std::move(values));
     }
-  }
-
-  double reached(const Drive& drive, const Answer& answer) const {
-    const drive::ReducedDrive reduced = reduce(drive);
-    if (task_.aim == Aim::static_error) {
-      return answer.value(Quantity::static_error).value_or(not_a_number);
-    }
-    if (task_.aim == Aim::settling) {
-      const drive::Step step = drive::usual_step(reduced);
-      return drive::step_response(reduced, step.size, step.until).settling_time;
-    }
-    const auto loop = drive::loop_figures(reduced);
-    return loop && loop->bandwidth ? *loop->bandwidth : not_a_number;
   }
 
   const TuneTask& task_;
@@ -153,6 +189,7 @@ class Units {
 struct Trial {
   Values tuned{};
   std::vector<JudgedUnit> units{};
+  std::size_t tried = 0;
   std::size_t met = 0;
   double reached = not_a_number;
 
@@ -161,8 +198,13 @@ struct Trial {
     const auto most = std::max_element(
         units.begin(), units.end(),
         [](const JudgedUnit& a, const JudgedUnit& b) { return a.missed_by < b.missed_by; });
-    return most == units.end() || most->is_met ? units.size()
-                                               : static_cast<std::size_t>(most - units.begin());
+    return most == units.end() || most->missed_by <= 0.0
+               ? units.size()
+               : static_cast<std::size_t>(most - units.begin());
+  }
+  std::size_t missed() const {
+    return static_cast<std::size_t>(std::count_if(
+        units.begin(), units.end(), [](const auto& one) { return one.is_tried && !one.is_met; }));
   }
 };
 
@@ -173,8 +215,11 @@ class Tuning {
     limiting_.push_back(0);
     for (const Axis& axis : task.tuned) {
       const double present = present_value(axis, task.series.nominal).value_or(axis.values.front());
-      point_.push_back(std::clamp(position_on(axis, present), 0.0, 1.0));
+      start_.push_back(std::clamp(position_on(axis, present), 0.0, 1.0));
+      const auto [low, high] = std::minmax(axis.values.front(), axis.values.back());
+      present_.push_back(std::clamp(present, low, high));
     }
+    point_ = start_;
   }
 
   TunedDrive result() {
@@ -194,6 +239,7 @@ class Tuning {
       if (best.units.empty() || is_better(trial, best)) best = std::move(trial);
       if (holds || !is_new) break;
     }
+    if (!stopped_) try_the_rest(best, progress_);
     return reported(best, std::move(last_missed));
   }
 
@@ -201,7 +247,7 @@ class Tuning {
   Values tuned_at(std::span<const double> point) const {
     Values tuned;
     for (std::size_t i = 0; i < point.size(); ++i) {
-      tuned.push_back(value_at(task_.tuned[i], point[i]));
+      tuned.push_back(point[i] == start_[i] ? present_[i] : value_at(task_.tuned[i], point[i]));
     }
     return tuned;
   }
@@ -233,25 +279,51 @@ class Tuning {
   }
 
   /// What the optimiser makes small: negative, and the aim, where all limiting units meet the
-  /// target.
+  /// target. No unit is searched where the aim is no better than with values that they permit, and
+  /// no further one once some miss the target.
   std::optional<double> merit(std::span<const double> point, Progress& progress) {
     const Values tuned = tuned_at(point);
     constexpr double missed = 1000.0;
     double most_lacking = 0.0;
+    std::vector<double> reached;
     for (const std::size_t unit : limiting_) {
-      most_lacking = std::max(most_lacking, units_.lacks(unit, tuned));
+      const JudgedLoop loop = units_.loop(unit, tuned);
+      most_lacking = std::max(most_lacking, loop.lacks);
+      if (most_lacking > 0.0 || units_.needs_search()) continue;
+      reached.push_back(units_.reached_without_search(unit, tuned, loop));
     }
     if (most_lacking > 0.0) return missed + most_lacking;
-    const std::vector<JudgedUnit> found = judged(limiting_, tuned, progress);
-    if (stopped_) return std::nullopt;
-    double most = 0.0;
-    double worst = found.front().reached;
-    for (const JudgedUnit& one : found) {
-      if (!one.is_met) most = std::max(most, one.missed_by);
-      if (units_.is_worse(one.reached, worst)) worst = one.reached;
+    if (!units_.needs_search() && size_of(reached) >= least_permitted_) return size_of(reached);
+    reached.clear();
+    for (std::size_t first = 0; first < limiting_.size(); first += at_once) {
+      const std::size_t count = std::min(at_once, limiting_.size() - first);
+      const auto from = limiting_.begin() + static_cast<std::ptrdiff_t>(first);
+      const auto to = from + static_cast<std::ptrdiff_t>(count);
+      const std::vector<JudgedUnit> found = judged({from, to}, tuned, progress);
+      if (stopped_) return std::nullopt;
+      const auto most =
+          std::max_element(found.begin(), found.end(),
+                           [](const auto& a, const auto& b) { return a.missed_by < b.missed_by; });
+      if (most->missed_by > 0.0) {
+        // It is tried first from now on.
+        std::rotate(limiting_.begin(), from + (most - found.begin()),
+                    from + (most - found.begin()) + 1);
+        return missed + most->missed_by + static_cast<double>(limiting_.size() - first - count);
+      }
+      for (const JudgedUnit& one : found) reached.push_back(one.reached);
     }
-    if (most > 0.0) return missed + most;
-    if (std::isnan(worst)) return 0.5 * missed;
+    least_permitted_ = std::min(least_permitted_, size_of(reached));
+    return size_of(reached);
+  }
+
+  /// Of the aim, as the optimiser makes it small, by the worst unit.
+  double size_of(const std::vector<double>& reached) const {
+    double worst = reached.front();
+    for (const double one : reached) {
+      if (units_.is_worse(one, worst)) worst = one;
+    }
+    constexpr double unknown = 500.0;
+    if (std::isnan(worst)) return unknown;
     constexpr double least = 1e-300;
     const double size = std::log(std::max(worst, least));
     return task_.aim == Aim::bandwidth ? -size : size;
@@ -261,6 +333,7 @@ class Tuning {
   Values proposal(Progress& progress) {
     ProgressPart part(progress, 0.0, 0.6);
     double evaluated = 0.0;
+    least_permitted_ = infinity;
     const auto function = [&](std::span<const double> point) {
       const double share = std::min(evaluated / (2.0 * effort_.evaluations), 1.0);
       evaluated += 1.0;
@@ -276,26 +349,45 @@ class Tuning {
     return tuned_at(point_);
   }
 
+  /// Puts values to the units, until more of them miss the target than may.
   Trial tried(const Values& tuned, Progress& progress) {
+    Trial trial{.tuned = tuned, .units = std::vector<JudgedUnit>(units_.size())};
     ProgressPart part(progress, 0.6, 1.0);
-    std::vector<std::size_t> all(units_.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    Trial trial{.tuned = tuned, .units = judged(all, tuned, part)};
-    trial.reached = trial.units.front().reached;
-    for (const JudgedUnit& one : trial.units) {
-      trial.met += one.is_met ? 1 : 0;
-      if (units_.is_worse(one.reached, trial.reached)) trial.reached = one.reached;
+    constexpr std::size_t block = 8;
+    const auto permitted = static_cast<std::size_t>(
+        (1.0 - task_.share) * static_cast<double>(units_.size()) * (1.0 + 1e-12));
+    for (std::size_t first = 0; first < units_.size() && !stopped_; first += block) {
+      try_units(trial, first, std::min(first + block, units_.size()), part);
+      if (trial.missed() > permitted && trial.missed() >= most_added) break;
     }
     return trial;
   }
 
+  void try_units(Trial& trial, std::size_t from, std::size_t to, Progress& progress) {
+    std::vector<std::size_t> which;
+    for (std::size_t unit = from; unit < to; ++unit) {
+      if (!trial.units[unit].is_tried) which.push_back(unit);
+    }
+    std::vector<JudgedUnit> found = judged(which, trial.tuned, progress);
+    for (std::size_t i = 0; i < which.size(); ++i) {
+      JudgedUnit& one = trial.units[which[i]] = std::move(found[i]);
+      if (!one.is_tried) continue;  // stopped
+      trial.met += one.is_met ? 1 : 0;
+      const bool is_first = trial.tried++ == 0;
+      if (is_first || units_.is_worse(one.reached, trial.reached)) trial.reached = one.reached;
+    }
+  }
+
+  void try_the_rest(Trial& trial, Progress& progress) {
+    try_units(trial, 0, units_.size(), progress);
+  }
+
   /// Adds the units that miss the target most; false where there is none that is new.
   bool add_limiting(const Trial& trial) {
-    constexpr std::size_t most_added = 2;
     std::vector<std::size_t> missed;
     for (std::size_t unit = 0; unit < trial.units.size(); ++unit) {
       const bool is_known = std::find(limiting_.begin(), limiting_.end(), unit) != limiting_.end();
-      if (!trial.units[unit].is_met && !is_known) missed.push_back(unit);
+      if (trial.units[unit].missed_by > 0.0 && !is_known) missed.push_back(unit);
     }
     std::stable_sort(missed.begin(), missed.end(), [&](std::size_t a, std::size_t b) {
       return trial.units[a].missed_by > trial.units[b].missed_by;
@@ -305,15 +397,18 @@ class Tuning {
     return !missed.empty();
   }
 
+  /// Analysed in full: until now it was only until it missed the target.
   TunedUnit unit_of(const Trial& trial, std::size_t unit) const {
-    return {units_.values(unit), trial.units[unit].answer};
+    if (trial.units[unit].missed_by >= without_margin) return {units_.values(unit), {}};
+    return {units_.values(unit),
+            analyse(units_.drive(unit, trial.tuned), {.proofs = false}, progress_)};
   }
 
   TunedDrive reported(const Trial& best, std::optional<TunedUnit> last_missed) const {
     TunedDrive tuned{.values = best.tuned,
                      .drive = units_.nominal(best.tuned),
                      .meets = keeps_share(best) && !stopped_,
-                     .units = best.units.size(),
+                     .units = best.tried,
                      .met = best.met,
                      .reached = best.reached,
                      .limiting = std::move(last_missed),
@@ -329,12 +424,18 @@ class Tuning {
     return tuned;
   }
 
+  static constexpr std::size_t at_once = 2;     ///< limiting units that are judged side by side
+  static constexpr std::size_t most_added = 2;  ///< units that one trial makes limiting
+
   const TuneTask& task_;
   const TuneEffort& effort_;
   Progress& progress_;
   Units units_;
   std::vector<std::size_t> limiting_;
-  Values point_;  ///< of the last proposal, on the unit cube
+  Values start_;                       ///< the present values, on the unit cube
+  Values present_;                     ///< ... exactly
+  Values point_;                       ///< of the last proposal, on the unit cube
+  double least_permitted_ = infinity;  ///< merit of values that all limiting units permit
   std::size_t rounds_ = 0;
   std::size_t analyses_ = 0;
   bool stopped_ = false;
@@ -387,15 +488,22 @@ TunedDrive tune(const TuneTask& task, const TuneEffort& effort, Progress& progre
 std::optional<TuneTask> without_integral_action(const TuneTask& task) {
   TuneTask without = task;
   Drive& nominal = without.series.nominal;
-  const auto* pid = std::get_if<PID>(&nominal.controller.law);
-  if (pid == nullptr || (pid->terms != PIDTerms::PI && pid->terms != PIDTerms::PID)) return {};
-  const PIDTerms left = pid->terms == PIDTerms::PI ? PIDTerms::P : PIDTerms::PD;
-  set_on({.path = "controller.kind"}, nominal, static_cast<double>(left));
-  std::erase_if(without.tuned,
-                [&](const Axis& axis) { return parameter_of(axis, nominal) == nullptr; });
-  std::erase_if(without.series.varied, [&](const ParameterTolerance& varied) {
-    return parameter_of({.path = varied.path}, nominal) == nullptr;
-  });
+  if (auto* cascade = std::get_if<CascadeController>(&nominal.controller.law)) {
+    if (cascade->speed_integral == 0.0) return {};
+    cascade->speed_integral = 0.0;
+  } else {
+    const auto* pid = std::get_if<PID>(&nominal.controller.law);
+    if (pid == nullptr || (pid->terms != PIDTerms::PI && pid->terms != PIDTerms::PID)) return {};
+    const PIDTerms left = pid->terms == PIDTerms::PI ? PIDTerms::P : PIDTerms::PD;
+    set_on({.path = "controller.kind"}, nominal, static_cast<double>(left));
+  }
+  const auto is_given_up = [&](const std::string& path) {
+    const Parameter* parameter = parameter_of({.path = path}, nominal);
+    return parameter == nullptr || parameter->path == "controller.speed_integral";
+  };
+  std::erase_if(without.tuned, [&](const Axis& axis) { return is_given_up(axis.path); });
+  std::erase_if(without.series.varied,
+                [&](const ParameterTolerance& varied) { return is_given_up(varied.path); });
   if (without.tuned.empty() || !faults(without).empty()) return {};
   return without;
 }

@@ -51,6 +51,7 @@ class Search {
       verdicts_.push_back(classifier_.end_of(setting_.start(start), budget_.patience));
       record(start, verdicts_.back());
       ++done_;
+      if (options_.is_enough && options_.is_enough(result_)) break;
     }
     if (result_.is_complete && !setting_.drive.sampling) {
       watch_transients();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -139,6 +140,9 @@ struct AttractorOptions {
   /// equivalent to friction, load torque, torque limit and a sine reference, widen that range.)
   /// Absolute positions.
   std::vector<ShaftStates> starts{};
+  /// Asked after each start. Where it is true no further start is watched, and the search is as
+  /// complete as these make it.
+  std::function<bool(const AttractorSearch&)> is_enough{};
   /// The search of a drive that differs slightly from this one. Those of its cycles that Newton's
   /// method finds again are known from the beginning.
   const AttractorSearch* nearby = nullptr;

@@ -58,6 +58,22 @@ TEST(Target, SeesHuntingBesideRunningAway) {
   EXPECT_FALSE(is_met(Target{.no_runaway = true}, beside));
 }
 
+/// An upper limit is for the largest motion, of whatever kind.
+TEST(Target, LimitsIrregularMotionBesideACycle) {
+  Answer answer = hunting(Verdict::hunts, 0.1);
+  answer.irregular.push_back({.amplitude = 0.2, .motor_amplitude = 0.4});
+  const auto up_to = [](Quantity quantity, double most) {
+    return Target{}.require(quantity, {0.0, most});
+  };
+  EXPECT_FALSE(is_met(up_to(Quantity::amplitude, 0.15), answer));
+  EXPECT_TRUE(is_met(up_to(Quantity::amplitude, 0.2), answer));
+  EXPECT_NEAR(excess(up_to(Quantity::amplitude, 0.1), answer), std::log(2.0), 1e-15);
+  EXPECT_FALSE(is_met(up_to(Quantity::motor_amplitude, 0.3), answer));
+  EXPECT_TRUE(is_met(up_to(Quantity::motor_amplitude, 0.4), answer));
+  answer.cycles.push_back({.stability = Stability::unstable, .amplitude = 1.0});
+  EXPECT_TRUE(is_met(up_to(Quantity::amplitude, 0.2), answer));
+}
+
 TEST(Target, LimitsAnyQuantity) {
   const Answer answer = hunting(Verdict::hunts, 0.1);
   const auto within = [](Quantity quantity, const Bounds& permitted) {

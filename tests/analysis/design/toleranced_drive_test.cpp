@@ -100,6 +100,19 @@ TEST(TolerancedDrive, ATachometersGainCanBeVaried) {
   EXPECT_EQ(drive_with(drive, std::vector{0.004}).servo, closed_form_servo(expected)->servo);
 }
 
+/// Half as much Coulomb friction again would exceed a breakaway torque that stays.
+TEST(TolerancedDrive, ABreakawayTorqueKeepsItsRatioToCoulombFriction) {
+  TolerancedDrive drive{sound_drive(), {{"motor.coulomb", within_share(0.1, 0.5)}}};
+  drive.nominal.motor.friction.coulomb = 0.1;
+  drive.nominal.motor.friction.breakaway = 0.12;
+  EXPECT_THAT(faults_of(drive), IsEmpty());
+  EXPECT_NEAR(searched_drive_with(drive, std::vector{0.15}).motor.friction.breakaway.value(), 0.18,
+              1e-15);
+  drive.varied.push_back({"motor.breakaway", within_share(0.12, 0.1)});
+  EXPECT_EQ(searched_drive_with(drive, std::vector{0.05, 0.12}).motor.friction.breakaway, 0.12);
+  EXPECT_THAT(faults_of(drive), ElementsAre(HasSubstr("motor.breakaway")));
+}
+
 TEST(EdgeTolerancedDrive, OfOneNumberEveryFaultIsNamed) {
   EXPECT_THAT(
       faults_of(with("motor.resistance", Normal{282.0, 100.0})),
