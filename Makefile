@@ -13,7 +13,8 @@ BUILD := cmake --build --parallel $(JOBS) --preset
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo tool test bench versions clang sanitize fuzz browser oracle million followed designed derivatives seeded-faults \
+.PHONY: help demo tool test bench versions clang sanitize fuzz browser oracle million followed designed tuned \
+        derivatives seeded-faults \
         coverage readme format format-check tidy clean package package-check
 
 help:  ## this list
@@ -89,8 +90,12 @@ followed: programs  ## 2,000 random drives: no ceiling and no proof by energy is
 	  --gtest_filter='PropertyCeiling*:PropertyAbsenceByEnergy*:PropertyGapSpeed*:PropertySafeStarts*'
 	$(RELEASE)/tests/oracle/drives/bound_drives --count 200 --follow
 
-designed: programs  ## 300 random design tasks of drives without a closed form, put back into them
+designed: programs  ## random design tasks of drives without a closed form, put back into them
 	GEARLASH_TASKS=300 $(RELEASE)/tests/test_analysis --gtest_filter='PropertySearchedValues*'
+	$(RELEASE)/tests/oracle/drives/design_drives --count 300
+
+tuned: programs  ## gains of 20 industrial drives, tuned for their series, in the fixed-step simulator
+	tests/oracle/drives/tune-drives --build $(RELEASE)
 
 derivatives: programs  ## 300 random limit cycles: their derivatives beside differences
 	GEARLASH_CYCLES=300 $(RELEASE)/tests/test_analysis --gtest_filter='PropertySearchedSensitivity*'
