@@ -170,7 +170,7 @@ class Units {
   void add_corners(std::size_t most) {
     const std::size_t width = task_.series.varied.size();
     const std::vector<std::vector<bool>> corners = corner_sample(width);
-    if (corners.size() > most) return;
+    if (all_.size() + corners.size() > most) return;  // the mean one is there
     for (const std::vector<bool>& is_high : corners) {
       Values values;
       for (std::size_t i = 0; i < width; ++i) {
