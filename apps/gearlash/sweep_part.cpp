@@ -165,15 +165,14 @@ SweepRecord SweepPart::read_record(const SweepFile& sweep, const Provenance& pro
     if (json.at("sweep") != sweep.text || count_in(json, "points") != sweep.grid.size()) {
       refuse("must be of the same sweep file");
     }
-    SweepRecord record{
-        .run = {.count = {.solved = {.side_by_side = count_in(json, "side_by_side"),
-                                     .one_by_one = count_in(json, "one_by_one")},
-                          .searched = count_in(json, "searched"),
-                          .refused = count_in(json, "refused"),
-                          .unproved = count_in(json, "unproved")},
-                .points_done = count_in(json, "points_done")},
-        .checksum_of_data = checksum_in(json, "checksum_of_data"),
-        .reduced = json.value("reduced", "")};
+    SweepRecord record{.run = {.count = {.solved = {.side_by_side = count_in(json, "side_by_side"),
+                                                    .one_by_one = count_in(json, "one_by_one")},
+                                         .searched = count_in(json, "searched"),
+                                         .refused = count_in(json, "refused"),
+                                         .unproved = count_in(json, "unproved")},
+                               .points_done = count_in(json, "points_done")},
+                       .checksum_of_data = checksum_in(json, "checksum_of_data"),
+                       .reduced = json.value("reduced", "")};
     const SweepRun& run = record.run;
     if (run.points_done <= sweep.grid.size() && run.count.points() == run.points_done) {
       return record;

@@ -134,10 +134,10 @@ struct FeasibleValues {
   /// and 1e-9 where it does not.
   double located = 0.0;
   /// Searched: what happens at each end of an interval within the range. Folds and other
-  /// bifurcations are located on the cycle that one side has alone, to 1e-9. They may lie beyond the
-  /// first value that misses the target, where starts cease to lead to the cycle before it ends. Where
-  /// a stable cycle that misses the target goes on into an interval in which no start leads to it, the
-  /// interval ends with it; one that it fills is undecided.
+  /// bifurcations are located on the cycle that one side has alone, to 1e-9. They may lie beyond
+  /// the first value that misses the target, where starts cease to lead to the cycle before it
+  /// ends. Where a stable cycle that misses the target goes on into an interval in which no start
+  /// leads to it, the interval ends with it; one that it fills is undecided.
   std::vector<Border> borders{};
   /// Searched: one for each interval, if the target limits ceilings alone and the parameter is a
   /// number.

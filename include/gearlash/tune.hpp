@@ -87,8 +87,8 @@ struct TunedDrive {
 [[nodiscard]] std::optional<std::string> why_integral_action_hunts(const Drive& drive);
 
 /// The task for the drive without integral action, P in place of PI or PD of PID or a cascade whose
-/// speed has no integral, and without what then does not exist. Empty where there is none to give up, or nothing is left to tune.
-/// Precondition: a task without faults().
+/// speed has no integral, and without what then does not exist. Empty where there is none to give
+/// up, or nothing is left to tune. Precondition: a task without faults().
 [[nodiscard]] std::optional<TuneTask> without_integral_action(const TuneTask& task);
 
 }  // namespace gearlash

@@ -17,7 +17,8 @@ using Index = Eigen::Index;
 
 // ---- the end of a branch ------------------------------------------------------------------------
 
-/// How near the orbit is to gaining or losing an event at a guard: 0 where that happens.
+/// How near the orbit is to gaining or losing an event at a guard, or to another mode after one: 0
+/// where that happens.
 struct Clearance {
   double share = infinity;
   std::string name;
@@ -29,30 +30,64 @@ struct Clearance {
   }
 };
 
-/// For each guard that does not end a stretch of the orbit: its least distance over its largest.
+/// The least distance from a guard where it turns back between two events, or at one of them, over
+/// the largest. A stretch that begins or ends on the guard comes from it or goes to it.
+double least_share(const AffineForm& guard, const Trajectory& motion, double begin, double end) {
+  constexpr int samples = 400;
+  std::vector<double> distances;
+  for (int i = 0; i <= samples; ++i) {
+    const double time = begin + (end - begin) * std::min(i, samples - 1) / samples;
+    distances.push_back(std::abs(guard.at(motion.at(time).numbers)));
+  }
+  const double most = *std::max_element(distances.begin(), distances.end());
+  constexpr double on_guard = 1e-9;
+  double least = infinity;
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const bool falls = i == 0 || distances[i] <= distances[i - 1];
+    const bool rises = i + 1 == distances.size() || distances[i] <= distances[i + 1];
+    const bool is_end = i == 0 || i + 1 == distances.size();
+    if (!falls || !rises || (is_end && distances[i] <= on_guard * most)) continue;
+    least = std::min(least, distances[i] / most);
+  }
+  return least;
+}
+
+/// Of the guards that do not end a stretch of the orbit.
 void consider_guards_passed_by(const HybridSystem& system, const Trajectory& motion,
                                const std::vector<Event>& events, Clearance& clearance) {
   double begin = motion.start_time();
   std::size_t mode = motion.at(begin).mode;
   for (const Event& event : events) {
-    constexpr int samples = 400;
     const AffineMode& here = system.mode(mode);
     for (std::size_t k = 0; k < here.transitions.size(); ++k) {
       if (event.kind == EventKind::transition && event.mode == mode && event.transition == k) {
         continue;
       }
-      double least = infinity;
-      double most = 0.0;
-      for (int i = 1; i < samples; ++i) {
-        const double time = begin + (event.time - begin) * i / samples;
-        const double distance = std::abs(here.transitions[k].guard.at(motion.at(time).numbers));
-        least = std::min(least, distance);
-        most = std::max(most, distance);
-      }
-      if (most > 0.0) clearance.consider(least / most, here.name, here.transitions[k].name);
+      clearance.consider(least_share(here.transitions[k].guard, motion, begin, event.time),
+                         here.name, here.transitions[k].name);
     }
     begin = event.time;
     mode = event.mode_after;
+  }
+}
+
+/// For each event that may lead to several modes: how near what decides is to 0, as a share of its
+/// terms.
+void consider_alternatives(const HybridSystem& system, const std::vector<Event>& events,
+                           Clearance& clearance) {
+  for (const Event& event : events) {
+    if (event.kind != EventKind::transition) continue;
+    const AffineMode& mode = system.mode(event.mode);
+    const Transition& transition = mode.transitions[event.transition];
+    for (const Alternative& alternative : transition.alternatives) {
+      for (const AffineForm& form : alternative.positive) {
+        const double terms =
+            std::abs(form.offset) + form.normal.cwiseAbs().dot(event.after.cwiseAbs());
+        if (terms > 0.0) {
+          clearance.consider(std::abs(form.at(event.after)) / terms, mode.name, transition.name);
+        }
+      }
+    }
   }
 }
 
@@ -85,6 +120,7 @@ Clearance clearance_of(const HybridSystem& system, const PeriodicOrbit& orbit) {
       {.from = from, .until = from + 2.0 * orbit.period, .event_limit = orbit.events.size()});
   consider_guards_passed_by(system, motion, motion.events(), clearance);
   consider_guards_met(system, motion.events(), clearance);
+  consider_alternatives(system, motion.events(), clearance);
   return clearance;
 }
 

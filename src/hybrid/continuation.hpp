@@ -33,8 +33,8 @@ struct Bifurcation {
 
 enum class BranchEnd {
   left_range,  ///< the last point is at an end of the range
-  grazing,     ///< a guard without an event is touched, or a guard is met at no speed: `culprit`.
-               ///< Beyond, the orbit has other events
+  grazing,     ///< a guard without an event is touched, a guard is met at no speed, or another mode
+               ///< follows an event: `culprit`. Beyond, the orbit has other events
   endless_period,  ///< the period has grown by `longest_period`: the orbit nears one of infinite
                    ///< period, from a rest back to it, as where hunting ends
   point_limit,     ///< the requested number of points is reached
@@ -71,9 +71,10 @@ struct ContinuationOptions {
 /// digits.
 ///
 /// The last orbit reveals a grazing. Of all guards that do not end a stretch, the measure is the
-/// least distance from the guard, as a share of its variation. Of the orbit's own guards, it is the
-/// least speed at which one is met, as a share of the highest. The guard with the smallest measure
-/// is named if that is below 1e-2.
+/// least distance from the guard where it turns back, as a share of its largest. Of the orbit's own
+/// guards, it is the least speed at which one is met, as a share of the highest. Of what decides
+/// which mode follows an event, it is its size as a share of its terms. The smallest measure names
+/// the grazing if that is below 1e-2.
 ///
 /// Throws InvalidInput if the range is empty or `parameter` is not in it.
 Branch continue_orbit(const Family& family, double parameter, const PeriodicOrbit& orbit,

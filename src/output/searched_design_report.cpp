@@ -102,7 +102,8 @@ std::string border_text(const ParameterText& shown, const Border& border) {
     case BorderKind::flip:
       return "flip at " + at + ": a limit cycle of twice the period begins";
     case BorderKind::neimark_sacker:
-      return "Neimark–Sacker bifurcation at " + at + ": a limit cycle gives way to motion on a torus";
+      return "Neimark–Sacker bifurcation at " + at +
+             ": a limit cycle gives way to motion on a torus";
     case BorderKind::grazing:
       return "grazing at " + at + ": a limit cycle touches \"" + border.event + "\"";
     case BorderKind::endless_period:
@@ -112,7 +113,7 @@ std::string border_text(const ParameterText& shown, const Border& border) {
     case BorderKind::unnamed:
       break;
   }
-  return "the verdict changes; no limit cycle that was followed accounts for it";
+  return "the motion changes; no limit cycle that was followed accounts for it";
 }
 
 std::string borders_text(const SearchedDesignReport& report) {
@@ -267,13 +268,15 @@ Json json_parameter(const Drive& drive, const SearchedParameter& parameter) {
            json_list(values.grid, [&](double value) { return json_value(drive, values, value); })},
           {"located", json_number(values.located)},
           {"intervals", json_list(values.intervals, of_interval)},
-          {"borders", json_list(values.borders, [](const Border& border) {
-             return Json{{"end", json_number(border.end)},
-                         {"kind", name_of(border.kind)},
-                         {"at", json_number(border.at)},
-                         {"located", json_number(border.located)},
-                         {"event", border.event.empty() ? Json(nullptr) : Json(border.event)}};
-           })},
+          {"borders", json_list(values.borders,
+                                [](const Border& border) {
+                                  return Json{{"end", json_number(border.end)},
+                                              {"kind", name_of(border.kind)},
+                                              {"at", json_number(border.at)},
+                                              {"located", json_number(border.located)},
+                                              {"event", border.event.empty() ? Json(nullptr)
+                                                                             : Json(border.event)}};
+                                })},
           {"proofs", json_list(values.proofs,
                                [&](const IntervalProof& proof) {
                                  const bool is_proved = !proof.parts.empty();

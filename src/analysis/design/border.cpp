@@ -29,9 +29,8 @@ const drive::FoundCycle* lost_cycle(const Analysis& here, const Analysis& there)
   for (const drive::FoundCycle& cycle : here.search->cycles) {
     if (cycle.stability == Stability::unstable) continue;
     const auto& others = there.search->cycles;
-    const bool is_there = std::any_of(others.begin(), others.end(), [&](const auto& other) {
-      return are_alike(cycle, other);
-    });
+    const bool is_there = std::any_of(others.begin(), others.end(),
+                                      [&](const auto& other) { return are_alike(cycle, other); });
     if (is_there) continue;
     if (largest == nullptr || cycle.amplitude > largest->amplitude) largest = &cycle;
   }
@@ -52,8 +51,8 @@ BorderKind kind_of(hybrid::BifurcationKind kind) {
   return BorderKind::unnamed;
 }
 
-/// Where a cycle that exists at `from` ends or loses its stability, on the way to `to`. Unnamed if it
-/// does neither.
+/// Where a cycle that exists at `from` ends or loses its stability, on the way to `to`. Unnamed if
+/// it does neither.
 Border end_of_cycle(const Drive& drive, const Axis& axis, const drive::FoundCycle& cycle,
                     double from, double to) {
   const hybrid::Family family = [&](double value) {
@@ -138,8 +137,8 @@ const char* name_of(BorderKind kind) {
 
 Border border_between(const Drive& drive, const Axis& axis, const AnalysedValue& met,
                       const AnalysedValue& unmet, double far) {
-  const double width = std::abs(unmet.value - met.value) /
-                       std::max(std::abs(unmet.value), std::abs(met.value));
+  const double width =
+      std::abs(unmet.value - met.value) / std::max(std::abs(unmet.value), std::abs(met.value));
   Border border{.end = met.value, .at = met.value, .located = width};
   const bool are_searched = met.analysis.search && unmet.analysis.search;
   if (!are_searched || move_alike(met.analysis, unmet.analysis)) {

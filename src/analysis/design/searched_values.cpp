@@ -35,17 +35,24 @@ class AnalysedDrive {
 
   JudgedValue afresh(double value) { return judged(value, nullptr); }
 
-  /// What happens between the end of an interval, upwards or downwards, and the nearest value beyond
-  /// that was analysed. Empty if there is none, or it meets the target. A cycle is followed as far as
-  /// `far`.
+  /// What happens between the end of an interval, upwards or downwards, and the values beyond that
+  /// were analysed, as far as `far`, from the nearest on: next to a fold motion lingers, and the
+  /// nearest may not have closed the cycle. Empty if there is none, or it meets the target.
   std::optional<Border> border_at(double end, bool upwards, double far) {
+    std::optional<Border> first;
     const auto at_end = known_.find(end);
-    if (at_end == known_.end()) return std::nullopt;
-    if (upwards ? std::next(at_end) == known_.end() : at_end == known_.begin()) return std::nullopt;
-    const auto beyond = upwards ? std::next(at_end) : std::prev(at_end);
-    if (beyond->second.is_met) return std::nullopt;
-    return border_between(drive_, axis_, {end, *at_end->second.analysis},
-                          {beyond->first, *beyond->second.analysis}, far);
+    if (at_end == known_.end()) return first;
+    auto beyond = at_end;
+    while (upwards ? std::next(beyond) != known_.end() : beyond != known_.begin()) {
+      beyond = upwards ? std::next(beyond) : std::prev(beyond);
+      if (beyond->second.is_met || (upwards ? beyond->first > far : beyond->first < far)) break;
+      const Border border = border_between(drive_, axis_, {end, *at_end->second.analysis},
+                                           {beyond->first, *beyond->second.analysis}, far);
+      if (!first) first = border;
+      if (border.kind == BorderKind::unnamed || border.kind == BorderKind::rest) continue;
+      return border;
+    }
+    return first;
   }
 
   /// From the nearest value that was analysed.
