@@ -16,7 +16,22 @@ std::string tics(char axis, const std::vector<std::string>& names) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     text += fmt::format("{}{} {}", i == 0 ? "" : ", ", quoted(names[i]), i);
   }
-  return text + ") scale 0\n";
+  std::size_t characters = 0;
+  for (const std::string& one : names) characters += one.size();
+  constexpr std::size_t most_in_a_line = 55;
+  const bool is_turned = axis == 'x' && characters > most_in_a_line;
+  return text + ") scale 0" + (is_turned ? " rotate by 35 right" : "") + "\n";
+}
+
+/// Blue below 0 and orange above, or by ratio from light to orange.
+std::string palette(const CellMap& map) {
+  if (map.least > 0.0) {
+    return fmt::format("set palette defined (0 '#fdf3ea', 1 '#f0a868')\nset cbrange [{}:{}]\n",
+                       std::log10(map.least), std::log10(std::max(map.largest, 1.001 * map.least)));
+  }
+  return fmt::format(
+      "set palette defined (-1 '#5aa7d6', 0 '#ffffff', 1 '#f0a868')\nset cbrange [{}:{}]\n",
+      -map.largest, map.largest);
 }
 
 struct Cells {
@@ -56,9 +71,10 @@ std::string draw_cell_map(const CellMap& map, PictureFormat format) {
     std::vector<std::string> layers;
     if (!cells.numbers.is_empty()) {
       layers.push_back(fmt::format(
-          "${0} using 1:2:(0.48):(0.48):3 with boxxyerror fill solid noborder linecolor palette "
+          "${0} using 1:2:(0.48):(0.48):{3} with boxxyerror fill solid noborder linecolor palette "
           "notitle, ${0} using 1:2:(sprintf('{{/*{2} {1}}}',$3)) with labels notitle",
-          name, map.number_format, is_one ? "1.0" : "0.7"));
+          name, map.number_format, is_one ? (map.columns.size() > 8 ? "0.75" : "1.0") : "0.7",
+          map.least > 0.0 ? "(log10($3))" : "3"));
     }
     if (!cells.dots.is_empty()) {
       layers.push_back(fmt::format("${0}_dots using 1:2:('{{/*{1} ·}}') with labels notitle", name,
@@ -69,10 +85,7 @@ std::string draw_cell_map(const CellMap& map, PictureFormat format) {
     if (i == 0) plots += "unset label 1\nunset label 2\n";
   }
   std::string script = terminal(format) + "unset bmargin\nset encoding utf8\n";
-  script += fmt::format(
-      "set palette defined (-1 '#5aa7d6', 0 '#ffffff', 1 '#f0a868')\nset cbrange [{}:{}]\n"
-      "unset colorbox\nset border linewidth 0.8\n",
-      -map.largest, map.largest);
+  script += palette(map) + "unset colorbox\nset border linewidth 0.8\n";
   script += tics('x', map.columns) + tics('y', map.rows);
   script += fmt::format("set xrange [-0.5:{}]\nset yrange [-0.5:{}]\n",
                         static_cast<double>(map.columns.size()) - 0.5,

@@ -108,6 +108,7 @@ CellMap cells_of(const GridTable& table, Quantity quantity) {
   for (const double value : x.values) map.columns.push_back(short_text(x, grid.drive, value));
   for (const double value : y.values) map.rows.push_back(short_text(y, grid.drive, value));
   CellPanel panel;
+  double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < y.values.size(); ++i) {
     std::vector<double>& row = panel.values.emplace_back();
     for (std::size_t j = 0; j < x.values.size(); ++j) {
@@ -115,9 +116,13 @@ CellMap cells_of(const GridTable& table, Quantity quantity) {
       const double value = of_motion(table.table, quantity, point);
       const bool is_rest = std::isnan(value) && !std::isnan(table.table[quantity][point]);
       row.push_back(is_rest ? std::numeric_limits<double>::infinity() : value);
-      if (std::isfinite(value)) map.largest = std::max(map.largest, std::abs(value));
+      if (!std::isfinite(value)) continue;
+      map.largest = std::max(map.largest, std::abs(value));
+      least = std::min(least, value);
     }
   }
+  constexpr double far = 10.0;  // a ratio that proportional colours would not show
+  if (least > 0.0 && map.largest > far * least) map.least = least;
   if (map.largest == 0.0) map.largest = 1.0;
   map.panels.push_back(std::move(panel));
   return map;

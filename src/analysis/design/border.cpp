@@ -145,9 +145,12 @@ Border border_between(const Drive& drive, const Axis& axis, const AnalysedValue&
     border.kind = BorderKind::limit;
     return border;
   }
-  Border found = end_of_lost_cycle(drive, axis, met, unmet, far);
+  // The one that misses the target, else one that meets it and ends at the border.
+  Border found = end_of_lost_cycle(drive, axis, unmet, met, met.value - (far - met.value));
   if (found.kind == BorderKind::unnamed) {
-    found = end_of_lost_cycle(drive, axis, unmet, met, met.value - (far - met.value));
+    constexpr double near = 0.01;
+    found = end_of_lost_cycle(drive, axis, met, unmet, far);
+    if (std::abs(found.at - met.value) > near * std::abs(met.value)) found = {};
   }
   if (found.kind != BorderKind::unnamed) {
     found.end = met.value;

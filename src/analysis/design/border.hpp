@@ -12,9 +12,10 @@ struct AnalysedValue {
   const Analysis& analysis;
 };
 
-/// Compares the motions on both sides of a border, and follows the largest stable cycle that one
-/// side has alone across it (continue_orbit()), as far as `far`. `met`: the last value that meets
-/// the target; `unmet`: one beyond.
+/// Compares the motions on both sides of a border, and follows the largest stable cycle that the
+/// side beyond has alone across it (continue_orbit()). If there is none, that of the side within, as
+/// far as `far`, but no more than 1 % beyond the border. `met`: the last value that meets the
+/// target; `unmet`: one beyond.
 Border border_between(const Drive& drive, const Axis& axis, const AnalysedValue& met,
                       const AnalysedValue& unmet, double far);
 
