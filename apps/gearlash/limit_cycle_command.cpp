@@ -161,9 +161,24 @@ std::string draw_ceiling(const Work& work, PictureFormat format) {
   return draw_bar_chart(ceiling_bars(work.report), format);
 }
 
+/// The motion that leads to the hunting, over time.
+MotionPicture response_picture(const Work& work) {
+  if (!work.analysis.closed) {
+    return hunting_picture(headline(work.report), work.report.drive, work.analysis.reduced,
+                           *work.analysis.search, work.report.angle);
+  }
+  MotionPicture picture = servo_picture(work);
+  picture.motions.resize(1);
+  if (const LimitCycle* cycle = largest_stable(*work.analysis.closed)) {
+    picture.hunting_period = cycle->period / work.analysis.servo->natural_frequency;
+  }
+  return picture;
+}
+
 std::string draw(const Work& work, const Plot& plot) {
   if (plot.kind == "tornado") return draw_tornado(work, plot.format);
   if (plot.kind == "ceiling") return draw_ceiling(work, plot.format);
+  if (plot.kind == "time") return draw_time_response(response_picture(work), plot.format);
   return draw_phase_plane(
       work.analysis.closed
           ? servo_picture(work)
@@ -289,7 +304,7 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "json"});
   const std::vector<Plot> plots =
-      read_plots(options.plots, {"phase", "tornado", "ceiling"}, faults);
+      read_plots(options.plots, {"phase", "time", "tornado", "ceiling"}, faults);
   faults.require_distinct({"DRIVE.toml", options.servo.file}, files_of(plots));
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
   if (written && !closed_form_drive(written->drive)) {
@@ -363,8 +378,8 @@ void add_limit_cycle_command(Command& app, Action& action) {
                    "\"0.2 rad, 0.9 Hz\"")
       ->type_name("AMPLITUDE,FREQUENCY");
   add_plot_option(*command, options->plots,
-                  "Draw phase=FILE, the limit cycles in the phase plane (with a closed\n"
-                  "form also a step response that leads to them), tornado=FILE, the\n"
+                  "Draw phase=FILE, the limit cycles in the phase plane and motions that\n"
+                  "lead to them, time=FILE, such a motion over time, tornado=FILE, the\n"
                   "sensitivities of the amplitude, or ceiling=FILE, what the proved\n"
                   "bound of every motion is made of;");
   command->add_flag("--margins", options->margins,

@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "analysis/analyse.hpp"
-#include "analysis/final_servo.hpp"
 #include "base/range_check.hpp"
 #include "command.hpp"
 #include "gearlash/motion.hpp"
 #include "general/assemble/time_scale.hpp"
+#include "general/attractors/search_setting.hpp"
 #include "input/units.hpp"
 #include "machine_faults.hpp"
 #include "output/answer_report.hpp"
@@ -74,9 +74,11 @@ Start read_start(const SimulateOptions& options, Faults& faults) {
   return start;
 }
 
-/// A step that shows hunting: five backlashes, at least twenty encoder counts.
+/// A step that shows hunting: five backlashes, at least twenty encoder counts, and three times the
+/// error that friction holds.
 double default_reference(const drive::ReducedDrive& reduced) {
-  const double step = std::max(5.0 * reduced.backlash, 20.0 * reduced.sensing.resolution);
+  const double step = std::max({5.0 * reduced.backlash, 20.0 * reduced.sensing.resolution,
+                                3.0 * drive::held_length(reduced)});
   return step > 0.0 && std::isfinite(step) ? step : 1.0;
 }
 
@@ -185,20 +187,50 @@ std::string title_of(const Task& task) {
   return step != nullptr ? "Step to " + angle(step->after) : "Response to the reference";
 }
 
-/// The verdict, if the closed form gives it at once; else empty.
-std::string verdict_of(const WrittenDrive& written) {
-  if (!final_servo(written.drive)) return {};
-  return headline(
-      report_of(written.drive, analyse(written.drive, {.proofs = false}), written.angle, {}));
+struct KnownHunting {
+  std::string headline;
+  double period = 0.0;  ///< s; 0: none is known
+};
+
+KnownHunting hunting_of(const WrittenDrive& written) {
+  TerminalProgress progress("Searching");
+  const Answer answer = analyse(written.drive, {.proofs = false}, progress);
+  KnownHunting known;
+  known.headline = headline(report_of(written.drive, answer, written.angle, {}));
+  if (const Cycle* cycle = answer.largest_stable()) {
+    known.period = cycle->period;
+  } else if (!answer.irregular.empty()) {
+    known.period = answer.irregular.front().mean_period.value_or(0.0);
+  }
+  return known;
 }
 
-std::string draw(const Task& task, const Motion& motion, const Plot& plot) {
-  const MotionPicture picture{.title = title_of(task),
-                              .subtitle = verdict_of(task.written),
-                              .drive = task.written.drive,
-                              .motions = {{.motion = motion}},
-                              .angle = task.written.angle,
-                              .period = task.period};
+/// The motion until its hunting shows, unless --until was typed. Tables end earlier.
+Motion motion_to_draw(const Task& task, const Motion& motion, const SimulateOptions& options,
+                      double hunting_period) {
+  constexpr double periods = 8.0;
+  const double until = task.until + periods * hunting_period;
+  const double longest = 0.5 * most_periods_drawn * task.period;
+  const bool shows = periods * hunting_period < task.until;
+  if (options.until || motion.stop() != MotionStop::reached_end || shows || until > longest) {
+    return motion;
+  }
+  Motion longer = simulate(task.written.drive, {.until = until, .start = task.start});
+  return longer.events().size() > most_events_drawn ? motion : longer;
+}
+
+MotionPicture picture_of(const Task& task, const Motion& motion, const SimulateOptions& options) {
+  const KnownHunting hunting = hunting_of(task.written);
+  return {.title = title_of(task),
+          .subtitle = hunting.headline,
+          .drive = task.written.drive,
+          .motions = {{.motion = motion_to_draw(task, motion, options, hunting.period)}},
+          .angle = task.written.angle,
+          .period = task.period,
+          .hunting_period = hunting.period};
+}
+
+std::string draw(const MotionPicture& picture, const Plot& plot) {
   return plot.kind == "phase" ? draw_phase_plane(picture, plot.format)
                               : draw_time_response(picture, plot.format);
 }
@@ -229,8 +261,12 @@ ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
   const Task task = read_task(options, faults);
   const Motion motion = simulated(task, options);
   Extras extras;
+  std::optional<MotionPicture> picture;
   for (const Plot& plot : plots) {
-    extras.make([&] { write_file(plot.file, draw(task, motion, plot)); });
+    extras.make([&] {
+      if (!picture) picture = picture_of(task, motion, options);
+      write_file(plot.file, draw(*picture, plot));
+    });
   }
   write_table({.drive = task.written.drive,
                .motion = motion,
@@ -263,11 +299,13 @@ void add_start_options(Command& command, SimulateOptions& options) {
       "Set the initial speed of the motor minus that of the load; default 0", "SPEED");
   add("--reference", options.reference,
       "Set a constant reference; default the file's reference, else a step of\n"
-      "five backlashes, at least twenty encoder counts",
+      "five backlashes, at least twenty encoder counts and three times the\n"
+      "error that friction holds",
       "ANGLE");
   add("--until", options.until,
       "Set the end time; default 10 periods of the loop plus twice the\n"
-      "settling time of the signals",
+      "settling time of the signals; pictures go on for eight periods of\n"
+      "slow hunting",
       "TIME");
   add("--every", options.every, "Set the time between samples; default a thousandth of --until",
       "TIME");

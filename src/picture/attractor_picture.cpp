@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "analysis/motion.hpp"
 #include "model/reduced_drive.hpp"
+#include "model/signal.hpp"
 #include "output/report_units.hpp"
 
 namespace gearlash {
@@ -50,7 +52,79 @@ std::string name_of_cycle(const drive::FoundCycle& cycle, double amplitude,
                      angle_text(amplitude, angle, digits), significant(cycle.period(), digits));
 }
 
+/// What is seen in practice: the first cycle that is not unstable, else irregular motion, else
+/// running away.
+struct Seen {
+  drive::MotionEnd end = drive::MotionEnd::rest;
+  std::size_t which = 0;
+  double amplitude = 0.0;  ///< rad, of the shaft that swings more
+  double period = 0.0;     ///< s
+  double approach = 0.0;   ///< s
+};
+
+Seen seen_in(const drive::AttractorSearch& search) {
+  constexpr double near_enough = 0.01;  // of a disturbance, which a line's width hides
+  for (std::size_t i = 0; i < search.cycles.size(); ++i) {
+    const drive::FoundCycle& cycle = search.cycles[i];
+    if (cycle.stability == Stability::unstable || cycle.starts == 0) continue;
+    const double periods = std::log(near_enough) / std::log(std::min(cycle.multiplier, 0.9));
+    return {drive::MotionEnd::cycle, i, std::max(cycle.amplitude, cycle.motor_amplitude),
+            cycle.period(), std::max(periods, 3.0) * cycle.period()};
+  }
+  if (!search.irregular.empty()) {
+    const drive::IrregularFound& motion = search.irregular.front();
+    return {drive::MotionEnd::irregular, 0, std::max(motion.amplitude, motion.motor_amplitude),
+            motion.period, 3.0 * motion.period};
+  }
+  const bool runs_away = search.count(drive::MotionEnd::diverges) > 0;
+  return {runs_away ? drive::MotionEnd::diverges : drive::MotionEnd::rest, 0, 0.0, 0.0, 0.0};
+}
+
+/// Of the starts that lead there the one nearest to twice the amplitude from the reference; to the
+/// middle of all starts if there is no amplitude.
+const drive::Outcome* start_to_show(const drive::AttractorSearch& search, const Seen& seen,
+                                    double reference) {
+  const auto away = [&](const drive::Outcome& outcome) {
+    return std::abs(outcome.start.load_position - reference);
+  };
+  const drive::Outcome* chosen = nullptr;
+  for (const drive::Outcome& outcome : search.outcomes) {
+    if (outcome.end != seen.end || outcome.start.load_speed != 0.0) continue;
+    const bool has_which =
+        seen.end == drive::MotionEnd::cycle || seen.end == drive::MotionEnd::irregular;
+    if (has_which && outcome.which != seen.which) continue;
+    const double wanted = 2.0 * seen.amplitude;
+    if (chosen == nullptr || std::abs(away(outcome) - wanted) < std::abs(away(*chosen) - wanted)) {
+      chosen = &outcome;
+    }
+  }
+  return chosen;
+}
+
 }  // namespace
+
+MotionPicture hunting_picture(const std::string& title, const Drive& drive,
+                              const drive::ReducedDrive& reduced,
+                              const drive::AttractorSearch& search, const AngleUnit& angle) {
+  constexpr double swings = 10.0;
+  constexpr double periods = 8.0;
+  constexpr std::size_t most_events = 200'000;  // ticks included
+  MotionPicture picture{.title = title, .drive = drive, .angle = angle};
+  const Seen seen = seen_in(search);
+  drive::DriveSystem system = drive::drive_system(reduced);
+  const drive::Outcome* outcome =
+      start_to_show(search, seen, drive::value_at(reduced.reference, 0.0));
+  const drive::ShaftStates start = outcome != nullptr ? outcome->start : drive::ShaftStates{};
+  picture.period = search.swing_time > 0.0 ? search.swing_time : 1.0;
+  picture.hunting_period = seen.period;
+  const double until = std::max(swings * picture.period, seen.approach + periods * seen.period);
+  hybrid::Trajectory trajectory =
+      hybrid::simulate(system.system, drive::drive_start(reduced, system, start),
+                       {.until = until, .event_limit = most_events});
+  picture.motions.push_back({.motion = motion_of(std::move(system), std::move(trajectory))});
+  picture.subtitle = "from " + angle_text(start.load_position, angle, digits) + ", at rest";
+  return picture;
+}
 
 MotionPicture attractor_picture(const std::string& title, const Drive& drive,
                                 const drive::ReducedDrive& reduced,

@@ -14,4 +14,10 @@ MotionPicture attractor_picture(const std::string& title, const Drive& drive,
                                 const drive::ReducedDrive& reduced,
                                 const drive::AttractorSearch& search, const AngleUnit& angle);
 
+/// The motion from one of the search's starts to what is seen in practice (hunting, else running
+/// away, else rest), over time. Its subtitle has the start.
+MotionPicture hunting_picture(const std::string& title, const Drive& drive,
+                              const drive::ReducedDrive& reduced,
+                              const drive::AttractorSearch& search, const AngleUnit& angle);
+
 }  // namespace gearlash

@@ -13,6 +13,7 @@ namespace gearlash {
 namespace {
 
 constexpr double rounding = 1e-9;
+constexpr int most_steps = 6;  // of an axis
 
 /// The number of letters from `place` on that are a subscript: "n" after "ω_", or the letters after
 /// a single capital and "_", as in J_L and F_Total. Names such as "my_servo" have none.
@@ -36,16 +37,6 @@ int decades_between(double low, double high) {
          static_cast<int>(std::ceil(std::log10(low) - rounding)) + 1;
 }
 
-/// The subtitle in one line, or in two if the page is too narrow, broken after a comma or a blank.
-std::vector<std::string> subtitle_lines(const std::string& subtitle) {
-  constexpr std::size_t page = 112;
-  if (width_in_columns(subtitle) <= page) return {subtitle};
-  std::size_t place = subtitle.find_last_of(',', subtitle.size() * 3 / 5);
-  if (place == std::string::npos) place = subtitle.find_last_of(' ', subtitle.size() / 2);
-  if (place == std::string::npos) return {subtitle};
-  return {subtitle.substr(0, place + 1), subtitle.substr(place + 2)};
-}
-
 /// Whether gnuplot's numbers would have so many zeros that they overlap.
 bool needs_powers(const ChartAxis& axis) {
   if (!axis.tics.empty() || !axis.low || !axis.high) return false;
@@ -56,21 +47,11 @@ std::string tics_command(char name, const std::vector<std::string>& tics) {
   return fmt::format("set {}tics ({})\n", name, fmt::join(tics, ", "));
 }
 
-/// The smallest step of 1, 2 or 5 times a power of ten that divides `length` into at most six.
-double round_step(double length) {
-  const double least = length / 6.0;
-  const double power = std::pow(10.0, std::floor(std::log10(least)));
-  for (const double digit : {1.0, 2.0, 5.0}) {
-    if (digit * power >= least) return digit * power;
-  }
-  return 10.0 * power;
-}
-
 /// Equal steps, numbered as multiples of the same power of ten. The right end of an x axis has no
 /// number, because half of it would not fit.
 std::string even_tics(char name, double low, double high) {
   const int power = static_cast<int>(std::floor(std::log10(high)));
-  const double step = round_step(high - low);
+  const double step = round_step(high - low, most_steps);
   const double last = name == 'x' ? high - 0.03 * (high - low) : high * (1.0 + rounding);
   std::vector<std::string> tics;
   for (double i = std::ceil(low / step - rounding); i * step <= last; ++i) {
@@ -119,12 +100,33 @@ std::string short_log_tics(char name, double low, double high) {
   }
   if (tics.size() >= 2) return tics_command(name, tics);
   tics.clear();
-  const double step = round_step(high - low);
+  const double step = round_step(high - low, most_steps);
   for (double i = std::ceil(low / step); i * step <= high * (1.0 + rounding); ++i) add(i * step);
   return tics_command(name, tics);
 }
 
 }  // namespace
+
+std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
+  if (width_in_columns(text) <= width) return {text};
+  std::size_t place = text.rfind("; ", text.size() * 4 / 5);
+  if (place == std::string::npos || place < text.size() / 4) {
+    place = text.rfind(", ", text.size() * 3 / 5);
+  }
+  if (place != std::string::npos) return {text.substr(0, place + 1), text.substr(place + 2)};
+  place = text.rfind(' ', text.size() / 2);
+  if (place == std::string::npos) return {text};
+  return {text.substr(0, place), text.substr(place + 1)};
+}
+
+double round_step(double length, int most) {
+  const double least = length / most;
+  const double power = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double digit : {1.0, 2.0, 5.0}) {
+    if (digit * power >= least) return digit * power;
+  }
+  return 10.0 * power;
+}
 
 std::string quoted(const std::string& text, const std::string& style) {
   std::string safe = style.empty() ? "'" : "'{" + style + " ";
@@ -165,15 +167,29 @@ std::string terminal(PictureFormat format, double height) {
 }
 
 std::string heading(const std::string& title, const std::string& subtitle) {
-  const std::vector<std::string> lines = subtitle_lines(subtitle);
+  const std::vector<std::string> titles = wrapped(title, page_in_bold);
+  const std::vector<std::string> lines = wrapped(subtitle, page_in_small);
+  // Lines come at these heights, the last one nearest to the axes.
+  constexpr double lowest = 0.893;
+  constexpr double line_height = 0.027;
   std::string labels;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const double height = lines.size() == 1 ? 0.905 : i == 0 ? 0.92 : 0.893;
+    const double height = lines.size() == 1 ? 0.905 : i == 0 ? 0.92 : lowest;
     labels += fmt::format("set label {} {} at graph 0.5, screen {} center\n", i == 0 ? 1 : 1001,
                           quoted(lines[i], "/*0.87"), height);
   }
-  return "set encoding utf8\nset title " + quoted(title, "/:Bold") +
-         fmt::format(" offset 0,{}\n", lines.size() == 1 ? "1.1" : "1.6") + labels +
+  std::string top;
+  if (titles.size() == 1) {
+    top = "set title " + quoted(title, "/:Bold") +
+          fmt::format(" offset 0,{}\n", lines.size() == 1 ? "1.1" : "1.6");
+  }
+  for (std::size_t i = 0; i < titles.size() && titles.size() > 1; ++i) {
+    const double above = lines.size() == 1 ? 0.905 : 0.92;
+    top += fmt::format("set label {} {} at graph 0.5, screen {:.4g} center\n", 1002 + i,
+                       quoted(titles[i], "/:Bold"),
+                       above + line_height * 1.15 * static_cast<double>(titles.size() - i));
+  }
+  return "set encoding utf8\n" + top + labels +
          "set tmargin screen 0.88\nset rmargin screen 0.97\n"
          "set tics nomirror out\nset border linewidth 0.8\n";
 }

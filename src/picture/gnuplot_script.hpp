@@ -18,7 +18,18 @@ std::string quoted(const std::string& text, const std::string& style = "");
 /// units of 1/900 of the width.
 std::string terminal(PictureFormat format, double height = 700.0);
 
-/// Title, subtitle (in two lines if it is long), and the borders of every chart.
+/// Letters in a line of a title, and in one of a subtitle.
+inline constexpr std::size_t page_in_bold = 84;
+inline constexpr std::size_t page_in_small = 112;
+
+/// The text in one line, or in two if it has more than `width` columns, broken after a semicolon, a
+/// comma or a blank.
+std::vector<std::string> wrapped(const std::string& text, std::size_t width);
+
+/// The smallest step of 1, 2 or 5 times a power of ten that divides `length` into at most `most`.
+double round_step(double length, int most);
+
+/// Title and subtitle (each in two lines if it is long), and the borders of every chart.
 std::string heading(const std::string& title, const std::string& subtitle);
 
 struct Legend {

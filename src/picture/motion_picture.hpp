@@ -27,16 +27,18 @@ struct MotionPicture {
   std::vector<DrawnMotion> motions{};
   AngleUnit angle{};    ///< of the axes
   double period = 1.0;  ///< s, of the loop: see drawn_motion()
+  /// s, of the hunting, if it is known: the last three periods are enlarged. 0: measured.
+  double hunting_period = 0.0;
 };
 
 /// A picture with more than these numbers would be unreadable.
 inline constexpr std::size_t most_events_drawn = 20'000;
 inline constexpr double most_periods_drawn = 1'600.0;
 
-/// Draws the first motion over time in up to four panels: the positions of load and motor with the
-/// reference and the gap around the load; the same enlarged around the reference if the motion ends
-/// in oscillations that are small beside it; the gap between its faces; the motor's torque with its
-/// limit.
+/// Draws the first motion over time: the positions of load and motor with the reference and the gap
+/// around the load, the gap between its faces, and the motor's torque with its limit. If the motion
+/// ends in an oscillation, or at an error, that is small or fast beside the whole, a second column
+/// shows the end alone, relative to the reference, with the encoder's steps where they are visible.
 ///
 /// Returns the bytes of the picture; the same motion gives the same SVG. Throws InvalidInput for
 /// more than most_events_drawn events or most_periods_drawn periods, and OutputError if gnuplot is

@@ -18,7 +18,7 @@ std::string range_of(const Bounds& extent, double margin) {
   return fmt::format("[{:.7g}:{:.7g}]", low - margin * length, high + margin * length);
 }
 
-void ImpactMarks::add(double x, double y) {
+void ImpactMarks::add(double x, double y, double other) {
   constexpr double smallest_distance = 0.004;  // of the extent; less than a mark
   if (std::abs(x - x_) < smallest_distance * x_extent_ &&
       std::abs(y - y_) < smallest_distance * y_extent_) {
@@ -26,7 +26,7 @@ void ImpactMarks::add(double x, double y) {
   }
   x_ = x;
   y_ = y;
-  marks_.row(x, y);
+  marks_.row(x, y, other);
 }
 
 std::vector<DrawnPiece> legible_curve(const MotionPicture& picture, const Motion& motion) {
@@ -69,6 +69,9 @@ std::string numbers_line(const MotionPicture& picture) {
               : std::string(", sensor on the ") + name_of(drive.sensor.position);
   if (drive.sampling) {
     line += fmt::format(", sampled every {} ms", significant(1e3 * drive.sampling->period, 4));
+  }
+  if (reduced.sensing.resolution > 0.0) {
+    line += ", encoder step " + angle_text(reduced.sensing.resolution, picture.angle, 3);
   }
   return line;
 }

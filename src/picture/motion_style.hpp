@@ -25,7 +25,8 @@ class ImpactMarks {
   ImpactMarks(std::string name, double x_extent, double y_extent)
       : marks_(std::move(name)), x_extent_(x_extent), y_extent_(y_extent) {}
 
-  void add(double x, double y);
+  /// `other`: a third column, for another ordinate.
+  void add(double x, double y, double other = 0.0);
   const DataBlock& block() const { return marks_; }
 
  private:

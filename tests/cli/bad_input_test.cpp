@@ -122,9 +122,10 @@ TEST(BadInput, PictureEndings) {
   EXPECT_THAT(
       faults({"limit-cycle", "examples/elinco-fd162.toml", "--plot", "a.svg", "--plot",
               "tornada=a.svg"}),
-      ElementsAre("gearlash: --plot = a.svg: must be phase=FILE, tornado=FILE or ceiling=FILE",
-                  "gearlash: --plot = tornada=a.svg: must be phase=FILE, tornado=FILE or "
-                  "ceiling=FILE (did you mean tornado?)"));
+      ElementsAre(
+          "gearlash: --plot = a.svg: must be phase=FILE, time=FILE, tornado=FILE or ceiling=FILE",
+          "gearlash: --plot = tornada=a.svg: must be phase=FILE, time=FILE, tornado=FILE or "
+          "ceiling=FILE (did you mean tornado?)"));
   EXPECT_THAT(faults({"simulate", "examples/elinco-fd162.toml", "--plot", "time="}),
               ElementsAre(HasSubstr("must end in .svg, .png or .pdf")));
 }

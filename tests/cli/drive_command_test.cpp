@@ -198,6 +198,36 @@ TEST_F(DriveCommand, SimulateDrawsDrives) {
   }
 }
 
+/// One start of the search, with the verdict as the title.
+TEST_F(DriveCommand, LimitCycleDrawsAMotionThatLeadsToTheHunting) {
+  const std::string picture = (scratch_ / "way.svg").string();
+  const Outcome run =
+      run_tool({"limit-cycle", "examples/telescope-axis.toml", "--plot", "time=" + picture});
+  EXPECT_EQ(run.status, 0) << run.err;
+  const std::string svg = file_text(picture);
+  EXPECT_THAT(svg, HasSubstr("<title>hunts: ±1.79 arcmin"));
+  EXPECT_THAT(svg, HasSubstr(" arcmin, at rest"));
+  EXPECT_THAT(svg, HasSubstr("in the last third: load ±1.79 arcmin"));
+}
+
+/// Ten periods of the loop end before the motor has crossed its gap once.
+TEST_F(DriveCommand, PicturesGoOnUntilSlowHuntingShows) {
+  const std::string picture = (scratch_ / "slow.svg").string();
+  const std::string table = (scratch_ / "slow.csv").string();
+  const auto drawn = [&](std::vector<std::string> more) {
+    std::vector<std::string> words = {
+        "simulate", "examples/robot-joint.toml", "--plot", "time=" + picture, "--output", table};
+    words.insert(words.end(), more.begin(), more.end());
+    EXPECT_EQ(run_tool(words).status, 0);
+    return file_text(picture);
+  };
+  EXPECT_THAT(drawn({}),
+              testing::AllOf(HasSubstr("the last 11 s, enlarged"), HasSubstr(">hunts: ")));
+  const std::string last = lines_of(file_text(table)).back();
+  EXPECT_LT(std::stod(last), 5.0);
+  EXPECT_THAT(drawn({"--until", "6"}), HasSubstr("the last 2 s, enlarged"));
+}
+
 /// Only with the sensor on the load the gap is in the loop.
 TEST_F(DriveCommand, ComparePutsSensorsSideBySide) {
   const std::string drive = file(std::string(mechanics) + proportional);

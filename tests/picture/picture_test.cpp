@@ -168,7 +168,7 @@ TEST(Picture, HuntingThatIsSmallBesideTheStepIsEnlarged) {
   drive.reference = 30.0;
   const MotionPicture picture = picture_of(drive, 60.0);
   EXPECT_THAT(visible_text(draw_time_response(picture, PictureFormat::svg)),
-              HasSubstr("enlarged (rad)"));
+              HasSubstr(", enlarged"));
 }
 
 /// Two points at the time of the leap, and none on the way.

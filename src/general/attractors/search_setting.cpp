@@ -153,6 +153,12 @@ void measure_lengths(SearchSetting& setting, const StartTolerances& starts) {
 
 }  // namespace
 
+double held_length(const ReducedDrive& drive) {
+  const double stiffness = direct_stiffness(drive);
+  if (!(stiffness > 0.0)) return 0.0;
+  return (drive.motor.friction.breakaway + drive.load.friction.breakaway) / stiffness;
+}
+
 bool is_mirrored(const ReducedDrive& drive) {
   const bool is_constant = std::holds_alternative<double>(drive.reference);
   const auto* torque = std::get_if<double>(&drive.load_torque);

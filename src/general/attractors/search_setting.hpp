@@ -37,6 +37,10 @@ SearchSetting search_setting(const ReducedDrive& drive, const StartTolerances& s
 /// With scales that make all numbers of a motion about 1.
 SearchSetting scaled(const SearchSetting& setting, const hybrid::Trajectory& motion);
 
+/// rad: the error at which the controller's direct gain alone overcomes the dry friction of both
+/// shafts. 0 without friction, or without such a gain.
+double held_length(const ReducedDrive& drive);
+
 /// Whether motion to one side is the mirror image of motion to the other.
 bool is_mirrored(const ReducedDrive& drive);
 /// Whether its encoders read the mirror image of a position about the reference as the mirror image

@@ -1,0 +1,194 @@
+// Responses over time: the end enlarged, encoder steps, leaps, and tics that can be read.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "picture/axis_scale.hpp"
+#include "picture/gnuplot_script.hpp"
+#include "picture/motion_picture.hpp"
+#include "picture/shown_end.hpp"
+
+namespace gearlash {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+/// What a reader sees: the text between the tags.
+std::string visible_text(const std::string& svg) {
+  std::string text;
+  bool inside_tag = false;
+  for (const char c : svg) {
+    if (c == '<') inside_tag = true;
+    if (!inside_tag) text += c;
+    if (c == '>') inside_tag = false;
+  }
+  return text;
+}
+
+/// A load that approaches 100 and swings by ±`swing` about it with a period of 2 s; the motor
+/// follows `lag` behind.
+std::vector<DrawnPiece> swinging(double swing, double lag, double end_time) {
+  DrawnPiece piece;
+  for (double time = 0.0; time <= end_time; time += 0.01) {
+    const double load = 100.0 * (1.0 - std::exp(-time)) + swing * std::sin(std::numbers::pi * time);
+    piece.points.push_back(
+        {.time = time, .load_position = load, .motor_position = load - lag, .reference = 100.0});
+  }
+  return {piece};
+}
+
+Extent positions_of(const std::vector<DrawnPiece>& pieces) {
+  Extent extent;
+  for (const DrawnPoint& point : pieces.front().points) extent.include(point.load_position);
+  return extent;
+}
+
+TEST(ShownEnd, MeasuresThePeriodAndShowsThreeOfThem) {
+  constexpr double until = 60.0;
+  const std::vector<DrawnPiece> pieces = swinging(0.2, 0.1, until);
+  const ShownEnd end = end_of(pieces, until, 0.0);
+  EXPECT_NEAR(end.period, 2.0, 0.005);
+  EXPECT_NEAR(end.from, until - 6.0, 0.02);
+  EXPECT_NEAR(end.load.high, 0.2, 1e-4);
+  EXPECT_NEAR(end.motor.low, -0.3, 1e-4);
+  EXPECT_EQ(end.reference, 100.0);
+  EXPECT_TRUE(is_worth_enlarging(end, positions_of(pieces), 0.1, until));
+}
+
+TEST(ShownEnd, TakesAKnownPeriodButAtMostTheLastThird) {
+  const std::vector<DrawnPiece> pieces = swinging(0.2, 0.1, 60.0);
+  EXPECT_NEAR(end_of(pieces, 60.0, 4.0).from, 48.0, 1e-12);
+  EXPECT_NEAR(end_of(pieces, 60.0, 40.0).from, 40.0, 1e-12);
+}
+
+TEST(ShownEnd, LargeAndSlowSwingsAreNotEnlarged) {
+  const std::vector<DrawnPiece> pieces = swinging(50.0, 0.1, 12.0);
+  const ShownEnd end = end_of(pieces, 12.0, 0.0);
+  EXPECT_FALSE(is_worth_enlarging(end, positions_of(pieces), 0.1, 12.0));
+  // As large, but thirty periods of it cannot be told apart.
+  const std::vector<DrawnPiece> many = swinging(50.0, 0.1, 60.0);
+  EXPECT_TRUE(is_worth_enlarging(end_of(many, 60.0, 0.0), positions_of(many), 0.1, 60.0));
+}
+
+TEST(ShownEnd, RestOnTheReferenceIsNotEnlarged) {
+  const std::vector<DrawnPiece> pieces = swinging(0.0, 0.0, 60.0);
+  EXPECT_FALSE(is_worth_enlarging(end_of(pieces, 60.0, 0.0), positions_of(pieces), 0.1, 60.0));
+}
+
+TEST(ShownEnd, AReferenceFarAwayIsNotShown) {
+  ShownEnd end;
+  end.load.include(0.8);
+  end.load.include(0.9);
+  end.motor.include(0.75);
+  EXPECT_EQ(end.shown_errors().low, 0.75);
+  end.motor.include(0.2);
+  EXPECT_EQ(end.shown_errors().low, 0.0);
+}
+
+TEST(AxisScale, NumbersAreShortWhateverTheirSize) {
+  EXPECT_EQ(axis_scale('y', "gap", "rad", {-2.9e-7, 2.9e-7}, 4).label, "gap (nrad)");
+  EXPECT_EQ(axis_scale('y', "gap", "rad", {-2.9e-7, 2.9e-7}, 4).tics,
+            "set ytics ('-200' -2e-07, '0' 0, '200' 2e-07)\n");
+  EXPECT_EQ(axis_scale('y', "position", "rad", {0.0, 0.016}, 6).label, "position (mrad)");
+  EXPECT_EQ(axis_scale('y', "position", "deg", {0.0, 0.004}, 6).label, "position (10⁻³ deg)");
+  EXPECT_EQ(axis_scale('y', "torque", "N m", {-2.5e6, 1e6}, 6).label, "torque (MN m)");
+  EXPECT_EQ(axis_scale('x', "time", "s", {0.0, 4.6}, 6).tics,
+            "set xtics ('0' 0, '1' 1, '2' 2, '3' 3, '4' 4)\n");
+  EXPECT_EQ(axis_scale('y', "position", "deg", {0.0, 25.0}, 6).label, "position (deg)");
+}
+
+TEST(AxisScale, StepsAreAtMostThoseAskedFor) {
+  EXPECT_EQ(round_step(1.0, 6), 0.2);
+  EXPECT_EQ(round_step(1.0, 5), 0.2);
+  EXPECT_EQ(round_step(1.0, 4), 0.5);
+  EXPECT_EQ(round_step(1.0, 10), 0.1);
+}
+
+TEST(Wrapped, LongLinesBreakAfterASemicolonElseAComma) {
+  EXPECT_EQ(wrapped("short", 10), std::vector<std::string>{"short"});
+  EXPECT_EQ(wrapped("hunts by steps, and so on; runs away", 20),
+            (std::vector<std::string>{"hunts by steps, and so on;", "runs away"}));
+  EXPECT_EQ(wrapped("one two, three four five six", 20),
+            (std::vector<std::string>{"one two,", "three four five six"}));
+}
+
+/// A drive of the general engine that hunts, whose encoder has coarse steps.
+Drive coarse_drive() {
+  Drive drive;
+  drive.motor = {.inertia = 1.0, .friction = {.viscous = 0.9}};
+  drive.load = {.inertia = 2.0, .friction = {.viscous = 0.1}};
+  drive.gearbox = {.ratio = 1.0, .backlash = 0.3};
+  drive.sensor.encoder.counts_per_turn = 100.0;
+  drive.sampling = Sampling{.period = 0.05};
+  drive.controller.law = PID{.proportional = 3.0};
+  drive.reference = StepSignal{.before = 0.0, .after = 5.0, .time = 2.0};
+  return drive;
+}
+
+MotionPicture picture_of(const Drive& drive, double until) {
+  MotionPicture picture{.title = "title", .subtitle = "hunts: ±0.2 rad", .drive = drive};
+  picture.period = 2.0 * std::numbers::pi;
+  picture.motions.push_back({.motion = simulate(drive, {.until = until})});
+  return picture;
+}
+
+TEST(TimeResponse, TheEndHasAColumnOfItsOwnWithEncoderSteps) {
+  const std::string text =
+      visible_text(draw_time_response(picture_of(coarse_drive(), 60.0), PictureFormat::svg));
+  EXPECT_THAT(text, AllOf(HasSubstr("s, enlarged"), HasSubstr("from the reference (rad)"),
+                          HasSubstr("encoder steps"), HasSubstr("encoder step 0.0628 rad"),
+                          HasSubstr("hunts: ±0.2 rad")));
+  Drive exact = coarse_drive();
+  exact.sensor.encoder.counts_per_turn.reset();
+  EXPECT_THAT(visible_text(draw_time_response(picture_of(exact, 60.0), PictureFormat::svg)),
+              AllOf(HasSubstr("s, enlarged"), Not(HasSubstr("encoder"))));
+}
+
+TEST(TimeResponse, EachThingHasOneNameInTheLegend) {
+  std::string text = draw_time_response(picture_of(coarse_drive(), 60.0), PictureFormat::svg);
+  // A layer's title is what a browser shows beside the pointer.
+  for (std::size_t from = text.find("<title>"); from != std::string::npos;
+       from = text.find("<title>", from)) {
+    text.erase(from, text.find("</title>", from) - from);
+  }
+  for (const std::string name : {"gap, ± half the backlash", "faces apart", "encoder steps"}) {
+    const std::size_t place = text.find(name);
+    ASSERT_NE(place, std::string::npos) << name;
+    EXPECT_EQ(text.find(name, place + 1), std::string::npos) << name;
+  }
+}
+
+/// The reference is the only line of its grey: no stroke of it goes from one height to another.
+TEST(TimeResponse, ALeapOfTheReferenceIsNotJoinedByALine) {
+  const std::string svg = draw_time_response(picture_of(coarse_drive(), 60.0), PictureFormat::svg);
+  const std::string grey = "stroke='rgb( 85,  85,  85)'";
+  std::size_t strokes = 0;
+  for (std::size_t place = svg.find(grey); place != std::string::npos;
+       place = svg.find(grey, place + 1)) {
+    const std::size_t begin = svg.find(" d='M", place) + 5;
+    std::istringstream path(svg.substr(begin, svg.find('\'', begin) - begin));
+    char separator = ' ';
+    double right = 0.0;
+    double down = 0.0;
+    path >> right >> separator >> down;
+    for (char command = ' '; path >> command;) {
+      const double last = down;
+      path >> right >> separator >> down;
+      if (command == 'L') {
+        EXPECT_NEAR(down, last, 0.5);
+      }
+      ++strokes;
+    }
+  }
+  EXPECT_GT(strokes, 2U);
+}
+
+}  // namespace
+}  // namespace gearlash
