@@ -19,6 +19,7 @@
 #include "output/output_file.hpp"
 #include "picture/attractor_picture.hpp"
 #include "picture/ceiling_picture.hpp"
+#include "picture/phase_portrait.hpp"
 #include "picture/tornado.hpp"
 #include "plot_option.hpp"
 #include "servo_options.hpp"
@@ -51,10 +52,17 @@ struct LimitCycleOptions {
   bool sensitivities = false;
 };
 
+/// Limits of a search.
+struct Limits {
+  double seconds = infinity;
+  double bytes = infinity;  ///< of the whole tool
+};
+
 /// An answer with its report.
 struct Work {
   Analysis analysis{};
   AnswerReport report{};
+  Limits limits{};
 };
 
 /// A round number not far above `value`.
@@ -130,11 +138,19 @@ MotionPicture servo_picture(const Work& work) {
   picture.motions.push_back(
       {.motion = motion_from(work, start_to_draw(work, step), step.size, step.until),
        .name = cycle != nullptr ? "on its way" : "",
-       .is_background = cycle != nullptr});
+       .role = cycle != nullptr ? MotionRole::background : MotionRole::subject});
   if (cycle != nullptr) {
     picture.motions.push_back({.motion = motion_from(work, cycle->start, 0.0, cycle->period),
                                .name = "limit cycle",
                                .is_cycle = true});
+  }
+  for (const LimitCycle& other : work.analysis.closed->cycles) {
+    if (&other == cycle) continue;
+    const double stays = std::abs(other.multiplier);
+    picture.motions.push_back({.motion = motion_from(work, other.start, 0.0, other.period),
+                               .name = stays < 1.0 ? "another cycle" : "unstable cycle",
+                               .is_cycle = true,
+                               .role = stays < 1.0 ? MotionRole::subject : MotionRole::unstable});
   }
   return picture;
 }
@@ -161,6 +177,26 @@ std::string draw_ceiling(const Work& work, PictureFormat format) {
   return draw_bar_chart(ceiling_bars(work.report), format);
 }
 
+/// The cycles of a search with the ways to them. The basins are watched if there are several.
+MotionPicture searched_picture(const Work& work) {
+  const drive::AttractorSearch& search = *work.analysis.search;
+  const drive::ReducedDrive& reduced = work.analysis.reduced;
+  MotionPicture picture = attractor_picture(headline(work.report), work.report.drive, reduced,
+                                            search, work.report.angle);
+  const std::optional<StartPlane> plane = plane_to_draw(picture, reduced, search);
+  if (!plane || search.outcomes.empty()) return picture;
+  std::optional<Basins> basins;
+  if (has_several_basins(search)) {
+    TerminalProgress progress("Basins");
+    progress.stop_after(work.limits.seconds);
+    progress.stop_above(work.limits.bytes);
+    basins = basins_of(reduced, search, *plane, progress);
+    if (!basins->is_complete) basins.reset();
+  }
+  add_portrait(picture, reduced, search, *plane, basins ? &*basins : nullptr);
+  return picture;
+}
+
 /// The motion that leads to the hunting, over time.
 MotionPicture response_picture(const Work& work) {
   if (!work.analysis.closed) {
@@ -179,12 +215,8 @@ std::string draw(const Work& work, const Plot& plot) {
   if (plot.kind == "tornado") return draw_tornado(work, plot.format);
   if (plot.kind == "ceiling") return draw_ceiling(work, plot.format);
   if (plot.kind == "time") return draw_time_response(response_picture(work), plot.format);
-  return draw_phase_plane(
-      work.analysis.closed
-          ? servo_picture(work)
-          : attractor_picture(headline(work.report), work.report.drive, work.analysis.reduced,
-                              *work.analysis.search, work.report.angle),
-      plot.format);
+  return draw_phase_plane(work.analysis.closed ? servo_picture(work) : searched_picture(work),
+                          plot.format);
 }
 
 /// A verdict of hunting is undecided if the search found no amplitude.
@@ -225,14 +257,9 @@ void add_changes(Work& work, const Drive& drive, bool wants_margins, bool wants_
   }
 }
 
-/// Limits of a search.
-struct Limits {
-  double seconds = infinity;
-  double bytes = infinity;  ///< of the whole tool
-};
-
 Work analysed(const WrittenDrive& written, const Limits& limits, const Provenance& provenance) {
   Work work;
+  work.limits = limits;
   {
     TerminalProgress progress("Searching");
     progress.stop_after(limits.seconds);

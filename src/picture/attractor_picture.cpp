@@ -30,21 +30,6 @@ Motion motion_of_cycle(const drive::ReducedDrive& reduced, const drive::Attracto
   return motion_of(std::move(system), std::move(trajectory));
 }
 
-/// The last few mean periods of the watched motion.
-Motion motion_of_irregular(const drive::ReducedDrive& reduced,
-                           const drive::IrregularFound& irregular, const drive::Outcome& outcome) {
-  constexpr double periods = 5.0;
-  drive::DriveSystem system = drive::drive_system(reduced);
-  const hybrid::Trajectory whole =
-      hybrid::simulate(system.system, drive::drive_start(reduced, system, outcome.start),
-                       {.until = outcome.watched});
-  const double end = whole.end_time();
-  const double from = std::max(0.0, end - periods * irregular.period);
-  hybrid::Trajectory last =
-      hybrid::simulate(system.system, whole.at(from), {.from = from, .until = end});
-  return motion_of(std::move(system), std::move(last));
-}
-
 /// A name with enough numbers to distinguish the cycles of a picture.
 std::string name_of_cycle(const drive::FoundCycle& cycle, double amplitude,
                           const AngleUnit& angle) {
@@ -101,6 +86,22 @@ const drive::Outcome* start_to_show(const drive::AttractorSearch& search, const 
   return chosen;
 }
 
+/// The last few mean periods of the watched motion.
+Motion motion_of_irregular(const drive::ReducedDrive& reduced,
+                           const drive::IrregularFound& irregular, const drive::Outcome& outcome) {
+  constexpr double periods = 5.0;
+  constexpr std::size_t most_events = 2'000'000;  // ticks included
+  drive::DriveSystem system = drive::drive_system(reduced);
+  const hybrid::Trajectory whole =
+      hybrid::simulate(system.system, drive::drive_start(reduced, system, outcome.start),
+                       {.until = outcome.watched, .event_limit = most_events});
+  const double end = whole.end_time();
+  const double from = std::max(0.0, end - periods * irregular.period);
+  hybrid::Trajectory last =
+      hybrid::simulate(system.system, whole.at(from), {.from = from, .until = end});
+  return motion_of(std::move(system), std::move(last));
+}
+
 }  // namespace
 
 MotionPicture hunting_picture(const std::string& title, const Drive& drive,
@@ -138,15 +139,17 @@ MotionPicture attractor_picture(const std::string& title, const Drive& drive,
         {.motion = motion_of_cycle(reduced, search, cycle),
          .name = name_of_cycle(cycle, cycle.amplitude, angle) + per,
          .name_of_motor = name_of_cycle(cycle, cycle.motor_amplitude, angle) + per,
-         .is_cycle = true});
+         .is_cycle = true,
+         .role =
+             cycle.stability == Stability::unstable ? MotionRole::unstable : MotionRole::subject});
   }
   if (picture.motions.empty() && !search.irregular.empty()) {
-    const auto outcome = std::find_if(
-        search.outcomes.begin(), search.outcomes.end(),
-        [](const drive::Outcome& one) { return one.end == drive::MotionEnd::irregular; });
+    const drive::Outcome* outcome =
+        start_to_show(search, seen_in(search), drive::value_at(reduced.reference, 0.0));
+    if (outcome == nullptr) return picture;
     const drive::IrregularFound& irregular = search.irregular[outcome->which];
     picture.motions.push_back(
-        {.motion = motion_of_irregular(reduced, irregular, *outcome), .name = "for some periods"});
+        {.motion = motion_of_irregular(reduced, irregular, *outcome), .name = "over five periods"});
     picture.period = irregular.period;
   }
   return picture;

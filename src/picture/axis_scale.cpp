@@ -30,7 +30,7 @@ std::string superscript(int number) {
 
 std::string unit_of_power(const std::string& unit, int power) {
   if (power == 0) return unit;
-  if (unit == "rad" || unit == "N m") {
+  if (unit.starts_with("rad") || unit == "N m") {
     switch (power) {
       case -9:
         return "n" + unit;

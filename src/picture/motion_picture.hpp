@@ -2,9 +2,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "gearlash/bounds.hpp"
 #include "gearlash/drive.hpp"
 #include "gearlash/motion.hpp"
 #include "input/units.hpp"
@@ -12,12 +16,40 @@
 
 namespace gearlash {
 
+/// How the line of a motion differs from others.
+enum class MotionRole : std::uint8_t {
+  subject,     ///< load, motor, gap and impacts
+  background,  ///< load and motor, thin
+  unstable,    ///< like a subject, but thin, with dots, and without the gap
+  to_rest,     ///< from here on: one shaft alone, thin, one legend entry for all of a kind
+  to_hunting,
+  running_away,
+  not_known
+};
+
+/// A mark where a start was watched, by what it leads to.
+struct DrawnStart {
+  double position = 0.0;  ///< from the reference, in the picture's unit
+  double speed = 0.0;
+  MotionRole leads = MotionRole::to_rest;
+};
+
 struct DrawnMotion {
   Motion motion{};
   std::string name{};  ///< follows "load" and "motor" in the legend: "stable cycle ±0.5 deg"
   std::string name_of_motor{};  ///< follows "motor" instead, unless empty
   bool is_cycle = false;        ///< one period, drawn closed
-  bool is_background = false;   ///< thin; gaps and impacts would hide the others
+  MotionRole role = MotionRole::subject;
+};
+
+/// What a phase plane shows, in the picture's unit, with the starts in it.
+struct PhaseWindow {
+  Bounds positions{};  ///< from the reference
+  Bounds speeds{};
+  bool is_of_motor = false;  ///< roles of one shaft are of the motor's, else of the load's
+  std::vector<DrawnStart> starts{};
+  /// The borders between starts that lead to different ends.
+  std::vector<std::vector<std::pair<double, double>>> borders{};
 };
 
 struct MotionPicture {
@@ -29,6 +61,7 @@ struct MotionPicture {
   double period = 1.0;  ///< s, of the loop: see drawn_motion()
   /// s, of the hunting, if it is known: the last three periods are enlarged. 0: measured.
   double hunting_period = 0.0;
+  std::optional<PhaseWindow> window{};  ///< default: all of the motions
 };
 
 /// A picture with more than these numbers would be unreadable.
@@ -46,7 +79,8 @@ inline constexpr double most_periods_drawn = 1'600.0;
 std::string draw_time_response(const MotionPicture& picture, PictureFormat format);
 
 /// Draws speed over position relative to the reference: load (solid), motor (dashed), the gap
-/// between them (shaded while the faces are apart) and impacts. Otherwise like
+/// between them (shaded while the faces are apart, without a window) and impacts, at which speeds
+/// leap along dotted lines; marks of starts and the borders between them. Otherwise like
 /// draw_time_response().
 std::string draw_phase_plane(const MotionPicture& picture, PictureFormat format);
 

@@ -12,10 +12,10 @@
 
 namespace gearlash {
 
-std::string range_of(const Bounds& extent, double margin) {
+Bounds widened(const Bounds& extent, double margin) {
   const auto [low, high] = extent;
   const double length = high > low ? high - low : std::max(1.0, std::abs(high));
-  return fmt::format("[{:.7g}:{:.7g}]", low - margin * length, high + margin * length);
+  return {low - margin * length, high + margin * length};
 }
 
 void ImpactMarks::add(double x, double y, double other) {

@@ -16,8 +16,8 @@ namespace gearlash {
 inline constexpr char load_colour[] = "#0072b2";
 inline constexpr char motor_colour[] = "#d55e00";
 
-/// The range of an axis for gnuplot: with a margin, and never empty.
-std::string range_of(const Bounds& extent, double margin = 0.05);
+/// The range of an axis: with a margin, as a share of the extent, and never empty.
+Bounds widened(const Bounds& extent, double margin);
 
 /// Marks of impacts; an impact that would cover the one before it is left out.
 class ImpactMarks {

@@ -181,12 +181,6 @@ struct Column {
   std::vector<Panel> panels = {};
 };
 
-Bounds widened(const Bounds& extent, double margin) {
-  const auto [low, high] = extent;
-  const double length = high > low ? high - low : std::max(1.0, std::abs(high));
-  return {low - margin * length, high + margin * length};
-}
-
 std::string line(int column, const char* colour, const std::string& style) {
   return fmt::format("$curve using 1:{} with lines {} linecolor rgb '{}' notitle", column, style,
                      colour);

@@ -128,7 +128,7 @@ TEST(Picture, LegendNamesWhatIsDrawn) {
     EXPECT_THAT(response, HasSubstr(word));
   }
   picture.motions.front().name = "on its way";
-  picture.motions.front().is_background = true;
+  picture.motions.front().role = MotionRole::background;
   picture.motions.push_back(
       {.motion = simulate(picture.drive, {.until = 6.4}), .name = "limit cycle", .is_cycle = true});
   const std::string plane = visible_text(draw_phase_plane(picture, PictureFormat::svg));

@@ -1,0 +1,198 @@
+#include "picture/phase_portrait.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "analysis/motion.hpp"
+#include "general/attractors/search_setting.hpp"
+
+namespace gearlash {
+namespace {
+
+MotionRole role_of(BasinKind kind) {
+  switch (kind) {
+    case BasinKind::rest:
+      return MotionRole::to_rest;
+    case BasinKind::hunting:
+      return MotionRole::to_hunting;
+    case BasinKind::running_away:
+      return MotionRole::running_away;
+    case BasinKind::not_known:
+      break;
+  }
+  return MotionRole::not_known;
+}
+
+/// The largest distances of both shafts from the reference, rad and rad/s.
+struct Reach {
+  double position = 0.0;
+  double speed = 0.0;
+};
+
+Reach reach_of(const Motion& motion) {
+  constexpr int samples = 5000;  // a motor that hunts alone moves for a hundredth of the time
+  Reach reach;
+  for (int i = 0; i <= samples; ++i) {
+    const MotionSample sample = motion.at(motion.end_time() * i / samples);
+    const Shafts& shafts = sample.shafts;
+    reach.position = std::max({reach.position, std::abs(shafts.load_position - sample.reference),
+                               std::abs(shafts.motor_position - sample.reference)});
+    reach.speed =
+        std::max({reach.speed, std::abs(shafts.load_speed), std::abs(shafts.motor_speed)});
+  }
+  return reach;
+}
+
+/// Whether the motor hunts within the gap while the load hardly moves.
+bool is_of_motor(const drive::AttractorSearch& search) {
+  constexpr double hardly = 0.05;
+  for (const drive::FoundCycle& cycle : search.cycles) {
+    if (cycle.starts > 0) return cycle.amplitude < hardly * cycle.motor_amplitude;
+  }
+  return !search.irregular.empty() && search.irregular.front().is_motor_alone;
+}
+
+class Ways {
+ public:
+  Ways(const drive::ReducedDrive& reduced, const drive::AttractorSearch& search)
+      : reduced_(reduced), system_(drive::drive_system(reduced)) {
+    double period = search.swing_time;
+    for (const drive::FoundCycle& cycle : search.cycles) period = std::max(period, cycle.period());
+    for (const drive::IrregularFound& motion : search.irregular) {
+      period = std::max(period, motion.period);
+    }
+    constexpr double periods = 1.5;
+    until_ = periods * period;
+  }
+
+  DrawnMotion from(const drive::ShaftStates& start, MotionRole role) const {
+    constexpr std::size_t most_events = 40'000;  // ticks included
+    drive::DriveSystem system = system_;
+    hybrid::Trajectory trajectory =
+        hybrid::simulate(system.system, drive::drive_start(reduced_, system, start),
+                         {.until = until_, .event_limit = most_events});
+    return {.motion = motion_of(std::move(system), std::move(trajectory)), .role = role};
+  }
+
+ private:
+  const drive::ReducedDrive& reduced_;
+  drive::DriveSystem system_;
+  double until_ = 0.0;
+};
+
+/// Of the search's starts within the plane at most this many, evenly chosen.
+std::vector<const drive::Outcome*> starts_within(const StartPlane& plane,
+                                                 const drive::AttractorSearch& search,
+                                                 double reference) {
+  constexpr std::size_t most = 10;
+  std::vector<const drive::Outcome*> within;
+  for (const drive::Outcome& outcome : search.outcomes) {
+    const drive::ShaftStates& start = outcome.start;
+    const double position = plane.is_of_motor ? start.motor_position : start.load_position;
+    const double speed = plane.is_of_motor ? start.motor_speed : start.load_speed;
+    if (std::abs(position - reference) > plane.position || std::abs(speed) > plane.speed) {
+      continue;
+    }
+    within.push_back(&outcome);
+  }
+  if (within.size() <= most) return within;
+  std::vector<const drive::Outcome*> chosen;
+  for (std::size_t i = 0; i < most; ++i) {
+    chosen.push_back(within[i * (within.size() - 1) / (most - 1)]);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+std::optional<StartPlane> plane_to_draw(const MotionPicture& cycles,
+                                        const drive::ReducedDrive& reduced,
+                                        const drive::AttractorSearch& search) {
+  if (!std::holds_alternative<double>(reduced.reference) || !(search.swing_time > 0.0)) return {};
+  constexpr double far = 8.0;  // times the hunting
+  constexpr double margin = 1.3;
+  StartPlane plane{.is_of_motor = is_of_motor(search)};
+  double hunting = 0.0;
+  for (const DrawnMotion& drawn : cycles.motions) {
+    const Reach reach = reach_of(drawn.motion);
+    if (hunting == 0.0) hunting = reach.position;
+    if (reach.position > far * hunting) continue;
+    plane.position = std::max(plane.position, margin * reach.position);
+    plane.speed = std::max(plane.speed, margin * reach.speed);
+  }
+  for (const drive::FoundThreshold& threshold : search.thresholds) {
+    if (hunting > 0.0 && threshold.from > far * hunting) continue;
+    plane.position = std::max(plane.position, 1.5 * margin * threshold.from);
+  }
+  if (plane.position == 0.0) {
+    constexpr double lengths = 5.0;
+    plane.position = lengths * std::max({reduced.backlash, reduced.sensing.resolution,
+                                         drive::held_length(reduced)});
+  }
+  if (!(plane.position > 0.0)) return {};
+  if (plane.speed == 0.0) {
+    plane.speed = plane.position * 2.0 * std::numbers::pi / search.swing_time;
+  }
+  return plane;
+}
+
+bool has_several_basins(const drive::AttractorSearch& search) {
+  return std::any_of(search.outcomes.begin(), search.outcomes.end(),
+                     [&](const drive::Outcome& outcome) {
+                       return kind_of(outcome.end) != kind_of(search.outcomes.front().end);
+                     });
+}
+
+void add_portrait(MotionPicture& picture, const drive::ReducedDrive& reduced,
+                  const drive::AttractorSearch& search, const StartPlane& plane,
+                  const Basins* basins) {
+  const AngleUnit& angle = picture.angle;
+  PhaseWindow window{
+      .positions = {-angle.from_radians(plane.position), angle.from_radians(plane.position)},
+      .speeds = {-angle.from_radians(plane.speed), angle.from_radians(plane.speed)},
+      .is_of_motor = plane.is_of_motor};
+  const double reference = std::get<double>(reduced.reference);
+  const Ways ways(reduced, search);
+  for (const drive::Outcome* outcome : starts_within(plane, search, reference)) {
+    picture.motions.push_back(ways.from(outcome->start, role_of(kind_of(outcome->end))));
+  }
+  if (basins != nullptr) {
+    const std::vector<double>& positions = basins->positions.values;
+    const std::vector<double>& speeds = basins->speeds.values;
+    for (std::size_t i = 0; i < basins->kinds.size(); ++i) {
+      window.starts.push_back({.position = angle.from_radians(positions[i % positions.size()]),
+                               .speed = angle.from_radians(speeds[i / positions.size()]),
+                               .leads = role_of(basins->kinds[i])});
+    }
+    for (const MapCurve& curve : basins->borders) {
+      std::vector<std::pair<double, double>>& drawn = window.borders.emplace_back();
+      for (const MapPoint& point : curve) {
+        drawn.emplace_back(angle.from_radians(point.x), angle.from_radians(point.y));
+      }
+    }
+  }
+  // From the edge of the plane, where the end is known.
+  constexpr std::array<std::array<double, 2>, 6> corners = {
+      {{-1.0, 0.0}, {1.0, 0.0}, {-0.5, 1.0}, {0.5, 1.0}, {-0.5, -1.0}, {0.5, -1.0}}};
+  for (const auto& [right, up] : corners) {
+    MotionRole role = role_of(kind_of(search.outcomes.front().end));
+    if (basins != nullptr) {
+      const auto nearest = [](double share, std::size_t count) {
+        return static_cast<std::size_t>(
+            std::lround(0.5 * (share + 1.0) * static_cast<double>(count - 1)));
+      };
+      const std::size_t columns = basins->positions.values.size();
+      role = role_of(basins->kinds[nearest(up, basins->speeds.values.size()) * columns +
+                                   nearest(right, columns)]);
+    } else if (has_several_basins(search)) {
+      break;
+    }
+    picture.motions.push_back(
+        ways.from(start_on_face(reduced, plane, right * plane.position, up * plane.speed), role));
+  }
+  picture.window = std::move(window);
+}
+
+}  // namespace gearlash
