@@ -22,7 +22,7 @@ struct CellMap {
   std::vector<std::string> columns = {};
   std::vector<std::string> rows = {};  ///< the lowest first
   std::vector<CellPanel> panels = {};  ///< up to six, three in a line
-  double largest = 1.0;  ///< colours run from −largest to largest, in proportion
+  double largest = 1.0;                ///< colours run from −largest to largest, in proportion
   /// Above 0: colours run from here to `largest`, by ratio.
   double least = 0.0;
   std::string number_format = "%+.1f";

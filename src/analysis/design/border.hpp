@@ -13,8 +13,8 @@ struct AnalysedValue {
 };
 
 /// Compares the motions on both sides of a border, and follows the largest stable cycle that the
-/// side beyond has alone across it (continue_orbit()). If there is none, that of the side within, as
-/// far as `far`, but no more than 1 % beyond the border. `met`: the last value that meets the
+/// side beyond has alone across it (continue_orbit()). If there is none, that of the side within,
+/// as far as `far`, but no more than 1 % beyond the border. `met`: the last value that meets the
 /// target; `unmet`: one beyond.
 Border border_between(const Drive& drive, const Axis& axis, const AnalysedValue& met,
                       const AnalysedValue& unmet, double far);
