@@ -1,9 +1,15 @@
 // gearlash chart: a family of curves over any parameters of the drive.
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "command.hpp"
 #include "grid_options.hpp"
+#include "machine_faults.hpp"
+#include "output/output_file.hpp"
+#include "picture/bifurcation_picture.hpp"
 #include "picture/grid_chart.hpp"
+#include "terminal.hpp"
 
 namespace gearlash::cli {
 namespace {
@@ -15,7 +21,9 @@ constexpr char examples[] =
     "      --damping 0.1 --quantity period --plot curves=period.pdf\n"
     "  gearlash chart --x restitution=0:0.5:51 examples/elinco-fd162.toml --output table.csv\n"
     "  gearlash chart --x controller.proportional=\"0.5 V/deg:2 V/deg:4:log\" \\\n"
-    "      examples/robot-joint.toml --plot curves=gain.svg --output gain.csv\n";
+    "      examples/robot-joint.toml --plot curves=gain.svg --output gain.csv\n"
+    "  gearlash chart --x damping=0.1:0.5:41 --inertia-ratio 2 --friction-ratio 0.1 \\\n"
+    "      --restitution 0.5 --plot bifurcation=branches.svg\n";
 
 struct ChartOptions {
   GridOptions grid;
@@ -23,11 +31,66 @@ struct ChartOptions {
   std::string curves;
 };
 
+constexpr std::size_t most_values_of_branches = 1000;
+
+/// What a bifurcation picture needs beside what a chart needs.
+void require_branches(const GridTask& task) {
+  Faults faults;
+  const Axis& x = task.grid.axes.back();
+  if (task.grid.axes.size() > 1) {
+    faults.add({"--curves", "given", "must be left out: bifurcation=FILE has branches", ""});
+  }
+  const bool is_number = parameter_of(x, task.grid.drive)->choices.empty();
+  if (!is_number || x.values.size() < 2 || x.values.size() > most_values_of_branches) {
+    faults.add({"--x", is_number ? std::to_string(x.values.size()) + " values" : "words",
+                "must have 2 to 1000 numbers for bifurcation=FILE", ""});
+  }
+  if (!has_branches(task.quantity)) {
+    faults.add({"--quantity", std::string(name_of(task.quantity)),
+                "must be amplitude, motor_amplitude, period, frequency or multiplier for "
+                "bifurcation=FILE",
+                ""});
+  }
+  faults.require_none();
+}
+
+/// Draws the bifurcation pictures.
+ExitStatus draw_branches(const GridTask& task, const std::vector<Plot>& plots) {
+  BifurcationDiagram diagram;
+  {
+    TerminalProgress progress("Branches");
+    diagram = bifurcations_of(task.grid.drive, task.grid.axes.back(), progress);
+  }
+  Extras extras;
+  for (const Plot& plot : plots) {
+    extras.make([&] {
+      write_file(plot.file,
+                 draw_bifurcations(diagram, task.grid, task.quantity, task.angle, plot.format));
+    });
+  }
+  std::string made;
+  for (const Plot& plot : plots) made += (made.empty() ? "" : ", ") + plot.file;
+  write_file("-", fmt::format("{}: {} branches, {} borders\n", made, diagram.branches.size(),
+                              diagram.borders.size()));
+  return extras.status(diagram.is_complete ? ExitStatus::done : ExitStatus::undecided);
+}
+
 ExitStatus run(const ChartOptions& options, const Provenance& provenance) {
   std::vector<AxisOption> axes;
   if (!options.curves.empty()) axes.push_back({"--curves", options.curves});
   axes.push_back({"--x", options.x});
-  const GridTask task = read_grid_task(options.grid, axes, "chart", "curves");
+  GridTask task = read_grid_task(options.grid, axes, "chart", {"curves", "bifurcation"});
+  std::vector<Plot> branches;
+  std::vector<Plot> curves;
+  for (const Plot& plot : task.plots) {
+    (plot.kind == "bifurcation" ? branches : curves).push_back(plot);
+  }
+  if (!branches.empty()) {
+    require_branches(task);
+    const ExitStatus status = draw_branches(task, branches);
+    if ((curves.empty() && task.table.empty()) || status != ExitStatus::done) return status;
+  }
+  task.plots = std::move(curves);
   return make_grid_files(task, provenance, [&](const GridTable& table, PictureFormat format) {
     return draw_line_chart(chart_of(table, task.quantity), format);
   });
@@ -42,7 +105,9 @@ void add_chart_command(Command& app, Action& action) {
   command->add_option("--x", options->x, axis_help)->type_name("AXIS")->required();
   command->add_option("--curves", options->curves, "Draw one curve for each value of this axis")
       ->type_name("AXIS");
-  add_grid_options(*command, options->grid, "Draw curves=FILE, the quantity over --x;");
+  add_grid_options(*command, options->grid,
+                   "Draw curves=FILE, the quantity over --x, or bifurcation=FILE, all cycles\n"
+                   "over --x as stable and unstable branches with their borders;");
   command->footer(
       "Without --backlash, amplitudes are in backlashes, because they are proportional to it.\n\n" +
       help_footer(examples));

@@ -121,9 +121,10 @@ std::string ending_of(const std::string& file) {
 }
 
 /// Reads --plot, and --output by its extension.
-void read_outputs(const GridOptions& options, const std::string& kind, GridTask& task,
+void read_outputs(const GridOptions& options, const std::vector<std::string>& kinds, GridTask& task,
                   Faults& faults) {
-  task.plots = read_plots(options.plots, {kind}, faults);
+  const std::string& kind = kinds.front();
+  task.plots = read_plots(options.plots, kinds, faults);
   const std::string ending = ending_of(options.output);
   if (ending == ".svg" || ending == ".png" || ending == ".pdf") {
     task.plots.push_back({kind, options.output, picture_format("--output", options.output)});
@@ -224,13 +225,13 @@ void add_grid_options(Command& command, GridOptions& options, const std::string&
 }
 
 GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption>& typed_axes,
-                        const std::string& verb, const std::string& kind) {
+                        const std::string& verb, const std::vector<std::string>& kinds) {
   Faults faults;
   const std::vector<AxisText> texts = split_axes(typed_axes, faults);
   GridTask task;
   task.verb = verb;
   task.quantity = read_quantity(options.quantity, faults);
-  read_outputs(options, kind, task, faults);
+  read_outputs(options, kinds, task, faults);
   std::vector<FileUse> outputs = files_of(task.plots);
   if (!task.table.empty()) outputs.push_back({"--output", task.table});
   faults.require_distinct({"DRIVE.toml", options.servo.file}, outputs);
@@ -238,6 +239,7 @@ GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption
       read_fixed_drive(options.servo, texts, texts.size() == typed_axes.size(), faults);
   const bool is_known = written || options.servo.file.empty();
   task.grid.proved = options.proved;
+  if (written) task.angle = written->angle;
   task.grid.drive = drive_of_axes(written ? written->drive : normal_form(0.5, 1.0, 0.5), texts);
   if (is_known) task.grid.axes = read_axes(texts, task.grid.drive, faults);
   const bool are_read = task.grid.axes.size() == typed_axes.size();

@@ -42,16 +42,17 @@ struct GridTask {
   std::string verb;  ///< "chart", "map"
   Grid grid;
   Quantity quantity = Quantity::amplitude;
+  AngleUnit angle{};          ///< of the file's backlash
   bool has_boundary = false;  ///< computes where hunting ends
   std::string table;          ///< file in .csv, .json or .nc; empty: none
   std::vector<Plot> plots;
 };
 
 /// The task that the options describe. A normal form without a backlash has amplitudes in
-/// backlashes. `kind` is that of its pictures. Throws InvalidInput with all faults, among them too
-/// many points for the memory.
+/// backlashes. `kinds` are those of its pictures, that of --output first. Throws InvalidInput with
+/// all faults, among them too many points for the memory.
 GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption>& axes,
-                        const std::string& verb, const std::string& kind);
+                        const std::string& verb, const std::vector<std::string>& kinds);
 
 /// "20 servos, 18 solved side by side, 2 one by one"
 std::string solved_text(const GridCount& count);

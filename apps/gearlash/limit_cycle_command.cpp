@@ -144,11 +144,13 @@ MotionPicture servo_picture(const Work& work) {
                                .name = "limit cycle",
                                .is_cycle = true});
   }
+  constexpr std::size_t most_others = 2;  // more cannot be told apart
   for (const LimitCycle& other : work.analysis.closed->cycles) {
-    if (&other == cycle) continue;
+    if (&other == cycle || picture.motions.size() >= 2 + most_others) continue;
     const double stays = std::abs(other.multiplier);
+    const std::string swing = " ±" + angle_text(other.amplitude, work.report.angle, 3);
     picture.motions.push_back({.motion = motion_from(work, other.start, 0.0, other.period),
-                               .name = stays < 1.0 ? "another cycle" : "unstable cycle",
+                               .name = (stays < 1.0 ? "stable cycle" : "unstable cycle") + swing,
                                .is_cycle = true,
                                .role = stays < 1.0 ? MotionRole::subject : MotionRole::unstable});
   }

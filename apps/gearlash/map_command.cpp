@@ -36,7 +36,7 @@ void require_an_area(const GridTask& task) {
 
 ExitStatus run(const MapOptions& options, const Provenance& provenance) {
   GridTask task =
-      read_grid_task(options.grid, {{"--y", options.y}, {"--x", options.x}}, "map", "map");
+      read_grid_task(options.grid, {{"--y", options.y}, {"--x", options.x}}, "map", {"map"});
   task.has_boundary = true;
   require_an_area(task);
   return make_grid_files(task, provenance, [&](const GridTable& table, PictureFormat format) {

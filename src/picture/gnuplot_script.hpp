@@ -61,6 +61,7 @@ class DataBlock {
   void gap() { text_ += '\n'; }
 
   bool is_empty() const { return is_empty_; }
+  const std::string& name() const { return name_; }
   std::string text() const { return "$" + name_ + " << EOD\n" + text_ + "EOD\n"; }
 
  private:

@@ -81,6 +81,31 @@ TEST(ChartCommand, PicturesAreDrawn) {
   EXPECT_THAT(svg, HasSubstr("amplitude (backlashes)"));
 }
 
+TEST(ChartCommand, BifurcationPicturesHaveBranchesAndBorders) {
+  const test::Scratch scratch;
+  const std::string file = (scratch / "branches.svg").string();
+  const Outcome run =
+      run_tool({"chart", "--x", "damping=0.1:0.9:9", "--inertia-ratio", "2", "--friction-ratio",
+                "0.1", "--backlash", "0.3 deg", "--plot", "bifurcation=" + file});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.out, file + ": 1 branches, 1 borders\n");
+  EXPECT_THAT(content(file), testing::AllOf(HasSubstr("stable cycle"), HasSubstr("loss of rest"),
+                                            HasSubstr("amplitude (deg)"),
+                                            HasSubstr("<title>Cycles over damping: amplitude")));
+}
+
+TEST(EdgeChartCommand, WhatABifurcationPictureCannotShowIsToldAtOnce) {
+  const Outcome run =
+      run_tool({"chart", "--x", "damping=0.5", "--curves", "inertia-ratio=1,2", "--friction-ratio",
+                "0.1", "--quantity", "growth_at_rest", "--plot", "bifurcation=a.svg"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.err,
+            "gearlash: --curves = given: must be left out: bifurcation=FILE has branches\n"
+            "gearlash: --x = 1 values: must have 2 to 1000 numbers for bifurcation=FILE\n"
+            "gearlash: --quantity = growth_at_rest: must be amplitude, motor_amplitude, period, "
+            "frequency or multiplier for bifurcation=FILE\n");
+}
+
 TEST(ChartCommand, InfinityIsToldInWords) {
   const test::Scratch scratch;
   const auto file = scratch / "chart.json";

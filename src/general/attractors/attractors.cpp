@@ -27,6 +27,14 @@ ShaftStates between(const ShaftStates& a, const ShaftStates& b, double share) {
           mix(a.load_position, b.load_position), mix(a.load_speed, b.load_speed)};
 }
 
+/// The start of another drive, whose gap may have been wider.
+ShaftStates within_gap(ShaftStates start, const ReducedDrive& drive) {
+  const double half = 0.5 * drive.backlash;
+  start.motor_position =
+      start.load_position + std::clamp(start.motor_position - start.load_position, -half, half);
+  return start;
+}
+
 class Search {
  public:
   Search(const ReducedDrive& drive, const AttractorOptions& options, Progress& progress)
@@ -42,6 +50,14 @@ class Search {
     result_.settling_time = setting_.settling_time;
     const double swings = options.swing_times * setting_.swing_time;
     result_.watch_time = swings + std::min(swings, budget_.settling_times * setting_.settling_time);
+  }
+
+  AttractorSearch follow(const AttractorSearch& known) {
+    close_near(known);
+    result_.outcomes.resize(1);
+    result_.outcomes.front().start = starts_.front();
+    finish();
+    return std::move(result_);
   }
 
   AttractorSearch run() {
@@ -287,6 +303,14 @@ AttractorSearch find_attractors(const ReducedDrive& drive, const AttractorOption
   return Search(drive, options, progress).run();
 }
 
+AttractorSearch follow_cycles(const ReducedDrive& drive, const AttractorSearch& known) {
+  AttractorOptions options{.most_edges = 0};
+  if (!known.outcomes.empty()) {
+    options.starts = {within_gap(known.outcomes.front().start, drive)};
+  }
+  return Search(drive, options, no_progress()).follow(known);
+}
+
 namespace {
 
 /// The first and the last of the outcomes that are alike.
@@ -317,12 +341,8 @@ std::optional<AttractorSearch> follow_attractors(const ReducedDrive& drive,
     return std::nullopt;
   const std::vector<Outcome> wanted = representatives(known.outcomes);
   AttractorOptions options{.nearby = &known, .most_edges = 0};
-  const double half = 0.5 * drive.backlash;
   for (const Outcome& outcome : wanted) {
-    ShaftStates start = outcome.start;  // the gap may be narrower here
-    start.motor_position =
-        start.load_position + std::clamp(start.motor_position - start.load_position, -half, half);
-    options.starts.push_back(start);
+    options.starts.push_back(within_gap(outcome.start, drive));
   }
   AttractorSearch found = find_attractors(drive, options, progress);
   if (!found.is_complete || found.cycles.size() != known.cycles.size()) return std::nullopt;

@@ -1,0 +1,101 @@
+// Bifurcation pictures: branches, marks of borders, units, and axes.
+#include "picture/bifurcation_picture.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace gearlash {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr AngleUnit radians{};
+
+CycleAt at(double parameter, double amplitude) {
+  return {.parameter = parameter,
+          .amplitude = amplitude,
+          .motor_amplitude = 2.0 * amplitude,
+          .period = 0.5};
+}
+
+BifurcationDiagram diagram_with_fold() {
+  BifurcationDiagram diagram;
+  diagram.branches = {
+      {.stability = Stability::stable, .points = {at(2.0, 0.2), at(3.0, 0.3), at(4.0, 0.35)}},
+      {.stability = Stability::unstable, .points = {at(2.0, 0.2), at(3.0, 0.1)}}};
+  diagram.borders = {{.parameter = 2.0, .word = "fold", .cycle = at(2.0, 0.2)},
+                     {.parameter = 3.0, .word = "something new", .cycle = at(3.0, 0.1)},
+                     {.parameter = 3.5, .word = "border of running away", .cycle = {}}};
+  diagram.rests = {{1.0, 3.0}};
+  return diagram;
+}
+
+Grid grid_of(const char* path, double high = 4.0) {
+  Drive drive;
+  drive.motor = {.inertia = 1.0, .friction = {.viscous = 0.9, .coulomb = 0.01}};
+  drive.load = {.inertia = 2.0, .friction = {.viscous = 0.1}};
+  drive.gearbox = {.ratio = 1.0, .backlash = 0.3};
+  drive.controller.law = PID{.proportional = 3.0};
+  return {.drive = drive, .axes = {linear(path, 1.0, high, 7)}};
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t place = text.find(part); place != std::string::npos;
+       place = text.find(part, place + 1)) {
+    ++found;
+  }
+  return found;
+}
+
+TEST(BifurcationPicture, EachThingHasOneName) {
+  const std::string svg = draw_bifurcations(diagram_with_fold(), grid_of("controller.proportional"),
+                                            Quantity::amplitude, radians, PictureFormat::svg);
+  for (const char* name : {"stable cycle", "unstable cycle", "can come to rest", "fold",
+                           "something new", "border of running away"}) {
+    EXPECT_EQ(count(svg, ">" + std::string(name) + "</tspan>"), 1U) << name;
+  }
+  EXPECT_THAT(svg, AllOf(HasSubstr("amplitude (rad)"), HasSubstr("controller proportional"),
+                         Not(HasSubstr("closes no cycle"))));
+}
+
+TEST(BifurcationPicture, AnglesAreInTheUnitOfTheUser) {
+  const AngleUnit degrees{.name = "deg", .radians = 0.017453292519943295};
+  const std::string svg = draw_bifurcations(diagram_with_fold(), grid_of("gearbox.backlash"),
+                                            Quantity::amplitude, degrees, PictureFormat::svg);
+  EXPECT_THAT(svg, AllOf(HasSubstr("amplitude (deg)"), HasSubstr("gearbox backlash (deg)"),
+                         HasSubstr("> 20<"), HasSubstr("> 200<"), Not(HasSubstr("(rad)"))));
+}
+
+TEST(BifurcationPicture, WideAmplitudesAreLogarithmicWithRestAtTheFoot) {
+  BifurcationDiagram diagram = diagram_with_fold();
+  diagram.irregular = {{.parameter = 1.5, .amplitude = 1e-4, .motor_amplitude = 1e-4}};
+  const std::string svg = draw_bifurcations(diagram, grid_of("controller.proportional"),
+                                            Quantity::amplitude, radians, PictureFormat::svg);
+  EXPECT_THAT(svg, AllOf(HasSubstr("10<"), HasSubstr("can come to rest"),
+                         HasSubstr("motion that closes no cycle")));
+}
+
+TEST(BifurcationPicture, PeriodsHaveNeitherRestNorIrregularMotion) {
+  BifurcationDiagram diagram = diagram_with_fold();
+  diagram.irregular = {{.parameter = 1.5, .amplitude = 0.1, .motor_amplitude = 0.1}};
+  const std::string svg = draw_bifurcations(diagram, grid_of("controller.proportional"),
+                                            Quantity::period, radians, PictureFormat::svg);
+  EXPECT_THAT(svg, AllOf(HasSubstr("period (s)"), HasSubstr("stable cycle"),
+                         Not(HasSubstr("can come to rest")), Not(HasSubstr("closes no cycle"))));
+  EXPECT_TRUE(has_branches(Quantity::period));
+  EXPECT_FALSE(has_branches(Quantity::growth_at_rest));
+}
+
+TEST(BifurcationPicture, NothingSaysSo) {
+  EXPECT_THAT(draw_bifurcations({}, grid_of("controller.proportional"), Quantity::amplitude,
+                                radians, PictureFormat::svg),
+              HasSubstr("no cycle was found"));
+}
+
+}  // namespace
+}  // namespace gearlash
