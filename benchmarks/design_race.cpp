@@ -81,7 +81,7 @@ ReportPart enter_design_race() {
   lines.push_back(enter("certified search of the gain for an amplitude, feasible_values()", 1.0,
                         [search] { return search("error_gain", false); }));
   lines.push_back(enter("margins of all parameters, hunting_margin()", 1.0,
-                        [drive] { return hunting_margin(drive).overall.change->length(); }));
+                        [drive] { return hunting_margin(drive).overall->change->length(); }));
   return [lines](const FastestTimes& times) {
     const double yardstick = times.of(lines.front().title);
     if (std::isnan(yardstick)) return;

@@ -1,6 +1,5 @@
 // gearlash design: the changes of a drive that meet a target.
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -9,8 +8,6 @@
 #include "analysis/grid/axis.hpp"
 #include "base/progress_part.hpp"
 #include "command.hpp"
-#include "gearlash/analyse.hpp"
-#include "gearlash/parameter.hpp"
 #include "input/axis_text.hpp"
 #include "input/target_text.hpp"
 #include "machine_faults.hpp"
@@ -157,20 +154,6 @@ ExitStatus run_closed_form(const DesignOptions& options, const Target& target,
 
 // ---- drives that are searched -------------------------------------------------------------------
 
-/// The gap, and every number of the controller or of the normal form that is above 0.
-std::vector<std::string> usual_parameters(const Drive& drive) {
-  std::vector<std::string> usual;
-  for (const ParameterInfo& parameter : parameters_of(drive)) {
-    const std::string path(parameter.path);
-    const bool is_wanted =
-        path == "gearbox.backlash" || path.starts_with("controller.") || path.starts_with("servo.");
-    if (!is_wanted || parameter.kind != ParameterKind::number) continue;
-    const std::optional<double> present = present_value({.path = path}, drive);
-    if (present && *present > 0.0 && std::isfinite(*present)) usual.push_back(path);
-  }
-  return usual;
-}
-
 /// Whether the closed form answers for this target and these parameters.
 bool has_closed_form(const DesignOptions& options, const Target& target, const Drive& drive) {
   const std::optional<Drive> closed = gearlash::closed_form_drive(drive);
@@ -200,26 +183,6 @@ std::vector<Axis> read_axes(const DesignOptions& options, const Drive& drive, Fa
   return axes;
 }
 
-DriveWithValue with_value(Drive drive, const Axis* axis, double value, const drive::Step& step) {
-  if (axis != nullptr) set_on(*axis, drive, value);
-  const drive::ReducedDrive reduced = reduce(drive);
-  return {.value = value,
-          .answer = analyse(drive, {.proofs = false}),
-          .response = drive::step_response(reduced, step.size, step.until),
-          .loop = drive::loop_figures(reduced)};
-}
-
-/// The value of each interval that is nearest to the present one, or the closest value.
-std::vector<double> values_to_show(const FeasibleValues& values) {
-  if (values.closest) return {*values.closest};
-  std::vector<double> shown;
-  for (const Bounds& interval : values.intervals) {
-    const double present = std::isnan(values.present) ? interval.low : values.present;
-    shown.push_back(std::clamp(present, interval.low, interval.high));
-  }
-  return shown;
-}
-
 ExitStatus run_searched(const DesignOptions& options, const Target& target,
                         const WrittenDrive& written, const Provenance& provenance, Faults& faults) {
   const Drive& drive = written.drive;
@@ -238,7 +201,7 @@ ExitStatus run_searched(const DesignOptions& options, const Target& target,
     for (const Axis& axis : axes) {
       ProgressPart part(progress, report.parameters.size(), axes.size());
       SearchedParameter found{.values = feasible_values(drive, axis, target, part)};
-      for (const double value : values_to_show(found.values)) {
+      for (const double value : found.values.nearest_of_each()) {
         found.results.push_back(with_value(drive, &axis, value, step));
       }
       is_stopped = found.values.stopped;

@@ -240,22 +240,27 @@ bool is_decided(const Answer& answer) {
 constexpr double tool_bytes = 30e6;
 constexpr double least_memory_limit = 100e6;
 
-/// Adds margins, of a drive with a closed form, and sensitivities.
-void add_changes(Work& work, const Drive& drive, bool wants_margins, bool wants_sensitivities) {
-  if (!work.analysis.closed) {
-    work.report.sensitivity = searched_derivatives(drive, work.analysis);
-    return;
-  }
-  const ChangeableDrive changeable(drive);
+/// Adds margins and sensitivities.
+void add_changes(Work& work, const Drive& drive, bool wants_margins, bool wants_sensitivities,
+                 const Limits& limits) {
+  const bool is_closed = gearlash::closed_form_drive(drive).has_value();
+  std::optional<ChangeableDrive> changeable;
+  if (is_closed) changeable = ChangeableDrive(drive);
   // At the very ends of the ranges, rounding may put the ratios outside them.
-  const bool is_sound = validate(changeable.drivetrain()).empty();
+  const bool is_sound = !is_closed || validate(changeable->drivetrain()).empty();
   if (wants_margins && is_sound) {
     TerminalProgress progress("Margins");
-    work.report.margin = hunting_margin(changeable, progress);
+    progress.stop_after(limits.seconds);
+    progress.stop_above(limits.bytes);
+    work.report.margin =
+        is_closed ? hunting_margin(*changeable, progress) : hunting_margin(drive, progress);
     work.report.changeable = changeable;
   }
-  if (wants_sensitivities) {
-    work.report.sensitivity = is_sound ? drive_sensitivity(changeable) : Jacobian{};
+  if (!wants_sensitivities) return;
+  if (!is_closed) {
+    work.report.sensitivity = searched_derivatives(drive, work.analysis);
+  } else {
+    work.report.sensitivity = is_sound ? drive_sensitivity(*changeable) : Jacobian{};
   }
 }
 
@@ -276,13 +281,6 @@ Work analysed(const WrittenDrive& written, const Limits& limits, const Provenanc
   }
   work.report = report_of(written.drive, work.analysis.answer, written.angle, provenance);
   return work;
-}
-
-/// Refuses options that need a closed form.
-void refuse_without_closed_form(const LimitCycleOptions& options, Faults& faults) {
-  const std::string why =
-      "must be left out: it needs a closed-form answer, and this drive has none";
-  if (options.margins) faults.add({"--margins", "given", why, ""});
 }
 
 /// "200 MB", in bytes.
@@ -336,9 +334,6 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
       read_plots(options.plots, {"phase", "time", "tornado", "ceiling"}, faults);
   faults.require_distinct({"DRIVE.toml", options.servo.file}, files_of(plots));
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
-  if (written && !closed_form_drive(written->drive)) {
-    refuse_without_closed_form(options, faults);
-  }
   Limits limits;
   if (!options.time_limit.empty()) {
     limits.seconds = read_time("--time-limit", options.time_limit, faults);
@@ -358,20 +353,23 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   }
   faults.require_none();
 
+  const double begun = steady_seconds();
   Work work = analysed(*written, limits, provenance);
   work.report.specification = specification;
   work.report.measured = measured;
   const bool wants_sensitivities = options.sensitivities || has_kind(plots, "tornado");
   if (options.margins || wants_sensitivities) {
-    add_changes(work, written->drive, options.margins, wants_sensitivities);
+    limits.seconds -= steady_seconds() - begun;
+    add_changes(work, written->drive, options.margins, wants_sensitivities, limits);
   }
   Extras extras;
   for (const Plot& plot : plots) {
     extras.make([&] { write_file(plot.file, draw(work, plot)); });
   }
   write_file("-", printed(work, options));
-  if (is_decided(work.report.answer)) return extras.status(ExitStatus::done);
-  report_lines(headline(work.report));
+  const bool is_margin_stopped = work.report.margin && work.report.margin->stopped;
+  if (is_decided(work.report.answer) && !is_margin_stopped) return extras.status(ExitStatus::done);
+  report_lines(is_margin_stopped ? "The margins were stopped by a limit." : headline(work.report));
   return extras.status(ExitStatus::undecided);
 }
 
@@ -412,8 +410,9 @@ void add_limit_cycle_command(Command& app, Action& action) {
                   "sensitivities of the amplitude, or ceiling=FILE, what the proved\n"
                   "bound of every motion is made of;");
   command->add_flag("--margins", options->margins,
-                    "Add how far each parameter may change before hunting ends or begins;\n"
-                    "with bounces this takes a minute or more");
+                    "Add how far each parameter may change before hunting ends or begins,\n"
+                    "and all of them together; with bounces, or without a closed form, this\n"
+                    "takes seconds to minutes");
   command->add_flag("--sensitivities", options->sensitivities,
                     "Add exact sensitivities to every parameter, in per cent for one per cent; of\n"
                     "searched drives for a continuous controller without encoder");

@@ -18,9 +18,10 @@
 
 namespace gearlash {
 
-// Every answer of this header comes from the closed form, in SI. The functions throw InvalidInput
-// for an unsound drive, for a drive without a closed form (with what it would need), and for a
-// parameter that does not enter the closed form (with those that do).
+// All numbers are in SI. What is named by its path alone is answered by the closed form: such a
+// function throws InvalidInput for an unsound drive, for a drive without a closed form (with what
+// it would need), and for a parameter that does not enter the closed form (with those that do).
+// What has an axis is searched, for any parameter of any drive.
 //
 // A parameter is given by its path or an alias ("gearbox.ratio", "controller.kp"). "tachometer" is
 // additional feedback of the motor's speed, in V s/rad, with torque control in N m s/rad. A normal
@@ -147,6 +148,9 @@ struct FeasibleValues {
   [[nodiscard]] bool contains(double value) const;
   /// The feasible value nearest to the present one, by ratio. Empty where nothing meets the target.
   [[nodiscard]] std::optional<double> nearest() const;
+  /// The value of each interval that is nearest to the present one; where nothing meets the target,
+  /// the one that comes closest.
+  [[nodiscard]] std::vector<double> nearest_of_each() const;
 };
 
 /// Plastic contact: proved, in milliseconds; no feasible value is missed outside `undecided`. With
@@ -170,17 +174,30 @@ struct FeasibleValues {
 /// where there is no such axis.
 [[nodiscard]] Axis usual_axis(const Drive& drive, std::string_view parameter);
 
+/// The parameters of a drive that are easiest to change, by their paths: the gap, and every number
+/// of the controller or of the normal form that is above 0.
+[[nodiscard]] std::vector<std::string> usual_parameters(const Drive& drive);
+
 /// The nearest values below and above the present one at which hunting starts, or stops if the
-/// drive hunts at present: the last values without hunting, to a relative 1e-15. Empty where the
-/// searched range has none.
+/// drive hunts at present: the last values without hunting. Empty where the searched range has
+/// none.
 struct ParameterMargin {
   std::string parameter{};
-  double present = 0.0;
+  double present = 0.0;  ///< NaN if it is not given
   Bounds searched{};
   SearchKind kind = SearchKind::certified;  ///< certified: no nearer value exists
-  bool hunts = false;                       ///< at present
+  bool hunts = false;                       ///< at present; or it is not known to rest
+  /// To a relative 1e-15 by the closed form, else to `located` of their value.
   std::optional<double> below{};
   std::optional<double> above{};
+  /// Of a word, searched: the choices with which a drive that hunts comes to rest, or one that
+  /// rests hunts.
+  std::vector<double> choices{};
+  /// Searched: parts of the range where it is unknown whether the drive hunts.
+  std::vector<Bounds> undecided{};
+  std::vector<double> grid{};  ///< as of FeasibleValues
+  double located = 0.0;        ///< as of FeasibleValues
+  bool stopped = false;        ///< by Progress: values not reached are undecided
 
   /// 100 (below/present − 1) < 0 and 100 (above/present − 1) > 0; empty where the parameter is 0 at
   /// present, as an added tachometer is.
@@ -220,17 +237,43 @@ struct OverallMargin {
   std::size_t converged = 0;          ///< starts that converged to a least change
 };
 
-struct HuntingMargin {
-  double growth_at_rest = 0.0;  ///< the drive hunts above 1
-  /// The parameters a designer considers first: backlash, ratio, gain, frictions, added feedback,
-  /// inertias, and a restitution above 0.
-  std::vector<ParameterMargin> parameters{};
-  OverallMargin overall{};
-  bool stopped = false;  ///< by Progress: parameters are missing
+/// A change of several parameters of a searched drive after which it starts to hunt, or stops. It
+/// is an upper bound of the smallest such change, and never longer than the nearest change of one.
+///
+/// Let m_i be the logarithm of the ratio of the nearest border of parameter i to its present value.
+/// The plane Σ x_i/m_i = 1 through these borders is nearest to the present drive in the direction
+/// 1/m_i. The drive is searched along this direction, up to the least |m_i|.
+struct CombinedMargin {
+  std::vector<std::string> parameters{};
+  /// Of changed to present values: the last drive that does not hunt. All but one are 1 where no
+  /// combined change is smaller than that of one parameter.
+  std::vector<double> factors{};
+  double distance = 0.0;  ///< root of the sum of the squares of the logarithms of the factors
+  double located = 0.0;   ///< relative distance to which `distance` is located
 };
 
-/// Takes about 30 ms with plastic contact. With bounces it takes seconds to minutes, because each
-/// value tried needs its own search for cycles.
+struct HuntingMargin {
+  bool hunts = false;  ///< at present
+  /// Whether it is known that the drive hunts, or that it does not. Otherwise there are margins of
+  /// single parameters alone: the nearest values at which it is known not to hunt.
+  bool is_known = true;
+  std::optional<double> growth_at_rest{};  ///< closed form: the drive hunts above 1
+  /// Closed form: the parameters a designer considers first: backlash, ratio, gain, frictions,
+  /// added feedback, inertias, and a restitution above 0. Searched: usual_parameters().
+  std::vector<ParameterMargin> parameters{};
+  std::optional<OverallMargin> overall{};    ///< closed form
+  std::optional<CombinedMargin> combined{};  ///< searched, if any parameter has a border
+  bool stopped = false;                      ///< by Progress: parameters are missing
+};
+
+/// By the closed form where there is one: about 30 ms with plastic contact. With bounces it takes
+/// seconds to minutes, because each value tried needs its own search for cycles. Other drives are
+/// searched, with some 30 verdicts for each parameter, which takes seconds to minutes too. Not to
+/// hunt is to keep always_at_rest(). Throws InvalidInput for an unsound drive.
 [[nodiscard]] HuntingMargin hunting_margin(const Drive& drive, Progress& progress = no_progress());
+
+/// The same for the parameters of these axes alone, searched whatever the drive.
+[[nodiscard]] HuntingMargin hunting_margin(const Drive& drive, const std::vector<Axis>& axes,
+                                           Progress& progress = no_progress());
 
 }  // namespace gearlash

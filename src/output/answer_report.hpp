@@ -28,9 +28,9 @@ struct AnswerReport {
   /// The normal form without a natural frequency: text has times in units of 1/ω_n.
   bool is_normalized = false;
   Provenance provenance{};
-  /// The drive of `margin`; all three on request only.
+  std::optional<HuntingMargin> margin{};  ///< on request, as is `sensitivity`
+  /// The drive of a margin in closed form.
   std::optional<ChangeableDrive> changeable{};
-  std::optional<HuntingMargin> margin{};
   std::optional<Jacobian> sensitivity{};
   /// rad: an amplitude of the load for which the widest backlash is to be stated that provably
   /// keeps it. Needs the ceiling.

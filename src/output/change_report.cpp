@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
+#include "analysis/grid/axis.hpp"
 #include "output/columns.hpp"
 #include "output/json_values.hpp"
+#include "output/parameter_text.hpp"
 
 namespace gearlash {
 namespace {
@@ -48,11 +51,139 @@ std::string overall_text(const OverallMargin& overall, bool hunts) {
       change_text(std::exp(change.load_friction)), change_text(std::exp(change.stiffness)));
 }
 
+// ---- drives that are searched -------------------------------------------------------------------
+
+std::string border_text(const ParameterText& text, const ParameterMargin& margin,
+                        const std::optional<double>& value) {
+  if (!value) return "–";
+  const std::string shown = text.of(*value);
+  return margin.present > 0.0 ? shown + " (" + change_text(*value / margin.present) + ")" : shown;
+}
+
+std::string choices_text(const ParameterText& text, const ParameterMargin& margin) {
+  std::string choices;
+  for (const double choice : margin.choices) {
+    choices += (choices.empty() ? "" : ", ") + text.of(choice);
+  }
+  return choices;
+}
+
+std::string combined_text(const HuntingMargin& margin) {
+  if (!margin.combined) return "";
+  const CombinedMargin& combined = *margin.combined;
+  std::string changes;
+  std::size_t changed = 0;
+  for (std::size_t i = 0; i < combined.parameters.size(); ++i) {
+    if (combined.factors[i] == 1.0) continue;
+    ++changed;
+    changes += (changes.empty() ? "" : ", ") + combined.parameters[i] + " " +
+               change_text(combined.factors[i]);
+  }
+  if (changed == 1) {
+    return "No combined change was found that is smaller than that of one alone: " + changes + ". ";
+  }
+  return "Smallest combined change found: " + changes + ". ";
+}
+
+std::string undecided_text(const Drive& drive, const HuntingMargin& margin,
+                           const AngleUnit& angle) {
+  std::string parts;
+  for (const ParameterMargin& one : margin.parameters) {
+    const ParameterText text(drive, one.parameter, angle);
+    for (const Bounds& part : one.undecided) {
+      parts += (parts.empty() ? "" : "; ") + one.parameter + " " + text.of(part);
+    }
+  }
+  return parts.empty() ? "" : " Undecided: " + parts + ".";
+}
+
+/// What the search leaves open.
+std::string searched_text(const Drive& drive, const HuntingMargin& margin, const AngleUnit& angle) {
+  std::string grids;
+  double located = 0.0;
+  for (const ParameterMargin& one : margin.parameters) {
+    const ParameterText text(drive, one.parameter, angle);
+    grids +=
+        (grids.empty() ? "" : "; ") + fmt::format("{}, {} values", one.parameter, one.grid.size());
+    if (!text.is_word()) {
+      grids += " from " + text.of(one.searched.low) + " to " + text.of(one.searched.high);
+    }
+    located = std::max(located, one.located);
+  }
+  std::string text =
+      "Searched, not proved: a border nearer than the distance of two values tried "
+      "may be missed (" +
+      grids + ").";
+  if (located > 0.0) {
+    text += " Borders are located to " + significant(located, 1) + " of their value.";
+  }
+  text += undecided_text(drive, margin, angle);
+  if (margin.stopped) text += " The search was stopped: what it did not reach is left out.";
+  return text;
+}
+
 /// "motor amplitude".
 std::string words_of(Quantity quantity) {
   std::string words(name_of(quantity));
   std::replace(words.begin(), words.end(), '_', ' ');
   return words;
+}
+
+// ---- JSON ---------------------------------------------------------------------------------------
+
+using JsonOfValue = std::function<Json(double)>;
+
+Json json_margin_of(const ParameterMargin& margin, const std::string& unit,
+                    const JsonOfValue& json_of) {
+  const auto optional = [&](const std::optional<double>& value) {
+    return value ? json_of(*value) : Json(nullptr);
+  };
+  const auto of_bounds = [&](const Bounds& bounds) {
+    return Json{{"from", json_of(bounds.low)}, {"to", json_of(bounds.high)}};
+  };
+  const bool is_searched = margin.kind == SearchKind::searched;
+  return {{"parameter", margin.parameter},
+          {"unit", unit},
+          {"present", json_of(margin.present)},
+          {"below", optional(margin.below)},
+          {"above", optional(margin.above)},
+          {"choices", json_list(margin.choices, json_of)},
+          {"certified", margin.kind == SearchKind::certified},
+          {"searched", of_bounds(margin.searched)},
+          {"grid", json_list(margin.grid, json_of)},
+          {"located", is_searched ? json_number(margin.located) : Json(nullptr)},
+          {"undecided", json_list(margin.undecided, of_bounds)}};
+}
+
+Json json_overall(const std::optional<OverallMargin>& overall) {
+  if (!overall || !overall->change) return nullptr;
+  const LogChange& change = *overall->change;
+  return {{"distance", json_number(change.length())},
+          {"motor_inertia", json_number(change.motor_inertia)},
+          {"load_inertia", json_number(change.load_inertia)},
+          {"motor_friction", json_number(change.motor_friction)},
+          {"load_friction", json_number(change.load_friction)},
+          {"stiffness", json_number(change.stiffness)}};
+}
+
+Json json_combined(const std::optional<CombinedMargin>& combined) {
+  if (!combined) return nullptr;
+  Json factors = Json::object();
+  for (std::size_t i = 0; i < combined->parameters.size(); ++i) {
+    factors[combined->parameters[i]] = json_number(combined->factors[i]);
+  }
+  return {{"distance", json_number(combined->distance)},
+          {"located", json_number(combined->located)},
+          {"factors", std::move(factors)}};
+}
+
+template <class OfParameter>
+Json json_margin(const HuntingMargin& margin, const OfParameter& of_parameter) {
+  return {{"hunts", margin.is_known ? Json(margin.hunts) : Json(nullptr)},
+          {"parameters", json_list(margin.parameters, of_parameter)},
+          {"overall", json_overall(margin.overall)},
+          {"combined", json_combined(margin.combined)},
+          {"stopped", margin.stopped}};
 }
 
 }  // namespace
@@ -84,9 +215,8 @@ std::vector<std::size_t> by_falling_effect(const Jacobian& sensitivity) {
 std::string margin_text(const ChangeableDrive& drive, const HuntingMargin& margin,
                         const AngleUnit& angle) {
   std::vector<std::vector<std::string>> rows = {{"parameter", "now", "down to", "up to"}};
-  bool hunts = false;
+  const bool hunts = margin.hunts;
   for (const ParameterMargin& one : margin.parameters) {
-    hunts = hunts || one.hunts;
     if (!one.below && !one.above) continue;
     const ChangeableNumber& number = drive.number(one.parameter);
     rows.push_back({number.name, value_text(number, one.present, angle),
@@ -97,7 +227,7 @@ std::string margin_text(const ChangeableDrive& drive, const HuntingMargin& margi
   std::string text =
       what + ", one parameter at a time" +
       (rows.size() == 1 ? ": nowhere within a factor of a thousand\n" : "\n" + table_text(rows));
-  std::string rest = overall_text(margin.overall, hunts);
+  std::string rest = overall_text(*margin.overall, hunts);
   if (drive.drivetrain().restitution > 0.0) {
     rest += (rest.empty() ? "" : " ") +
             std::string(
@@ -106,6 +236,22 @@ std::string margin_text(const ChangeableDrive& drive, const HuntingMargin& margi
             (hunts ? "is stable; hunting may remain beside it." : "is unstable.");
   }
   return rest.empty() ? text : text + wrapped(rest);
+}
+
+std::string margin_text(const Drive& drive, const HuntingMargin& margin, const AngleUnit& angle) {
+  std::vector<std::vector<std::string>> rows = {{"parameter", "now", "down to", "up to"}};
+  for (const ParameterMargin& one : margin.parameters) {
+    const ParameterText text(drive, one.parameter, angle);
+    if (one.choices.empty() && !one.below && !one.above) continue;
+    rows.push_back({one.parameter, text.of(one.present), border_text(text, one, one.below),
+                    text.is_word() ? choices_text(text, one) : border_text(text, one, one.above)});
+  }
+  const std::string what = !margin.is_known ? "Where it is known to come to rest"
+                           : margin.hunts   ? "Where it comes to rest"
+                                            : "Where it begins to hunt or to run away";
+  return what + ", one parameter at a time" +
+         (rows.size() == 1 ? ": nowhere among the values tried\n" : "\n" + table_text(rows)) +
+         wrapped(combined_text(margin) + searched_text(drive, margin, angle));
 }
 
 std::string sensitivity_text(const Jacobian& sensitivity) {
@@ -137,23 +283,17 @@ std::string sensitivity_text(const Jacobian& sensitivity) {
 }
 
 nlohmann::ordered_json margin_json(const ChangeableDrive& drive, const HuntingMargin& margin) {
-  Json json;
-  json["parameters"] = json_list(margin.parameters, [&](const ParameterMargin& one) {
-    return Json{
-        {"parameter", one.parameter},          {"unit", drive.number(one.parameter).unit},
-        {"present", json_number(one.present)}, {"below", json_optional(one.below)},
-        {"above", json_optional(one.above)},   {"certified", one.kind == SearchKind::certified}};
+  return json_margin(margin, [&](const ParameterMargin& one) {
+    return json_margin_of(one, drive.number(one.parameter).unit, &json_number);
   });
-  json["overall"] = nullptr;
-  if (const std::optional<LogChange>& change = margin.overall.change) {
-    json["overall"] = {{"distance", json_number(change->length())},
-                       {"motor_inertia", json_number(change->motor_inertia)},
-                       {"load_inertia", json_number(change->load_inertia)},
-                       {"motor_friction", json_number(change->motor_friction)},
-                       {"load_friction", json_number(change->load_friction)},
-                       {"stiffness", json_number(change->stiffness)}};
-  }
-  return json;
+}
+
+nlohmann::ordered_json margin_json(const Drive& drive, const HuntingMargin& margin) {
+  return json_margin(margin, [&](const ParameterMargin& one) {
+    const Axis axis{.path = one.parameter};
+    return json_margin_of(one, unit_of(axis, drive),
+                          [&](double value) { return json_value(axis, drive, value); });
+  });
 }
 
 nlohmann::ordered_json sensitivity_json(const Jacobian& jacobian) {

@@ -18,10 +18,13 @@ namespace gearlash {
 /// change.
 std::string margin_text(const ChangeableDrive& drive, const HuntingMargin& margin,
                         const AngleUnit& angle);
+/// The same of a drive that was searched, and what that leaves open.
+std::string margin_text(const Drive& drive, const HuntingMargin& margin, const AngleUnit& angle);
 /// Elasticities, the largest first; or one line that says why there are none.
 std::string sensitivity_text(const Jacobian& sensitivity);
 
 nlohmann::ordered_json margin_json(const ChangeableDrive& drive, const HuntingMargin& margin);
+nlohmann::ordered_json margin_json(const Drive& drive, const HuntingMargin& margin);
 nlohmann::ordered_json sensitivity_json(const Jacobian& jacobian);
 
 /// The quantity by which effects are compared: the amplitude, or growth at rest without a limit

@@ -42,11 +42,6 @@ void write_list(const Values& values, const Convert& convert, const TextSink& si
   sink("]");
 }
 
-/// The word if the axis has words, else the number.
-Json json_value(const Axis& axis, const Drive& drive, double value) {
-  return unit_of(axis, drive).empty() ? Json(text_of(axis, drive, value)) : json_number(value);
-}
-
 Json json_axes(const Grid& grid) {
   return json_list(grid.axes, [&](const Axis& axis) {
     const std::string unit = unit_of(axis, grid.drive);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "analysis/design/target.hpp"
+#include "analysis/grid/axis.hpp"
 #include "gearlash/bounds.hpp"
 
 namespace gearlash {
@@ -21,6 +22,12 @@ inline Json json_number(double value) {
 
 inline Json json_optional(const std::optional<double>& number) {
   return number ? json_number(*number) : Json(nullptr);
+}
+
+/// The word if the axis has words, else the number. null for NaN.
+inline Json json_value(const Axis& axis, const Drive& drive, double value) {
+  const bool is_word = unit_of(axis, drive).empty() && !std::isnan(value);
+  return is_word ? Json(text_of(axis, drive, value)) : json_number(value);
 }
 
 /// The list of convert(element).

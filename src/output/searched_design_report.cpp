@@ -223,17 +223,11 @@ Json json_loop(const std::optional<drive::LoopFigures>& loop) {
           {"phase_margin", json_optional(loop->phase_margin)}};
 }
 
-/// A number, or the word of a choice.
-Json json_value(const Drive& drive, const FeasibleValues& values, double value) {
-  const Axis axis{.path = values.parameter};
-  const bool is_word = !parameter_of(axis, drive)->choices.empty() && !std::isnan(value);
-  return is_word ? Json(text_of(axis, drive, value)) : json_number(value);
-}
-
 Json json_result(const Drive& drive, const FeasibleValues& values, const DriveWithValue& one) {
-  const bool is_word = !parameter_of({.path = values.parameter}, drive)->choices.empty();
+  const Axis axis{.path = values.parameter};
+  const bool is_word = !parameter_of(axis, drive)->choices.empty();
   const bool has_ratio = !is_word && values.present != 0.0;
-  return {{"value", json_value(drive, values, one.value)},
+  return {{"value", json_value(axis, drive, one.value)},
           {"change_percent",
            has_ratio ? json_number(100.0 * (one.value / values.present - 1.0)) : Json(nullptr)},
           {"performance", json_performance(one.answer)},
@@ -244,9 +238,9 @@ Json json_result(const Drive& drive, const FeasibleValues& values, const DriveWi
 Json json_parameter(const Drive& drive, const SearchedParameter& parameter) {
   const FeasibleValues& values = parameter.values;
   const Axis axis{.path = values.parameter};
+  const auto of_value = [&](double value) { return json_value(axis, drive, value); };
   const auto of_interval = [&](const Bounds& interval) {
-    return Json{{"from", json_value(drive, values, interval.low)},
-                {"to", json_value(drive, values, interval.high)}};
+    return Json{{"from", of_value(interval.low)}, {"to", of_value(interval.high)}};
   };
   const auto nearest = std::min_element(
       parameter.results.begin(), parameter.results.end(), [&](const auto& a, const auto& b) {
@@ -261,11 +255,10 @@ Json json_parameter(const Drive& drive, const SearchedParameter& parameter) {
   return {{"parameter", values.parameter},
           {"description", parameter_of(axis, drive)->meaning},
           {"unit", unit_of(axis, drive)},
-          {"present", json_value(drive, values, values.present)},
+          {"present", of_value(values.present)},
           {"searched", of_interval(values.searched)},
           {"certified", false},
-          {"grid",
-           json_list(values.grid, [&](double value) { return json_value(drive, values, value); })},
+          {"grid", json_list(values.grid, of_value)},
           {"located", json_number(values.located)},
           {"intervals", json_list(values.intervals, of_interval)},
           {"borders", json_list(values.borders,

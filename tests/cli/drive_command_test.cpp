@@ -256,10 +256,6 @@ TEST_F(DriveCommand, EdgeFaultsOfFileAndOptionsAreToldTogether) {
   const std::string drive = file(std::string(mechanics) + with_speed);
   EXPECT_THAT(lines_of(run_tool({"limit-cycle", drive, "--damping", "0.2"}).err),
               ElementsAre(HasSubstr("--damping = 0.2: must be left out")));
-  EXPECT_THAT(lines_of(run_tool({"limit-cycle", drive, "--margins", "--sensitivities", "--plot",
-                                 "tornado=a.svg"})
-                           .err),
-              ElementsAre(HasSubstr("--margins")));
   const std::string sampled = "examples/dynamixel-joint.toml";
   EXPECT_THAT(run_tool({"limit-cycle", sampled, "--plot", "tornado=a.svg"}).err,
               HasSubstr("--plot = tornado: must be left out: this drive has no sensitivities; "));

@@ -23,6 +23,7 @@ COMMANDS = [
      "--backlash", "0"],
     ["limit-cycle", "examples/elinco-fd162.toml", "--sensitivities", "--margins"],
     ["limit-cycle", *SERVO, "--sensitivities", "--margins"],
+    ["limit-cycle", "examples/dynamixel-joint.toml", "--margins"],
     ["limit-cycle", "examples/normalized.toml"],
     ["limit-cycle", "examples/robot-joint.toml", "--specification", "3 deg"],
     ["limit-cycle", "examples/elinco-fd162.toml", "--set", "contact.stiffness=5 N m/rad"],

@@ -362,6 +362,48 @@ TEST(LimitCycleCommand, TellsHowFarHuntingIsAndWhatItDependsOn) {
   EXPECT_THAT(text.out, testing::HasSubstr("Smallest combined change that stops the "));
 }
 
+TEST(LimitCycleCommand, TellsHowFarHuntingIsOfADriveThatIsSearched) {
+  const std::vector<std::string> asked = {"limit-cycle", "examples/dynamixel-joint.toml",
+                                          "--margins"};
+  const Outcome text = run_tool(asked);
+  EXPECT_EQ(text.status, 0) << text.err;
+  EXPECT_THAT(text.out,
+              AllOf(HasSubstr("Where it begins to hunt or to run away, one parameter at a time\n"),
+                    HasSubstr("\n  controller.position_p_gain  800 "),
+                    HasSubstr("Smallest combined change found: gearbox.backlash +"),
+                    HasSubstr("Searched, not proved")));
+  const auto margin_of = [&](const std::vector<std::string>& more, int status) {
+    std::vector<std::string> arguments = asked;
+    arguments.insert(arguments.end(), {"--format", "json"});
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome run = run_tool(arguments);
+    EXPECT_EQ(run.status, status) << run.err;
+    return nlohmann::json::parse(run.out)["margin"];
+  };
+  const auto margin = margin_of({}, 0);
+  EXPECT_EQ(margin["hunts"], false);
+  EXPECT_EQ(margin["stopped"], false);
+  EXPECT_TRUE(margin["overall"].is_null());
+  ASSERT_EQ(margin["parameters"].size(), 2U);
+  const auto& gain = margin["parameters"][1];
+  EXPECT_EQ(gain["certified"], false);
+  EXPECT_TRUE(gain["below"].is_null());
+  const double alone = gain["above"].get<double>() / gain["present"].get<double>();
+  const double together = margin["combined"]["factors"]["controller.position_p_gain"];
+  EXPECT_GT(together, 1.0);
+  EXPECT_LT(together, alone);
+  // Put back: with the last gain it rests, with a little more it hunts.
+  const auto verdict_with = [](double value) {
+    const Outcome run = run_tool({"limit-cycle", "examples/dynamixel-joint.toml", "--brief",
+                                  "--set", "controller.position_p_gain=" + std::to_string(value)});
+    return run.out;
+  };
+  EXPECT_THAT(verdict_with(gain["above"]), HasSubstr("comes to rest"));
+  EXPECT_THAT(verdict_with(1.001 * gain["above"].get<double>()), HasSubstr("hunts"));
+  // A limit stops the margins too.
+  EXPECT_EQ(margin_of({"--time-limit", "100 ms"}, 1)["stopped"], true);
+}
+
 TEST(LimitCycleCommand, AnswersAtTheEndsOfTheRanges) {
   for (const auto& [damping, inertia_ratio] :
        {std::pair("1000", "1e9"), std::pair("1000", "1e-9"), std::pair("1e-15", "1"),

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/grid/axis.hpp"
 #include "base/range_check.hpp"
 #include "general/attractors/search_setting.hpp"
 #include "hybrid/continuation.hpp"
@@ -53,11 +52,10 @@ BorderKind kind_of(hybrid::BifurcationKind kind) {
 
 /// Where a cycle that exists at `from` ends or loses its stability, on the way to `to`. Unnamed if
 /// it does neither.
-Border end_of_cycle(const Drive& drive, const Axis& axis, const drive::FoundCycle& cycle,
-                    double from, double to) {
+Border end_of_cycle(const DriveAlong& drive, const drive::FoundCycle& cycle, double from,
+                    double to) {
   const hybrid::Family family = [&](double value) {
-    Drive changed = drive;
-    set_on(axis, changed, value);
+    const Drive changed = drive(value);
     require_none(faults(changed));
     return drive::search_setting(reduce_settled(changed)).system.system();
   };
@@ -87,14 +85,14 @@ Border end_of_cycle(const Drive& drive, const Axis& axis, const drive::FoundCycl
 }
 
 /// Those of one side that the other does not have, followed across the border.
-Border end_of_lost_cycle(const Drive& drive, const Axis& axis, const AnalysedValue& here,
+Border end_of_lost_cycle(const DriveAlong& drive, const AnalysedValue& here,
                          const AnalysedValue& there, double to) {
   const drive::FoundCycle* cycle = lost_cycle(here.analysis, there.analysis);
   if (cycle == nullptr) return {};
   constexpr std::size_t most_events = 400;  // more take minutes to follow
   if (cycle->orbit.events.empty() || cycle->orbit.events.size() > most_events) return {};
   try {
-    return end_of_cycle(drive, axis, *cycle, here.value, to);
+    return end_of_cycle(drive, *cycle, here.value, to);
   } catch (const InvalidInput&) {
     return {};  // the drive is unsound on the way
   }
@@ -135,8 +133,8 @@ const char* name_of(BorderKind kind) {
   return "unnamed";
 }
 
-Border border_between(const Drive& drive, const Axis& axis, const AnalysedValue& met,
-                      const AnalysedValue& unmet, double far) {
+Border border_between(const DriveAlong& drive, const AnalysedValue& met, const AnalysedValue& unmet,
+                      double far) {
   const double width =
       std::abs(unmet.value - met.value) / std::max(std::abs(unmet.value), std::abs(met.value));
   Border border{.end = met.value, .at = met.value, .located = width};
@@ -146,10 +144,10 @@ Border border_between(const Drive& drive, const Axis& axis, const AnalysedValue&
     return border;
   }
   // The one that misses the target, else one that meets it and ends at the border.
-  Border found = end_of_lost_cycle(drive, axis, unmet, met, met.value - (far - met.value));
+  Border found = end_of_lost_cycle(drive, unmet, met, met.value - (far - met.value));
   if (found.kind == BorderKind::unnamed) {
     constexpr double near = 0.01;
-    found = end_of_lost_cycle(drive, axis, met, unmet, far);
+    found = end_of_lost_cycle(drive, met, unmet, far);
     if (std::abs(found.at - met.value) > near * std::abs(met.value)) found = {};
   }
   if (found.kind != BorderKind::unnamed) {

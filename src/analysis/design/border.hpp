@@ -2,6 +2,7 @@
 #pragma once
 
 #include "analysis/analyse.hpp"
+#include "analysis/design/searched_values.hpp"
 #include "gearlash/design.hpp"
 
 namespace gearlash {
@@ -16,7 +17,7 @@ struct AnalysedValue {
 /// side beyond has alone across it (continue_orbit()). If there is none, that of the side within,
 /// as far as `far`, but no more than 1 % beyond the border. `met`: the last value that meets the
 /// target; `unmet`: one beyond.
-Border border_between(const Drive& drive, const Axis& axis, const AnalysedValue& met,
-                      const AnalysedValue& unmet, double far);
+Border border_between(const DriveAlong& drive, const AnalysedValue& met, const AnalysedValue& unmet,
+                      double far);
 
 }  // namespace gearlash

@@ -249,6 +249,16 @@ std::optional<double> FeasibleValues::nearest() const {
   return nearest;
 }
 
+std::vector<double> FeasibleValues::nearest_of_each() const {
+  if (closest) return {*closest};
+  std::vector<double> nearest;
+  for (const Bounds& interval : intervals) {
+    const double from = std::isnan(present) ? interval.low : present;
+    nearest.push_back(std::clamp(from, interval.low, interval.high));
+  }
+  return nearest;
+}
+
 FeasibleValues feasible_values(const ChangeableDrive& drive, std::string_view parameter,
                                const Target& target) {
   const ChangeableNumber& number = drive.number(parameter);

@@ -7,8 +7,13 @@
 
 #include "analysis/design/drive_sensitivity.hpp"
 #include "analysis/design/feasible_values.hpp"
+#include "analysis/design/searched_margin.hpp"
+#include "analysis/design/target.hpp"
+#include "analysis/final_servo.hpp"
+#include "base/progress_part.hpp"
 #include "base/special_numbers.hpp"
 #include "closed_form/growth_at_rest.hpp"
+#include "gearlash/analyse.hpp"
 #include "numeric/linear_algebra.hpp"
 
 namespace gearlash {
@@ -270,21 +275,29 @@ OverallMargin overall_margin(const Drivetrain& drive) {
   return margin;
 }
 
-ParameterMargin parameter_margin(const ChangeableDrive& drive, std::string_view parameter) {
-  const FeasibleValues quiet = feasible_values(drive, parameter, always_at_rest());
+ParameterMargin margin_of(const FeasibleValues& quiet) {
   ParameterMargin margin{.parameter = quiet.parameter,
                          .present = quiet.present,
                          .searched = quiet.searched,
                          .kind = quiet.kind,
-                         .hunts = !quiet.contains(quiet.present)};
+                         .hunts = !quiet.contains(quiet.present),
+                         .undecided = quiet.undecided,
+                         .grid = quiet.grid,
+                         .located = quiet.located,
+                         .stopped = quiet.stopped};
+  const auto take = [&](double end) {
+    if (end <= quiet.present) margin.below = std::max(margin.below.value_or(end), end);
+    if (end >= quiet.present) margin.above = std::min(margin.above.value_or(end), end);
+  };
   for (const Bounds& interval : quiet.intervals) {
-    for (const double end : {interval.low, interval.high}) {
-      if (end == quiet.searched.low || end == quiet.searched.high) continue;
-      if (end <= quiet.present) margin.below = std::max(margin.below.value_or(end), end);
-      if (end >= quiet.present) margin.above = std::min(margin.above.value_or(end), end);
-    }
+    if (interval.low != quiet.searched.low) take(interval.low);
+    if (interval.high != quiet.searched.high) take(interval.high);
   }
   return margin;
+}
+
+ParameterMargin parameter_margin(const ChangeableDrive& drive, std::string_view parameter) {
+  return margin_of(feasible_values(drive, parameter, always_at_rest()));
 }
 
 HuntingMargin hunting_margin(const ChangeableDrive& drive, Progress& progress) {
@@ -296,6 +309,7 @@ HuntingMargin hunting_margin(const ChangeableDrive& drive, Progress& progress) {
   });
   for (const std::string& name : names) {
     margin.parameters.push_back(parameter_margin(drive, name));
+    margin.hunts = margin.hunts || margin.parameters.back().hunts;
     margin.stopped = !progress.go_on(static_cast<double>(margin.parameters.size()) /
                                      static_cast<double>(names.size() + 1));
     if (margin.stopped) break;
@@ -305,7 +319,36 @@ HuntingMargin hunting_margin(const ChangeableDrive& drive, Progress& progress) {
 }
 
 HuntingMargin hunting_margin(const Drive& drive, Progress& progress) {
-  return hunting_margin(ChangeableDrive(drive), progress);
+  require_none(faults(drive));
+  if (closed_form_drive(drive)) return hunting_margin(ChangeableDrive(drive), progress);
+  std::vector<Axis> axes;
+  for (const std::string& parameter : usual_parameters(drive)) {
+    axes.push_back(usual_axis(drive, parameter));
+  }
+  return hunting_margin(drive, axes, progress);
+}
+
+HuntingMargin hunting_margin(const Drive& drive, const std::vector<Axis>& axes,
+                             Progress& progress) {
+  require_none(faults(drive));
+  const std::size_t parts = axes.size() + 1;
+  HuntingMargin margin;
+  const Answer present = analyse(drive, wanted_for(always_at_rest()), progress);
+  margin.hunts = !is_met(always_at_rest(), present);
+  margin.is_known = is_known(always_at_rest(), present);
+  margin.stopped = present.search && !present.search->is_complete;
+  for (const Axis& axis : axes) {
+    if (margin.stopped) break;
+    ProgressPart part(progress, margin.parameters.size(), parts);
+    margin.parameters.push_back(
+        searched_margin(drive, axis, margin.hunts || !margin.is_known, part));
+    margin.stopped = margin.parameters.back().stopped;
+  }
+  if (margin.stopped || !margin.is_known) return margin;
+  ProgressPart last(progress, axes.size(), parts);
+  margin.combined = combined_margin(drive, axes, margin.parameters, margin.hunts, last);
+  margin.stopped = !progress.go_on(1.0);
+  return margin;
 }
 
 }  // namespace gearlash

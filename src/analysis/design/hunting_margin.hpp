@@ -8,6 +8,9 @@
 
 namespace gearlash {
 
+/// The nearest ends of intervals, where `quiet` are the values without hunting.
+ParameterMargin margin_of(const FeasibleValues& quiet);
+
 /// The ends of feasible_values() for a target of no hunting.
 ParameterMargin parameter_margin(const ChangeableDrive& drive, std::string_view parameter);
 

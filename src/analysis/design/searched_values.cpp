@@ -1,3 +1,5 @@
+#include "analysis/design/searched_values.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -14,16 +16,18 @@
 #include "analysis/design/value_scan.hpp"
 #include "analysis/grid/axis.hpp"
 #include "base/on_threads.hpp"
-#include "gearlash/design.hpp"
+#include "gearlash/parameter.hpp"
 
 namespace gearlash {
 namespace {
 
-/// A drive with other values of one parameter, as far as it was analysed.
-class AnalysedDrive {
+/// The drives along a line, as far as they were analysed.
+class AnalysedDrives {
  public:
-  AnalysedDrive(const Drive& drive, const Axis& axis, const Target& target, Progress& progress)
-      : drive_(drive), axis_(axis), target_(target), progress_(progress) {
+  /// `count` of them are analysed afresh.
+  AnalysedDrives(const DriveAlong& drive, std::size_t count, const Target& target,
+                 Progress& progress)
+      : drive_(drive), count_(count), target_(target), progress_(progress) {
     for (const QuantityLimit& limit : target.limits) {
       if (info_of(limit.quantity).scope == QuantityScope::motion)
         of_motion_.limits.push_back(limit);
@@ -46,7 +50,7 @@ class AnalysedDrive {
     while (upwards ? std::next(beyond) != known_.end() : beyond != known_.begin()) {
       beyond = upwards ? std::next(beyond) : std::prev(beyond);
       if (beyond->second.is_met || (upwards ? beyond->first > far : beyond->first < far)) break;
-      const Border border = border_between(drive_, axis_, {end, *at_end->second.analysis},
+      const Border border = border_between(drive_, {end, *at_end->second.analysis},
                                            {beyond->first, *beyond->second.analysis}, far);
       if (!first) first = border;
       if (border.kind == BorderKind::unnamed || border.kind == BorderKind::rest) continue;
@@ -66,15 +70,14 @@ class AnalysedDrive {
   };
 
   JudgedValue judged(double value, const Known& near) {
-    Drive drive = drive_;
-    set_on(axis_, drive, value);
+    const Drive drive = drive_(value);
     if (!faults(drive).empty()) {
       return {.value = value, .beyond = Target::infinity, .moves_beyond = Target::infinity};
     }
     const JudgedValue unknown{.value = value, .is_known = false, .beyond = Target::infinity};
     if (is_stopped_) return unknown;
     Hearing hearing(*this);
-    const Wanted wanted{.proofs = false, .ceiling = asks_for_ceiling(target_), .borders = false};
+    const Wanted wanted = wanted_for(target_);
     const auto analysis =
         std::make_shared<const Analysis>(near ? analyse_near(drive, *near, wanted, hearing)
                                               : analyse_in_full(drive, wanted, hearing));
@@ -103,24 +106,24 @@ class AnalysedDrive {
   }
 
   /// Asks whether to go on, from several threads. The ends of intervals take about as many values
-  /// as the axis has.
+  /// as the grid has.
   class Hearing : public Progress {
    public:
-    explicit Hearing(AnalysedDrive& of) : of_(of) {}
+    explicit Hearing(AnalysedDrives& of) : of_(of) {}
     bool go_on(double share, std::size_t bytes = 0) override {
       const std::scoped_lock lock(of_.hearing_);
       const double done = static_cast<double>(of_.evaluations_) + share;
-      const double left = std::max(1.0, 2.0 * static_cast<double>(of_.axis_.values.size()) - done);
+      const double left = std::max(1.0, 2.0 * static_cast<double>(of_.count_) - done);
       if (!of_.progress_.go_on(done / (done + left), bytes)) of_.is_stopped_ = true;
       return !of_.is_stopped_;
     }
 
    private:
-    AnalysedDrive& of_;
+    AnalysedDrives& of_;
   };
 
-  const Drive& drive_;
-  const Axis& axis_;
+  const DriveAlong& drive_;
+  std::size_t count_;
   const Target& target_;
   Target of_motion_;
   Progress& progress_;
@@ -159,7 +162,7 @@ void add_present(double present, std::vector<double>& grid) {
   grid.insert(above, present);
 }
 
-std::vector<JudgedValue> of_words(AnalysedDrive& analysed, FeasibleValues& found) {
+std::vector<JudgedValue> of_words(AnalysedDrives& analysed, FeasibleValues& found) {
   const auto afresh = [&](double value) { return analysed.afresh(value); };
   std::vector<JudgedValue> tried =
       tried_values(afresh, {.first = found.grid, .most_halvings = 0, .halvings_everywhere = 0});
@@ -179,7 +182,7 @@ struct IntervalEnd {
 
 /// What happens at each end of an interval within the range. Cycles are followed as far as the next
 /// value of the grid.
-std::vector<IntervalEnd> ends_with_borders(AnalysedDrive& analysed, const FeasibleValues& found) {
+std::vector<IntervalEnd> ends_with_borders(AnalysedDrives& analysed, const FeasibleValues& found) {
   std::vector<IntervalEnd> ends;
   for (std::size_t i = 0; i < found.intervals.size(); ++i) {
     if (found.intervals[i].low > found.searched.low) ends.push_back({i, false});
@@ -199,7 +202,7 @@ std::vector<IntervalEnd> ends_with_borders(AnalysedDrive& analysed, const Feasib
 
 /// Names the ends of intervals. A cycle that misses the target may go on into an interval, where no
 /// start led to it: the interval begins where it ends. Of one that it fills nothing is known.
-void name_borders(AnalysedDrive& analysed, FeasibleValues& found) {
+void name_borders(AnalysedDrives& analysed, FeasibleValues& found) {
   if (analysed.is_stopped()) return;
   std::vector<IntervalEnd> ends = ends_with_borders(analysed, found);
   std::vector<bool> is_filled(found.intervals.size(), false);
@@ -245,8 +248,8 @@ LastMet where_verdicts_repeat(const Judge& afresh, double met, LastMet last,
   return last;
 }
 
-std::vector<JudgedValue> of_numbers(AnalysedDrive& analysed, const Resolution& resolution,
-                                    FeasibleValues& found) {
+std::vector<JudgedValue> of_numbers(AnalysedDrives& analysed, FeasibleValues& found) {
+  const Resolution resolution = resolution_over(found.searched);
   const auto afresh = [&](double value) { return analysed.afresh(value); };
   const auto followed = [&](double value) { return analysed.followed(value); };
   constexpr int most_halvings = 2;
@@ -274,10 +277,42 @@ std::vector<JudgedValue> of_numbers(AnalysedDrive& analysed, const Resolution& r
   return tried;
 }
 
+/// Precondition: `found` has its grid.
+template <class Search>
+void fill(FeasibleValues& found, const DriveAlong& drive, const Target& target, Progress& progress,
+          const Search& search) {
+  found.kind = SearchKind::searched;
+  AnalysedDrives analysed(drive, found.grid.size(), target, progress);
+  const std::vector<JudgedValue> tried = search(analysed, found);
+  if (found.intervals.empty()) found.closest = closest_of(tried);
+  found.evaluations = analysed.evaluations();
+  found.stopped = analysed.is_stopped();
+}
+
 }  // namespace
 
 Axis usual_axis(const Drive& drive, std::string_view parameter) {
   return usual_axis("parameter", drive, parameter);
+}
+
+std::vector<std::string> usual_parameters(const Drive& drive) {
+  std::vector<std::string> usual;
+  for (const ParameterInfo& parameter : parameters_of(drive)) {
+    const std::string path(parameter.path);
+    const bool is_wanted =
+        path == "gearbox.backlash" || path.starts_with("controller.") || path.starts_with("servo.");
+    if (!is_wanted || parameter.kind != ParameterKind::number) continue;
+    const std::optional<double> present = present_value({.path = path}, drive);
+    if (present && *present > 0.0 && std::isfinite(*present)) usual.push_back(path);
+  }
+  return usual;
+}
+
+FeasibleValues feasible_along(const DriveAlong& drive, const std::vector<double>& grid,
+                              const Target& target, Progress& progress) {
+  FeasibleValues found{.searched = {grid.front(), grid.back()}, .grid = grid};
+  fill(found, drive, target, progress, of_numbers);
+  return found;
 }
 
 /// The drive is analysed afresh at each value of the axis, at the present one, and at the ends of
@@ -297,7 +332,6 @@ FeasibleValues feasible_values(const Drive& drive, const Axis& axis, const Targe
   FeasibleValues found{.parameter = axis.path,
                        .present = present.value_or(std::numeric_limits<double>::quiet_NaN()),
                        .searched = {*least, *most},
-                       .kind = SearchKind::searched,
                        .grid = axis.values};
   const bool is_word = !parameter_of(axis, drive)->choices.empty();
   std::sort(found.grid.begin(), found.grid.end());
@@ -305,11 +339,12 @@ FeasibleValues feasible_values(const Drive& drive, const Axis& axis, const Targe
     std::erase_if(found.grid, [&](double word) { return asks_for_more(axis, word, drive); });
   }
   if (present && !is_word && found.searched.contains(*present)) add_present(*present, found.grid);
-  AnalysedDrive analysed(drive, axis, target, progress);
-  const std::vector<JudgedValue> tried =
-      is_word ? of_words(analysed, found)
-              : of_numbers(analysed, resolution_over(found.searched), found);
-  if (found.intervals.empty()) found.closest = closest_of(tried);
+  const DriveAlong with_value = [&](double value) {
+    Drive changed = drive;
+    set_on(axis, changed, value);
+    return changed;
+  };
+  fill(found, with_value, target, progress, is_word ? of_words : of_numbers);
   if (!is_word && is_of_ceilings(target)) {
     for (const Bounds& interval : found.intervals) {
       constexpr std::size_t most_boxes = 8000;
@@ -317,8 +352,6 @@ FeasibleValues feasible_values(const Drive& drive, const Axis& axis, const Targe
           prove_target(drive, axis.path, interval, target, most_boxes, progress));
     }
   }
-  found.evaluations = analysed.evaluations();
-  found.stopped = analysed.is_stopped();
   return found;
 }
 

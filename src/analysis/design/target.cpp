@@ -21,6 +21,12 @@ bool asks_for_rest(const Target& target) {
   return target.no_hunting || target.no_hunting_if_disturbed;
 }
 
+bool asks_for_motion(const Target& target) {
+  return std::any_of(target.limits.begin(), target.limits.end(), [](const QuantityLimit& limit) {
+    return info_of(limit.quantity).scope == QuantityScope::motion;
+  });
+}
+
 bool is_at_rest(Verdict verdict) {
   return verdict == Verdict::cannot_hunt || verdict == Verdict::comes_to_rest;
 }
@@ -176,11 +182,13 @@ std::optional<double> Performance::value(Quantity quantity) const {
   }
 }
 
-bool asks_for_ceiling(const Target& target) {
-  return std::any_of(target.limits.begin(), target.limits.end(), [](const QuantityLimit& limit) {
-    return limit.quantity == Quantity::ceiling || limit.quantity == Quantity::motor_ceiling ||
-           limit.quantity == Quantity::effort_ceiling;
-  });
+Wanted wanted_for(const Target& target) {
+  const bool asks_for_ceiling =
+      std::any_of(target.limits.begin(), target.limits.end(), [](const QuantityLimit& limit) {
+        return limit.quantity == Quantity::ceiling || limit.quantity == Quantity::motor_ceiling ||
+               limit.quantity == Quantity::effort_ceiling;
+      });
+  return {.proofs = false, .ceiling = asks_for_ceiling, .borders = asks_for_motion(target)};
 }
 
 bool is_of_performance(Quantity quantity) {
@@ -235,16 +243,11 @@ bool is_met(const Target& target, const Judged& judged) {
 template <class Judged>
 bool is_known(const Target& target, const Judged& judged) {
   if (is_missed(target, judged)) return true;
-  const auto asks_for_motion = [&] {
-    return std::any_of(target.limits.begin(), target.limits.end(), [](const QuantityLimit& limit) {
-      return info_of(limit.quantity).scope == QuantityScope::motion;
-    });
-  };
   switch (judged.verdict) {
     case Verdict::undecided:
-      return !asks_for_rest(target) && !target.no_runaway && !asks_for_motion();
+      return !asks_for_rest(target) && !target.no_runaway && !asks_for_motion(target);
     case Verdict::hunts_irregularly:
-      return !asks_for_motion() || judged.value(Quantity::amplitude).has_value();
+      return !asks_for_motion(target) || judged.value(Quantity::amplitude).has_value();
     default:
       return true;
   }

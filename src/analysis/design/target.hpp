@@ -7,6 +7,7 @@
 #include "analysis/design/changeable_drive.hpp"
 #include "base/special_numbers.hpp"
 #include "closed_form/limit_cycle.hpp"
+#include "gearlash/analyse.hpp"
 #include "gearlash/design.hpp"
 
 namespace gearlash {
@@ -35,8 +36,10 @@ bool is_ruled_out(const Target& target, double growth_at_rest);
 /// verdict is then `hunts` or `undecided`, and the rest NaN. Throws InvalidInput.
 Performance performance_for(const Target& target, const Drivetrain& drive);
 
-/// Whether a limit is of a ceiling, which is computed only if wanted.
-bool asks_for_ceiling(const Target& target);
+/// What analyse() must compute for the target to be judged. Whether a drive hunts or runs away is
+/// known from its starts alone. The largest stable cycle now and then is found only where what lies
+/// between two starts is searched: limits of motion ask for that too.
+Wanted wanted_for(const Target& target);
 
 /// Whether the closed form's performance shows if a target is met: its limits are of growth at
 /// rest, amplitude and frequency alone.

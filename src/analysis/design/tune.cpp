@@ -132,7 +132,7 @@ class Units {
     if (judged.missed_by > 0.0) return judged;
     const Drive drive = this->drive(unit, tuned);
     judged.answer = analyse_until(
-        drive, {.proofs = false, .ceiling = asks_for_ceiling(task_.target), .borders = false},
+        drive, wanted_for(task_.target),
         [&](const drive::AttractorSearch& search) {
           return is_missed_already(task_.target, search, drive.sampling.has_value());
         },

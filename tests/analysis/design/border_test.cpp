@@ -40,8 +40,13 @@ TEST(OracleBorder, AtAFoldTheCycleHasAMultiplierOfOneAndNoneIsBeyond) {
   };
   const Analysis rests = with(0.0081);
   const Analysis hunts = with(0.0078);
-  const Border fold = border_between(drive, linear("motor.coulomb", 0.007, 0.009, 3),
-                                     {0.0081, rests}, {0.0078, hunts}, 0.007);
+  const Border fold = border_between(
+      [&](double coulomb) {
+        Drive along = drive;
+        along.motor.friction.coulomb = coulomb;
+        return along;
+      },
+      {0.0081, rests}, {0.0078, hunts}, 0.007);
   EXPECT_EQ(fold.kind, BorderKind::fold);
   EXPECT_LE(fold.located, 1e-9);
   EXPECT_GT(fold.at, 0.0078);

@@ -225,7 +225,7 @@ TEST(PropertyHuntingMargin, OfAllTogetherIsShorterThanOfOne) {
       if (!is_number) continue;
       for (const std::optional<double>& end : {one.below, one.above}) {
         if (!end) continue;
-        EXPECT_GE(std::abs(std::log(*end / one.present)), margin.overall.change->length() - 1e-9);
+        EXPECT_GE(std::abs(std::log(*end / one.present)), margin.overall->change->length() - 1e-9);
       }
     }
   }
