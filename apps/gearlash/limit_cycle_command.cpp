@@ -149,8 +149,12 @@ MotionPicture servo_picture(const Work& work) {
     if (&other == cycle || picture.motions.size() >= 2 + most_others) continue;
     const double stays = std::abs(other.multiplier);
     const std::string swing = " ±" + angle_text(other.amplitude, work.report.angle, 3);
+    const std::string name = (stays < 1.0 ? "stable cycle" : "unstable cycle") + swing;
+    const bool is_named = std::any_of(picture.motions.begin(), picture.motions.end(),
+                                      [&](const DrawnMotion& drawn) { return drawn.name == name; });
+    if (is_named) continue;  // cannot be told apart either
     picture.motions.push_back({.motion = motion_from(work, other.start, 0.0, other.period),
-                               .name = (stays < 1.0 ? "stable cycle" : "unstable cycle") + swing,
+                               .name = name,
                                .is_cycle = true,
                                .role = stays < 1.0 ? MotionRole::subject : MotionRole::unstable});
   }

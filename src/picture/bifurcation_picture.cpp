@@ -247,7 +247,7 @@ void add_borders(const BifurcationDiagram& diagram, const Axis& axis, const Scal
 }
 
 std::string subtitle_of(const BifurcationDiagram& diagram, const Grid& grid) {
-  const std::string servo = diagram.searched == 0 ? gearlash::subtitle_of(grid) : "";
+  std::string servo = diagram.searched == 0 ? gearlash::subtitle_of(grid) : "";
   if (!servo.empty()) return servo;
   return fmt::format("searched at {} values, cycles followed between them", diagram.searched);
 }
