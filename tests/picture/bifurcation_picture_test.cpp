@@ -13,7 +13,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr AngleUnit radians{};
+const AngleUnit radians{};
 
 CycleAt at(double parameter, double amplitude) {
   return {.parameter = parameter,
