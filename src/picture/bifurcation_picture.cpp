@@ -197,7 +197,7 @@ struct Mark {
 constexpr std::array known_marks = {Mark{"fold", 6},
                                     Mark{"flip", 4},
                                     Mark{"pitchfork", 8},
-                                    Mark{"Neimark-Sacker", 12},
+                                    Mark{"Neimark–Sacker", 12},
                                     Mark{"grazing", 3},
                                     Mark{"events change", 1},
                                     Mark{"loss of rest", 7},

@@ -5,11 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
 #include <string>
+#include <vector>
 
 #include "analysis/analyse.hpp"
 #include "picture/attractor_picture.hpp"
+#include "picture/svg_reading.hpp"
 
 namespace gearlash {
 namespace {
@@ -109,28 +110,14 @@ TEST(PhasePlane, SpeedsThatLeapAreNotJoinedByTheLineOfTheMotion) {
   picture.period = 6.0;
   picture.motions.push_back({.motion = simulate(drive, {.until = 20.0})});
   const std::string svg = draw_phase_plane(picture, PictureFormat::svg);
-  const std::string colour = "stroke='rgb(213,  94,   0)'";
-  std::size_t strokes = 0;
-  for (std::size_t place = svg.find(colour); place != std::string::npos;
-       place = svg.find(colour, place + 1)) {
-    const std::size_t begin = svg.find(" d='M", place) + 5;
-    std::istringstream path(svg.substr(begin, svg.find('\'', begin) - begin));
-    char separator = ' ';
-    double right = 0.0;
-    double down = 0.0;
-    path >> right >> separator >> down;
-    for (char command = ' '; path >> command;) {
-      const double last_right = right;
-      const double last_down = down;
-      path >> right >> separator >> down;
-      ++strokes;
-      if (command != 'L') continue;
-      constexpr double far = 20.0;  // pixels
-      EXPECT_FALSE(std::abs(right - last_right) < 0.05 && std::abs(down - last_down) > far)
-          << right << " " << down;
-    }
+  const std::vector<test::Stroke> strokes = test::strokes_of(svg, "stroke='rgb(213,  94,   0)'");
+  EXPECT_GT(strokes.size(), 50U);
+  for (const test::Stroke& stroke : strokes) {
+    constexpr double far = 20.0;  // pixels
+    const bool is_upright = std::abs(stroke.right - stroke.from_right) < 0.05 &&
+                            std::abs(stroke.down - stroke.from_down) > far;
+    EXPECT_FALSE(stroke.is_drawn && is_upright) << stroke.right << " " << stroke.down;
   }
-  EXPECT_GT(strokes, 50U);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "picture/drawn_motion.hpp"
 #include "picture/line_chart.hpp"
 #include "picture/motion_picture.hpp"
+#include "picture/svg_reading.hpp"
 
 namespace gearlash {
 namespace {
@@ -78,17 +79,7 @@ bool is_well_formed(const std::string& xml) {
   return open.empty() && xml.find("<svg") != std::string::npos;
 }
 
-/// What a reader sees: the text between the tags.
-std::string visible_text(const std::string& svg) {
-  std::string text;
-  bool inside_tag = false;
-  for (const char c : svg) {
-    if (c == '<') inside_tag = true;
-    if (!inside_tag) text += c;
-    if (c == '>') inside_tag = false;
-  }
-  return text;
-}
+using test::visible_text;
 
 TEST(Picture, KindIsThatOfTheEnding) {
   const MotionPicture picture = sample_picture();

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "picture/gnuplot_script.hpp"
 #include "picture/motion_picture.hpp"
 #include "picture/shown_end.hpp"
+#include "picture/svg_reading.hpp"
 
 namespace gearlash {
 namespace {
@@ -20,17 +20,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// What a reader sees: the text between the tags.
-std::string visible_text(const std::string& svg) {
-  std::string text;
-  bool inside_tag = false;
-  for (const char c : svg) {
-    if (c == '<') inside_tag = true;
-    if (!inside_tag) text += c;
-    if (c == '>') inside_tag = false;
-  }
-  return text;
-}
+using test::visible_text;
 
 /// A load that approaches 100 and swings by ±`swing` about it with a period of 2 s; the motor
 /// follows `lag` behind.
@@ -168,26 +158,12 @@ TEST(TimeResponse, EachThingHasOneNameInTheLegend) {
 /// The reference is the only line of its grey: no stroke of it goes from one height to another.
 TEST(TimeResponse, ALeapOfTheReferenceIsNotJoinedByALine) {
   const std::string svg = draw_time_response(picture_of(coarse_drive(), 60.0), PictureFormat::svg);
-  const std::string grey = "stroke='rgb( 85,  85,  85)'";
-  std::size_t strokes = 0;
-  for (std::size_t place = svg.find(grey); place != std::string::npos;
-       place = svg.find(grey, place + 1)) {
-    const std::size_t begin = svg.find(" d='M", place) + 5;
-    std::istringstream path(svg.substr(begin, svg.find('\'', begin) - begin));
-    char separator = ' ';
-    double right = 0.0;
-    double down = 0.0;
-    path >> right >> separator >> down;
-    for (char command = ' '; path >> command;) {
-      const double last = down;
-      path >> right >> separator >> down;
-      if (command == 'L') {
-        EXPECT_NEAR(down, last, 0.5);
-      }
-      ++strokes;
-    }
+  const std::vector<test::Stroke> strokes = test::strokes_of(svg, "stroke='rgb( 85,  85,  85)'");
+  EXPECT_GT(strokes.size(), 2U);
+  for (const test::Stroke& stroke : strokes) {
+    if (!stroke.is_drawn) continue;
+    EXPECT_NEAR(stroke.down, stroke.from_down, 0.5);
   }
-  EXPECT_GT(strokes, 2U);
 }
 
 }  // namespace

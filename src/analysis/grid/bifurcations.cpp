@@ -95,7 +95,7 @@ CycleAt point_of(const FollowedCycle& followed) {
 
 std::string word_of(const std::complex<double>& multiplier) {
   constexpr double real = 1e-3;
-  if (std::abs(multiplier.imag()) > real * std::abs(multiplier)) return "Neimark-Sacker";
+  if (std::abs(multiplier.imag()) > real * std::abs(multiplier)) return "Neimark–Sacker";
   return multiplier.real() < 0.0 ? "flip" : "pitchfork";
 }
 

@@ -27,7 +27,7 @@ struct CycleBranch {
   std::vector<CycleAt> points{};
 };
 
-/// Where something changes. Words: "fold", "flip", "Neimark-Sacker", "pitchfork", "events change",
+/// Where something changes. Words: "fold", "flip", "Neimark–Sacker", "pitchfork", "events change",
 /// "stability changes", "cycle is lost" (of an unknown reason), "loss of rest", "border of
 /// running away"; others may be given.
 struct MarkedBorder {
@@ -60,7 +60,7 @@ struct BifurcationDiagram {
 /// seen at it: a fold has a branch of the other stability that ends beside it, or a multiplier near
 /// 1; a change of events has a cycle of about this amplitude beyond it with other events. A change
 /// of stability is located by bisection and named by the multiplier that leaves the unit circle (1:
-/// pitchfork, −1: flip, complex: Neimark-Sacker). Rest and running away are borders located by 6
+/// pitchfork, −1: flip, complex: Neimark–Sacker). Rest and running away are borders located by 6
 /// bisections, of closed forms by 40. Values at which the drive is not valid are left out.
 /// Cycles in closed form are joined to those of the next value by amplitude; where their stability
 /// changes, the border is half-way between two values: a "flip" if the multiplier is negative, else
