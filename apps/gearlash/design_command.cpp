@@ -31,6 +31,8 @@ constexpr char examples[] =
     "      --parameters gearbox.backlash,gearbox.ratio --format json | jq .answers[0].nearest\n"
     "  gearlash design examples/elinco-fd162.toml --target no-hunting \\\n"
     "      --vary load.friction,controller.proportional --plot region=region.svg\n"
+    "  gearlash design examples/dynamixel-joint.toml --target \"no-hunting and bandwidth >= 10 "
+    "Hz\"\n"
     "  gearlash design examples/robot-joint.toml --target \"motor-amplitude <= 0.1 deg\" \\\n"
     "      --parameters controller.kind,controller.integral=0:100:5\n"
     "  gearlash design --damping 0.19 --inertia-ratio 2 --friction-ratio 1/10 --backlash 0.3 \\\n"
@@ -243,7 +245,7 @@ void add_design_command(Command& app, Action& action) {
   command
       ->add_option("--target", options->target,
                    "Set the target: no-hunting, no-hunting-if-disturbed or no-runaway; or\n"
-                   "amplitude, frequency, ceiling, static-error or any other quantity, then\n"
+                   "amplitude, frequency, ceiling, bandwidth or any other quantity, then\n"
                    "<= or >=, then a limit; \"and\" joins several")
       ->type_name("TARGET")
       ->required();

@@ -15,6 +15,8 @@ struct Wanted {
   bool proofs = true;
   /// The ceiling: Answer::ceiling.
   bool ceiling = false;
+  /// The linear loop: Answer::loop, bandwidth and phase margin.
+  bool loop = false;
   /// What lies between starts that end differently: unstable cycles, and from which step on a drive
   /// hunts (Answer::thresholds). The verdict does not need it.
   bool borders = true;

@@ -220,6 +220,19 @@ struct Ceiling {
   [[nodiscard]] std::optional<double> widest_backlash(double amplitude, double backlash) const;
 };
 
+/// The linear loop: without the gap, dry friction, limits, steps of encoders and a dead band. A
+/// number is empty where there is none: of a loop that is not stable, of a response that never
+/// falls by 3 dB, of a gain that never crosses 1.
+struct LinearLoop {
+  bool is_stable = false;  ///< proved by interval bounds
+  /// Hz: the first frequency at which the load follows the reference by 3 dB less than at frequency
+  /// 0.
+  std::optional<double> bandwidth{};
+  /// rad: the least, of all frequencies at which the loop has the gain 1, by which it may turn.
+  std::optional<double> phase_margin{};
+  std::optional<double> crossover{};  ///< Hz: the frequency of this margin
+};
+
 /// Something a reader should know. `code` is for programs.
 struct Note {
   std::string code{};
@@ -235,6 +248,7 @@ struct Answer {
   std::optional<double> growth_at_rest{};  ///< of a small motion in the gap, per half cycle
   std::optional<ProvedBounds> bounds{};
   std::optional<Ceiling> ceiling{};  ///< if wanted
+  std::optional<LinearLoop> loop{};  ///< if wanted; a relay has none
   bool is_dissipative = false;       ///< no restitution can make it hunt
   bool rests_engaged = false;        ///< large motions may end at rest, with the faces together
   bool neutral_swings = false;       ///< some cycles could not be separated from their neighbors

@@ -29,10 +29,11 @@ enum class Quantity : std::uint8_t {
   static_error,
   ceiling,
   motor_ceiling,
-  effort_ceiling
+  effort_ceiling,
+  bandwidth,
+  phase_margin
 };
-inline constexpr std::size_t quantity_count =
-    static_cast<std::size_t>(Quantity::effort_ceiling) + 1;
+inline constexpr std::size_t quantity_count = static_cast<std::size_t>(Quantity::phase_margin) + 1;
 
 enum class QuantityScope : std::uint8_t {
   answer,  ///< of the drive as a whole

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "analysis/energy/computed_rest.hpp"
 #include "analysis/energy/mesh_torque.hpp"
 #include "analysis/final_servo.hpp"
+#include "analysis/linear_loop.hpp"
 #include "analysis/repetition.hpp"
 #include "base/interval.hpp"
 #include "base/range_check.hpp"
@@ -298,6 +300,19 @@ Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& serv
   return answer;
 }
 
+std::optional<LinearLoop> linear_loop_of(const drive::ReducedDrive& drive) {
+  const std::optional<drive::LoopFigures> figures = drive::loop_figures(drive);
+  if (!figures) return std::nullopt;
+  const auto hertz = [](const std::optional<double>& frequency) {
+    constexpr double turn = 2.0 * std::numbers::pi;
+    return frequency ? std::optional(*frequency / turn) : std::nullopt;
+  };
+  return LinearLoop{.is_stable = figures->is_stable,
+                    .bandwidth = hertz(figures->bandwidth),
+                    .phase_margin = figures->phase_margin,
+                    .crossover = hertz(figures->crossover)};
+}
+
 Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced) {
   Answer answer;
   const drive::DriveSystem system = drive::drive_system(reduced);
@@ -374,6 +389,7 @@ Analysis analysed(const Drive& drive, const Analysis* near, const Wanted& wanted
     analysis.answer = answer_of(*analysis.search, analysis.reduced);
   }
   analysis.answer.ceiling = std::move(ceiling);
+  if (wanted.loop) analysis.answer.loop = linear_loop_of(analysis.reduced);
   std::vector<Note> notes = notes_on(drive);
   analysis.answer.notes.insert(analysis.answer.notes.begin(), notes.begin(), notes.end());
   return analysis;

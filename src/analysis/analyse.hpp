@@ -41,6 +41,9 @@ Answer analyse_until(const Drive& drive, const Wanted& wanted,
 Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& servo,
                  std::optional<double> stiffness);
 
+/// loop_figures() in Hz.
+std::optional<LinearLoop> linear_loop_of(const drive::ReducedDrive& drive);
+
 /// The answer that follows from a search. `reduced`: the searched drive.
 Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced);
 

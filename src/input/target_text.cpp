@@ -19,9 +19,8 @@ namespace {
 
 constexpr char forms[] =
     "must be no-hunting, no-hunting-if-disturbed or no-runaway, or a quantity such as amplitude, "
-    "frequency, period, growth-at-rest, ceiling or static-error, then <= or >=, then a limit, as "
-    "in "
-    "\"amplitude <= 1 arcmin\"; several joined by \"and\"";
+    "frequency, period, growth-at-rest, ceiling, bandwidth or static-error, then <= or >=, then a "
+    "limit, as in \"amplitude <= 1 arcmin\"; several joined by \"and\"";
 
 struct Condition {
   std::string_view quantity;
@@ -39,6 +38,10 @@ std::optional<Condition> split(std::string_view condition) {
                      trimmed(condition.substr(place + relation.size()))};
   }
   return std::nullopt;
+}
+
+bool is_frequency(Quantity quantity) {
+  return quantity == Quantity::frequency || quantity == Quantity::bandwidth;
 }
 
 class TargetReader {
@@ -84,7 +87,7 @@ class TargetReader {
     if (!quantity || info_of(*quantity).kind != QuantityKind::number)
       refuse(field_, condition, forms);
     const bool is_period = quantity == Quantity::period;
-    if (time_scale_ == TimeScale::unknown && (is_period || quantity == Quantity::frequency)) {
+    if (time_scale_ == TimeScale::unknown && (is_period || is_frequency(*quantity))) {
       refuse(field_, condition,
              "needs a time scale: a servo with a natural_frequency, or a data sheet");
     }
@@ -100,7 +103,7 @@ class TargetReader {
 
   double read_limit(Quantity quantity, std::string_view text) const {
     const Dimension* dimension = entry_of(quantity).dimension;
-    if (quantity == Quantity::frequency) {  // "5 Hz" or "30 rad/s"
+    if (is_frequency(quantity)) {  // "5 Hz" or "30 rad/s"
       return to_si(field_, text, dimensions::angular_frequency) / (2.0 * std::numbers::pi);
     }
     if (dimension == nullptr) return read_number(field_, text);

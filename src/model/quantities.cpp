@@ -85,6 +85,11 @@ Value of_ceiling(const Answer& answer) {
   return answer.ceiling ? (*answer.ceiling).*member : std::nullopt;
 }
 
+template <auto member>
+Value of_loop(const Answer& answer) {
+  return answer.loop ? (*answer.loop).*member : std::nullopt;
+}
+
 constexpr auto of_answer = QuantityScope::answer;
 constexpr auto of_motion = QuantityScope::motion;
 constexpr auto number = QuantityKind::number;
@@ -166,7 +171,15 @@ constexpr std::array entries = {
                            "proved bound of the motor's torque in the end, at the load's shaft",
                            of_answer, number},
                   .dimension = &dimensions::torque,
-                  .value = of_ceiling<&Ceiling::effort>}};
+                  .value = of_ceiling<&Ceiling::effort>},
+    QuantityEntry{.info = {Quantity::bandwidth, "bandwidth", "Hz",
+                           "bandwidth of the linear loop without the gap", of_answer, number},
+                  .dimension = &dimensions::rate,
+                  .value = of_loop<&LinearLoop::bandwidth>},
+    QuantityEntry{.info = {Quantity::phase_margin, "phase_margin", "rad",
+                           "phase margin of the linear loop without the gap", of_answer, number},
+                  .dimension = &dimensions::angle,
+                  .value = of_loop<&LinearLoop::phase_margin>}};
 
 constexpr bool are_in_order() {
   for (std::size_t i = 0; i < entries.size(); ++i) {

@@ -38,6 +38,10 @@ TEST(TargetText, IsReadWithItsUnits) {
   EXPECT_EQ(low(read("size <= 0.25 and period <= 200 ms"), Quantity::frequency), 5.0);
   EXPECT_EQ(low(read("frequency >= 30 rad/s"), Quantity::frequency),
             30.0 / (2.0 * std::numbers::pi));
+  EXPECT_EQ(low(read("bandwidth >= 5 Hz"), Quantity::bandwidth), 5.0);
+  EXPECT_EQ(low(read("bandwidth >= 30 rad/s"), Quantity::bandwidth),
+            30.0 / (2.0 * std::numbers::pi));
+  EXPECT_EQ(low(read("phase-margin >= 30 deg"), Quantity::phase_margin), 30.0 * degree);
   EXPECT_TRUE(read("no-hunting").no_hunting);
   EXPECT_TRUE(read("no-hunting-if-disturbed").no_hunting_if_disturbed);
   EXPECT_TRUE(read("no-runaway and amplitude <= 1 deg").no_runaway);
@@ -51,6 +55,7 @@ TEST(TargetText, OfADriveMayNameTimesIfItHasThem) {
   Drive drive = normal_form(0.19, 2.0, 0.1, 0.3);
   EXPECT_EQ(parse_target("size <= 1 deg", drive).permitted(Quantity::amplitude).high, degree);
   EXPECT_THROW((void)parse_target("frequency >= 5 Hz", drive), InvalidInput);
+  EXPECT_THROW((void)parse_target("bandwidth >= 5 Hz", drive), InvalidInput);
   drive.servo->natural_frequency = 14.5;
   EXPECT_EQ(parse_target("frequency >= 5 Hz", drive).permitted(Quantity::frequency).low, 5.0);
 }

@@ -188,7 +188,14 @@ Wanted wanted_for(const Target& target) {
         return limit.quantity == Quantity::ceiling || limit.quantity == Quantity::motor_ceiling ||
                limit.quantity == Quantity::effort_ceiling;
       });
-  return {.proofs = false, .ceiling = asks_for_ceiling, .borders = asks_for_motion(target)};
+  const bool asks_for_loop =
+      std::any_of(target.limits.begin(), target.limits.end(), [](const QuantityLimit& limit) {
+        return limit.quantity == Quantity::bandwidth || limit.quantity == Quantity::phase_margin;
+      });
+  return {.proofs = false,
+          .ceiling = asks_for_ceiling,
+          .loop = asks_for_loop,
+          .borders = asks_for_motion(target)};
 }
 
 bool is_of_performance(Quantity quantity) {

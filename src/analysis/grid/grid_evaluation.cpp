@@ -5,6 +5,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "analysis/analyse.hpp"
 #include "analysis/ceiling/ceiling.hpp"
 #include "analysis/grid/followed_drives.hpp"
 #include "base/on_threads.hpp"
@@ -15,18 +16,25 @@
 namespace gearlash {
 namespace {
 
-constexpr std::array ceilings = {Quantity::ceiling, Quantity::motor_ceiling,
-                                 Quantity::effort_ceiling};
+constexpr std::array of_ceiling = {Quantity::ceiling, Quantity::motor_ceiling,
+                                   Quantity::effort_ceiling};
+constexpr std::array of_loop = {Quantity::bandwidth, Quantity::phase_margin};
 
-bool has_ceilings(const CycleColumns& columns) {
-  return std::any_of(ceilings.begin(), ceilings.end(),
+template <class Quantities>
+bool has_any(const CycleColumns& columns, const Quantities& quantities) {
+  return std::any_of(quantities.begin(), quantities.end(),
                      [&](Quantity quantity) { return !columns[quantity].empty(); });
 }
 
+/// Whether a column is filled by computations of tenths of a millisecond, without motion.
+bool has_ceilings_or_loops(const CycleColumns& columns) {
+  return has_any(columns, of_ceiling) || has_any(columns, of_loop);
+}
+
 /// The number of points in closed form that a thread solves at a time: some tenths of a millisecond
-/// without bounces, some tens of milliseconds with them or with ceilings.
+/// without bounces, some tens of milliseconds with them or with ceilings or loops.
 std::size_t points_at_a_time(const EnginesNeeded& engines, const CycleColumns& columns) {
-  if (has_ceilings(columns)) return 16;
+  if (has_ceilings_or_loops(columns)) return 16;
   return engines.bounces ? 8 : 4096;
 }
 
@@ -73,14 +81,20 @@ void scale(const CycleColumns& columns, std::size_t row, const FinalServo& servo
   scale(columns, row, servo.closed_form.natural_frequency, servo.stiffness.value_or(not_a_number));
 }
 
-/// Ceilings need no search.
-void write_ceilings(const CycleColumns& columns, std::size_t row, const Drive& drive) {
+/// Ceilings and linear loops need no search.
+void write_ceilings_and_loops(const CycleColumns& columns, std::size_t row, const Drive& drive) {
   Answer answer;
-  if (faults(drive).empty()) answer.ceiling = ceiling_of(reduce_settled(drive));
-  for (const Quantity quantity : ceilings) {
-    if (columns[quantity].empty()) continue;
-    columns[quantity][row] = answer.value(quantity).value_or(not_a_number);
+  if (faults(drive).empty()) {
+    const drive::ReducedDrive reduced = reduce_settled(drive);
+    if (has_any(columns, of_ceiling)) answer.ceiling = ceiling_of(reduced);
+    if (has_any(columns, of_loop)) answer.loop = linear_loop_of(reduced);
   }
+  const auto write = [&](Quantity quantity) {
+    if (columns[quantity].empty()) return;
+    columns[quantity][row] = answer.value(quantity).value_or(not_a_number);
+  };
+  for (const Quantity quantity : of_ceiling) write(quantity);
+  for (const Quantity quantity : of_loop) write(quantity);
 }
 
 /// Fills in what Answer::value() gives for drives that come to rest, and for the verdict.
@@ -131,7 +145,7 @@ class Part {
       : points_(points), columns_(columns), servos_(columns.verdict.size()) {}
 
   GridCount work_out(GridWalk walk, bool proved, VectorUnit unit, SharedProgress& progress) {
-    GridWalk walk_of_ceilings = walk;
+    GridWalk walk_again = walk;
     for (std::size_t row = 0; row < servos_.size(); ++row, walk.go_on()) {
       points_.are_of_normal_form() ? place(row, points_.normal_form_at(walk.values()))
                                    : place(row, points_.drive_at(walk.values()));
@@ -144,9 +158,9 @@ class Part {
     search(progress);
     for (const std::size_t row : refused_) write(columns_, row, Answer{});
     for (std::size_t row = 0; row < servos_.size(); ++row) complete(columns_, row);
-    if (has_ceilings(columns_)) {
-      for (std::size_t row = 0; row < servos_.size(); ++row, walk_of_ceilings.go_on()) {
-        write_ceilings(columns_, row, points_.drive_at(walk_of_ceilings.values()));
+    if (has_ceilings_or_loops(columns_)) {
+      for (std::size_t row = 0; row < servos_.size(); ++row, walk_again.go_on()) {
+        write_ceilings_and_loops(columns_, row, points_.drive_at(walk_again.values()));
       }
     }
     count.searched = searched_rows_.size();
@@ -256,13 +270,15 @@ PointAnswer answer_at(const GridPoints& points, std::span<const double> place, Q
     find_limit_cycles({&servo->closed_form.servo, 1}, columns);
     scale(columns, 0, *servo);
     complete(columns, 0);
-    if (has_ceilings(columns)) write_ceilings(columns, 0, points.drive_at(place));
-    return answer;
-  }
-  const Drive drive = points.drive_at(place);
-  answer.is_drive = faults(drive).empty();
-  if (answer.is_drive)
+  } else {
+    const Drive drive = points.drive_at(place);
+    answer.is_drive = faults(drive).empty();
+    if (!answer.is_drive) return answer;
     write(columns, 0, analyse(drive, {.proofs = false, .borders = false}, progress));
+  }
+  if (has_ceilings_or_loops(columns)) {
+    write_ceilings_and_loops(columns, 0, points.drive_at(place));
+  }
   return answer;
 }
 

@@ -2,9 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
+#include <numbers>
 #include <string>
 
 #include "analysis/design/target.hpp"
@@ -81,6 +83,33 @@ TEST(SearchedValues, OfABacklashThatKeepsACeiling) {
   ASSERT_EQ(found.intervals.size(), 1U);
   EXPECT_EQ(found.intervals[0].low, 1e-3);
   EXPECT_NEAR(found.intervals[0].high, 6e-3, 1e-9 * 6e-3 + 1e-4 * 1e-3 * 9e-3);
+}
+
+/// Of a rigid loop K/(J s² + F s + K), whose gain falls by 3 dB at ω for K = √(2J²ω⁴ + F²ω²) − Jω².
+TEST(OracleSearchedValues, OfAGainThatReachesABandwidth) {
+  Drive drive = pd_drive();
+  drive.motor = {.kind = TorqueControl{}, .inertia = 0.01, .friction = {.viscous = 0.02}};
+  drive.load = {.inertia = 0.02, .friction = {.viscous = 0.03}};
+  drive.gearbox.ratio = 1.0;
+  drive.controller.law = PID{.proportional = 2.0};
+  const double frequency = 1.5;
+  const double w = 2.0 * std::numbers::pi * frequency;
+  const double gain =
+      std::sqrt(2.0 * std::pow(0.03 * w * w, 2) + std::pow(0.05 * w, 2)) - 0.03 * w * w;
+  const Target target = Target{}.require(Quantity::bandwidth, {frequency, Target::infinity});
+  const Axis axis = logarithmic("controller.proportional", 0.5, 20.0, 9);
+  const FeasibleValues found = feasible_values(drive, axis, target);
+  ASSERT_EQ(found.intervals.size(), 1U);
+  EXPECT_NEAR(found.intervals[0].low, gain, 1e-8 * gain);
+  EXPECT_GE(analyse(with(drive, axis.path, found.intervals[0].low), {.loop = true})
+                .value(Quantity::bandwidth),
+            frequency);
+  EXPECT_EQ(found.intervals[0].high, 20.0);
+  EXPECT_FALSE(analyse(drive).value(Quantity::bandwidth));  // was not wanted
+  const Table table = evaluate({.drive = drive, .axes = {linear(axis.path, gain, 2.0 * gain, 2)}},
+                               std::array{Quantity::bandwidth, Quantity::phase_margin});
+  EXPECT_NEAR(table[Quantity::bandwidth][0], frequency, 1e-9);
+  EXPECT_GT(table[Quantity::phase_margin][0], table[Quantity::phase_margin][1]);
 }
 
 TEST(SearchedValues, OfAChoiceAreWords) {

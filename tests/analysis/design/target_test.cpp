@@ -102,5 +102,17 @@ TEST(Target, NarrowsALimitThatIsGivenTwice) {
   EXPECT_EQ(target.limits.size(), 1U);
 }
 
+TEST(Target, AsksForWhatItsLimitsAreOf) {
+  const auto of = [](Quantity quantity) {
+    return wanted_for(Target{}.require(quantity, {0.0, 1.0}));
+  };
+  EXPECT_FALSE(wanted_for(always_at_rest()).borders);
+  EXPECT_FALSE(of(Quantity::static_error).borders);
+  EXPECT_TRUE(of(Quantity::amplitude).borders);
+  EXPECT_TRUE(of(Quantity::ceiling).ceiling);
+  EXPECT_TRUE(of(Quantity::phase_margin).loop);
+  EXPECT_FALSE(wanted_for(always_at_rest()).ceiling || wanted_for(always_at_rest()).loop);
+}
+
 }  // namespace
 }  // namespace gearlash
