@@ -62,6 +62,7 @@ struct TunedDrive {
   /// The unit that misses the target most; where all meet it, the one that ended the last proposal
   /// that failed. Empty where no unit limited any.
   std::optional<TunedUnit> limiting{};
+  bool by_derivatives = false;  ///< the last proposal was closed in on by derivatives
   std::size_t rounds = 0;
   std::size_t analyses = 0;
   bool stopped = false;  ///< by Progress: the best by then
@@ -71,8 +72,11 @@ struct TunedDrive {
 /// varies), of the target and of the ranges above.
 [[nodiscard]] std::vector<Fault> faults(const TuneTask& task, const TuneEffort& effort = {});
 
-/// Proposes values by an optimiser without derivatives (NLopt: DIRECT-L, then Subplex) on the few
-/// units that limited earlier proposals, puts each proposal to all units of a fixed sample (the
+/// Proposes values by optimisers (NLopt) on the few units that limited earlier proposals: DIRECT-L
+/// over all values, and from the best of them SLSQP with exact derivatives where there are any: a
+/// bandwidth, under limits of the cycle's amplitude, frequency and period, of bandwidth and phase
+/// margin, and of growth at rest with a closed form (not: encoders, computers, rest of drives that
+/// are searched); else Subplex. It puts each proposal to all units of a fixed sample (the
 /// mean, 16 corners at most, then Sobol's points), and adds those that miss the target
 /// most, until a proposal holds for the share of them (Mutapcic and Boyd, Optimization Methods and
 /// Software 24, 2009). Searched, not proved: neither that all units of the series keep the target,

@@ -5,8 +5,6 @@
 namespace gearlash::hybrid {
 namespace {
 
-constexpr std::array<double, 3> weights = {45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0};
-
 AffineFlow map_of(const AffineReset& reset, Eigen::Index size) {
   return {reset.slope(size), reset.offset.size() == 0 ? Vector(Vector::Zero(size)) : reset.offset};
 }
@@ -78,8 +76,8 @@ std::optional<ModeSlopes> SystemSlopes::made(std::size_t index) const {
   }
   ModeSlopes slopes = zero_slopes(above_[0].mode(index));
   for (std::size_t k = 0; k < pairs; ++k) {
-    add(slopes, above_[k].mode(index), weights[k] / step_);
-    add(slopes, below_[k].mode(index), -weights[k] / step_);
+    add(slopes, above_[k].mode(index), difference_weights[k] / step_);
+    add(slopes, below_[k].mode(index), -difference_weights[k] / step_);
   }
   return slopes;
 }

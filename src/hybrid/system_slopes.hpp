@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hybrid/hybrid_system.hpp"
+#include "numeric/central_difference.hpp"
 
 namespace gearlash::hybrid {
 
@@ -36,7 +37,7 @@ class SystemSlopes {
   const ModeSlopes* mode(std::size_t index) const;
 
  private:
-  static constexpr std::size_t pairs = 3;
+  static constexpr std::size_t pairs = difference_weights.size();
   std::optional<ModeSlopes> made(std::size_t index) const;
 
   double step_;

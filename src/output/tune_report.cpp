@@ -115,6 +115,7 @@ std::string effort_text(const TuneReport& report) {
         "points of Sobol's sequence. Other units may miss the target",
         tuned.rounds, tuned.units);
   }
+  if (tuned.by_derivatives) text += ". The last values were closed in on by exact derivatives";
   text += ". Other values may be better.";
   return tuned.stopped ? text + " The search was stopped." : text;
 }
@@ -150,7 +151,8 @@ Json json_tuned(const TuneReport& report, const std::vector<Axis>& axes, const T
           {"units", tuned.units},
           {"met", tuned.met},
           {"undecided", tuned.undecided},
-          {"reached", json_number(tuned.reached / unit)}};
+          {"reached", json_number(tuned.reached / unit)},
+          {"by_derivatives", tuned.by_derivatives}};
 }
 
 }  // namespace

@@ -46,9 +46,10 @@ TEST(OracleTune, TheGreatestBandwidthIsAtTheBorderOfHunting) {
   ASSERT_LT(border, 1.0);
   const TunedDrive tuned = tune(task);
   EXPECT_TRUE(tuned.meets);
+  EXPECT_TRUE(tuned.by_derivatives);
   EXPECT_EQ(tuned.units, 1U);
   EXPECT_LE(tuned.values[0], border);
-  EXPECT_GE(tuned.values[0], 0.97 * border);
+  EXPECT_GE(tuned.values[0], (1.0 - 1e-6) * border);
   const auto loop = drive::loop_figures(reduce(with_gain(tuned.values[0])));
   EXPECT_NEAR(tuned.reached, loop->bandwidth.value(), 1e-9 * tuned.reached);
   EXPECT_EQ(get(tuned.drive, "controller.proportional"), tuned.values[0]);
@@ -72,13 +73,29 @@ TEST(OracleTune, TheUnitWithTheLeastFrictionLimitsASeries) {
   EXPECT_GT(tuned.rounds, 1U);
 }
 
+/// A searched cycle that may swing by so much: at the best gains it does.
+TEST(OracleTune, DerivativesOfASearchedCycleLeadToItsLimit) {
+  TuneTask task{.series = {pd_drive(), {}},
+                .tuned = {logarithmic("controller.proportional", 2.0, 200.0, 2)},
+                .least_phase_margin = 0.2};
+  constexpr double limit = 2.5e-3;
+  task.target.require(Quantity::amplitude, {0.0, limit});
+  const TunedDrive tuned = tune(task, {.evaluations = 30});
+  EXPECT_TRUE(tuned.meets);
+  EXPECT_TRUE(tuned.by_derivatives);
+  const double amplitude =
+      analyse(tuned.drive, {.proofs = false}).value(Quantity::amplitude).value();
+  EXPECT_LE(amplitude, limit);
+  EXPECT_GE(amplitude, (1.0 - 1e-6) * limit);
+}
+
 TEST(Tune, KeepsThePhaseMarginAskedFor) {
   TuneTask task = servo_task();
   task.least_phase_margin = 1.0;
   const TunedDrive tuned = tune(task);
   const auto loop = drive::loop_figures(reduce(tuned.drive));
   EXPECT_GE(loop->phase_margin.value(), 1.0);
-  EXPECT_LE(loop->phase_margin.value(), 1.02);
+  EXPECT_LE(loop->phase_margin.value(), 1.0 + 1e-6);
 }
 
 TEST(Tune, SaysWhatMissesTheTargetWhereNothingMeetsIt) {

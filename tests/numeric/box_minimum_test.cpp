@@ -1,4 +1,4 @@
-// The optimiser without derivatives: minima that are known, and how it is stopped.
+// The optimisers: minima that are known, and how they are stopped.
 #include "numeric/box_minimum.hpp"
 
 #include <gtest/gtest.h>
@@ -51,6 +51,54 @@ TEST(EdgeBoxMinimum, StopsAndRethrows) {
     throw std::runtime_error("thrown across C");
   };
   EXPECT_THROW((void)minimum_on_cube(throwing, start), std::runtime_error);
+}
+
+SlopedNumber distance_from(std::span<const double> x, double to_x, double to_y) {
+  const double a = x[0] - to_x;
+  const double b = x[1] - to_y;
+  return {a * a + b * b, {2.0 * a, 2.0 * b}};
+}
+
+/// The largest of the distances from two points is least half-way between them; with x ≤ 0.4 it is
+/// least at x = 0.4, where the farther point is (0.8, 0.5).
+TEST(OracleBoxMinimum, BySlopesTheLeastOfTheLargestWithinALimit) {
+  const auto function = [](std::span<const double> x) -> std::optional<SlopedNumbers> {
+    return SlopedNumbers{.sizes = {distance_from(x, 0.2, 0.5), distance_from(x, 0.8, 0.5)},
+                         .limited = {{x[0] - 0.4, {1.0, 0.0}}}};
+  };
+  for (const std::vector<double>& start : {std::vector{0.1, 0.1}, {0.9, 0.7}, {0.4, 0.5}}) {
+    const auto found = minimum_by_slopes(function, start, 60);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->point[0], 0.4, 1e-7);
+    EXPECT_LE(found->point[0], 0.4);
+    EXPECT_NEAR(found->point[1], 0.5, 1e-6);
+    EXPECT_NEAR(found->value, 0.16, 1e-7);
+  }
+}
+
+TEST(EdgeBoxMinimum, BySlopesTurnsBackWhereThereAreNone) {
+  const auto function = [](std::span<const double> x) -> std::optional<SlopedNumbers> {
+    if (x[0] > 0.6) return std::nullopt;
+    return SlopedNumbers{.sizes = {{-x[0], {-1.0}}}, .limited = {}};
+  };
+  const std::vector<double> start{0.1};
+  const auto found = minimum_by_slopes(function, start, 60);
+  ASSERT_TRUE(found);
+  EXPECT_GT(found->point[0], 0.3);
+  EXPECT_LE(found->point[0], 0.6);
+  EXPECT_FALSE(minimum_by_slopes(function, std::vector{0.8}, 60));
+  const auto throwing = [](std::span<const double> x) -> std::optional<SlopedNumbers> {
+    if (x[0] > 0.2) throw std::runtime_error("thrown across C");
+    return SlopedNumbers{.sizes = {{-x[0], {-1.0}}}, .limited = {}};
+  };
+  EXPECT_THROW((void)minimum_by_slopes(throwing, start, 60), std::runtime_error);
+}
+
+TEST(EdgeBoxMinimum, BySlopesOfLimitsThatCannotBeKept) {
+  const auto function = [](std::span<const double> x) -> std::optional<SlopedNumbers> {
+    return SlopedNumbers{.sizes = {{x[0], {1.0}}}, .limited = {{1.0 + x[0], {1.0}}}};
+  };
+  EXPECT_FALSE(minimum_by_slopes(function, std::vector{0.5}, 60));
 }
 
 }  // namespace

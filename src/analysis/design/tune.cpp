@@ -12,6 +12,7 @@
 #include "analysis/design/drawn_values.hpp"
 #include "analysis/design/target.hpp"
 #include "analysis/design/toleranced_drive.hpp"
+#include "analysis/design/tuned_slopes.hpp"
 #include "analysis/grid/axis.hpp"
 #include "analysis/linear_loop.hpp"
 #include "analysis/step_response.hpp"
@@ -341,12 +342,52 @@ class Tuning {
       if (!at.go_on(0.0)) stopped_ = true;
       return stopped_ ? std::nullopt : merit(point, at);
     };
+    const bool has_slopes = may_have_slopes(task_);
     const CubeMinimum found = minimum_on_cube(
         function, point_,
         {.global_evaluations = rounds_ == 1 ? effort_.evaluations : effort_.evaluations / 2,
-         .local_evaluations = effort_.evaluations});
+         .local_evaluations = has_slopes ? 0 : effort_.evaluations});
     point_ = found.point;
+    by_slopes_ = has_slopes && !stopped_ && improves_by_slopes(found.value, part);
+    if (has_slopes && !by_slopes_ && !stopped_) {
+      point_ = minimum_on_cube(function, point_,
+                               {.global_evaluations = 0, .local_evaluations = effort_.evaluations})
+                   .point;
+    }
     return tuned_at(point_);
+  }
+
+  /// Whether the last proposal, of this merit, was improved by its derivatives.
+  bool improves_by_slopes(double merit_of_last, Progress& progress) {
+    const auto found =
+        minimum_by_slopes([&](std::span<const double> point) { return slopes(point, progress); },
+                          point_, effort_.evaluations);
+    if (!found || stopped_) return false;
+    const std::optional<double> merit_of_found = merit(found->point, progress);
+    if (!merit_of_found || !(*merit_of_found < merit_of_last)) return false;
+    point_ = found->point;
+    return true;
+  }
+
+  /// Of all limiting units together; empty where one has no derivatives.
+  std::optional<SlopedNumbers> slopes(std::span<const double> point, Progress& progress) {
+    const Values tuned = tuned_at(point);
+    std::vector<std::optional<SlopedNumbers>> found(limiting_.size());
+    SharedProgress shared(progress, limiting_.size());
+    on_threads(0, limiting_.size(), [&](std::size_t i) {
+      if (shared.is_stopped()) return;
+      found[i] = slopes_of_unit(units_.drive(limiting_[i], tuned), task_, shared);
+      shared.finish(1);
+    });
+    stopped_ = stopped_ || shared.is_stopped();
+    analyses_ += found.size();
+    SlopedNumbers all;
+    for (const std::optional<SlopedNumbers>& one : found) {
+      if (!one) return std::nullopt;
+      all.sizes.insert(all.sizes.end(), one->sizes.begin(), one->sizes.end());
+      all.limited.insert(all.limited.end(), one->limited.begin(), one->limited.end());
+    }
+    return all;
   }
 
   /// Puts values to the units, until more of them miss the target than may.
@@ -412,6 +453,7 @@ class Tuning {
                      .met = best.met,
                      .reached = best.reached,
                      .limiting = std::move(last_missed),
+                     .by_derivatives = by_slopes_,
                      .rounds = rounds_,
                      .analyses = analyses_,
                      .stopped = stopped_};
@@ -436,6 +478,7 @@ class Tuning {
   Values present_;                     ///< ... exactly
   Values point_;                       ///< of the last proposal, on the unit cube
   double least_permitted_ = infinity;  ///< merit of values that all limiting units permit
+  bool by_slopes_ = false;             ///< the last proposal
   std::size_t rounds_ = 0;
   std::size_t analyses_ = 0;
   bool stopped_ = false;

@@ -1,0 +1,212 @@
+#include "analysis/design/tuned_slopes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/analyse.hpp"
+#include "analysis/design/searched_sensitivity.hpp"
+#include "analysis/design/target.hpp"
+#include "analysis/final_servo.hpp"
+#include "analysis/grid/axis.hpp"
+#include "analysis/linear_loop.hpp"
+#include "gearlash/sensitivity.hpp"
+#include "numeric/central_difference.hpp"
+
+namespace gearlash {
+namespace {
+
+constexpr double turn = 2.0 * std::numbers::pi;
+
+bool is_of_loop(Quantity quantity) {
+  return quantity == Quantity::bandwidth || quantity == Quantity::phase_margin;
+}
+
+bool is_of_cycle(Quantity quantity) {
+  constexpr std::array of_cycle = {Quantity::amplitude, Quantity::motor_amplitude, Quantity::period,
+                                   Quantity::frequency, Quantity::growth_at_rest};
+  return std::find(of_cycle.begin(), of_cycle.end(), quantity) != of_cycle.end();
+}
+
+/// As the target's quantities have it.
+std::optional<double> figure_of(const drive::LoopFigures& figures, Quantity quantity) {
+  if (quantity == Quantity::phase_margin) return figures.phase_margin;
+  return figures.bandwidth ? std::optional(*figures.bandwidth / turn) : std::nullopt;
+}
+
+class UnitSlopes {
+ public:
+  UnitSlopes(const Drive& unit, const TuneTask& task) : unit_(unit), task_(task) {
+    for (const Axis& axis : task.tuned) {
+      const double value = present_value(axis, unit).value_or(0.0);
+      const double low = axis.values.front();
+      const double high = axis.values.back();
+      values_.push_back(value);
+      per_position_.push_back(axis.logarithmic ? value * std::log(high / low) : high - low);
+      paths_.push_back(axis.path);
+    }
+  }
+
+  std::optional<SlopedNumbers> all(Progress& progress) {
+    if (std::find(values_.begin(), values_.end(), 0.0) != values_.end()) return std::nullopt;
+    if (!add_loop() || !add_motion(progress)) return std::nullopt;
+    return std::move(numbers_);
+  }
+
+ private:
+  using Slopes = std::vector<std::optional<double>>;
+
+  /// The linear loop's figures beside the unit.
+  std::optional<drive::LoopFigures> figures_at(std::size_t axis, double value) const {
+    Drive drive = unit_;
+    set_on(task_.tuned[axis], drive, value);
+    return faults(drive).empty() ? drive::loop_figures(reduce(drive)) : std::nullopt;
+  }
+
+  std::optional<double> figure_slope(Quantity quantity, std::size_t axis) const {
+    constexpr double share = 1e-3;
+    const double step = share * values_[axis];
+    double slope = 0.0;
+    for (std::size_t k = 0; k < difference_weights.size(); ++k) {
+      const double away = static_cast<double>(k + 1) * step;
+      const auto above = figures_at(axis, values_[axis] + away);
+      const auto below = figures_at(axis, values_[axis] - away);
+      if (!above || !below) return std::nullopt;
+      const auto high = figure_of(*above, quantity);
+      const auto low = figure_of(*below, quantity);
+      if (!high || !low) return std::nullopt;
+      slope += difference_weights[k] * (*high - *low) / step;
+    }
+    return slope;
+  }
+
+  Slopes figure_slopes(Quantity quantity) const {
+    Slopes slopes;
+    for (std::size_t axis = 0; axis < values_.size(); ++axis) {
+      slopes.push_back(figure_slope(quantity, axis));
+    }
+    return slopes;
+  }
+
+  /// A number whose slopes along the axes are `factor` times those of a value; false where one is
+  /// missing.
+  bool add(std::vector<SlopedNumber>& to, double number, double factor,
+           const Slopes& slopes) const {
+    SlopedNumber sloped{.value = number, .slopes = {}};
+    for (std::size_t axis = 0; axis < slopes.size(); ++axis) {
+      if (!slopes[axis]) return false;
+      sloped.slopes.push_back(factor * *slopes[axis] * per_position_[axis]);
+    }
+    to.push_back(std::move(sloped));
+    return true;
+  }
+
+  bool add_limit(const Bounds& permitted, double value, const Slopes& slopes) {
+    const auto at = [&](double limit, double sign) {
+      if (!std::isfinite(limit)) return true;
+      const double factor = sign / (limit == 0.0 ? 1.0 : std::abs(limit));
+      return add(numbers_.limited, factor * (value - limit), factor, slopes);
+    };
+    return at(permitted.high, 1.0) && at(permitted.low, -1.0);
+  }
+
+  bool add_loop() {
+    const auto figures = drive::loop_figures(reduce(unit_));
+    if (!figures || !figures->bandwidth || !figures->phase_margin) return false;
+    const double bandwidth = *figure_of(*figures, Quantity::bandwidth);
+    if (!add(numbers_.sizes, -std::log(bandwidth), -1.0 / bandwidth,
+             figure_slopes(Quantity::bandwidth))) {
+      return false;
+    }
+    if (task_.least_phase_margin > 0.0 &&
+        !add_limit({task_.least_phase_margin, Target::infinity}, *figures->phase_margin,
+                   figure_slopes(Quantity::phase_margin))) {
+      return false;
+    }
+    return std::all_of(task_.target.limits.begin(), task_.target.limits.end(),
+                       [&](const QuantityLimit& limit) {
+                         return !is_of_loop(limit.quantity) ||
+                                add_limit(limit.permitted, *figure_of(*figures, limit.quantity),
+                                          figure_slopes(limit.quantity));
+                       });
+  }
+
+  bool add_motion(Progress& progress) {
+    const bool asks_for_rest = task_.target.no_hunting || task_.target.no_hunting_if_disturbed;
+    std::vector<QuantityLimit> limits;
+    std::copy_if(task_.target.limits.begin(), task_.target.limits.end(), std::back_inserter(limits),
+                 [](const QuantityLimit& limit) { return is_of_cycle(limit.quantity); });
+    if (asks_for_rest) limits.push_back({Quantity::growth_at_rest, {-Target::infinity, 1.0}});
+    if (limits.empty()) return true;
+    std::vector<Quantity> quantities;
+    for (const QuantityLimit& limit : limits) quantities.push_back(limit.quantity);
+    const std::optional<Jacobian> jacobian = jacobian_of(quantities, asks_for_rest, progress);
+    if (!jacobian) return false;
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+      if (!jacobian->values[i]) {  // it rests, which keeps every limit but one from below
+        if (limits[i].permitted.low > 0.0) return false;
+        numbers_.limited.push_back({-1.0, std::vector<double>(values_.size(), 0.0)});
+        continue;
+      }
+      Slopes slopes;
+      for (std::size_t axis = 0; axis < values_.size(); ++axis) {
+        slopes.push_back(jacobian->slope(i, axis));
+      }
+      if (!add_limit(limits[i].permitted, *jacobian->values[i], slopes)) return false;
+    }
+    return true;
+  }
+
+  std::optional<Jacobian> jacobian_of(const std::vector<Quantity>& quantities, bool asks_for_rest,
+                                      Progress& progress) const {
+    if (const auto servo = final_servo(unit_)) {
+      const bool bounces = servo->closed_form.servo.restitution > 0.0;
+      if (bounces && !task_.target.limits.empty()) return std::nullopt;
+      const std::vector<std::string_view> paths(paths_.begin(), paths_.end());
+      return derivatives(unit_, quantities, paths);
+    }
+    if (asks_for_rest) return std::nullopt;
+    const Analysis analysis = analyse_in_full(unit_, wanted_for(task_.target), progress);
+    const bool is_whole =
+        analysis.answer.irregular.empty() && analysis.search && analysis.search->is_complete;
+    if (!is_whole) return std::nullopt;
+    return searched_derivatives(unit_, analysis, quantities, paths_);
+  }
+
+  const Drive& unit_;
+  const TuneTask& task_;
+  std::vector<std::string> paths_;
+  std::vector<double> values_;
+  std::vector<double> per_position_;  ///< of the values, from 0 to 1 along the axis
+  SlopedNumbers numbers_;
+};
+
+}  // namespace
+
+bool may_have_slopes(const TuneTask& task) {
+  const std::vector<QuantityLimit>& limits = task.target.limits;
+  const bool asks_for_rest = task.target.no_hunting || task.target.no_hunting_if_disturbed;
+  return task.aim == Aim::bandwidth &&
+         (!asks_for_rest || final_servo(task.series.nominal).has_value()) &&
+         !task.series.nominal.sampling &&
+         std::all_of(limits.begin(), limits.end(), [](const QuantityLimit& limit) {
+           return is_of_loop(limit.quantity) || is_of_cycle(limit.quantity);
+         });
+}
+
+std::optional<SlopedNumbers> slopes_of_unit(const Drive& unit, const TuneTask& task,
+                                            Progress& progress) {
+  if (!faults(unit).empty()) return std::nullopt;
+  try {
+    return UnitSlopes(unit, task).all(progress);
+  } catch (const InvalidInput&) {
+    return std::nullopt;  // a value does not enter the closed form
+  }
+}
+
+}  // namespace gearlash
