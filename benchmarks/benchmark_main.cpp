@@ -21,6 +21,7 @@
 #include "grid_race.hpp"
 #include "hybrid_race.hpp"
 #include "kernel_alone.hpp"
+#include "map_of_searched.hpp"
 #include "map_to_file.hpp"
 #include "scaling.hpp"
 
@@ -144,8 +145,9 @@ int main(int argc, char** argv) {
 
   const std::vector<Race> races = all_races();
   const std::vector<ReportPart> parts = {
-      enter_grid_race(),   enter_floor(),         enter_kernel_alone(), enter_scaling(),
-      enter_map_to_file(), enter_chart_lookups(), enter_design_race(),  enter_hybrid_race()};
+      enter_grid_race(),   enter_floor(),       enter_kernel_alone(),
+      enter_scaling(),     enter_map_to_file(), enter_chart_lookups(),
+      enter_design_race(), enter_hybrid_race(), enter_map_of_searched()};
   FastestTimes times;
   benchmark::RunSpecifiedBenchmarks(&times);
   std::printf(

@@ -18,12 +18,14 @@ Vector flown(const AffineFlow& flow, const Vector& numbers, double time) {
 
 namespace {
 
-/// How much later, or earlier, the flow of a mode crosses a plane. Empty if it does not.
-std::optional<double> time_to_plane(const AffineMode& mode, const Vector& numbers, double time,
+/// How much later than a time, or earlier, the flow of a mode crosses a plane. Empty if it does
+/// not. `at` gives the numbers so much later.
+template <class At>
+std::optional<double> time_to_plane(const AffineMode& mode, const At& at, double time,
                                     const AffineForm& plane) {
   double later = 0.0;
   for (int i = 0; i < 40; ++i) {
-    const Vector here = flown(mode.flow, numbers, later);
+    const Vector here = at(later);
     const double step = -plane.at(here) / plane.normal.dot(velocity(mode.flow, here));
     if (!std::isfinite(step)) return std::nullopt;
     later += step;
@@ -71,14 +73,21 @@ std::optional<Arrival> arrival_at(const PreparedSystem& prepared, const State& s
     passed.pop_back();
   }
   const AffineMode& mode = prepared.system().mode(here.mode);
-  const auto later = time_to_plane(mode, here.numbers, motion.end_time(), plane);
+  const double last = passed.empty() ? from : passed.back().time;
+  // Backwards the motion is known. The flow's exponential would raise the rounding of fast decays.
+  const auto at = [&](double later) {
+    const double time = motion.end_time() + later;
+    return later < 0.0 && time > last ? motion.at(time).numbers
+                                      : flown(mode.flow, here.numbers, later);
+  };
+  const auto later = time_to_plane(mode, at, motion.end_time(), plane);
   if (!later) return std::nullopt;
   const double time = motion.end_time() + *later;
-  if (!(time >= (passed.empty() ? from : passed.back().time)) || time > latest) return std::nullopt;
+  if (!(time >= last) || time > latest) return std::nullopt;
   if (*later > 0.0 &&
       motion_over(prepared, start, from, events, time, time).events().size() > events)
     return std::nullopt;
-  here.numbers = flown(mode.flow, here.numbers, *later);
+  here.numbers = at(*later);
   return Arrival{std::move(passed), std::move(here), time};
 }
 

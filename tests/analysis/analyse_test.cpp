@@ -89,6 +89,53 @@ TEST(Analyse, EndsWithTheStartAfterWhichNoMoreAreWanted) {
   EXPECT_EQ(part.search->starts[2].end, whole.search->starts[2].end);
 }
 
+/// Its faces come to bounce without end before it sticks, and a state that stands recurs at once: a
+/// round of such an orbit was divided for ever.
+TEST(EdgeAnalyse, ElasticFacesUnderACascadeHaveAnAnswer) {
+  Drive drive;
+  drive.motor = {.kind = TorqueControl{},
+                 .inertia = 0.0024359754752367735,
+                 .friction = {.viscous = 0.0005094251432241972,
+                              .coulomb = 0.19082105876090485,
+                              .breakaway = 0.25425245638095456},
+                 .limit = 92.75063213279736};
+  drive.gearbox = {.ratio = 8.0, .backlash = 0.00025609499730627213};
+  drive.load = {.inertia = 0.0805183916171659,
+                .friction = {.viscous = 0.03448718561201093, .coulomb = 4.00617755732326}};
+  drive.contact = RigidContact{.restitution = 1.0};
+  drive.sensor.position = SensorPlace::load;
+  drive.controller.law = CascadeController{.position = 52.118561893211684,
+                                           .speed = 0.9482285065205898,
+                                           .speed_integral = 73.20463671925833,
+                                           .tracking_time = 0.007281293848360734};
+  drive.controller.shaft = GainShaft::motor;
+  const Answer answer = analyse(drive, {.proofs = false, .borders = false});
+  EXPECT_EQ(answer.verdict, Verdict::hunts_if_disturbed);
+}
+
+/// It sticks for 26 s of each half-period, in which the filter of its derivative comes to rest to
+/// the last bit: the orbit that Newton's method closes must have it so.
+TEST(Analyse, NearFollowsACycleThatSticksForLong) {
+  const auto drive_with = [](double derivative) {
+    Drive drive = pd_drive();
+    drive.motor.inertia = 2e-6;
+    drive.controller.law = PID{.terms = PIDTerms::PID,
+                               .proportional = 6.07753125,
+                               .integral = 20.0,
+                               .derivative = derivative,
+                               .filter = 1e-3};
+    return drive;
+  };
+  const Wanted wanted{.proofs = false, .borders = false};
+  for (const double power : {5.0, 9.0, 11.0, 12.0, 13.0}) {
+    const double derivative = 0.02 * std::pow(1.05, power);
+    const Analysis known = analyse_in_full(drive_with(derivative), wanted);
+    const Analysis near = analyse_near(drive_with(derivative / 1.014), known, wanted);
+    EXPECT_TRUE(near.is_followed) << derivative;
+    EXPECT_EQ(near.answer.cycles.at(0).kind, CycleKind::symmetric) << derivative;
+  }
+}
+
 TEST(Analyse, IsNoVerdictOnStartsThatAreUndecided) {
   const drive::ReducedDrive drive = reduce(almost_undamped_motor(0.5));
   const auto verdict = [&](std::vector<drive::MotionEnd> ends, bool is_complete = true) {

@@ -313,19 +313,28 @@ AttractorSearch follow_cycles(const ReducedDrive& drive, const AttractorSearch& 
 
 namespace {
 
-/// The first and the last of the outcomes that are alike.
+/// Of the outcomes that are alike the middle one, whose start is farthest from those that lead
+/// elsewhere. Of rests the first and the last, which stand farthest apart.
 std::vector<Outcome> representatives(const std::vector<Outcome>& all) {
-  std::map<std::pair<MotionEnd, std::size_t>, std::pair<std::size_t, std::size_t>> places;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const auto [place, is_new] = places.try_emplace({all[i].end, all[i].which}, i, i);
-    place->second.second = i;
-  }
+  std::map<std::pair<MotionEnd, std::size_t>, std::vector<std::size_t>> places;
+  for (std::size_t i = 0; i < all.size(); ++i) places[{all[i].end, all[i].which}].push_back(i);
   std::vector<Outcome> some;
-  for (const auto& [end, ends] : places) {
-    some.push_back(all[ends.first]);
-    if (ends.second != ends.first) some.push_back(all[ends.second]);
+  for (const auto& [end, of_end] : places) {
+    if (end.first != MotionEnd::rest) {
+      some.push_back(all[of_end[of_end.size() / 2]]);
+      continue;
+    }
+    some.push_back(all[of_end.front()]);
+    if (of_end.size() > 1) some.push_back(all[of_end.back()]);
   }
   return some;
+}
+
+/// How motions end, whichever starts lead there, and to which of the cycles.
+std::set<MotionEnd> ends_of(const std::vector<Outcome>& outcomes) {
+  std::set<MotionEnd> ends;
+  for (const Outcome& outcome : outcomes) ends.insert(outcome.end);
+  return ends;
 }
 
 bool is_alike(const FoundCycle& a, const FoundCycle& b) {
@@ -349,11 +358,7 @@ std::optional<AttractorSearch> follow_attractors(const ReducedDrive& drive,
   for (std::size_t i = 0; i < found.cycles.size(); ++i) {
     if (!is_alike(found.cycles[i], known.cycles[i])) return std::nullopt;
   }
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    const Outcome& now = found.outcomes[i];
-    if (now.end != wanted[i].end) return std::nullopt;
-    if (now.end == MotionEnd::cycle && now.which != wanted[i].which) return std::nullopt;
-  }
+  if (ends_of(found.outcomes) != ends_of(wanted)) return std::nullopt;
   return found;
 }
 

@@ -53,7 +53,14 @@ std::optional<PeriodicOrbit> CycleClosing::closed(const Trajectory& motion, doub
 /// Whether an orbit could be `times` rounds of a cycle: each round needs an event and whole
 /// sampling periods. (A state at rest recurs after any time, however short.)
 bool CycleClosing::may_go_round(const PeriodicOrbit& orbit, int times) const {
-  if (orbit.events.size() < static_cast<std::size_t>(times)) return false;
+  const double round = orbit.period / times;
+  for (int i = 0; i < times; ++i) {
+    const bool has_event =
+        std::any_of(orbit.events.begin(), orbit.events.end(), [&](const hybrid::Event& event) {
+          return event.time > i * round && event.time <= (i + 1) * round;
+        });
+    if (!has_event) return false;
+  }
   if (!setting_.drive.sampling) return true;
   const double ticks = orbit.period / (times * setting_.drive.sampling->period);
   return agree(ticks, std::round(ticks), 1.0, tolerances_.whole_ticks);
