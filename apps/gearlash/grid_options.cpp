@@ -311,7 +311,7 @@ ExitStatus make_grid_files(const GridTask& task, const Provenance& provenance,
   for (const Plot& plot : task.plots) pictures.push_back(opened(plot.file));
   std::optional<TerminalProgress> progress;
   progress.emplace(task.verb == "map" ? "Map" : "Chart", task.grid.size(), "points");
-  GridTable table{.grid = task.grid, .provenance = provenance};
+  GridTable table{.grid = task.grid, .provenance = provenance, .angle = task.angle};
   GridCount count;
   std::string made;
   const auto commit = [&](OutputFile& file) {

@@ -18,6 +18,7 @@ struct GridTable {
   Grid grid{};
   Table table{};
   Provenance provenance{};
+  AngleUnit angle{};                                            ///< of pictures
   std::optional<std::vector<MapCurve>> hunting_boundary{};      ///< for a map only
   std::optional<std::vector<MapCurve>> dissipative_boundary{};  ///< for a map only
   std::optional<std::vector<MotionRegion>> regions{};  ///< for a map of searched drives only

@@ -74,10 +74,8 @@ struct Scale {
 Scale scale_of(const BifurcationDiagram& diagram, const Grid& grid, Quantity quantity,
                const AngleUnit& angle) {
   Scale scale{.quantity = quantity};
-  const auto ends_in_radians = [](const std::string& text) { return text.ends_with("(rad)"); };
-  if (ends_in_radians(label_of(quantity, grid))) scale.per_value = angle.radians;
-  const ChartAxis x = chart_axis(grid.axes.front(), grid.drive);
-  if (ends_in_radians(x.label)) scale.per_parameter = angle.radians;
+  scale.per_value = drawn_unit(quantity, grid, angle);
+  scale.per_parameter = drawn_unit(grid.axes.front(), grid.drive, angle);
   Extent values;
   const auto include = [&](double value) {
     if (std::isfinite(value) && value > 0.0) values.include(value);
@@ -281,16 +279,8 @@ std::string draw_bifurcations(const BifurcationDiagram& diagram, const Grid& gri
     drawing.layers.emplace_back("1/0 notitle");
     labels = "set label 2 'no cycle was found' at graph 0.5, graph 0.5 center\n";
   }
-  const auto in_unit = [&](const std::string& label) {
-    const std::size_t place = label.rfind("(rad)");
-    return place == std::string::npos ? label : label.substr(0, place) + "(" + angle.name + ")";
-  };
-  ChartAxis x = chart_axis(axis, grid.drive);
-  x.label = in_unit(x.label);
-  x.low = scale.parameter(axis.values.front());
-  x.high = scale.parameter(axis.values.back());
-  if (scale.per_parameter != 1.0) x.tics.clear();
-  const ChartAxis y{.label = in_unit(label_of(quantity, grid)),
+  const ChartAxis x = chart_axis(axis, grid.drive, angle);
+  const ChartAxis y{.label = label_of(quantity, grid, angle),
                     .logarithmic = scale.is_logarithmic,
                     .low = scale.foot,
                     .high = scale.top};

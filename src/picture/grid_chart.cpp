@@ -64,6 +64,12 @@ void mark_points(ChartCurve& curve, bool are_all_marked) {
   }
 }
 
+void draw_in(double x_unit, double y_unit, ChartCurve& curve) {
+  for (std::vector<ChartPoint>* points : {&curve.line, &curve.marks, &curve.ends}) {
+    for (ChartPoint& point : *points) point = {point.x / x_unit, point.y / y_unit};
+  }
+}
+
 }  // namespace
 
 LineChart chart_of(const GridTable& table, Quantity quantity) {
@@ -72,8 +78,8 @@ LineChart chart_of(const GridTable& table, Quantity quantity) {
   const Axis& x = grid.axes.back();
   LineChart chart{.title = title_of(quantity),
                   .subtitle = subtitle_of(grid),
-                  .x = chart_axis(x, grid.drive),
-                  .y = {.label = label_of(quantity, grid), .low = 0.0}};
+                  .x = chart_axis(x, grid.drive, table.angle),
+                  .y = {.label = label_of(quantity, grid, table.angle), .low = 0.0}};
   const std::size_t curves = grid.axes.size() == 1 ? 1 : grid.axes.front().values.size();
   bool nothing_drawn = true;
   for (std::size_t i = 0; i < curves; ++i) {
@@ -83,8 +89,8 @@ LineChart chart_of(const GridTable& table, Quantity quantity) {
                                       [](const auto& point) { return std::isfinite(point.y); });
     if (grid.axes.size() > 1) {
       const Axis& family = grid.axes.front();
-      curve.name =
-          in_words(family.path) + " " + text_with_unit(family, grid.drive, family.values[i]);
+      curve.name = in_words(family.path) + " " +
+                   text_with_unit(family, grid.drive, family.values[i], table.angle);
       if (!is_drawn) curve.name += ": " + word_for_nothing(table, first, x.values.size(), quantity);
     }
     for (const ChartPoint& point : curve.line) {
@@ -95,6 +101,7 @@ LineChart chart_of(const GridTable& table, Quantity quantity) {
     mark_points(curve, has_words(x, grid.drive) || points.engines().search);
     if (has_words(x, grid.drive)) curve.line.clear();
     if (!curve.ends.empty()) chart.end_meaning = "hunting ends";
+    draw_in(drawn_unit(x, grid.drive, table.angle), drawn_unit(quantity, grid, table.angle), curve);
     chart.curves.push_back(std::move(curve));
   }
   if (nothing_drawn) {

@@ -13,15 +13,28 @@
 namespace gearlash {
 namespace {
 
+/// Round in the drawn unit.
 std::vector<double> levels_of(const GridTable& table, Quantity quantity) {
+  const double unit = drawn_unit(quantity, table.grid, table.angle);
   std::vector<double> motions(table.table.rows());
   for (std::size_t row = 0; row < motions.size(); ++row) {
-    motions[row] = of_motion(table.table, quantity, row);
+    motions[row] = of_motion(table.table, quantity, row) / unit;
   }
   std::vector<double> levels = round_levels(std::move(motions));
   // Level 1 is the boundary itself: growth at rest and the multiplier beside it are 1 there.
   if (quantity == Quantity::growth_at_rest) std::erase(levels, 1.0);
   return levels;
+}
+
+/// With their levels in the drawn unit.
+std::vector<Contour> drawn_contours(const GridTable& table, Quantity quantity) {
+  const double unit = drawn_unit(quantity, table.grid, table.angle);
+  const std::vector<double> levels = levels_of(table, quantity);
+  std::vector<double> in_table;
+  for (const double level : levels) in_table.push_back(level * unit);
+  std::vector<Contour> contours = contours_of(table.grid, table.table, quantity, in_table);
+  for (Contour& contour : contours) contour.level /= unit;
+  return contours;
 }
 
 }  // namespace
@@ -55,19 +68,17 @@ void add_regions(const GridTable& table, Quantity quantity, ContourMap& map) {
   map.contour_meaning = in_words(std::string(gearlash::name_of(quantity)));
   const std::optional<Quantity> ceiling = ceiling_over(quantity);
   if (!ceiling || !table.table.has(*ceiling)) return;
-  map.other_contours = contours_of(table.grid, table.table, *ceiling, levels_of(table, *ceiling));
+  map.other_contours = drawn_contours(table, *ceiling);
   map.other_meaning = "ceiling, proved";
 }
 
-}  // namespace
-
-ContourMap map_of(const GridTable& table, Quantity quantity) {
+ContourMap in_radians(const GridTable& table, Quantity quantity) {
   const Grid& grid = table.grid;
-  ContourMap map{.title = title_of(quantity) + unit_in_brackets(quantity, grid),
+  ContourMap map{.title = title_of(quantity) + unit_in_brackets(quantity, grid, table.angle),
                  .subtitle = subtitle_of(grid),
-                 .x = chart_axis(grid.axes[1], grid.drive),
-                 .y = chart_axis(grid.axes[0], grid.drive),
-                 .contours = contours_of(grid, table.table, quantity, levels_of(table, quantity)),
+                 .x = chart_axis(grid.axes[1], grid.drive, {}),
+                 .y = chart_axis(grid.axes[0], grid.drive, {}),
+                 .contours = drawn_contours(table, quantity),
                  .boundary = table.hunting_boundary.value(),
                  .contour_meaning = "contours",
                  .boundary_meaning = "hunting ends",
@@ -92,6 +103,32 @@ ContourMap map_of(const GridTable& table, Quantity quantity) {
   return map;
 }
 
+}  // namespace
+
+ContourMap map_of(const GridTable& table, Quantity quantity) {
+  ContourMap map = in_radians(table, quantity);
+  const Grid& grid = table.grid;
+  map.x = chart_axis(grid.axes[1], grid.drive, table.angle);
+  map.y = chart_axis(grid.axes[0], grid.drive, table.angle);
+  const double x_unit = drawn_unit(grid.axes[1], grid.drive, table.angle);
+  const double y_unit = drawn_unit(grid.axes[0], grid.drive, table.angle);
+  if (x_unit == 1.0 && y_unit == 1.0) return map;
+  const auto draw_in_units = [&](std::vector<MapCurve>& curves) {
+    for (MapCurve& curve : curves) {
+      for (MapPoint& point : curve) point = {point.x / x_unit, point.y / y_unit};
+    }
+  };
+  for (ColouredRegion& region : map.regions) draw_in_units(region.outlines);
+  for (std::vector<Contour>* contours : {&map.contours, &map.other_contours}) {
+    for (Contour& contour : *contours) draw_in_units(contour.curves);
+  }
+  for (std::vector<MapCurve>* curves :
+       {&map.boundary, &map.hatching, &map.inner_boundary, &map.inner_hatching}) {
+    draw_in_units(*curves);
+  }
+  return map;
+}
+
 namespace {
 
 /// One cell for each point: its number, or infinity (a dot) if the drive comes to rest.
@@ -99,21 +136,26 @@ CellMap cells_of(const GridTable& table, Quantity quantity) {
   const Grid& grid = table.grid;
   const Axis& y = grid.axes[0];
   const Axis& x = grid.axes[1];
-  CellMap map{.title = title_of(quantity) + unit_in_brackets(quantity, grid),
+  CellMap map{.title = title_of(quantity) + unit_in_brackets(quantity, grid, table.angle),
               .subtitle = subtitle_of(grid) + "; · comes to rest, empty: not known",
-              .x_label = chart_axis(x, grid.drive).label,
-              .y_label = chart_axis(y, grid.drive).label,
+              .x_label = chart_axis(x, grid.drive, table.angle).label,
+              .y_label = chart_axis(y, grid.drive, table.angle).label,
               .largest = 0.0,
               .number_format = "%.3g"};
-  for (const double value : x.values) map.columns.push_back(short_text(x, grid.drive, value));
-  for (const double value : y.values) map.rows.push_back(short_text(y, grid.drive, value));
+  for (const double value : x.values) {
+    map.columns.push_back(short_text(x, grid.drive, value, table.angle));
+  }
+  for (const double value : y.values) {
+    map.rows.push_back(short_text(y, grid.drive, value, table.angle));
+  }
   CellPanel panel;
+  const double unit = drawn_unit(quantity, grid, table.angle);
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < y.values.size(); ++i) {
     std::vector<double>& row = panel.values.emplace_back();
     for (std::size_t j = 0; j < x.values.size(); ++j) {
       const std::size_t point = i * x.values.size() + j;
-      const double value = of_motion(table.table, quantity, point);
+      const double value = of_motion(table.table, quantity, point) / unit;
       const bool is_rest = std::isnan(value) && !std::isnan(table.table[quantity][point]);
       row.push_back(is_rest ? std::numeric_limits<double>::infinity() : value);
       if (!std::isfinite(value)) continue;

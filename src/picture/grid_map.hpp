@@ -9,9 +9,9 @@
 
 namespace gearlash {
 
-/// Contours of the quantity, the hunting-free boundary, and hatching where there is no limit cycle.
-/// Precondition: two axes, y and x, each with at least two finite values; the table has its
-/// boundary.
+/// In the table's unit of angles: contours of the quantity, the hunting-free boundary, and hatching
+/// where there is no limit cycle. Precondition: two axes, y and x, each with at least two finite
+/// values; the table has its boundary.
 ContourMap map_of(const GridTable& table, Quantity quantity);
 
 /// The picture: contours of closed-form answers. If drives are searched or an axis has words, each

@@ -23,17 +23,26 @@ bool in_backlashes(const Grid& grid) {
          !is_varied(grid, "servo.backlash");
 }
 
+bool is_angle(Quantity quantity) { return info_of(quantity).unit == "rad"; }
+
 /// The unit in a picture: backlashes, or with ω_n and K if these are 1.
-std::string unit_of(Quantity quantity, const Grid& grid) {
+std::string unit_of(Quantity quantity, const Grid& grid, const AngleUnit& angle) {
   const std::string unit(info_of(quantity).unit);
   const bool is_free = in_backlashes(grid);
-  if (unit == "rad") return is_free ? "backlashes" : unit;
+  if (is_angle(quantity)) return is_free ? "backlashes" : angle.name;
   if (!is_normalized(grid.drive)) return unit;
   if (unit == "s") return "1/ω_n";
   if (unit == "Hz") return "ω_n";
   if (unit == "rad/s") return is_free ? "backlashes × ω_n" : "rad ω_n";
   if (unit == "J") return is_free ? "K × backlash²" : "K rad²";
   return unit;
+}
+
+/// Empty for words and pure numbers.
+std::string name_of_unit(const Axis& axis, const Drive& drive, const AngleUnit& angle) {
+  const std::string unit = unit_of(axis, drive);
+  if (unit == "rad") return angle.name;
+  return unit == "1" ? "" : unit;
 }
 
 /// Tics at 1, 2 and 5, or at all digits, if gnuplot's one for each power of ten would give fewer
@@ -87,31 +96,40 @@ std::string title_of(Quantity quantity) {
   return title;
 }
 
-std::string unit_in_brackets(Quantity quantity, const Grid& grid) {
-  const std::string unit = unit_of(quantity, grid);
+std::string unit_in_brackets(Quantity quantity, const Grid& grid, const AngleUnit& angle) {
+  const std::string unit = unit_of(quantity, grid, angle);
   return unit == "1" ? "" : " (" + unit + ")";
 }
 
-std::string label_of(Quantity quantity, const Grid& grid) {
-  return in_words(std::string(name_of(quantity))) + unit_in_brackets(quantity, grid);
+std::string label_of(Quantity quantity, const Grid& grid, const AngleUnit& angle) {
+  return in_words(std::string(name_of(quantity))) + unit_in_brackets(quantity, grid, angle);
+}
+
+double drawn_unit(Quantity quantity, const Grid& grid, const AngleUnit& angle) {
+  return is_angle(quantity) && !in_backlashes(grid) ? angle.radians : 1.0;
 }
 
 bool has_words(const Axis& axis, const Drive& drive) { return unit_of(axis, drive).empty(); }
 
-std::string short_text(const Axis& axis, const Drive& drive, double value) {
-  return has_words(axis, drive) ? text_of(axis, drive, value) : fmt::format("{:.4g}", value);
+double drawn_unit(const Axis& axis, const Drive& drive, const AngleUnit& angle) {
+  return unit_of(axis, drive) == "rad" ? angle.radians : 1.0;
 }
 
-std::string text_with_unit(const Axis& axis, const Drive& drive, double value) {
-  const std::string unit = unit_of(axis, drive);
-  return short_text(axis, drive, value) + (unit.empty() || unit == "1" ? "" : " " + unit);
+std::string short_text(const Axis& axis, const Drive& drive, double value, const AngleUnit& angle) {
+  return has_words(axis, drive) ? text_of(axis, drive, value)
+                                : fmt::format("{:.4g}", value / drawn_unit(axis, drive, angle));
 }
 
-ChartAxis chart_axis(const Axis& axis, const Drive& drive) {
-  const std::string unit = unit_of(axis, drive);
-  ChartAxis drawn{
-      .label = in_words(axis.path) + (unit.empty() || unit == "1" ? "" : " (" + unit + ")"),
-      .logarithmic = axis.logarithmic};
+std::string text_with_unit(const Axis& axis, const Drive& drive, double value,
+                           const AngleUnit& angle) {
+  const std::string unit = name_of_unit(axis, drive, angle);
+  return short_text(axis, drive, value, angle) + (unit.empty() ? "" : " " + unit);
+}
+
+ChartAxis chart_axis(const Axis& axis, const Drive& drive, const AngleUnit& angle) {
+  const std::string unit = name_of_unit(axis, drive, angle);
+  ChartAxis drawn{.label = in_words(axis.path) + (unit.empty() ? "" : " (" + unit + ")"),
+                  .logarithmic = axis.logarithmic};
   if (has_words(axis, drive)) {
     constexpr double room = 0.5;
     const auto [low, high] = std::minmax_element(axis.values.begin(), axis.values.end());
@@ -122,11 +140,12 @@ ChartAxis chart_axis(const Axis& axis, const Drive& drive) {
     }
     return drawn;
   }
-  drawn.low = axis.values.front();
-  drawn.high = axis.values.back();
+  const double per = drawn_unit(axis, drive, angle);
+  drawn.low = axis.values.front() / per;
+  drawn.high = axis.values.back() / per;
   if (axis.logarithmic) drawn.tics = logarithmic_tics(*drawn.low, *drawn.high);
   if (axis.values.size() == 1) {
-    const double value = axis.values.front();
+    const double value = axis.values.front() / per;
     const double room = value > 0.0 ? 0.1 * value : 0.1;
     drawn = {.label = drawn.label,
              .low = value - room,

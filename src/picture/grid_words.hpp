@@ -4,6 +4,7 @@
 #include <string>
 
 #include "analysis/grid/axis.hpp"
+#include "input/units.hpp"
 #include "picture/line_chart.hpp"
 
 namespace gearlash {
@@ -18,22 +19,29 @@ std::string in_words(const std::string& path);
 /// "Amplitude of the load".
 std::string title_of(Quantity quantity);
 
-/// " (rad)"; empty for a pure number. For a normal form with a fixed backlash of 1, angles are in
-/// backlashes; for one without a natural frequency, times are in units of 1/ω_n.
-std::string unit_in_brackets(Quantity quantity, const Grid& grid);
+/// " (rad)"; empty for a pure number. Angles are in `angle`; for a normal form with a fixed
+/// backlash of 1 in backlashes. For one without a natural frequency, times are in units of 1/ω_n.
+std::string unit_in_brackets(Quantity quantity, const Grid& grid, const AngleUnit& angle);
 
 /// "amplitude (rad)".
-std::string label_of(Quantity quantity, const Grid& grid);
+std::string label_of(Quantity quantity, const Grid& grid, const AngleUnit& angle);
+
+/// That unit as a table has it: the radians of an angle's, else 1.
+double drawn_unit(Quantity quantity, const Grid& grid, const AngleUnit& angle);
 
 /// Whether the axis has words instead of numbers.
 bool has_words(const Axis& axis, const Drive& drive);
 
-/// A short value: "0.1", "load".
-std::string short_text(const Axis& axis, const Drive& drive, double value);
+/// A short value in the drawn unit: "0.1", "load".
+std::string short_text(const Axis& axis, const Drive& drive, double value, const AngleUnit& angle);
 /// "5e-05 kg m2".
-std::string text_with_unit(const Axis& axis, const Drive& drive, double value);
+std::string text_with_unit(const Axis& axis, const Drive& drive, double value,
+                           const AngleUnit& angle);
 
-/// The axis for a chart; a single value stands in the middle.
-ChartAxis chart_axis(const Axis& axis, const Drive& drive);
+/// The unit in which an axis is drawn, as the drive has it: the radians of an angle's, else 1.
+double drawn_unit(const Axis& axis, const Drive& drive, const AngleUnit& angle);
+
+/// The axis for a chart, in its drawn unit; a single value stands in the middle.
+ChartAxis chart_axis(const Axis& axis, const Drive& drive, const AngleUnit& angle);
 
 }  // namespace gearlash

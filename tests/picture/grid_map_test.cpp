@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "analysis/grid/servo_grids.hpp"
+#include "picture/grid_chart.hpp"
 
 namespace gearlash {
 namespace {
@@ -125,6 +126,44 @@ TEST(GridMap, TheBoundaryIsNoContour) {
   const ContourMap map = map_of(table, Quantity::growth_at_rest);
   EXPECT_GE(map.contours.size(), 5U);
   for (const Contour& contour : map.contours) EXPECT_NE(contour.level, 1.0);
+}
+
+/// Levels are round in the author's unit; curves and axes are in it.
+TEST(GridMap, IsDrawnInTheUnitOfAngles) {
+  constexpr double arcminute = 1e-3;
+  GridTable table =
+      map_table({drive_of({.inertia_ratio = 2.0, .friction_ratio = 0.3}),
+                 {spaced_axis("y", "servo.damping", 0.1, 0.4, 5, Spacing::logarithmic),
+                  spaced_axis("x", "servo.backlash", 1e-3, 2e-3, 5, Spacing::linear)}});
+  const ContourMap radians = map_of(table, Quantity::amplitude);
+  table.angle = {"arcmin", arcminute};
+  const ContourMap map = map_of(table, Quantity::amplitude);
+  EXPECT_EQ(map.title, "Amplitude of the load (arcmin)");
+  EXPECT_EQ(map.x.label, "backlash (arcmin)");
+  EXPECT_DOUBLE_EQ(map.x.low.value(), 1.0);
+  EXPECT_DOUBLE_EQ(map.x.high.value(), 2.0);
+  EXPECT_DOUBLE_EQ(map.y.low.value(), 0.1);
+  ASSERT_EQ(map.contours.size(), radians.contours.size());
+  ASSERT_FALSE(map.contours.empty());
+  for (std::size_t i = 0; i < map.contours.size(); ++i) {
+    EXPECT_NEAR(map.contours[i].level, radians.contours[i].level / arcminute, 1e-9);
+    const MapPoint& in_radians = radians.contours[i].curves.at(0).at(0);
+    EXPECT_NEAR(map.contours[i].curves.at(0).at(0).x, in_radians.x / arcminute, 1e-6);
+    EXPECT_NEAR(map.contours[i].curves.at(0).at(0).y, in_radians.y, 1e-9);
+  }
+}
+
+TEST(GridChart, IsDrawnInTheUnitOfAngles) {
+  const Grid grid{drive_of({.damping = 0.1, .inertia_ratio = 2.0, .friction_ratio = 0.3}),
+                  {spaced_axis("x", "servo.backlash", 1e-3, 2e-3, 3, Spacing::linear)}};
+  GridTable table{.grid = grid, .table = worked_out(grid), .provenance = {}};
+  const ChartPoint in_radians = chart_of(table, Quantity::amplitude).curves.at(0).line.at(1);
+  table.angle = {"arcmin", 1e-3};
+  const LineChart chart = chart_of(table, Quantity::amplitude);
+  EXPECT_EQ(chart.y.label, "amplitude (arcmin)");
+  const ChartPoint point = chart.curves.at(0).line.at(1);
+  EXPECT_DOUBLE_EQ(point.x, 1e3 * in_radians.x);
+  EXPECT_DOUBLE_EQ(point.y, 1e3 * in_radians.y);
 }
 
 std::string number_text(double number) {
