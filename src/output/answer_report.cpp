@@ -380,6 +380,34 @@ AnswerReport report_of(const Drive& drive, const Answer& answer) {
 
 namespace {
 
+struct SeenMotion {
+  double load = 0.0;
+  double motor = 0.0;
+  std::size_t starts = 0;
+
+  double extent() const { return std::max(load, motor); }
+};
+
+/// "; 4 of 24 starts hunt by ±116 deg": where that is more than what the headline has.
+std::string larger_motion(const AnswerReport& report) {
+  std::vector<SeenMotion> motions;
+  if (const Cycle* cycle = report.answer.largest_stable()) {
+    motions.push_back({cycle->amplitude, cycle->motor_amplitude, cycle->starts});
+  }
+  for (const IrregularMotion& motion : report.answer.irregular) {
+    motions.push_back({motion.amplitude, motion.motor_amplitude.value_or(0.0), motion.starts});
+  }
+  if (motions.empty()) return "";
+  const SeenMotion& largest = *std::max_element(
+      motions.begin(), motions.end(),
+      [](const SeenMotion& a, const SeenMotion& b) { return a.extent() < b.extent(); });
+  constexpr double clearly = 1.5;  // irregular motion varies
+  if (largest.starts == 0 || largest.extent() <= clearly * motions.front().extent()) return "";
+  return fmt::format("; {} of {} hunt by {}", largest.starts,
+                     starts_text(report.answer.search->starts.size()),
+                     swing_text(largest.extent(), report.angle, headline_digits));
+}
+
 /// What a search leaves open or has found besides: "; 2 of 28 starts run away, 3 undecided".
 std::string besides(const AnswerReport& report) {
   const Answer& answer = report.answer;
@@ -388,7 +416,7 @@ std::string besides(const AnswerReport& report) {
       answer.verdict == Verdict::runs_away || answer.verdict == Verdict::runs_away_if_disturbed;
   const std::size_t away = is_verdict_on_runaway ? 0 : answer.search->count("diverges");
   const std::size_t open = answer.search->count("undecided");
-  std::string text = answer.search->is_complete ? "" : "; stopped early";
+  std::string text = (answer.search->is_complete ? "" : "; stopped early") + larger_motion(report);
   const std::string steps = is_verdict_on_runaway ? "" : steps_text(report, "running away");
   if (!steps.empty()) text += "; runs away " + steps;
   if (away + open == 0) return text;

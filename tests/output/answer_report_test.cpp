@@ -69,6 +69,18 @@ TEST(Headline, NeedsNoCycle) {
 }
 
 /// A start that ran away or stayed undecided is not in the small print alone.
+/// As a motor that ticks in its gap, beside hunting against the torque limit after large steps.
+TEST(Headline, NamesAMuchLargerMotionBesides) {
+  AnswerReport report = report_of(Verdict::hunts_irregularly);
+  report.answer.irregular = {{.amplitude = 0.02, .starts = 20}, {.amplitude = 2.0, .starts = 4}};
+  report.answer.search = SearchRecord{};
+  report.answer.search->starts.resize(24);
+  EXPECT_EQ(headline(report),
+            "hunts irregularly: up to ±0.02 rad (1.15°); 4 of 24 starts hunt by ±2 rad (115°)");
+  report.answer.irregular[1].amplitude = 0.025;
+  EXPECT_EQ(headline(report), "hunts irregularly: up to ±0.02 rad (1.15°)");
+}
+
 TEST(Headline, CountsTheStartsThatAreNoPartOfIt) {
   AnswerReport report = report_of(Verdict::hunts_irregularly);
   report.answer.irregular = {{.amplitude = 0.02}};
