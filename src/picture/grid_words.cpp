@@ -27,7 +27,7 @@ bool is_angle(Quantity quantity) { return info_of(quantity).unit == "rad"; }
 
 /// The unit in a picture: backlashes, or with ω_n and K if these are 1.
 std::string unit_of(Quantity quantity, const Grid& grid, const AngleUnit& angle) {
-  const std::string unit(info_of(quantity).unit);
+  std::string unit(info_of(quantity).unit);
   const bool is_free = in_backlashes(grid);
   if (is_angle(quantity)) return is_free ? "backlashes" : angle.name;
   if (!is_normalized(grid.drive)) return unit;
@@ -40,7 +40,7 @@ std::string unit_of(Quantity quantity, const Grid& grid, const AngleUnit& angle)
 
 /// Empty for words and pure numbers.
 std::string name_of_unit(const Axis& axis, const Drive& drive, const AngleUnit& angle) {
-  const std::string unit = unit_of(axis, drive);
+  std::string unit = unit_of(axis, drive);
   if (unit == "rad") return angle.name;
   return unit == "1" ? "" : unit;
 }
