@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <string>
 
+#include "analysis/pd_drive.hpp"
 #include "base/on_threads.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/grid.hpp"
@@ -17,13 +18,8 @@ constexpr std::size_t thinned = apart * apart;
 /// A torque-controlled motor under a continuous PID controller with the sensor on the load; Coulomb
 /// friction on both shafts.
 Drive pid_drive() {
-  Drive drive;
-  drive.motor = {
-      .kind = TorqueControl{}, .inertia = 2e-6, .friction = {.viscous = 1e-5, .coulomb = 1e-3}};
-  drive.gearbox = {.ratio = 20.0, .backlash = 2e-3};
-  drive.load = {.inertia = 5e-3, .friction = {.viscous = 1e-3, .coulomb = 5e-3}};
-  drive.contact = RigidContact{};
-  drive.sensor.position = SensorPlace::load;
+  Drive drive = pd_drive();
+  drive.motor.inertia = 2e-6;
   drive.controller.law = PID{.terms = PIDTerms::PID,
                              .proportional = 20.0,
                              .integral = 20.0,

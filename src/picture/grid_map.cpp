@@ -37,10 +37,6 @@ std::vector<Contour> drawn_contours(const GridTable& table, Quantity quantity) {
   return contours;
 }
 
-}  // namespace
-
-namespace {
-
 /// Light enough for contours on them, and of different lightness.
 const char* colour_of(MotionKind kind) {
   switch (kind) {

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,14 +13,11 @@
 #include "analysis/design/target.hpp"
 #include "analysis/final_servo.hpp"
 #include "analysis/grid/axis.hpp"
-#include "analysis/linear_loop.hpp"
 #include "gearlash/sensitivity.hpp"
 #include "numeric/central_difference.hpp"
 
 namespace gearlash {
 namespace {
-
-constexpr double turn = 2.0 * std::numbers::pi;
 
 bool is_of_loop(Quantity quantity) {
   return quantity == Quantity::bandwidth || quantity == Quantity::phase_margin;
@@ -34,9 +30,8 @@ bool is_of_cycle(Quantity quantity) {
 }
 
 /// As the target's quantities have it.
-std::optional<double> figure_of(const drive::LoopFigures& figures, Quantity quantity) {
-  if (quantity == Quantity::phase_margin) return figures.phase_margin;
-  return figures.bandwidth ? std::optional(*figures.bandwidth / turn) : std::nullopt;
+std::optional<double> figure_of(const LinearLoop& loop, Quantity quantity) {
+  return quantity == Quantity::phase_margin ? loop.phase_margin : loop.bandwidth;
 }
 
 class UnitSlopes {
@@ -62,10 +57,10 @@ class UnitSlopes {
   using Slopes = std::vector<std::optional<double>>;
 
   /// The linear loop's figures beside the unit.
-  std::optional<drive::LoopFigures> figures_at(std::size_t axis, double value) const {
+  std::optional<LinearLoop> figures_at(std::size_t axis, double value) const {
     Drive drive = unit_;
     set_on(task_.tuned[axis], drive, value);
-    return faults(drive).empty() ? drive::loop_figures(reduce(drive)) : std::nullopt;
+    return faults(drive).empty() ? linear_loop_of(reduce(drive)) : std::nullopt;
   }
 
   std::optional<double> figure_slope(Quantity quantity, std::size_t axis) const {
@@ -116,7 +111,7 @@ class UnitSlopes {
   }
 
   bool add_loop() {
-    const auto figures = drive::loop_figures(reduce(unit_));
+    const auto figures = linear_loop_of(reduce(unit_));
     if (!figures || !figures->bandwidth || !figures->phase_margin) return false;
     const double bandwidth = *figure_of(*figures, Quantity::bandwidth);
     if (!add(numbers_.sizes, -std::log(bandwidth), -1.0 / bandwidth,
