@@ -112,8 +112,7 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
   write_file("-", options.format == "json" ? comparison_json(report) : comparison_text(report));
   const bool decided =
       std::none_of(report.cases.begin(), report.cases.end(), [](const SensorCase& one) {
-        return one.report.answer.verdict == Verdict::undecided ||
-               one.response.stop_reason != hybrid::StopReason::reached_end;
+        return one.report.answer.verdict == Verdict::undecided || !one.response.is_whole;
       });
   return extras.status(decided ? ExitStatus::done : ExitStatus::undecided);
 }

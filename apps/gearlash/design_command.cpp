@@ -190,11 +190,10 @@ ExitStatus run_searched(const DesignOptions& options, const Target& target,
   const Drive& drive = written.drive;
   const std::vector<Axis> axes = read_axes(options, drive, faults);
   faults.require_none();
-  const drive::Step step = drive::usual_step(reduce(drive));
   SearchedDesignReport report{.drive = drive,
                               .target_text = options.target,
                               .target = target,
-                              .present = with_value(drive, nullptr, 0.0, step),
+                              .present = with_value(drive, nullptr, 0.0),
                               .angle = written.angle,
                               .provenance = provenance};
   bool is_stopped = false;
@@ -204,7 +203,7 @@ ExitStatus run_searched(const DesignOptions& options, const Target& target,
       ProgressPart part(progress, report.parameters.size(), axes.size());
       SearchedParameter found{.values = feasible_values(drive, axis, target, part)};
       for (const double value : found.values.nearest_of_each()) {
-        found.results.push_back(with_value(drive, &axis, value, step));
+        found.results.push_back(with_value(drive, &axis, value));
       }
       is_stopped = found.values.stopped;
       report.parameters.push_back(std::move(found));

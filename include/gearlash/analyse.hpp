@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "gearlash/answer.hpp"
 #include "gearlash/drive.hpp"
@@ -17,6 +18,9 @@ struct Wanted {
   bool ceiling = false;
   /// The linear loop: Answer::loop, bandwidth and phase margin.
   bool loop = false;
+  /// rad: the response to a step of this size, for twenty swings of the linear loop: Answer::step.
+  /// It takes some milliseconds.
+  std::optional<double> step{};
   /// What lies between starts that end differently: unstable cycles, and from which step on a drive
   /// hunts (Answer::thresholds). The verdict does not need it.
   bool borders = true;

@@ -233,6 +233,22 @@ struct LinearLoop {
   std::optional<double> crossover{};  ///< Hz: the frequency of this margin
 };
 
+/// The load's response to a step of the reference, from rest at 0 with the faces in contact on the
+/// side that the step pushes. The drive's own reference is ignored. A number is empty where it did
+/// not occur within the simulated time.
+struct StepResponse {
+  double step = 0.0;                  ///< rad
+  double until = 0.0;                 ///< s, simulated
+  std::optional<double> rise_time{};  ///< s, first 10 % to first 90 %
+  std::optional<double> overshoot{};  ///< as a share of the step; empty unless `is_whole`
+  /// s: the last time outside `band`. Empty unless it stays there for the whole last fifth.
+  std::optional<double> settling_time{};
+  double band = 0.0;         ///< rad, about the reference: 5 % of the step
+  double final_error = 0.0;  ///< rad, reference less load, mean of the last fifth's extremes
+  double ripple = 0.0;       ///< rad, half the distance of these extremes
+  bool is_whole = false;     ///< the motion could be followed to its end
+};
+
 /// Something a reader should know. `code` is for programs.
 struct Note {
   std::string code{};
@@ -247,12 +263,13 @@ struct Answer {
   std::optional<NormalFormNumbers> normal_form{};
   std::optional<double> growth_at_rest{};  ///< of a small motion in the gap, per half cycle
   std::optional<ProvedBounds> bounds{};
-  std::optional<Ceiling> ceiling{};  ///< if wanted
-  std::optional<LinearLoop> loop{};  ///< if wanted; a relay has none
-  bool is_dissipative = false;       ///< no restitution can make it hunt
-  bool rests_engaged = false;        ///< large motions may end at rest, with the faces together
-  bool neutral_swings = false;       ///< some cycles could not be separated from their neighbors
-  std::vector<Cycle> cycles{};       ///< by falling amplitude; from a search, stable ones first
+  std::optional<Ceiling> ceiling{};    ///< if wanted
+  std::optional<LinearLoop> loop{};    ///< if wanted; a relay has none
+  std::optional<StepResponse> step{};  ///< if wanted
+  bool is_dissipative = false;         ///< no restitution can make it hunt
+  bool rests_engaged = false;          ///< large motions may end at rest, with the faces together
+  bool neutral_swings = false;         ///< some cycles could not be separated from their neighbors
+  std::vector<Cycle> cycles{};         ///< by falling amplitude; from a search, stable ones first
   std::optional<Rest> rest{};
   std::vector<IrregularMotion> irregular{};
   /// Of a search beside which the drive also rests, or stays bounded: on the grid of its steps, and

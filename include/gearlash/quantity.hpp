@@ -31,14 +31,20 @@ enum class Quantity : std::uint8_t {
   motor_ceiling,
   effort_ceiling,
   bandwidth,
-  phase_margin
+  phase_margin,
+  rise_time,
+  overshoot,
+  settling_time
 };
-inline constexpr std::size_t quantity_count = static_cast<std::size_t>(Quantity::phase_margin) + 1;
+inline constexpr std::size_t quantity_count = static_cast<std::size_t>(Quantity::settling_time) + 1;
 
 enum class QuantityScope : std::uint8_t {
   answer,  ///< of the drive as a whole
   /// Of one motion: the largest cycle that is not unstable, else the largest irregular motion.
-  motion
+  motion,
+  ceiling,  ///< of Answer::ceiling
+  loop,     ///< of Answer::loop
+  step      ///< of Answer::step
 };
 
 enum class QuantityKind : std::uint8_t { number, choice };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <string>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "analysis/final_servo.hpp"
 #include "analysis/linear_loop.hpp"
 #include "analysis/repetition.hpp"
+#include "analysis/step_response.hpp"
 #include "base/interval.hpp"
 #include "base/range_check.hpp"
 #include "model/proportional_servo.hpp"
@@ -300,19 +300,6 @@ Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& serv
   return answer;
 }
 
-std::optional<LinearLoop> linear_loop_of(const drive::ReducedDrive& drive) {
-  const std::optional<drive::LoopFigures> figures = drive::loop_figures(drive);
-  if (!figures) return std::nullopt;
-  const auto hertz = [](const std::optional<double>& frequency) {
-    constexpr double turn = 2.0 * std::numbers::pi;
-    return frequency ? std::optional(*frequency / turn) : std::nullopt;
-  };
-  return LinearLoop{.is_stable = figures->is_stable,
-                    .bandwidth = hertz(figures->bandwidth),
-                    .phase_margin = figures->phase_margin,
-                    .crossover = hertz(figures->crossover)};
-}
-
 Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced) {
   Answer answer;
   const drive::DriveSystem system = drive::drive_system(reduced);
@@ -355,11 +342,6 @@ Analysis analysed(const Drive& drive, const Analysis* near, const Wanted& wanted
   require_none(faults(drive));
   Analysis analysis;
   analysis.reduced = reduce_settled(drive);
-  std::optional<Ceiling> ceiling;
-  if (wanted.ceiling) {
-    ceiling = ceiling_of(analysis.reduced);
-    ceiling->mesh_torque = highest_mean_mesh_torque(analysis.reduced);
-  }
   if (const std::optional<FinalServo> found = final_servo(drive)) {
     const Drivetrain& drivetrain = found->drivetrain;
     const DriveBox box = box_between(drivetrain, drivetrain, data_error_of(drive, drivetrain));
@@ -388,14 +370,42 @@ Analysis analysed(const Drive& drive, const Analysis* near, const Wanted& wanted
     }
     analysis.answer = answer_of(*analysis.search, analysis.reduced);
   }
-  analysis.answer.ceiling = std::move(ceiling);
-  if (wanted.loop) analysis.answer.loop = linear_loop_of(analysis.reduced);
+  add_figures(analysis.reduced, wanted, analysis.answer);
+  if (wanted.ceiling) {
+    analysis.answer.ceiling->mesh_torque = highest_mean_mesh_torque(analysis.reduced);
+  }
   std::vector<Note> notes = notes_on(drive);
   analysis.answer.notes.insert(analysis.answer.notes.begin(), notes.begin(), notes.end());
   return analysis;
 }
 
 }  // namespace
+
+void ask_for(Quantity quantity, const Drive& base, Wanted& wanted) {
+  switch (info_of(quantity).scope) {
+    case QuantityScope::ceiling:
+      wanted.ceiling = true;
+      break;
+    case QuantityScope::loop:
+      wanted.loop = true;
+      break;
+    case QuantityScope::step:
+      wanted.step =
+          drive::usual_step_size(base.servo ? base.servo->backlash : base.gearbox.backlash);
+      break;
+    case QuantityScope::answer:
+    case QuantityScope::motion:
+      break;
+  }
+}
+
+void add_figures(const drive::ReducedDrive& drive, const Wanted& wanted, Answer& answer) {
+  if (wanted.ceiling) answer.ceiling = ceiling_of(drive);
+  if (wanted.loop) answer.loop = drive::loop_figures(drive);
+  if (wanted.step) {
+    answer.step = drive::step_response(drive, *wanted.step, drive::usual_step(drive).until);
+  }
+}
 
 Analysis analyse_in_full(const Drive& drive, const Wanted& wanted, Progress& progress) {
   return analysed(drive, nullptr, wanted, progress);

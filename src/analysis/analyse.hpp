@@ -41,8 +41,12 @@ Answer analyse_until(const Drive& drive, const Wanted& wanted,
 Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& servo,
                  std::optional<double> stiffness);
 
-/// loop_figures() in Hz.
-std::optional<LinearLoop> linear_loop_of(const drive::ReducedDrive& drive);
+/// Adds to `wanted` what the quantity is of. `base`: the drive of the question, whose usual_step()
+/// all drives beside it make too.
+void ask_for(Quantity quantity, const Drive& base, Wanted& wanted);
+
+/// What is computed without the motions that the drive ends in: ceiling, linear loop and step.
+void add_figures(const drive::ReducedDrive& drive, const Wanted& wanted, Answer& answer);
 
 /// The answer that follows from a search. `reduced`: the searched drive.
 Answer answer_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced);

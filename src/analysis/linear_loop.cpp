@@ -76,12 +76,12 @@ struct LoopResponse {
   Complex closed;  ///< θ_L/r
 };
 
-class LinearLoop {
+class LoopTransfer {
  public:
-  explicit LinearLoop(const ReducedDrive& drive)
-      : LinearLoop(gearlash::plant_of(drive), drive.sampling,
-                   drive.sampling ? sampled_controller(drive.controller, *drive.sampling)
-                                  : linear_controller(drive.controller)) {}
+  explicit LoopTransfer(const ReducedDrive& drive)
+      : LoopTransfer(gearlash::plant_of(drive), drive.sampling,
+                     drive.sampling ? sampled_controller(drive.controller, *drive.sampling)
+                                    : linear_controller(drive.controller)) {}
 
   LoopResponse at(double frequency) const {
     const Complex advance = period_ > 0.0 ? std::polar(1.0, frequency * period_)  //
@@ -96,8 +96,8 @@ class LinearLoop {
   }
 
  private:
-  LinearLoop(const Plant& plant, const std::optional<Sampling>& sampling,
-             const LinearController& controller);
+  LoopTransfer(const Plant& plant, const std::optional<Sampling>& sampling,
+               const LinearController& controller);
   Vector of_torque(const Complex& advance) const;
   Row of_inputs(const Complex& advance) const;
 
@@ -114,8 +114,8 @@ class LinearLoop {
   Row direct_;
 };
 
-LinearLoop::LinearLoop(const Plant& plant, const std::optional<Sampling>& sampling,
-                       const LinearController& controller)
+LoopTransfer::LoopTransfer(const Plant& plant, const std::optional<Sampling>& sampling,
+                           const LinearController& controller)
     : motion_(motion_of(plant, sampling)),
       period_(sampling ? sampling->period : 0.0),
       counts_(sampling && sampling->speed_by_differences),
@@ -146,7 +146,7 @@ Matrix resolved(const Complex& advance, const Matrix& flow, const Matrix& right)
 }
 
 /// The plant's states per requested torque.
-Vector LinearLoop::of_torque(const Complex& advance) const {
+Vector LoopTransfer::of_torque(const Complex& advance) const {
   Vector acting = Vector::Zero(motion_.flow.rows());
   for (const DelayedTorque& torque : motion_.torques) {
     acting += torque.effect / std::pow(advance, static_cast<int>(torque.age));
@@ -155,7 +155,7 @@ Vector LinearLoop::of_torque(const Complex& advance) const {
 }
 
 /// K_r, K_y and K_v.
-Row LinearLoop::of_inputs(const Complex& advance) const {
+Row LoopTransfer::of_inputs(const Complex& advance) const {
   if (controller_output_.size() == 0) return direct_;
   return direct_ + controller_output_ * resolved(advance, controller_flow_, controller_inputs_);
 }
@@ -252,27 +252,28 @@ std::vector<double> crossings(const Function& function, const std::vector<double
 
 }  // namespace
 
-std::optional<LoopFigures> loop_figures(const ReducedDrive& drive) {
+std::optional<LinearLoop> loop_figures(const ReducedDrive& drive) {
   require_none(validate(drive));
   if (drive.error_shape.is_relay()) return std::nullopt;
-  LoopFigures figures;
+  LinearLoop figures;
   figures.is_stable = drive.sampling ? sampled_loop_decays(drive) : continuous_loop_decays(drive);
   const std::vector<double> frequencies = sampled_frequencies(drive);
   if (!figures.is_stable || frequencies.empty()) return figures;
-  const LinearLoop loop(drive);
+  const LoopTransfer loop(drive);
+  constexpr double turn = 2.0 * std::numbers::pi;  // from rad/s to Hz
   const double at_rest = std::abs(loop.at(frequencies.front()).closed);
   const std::vector<double> falls = crossings(
       [&](double frequency) {
         return std::log(std::abs(loop.at(frequency).closed) / at_rest) + 0.5 * std::numbers::ln2;
       },
       frequencies);
-  if (!falls.empty()) figures.bandwidth = falls.front();
+  if (!falls.empty()) figures.bandwidth = falls.front() / turn;
   for (const double frequency :
        crossings([&](double at) { return std::log(std::abs(loop.at(at).open)); }, frequencies)) {
     const double margin = std::abs(std::arg(-loop.at(frequency).open));
     if (figures.phase_margin && *figures.phase_margin <= margin) continue;
     figures.phase_margin = margin;
-    figures.crossover = frequency;
+    figures.crossover = frequency / turn;
   }
   return figures;
 }

@@ -3,22 +3,14 @@
 
 #include <optional>
 
+#include "gearlash/answer.hpp"
 #include "model/drive.hpp"
 
 namespace gearlash::drive {
 
-/// A number is absent where there is none: of a loop that is not stable, of a response that never
-/// falls by 3 dB, of a gain that never crosses 1.
-struct LoopFigures {
-  bool is_stable = false;  ///< proved by interval bounds
-  /// rad/s: the first frequency at which |θ_L/r| falls below 1/√2 of its value at frequency 0.
-  std::optional<double> bandwidth{};
-  /// rad, 0 … π: the least |arg(L(jω)) ± π| where |L(jω)| = 1. By this angle the loop may turn
-  /// before it is unstable.
-  std::optional<double> phase_margin{};
-  std::optional<double> crossover{};  ///< rad/s, the ω of this margin
-};
-
+/// Bandwidth: the first frequency at which |θ_L/r| falls below 1/√2 of its value at frequency 0.
+/// Phase margin: the least |arg(L(jω)) ± π| where |L(jω)| = 1, at the crossover.
+///
 /// The loop is broken at the torque that the controller requests. With the plant G from there to
 /// the load's position θ_L, the sensed position y and the sensed speed v, and the controller
 /// τ = K_r r + K_y y + K_v v,
@@ -38,6 +30,6 @@ struct LoopFigures {
 /// step may be missed.
 ///
 /// Empty for a relay, whose loop is not linear. Throws InvalidInput.
-std::optional<LoopFigures> loop_figures(const ReducedDrive& drive);
+std::optional<LinearLoop> loop_figures(const ReducedDrive& drive);
 
 }  // namespace gearlash::drive

@@ -106,7 +106,7 @@ void measure(const Path& path, StepResponse& response) {
   // A sustained oscillation may end within the band by chance. It has settled only if it stays
   // there for the whole last fifth.
   const std::optional<double> settled = path.time_into_band(step, response.band);
-  if (settled && *settled <= late) response.settling_time = *settled;
+  if (settled && *settled <= late) response.settling_time = settled;
   double highest = 0.0;
   double last_lowest = std::numeric_limits<double>::infinity();
   double last_highest = -last_lowest;
@@ -116,7 +116,7 @@ void measure(const Path& path, StepResponse& response) {
     last_lowest = std::min(last_lowest, point.position);
     last_highest = std::max(last_highest, point.position);
   }
-  response.overshoot = std::max(0.0, highest / step - 1.0);
+  if (response.is_whole) response.overshoot = std::max(0.0, highest / step - 1.0);
   const double error = step - 0.5 * (last_lowest + last_highest);
   response.final_error = response.step < 0.0 ? -error : error;
   response.ripple = 0.5 * (last_highest - last_lowest);
@@ -140,12 +140,15 @@ hybrid::Trajectory step_motion(ReducedDrive drive, double step, double until) {
 
 }  // namespace
 
-Step usual_step(const ReducedDrive& drive) {
+double usual_step_size(double backlash) {
   constexpr double backlashes = 10.0;
-  constexpr double swings = 20.0;
   constexpr double degree = std::numbers::pi / 180.0;
-  return {drive.backlash > 0.0 ? backlashes * drive.backlash : degree,
-          swings * time_scales(drive).swing};
+  return backlash > 0.0 ? backlashes * backlash : degree;
+}
+
+Step usual_step(const ReducedDrive& drive) {
+  constexpr double swings = 20.0;
+  return {usual_step_size(drive.backlash), swings * time_scales(drive).swing};
 }
 
 StepResponse step_response(const ReducedDrive& drive, double step, double until) {
@@ -153,7 +156,7 @@ StepResponse step_response(const ReducedDrive& drive, double step, double until)
   constexpr double share = 0.05;
   StepResponse response{.step = step, .until = motion.end_time()};
   response.band = share * std::abs(step);
-  response.stop_reason = motion.stop_reason();
+  response.is_whole = motion.stop_reason() == hybrid::StopReason::reached_end;
   if (motion.end_time() > 0.0) measure(Path(motion, step < 0.0 ? -1.0 : 1.0), response);
   return response;
 }

@@ -19,8 +19,8 @@ namespace {
 
 constexpr char forms[] =
     "must be no-hunting, no-hunting-if-disturbed or no-runaway, or a quantity such as amplitude, "
-    "frequency, period, growth-at-rest, ceiling, bandwidth or static-error, then <= or >=, then a "
-    "limit, as in \"amplitude <= 1 arcmin\"; several joined by \"and\"";
+    "frequency, period, growth-at-rest, ceiling, bandwidth, overshoot or static-error, then <= or "
+    ">=, then a limit, as in \"amplitude <= 1 arcmin\"; several joined by \"and\"";
 
 struct Condition {
   std::string_view quantity;
@@ -38,6 +38,12 @@ std::optional<Condition> split(std::string_view condition) {
                      trimmed(condition.substr(place + relation.size()))};
   }
   return std::nullopt;
+}
+
+bool has_time(Quantity quantity) {
+  const Dimension* dimension = entry_of(quantity).dimension;
+  return dimension == &dimensions::time || dimension == &dimensions::rate ||
+         dimension == &dimensions::angular_speed;
 }
 
 bool is_frequency(Quantity quantity) {
@@ -87,7 +93,7 @@ class TargetReader {
     if (!quantity || info_of(*quantity).kind != QuantityKind::number)
       refuse(field_, condition, forms);
     const bool is_period = quantity == Quantity::period;
-    if (time_scale_ == TimeScale::unknown && (is_period || is_frequency(*quantity))) {
+    if (time_scale_ == TimeScale::unknown && has_time(*quantity)) {
       refuse(field_, condition,
              "needs a time scale: a servo with a natural_frequency, or a data sheet");
     }
@@ -106,7 +112,7 @@ class TargetReader {
     if (is_frequency(quantity)) {  // "5 Hz" or "30 rad/s"
       return to_si(field_, text, dimensions::angular_frequency) / (2.0 * std::numbers::pi);
     }
-    if (dimension == nullptr) return read_number(field_, text);
+    if (dimension == nullptr) return read_share(field_, text);
     if (dimension == &dimensions::angle) return read_angle(field_, text).si;
     return to_si(field_, text, *dimension);
   }

@@ -90,6 +90,11 @@ Value of_loop(const Answer& answer) {
   return answer.loop ? (*answer.loop).*member : std::nullopt;
 }
 
+template <auto member>
+Value of_step(const Answer& answer) {
+  return answer.step ? (*answer.step).*member : std::nullopt;
+}
+
 constexpr auto of_answer = QuantityScope::answer;
 constexpr auto of_motion = QuantityScope::motion;
 constexpr auto number = QuantityKind::number;
@@ -158,28 +163,45 @@ constexpr std::array entries = {
                  "largest error at rest that was found, reference minus load", of_answer, number},
         .dimension = &dimensions::angle,
         .value = static_error_of},
-    QuantityEntry{.info = {Quantity::ceiling, "ceiling", "rad",
-                           "proved bound of the load's motion in the end", of_answer, number},
-                  .dimension = &dimensions::angle,
-                  .value = of_ceiling<&Ceiling::load>},
+    QuantityEntry{
+        .info = {Quantity::ceiling, "ceiling", "rad",
+                 "proved bound of the load's motion in the end", QuantityScope::ceiling, number},
+        .dimension = &dimensions::angle,
+        .value = of_ceiling<&Ceiling::load>},
     QuantityEntry{.info = {Quantity::motor_ceiling, "motor_ceiling", "rad",
                            "proved bound of the motor's motion in the end, at the load's shaft",
-                           of_answer, number},
+                           QuantityScope::ceiling, number},
                   .dimension = &dimensions::angle,
                   .value = of_ceiling<&Ceiling::motor>},
     QuantityEntry{.info = {Quantity::effort_ceiling, "effort_ceiling", "N m",
                            "proved bound of the motor's torque in the end, at the load's shaft",
-                           of_answer, number},
+                           QuantityScope::ceiling, number},
                   .dimension = &dimensions::torque,
                   .value = of_ceiling<&Ceiling::effort>},
-    QuantityEntry{.info = {Quantity::bandwidth, "bandwidth", "Hz",
-                           "bandwidth of the linear loop without the gap", of_answer, number},
-                  .dimension = &dimensions::rate,
-                  .value = of_loop<&LinearLoop::bandwidth>},
-    QuantityEntry{.info = {Quantity::phase_margin, "phase_margin", "rad",
-                           "phase margin of the linear loop without the gap", of_answer, number},
-                  .dimension = &dimensions::angle,
-                  .value = of_loop<&LinearLoop::phase_margin>}};
+    QuantityEntry{
+        .info = {Quantity::bandwidth, "bandwidth", "Hz",
+                 "bandwidth of the linear loop without the gap", QuantityScope::loop, number},
+        .dimension = &dimensions::rate,
+        .value = of_loop<&LinearLoop::bandwidth>},
+    QuantityEntry{
+        .info = {Quantity::phase_margin, "phase_margin", "rad",
+                 "phase margin of the linear loop without the gap", QuantityScope::loop, number},
+        .dimension = &dimensions::angle,
+        .value = of_loop<&LinearLoop::phase_margin>},
+    QuantityEntry{.info = {Quantity::rise_time, "rise_time", "s",
+                           "time in which a step of the reference takes the load from 10 % to 90 %",
+                           QuantityScope::step, number},
+                  .dimension = &dimensions::time,
+                  .value = of_step<&StepResponse::rise_time>},
+    QuantityEntry{.info = {Quantity::overshoot, "overshoot", "1",
+                           "by which the load exceeds a step of the reference, as a share of it",
+                           QuantityScope::step, number},
+                  .value = of_step<&StepResponse::overshoot>},
+    QuantityEntry{.info = {Quantity::settling_time, "settling_time", "s",
+                           "time after which the load stays within 5 % of a step of the reference",
+                           QuantityScope::step, number},
+                  .dimension = &dimensions::time,
+                  .value = of_step<&StepResponse::settling_time>}};
 
 constexpr bool are_in_order() {
   for (std::size_t i = 0; i < entries.size(); ++i) {

@@ -23,9 +23,9 @@ std::string angle(const ComparisonReport& report, double radians) {
   return angle_text(radians, first_of(report).angle, digits);
 }
 
-std::string time(const ComparisonReport& report, double seconds) {
-  if (std::isnan(seconds)) return "–";
-  return time_text(seconds, first_of(report).is_normalized, digits);
+std::string time(const ComparisonReport& report, const std::optional<double>& seconds) {
+  if (!seconds) return "–";
+  return time_text(*seconds, first_of(report).is_normalized, digits);
 }
 
 // ---- cells --------------------------------------------------------------------------------------
@@ -110,7 +110,7 @@ std::string meaning(const ComparisonReport& report) {
     }
   }
   for (const SensorCase& one : report.cases) {
-    if (one.response.stop_reason == hybrid::StopReason::reached_end) continue;
+    if (one.response.is_whole) continue;
     text += fmt::format("With the sensor on {}, the step response could be followed only for {}. ",
                         name_of(one.place), time(report, one.response.until));
   }
@@ -125,7 +125,7 @@ std::string comparison_text(const ComparisonReport& report) {
   const auto response = [&](const auto& number) {
     return [&report, number](const SensorCase& one) { return time(report, number(one.response)); };
   };
-  const drive::StepResponse& first = report.cases.front().response;
+  const StepResponse& first = report.cases.front().response;
   std::vector<std::vector<std::string>> rows = {
       row(report, "sensor on",
           [](const SensorCase& one) { return std::string(name_of(one.place)); }),
@@ -141,13 +141,14 @@ std::string comparison_text(const ComparisonReport& report) {
       row(report, "step of " + angle(report, first.step),
           [](const SensorCase&) { return std::string(); }),
       row(report, "  rise, 10 % to 90 %",
-          response([](const drive::StepResponse& one) { return one.rise_time; })),
+          response([](const StepResponse& one) { return one.rise_time; })),
       row(report, "  overshoot",
           [](const SensorCase& one) {
-            return fmt::format("{:.1f} %", 100.0 * one.response.overshoot);
+            const std::optional<double>& overshoot = one.response.overshoot;
+            return overshoot ? fmt::format("{:.1f} %", 100.0 * *overshoot) : "–";
           }),
       row(report, "  settled to 5 %",
-          response([](const drive::StepResponse& one) { return one.settling_time; })),
+          response([](const StepResponse& one) { return one.settling_time; })),
       row(report, "  error at the end",
           [&](const SensorCase& one) { return angle(report, one.response.final_error); }),
       row(report, "  amplitude at the end",
@@ -158,15 +159,15 @@ std::string comparison_text(const ComparisonReport& report) {
 std::string comparison_json(const ComparisonReport& report) {
   Json json = json_head("compare", report.provenance);
   json["cases"] = json_list(report.cases, [](const SensorCase& one) {
-    const drive::StepResponse& response = one.response;
+    const StepResponse& response = one.response;
     return Json{{"sensor", name_of(one.place)},
                 {"encoder_step", json_number(encoder_step(one))},
                 {"step_response",
                  {{"step", json_number(response.step)},
                   {"watched", json_number(response.until)},
-                  {"rise_time", json_number(response.rise_time)},
-                  {"overshoot", json_number(response.overshoot)},
-                  {"settling_time", json_number(response.settling_time)},
+                  {"rise_time", json_optional(response.rise_time)},
+                  {"overshoot", json_optional(response.overshoot)},
+                  {"settling_time", json_optional(response.settling_time)},
                   {"band", json_number(response.band)},
                   {"final_error", json_number(response.final_error)},
                   {"ripple", json_number(response.ripple)}}},

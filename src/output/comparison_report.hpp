@@ -13,7 +13,7 @@ namespace gearlash {
 struct SensorCase {
   SensorPlace place = SensorPlace::load;
   AnswerReport report{};
-  drive::StepResponse response;
+  StepResponse response;
 };
 
 struct ComparisonReport {

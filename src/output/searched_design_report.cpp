@@ -18,22 +18,21 @@ namespace gearlash {
 namespace {
 
 constexpr int few_digits = 3;
-constexpr double turn = 2.0 * std::numbers::pi;
 constexpr double degree = std::numbers::pi / 180.0;
 
 /// In the order of `names_of_costs`.
 std::vector<std::string> costs_text(const DriveWithValue& one, const AngleUnit& angle) {
   const auto error = one.answer.value(Quantity::static_error);
-  const drive::StepResponse& response = one.response;
-  const drive::LoopFigures loop = one.loop.value_or(drive::LoopFigures{});
-  const auto time = [](double seconds) {
-    return std::isnan(seconds) ? "" : significant(seconds, few_digits) + " s";
+  const StepResponse response = one.answer.step.value_or(StepResponse{});
+  const LinearLoop loop = one.answer.loop.value_or(LinearLoop{});
+  const auto time = [](const std::optional<double>& seconds) {
+    return seconds ? significant(*seconds, few_digits) + " s" : "";
   };
   return {error ? angle_text(*error, angle, few_digits) : "",
           time(response.rise_time),
-          std::isnan(response.overshoot) ? "" : fmt::format("{:.1f} %", 100.0 * response.overshoot),
+          response.overshoot ? fmt::format("{:.1f} %", 100.0 * *response.overshoot) : "",
           time(response.settling_time),
-          loop.bandwidth ? significant(*loop.bandwidth / turn, few_digits) + " Hz" : "",
+          loop.bandwidth ? significant(*loop.bandwidth, few_digits) + " Hz" : "",
           loop.phase_margin ? fmt::format("{:.1f} deg", *loop.phase_margin / degree) : ""};
 }
 
@@ -70,7 +69,8 @@ std::string table_of_results(const SearchedDesignReport& report) {
   if (rows.size() == 1) return "";
   return "One change by itself, other parameters fixed; its result at the value nearest to the "
          "present one,\na step of the reference of " +
-         angle_text(report.present.response.step, report.angle, few_digits) +
+         angle_text(report.present.answer.step.value_or(StepResponse{}).step, report.angle,
+                    few_digits) +
          ", and the linear loop without the gap\n" + table_text(rows) + "\n";
 }
 
@@ -205,21 +205,19 @@ Json json_performance(const Answer& answer) {
           {"static_error", json_optional(answer.value(Quantity::static_error))}};
 }
 
-Json json_response(const drive::StepResponse& response) {
+Json json_response(const Answer& answer) {
+  const StepResponse response = answer.step.value_or(StepResponse{});
   return {{"step", json_number(response.step)},
-          {"rise_time", json_number(response.rise_time)},
-          {"overshoot", json_number(response.overshoot)},
-          {"settling_time", json_number(response.settling_time)}};
+          {"rise_time", json_optional(response.rise_time)},
+          {"overshoot", json_optional(response.overshoot)},
+          {"settling_time", json_optional(response.settling_time)}};
 }
 
-Json json_loop(const std::optional<drive::LoopFigures>& loop) {
+Json json_loop(const std::optional<LinearLoop>& loop) {
   if (!loop) return nullptr;
-  const auto hertz = [](const std::optional<double>& frequency) {
-    return frequency ? json_number(*frequency / turn) : Json(nullptr);
-  };
   return {{"stable", loop->is_stable},
-          {"bandwidth", hertz(loop->bandwidth)},
-          {"crossover", hertz(loop->crossover)},
+          {"bandwidth", json_optional(loop->bandwidth)},
+          {"crossover", json_optional(loop->crossover)},
           {"phase_margin", json_optional(loop->phase_margin)}};
 }
 
@@ -231,8 +229,8 @@ Json json_result(const Drive& drive, const FeasibleValues& values, const DriveWi
           {"change_percent",
            has_ratio ? json_number(100.0 * (one.value / values.present - 1.0)) : Json(nullptr)},
           {"performance", json_performance(one.answer)},
-          {"loop", json_loop(one.loop)},
-          {"response", json_response(one.response)}};
+          {"loop", json_loop(one.answer.loop)},
+          {"response", json_response(one.answer)}};
 }
 
 Json json_parameter(const Drive& drive, const SearchedParameter& parameter) {
@@ -302,8 +300,8 @@ std::string design_json(const SearchedDesignReport& report) {
   json["target"] = report.target_text;
   json["met"] = is_known(report.target, present) ? Json(is_met(report.target, present)) : nullptr;
   json["present"] = {{"performance", json_performance(present)},
-                     {"loop", json_loop(report.present.loop)},
-                     {"response", json_response(report.present.response)}};
+                     {"loop", json_loop(report.present.answer.loop)},
+                     {"response", json_response(report.present.answer)}};
   json["answers"] = json_list(report.parameters, [&](const SearchedParameter& parameter) {
     return json_parameter(report.drive, parameter);
   });

@@ -14,6 +14,7 @@ namespace {
 
 using Complex = std::complex<double>;
 constexpr double pi = std::numbers::pi;
+constexpr double turn = 2.0 * pi;  // from Hz to rad/s
 
 /// Crossings of 64 steps a decade are refined to rounding, which the loop's slopes amplify little.
 constexpr double near = 1e-9;
@@ -47,23 +48,23 @@ double root(const Function& function, double low, double high) {
 template <class Open, class Closed>
 void expect_figures(const ReducedDrive& drive, const Open& open, const Closed& closed, double low,
                     double high) {
-  const std::optional<LoopFigures> figures = loop_figures(drive);
+  const std::optional<LinearLoop> figures = loop_figures(drive);
   ASSERT_TRUE(figures);
   EXPECT_TRUE(figures->is_stable);
   const double crossover = root([&](double w) { return std::log(std::abs(open(w))); }, low, high);
   ASSERT_TRUE(figures->crossover && figures->phase_margin && figures->bandwidth);
-  EXPECT_NEAR(*figures->crossover, crossover, near * crossover);
+  EXPECT_NEAR(turn * *figures->crossover, crossover, near * crossover);
   EXPECT_NEAR(*figures->phase_margin, pi - std::abs(std::arg(open(crossover))), near);
   const double bandwidth =
       root([&](double w) { return std::abs(closed(w)) - std::sqrt(0.5); }, low, high);
-  EXPECT_NEAR(*figures->bandwidth, bandwidth, near * bandwidth);
+  EXPECT_NEAR(turn * *figures->bandwidth, bandwidth, near * bandwidth);
 }
 
 TEST(OracleLinearLoop, IsThatOfASecondOrderServo) {
   for (const double stiffness : {0.001, 0.02, 2.0, 500.0}) {
     ReducedDrive drive = rigid_drive();
     drive.controller = ProportionalDerivative{stiffness, 0.0};
-    const std::optional<LoopFigures> figures = loop_figures(drive);
+    const std::optional<LinearLoop> figures = loop_figures(drive);
     ASSERT_TRUE(figures);
     EXPECT_TRUE(figures->is_stable);
     // J²ω⁴ + F²ω² = K², written without cancellation.
@@ -71,13 +72,13 @@ TEST(OracleLinearLoop, IsThatOfASecondOrderServo) {
     const double crossover = std::sqrt(2.0 * stiffness * stiffness /
                                        (square + std::hypot(square, 2.0 * inertia * stiffness)));
     ASSERT_TRUE(figures->crossover && figures->phase_margin && figures->bandwidth);
-    EXPECT_NEAR(*figures->crossover, crossover, near * crossover);
+    EXPECT_NEAR(turn * *figures->crossover, crossover, near * crossover);
     EXPECT_NEAR(*figures->phase_margin, std::atan2(friction, inertia * crossover), near);
     const double part = 1.0 - 0.5 * square / (inertia * stiffness);  // 1 − 2ζ²
     const double bandwidth =
         std::sqrt(stiffness / inertia) *
         std::sqrt(part > 0.0 ? part + std::hypot(part, 1.0) : 1.0 / (std::hypot(part, 1.0) - part));
-    EXPECT_NEAR(*figures->bandwidth, bandwidth, near * bandwidth);
+    EXPECT_NEAR(turn * *figures->bandwidth, bandwidth, near * bandwidth);
   }
 }
 
@@ -125,7 +126,7 @@ TEST(OracleLinearLoop, OfACascadeFeedsTheSpeedOfTheMotorBack) {
     const Complex s{0.0, w};
     return speed_controller(s) * cascade.position * load_position(s) / (1.0 + open(w));
   };
-  const std::optional<LoopFigures> figures = loop_figures(drive);
+  const std::optional<LinearLoop> figures = loop_figures(drive);
   ASSERT_TRUE(figures);
   EXPECT_TRUE(figures->is_stable);
   // The resonance of both shafts makes three crossovers: all are found by steps of 1e-5.
@@ -145,12 +146,12 @@ TEST(OracleLinearLoop, OfACascadeFeedsTheSpeedOfTheMotorBack) {
   EXPECT_EQ(count, 3);
   EXPECT_GT(at_least, 100.0);  // not the first
   EXPECT_NEAR(*figures->phase_margin, least, near);
-  EXPECT_NEAR(*figures->crossover, at_least, near * at_least);
+  EXPECT_NEAR(turn * *figures->crossover, at_least, near * at_least);
   double w = 0.1;
   while (std::abs(closed(w)) > std::sqrt(0.5)) w *= 1.001;
   const double bandwidth =
       root([&](double at) { return std::abs(closed(at)) - std::sqrt(0.5); }, w / 1.001, w);
-  EXPECT_NEAR(*figures->bandwidth, bandwidth, near * bandwidth);
+  EXPECT_NEAR(turn * *figures->bandwidth, bandwidth, near * bandwidth);
 }
 
 /// L(z) of proportional control with speed by differences of a shaft without friction, held and
@@ -215,10 +216,10 @@ TEST(OracleLinearLoop, OfAFastSampledDriveIsThatOfADelay) {
            (inertia * s * s + friction * s) * std::exp(-s * (delay + 0.5 * period));
   };
   const double crossover = root([&](double w) { return std::log(std::abs(open(w))); }, 5.0, 100.0);
-  const std::optional<LoopFigures> figures = loop_figures(drive);
+  const std::optional<LinearLoop> figures = loop_figures(drive);
   ASSERT_TRUE(figures && figures->phase_margin);
   const double error = std::pow(crossover * period, 2.0);
-  EXPECT_NEAR(*figures->crossover, crossover, error * crossover);
+  EXPECT_NEAR(turn * *figures->crossover, crossover, error * crossover);
   EXPECT_NEAR(*figures->phase_margin, pi + std::arg(open(crossover)), error);
 }
 
@@ -232,10 +233,11 @@ TEST(PropertyLinearLoop, TheMarginIsTheDelayThatMakesItUnstable) {
     ReducedDrive drive = rigid_drive();
     drive.controller = ProportionalDerivative{2.0 * share(random), 0.3 * share(random)};
     drive.sampling = Sampling{.period = 3e-3 * share(random)};
-    const std::optional<LoopFigures> figures = loop_figures(drive);
+    const std::optional<LinearLoop> figures = loop_figures(drive);
     ASSERT_TRUE(figures && figures->phase_margin);
     const double period = drive.sampling->period;
-    const double periods = std::floor(*figures->phase_margin / (*figures->crossover * period));
+    const double periods =
+        std::floor(*figures->phase_margin / (turn * *figures->crossover * period));
     drive.sampling->delay = periods * period;
     EXPECT_TRUE(loop_figures(drive)->is_stable);
     drive.sampling->delay = (periods + 1.0) * period;
@@ -243,7 +245,7 @@ TEST(PropertyLinearLoop, TheMarginIsTheDelayThatMakesItUnstable) {
   }
 }
 
-void expect_none(const std::optional<LoopFigures>& figures) {
+void expect_none(const std::optional<LinearLoop>& figures) {
   ASSERT_TRUE(figures);
   EXPECT_FALSE(figures->is_stable);
   EXPECT_FALSE(figures->bandwidth);
@@ -272,7 +274,7 @@ TEST(EdgeLinearLoop, WhatThereIsNotIsAbsent) {
   ReducedDrive drive = rigid_drive();
   drive.gravity.stiffness = 4.0;
   drive.motor.friction.viscous = 1.0;  // no resonance
-  std::optional<LoopFigures> figures = loop_figures(drive);
+  std::optional<LinearLoop> figures = loop_figures(drive);
   ASSERT_TRUE(figures);
   EXPECT_TRUE(figures->is_stable);
   EXPECT_FALSE(figures->phase_margin);  // |L| is at most 2/4

@@ -51,7 +51,8 @@ TEST(OracleTune, TheGreatestBandwidthIsAtTheBorderOfHunting) {
   EXPECT_LE(tuned.values[0], border);
   EXPECT_GE(tuned.values[0], (1.0 - 1e-6) * border);
   const auto loop = drive::loop_figures(reduce(with_gain(tuned.values[0])));
-  EXPECT_NEAR(tuned.reached, loop->bandwidth.value(), 1e-9 * tuned.reached);
+  EXPECT_NEAR(tuned.reached, 2.0 * std::numbers::pi * loop->bandwidth.value(),
+              1e-9 * tuned.reached);
   EXPECT_EQ(get(tuned.drive, "controller.proportional"), tuned.values[0]);
 }
 

@@ -42,6 +42,11 @@ TEST(TargetText, IsReadWithItsUnits) {
   EXPECT_EQ(low(read("bandwidth >= 30 rad/s"), Quantity::bandwidth),
             30.0 / (2.0 * std::numbers::pi));
   EXPECT_EQ(low(read("phase-margin >= 30 deg"), Quantity::phase_margin), 30.0 * degree);
+  EXPECT_EQ(read("overshoot <= 10 %").permitted(Quantity::overshoot).high, 0.1);
+  EXPECT_EQ(read("settling-time <= 50 ms and rise-time <= 0.01 s")
+                .permitted(Quantity::settling_time)
+                .high,
+            0.05);
   EXPECT_TRUE(read("no-hunting").no_hunting);
   EXPECT_TRUE(read("no-hunting-if-disturbed").no_hunting_if_disturbed);
   EXPECT_TRUE(read("no-runaway and amplitude <= 1 deg").no_runaway);
@@ -56,6 +61,8 @@ TEST(TargetText, OfADriveMayNameTimesIfItHasThem) {
   EXPECT_EQ(parse_target("size <= 1 deg", drive).permitted(Quantity::amplitude).high, degree);
   EXPECT_THROW((void)parse_target("frequency >= 5 Hz", drive), InvalidInput);
   EXPECT_THROW((void)parse_target("bandwidth >= 5 Hz", drive), InvalidInput);
+  EXPECT_THROW((void)parse_target("rise-time <= 5 s", drive), InvalidInput);
+  EXPECT_EQ(parse_target("overshoot <= 0.1", drive).permitted(Quantity::overshoot).high, 0.1);
   drive.servo->natural_frequency = 14.5;
   EXPECT_EQ(parse_target("frequency >= 5 Hz", drive).permitted(Quantity::frequency).low, 5.0);
 }

@@ -13,10 +13,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr double turn = 2.0 * std::numbers::pi;
-
 /// One value of the gap that meets the target, with the loop that is given.
-SearchedDesignReport report_with(const std::optional<drive::LoopFigures>& loop) {
+SearchedDesignReport report_with(const std::optional<LinearLoop>& loop) {
   SearchedDesignReport report;
   report.target_text = "no-hunting";
   report.target.no_hunting = true;
@@ -26,7 +24,8 @@ SearchedDesignReport report_with(const std::optional<drive::LoopFigures>& loop) 
   parameter.values.searched = {0.02, 2.0};
   parameter.values.intervals = {{0.02, 0.1}};
   parameter.values.grid = {0.02, 0.1, 0.2, 2.0};
-  DriveWithValue one{.value = 0.1, .loop = loop};
+  DriveWithValue one{.value = 0.1};
+  one.answer.loop = loop;
   one.answer.verdict = Verdict::comes_to_rest;
   parameter.results = {one};
   report.parameters = {parameter};
@@ -34,11 +33,10 @@ SearchedDesignReport report_with(const std::optional<drive::LoopFigures>& loop) 
 }
 
 TEST(SearchedDesignReport, ShowsBandwidthInHertzAndPhaseMarginInDegrees) {
-  const SearchedDesignReport report =
-      report_with(drive::LoopFigures{.is_stable = true,
-                                     .bandwidth = 12.5 * turn,
-                                     .phase_margin = std::numbers::pi / 4.0,
-                                     .crossover = 7.25 * turn});
+  const SearchedDesignReport report = report_with(LinearLoop{.is_stable = true,
+                                                             .bandwidth = 12.5,
+                                                             .phase_margin = std::numbers::pi / 4.0,
+                                                             .crossover = 7.25});
   const std::string text = design_text(report);
   EXPECT_THAT(text, HasSubstr("settles  bandwidth  phase margin\n"));
   EXPECT_THAT(text, HasSubstr("12.5 Hz    45.0 deg\n"));
@@ -52,7 +50,7 @@ TEST(SearchedDesignReport, ShowsBandwidthInHertzAndPhaseMarginInDegrees) {
 }
 
 TEST(SearchedDesignReport, LeavesWhatThereIsNotBlank) {
-  const SearchedDesignReport unstable = report_with(drive::LoopFigures{});
+  const SearchedDesignReport unstable = report_with(LinearLoop{});
   EXPECT_THAT(design_text(unstable), Not(HasSubstr(" Hz")));
   EXPECT_THAT(design_text(unstable), Not(HasSubstr(" deg\n")));
   const auto loop = nlohmann::json::parse(design_json(unstable))["answers"][0]["nearest"]["loop"];

@@ -57,7 +57,7 @@ DrawnResults DrawnAnswers::one_by_one(std::size_t rows, std::span<const double> 
                                       Progress& progress) const {
   DrawnResults results;
   const std::size_t width = drive_.varied.size();
-  Wanted wanted = wanted_for(target_);
+  Wanted wanted = wanted_for(target_, drive_.nominal);
   wanted.borders = true;  // of each sample the amplitude counts
   for (std::size_t row = 0; row < rows; ++row) {
     const Drive drive = searched_drive_with(drive_, values.subspan(row * width, width));

@@ -1,10 +1,6 @@
 // What a drive does with another value of one parameter, and what that costs.
 #pragma once
 
-#include <optional>
-
-#include "analysis/linear_loop.hpp"
-#include "analysis/step_response.hpp"
 #include "gearlash/answer.hpp"
 #include "gearlash/grid.hpp"
 
@@ -12,12 +8,11 @@ namespace gearlash {
 
 struct DriveWithValue {
   double value = 0.0;
-  Answer answer{};
-  drive::StepResponse response{};
-  std::optional<drive::LoopFigures> loop{};  ///< empty for a relay
+  Answer answer{};  ///< with its loop and step
 };
 
-/// Without an axis the drive is as it is. Throws InvalidInput if it is unsound with that value.
-DriveWithValue with_value(Drive drive, const Axis* axis, double value, const drive::Step& step);
+/// Without an axis the drive is as it is. The step is the usual one of the drive without the value.
+/// Throws InvalidInput if it is unsound with that value.
+DriveWithValue with_value(const Drive& base, const Axis* axis, double value);
 
 }  // namespace gearlash

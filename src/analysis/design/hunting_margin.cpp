@@ -333,7 +333,7 @@ HuntingMargin hunting_margin(const Drive& drive, const std::vector<Axis>& axes,
   require_none(faults(drive));
   const std::size_t parts = axes.size() + 1;
   HuntingMargin margin;
-  const Answer present = analyse(drive, wanted_for(always_at_rest()), progress);
+  const Answer present = analyse(drive, wanted_for(always_at_rest(), drive), progress);
   margin.hunts = !is_met(always_at_rest(), present);
   margin.is_known = is_known(always_at_rest(), present);
   margin.stopped = present.search && !present.search->is_complete;

@@ -26,8 +26,8 @@ class AnalysedDrives {
  public:
   /// `count` of them are analysed afresh.
   AnalysedDrives(const DriveAlong& drive, std::size_t count, const Target& target,
-                 Progress& progress)
-      : drive_(drive), count_(count), target_(target), progress_(progress) {
+                 const Wanted& wanted, Progress& progress)
+      : drive_(drive), count_(count), target_(target), wanted_(wanted), progress_(progress) {
     for (const QuantityLimit& limit : target.limits) {
       if (info_of(limit.quantity).scope == QuantityScope::motion)
         of_motion_.limits.push_back(limit);
@@ -77,10 +77,9 @@ class AnalysedDrives {
     const JudgedValue unknown{.value = value, .is_known = false, .beyond = Target::infinity};
     if (is_stopped_) return unknown;
     Hearing hearing(*this);
-    const Wanted wanted = wanted_for(target_);
     const auto analysis =
-        std::make_shared<const Analysis>(near ? analyse_near(drive, *near, wanted, hearing)
-                                              : analyse_in_full(drive, wanted, hearing));
+        std::make_shared<const Analysis>(near ? analyse_near(drive, *near, wanted_, hearing)
+                                              : analyse_in_full(drive, wanted_, hearing));
     ++evaluations_;
     const Answer& answer = analysis->answer;
     if (answer.search && !answer.search->is_complete) return unknown;
@@ -125,6 +124,7 @@ class AnalysedDrives {
   const DriveAlong& drive_;
   std::size_t count_;
   const Target& target_;
+  const Wanted wanted_;
   Target of_motion_;
   Progress& progress_;
   std::map<double, Judged> known_;
@@ -279,10 +279,10 @@ std::vector<JudgedValue> of_numbers(AnalysedDrives& analysed, FeasibleValues& fo
 
 /// Precondition: `found` has its grid.
 template <class Search>
-void fill(FeasibleValues& found, const DriveAlong& drive, const Target& target, Progress& progress,
-          const Search& search) {
+void fill(FeasibleValues& found, const DriveAlong& drive, const Target& target,
+          const Wanted& wanted, Progress& progress, const Search& search) {
   found.kind = SearchKind::searched;
-  AnalysedDrives analysed(drive, found.grid.size(), target, progress);
+  AnalysedDrives analysed(drive, found.grid.size(), target, wanted, progress);
   const std::vector<JudgedValue> tried = search(analysed, found);
   if (found.intervals.empty()) found.closest = closest_of(tried);
   found.evaluations = analysed.evaluations();
@@ -311,7 +311,7 @@ std::vector<std::string> usual_parameters(const Drive& drive) {
 FeasibleValues feasible_along(const DriveAlong& drive, const std::vector<double>& grid,
                               const Target& target, Progress& progress) {
   FeasibleValues found{.searched = {grid.front(), grid.back()}, .grid = grid};
-  fill(found, drive, target, progress, of_numbers);
+  fill(found, drive, target, wanted_for(target, drive(grid.front())), progress, of_numbers);
   return found;
 }
 
@@ -344,7 +344,8 @@ FeasibleValues feasible_values(const Drive& drive, const Axis& axis, const Targe
     set_on(axis, changed, value);
     return changed;
   };
-  fill(found, with_value, target, progress, is_word ? of_words : of_numbers);
+  fill(found, with_value, target, wanted_for(target, drive), progress,
+       is_word ? of_words : of_numbers);
   if (!is_word && is_of_ceilings(target)) {
     for (const Bounds& interval : found.intervals) {
       constexpr std::size_t most_boxes = 8000;

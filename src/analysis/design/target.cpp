@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/analyse.hpp"
 #include "base/interval.hpp"
 #include "base/range_check.hpp"
 #include "closed_form/growth_at_rest.hpp"
@@ -128,6 +129,16 @@ double excess_of(const Bounds& limits, const std::optional<double>& value,
   return std::max(above, below);
 }
 
+bool asks_for_step(const Target& target) {
+  return std::any_of(target.limits.begin(), target.limits.end(), [](const QuantityLimit& limit) {
+    return info_of(limit.quantity).scope == QuantityScope::step;
+  });
+}
+
+/// Whether the response to a step could not be followed to its end.
+bool is_cut_short(const Performance&) { return false; }
+bool is_cut_short(const Answer& answer) { return answer.step && !answer.step->is_whole; }
+
 /// As a target is typed.
 std::string written(Quantity quantity) {
   std::string name(name_of(quantity));
@@ -182,20 +193,10 @@ std::optional<double> Performance::value(Quantity quantity) const {
   }
 }
 
-Wanted wanted_for(const Target& target) {
-  const bool asks_for_ceiling =
-      std::any_of(target.limits.begin(), target.limits.end(), [](const QuantityLimit& limit) {
-        return limit.quantity == Quantity::ceiling || limit.quantity == Quantity::motor_ceiling ||
-               limit.quantity == Quantity::effort_ceiling;
-      });
-  const bool asks_for_loop =
-      std::any_of(target.limits.begin(), target.limits.end(), [](const QuantityLimit& limit) {
-        return limit.quantity == Quantity::bandwidth || limit.quantity == Quantity::phase_margin;
-      });
-  return {.proofs = false,
-          .ceiling = asks_for_ceiling,
-          .loop = asks_for_loop,
-          .borders = asks_for_motion(target)};
+Wanted wanted_for(const Target& target, const Drive& base) {
+  Wanted wanted{.proofs = false, .borders = asks_for_motion(target)};
+  for (const QuantityLimit& limit : target.limits) ask_for(limit.quantity, base, wanted);
+  return wanted;
 }
 
 bool is_of_performance(Quantity quantity) {
@@ -250,6 +251,7 @@ bool is_met(const Target& target, const Judged& judged) {
 template <class Judged>
 bool is_known(const Target& target, const Judged& judged) {
   if (is_missed(target, judged)) return true;
+  if (asks_for_step(target) && is_cut_short(judged)) return false;
   switch (judged.verdict) {
     case Verdict::undecided:
       return !asks_for_rest(target) && !target.no_runaway && !asks_for_motion(target);

@@ -15,7 +15,6 @@
 #include "analysis/design/tuned_slopes.hpp"
 #include "analysis/grid/axis.hpp"
 #include "analysis/linear_loop.hpp"
-#include "analysis/step_response.hpp"
 #include "base/on_threads.hpp"
 #include "base/progress_part.hpp"
 #include "base/range_check.hpp"
@@ -79,7 +78,7 @@ bool is_missed_already(const Target& target, const drive::AttractorSearch& searc
 /// What a unit's linear loop says before any search.
 struct JudgedLoop {
   double lacks = 0.0;  ///< how far the drive is from one that is worth a search; 0 if it is
-  double bandwidth = not_a_number;
+  double bandwidth = not_a_number;  ///< rad/s
 };
 
 /// The units of a series with tuned values.
@@ -124,7 +123,7 @@ class Units {
         margin >= task_.least_phase_margin
             ? 0.0
             : without_margin + (task_.least_phase_margin - margin) / std::numbers::pi;
-    return {lacks, loop->bandwidth.value_or(not_a_number)};
+    return {lacks, 2.0 * std::numbers::pi * loop->bandwidth.value_or(not_a_number)};
   }
 
   JudgedUnit judged(std::size_t unit, const Values& tuned, Progress& progress) const {
@@ -133,7 +132,7 @@ class Units {
     if (judged.missed_by > 0.0) return judged;
     const Drive drive = this->drive(unit, tuned);
     judged.answer = analyse_until(
-        drive, wanted_for(task_.target),
+        drive, wanted_for(task_.target, task_.series.nominal),
         [&](const drive::AttractorSearch& search) {
           return is_missed_already(task_.target, search, drive.sampling.has_value());
         },
@@ -154,9 +153,11 @@ class Units {
   double reached_without_search(std::size_t unit, const Values& tuned,
                                 const JudgedLoop& loop) const {
     if (task_.aim == Aim::bandwidth) return loop.bandwidth;
-    const drive::ReducedDrive reduced = reduce(drive(unit, tuned));
-    const drive::Step step = drive::usual_step(reduced);
-    return drive::step_response(reduced, step.size, step.until).settling_time;
+    Answer answer;
+    Wanted wanted;
+    ask_for(Quantity::settling_time, task_.series.nominal, wanted);
+    add_figures(reduce_settled(drive(unit, tuned)), wanted, answer);
+    return answer.value(Quantity::settling_time).value_or(not_a_number);
   }
 
   /// Whether one reached less of the aim than another. An unknown number is the worst.

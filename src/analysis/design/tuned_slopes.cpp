@@ -13,25 +13,19 @@
 #include "analysis/design/target.hpp"
 #include "analysis/final_servo.hpp"
 #include "analysis/grid/axis.hpp"
+#include "analysis/linear_loop.hpp"
 #include "gearlash/sensitivity.hpp"
 #include "numeric/central_difference.hpp"
 
 namespace gearlash {
 namespace {
 
-bool is_of_loop(Quantity quantity) {
-  return quantity == Quantity::bandwidth || quantity == Quantity::phase_margin;
-}
+bool is_of_loop(Quantity quantity) { return info_of(quantity).scope == QuantityScope::loop; }
 
 bool is_of_cycle(Quantity quantity) {
   constexpr std::array of_cycle = {Quantity::amplitude, Quantity::motor_amplitude, Quantity::period,
                                    Quantity::frequency, Quantity::growth_at_rest};
   return std::find(of_cycle.begin(), of_cycle.end(), quantity) != of_cycle.end();
-}
-
-/// As the target's quantities have it.
-std::optional<double> figure_of(const LinearLoop& loop, Quantity quantity) {
-  return quantity == Quantity::phase_margin ? loop.phase_margin : loop.bandwidth;
 }
 
 class UnitSlopes {
@@ -56,34 +50,46 @@ class UnitSlopes {
  private:
   using Slopes = std::vector<std::optional<double>>;
 
-  /// The linear loop's figures beside the unit.
-  std::optional<LinearLoop> figures_at(std::size_t axis, double value) const {
-    Drive drive = unit_;
-    set_on(task_.tuned[axis], drive, value);
-    return faults(drive).empty() ? linear_loop_of(reduce(drive)) : std::nullopt;
+  static Answer with_loop(const Drive& drive) {
+    Answer answer;
+    if (faults(drive).empty()) answer.loop = drive::loop_figures(reduce(drive));
+    return answer;
   }
 
-  std::optional<double> figure_slope(Quantity quantity, std::size_t axis) const {
+  /// The linear loops beside the unit that the differences along an axis need: above and below by
+  /// one step, by two, …
+  std::vector<Answer> loops_beside(std::size_t axis) const {
+    std::vector<Answer> loops;
+    for (std::size_t k = 1; k <= difference_weights.size(); ++k) {
+      for (const double away : {static_cast<double>(k), -static_cast<double>(k)}) {
+        Drive drive = unit_;
+        set_on(task_.tuned[axis], drive, values_[axis] + away * step_on(axis));
+        loops.push_back(with_loop(drive));
+      }
+    }
+    return loops;
+  }
+
+  double step_on(std::size_t axis) const {
     constexpr double share = 1e-3;
-    const double step = share * values_[axis];
+    return share * values_[axis];
+  }
+
+  std::optional<double> loop_slope(Quantity quantity, std::size_t axis) const {
     double slope = 0.0;
     for (std::size_t k = 0; k < difference_weights.size(); ++k) {
-      const double away = static_cast<double>(k + 1) * step;
-      const auto above = figures_at(axis, values_[axis] + away);
-      const auto below = figures_at(axis, values_[axis] - away);
-      if (!above || !below) return std::nullopt;
-      const auto high = figure_of(*above, quantity);
-      const auto low = figure_of(*below, quantity);
+      const std::optional<double> high = loops_[axis][2 * k].value(quantity);
+      const std::optional<double> low = loops_[axis][2 * k + 1].value(quantity);
       if (!high || !low) return std::nullopt;
-      slope += difference_weights[k] * (*high - *low) / step;
+      slope += difference_weights[k] * (*high - *low) / step_on(axis);
     }
     return slope;
   }
 
-  Slopes figure_slopes(Quantity quantity) const {
+  Slopes loop_slopes(Quantity quantity) const {
     Slopes slopes;
     for (std::size_t axis = 0; axis < values_.size(); ++axis) {
-      slopes.push_back(figure_slope(quantity, axis));
+      slopes.push_back(loop_slope(quantity, axis));
     }
     return slopes;
   }
@@ -111,24 +117,23 @@ class UnitSlopes {
   }
 
   bool add_loop() {
-    const auto figures = linear_loop_of(reduce(unit_));
-    if (!figures || !figures->bandwidth || !figures->phase_margin) return false;
-    const double bandwidth = *figure_of(*figures, Quantity::bandwidth);
-    if (!add(numbers_.sizes, -std::log(bandwidth), -1.0 / bandwidth,
-             figure_slopes(Quantity::bandwidth))) {
+    const Answer here = with_loop(unit_);
+    const std::optional<double> bandwidth = here.value(Quantity::bandwidth);
+    if (!bandwidth || !here.value(Quantity::phase_margin)) return false;
+    for (std::size_t axis = 0; axis < values_.size(); ++axis) loops_.push_back(loops_beside(axis));
+    if (!add(numbers_.sizes, -std::log(*bandwidth), -1.0 / *bandwidth,
+             loop_slopes(Quantity::bandwidth))) {
       return false;
     }
-    if (task_.least_phase_margin > 0.0 &&
-        !add_limit({task_.least_phase_margin, Target::infinity}, *figures->phase_margin,
-                   figure_slopes(Quantity::phase_margin))) {
-      return false;
+    std::vector<QuantityLimit> limits = task_.target.limits;
+    std::erase_if(limits, [](const QuantityLimit& limit) { return !is_of_loop(limit.quantity); });
+    if (task_.least_phase_margin > 0.0) {
+      limits.insert(limits.begin(),
+                    {Quantity::phase_margin, {task_.least_phase_margin, Target::infinity}});
     }
-    return std::all_of(task_.target.limits.begin(), task_.target.limits.end(),
-                       [&](const QuantityLimit& limit) {
-                         return !is_of_loop(limit.quantity) ||
-                                add_limit(limit.permitted, *figure_of(*figures, limit.quantity),
-                                          figure_slopes(limit.quantity));
-                       });
+    return std::all_of(limits.begin(), limits.end(), [&](const QuantityLimit& limit) {
+      return add_limit(limit.permitted, *here.value(limit.quantity), loop_slopes(limit.quantity));
+    });
   }
 
   bool add_motion(Progress& progress) {
@@ -166,7 +171,8 @@ class UnitSlopes {
       return derivatives(unit_, quantities, paths);
     }
     if (asks_for_rest) return std::nullopt;
-    const Analysis analysis = analyse_in_full(unit_, wanted_for(task_.target), progress);
+    const Analysis analysis =
+        analyse_in_full(unit_, wanted_for(task_.target, task_.series.nominal), progress);
     const bool is_whole =
         analysis.answer.irregular.empty() && analysis.search && analysis.search->is_complete;
     if (!is_whole) return std::nullopt;
@@ -177,7 +183,8 @@ class UnitSlopes {
   const TuneTask& task_;
   std::vector<std::string> paths_;
   std::vector<double> values_;
-  std::vector<double> per_position_;  ///< of the values, from 0 to 1 along the axis
+  std::vector<double> per_position_;        ///< of the values, from 0 to 1 along the axis
+  std::vector<std::vector<Answer>> loops_;  ///< beside the unit, for each axis
   SlopedNumbers numbers_;
 };
 

@@ -6,7 +6,6 @@
 #include <mutex>
 
 #include "analysis/analyse.hpp"
-#include "analysis/ceiling/ceiling.hpp"
 #include "analysis/grid/followed_drives.hpp"
 #include "base/on_threads.hpp"
 #include "base/shared_progress.hpp"
@@ -16,25 +15,42 @@
 namespace gearlash {
 namespace {
 
-constexpr std::array of_ceiling = {Quantity::ceiling, Quantity::motor_ceiling,
-                                   Quantity::effort_ceiling};
-constexpr std::array of_loop = {Quantity::bandwidth, Quantity::phase_margin};
-
-template <class Quantities>
-bool has_any(const CycleColumns& columns, const Quantities& quantities) {
-  return std::any_of(quantities.begin(), quantities.end(),
-                     [&](Quantity quantity) { return !columns[quantity].empty(); });
+constexpr bool is_figure(QuantityScope scope) {
+  return scope != QuantityScope::answer && scope != QuantityScope::motion;
 }
 
-/// Whether a column is filled by computations of tenths of a millisecond, without motion.
-bool has_ceilings_or_loops(const CycleColumns& columns) {
-  return has_any(columns, of_ceiling) || has_any(columns, of_loop);
-}
+/// The columns of what is computed without the motions that a drive ends in.
+class FigureColumns {
+ public:
+  /// `base`: see ask_for().
+  FigureColumns(const CycleColumns& columns, const Drive& base) : columns_(columns) {
+    for (const QuantityInfo& info : quantities()) {
+      if (!is_figure(info.scope) || columns[info.quantity].empty()) continue;
+      ask_for(info.quantity, base, wanted_);
+      quantities_.push_back(info.quantity);
+    }
+  }
+
+  bool are_none() const { return quantities_.empty(); }
+
+  void write(std::size_t row, const Drive& drive) const {
+    Answer answer;
+    if (faults(drive).empty()) add_figures(reduce_settled(drive), wanted_, answer);
+    for (const Quantity quantity : quantities_) {
+      columns_[quantity][row] = answer.value(quantity).value_or(not_a_number);
+    }
+  }
+
+ private:
+  const CycleColumns& columns_;
+  Wanted wanted_;
+  std::vector<Quantity> quantities_;
+};
 
 /// The number of points in closed form that a thread solves at a time: some tenths of a millisecond
-/// without bounces, some tens of milliseconds with them or with ceilings or loops.
-std::size_t points_at_a_time(const EnginesNeeded& engines, const CycleColumns& columns) {
-  if (has_ceilings_or_loops(columns)) return 16;
+/// without bounces, some tens of milliseconds with them or with figures.
+std::size_t points_at_a_time(const EnginesNeeded& engines, const FigureColumns& figures) {
+  if (!figures.are_none()) return 16;
   return engines.bounces ? 8 : 4096;
 }
 
@@ -79,22 +95,6 @@ void scale(const CycleColumns& columns, std::size_t row, double natural_frequenc
 
 void scale(const CycleColumns& columns, std::size_t row, const FinalServo& servo) {
   scale(columns, row, servo.closed_form.natural_frequency, servo.stiffness.value_or(not_a_number));
-}
-
-/// Ceilings and linear loops need no search.
-void write_ceilings_and_loops(const CycleColumns& columns, std::size_t row, const Drive& drive) {
-  Answer answer;
-  if (faults(drive).empty()) {
-    const drive::ReducedDrive reduced = reduce_settled(drive);
-    if (has_any(columns, of_ceiling)) answer.ceiling = ceiling_of(reduced);
-    if (has_any(columns, of_loop)) answer.loop = linear_loop_of(reduced);
-  }
-  const auto write = [&](Quantity quantity) {
-    if (columns[quantity].empty()) return;
-    columns[quantity][row] = answer.value(quantity).value_or(not_a_number);
-  };
-  for (const Quantity quantity : of_ceiling) write(quantity);
-  for (const Quantity quantity : of_loop) write(quantity);
 }
 
 /// Fills in what Answer::value() gives for drives that come to rest, and for the verdict.
@@ -158,10 +158,10 @@ class Part {
     search(progress);
     for (const std::size_t row : refused_) write(columns_, row, Answer{});
     for (std::size_t row = 0; row < servos_.size(); ++row) complete(columns_, row);
-    if (has_ceilings_or_loops(columns_)) {
-      for (std::size_t row = 0; row < servos_.size(); ++row, walk_again.go_on()) {
-        write_ceilings_and_loops(columns_, row, points_.drive_at(walk_again.values()));
-      }
+    const FigureColumns figures(columns_, points_.drive());
+    for (std::size_t row = 0; !figures.are_none() && row < servos_.size(); ++row) {
+      figures.write(row, points_.drive_at(walk_again.values()));
+      walk_again.go_on();
     }
     count.searched = searched_rows_.size();
     count.refused = refused_.size();
@@ -254,7 +254,8 @@ std::span<const Quantity> quantities_known(const EnginesNeeded& engines) {
   static const std::vector<Quantity> all = [] {
     std::vector<Quantity> list;
     for (const QuantityInfo& info : quantities()) {
-      if (info.kind == QuantityKind::number) list.push_back(info.quantity);
+      const bool is_slow = info.scope == QuantityScope::step;
+      if (info.kind == QuantityKind::number && !is_slow) list.push_back(info.quantity);
     }
     return list;
   }();
@@ -276,9 +277,8 @@ PointAnswer answer_at(const GridPoints& points, std::span<const double> place, Q
     if (!answer.is_drive) return answer;
     write(columns, 0, analyse(drive, {.proofs = false, .borders = false}, progress));
   }
-  if (has_ceilings_or_loops(columns)) {
-    write_ceilings_and_loops(columns, 0, points.drive_at(place));
-  }
+  const FigureColumns figures(columns, points.drive());
+  if (!figures.are_none()) figures.write(0, points.drive_at(place));
   return answer;
 }
 
@@ -341,7 +341,8 @@ GridCount evaluate(const Grid& grid, const GridPoints& points, std::size_t first
   std::mutex adding;
   SharedProgress searches(progress, count);
   const std::vector<std::size_t> begins =
-      parts_of(grid, points.engines(), first, count, points_at_a_time(points.engines(), columns));
+      parts_of(grid, points.engines(), first, count,
+               points_at_a_time(points.engines(), FigureColumns(columns, points.drive())));
   const auto work = [&](std::size_t index) {
     if (searches.is_stopped()) return;
     const std::size_t begin = begins[index];

@@ -41,7 +41,8 @@ GridCount evaluate(const Grid& grid, const GridPoints& points, std::size_t first
 /// The table's own columns.
 CycleColumns columns_of(Table& table);
 
-/// The quantities that a grid of this kind can have: the closed form gives fewer than a search.
+/// The quantities that a table of such a grid has unless others are named: the closed form gives
+/// fewer than a search. Those of a step take milliseconds each, and are left out.
 std::span<const Quantity> quantities_known(const EnginesNeeded& engines);
 
 /// A quantity of the motion: NaN where the drive comes to rest, where a table has amplitude 0.

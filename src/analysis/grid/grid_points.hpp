@@ -30,6 +30,8 @@ class GridPoints {
   /// Determined from the ends of the axes.
   const EnginesNeeded& engines() const { return engines_; }
 
+  /// The grid's own, without values of the axes.
+  const Drive& drive() const { return drive_; }
   Drive drive_at(std::span<const double> values) const;
   /// The point in closed form; empty for an invalid drive or one that must be searched.
   std::optional<FinalServo> servo_at(std::span<const double> values) const;

@@ -85,13 +85,19 @@ TEST(SearchedValues, OfABacklashThatKeepsACeiling) {
   EXPECT_NEAR(found.intervals[0].high, 6e-3, 1e-9 * 6e-3 + 1e-4 * 1e-3 * 9e-3);
 }
 
-/// Of a rigid loop K/(J s² + F s + K), whose gain falls by 3 dB at ω for K = √(2J²ω⁴ + F²ω²) − Jω².
-TEST(OracleSearchedValues, OfAGainThatReachesABandwidth) {
+/// Of a loop K/(J s² + F s + K) while its shafts turn as one.
+Drive second_order() {
   Drive drive = pd_drive();
   drive.motor = {.kind = TorqueControl{}, .inertia = 0.01, .friction = {.viscous = 0.02}};
   drive.load = {.inertia = 0.02, .friction = {.viscous = 0.03}};
   drive.gearbox.ratio = 1.0;
   drive.controller.law = PID{.proportional = 2.0};
+  return drive;
+}
+
+/// Its gain falls by 3 dB at ω for K = √(2J²ω⁴ + F²ω²) − Jω².
+TEST(OracleSearchedValues, OfAGainThatReachesABandwidth) {
+  const Drive drive = second_order();
   const double frequency = 1.5;
   const double w = 2.0 * std::numbers::pi * frequency;
   const double gain =
@@ -110,6 +116,30 @@ TEST(OracleSearchedValues, OfAGainThatReachesABandwidth) {
                                std::array{Quantity::bandwidth, Quantity::phase_margin});
   EXPECT_NEAR(table[Quantity::bandwidth][0], frequency, 1e-9);
   EXPECT_GT(table[Quantity::phase_margin][0], table[Quantity::phase_margin][1]);
+}
+
+/// Its step exceeds the reference by e^(−πζ/√(1 − ζ²)) of it, for the damping ζ = F/(2√(JK)).
+TEST(OracleSearchedValues, OfAGainWithoutMuchOvershoot) {
+  Drive drive = second_order();
+  drive.gearbox.backlash = 0.0;
+  drive.contact = CompliantContact{.stiffness = 1e6, .damping = 10.0};
+  const double ratio = std::log(0.1) / std::numbers::pi;
+  const double damping = std::sqrt(ratio * ratio / (1.0 + ratio * ratio));
+  const double gain = std::pow(0.05 / (2.0 * damping), 2) / 0.03;
+  const Target target = Target{}.require(Quantity::overshoot, {-Target::infinity, 0.1});
+  const Axis axis = logarithmic("controller.proportional", 0.01, 1.0, 5);
+  const FeasibleValues found = feasible_values(drive, axis, target);
+  ASSERT_EQ(found.intervals.size(), 1U);
+  EXPECT_EQ(found.intervals[0].low, 0.01);
+  constexpr double of_stiffness = 1e-6;
+  EXPECT_NEAR(found.intervals[0].high, gain, of_stiffness * gain);
+  const Grid grid{.drive = drive, .axes = {linear(axis.path, gain, 2.0 * gain, 2)}};
+  const Table table = evaluate(grid, std::array{Quantity::overshoot, Quantity::settling_time});
+  EXPECT_NEAR(table[Quantity::overshoot][0], 0.1, of_stiffness);
+  const Answer answer = analyse(with(drive, axis.path, 2.0 * gain), {.step = 0.02});
+  EXPECT_NEAR(answer.value(Quantity::overshoot).value(), table[Quantity::overshoot][1], 1e-9);
+  EXPECT_NEAR(answer.value(Quantity::settling_time).value(), table[Quantity::settling_time][1],
+              1e-9);
 }
 
 TEST(SearchedValues, OfAChoiceAreWords) {

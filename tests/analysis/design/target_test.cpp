@@ -8,6 +8,10 @@
 namespace gearlash {
 namespace {
 
+Target within(Quantity quantity, const Bounds& permitted) {
+  return Target{}.require(quantity, permitted);
+}
+
 Answer answer_with(Verdict verdict) {
   Answer answer{.verdict = verdict};
   answer.search = SearchRecord{};
@@ -76,9 +80,6 @@ TEST(Target, LimitsIrregularMotionBesideACycle) {
 
 TEST(Target, LimitsAnyQuantity) {
   const Answer answer = hunting(Verdict::hunts, 0.1);
-  const auto within = [](Quantity quantity, const Bounds& permitted) {
-    return Target{}.require(quantity, permitted);
-  };
   EXPECT_TRUE(is_met(within(Quantity::amplitude, {0.0, 0.1}), answer));
   EXPECT_FALSE(is_met(within(Quantity::amplitude, {0.0, 0.09}), answer));
   EXPECT_NEAR(excess(within(Quantity::amplitude, {0.0, 0.05}), answer), std::log(2.0), 1e-15);
@@ -103,15 +104,29 @@ TEST(Target, NarrowsALimitThatIsGivenTwice) {
 }
 
 TEST(Target, AsksForWhatItsLimitsAreOf) {
-  const auto of = [](Quantity quantity) {
-    return wanted_for(Target{}.require(quantity, {0.0, 1.0}));
+  const Drive drive = normal_form(0.2, 1.0, 0.3, 0.01);
+  const auto of = [&](Quantity quantity) {
+    return wanted_for(Target{}.require(quantity, {0.0, 1.0}), drive);
   };
-  EXPECT_FALSE(wanted_for(always_at_rest()).borders);
   EXPECT_FALSE(of(Quantity::static_error).borders);
   EXPECT_TRUE(of(Quantity::amplitude).borders);
   EXPECT_TRUE(of(Quantity::ceiling).ceiling);
   EXPECT_TRUE(of(Quantity::phase_margin).loop);
-  EXPECT_FALSE(wanted_for(always_at_rest()).ceiling || wanted_for(always_at_rest()).loop);
+  EXPECT_EQ(of(Quantity::settling_time).step, 0.1);  // ten gaps
+  const Wanted rest = wanted_for(always_at_rest(), drive);
+  EXPECT_FALSE(rest.borders || rest.ceiling || rest.loop || rest.step);
+}
+
+TEST(Target, IsNotKnownWhereAStepWasCutShort) {
+  const Target target = within(Quantity::overshoot, {0.0, 0.1});
+  Answer answer = answer_with(Verdict::comes_to_rest);
+  answer.step = StepResponse{.overshoot = 0.05, .is_whole = true};
+  EXPECT_TRUE(is_met(target, answer));
+  answer.step->overshoot = 0.15;
+  EXPECT_TRUE(is_known(target, answer) && !is_met(target, answer));
+  answer.step = StepResponse{};
+  EXPECT_FALSE(is_known(target, answer));
+  EXPECT_FALSE(is_met(target, answer));
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ TuneTask hunting_task() {
 std::vector<double> numbers_of(const Drive& drive) {
   const auto loop = drive::loop_figures(reduce(drive)).value();
   const Answer answer = analyse(drive, {.proofs = false});
-  const double bandwidth = loop.bandwidth.value() / (2.0 * std::numbers::pi);
+  const double bandwidth = loop.bandwidth.value();
   const double amplitude = answer.value(Quantity::amplitude).value();
   return {-std::log(bandwidth),
           (0.3 - loop.phase_margin.value()) / 0.3,

@@ -90,7 +90,7 @@ Drive with(Drive drive, std::string_view path, double value) {
 bool meets(const DesignTask& task, double value) {
   const Drive drive = with(task.drive, task.axis.path, value);
   if (!faults(drive).empty()) return false;
-  return is_met(task.target, analyse(drive, wanted_for(task.target)));
+  return is_met(task.target, analyse(drive, wanted_for(task.target, task.drive)));
 }
 
 /// Of many values, on all cores.
