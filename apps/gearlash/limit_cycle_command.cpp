@@ -12,6 +12,7 @@
 #include "base/special_numbers.hpp"
 #include "command.hpp"
 #include "gearlash/motion.hpp"
+#include "input/axis_text.hpp"
 #include "input/units.hpp"
 #include "machine_faults.hpp"
 #include "output/answer_report.hpp"
@@ -37,7 +38,9 @@ constexpr char examples[] =
     "  gearlash limit-cycle examples/normalized.toml --format json | jq .cycles[0].amplitude\n"
     "  gearlash limit-cycle examples/robot-joint.toml --set controller.kp=\"0.8 V/deg\" --brief\n"
     "  gearlash limit-cycle examples/elinco-fd162.toml --specification \"10 arcmin\"\n"
-    "  gearlash limit-cycle examples/robot-joint.toml --measured \"0.2 deg, 1.1 Hz\"\n";
+    "  gearlash limit-cycle examples/robot-joint.toml --measured \"0.2 deg, 1.1 Hz\"\n"
+    "  gearlash limit-cycle examples/robot-joint.toml --margins --parameters "
+    "gearbox.backlash,load.inertia,motor.coulomb\n";
 
 struct LimitCycleOptions {
   ServoOptions servo;
@@ -49,6 +52,7 @@ struct LimitCycleOptions {
   std::string measured;
   bool brief = false;
   bool margins = false;
+  std::vector<std::string> parameters;  ///< of the margins
   bool sensitivities = false;
 };
 
@@ -244,23 +248,48 @@ bool is_decided(const Answer& answer) {
 constexpr double tool_bytes = 30e6;
 constexpr double least_memory_limit = 100e6;
 
+/// The parameters of the margins; none: the usual ones.
+std::vector<Axis> read_parameters(const LimitCycleOptions& options, const Drive& drive,
+                                  Faults& faults) {
+  constexpr char field[] = "--parameters";
+  std::vector<Axis> axes;
+  for (const std::string& text : options.parameters) {
+    axes.push_back(faults.collect([&] { return read_axis_or_name(field, text, drive); }, Axis{}));
+  }
+  if (!axes.empty() && !options.margins) {
+    faults.add({field, options.parameters.front(), "must come with --margins", ""});
+  }
+  return axes;
+}
+
+HuntingMargin margin_of(const Drive& drive, const std::vector<Axis>& axes,
+                        const std::optional<ChangeableDrive>& changeable, Progress& progress) {
+  if (!axes.empty()) return hunting_margin(drive, axes, progress);
+  return changeable ? hunting_margin(*changeable, progress) : hunting_margin(drive, progress);
+}
+
+/// What is asked for beside the answer.
+struct Changes {
+  bool margins = false;
+  std::vector<Axis> axes{};  ///< of the margins
+  bool sensitivities = false;
+};
+
 /// Adds margins and sensitivities.
-void add_changes(Work& work, const Drive& drive, bool wants_margins, bool wants_sensitivities,
-                 const Limits& limits) {
+void add_changes(Work& work, const Drive& drive, const Changes& wanted, const Limits& limits) {
   const bool is_closed = gearlash::closed_form_drive(drive).has_value();
   std::optional<ChangeableDrive> changeable;
   if (is_closed) changeable = ChangeableDrive(drive);
   // At the very ends of the ranges, rounding may put the ratios outside them.
   const bool is_sound = !is_closed || validate(changeable->drivetrain()).empty();
-  if (wants_margins && is_sound) {
+  if (wanted.margins && is_sound) {
     TerminalProgress progress("Margins");
     progress.stop_after(limits.seconds);
     progress.stop_above(limits.bytes);
-    work.report.margin =
-        is_closed ? hunting_margin(*changeable, progress) : hunting_margin(drive, progress);
-    work.report.changeable = changeable;
+    work.report.margin = margin_of(drive, wanted.axes, changeable, progress);
+    if (wanted.axes.empty()) work.report.changeable = changeable;
   }
-  if (!wants_sensitivities) return;
+  if (!wanted.sensitivities) return;
   if (!is_closed) {
     work.report.sensitivity = searched_derivatives(drive, work.analysis);
   } else {
@@ -355,16 +384,18 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
     measured = faults.collect([&] { return read_measured(options.measured); },
                               std::optional<MeasuredHunting>());
   }
+  Changes changes{.margins = options.margins,
+                  .sensitivities = options.sensitivities || has_kind(plots, "tornado")};
+  if (written) changes.axes = read_parameters(options, written->drive, faults);
   faults.require_none();
 
   const double begun = steady_seconds();
   Work work = analysed(*written, limits, provenance);
   work.report.specification = specification;
   work.report.measured = measured;
-  const bool wants_sensitivities = options.sensitivities || has_kind(plots, "tornado");
-  if (options.margins || wants_sensitivities) {
+  if (changes.margins || changes.sensitivities) {
     limits.seconds -= steady_seconds() - begun;
-    add_changes(work, written->drive, options.margins, wants_sensitivities, limits);
+    add_changes(work, written->drive, changes, limits);
   }
   Extras extras;
   for (const Plot& plot : plots) {
@@ -417,6 +448,14 @@ void add_limit_cycle_command(Command& app, Action& action) {
                     "Add how far each parameter may change before hunting ends or begins,\n"
                     "and all of them together; with bounces, or without a closed form, this\n"
                     "takes seconds to minutes");
+  command
+      ->add_option("--parameters", options->parameters,
+                   "List the parameters of --margins, by path, separated by commas: any number\n"
+                   "or choice of the drive, searched from 0.1 to 10 times its present value or\n"
+                   "over PATH=FROM:TO:COUNT[:log]; default those of design, and of drives\n"
+                   "without a closed form the backlash and the controller's numbers")
+      ->type_name("NAMES")
+      ->delimiter(',');
   command->add_flag("--sensitivities", options->sensitivities,
                     "Add exact sensitivities to every parameter, in per cent for one per cent; of\n"
                     "searched drives for a continuous controller without encoder");

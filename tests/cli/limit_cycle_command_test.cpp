@@ -362,6 +362,26 @@ TEST(LimitCycleCommand, TellsHowFarHuntingIsAndWhatItDependsOn) {
   EXPECT_THAT(text.out, testing::HasSubstr("Smallest combined change that stops the "));
 }
 
+TEST(LimitCycleCommand, TellsHowFarHuntingIsOverParametersThatAreNamed) {
+  const std::vector<std::string> named = {
+      "load.inertia", "motor.friction=1e-6:1e-3 N m s/rad:7:log", "sensor.position"};
+  std::vector<std::string> asked = {"limit-cycle", "examples/elinco-fd162.toml", "--margins",
+                                    "--parameters"};
+  asked.push_back(named[0] + "," + named[1] + "," + named[2]);
+  const Outcome text = run_tool(asked);
+  ASSERT_EQ(text.status, 0) << text.err;
+  EXPECT_THAT(text.out,
+              AllOf(HasSubstr("Where it comes to rest"), HasSubstr("\n  load.inertia "),
+                    HasSubstr("\n  sensor.position "), HasSubstr("Searched, not proved")));
+  asked.insert(asked.end(), {"--format", "json"});
+  const auto margin = nlohmann::json::parse(run_tool(asked).out)["margin"];
+  ASSERT_EQ(margin["parameters"].size(), 3U);
+  EXPECT_EQ(margin["parameters"][1]["grid"].size(), 8U);  // and the present one
+  EXPECT_TRUE(margin["overall"].is_null());
+  asked.erase(asked.begin() + 2);
+  EXPECT_THAT(run_tool(asked).err, HasSubstr("--parameters = load.inertia: must come with"));
+}
+
 TEST(LimitCycleCommand, TellsHowFarHuntingIsOfADriveThatIsSearched) {
   const std::vector<std::string> asked = {"limit-cycle", "examples/dynamixel-joint.toml",
                                           "--margins"};

@@ -113,9 +113,11 @@ std::vector<Sample> samples(const Trajectory& motion, const Watched& watched) {
 
 namespace {
 
-/// The zero of a continuous function between two times at which its values have unlike signs.
+/// The zero of a continuous function between two times at which its values have unlike signs. Late
+/// in a long motion both may be the same number.
 template <class Function>
 double zero_between(double from, double to, double value, double value_after, Function&& function) {
+  if (!(from < to)) return from;
   std::uintmax_t most = 30;
   const auto [left, right] = boost::math::tools::toms748_solve(
       function, from, to, value, value_after, boost::math::tools::eps_tolerance<double>(40), most);
