@@ -281,8 +281,8 @@ class Continuation {
     return true;
   }
 
-  /// Planes are set up anew at each point. The last point, in the new unknowns, gives the
-  /// direction.
+  /// Planes are set up anew at each point. The last point, in the new unknowns, gives the direction
+  /// as far as both have alike planes; the parameter goes on rising, or falling, on any.
   void go_on_from(const Branch& branch, const Solved& next, const Vector& turned) {
     point_ = next.point;
     tangent_ = turned;
@@ -298,6 +298,7 @@ class Continuation {
         if (solved) {
           point_ = solved->point;
           tangent_ = tangent_of(*solved);
+          if (tangent_[size_] * turned[turned.size() - 1] < 0.0) tangent_ = -tangent_;
           return;
         }
       }

@@ -194,10 +194,11 @@ struct Mark {
 };
 constexpr std::array known_marks = {Mark{"fold", 6},
                                     Mark{"flip", 4},
-                                    Mark{"pitchfork", 8},
+                                    Mark{"branching", 8},
                                     Mark{"Neimark–Sacker", 12},
                                     Mark{"grazing", 3},
                                     Mark{"events change", 1},
+                                    Mark{"endless period", 13},
                                     Mark{"loss of rest", 7},
                                     Mark{"cycle is lost", 10},
                                     Mark{"stability changes", 14}};

@@ -3,15 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/range_check.hpp"
-#include "general/attractors/search_setting.hpp"
-#include "hybrid/continuation.hpp"
-
 namespace gearlash {
 namespace {
-
-constexpr double located_by_branch = 1e-9;
-constexpr double located_by_grazing = 1e-4;
 
 bool are_alike(const drive::FoundCycle& a, const drive::FoundCycle& b) {
   constexpr double share = 0.02;
@@ -36,66 +29,11 @@ const drive::FoundCycle* lost_cycle(const Analysis& here, const Analysis& there)
   return largest;
 }
 
-BorderKind kind_of(hybrid::BifurcationKind kind) {
-  switch (kind) {
-    case hybrid::BifurcationKind::fold:
-      return BorderKind::fold;
-    case hybrid::BifurcationKind::branching:
-      return BorderKind::branching;
-    case hybrid::BifurcationKind::flip:
-      return BorderKind::flip;
-    case hybrid::BifurcationKind::neimark_sacker:
-      return BorderKind::neimark_sacker;
-  }
-  return BorderKind::unnamed;
-}
-
-/// Where a cycle that exists at `from` ends or loses its stability, on the way to `to`. Unnamed if
-/// it does neither.
-Border end_of_cycle(const DriveAlong& drive, const drive::FoundCycle& cycle, double from,
-                    double to) {
-  const hybrid::Family family = [&](double value) {
-    const Drive changed = drive(value);
-    require_none(faults(changed));
-    return drive::search_setting(reduce_settled(changed)).system.system();
-  };
-  hybrid::ContinuationOptions options{.low = std::min(from, to),
-                                      .high = std::max(from, to),
-                                      .upwards = from < to,
-                                      .first_step = 1e-5,
-                                      .longest_step = 0.02,
-                                      .most_points = 120};
-  const hybrid::Branch branch = continue_orbit(family, from, cycle.orbit, options);
-  if (!branch.bifurcations.empty()) {
-    const hybrid::Bifurcation& first = branch.bifurcations.front();
-    return {.kind = kind_of(first.kind), .at = first.parameter, .located = located_by_branch};
-  }
-  if (branch.points.empty()) return {};
-  const double last = branch.points.back().parameter;
-  if (branch.end == hybrid::BranchEnd::grazing) {
-    return {.kind = BorderKind::grazing,
-            .at = last,
-            .located = located_by_grazing,
-            .event = branch.culprit};
-  }
-  if (branch.end == hybrid::BranchEnd::endless_period) {
-    return {.kind = BorderKind::endless_period, .at = last, .located = located_by_grazing};
-  }
-  return {};
-}
-
 /// Those of one side that the other does not have, followed across the border.
 Border end_of_lost_cycle(const DriveAlong& drive, const AnalysedValue& here,
                          const AnalysedValue& there, double to) {
   const drive::FoundCycle* cycle = lost_cycle(here.analysis, there.analysis);
-  if (cycle == nullptr) return {};
-  constexpr std::size_t most_events = 400;  // more take minutes to follow
-  if (cycle->orbit.events.empty() || cycle->orbit.events.size() > most_events) return {};
-  try {
-    return end_of_cycle(drive, *cycle, here.value, to);
-  } catch (const InvalidInput&) {
-    return {};  // the drive is unsound on the way
-  }
+  return cycle == nullptr ? Border{} : end_of_cycle(drive, *cycle, here.value, to);
 }
 
 bool has_rest(const Analysis& analysis) {

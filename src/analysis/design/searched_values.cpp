@@ -339,12 +339,7 @@ FeasibleValues feasible_values(const Drive& drive, const Axis& axis, const Targe
     std::erase_if(found.grid, [&](double word) { return asks_for_more(axis, word, drive); });
   }
   if (present && !is_word && found.searched.contains(*present)) add_present(*present, found.grid);
-  const DriveAlong with_value = [&](double value) {
-    Drive changed = drive;
-    set_on(axis, changed, value);
-    return changed;
-  };
-  fill(found, with_value, target, wanted_for(target, drive), progress,
+  fill(found, drives_along(axis, drive), target, wanted_for(target, drive), progress,
        is_word ? of_words : of_numbers);
   if (!is_word && is_of_ceilings(target)) {
     for (const Bounds& interval : found.intervals) {

@@ -1,15 +1,12 @@
 // The drives along a line that meet a target, by searches on a grid and by following between.
 #pragma once
 
-#include <functional>
 #include <vector>
 
+#include "analysis/grid/cycle_following.hpp"
 #include "gearlash/design.hpp"
 
 namespace gearlash {
-
-/// The drives along a line, one for each number; called from several threads at a time.
-using DriveAlong = std::function<Drive(double)>;
 
 /// What feasible_values() of an axis finds, with the numbers of the line for values of a parameter.
 /// `grid`: the numbers at which the drive is analysed afresh, rising. Precondition: the target has

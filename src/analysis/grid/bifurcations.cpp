@@ -93,15 +93,32 @@ CycleAt point_of(const FollowedCycle& followed) {
           .events = cycle.orbit.events.size()};
 }
 
-std::string word_of(const std::complex<double>& multiplier) {
-  constexpr double real = 1e-3;
-  if (std::abs(multiplier.imag()) > real * std::abs(multiplier)) return "Neimark–Sacker";
-  return multiplier.real() < 0.0 ? "flip" : "pitchfork";
+/// Between two cycles of a branch, as if its numbers were linear.
+CycleAt point_between(const CycleAt& one, const CycleAt& other, double parameter) {
+  const double share = (parameter - one.parameter) / (other.parameter - one.parameter);
+  const auto between = [&](const auto& a, const auto& b) { return a + share * (b - a); };
+  CycleAt point = one;
+  point.parameter = parameter;
+  point.amplitude = between(one.amplitude, other.amplitude);
+  point.motor_amplitude = between(one.motor_amplitude, other.motor_amplitude);
+  point.period = between(one.period, other.period);
+  point.multiplier = between(one.multiplier, other.multiplier);
+  return point;
+}
+
+/// At the parameter of the first.
+CycleAt middle_of(const CycleAt& one, const CycleAt& other) {
+  CycleAt middle = one;
+  middle.amplitude = 0.5 * (one.amplitude + other.amplitude);
+  middle.motor_amplitude = 0.5 * (one.motor_amplitude + other.motor_amplitude);
+  middle.period = 0.5 * (one.period + other.period);
+  return middle;
 }
 
 /// Where a branch ends, away from the ends of the axis.
 struct BranchTip {
   CycleAt point;
+  Border border;          ///< by following the cycle as far as the next value
   bool is_upper = false;  ///< no cycle above it
   std::size_t branch = 0;
 };
@@ -109,7 +126,10 @@ struct BranchTip {
 class Chains {
  public:
   Chains(const Drive& drive, const Axis& axis, const std::vector<std::optional<Analysis>>& values)
-      : axis_(axis), following_(drive, axis), columns_(values.size()) {
+      : axis_(axis),
+        drive_(drives_along(axis, drive)),
+        following_(drive, axis),
+        columns_(values.size()) {
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (!values[i] || !values[i]->search) continue;
       const drive::AttractorSearch& search = *values[i]->search;
@@ -138,7 +158,7 @@ class Chains {
         if (!columns_[i][k].has_previous) write_chain(i, k, diagram, tips);
       }
     }
-    name_tips(std::move(tips), diagram);
+    name_tips(tips, diagram);
   }
 
  private:
@@ -191,8 +211,19 @@ class Chains {
       k = *node.next;
     }
     split(chain, diagram);
-    if (i > 0) tips.push_back({point_of(chain.front()), false, first_branch});
-    if (ends) tips.push_back({point_of(chain.back()), true, diagram.branches.size() - 1});
+    if (i > 0) tips.push_back(tip_of(chain.front(), false, first_branch));
+    if (ends) tips.push_back(tip_of(chain.back(), true, diagram.branches.size() - 1));
+  }
+
+  BranchTip tip_of(const FollowedCycle& last, bool is_upper, std::size_t branch) const {
+    const std::vector<double>& values = axis_.values;  // rising
+    const double from = last.parameter;
+    const double to = is_upper ? *std::upper_bound(values.begin(), values.end(), from)
+                               : *std::prev(std::lower_bound(values.begin(), values.end(), from));
+    return {.point = point_of(last),
+            .border = end_of_cycle(drive_, last.cycle, from, to),
+            .is_upper = is_upper,
+            .branch = branch};
   }
 
   /// Branches of one stability each. They meet where the stability changes.
@@ -201,10 +232,15 @@ class Chains {
     for (std::size_t i = 0; i < chain.size(); ++i) {
       const CycleAt here = point_of(chain[i]);
       if (here.stability != branch.stability) {
-        const FollowedCycle change = following_.stability_change(chain[i - 1], chain[i]);
-        const CycleAt there = point_of(change);
-        diagram.borders.push_back(
-            {.parameter = there.parameter, .word = word_of(there.multiplier), .cycle = there});
+        const CycleAt last = branch.points.back();
+        const Border border =
+            end_of_cycle(drive_, chain[i - 1].cycle, last.parameter, here.parameter);
+        const bool is_named = border.kind != BorderKind::unnamed;
+        const double parameter = is_named ? border.at : 0.5 * (last.parameter + here.parameter);
+        const CycleAt there = point_between(last, here, parameter);
+        diagram.borders.push_back({.parameter = parameter,
+                                   .word = is_named ? name_of(border.kind) : "stability changes",
+                                   .cycle = there});
         branch.points.push_back(there);
         diagram.branches.push_back(std::move(branch));
         branch = {.stability = here.stability, .points = {there}};
@@ -237,46 +273,73 @@ class Chains {
            std::abs(one.motor_amplitude - other.motor_amplitude) < alike * size;
   }
 
-  void name_tips(std::vector<BranchTip> tips, BifurcationDiagram& diagram) const {
+  /// Whether a stable and an unstable branch end together.
+  static bool is_fold(const BranchTip& tip, const BranchTip& other) {
+    return other.is_upper == tip.is_upper && other.point.stability != tip.point.stability;
+  }
+
+  /// Of the tips from `first` on that have no name yet, the one at which the same happens.
+  std::size_t partner_of(const BranchTip& tip, const std::vector<BranchTip>& tips,
+                         std::size_t first, const std::vector<bool>& is_named) const {
     constexpr double near = 0.02;  // of an interval: some of the last steps
-    constexpr double near_one = 0.1;
+    for (std::size_t i = first; i < tips.size(); ++i) {
+      const BranchTip& other = tips[i];
+      if (is_named[i] || !are_together(tip.point, other.point, near)) continue;
+      const bool is_change =
+          other.is_upper != tip.is_upper && other.point.events != tip.point.events;
+      if (is_fold(tip, other) || is_change) return i;
+    }
+    return tips.size();
+  }
+
+  /// Of two borders the one that is named, and located more closely.
+  static const Border& better_known(const Border& one, const Border& other) {
+    if (one.kind == BorderKind::unnamed || other.kind == BorderKind::unnamed) {
+      return one.kind == BorderKind::unnamed ? other : one;
+    }
+    return other.located < one.located ? other : one;
+  }
+
+  /// What is seen at two tips, of which neither was followed to a border.
+  static Border border_seen(const BranchTip& tip, const BranchTip& other) {
+    const auto [low, high] = std::minmax(tip.point.parameter, other.point.parameter);
+    if (!is_fold(tip, other)) return {.at = 0.5 * (low + high)};
+    return {.kind = BorderKind::fold, .at = tip.is_upper ? high : low};  // both are on one side
+  }
+
+  void name_tips(const std::vector<BranchTip>& tips, BifurcationDiagram& diagram) const {
     std::vector<bool> is_named(tips.size(), false);
     for (std::size_t i = 0; i < tips.size(); ++i) {
       if (is_named[i]) continue;
       const BranchTip& tip = tips[i];
-      MarkedBorder border{
-          .parameter = tip.point.parameter, .word = "cycle is lost", .cycle = tip.point};
-      for (std::size_t j = i + 1; j < tips.size(); ++j) {
-        const BranchTip& other = tips[j];
-        if (is_named[j] || !are_together(tip.point, other.point, near)) continue;
-        const bool is_fold =
-            other.is_upper == tip.is_upper && other.point.stability != tip.point.stability;
-        const bool is_change =
-            other.is_upper != tip.is_upper && other.point.events != tip.point.events;
-        if (!is_fold && !is_change) continue;
-        border.word = is_fold ? "fold" : "events change";
-        const auto [low, high] = std::minmax(tip.point.parameter, other.point.parameter);
-        // Both branches of a fold are on one side of it.
-        border.parameter = !is_fold ? 0.5 * (low + high) : tip.is_upper ? high : low;
-        border.cycle->parameter = border.parameter;
-        border.cycle->amplitude = 0.5 * (tip.point.amplitude + other.point.amplitude);
-        border.cycle->motor_amplitude =
-            0.5 * (tip.point.motor_amplitude + other.point.motor_amplitude);
-        border.cycle->period = 0.5 * (tip.point.period + other.point.period);
-        meet(tip, *border.cycle, diagram);
-        meet(other, *border.cycle, diagram);
-        is_named[j] = true;
-        break;
+      const std::size_t partner = partner_of(tip, tips, i + 1, is_named);
+      const bool has_partner = partner < tips.size();
+      Border border = tip.border;
+      CycleAt place = tip.point;
+      if (has_partner) {
+        const BranchTip& other = tips[partner];
+        is_named[partner] = true;
+        border = better_known(border, other.border);
+        if (border.kind == BorderKind::unnamed) border = border_seen(tip, other);
+        place = middle_of(tip.point, other.point);
       }
-      if (border.word == "cycle is lost" &&
-          std::abs(tip.point.multiplier - std::complex<double>(1.0, 0.0)) < near_one) {
-        border.word = "fold";
+      const bool is_lost = !has_partner && border.kind == BorderKind::unnamed;
+      if (!is_lost) {
+        place.parameter = border.at;
+        meet(tip, place, diagram);
+        if (has_partner) meet(tips[partner], place, diagram);
       }
-      diagram.borders.push_back(std::move(border));
+      diagram.borders.push_back({.parameter = place.parameter,
+                                 .word = is_lost ? "cycle is lost"
+                                         : border.kind == BorderKind::unnamed
+                                             ? "events change"
+                                             : name_of(border.kind),
+                                 .cycle = place});
     }
   }
 
   const Axis& axis_;
+  DriveAlong drive_;
   CycleFollowing following_;
   std::vector<Column> columns_;
 };
@@ -338,11 +401,9 @@ class ClosedBranches {
     CycleBranch begun{.stability = point.stability};
     if (branch) {
       const CycleAt last = diagram_.branches[*branch].points.back();
-      CycleAt middle = point.stability == Stability::unstable ? point : last;
+      const bool is_lost = point.stability == Stability::unstable;
+      CycleAt middle = is_lost ? middle_of(point, last) : middle_of(last, point);
       middle.parameter = 0.5 * (last.parameter + point.parameter);
-      middle.amplitude = 0.5 * (last.amplitude + point.amplitude);
-      middle.motor_amplitude = 0.5 * (last.motor_amplitude + point.motor_amplitude);
-      middle.period = 0.5 * (last.period + point.period);
       diagram_.branches[*branch].points.push_back(middle);
       begun.points.push_back(middle);
       diagram_.borders.push_back(

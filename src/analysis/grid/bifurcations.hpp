@@ -27,8 +27,8 @@ struct CycleBranch {
   std::vector<CycleAt> points{};
 };
 
-/// Where something changes. Words: "fold", "flip", "Neimark–Sacker", "pitchfork", "events change",
-/// "stability changes", "cycle is lost" (of an unknown reason), "loss of rest", "border of
+/// Where something changes. Words: those of BorderKind ("fold", "flip", "grazing", …), "events
+/// change", "stability changes", "cycle is lost" (of an unknown reason), "loss of rest", "border of
 /// running away"; others may be given.
 struct MarkedBorder {
   double parameter = 0.0;
@@ -55,17 +55,16 @@ struct BifurcationDiagram {
 };
 
 /// Analyses the drive at each value of the axis, and follows every cycle found at one value, stable
-/// or unstable, towards both neighbours by Newton's method, in steps that are halved down to 1/32
-/// of an interval where it fails. A branch ends there. The words of its end follow from what is
-/// seen at it: a fold has a branch of the other stability that ends beside it, or a multiplier near
-/// 1; a change of events has a cycle of about this amplitude beyond it with other events. A change
-/// of stability is located by bisection and named by the multiplier that leaves the unit circle (1:
-/// pitchfork, −1: flip, complex: Neimark–Sacker). Rest and running away are borders located by 6
-/// bisections, of closed forms by 40. Values at which the drive is not valid are left out.
-/// Cycles in closed form are joined to those of the next value by amplitude; where their stability
-/// changes, the border is half-way between two values: a "flip" if the multiplier is negative, else
-/// "stability changes", because complex multipliers are known by their modulus alone.
-/// Precondition: two or more numbers on the axis, and no faults in the grid of this axis.
+/// or unstable, towards both neighbours by Newton's method, in steps that are halved down to 1/512
+/// of an interval where it fails. A branch ends there. What happens where a branch ends, or changes
+/// its stability, is found by following the cycle itself (end_of_cycle()). Where that names
+/// nothing, two branches of unlike stability that end together are a fold; a cycle of about this
+/// amplitude beyond the end with other events is a change of events. Rest and running away are
+/// borders located by 6 bisections, of closed forms by 40. Values at which the drive is not valid
+/// are left out. Cycles in closed form are joined to those of the next value by amplitude; where
+/// their stability changes, the border is half-way between two values: a "flip" if the multiplier
+/// is negative, else "stability changes", because complex multipliers are known by their modulus
+/// alone. Precondition: two or more numbers on the axis, and no faults in the grid of this axis.
 BifurcationDiagram bifurcations_of(const Drive& drive, const Axis& axis,
                                    Progress& progress = no_progress());
 

@@ -3,9 +3,84 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/range_check.hpp"
+#include "general/attractors/search_setting.hpp"
+#include "hybrid/continuation.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash {
+namespace {
+
+constexpr double located_by_branch = 1e-9;
+constexpr double located_by_grazing = 1e-4;
+
+BorderKind kind_of(hybrid::BifurcationKind kind) {
+  switch (kind) {
+    case hybrid::BifurcationKind::fold:
+      return BorderKind::fold;
+    case hybrid::BifurcationKind::branching:
+      return BorderKind::branching;
+    case hybrid::BifurcationKind::flip:
+      return BorderKind::flip;
+    case hybrid::BifurcationKind::neimark_sacker:
+      return BorderKind::neimark_sacker;
+  }
+  return BorderKind::unnamed;
+}
+
+/// end_of_cycle() while the drive is sound.
+Border followed_end_of_cycle(const DriveAlong& drive, const drive::FoundCycle& cycle, double from,
+                             double to) {
+  const hybrid::Family family = [&](double value) {
+    const Drive changed = drive(value);
+    require_none(faults(changed));
+    return drive::search_setting(reduce_settled(changed)).system.system();
+  };
+  hybrid::ContinuationOptions options{.low = std::min(from, to),
+                                      .high = std::max(from, to),
+                                      .upwards = from < to,
+                                      .first_step = 1e-5,
+                                      .longest_step = 0.02,
+                                      .most_points = 120};
+  const hybrid::Branch branch = continue_orbit(family, from, cycle.orbit, options);
+  if (!branch.bifurcations.empty()) {
+    const hybrid::Bifurcation& first = branch.bifurcations.front();
+    return {.kind = kind_of(first.kind), .at = first.parameter, .located = located_by_branch};
+  }
+  if (branch.points.empty()) return {};
+  const double last = branch.points.back().parameter;
+  if (branch.end == hybrid::BranchEnd::grazing) {
+    return {.kind = BorderKind::grazing,
+            .at = last,
+            .located = located_by_grazing,
+            .event = branch.culprit};
+  }
+  if (branch.end == hybrid::BranchEnd::endless_period) {
+    return {.kind = BorderKind::endless_period, .at = last, .located = located_by_grazing};
+  }
+  return {};
+}
+
+}  // namespace
+
+DriveAlong drives_along(const Axis& axis, const Drive& drive) {
+  return [&axis, drive](double value) {
+    Drive changed = drive;
+    set_on(axis, changed, value);
+    return changed;
+  };
+}
+
+Border end_of_cycle(const DriveAlong& drive, const drive::FoundCycle& cycle, double from,
+                    double to) {
+  constexpr std::size_t most_events = 400;  // more take minutes to follow
+  if (cycle.orbit.events.empty() || cycle.orbit.events.size() > most_events) return {};
+  try {
+    return followed_end_of_cycle(drive, cycle, from, to);
+  } catch (const InvalidInput&) {
+    return {};  // the drive is unsound on the way
+  }
+}
 
 bool is_same_cycle(const drive::FoundCycle& one, const drive::FoundCycle& other) {
   constexpr double share = 1e-6;
@@ -69,24 +144,6 @@ FollowedWay CycleFollowing::to(const FollowedCycle& from, double parameter) cons
     }
   }
   return way;
-}
-
-FollowedCycle CycleFollowing::stability_change(const FollowedCycle& one,
-                                               const FollowedCycle& other) const {
-  constexpr int halvings = 12;
-  FollowedCycle low = one;
-  double high = position_on(axis_, other.parameter);
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (position_on(axis_, low.parameter) + high);
-    const std::optional<FollowedCycle> found = step(low, value_at(axis_, middle));
-    if (!found) break;
-    if (found->cycle.stability == one.cycle.stability) {
-      low = *found;
-    } else {
-      high = middle;
-    }
-  }
-  return low;
 }
 
 }  // namespace gearlash

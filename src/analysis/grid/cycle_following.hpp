@@ -1,10 +1,12 @@
 // Follows a cycle of a searched drive from one value of a parameter to another.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "analysis/grid/axis.hpp"
+#include "gearlash/design.hpp"
 #include "general/attractors/attractors.hpp"
 
 namespace gearlash {
@@ -32,15 +34,24 @@ class CycleFollowing {
   /// whose amplitudes differ by more than a quarter from the last one's is another.
   FollowedWay to(const FollowedCycle& from, double parameter) const;
 
-  /// Of two neighbours that differ in stability: the cycle between them at which it changes.
-  FollowedCycle stability_change(const FollowedCycle& one, const FollowedCycle& other) const;
-
  private:
   std::optional<FollowedCycle> step(const FollowedCycle& from, double parameter) const;
 
   const Drive& drive_;
   const Axis& axis_;
 };
+
+/// The drives along a line, one for each number; called from several threads at a time.
+using DriveAlong = std::function<Drive(double)>;
+/// Copies of the drive with values of the axis. The axis must outlive them.
+DriveAlong drives_along(const Axis& axis, const Drive& drive);
+
+/// Where a cycle that exists at `from` ends or changes its stability, on the way to `to`, by
+/// continue_orbit(): to 1e-9 of the value, to 1e-4 where it grazes. Unnamed if it does neither, if
+/// the reason is unknown, or if the drive is unsound on the way. A cycle of more than 400 events is
+/// not followed.
+Border end_of_cycle(const DriveAlong& drive, const drive::FoundCycle& cycle, double from,
+                    double to);
 
 /// Whether two cycles of one drive are the same to the accuracy of Newton's method.
 bool is_same_cycle(const drive::FoundCycle& one, const drive::FoundCycle& other);

@@ -70,6 +70,11 @@ TEST(Bifurcations, AFoldJoinsAStableAndAnUnstableBranch) {
       EXPECT_EQ(branch.points[i].amplitude > amplitude, is_stable);
     }
   }
+  // Wherever the branches were left, it is followed to the same place.
+  const BifurcationDiagram wider =
+      bifurcations_of(limited_integral(8.0), linear("controller.integral", 5.0, 8.0, 2));
+  ASSERT_EQ(borders_called(wider, "fold").size(), 1U);
+  EXPECT_NEAR(borders_called(wider, "fold").front().parameter, fold, 1e-8 * fold);
   // From the amplitude of the fold the drive hunts on one side of it alone.
   EXPECT_GT(last_error(limited_integral(1.01 * fold), 1.1 * amplitude, 60.0), 0.9 * amplitude);
   EXPECT_LT(last_error(limited_integral(0.97 * fold), 1.1 * amplitude, 60.0), 0.2 * amplitude);
