@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "analysis/design/sampling.hpp"
+#include "analysis/design/target.hpp"
 #include "command.hpp"
 #include "input/target_text.hpp"
 #include "machine_faults.hpp"
@@ -98,24 +99,14 @@ bool are_searched(const WrittenDrive& written) {
   return is_searched({written.drive, written.tolerances});
 }
 
-void read_sampling(const ToleranceOptions& options, const std::optional<WrittenDrive>& written,
-                   Task& task, Faults& faults) {
-  // They take a fraction of a second, with bounces or searches some minutes.
-  std::string usual_samples = "65536";
-  if (written && may_bounce(*written)) {
-    usual_samples = "512";
-    task.worst_search.samples = 256;
-  }
-  if (written && are_searched(*written)) {
-    usual_samples = "64";
-    task.worst_search = {.samples = 8, .starts = 1};
-  }
+void read_sampling(const ToleranceOptions& options, Task& task, Faults& faults) {
   const auto whole = [&](const char* field, const std::string& text, std::uint64_t least,
                          std::uint64_t most) {
     return faults.collect([&] { return read_whole(field, text, least, most); }, least);
   };
-  task.sampling = sampling_of(whole(
-      "--samples", options.samples.empty() ? usual_samples : options.samples, 32, most_samples));
+  if (!options.samples.empty()) {
+    task.sampling = sampling_of(whole("--samples", options.samples, 32, most_samples));
+  }
   task.sampling.seed = whole("--seed", options.seed, 0, std::uint64_t{1} << 53U);
   if (!options.error.empty()) {
     task.error = read_share("--error", options.error, faults);
@@ -123,6 +114,20 @@ void read_sampling(const ToleranceOptions& options, const std::optional<WrittenD
       faults.add({"--error", options.error, "must be from 0.0001 % to 50 %", ""});
     }
   }
+}
+
+/// As many as take a fraction of a second, or, one by one or searched, seconds to minutes.
+void choose_effort(const ToleranceOptions& options, const WrittenDrive& written, Task& task) {
+  std::uint64_t samples = 65536;
+  const bool are_one_by_one =
+      !is_of_performance(task.questions.target) || task.questions.amplitude != Quantity::amplitude;
+  if (are_one_by_one || may_bounce(written)) samples = 512;
+  if (may_bounce(written)) task.worst_search.samples = 256;
+  if (are_searched(written)) {
+    samples = 64;
+    task.worst_search = {.samples = 8, .starts = 1, .amplitude = task.questions.amplitude};
+  }
+  if (options.samples.empty()) task.sampling = sampling_of(samples, task.sampling);
 }
 
 /// Of a searched drive the motor's, which may hunt within the gap while the load stands still.
@@ -167,7 +172,7 @@ Task read_task(const ToleranceOptions& options) {
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
   const bool has_time = !written || !is_normalized(written->drive);
   const bool is_searched = written && are_searched(*written);
-  read_sampling(options, written, task, faults);
+  read_sampling(options, task, faults);
   read_amplitude(options, is_searched, task, faults);
   read_questions(options, has_time ? TimeScale::known : TimeScale::unknown, task, faults);
   read_outputs(options, task, faults);
@@ -175,6 +180,7 @@ Task read_task(const ToleranceOptions& options) {
     faults.add({"--yield", options.yield, permitted_with_closed_form, ""});
   }
   faults.require_none();
+  choose_effort(options, *written, task);
   task.drive = {is_searched ? written->drive : closed_form_drive(*written, options.servo),
                 written->tolerances};
   task.angle = written->angle;
@@ -237,7 +243,9 @@ void add_tolerance_command(Command& app, Action& action) {
   command
       ->add_option("--samples", options->samples,
                    "Set the least number of samples, rounded up to 16 times a power of\n"
-                   "two; default 65536, with bounces 512, of a drive that is searched 64")
+                   "two; default 65536, with bounces, of the motor, or for a target of other\n"
+                   "quantities than amplitude, frequency and growth at rest 512, of a drive\n"
+                   "that is searched 64")
       ->type_name("N");
   command
       ->add_option("--error", options->error,

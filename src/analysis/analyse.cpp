@@ -401,8 +401,12 @@ void ask_for(Quantity quantity, const Drive& base, Wanted& wanted) {
 
 void add_figures(const drive::ReducedDrive& drive, const Wanted& wanted, Answer& answer) {
   if (wanted.ceiling) answer.ceiling = ceiling_of(drive);
-  if (wanted.loop) answer.loop = drive::loop_figures(drive);
-  if (wanted.step) {
+  // The closed form permits what cannot be followed: no gap, which the loop leaves out anyway, and
+  // a shaft without inertia.
+  drive::ReducedDrive with_gap = drive;
+  if (drive.backlash == 0.0) with_gap.backlash = 1.0;
+  if (wanted.loop && validate(with_gap).empty()) answer.loop = drive::loop_figures(with_gap);
+  if (wanted.step && validate(drive).empty()) {
     answer.step = drive::step_response(drive, *wanted.step, drive::usual_step(drive).until);
   }
 }

@@ -49,9 +49,11 @@ class AnalysedDrives {
     auto beyond = at_end;
     while (upwards ? std::next(beyond) != known_.end() : beyond != known_.begin()) {
       beyond = upwards ? std::next(beyond) : std::prev(beyond);
-      if (beyond->second.is_met || (upwards ? beyond->first > far : beyond->first < far)) break;
+      const Judged& there = beyond->second;
+      const bool is_near = upwards ? beyond->first <= far : beyond->first >= far;
+      if (!is_near || !there.is_known || there.is_met) break;
       const Border border = border_between(drive_, {end, *at_end->second.analysis},
-                                           {beyond->first, *beyond->second.analysis}, far);
+                                           {beyond->first, *there.analysis}, far);
       if (!first) first = border;
       if (border.kind == BorderKind::unnamed || border.kind == BorderKind::rest) continue;
       return border;
@@ -67,6 +69,7 @@ class AnalysedDrives {
   struct Judged {
     Known analysis;
     bool is_met = false;
+    bool is_known = false;
   };
 
   JudgedValue judged(double value, const Known& near) {
@@ -83,13 +86,14 @@ class AnalysedDrives {
     ++evaluations_;
     const Answer& answer = analysis->answer;
     if (answer.search && !answer.search->is_complete) return unknown;
+    const Judged judged{analysis, is_met(target_, answer), is_known(target_, answer)};
     {
       const std::scoped_lock lock(keeping_);
-      known_[value] = {analysis, is_met(target_, answer)};
+      known_[value] = judged;
     }
     return {.value = value,
-            .is_met = is_met(target_, answer),
-            .is_known = is_known(target_, answer),
+            .is_met = judged.is_met,
+            .is_known = judged.is_known,
             .moves = answer.value(Quantity::amplitude).value_or(0.0) > 0.0,
             .beyond = excess(target_, answer),
             .moves_beyond = excess(of_motion_, answer)};

@@ -135,9 +135,9 @@ bool asks_for_step(const Target& target) {
   });
 }
 
-/// Whether the response to a step could not be followed to its end.
+/// Whether the response to a step is unknown, or was not followed to its end.
 bool is_cut_short(const Performance&) { return false; }
-bool is_cut_short(const Answer& answer) { return answer.step && !answer.step->is_whole; }
+bool is_cut_short(const Answer& answer) { return !answer.step || !answer.step->is_whole; }
 
 /// As a target is typed.
 std::string written(Quantity quantity) {

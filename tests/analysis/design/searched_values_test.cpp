@@ -142,6 +142,24 @@ TEST(OracleSearchedValues, OfAGainWithoutMuchOvershoot) {
               1e-9);
 }
 
+/// The closed form answers without a gap. Its loop has a bandwidth, and no step can be followed.
+TEST(EdgeSearchedValues, OfADriveWithoutAGapAreThoseOfItsLoopAndOfNoStep) {
+  Drive drive = second_order();
+  drive.motor.kind = TorqueControl{};
+  drive.gearbox.backlash = 0.1;
+  const Axis axis = linear("gearbox.backlash", 0.0, 0.2, 3);
+  const FeasibleValues loop =
+      feasible_values(drive, axis, Target{}.require(Quantity::bandwidth, {0.1, 100.0}));
+  EXPECT_EQ(loop.intervals, (std::vector<Bounds>{{0.0, 0.2}}));
+  const FeasibleValues step =
+      feasible_values(drive, axis, Target{}.require(Quantity::overshoot, {0.0, 10.0}));
+  ASSERT_EQ(step.intervals.size(), 1U);
+  EXPECT_GT(step.intervals[0].low, 0.0);
+  EXPECT_EQ(step.intervals[0].high, 0.2);
+  EXPECT_EQ(step.undecided, (std::vector<Bounds>{{0.0, step.intervals[0].low}}));
+  EXPECT_TRUE(step.borders.empty());
+}
+
 TEST(SearchedValues, OfAChoiceAreWords) {
   const Drive drive = pd_drive();
   const FeasibleValues found =
