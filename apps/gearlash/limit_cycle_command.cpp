@@ -6,7 +6,6 @@
 
 #include "analysis/analyse.hpp"
 #include "analysis/design/drive_sensitivity.hpp"
-#include "analysis/design/hunting_margin.hpp"
 #include "analysis/design/searched_sensitivity.hpp"
 #include "analysis/final_servo.hpp"
 #include "base/special_numbers.hpp"
@@ -262,12 +261,6 @@ std::vector<Axis> read_parameters(const LimitCycleOptions& options, const Drive&
   return axes;
 }
 
-HuntingMargin margin_of(const Drive& drive, const std::vector<Axis>& axes,
-                        const std::optional<ChangeableDrive>& changeable, Progress& progress) {
-  if (!axes.empty()) return hunting_margin(drive, axes, progress);
-  return changeable ? hunting_margin(*changeable, progress) : hunting_margin(drive, progress);
-}
-
 /// What is asked for beside the answer.
 struct Changes {
   bool margins = false;
@@ -286,7 +279,8 @@ void add_changes(Work& work, const Drive& drive, const Changes& wanted, const Li
     TerminalProgress progress("Margins");
     progress.stop_after(limits.seconds);
     progress.stop_above(limits.bytes);
-    work.report.margin = margin_of(drive, wanted.axes, changeable, progress);
+    work.report.margin = wanted.axes.empty() ? hunting_margin(drive, progress)
+                                             : hunting_margin(drive, wanted.axes, progress);
     if (wanted.axes.empty()) work.report.changeable = changeable;
   }
   if (!wanted.sensitivities) return;

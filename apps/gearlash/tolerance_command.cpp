@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
+#include "analysis/design/drawn_results.hpp"
 #include "analysis/design/sampling.hpp"
-#include "analysis/design/target.hpp"
 #include "command.hpp"
 #include "input/target_text.hpp"
 #include "machine_faults.hpp"
@@ -119,9 +119,9 @@ void read_sampling(const ToleranceOptions& options, Task& task, Faults& faults) 
 /// As many as take a fraction of a second, or, one by one or searched, seconds to minutes.
 void choose_effort(const ToleranceOptions& options, const WrittenDrive& written, Task& task) {
   std::uint64_t samples = 65536;
-  const bool are_one_by_one =
-      !is_of_performance(task.questions.target) || task.questions.amplitude != Quantity::amplitude;
-  if (are_one_by_one || may_bounce(written)) samples = 512;
+  const detail::DrawnAnswers answers(task.drive, task.questions.target, task.questions.amplitude,
+                                     widest_vector_unit());
+  if (answers.are_one_by_one() || may_bounce(written)) samples = 512;
   if (may_bounce(written)) task.worst_search.samples = 256;
   if (are_searched(written)) {
     samples = 64;
@@ -180,7 +180,6 @@ Task read_task(const ToleranceOptions& options) {
     faults.add({"--yield", options.yield, permitted_with_closed_form, ""});
   }
   faults.require_none();
-  choose_effort(options, *written, task);
   task.drive = {is_searched ? written->drive : closed_form_drive(*written, options.servo),
                 written->tolerances};
   task.angle = written->angle;
@@ -189,6 +188,7 @@ Task read_task(const ToleranceOptions& options) {
         {{"DRIVE.toml", shown(options.servo.file),
           "must have a number with a tolerance, such as \"0.61 oz in2 ± 10 %\"", ""}});
   }
+  choose_effort(options, *written, task);
   return task;
 }
 

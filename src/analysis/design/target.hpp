@@ -37,9 +37,9 @@ bool is_ruled_out(const Target& target, double growth_at_rest);
 Performance performance_for(const Target& target, const Drivetrain& drive);
 
 /// What analyse() must compute for the target to be judged, of `base` and of drives with other
-/// values: see ask_for(). Whether a drive hunts or runs away is
-/// known from its starts alone. The largest stable cycle now and then is found only where what lies
-/// between two starts is searched: limits of motion ask for that too.
+/// values: see ask_for(). Whether a drive hunts or runs away is known from its starts alone. The
+/// largest stable cycle now and then is found only where what lies between two starts is searched:
+/// limits of motion ask for that too.
 Wanted wanted_for(const Target& target, const Drive& base);
 
 /// Whether the closed form's performance shows if a target is met: its limits are of growth at
