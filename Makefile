@@ -13,7 +13,7 @@ BUILD := cmake --build --parallel $(JOBS) --preset
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo tool test bench versions clang sanitize fuzz browser oracle million followed designed tuned \
+.PHONY: help demo tool test python bench versions clang sanitize fuzz browser oracle million followed designed tuned \
         derivatives seeded-faults \
         coverage readme format format-check tidy clean package package-check
 
@@ -33,9 +33,15 @@ tool:  ## build the tool alone: build/release/gearlash
 
 test:  ## build everything and run every test
 	@$(INSTALL) test
-	cmake --preset release -DGEARLASH_BUILD_TESTS=ON
+	cmake --preset release -DGEARLASH_BUILD_TESTS=ON -DGEARLASH_BUILD_PYTHON=ON
 	$(BUILD) release
 	ctest --preset release
+
+python:  ## build the Python module, build/release/python, and run its tests
+	@$(INSTALL) python
+	cmake --preset release -DGEARLASH_BUILD_PYTHON=ON
+	$(BUILD) release --target gearlash_python_package --target gearlash_tool
+	ctest --preset release --label-regex '^python$$'
 
 bench:  ## measure the speed beside SUNDIALS CVODE, Boost.odeint and version 0.1
 	@$(INSTALL) bench
@@ -123,7 +129,7 @@ readme: tool  ## renew the output and the pictures in README.md
 	@$(BUILD) release --target hybrid_examples --target drive_examples
 	scripts/readme
 
-FORMAT := find include src apps tests benchmarks examples -name '*.[ch]pp' \
+FORMAT := find include src apps python tests benchmarks examples -name '*.[ch]pp' \
             -exec clang-format-16
 
 format:  ## lay out all C++ as .clang-format says

@@ -3,8 +3,6 @@
 #include <memory>
 #include <sstream>
 
-#include "analysis/analyse.hpp"
-#include "base/progress_part.hpp"
 #include "command.hpp"
 #include "input/units.hpp"
 #include "machine_faults.hpp"
@@ -51,40 +49,20 @@ std::vector<SensorPlace> read_sensors(const std::string& text, Faults& faults) {
 
 /// As typed, else usual_step().
 drive::Step read_step(const CompareOptions& options, const WrittenDrive& written, Faults& faults) {
-  drive::Step step = drive::usual_step(reduce(written.drive));
+  std::optional<double> size;
+  std::optional<double> until;
   if (options.step) {
-    step.size = faults.collect([&] { return read_angle("--step", *options.step).si; }, step.size);
-    if (step.size == 0.0) {
-      faults.add({"--step", shown(*options.step), "must be an angle other than 0", ""});
-    }
+    size = faults.collect([&] { return read_angle("--step", *options.step).si; }, 1.0);
   }
   if (options.until) {
-    step.until =
+    until =
         faults.collect([&] { return read_si("--until", *options.until, dimensions::time); }, 1.0);
-    if (!(step.until > 0.0)) {
-      faults.add({"--until", shown(*options.until), "must be positive", ""});
-    }
   }
-  return step;
-}
-
-/// An encoder keeps its counts per turn on either shaft.
-Drive with_sensor(Drive drive, SensorPlace place) {
-  drive.sensor.position = place;
-  drive.sensor.speed.reset();
-  return drive;
-}
-
-SensorCase compared(const WrittenDrive& written, SensorPlace place, const drive::Step& step,
-                    const Provenance& provenance, Progress& progress) {
-  SensorCase one;
-  one.place = place;
-  const Drive drive = with_sensor(written.drive, place);
-  const drive::ReducedDrive reduced = reduce(drive);
-  one.report = report_of(drive, answer_of(drive::find_attractors(reduced, {}, progress), reduced),
-                         written.angle, provenance);
-  one.response = drive::step_response(reduced, step.size, step.until);
-  return one;
+  return faults.collect(
+      [&] {
+        return step_of_comparison(written.drive, size, until, {"--step", "--until"});
+      },
+      drive::Step{});
 }
 
 ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
@@ -97,13 +75,10 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
   const drive::Step step = written ? read_step(options, *written, faults) : drive::Step{};
   faults.require_none();
 
-  ComparisonReport report{.cases = {}, .provenance = provenance};
+  ComparisonReport report;
   {
     TerminalProgress progress("Comparing");
-    for (const SensorPlace place : places) {
-      ProgressPart part(progress, report.cases.size(), places.size());
-      report.cases.push_back(compared(*written, place, step, provenance, part));
-    }
+    report = compare_sensors(written->drive, places, step, {written->angle, provenance}, progress);
   }
   Extras extras;
   for (const Plot& plot : plots) {

@@ -121,14 +121,8 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
   const DescribedDrive input = described_drive(options.servo, faults);
 
   const Answer& answer = input.analysis.answer;
-  const drive::ReducedDrive reduced = reduce(input.written.drive);
-  const DescribeReport report{.analyses = drive::describing_analyses(reduced),
-                              .drive = input.written.drive,
-                              .answer = answer,
-                              .backlash = reduced.backlash,
-                              .angle = input.written.angle,
-                              .is_normalized = is_normalized(input.written.drive),
-                              .provenance = provenance};
+  const DescribeReport report =
+      describe_report_of(input.written.drive, answer, input.written.angle, provenance);
   Extras extras;
   for (const Plot& plot : plots) {
     extras.make([&] { write_file(plot.file, draw(report, options, plot.format)); });

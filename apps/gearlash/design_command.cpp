@@ -156,19 +156,6 @@ ExitStatus run_closed_form(const DesignOptions& options, const Target& target,
 
 // ---- drives that are searched -------------------------------------------------------------------
 
-/// Whether the closed form answers for this target and these parameters.
-bool has_closed_form(const DesignOptions& options, const Target& target, const Drive& drive) {
-  const std::optional<Drive> closed = gearlash::closed_form_drive(drive);
-  if (!closed || !is_of_performance(target)) return false;
-  const ChangeableDrive changeable(*closed);
-  return std::none_of(
-      options.parameters.begin(), options.parameters.end(), [&](const std::string& name) {
-        const bool has_range = name.find('=') != std::string::npos;
-        return has_range || (changeable.find(name) == nullptr &&
-                             parameter_of({.path = path_named(name, drive)}, drive) != nullptr);
-      });
-}
-
 std::vector<Axis> read_axes(const DesignOptions& options, const Drive& drive, Faults& faults) {
   std::vector<Axis> axes;
   for (const std::string& text :
@@ -228,7 +215,7 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
       },
       Target{});
   if (!written) faults.require_none();
-  if (has_closed_form(options, target, written->drive)) {
+  if (is_closed_form_task(written->drive, target, options.parameters)) {
     return run_closed_form(options, target, *written, plots, provenance, faults);
   }
   return run_searched(options, target, *written, provenance, faults);

@@ -86,14 +86,6 @@ struct Task {
   std::vector<Plot> plots;
 };
 
-/// Whether faces may bounce: a sample then takes milliseconds.
-bool may_bounce(const WrittenDrive& written) {
-  const auto* rigid = std::get_if<RigidContact>(&written.drive.contact);
-  return (rigid != nullptr && rigid->restitution > 0.0) ||
-         std::any_of(written.tolerances.begin(), written.tolerances.end(),
-                     [](const auto& varied) { return varied.path == "contact.restitution"; });
-}
-
 /// Whether each sample is searched.
 bool are_searched(const WrittenDrive& written) {
   return is_searched({written.drive, written.tolerances});
@@ -116,18 +108,16 @@ void read_sampling(const ToleranceOptions& options, Task& task, Faults& faults) 
   }
 }
 
-/// As many as take a fraction of a second, or, one by one or searched, seconds to minutes.
-void choose_effort(const ToleranceOptions& options, const WrittenDrive& written, Task& task) {
-  std::uint64_t samples = 65536;
-  const detail::DrawnAnswers answers(task.drive, task.questions.target, task.questions.amplitude,
-                                     widest_vector_unit());
-  if (answers.are_one_by_one() || may_bounce(written)) samples = 512;
-  if (may_bounce(written)) task.worst_search.samples = 256;
-  if (are_searched(written)) {
-    samples = 64;
+/// The samples, and a search for the worst of them that takes no longer.
+void choose_effort(const ToleranceOptions& options, Task& task) {
+  if (may_bounce(task.drive)) task.worst_search.samples = 256;
+  if (is_searched(task.drive)) {
     task.worst_search = {.samples = 8, .starts = 1, .amplitude = task.questions.amplitude};
   }
-  if (options.samples.empty()) task.sampling = sampling_of(samples, task.sampling);
+  if (!options.samples.empty()) return;
+  const std::uint64_t seed = task.sampling.seed;
+  task.sampling = usual_sampling(task.drive, task.questions);
+  task.sampling.seed = seed;
 }
 
 /// Of a searched drive the motor's, which may hunt within the gap while the load stands still.
@@ -188,7 +178,7 @@ Task read_task(const ToleranceOptions& options) {
         {{"DRIVE.toml", shown(options.servo.file),
           "must have a number with a tolerance, such as \"0.61 oz in2 ± 10 %\"", ""}});
   }
-  choose_effort(options, *written, task);
+  choose_effort(options, task);
   return task;
 }
 

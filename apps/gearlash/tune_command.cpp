@@ -47,53 +47,26 @@ struct TuneOptions {
   std::string format = "text";
 };
 
-/// The gains that are above 0.
-std::vector<std::string> usual_gains(const Drive& drive) {
-  constexpr std::array gains = {"controller.proportional", "controller.integral",
-                                "controller.derivative",   "controller.position",
-                                "controller.speed",        "controller.speed_integral",
-                                "controller.gain"};
-  std::vector<std::string> usual;
-  for (const char* gain : gains) {
-    const Axis axis{.path = gain};
-    if (parameter_of(axis, drive) == nullptr) continue;
-    if (present_value(axis, drive).value_or(0.0) > 0.0) usual.emplace_back(gain);
-  }
-  return usual;
+Axis by_ratio_if_positive(Axis axis) {
+  if (!axis.values.empty()) axis.logarithmic = axis.values.front() > 0.0;
+  return axis;
 }
 
 /// PATH=FROM:TO, by ratio where both ends are positive; or an axis as of design.
 Axis read_range(const std::string& text, const Drive& drive) {
   const bool has_two_ends = std::count(text.begin(), text.end(), ':') == 1;
   Axis axis = read_axis_or_name("--parameters", has_two_ends ? text + ":2" : text, drive);
-  const bool is_usual = text.find('=') == std::string::npos;  // it has 0 besides values by ratio
-  if (is_usual && axis.values.size() > 2 && axis.values.front() == 0.0) {
-    axis.values.erase(axis.values.begin());
-  }
-  if (!axis.values.empty()) axis.logarithmic = axis.values.front() > 0.0;
-  return axis;
+  const bool is_usual = text.find('=') == std::string::npos;
+  return is_usual ? usual_axis_to_tune(drive, axis.path) : by_ratio_if_positive(std::move(axis));
 }
 
-struct NamedTarget {
-  Target target{};
-  std::string text{};
-};
-
-/// To rest, or to move the sensed shaft by one step of its encoder at most.
-NamedTarget usual_target(const Drive& drive, const AngleUnit& angle) {
-  NamedTarget usual{.target = {.no_runaway = true}};
-  const drive::ReducedDrive reduced = reduce(drive);
-  const double step = reduced.sensing.resolution;
-  if (step == 0.0) {
-    usual.target.no_hunting = true;
-    usual.text = "no-hunting and no-runaway";
-    return usual;
-  }
-  const bool is_of_motor = reduced.sensing.load_share_of_position < 0.5;
-  usual.target.require(is_of_motor ? Quantity::motor_amplitude : Quantity::amplitude, {0.0, step});
-  usual.text = std::string(is_of_motor ? "motor-amplitude" : "amplitude") +
-               " <= " + angle_text(step, angle, 4) + " (one step of the encoder) and no-runaway";
-  return usual;
+/// The usual target in words.
+std::string text_of_usual(const Target& target, const AngleUnit& angle) {
+  if (target.limits.empty()) return "no-hunting and no-runaway";
+  const QuantityLimit& limit = target.limits.front();
+  return std::string(limit.quantity == Quantity::amplitude ? "amplitude" : "motor-amplitude") +
+         " <= " + angle_text(limit.permitted.high, angle, 4) +
+         " (one step of the encoder) and no-runaway";
 }
 
 struct Task {
@@ -143,9 +116,8 @@ Task read_task(const TuneOptions& options) {
   }
   task.target_text = options.target;
   if (options.target.empty()) {
-    auto [target, text] = usual_target(drive, task.angle);
-    task.task.target = std::move(target);
-    task.target_text = std::move(text);
+    task.task.target = usual_target(drive);
+    task.target_text = text_of_usual(task.task.target, task.angle);
   } else {
     const TimeScale scale = is_normalized(drive) ? TimeScale::unknown : TimeScale::known;
     task.task.target =

@@ -51,6 +51,19 @@ struct Grid {
 [[nodiscard]] std::vector<Fault> faults(const Grid& grid,
                                         const std::vector<std::string>& fields = {});
 
+/// A drive with varied parameters, one drive for each row of values: they need not be on a grid.
+struct DriveList {
+  Drive drive{};                                  ///< the values replace its own
+  std::vector<std::string> paths{};               ///< as Axis::path, set in this order
+  std::vector<std::span<const double>> values{};  ///< of each path, SI; all of one length
+
+  [[nodiscard]] std::size_t size() const { return values.empty() ? 1 : values.front().size(); }
+};
+
+/// Every fault of the paths, of their number and lengths, and of values that are not permitted:
+/// those of a path are checked at their smallest and largest, and each must be a number.
+[[nodiscard]] std::vector<Fault> faults(const DriveList& list);
+
 /// Answers in SI, one row per point and one column per quantity. Numbers are those of
 /// Answer::value(), NaN where it is empty. Every row has a verdict.
 class Table {
@@ -90,6 +103,10 @@ class Table {
 /// are no valid drive, and points not reached when `progress` stopped the work, stay unknown.
 /// Throws InvalidInput for a grid with faults().
 [[nodiscard]] Table evaluate(const Grid& grid, std::span<const Quantity> quantities,
+                             Progress& progress = no_progress());
+/// The same for each drive of a list. Without neighbours, none is followed: each is searched
+/// afresh. Throws InvalidInput for a list with faults().
+[[nodiscard]] Table evaluate(const DriveList& list, std::span<const Quantity> quantities,
                              Progress& progress = no_progress());
 [[nodiscard]] inline Table evaluate(const Grid& grid, std::initializer_list<Quantity> quantities,
                                     Progress& progress = no_progress()) {

@@ -52,7 +52,7 @@ struct TrapezoidSignal {
 struct TableSignal {
   std::vector<double> times{};  ///< rising, at least one
   std::vector<double> values{};
-  std::string file{};  ///< the CSV file of the points, as its author named it
+  std::string file{};  ///< the CSV file of the points, as its author named it; empty without one
 
   bool operator==(const TableSignal&) const = default;
 };

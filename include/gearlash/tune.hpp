@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gearlash/answer.hpp"
@@ -84,6 +85,16 @@ struct TunedDrive {
 /// cores. Throws InvalidInput for a task with faults().
 [[nodiscard]] TunedDrive tune(const TuneTask& task, const TuneEffort& effort = {},
                               Progress& progress = no_progress());
+
+/// The controller's gains that are above 0, by their paths.
+[[nodiscard]] std::vector<std::string> usual_gains(const Drive& drive);
+
+/// usual_axis() without the value 0, by ratio where it is positive. Throws as that does.
+[[nodiscard]] Axis usual_axis_to_tune(const Drive& drive, std::string_view parameter);
+
+/// To come to rest, or to move the sensed shaft by one step of its encoder at most. No start may
+/// run away. Precondition: a sound drive.
+[[nodiscard]] Target usual_target(const Drive& drive);
 
 /// Why integral action must hunt: with static friction above Coulomb friction, an exact sensor and
 /// no dead band no integral gain lets a drive rest (Armstrong-Hélouvry and Amin, Automatica 32,

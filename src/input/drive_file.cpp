@@ -67,11 +67,11 @@ bool has_normal_form(std::string_view toml, std::string_view source_name) {
 }
 
 WrittenDrive parse_drive(std::string_view toml, std::string_view source_name,
-                         const std::filesystem::path& folder,
-                         const std::vector<Setting>& settings) {
+                         const std::filesystem::path& folder, const std::vector<Setting>& settings,
+                         BareNumbers bare_numbers) {
   const TomlDocument document = document_with(toml, source_name, settings);
   Findings findings(document);
-  WrittenDrive written = read_drive(document, findings, folder);
+  WrittenDrive written = read_drive(document, findings, folder, {}, bare_numbers);
   findings.require_none();
   return written;
 }

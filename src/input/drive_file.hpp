@@ -27,6 +27,10 @@ struct Setting {
   std::string text;
 };
 
+/// Whether numbers without a unit are taken, in SI, where a unit belongs: from a program, whose
+/// numbers are in SI. In a file they are a fault.
+enum class BareNumbers : bool { refused, in_si };
+
 inline constexpr std::size_t largest_drive_file = 1024 * 1024;  ///< bytes
 
 /// Reads TOML text of at most largest_drive_file bytes. docs/drives.md lists the keys, their units
@@ -40,7 +44,8 @@ inline constexpr std::size_t largest_drive_file = 1024 * 1024;  ///< bytes
 /// fault.
 WrittenDrive parse_drive(std::string_view toml, std::string_view source_name,
                          const std::filesystem::path& folder,
-                         const std::vector<Setting>& settings = {});
+                         const std::vector<Setting>& settings = {},
+                         BareNumbers bare_numbers = BareNumbers::refused);
 
 /// Whether the text gives the servo in its normal form, that is, has the section [servo]. Throws
 /// InvalidInput for text that is not TOML.

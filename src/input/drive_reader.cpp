@@ -86,8 +86,12 @@ std::string wanted_text(const Parameter& parameter) {
 class DriveReader {
  public:
   DriveReader(const TomlDocument& document, Findings& findings, const std::filesystem::path& folder,
-              const Variation& variation)
-      : document_(document), findings_(findings), folder_(folder), variation_(variation) {}
+              const Variation& variation, BareNumbers bare_numbers)
+      : document_(document),
+        findings_(findings),
+        folder_(folder),
+        variation_(variation),
+        takes_bare_numbers_(bare_numbers == BareNumbers::in_si) {}
 
   WrittenDrive read() {
     if (is_normal_form()) drive().servo.emplace();
@@ -218,7 +222,7 @@ class DriveReader {
   void read_keys(const std::string& name, bool is_required, const char* contents) {
     SectionReader section(document_, findings_, name, is_required, contents);
     section.collect_tolerances(file_.tolerances);
-    if (name == "servo" || is_robots_form()) section.accept_bare_numbers();
+    if (takes_bare_numbers_ || name == "servo" || is_robots_form()) section.accept_bare_numbers();
     if (place_.line == 0 || name == "motor") place_ = section.place();
     bool kind_is_known = true;
     for (const Parameter& parameter : all_parameters_of_drives()) {
@@ -337,6 +341,7 @@ class DriveReader {
     const bool is_required =
         is_required_in(name, parameter) && kind_is_known && !may_be_left_out(parameter);
     const std::string wanted = wanted_text(parameter);
+    if (is_of_points(parameter) && !section.has("times")) return section.know(key.name);
     if (is_choice(slot)) {
       read_choice(section, name, parameter, key, std::get<Choice>(slot));
     } else if (auto* const* list = std::get_if<std::vector<double>*>(&slot)) {
@@ -344,6 +349,7 @@ class DriveReader {
     } else if (auto* const* rows = std::get_if<Rows*>(&slot)) {
       **rows = section.rows(key.name, wanted);
     } else if (auto* const* text = std::get_if<std::string*>(&slot)) {
+      if (!section.has(key.name) && section.has("times")) return section.know(key.name);
       **text = section.text(key.name, wanted);
       read_table(section, parameter, **text);
     } else if (is_required || section.has(key.name)) {
@@ -352,6 +358,11 @@ class DriveReader {
       section.know(key.name);
       if (may_be_left_out(parameter)) set_number(slot, 1.0);
     }
+  }
+
+  /// The points of a table, which stand in the drive's file instead of one of their own.
+  static bool is_of_points(const Parameter& parameter) {
+    return parameter.path.ends_with(".times") || parameter.path.ends_with(".values");
   }
 
   /// A sweep may omit the normal form's backlash; amplitudes are then in backlashes.
@@ -438,7 +449,9 @@ class DriveReader {
     for (std::optional<Signal>* signal : {&copy.reference, &copy.load_torque}) {
       if (!*signal) continue;
       const auto* table = std::get_if<TableSignal>(&**signal);
-      if (table != nullptr && table->times.empty()) *signal = 0.0;  // its file was refused
+      // Its file was refused, or one of its lists is missing.
+      const bool has_points = table == nullptr || (!table->times.empty() && !table->values.empty());
+      if (!has_points) *signal = 0.0;
     }
     return copy;
   }
@@ -479,6 +492,7 @@ class DriveReader {
   Findings& findings_;
   const std::filesystem::path& folder_;
   const Variation& variation_;
+  bool takes_bare_numbers_;
   WrittenDrive file_;
   Place place_{0, 0};
   bool motor_is_known_ = true;
@@ -487,8 +501,9 @@ class DriveReader {
 }  // namespace
 
 WrittenDrive read_drive(const TomlDocument& document, Findings& findings,
-                        const std::filesystem::path& folder, const Variation& variation) {
-  return DriveReader(document, findings, folder, variation).read();
+                        const std::filesystem::path& folder, const Variation& variation,
+                        BareNumbers bare_numbers) {
+  return DriveReader(document, findings, folder, variation, bare_numbers).read();
 }
 
 }  // namespace gearlash

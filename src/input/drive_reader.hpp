@@ -21,6 +21,7 @@ struct Variation {
 /// it varies; the drive holds placeholders for them. The normal form's backlash may then be left
 /// out too, and is 1.
 WrittenDrive read_drive(const TomlDocument& document, Findings& findings,
-                        const std::filesystem::path& folder, const Variation& variation = {});
+                        const std::filesystem::path& folder, const Variation& variation = {},
+                        BareNumbers bare_numbers = BareNumbers::refused);
 
 }  // namespace gearlash

@@ -73,6 +73,14 @@ Slot member_slot(Drive& drive, Member Kind::*member, Others... others) {
                                                        : first;
 }
 
+/// Of a table that is not read from a file.
+template <class Which>
+Slot point_slot(Drive& drive, std::vector<double> TableSignal::*member) {
+  if (!Which::of(drive)) return {};
+  auto* table = std::get_if<TableSignal>(&*Which::of(drive));
+  return table == nullptr || !table->file.empty() ? Slot{} : Slot{&(table->*member)};
+}
+
 template <class Which>
 Slot constant_slot(Drive& drive) {
   if (!Which::of(drive)) return {};
@@ -86,7 +94,8 @@ const Dimension* value_dimension(const Drive&) {
 }
 
 struct Paths {
-  std::string_view kind, value, before, after, mean, amplitude, frequency, phase, time, file;
+  std::string_view kind, value, before, after, mean, amplitude, frequency, phase, time, file, times,
+      values;
 };
 
 /// Parameters of both kinds of signals.
@@ -143,7 +152,17 @@ std::vector<Parameter> shared_parameters(const Paths& paths,
            .slot = [](Drive& d) { return member_slot<Which>(d, &TableSignal::file); },
            .meaning = "CSV file of times and values, beside the drive's file",
            .is_required = true,
-           .wanted = "the name of a CSV file"}};
+           .wanted = "the name of a CSV file"},
+          {.path = paths.times,
+           .slot = [](Drive& d) { return point_slot<Which>(d, &TableSignal::times); },
+           .meaning = "times of the points in s, rising, instead of a file",
+           .is_required = true,
+           .wanted = "times in s, rising"},
+          {.path = paths.values,
+           .slot = [](Drive& d) { return point_slot<Which>(d, &TableSignal::values); },
+           .meaning = "values at these times, rad or N m",
+           .is_required = true,
+           .wanted = "a value for each of the times"}};
 }
 
 std::vector<Parameter> motion_parameters() {
@@ -186,13 +205,14 @@ std::vector<Parameter> signal_parameters() {
   std::vector<Parameter> list = shared_parameters<ReferenceSignal>(
       {"reference.kind", "reference.value", "reference.before", "reference.after", "reference.mean",
        "reference.amplitude", "reference.frequency", "reference.phase", "reference.time",
-       "reference.file"},
+       "reference.file", "reference.times", "reference.values"},
       {"constant", "step", "ramp", "sine", "trapezoid", "table"});
   for (Parameter& parameter : motion_parameters()) list.push_back(std::move(parameter));
   for (Parameter& parameter : shared_parameters<LoadTorqueSignal>(
            {"load_torque.kind", "load_torque.value", "load_torque.before", "load_torque.after",
             "load_torque.mean", "load_torque.amplitude", "load_torque.frequency",
-            "load_torque.phase", "load_torque.time", "load_torque.file"},
+            "load_torque.phase", "load_torque.time", "load_torque.file", "load_torque.times",
+            "load_torque.values"},
            {"constant", "step", "sine", "table"})) {
     list.push_back(std::move(parameter));
   }

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <optional>
 
+#include "analysis/analyse.hpp"
 #include "analysis/repetition.hpp"
+#include "base/progress_part.hpp"
+#include "base/range_check.hpp"
 #include "input/drive_file.hpp"
 #include "output/columns.hpp"
 #include "output/drive_text.hpp"
@@ -120,6 +123,36 @@ std::string meaning(const ComparisonReport& report) {
 }
 
 }  // namespace
+
+ComparisonReport compare_sensors(const Drive& drive, const std::vector<SensorPlace>& places,
+                                 const drive::Step& step, const ReportStyle& style,
+                                 Progress& progress) {
+  ComparisonReport report{.cases = {}, .provenance = style.provenance};
+  for (const SensorPlace place : places) {
+    ProgressPart part(progress, report.cases.size(), places.size());
+    Drive placed = drive;
+    placed.sensor.position = place;
+    placed.sensor.speed.reset();
+    const drive::ReducedDrive reduced = reduce(placed);
+    const Answer answer = answer_of(drive::find_attractors(reduced, {}, part), reduced);
+    report.cases.push_back({.place = place,
+                            .report = report_of(placed, answer, style.angle, style.provenance),
+                            .response = drive::step_response(reduced, step.size, step.until)});
+  }
+  return report;
+}
+
+drive::Step step_of_comparison(const Drive& drive, std::optional<double> size,
+                               std::optional<double> until, const StepFields& fields) {
+  drive::Step step = drive::usual_step(reduce(drive));
+  step.size = size.value_or(step.size);
+  step.until = until.value_or(step.until);
+  RangeCheck check;
+  if (step.size == 0.0) check.refuse(fields.size, "0", "must be an angle other than 0");
+  if (!(step.until > 0.0)) check.refuse(fields.until, exact_text(step.until), "must be positive");
+  require_none(check.faults());
+  return step;
+}
 
 std::string comparison_text(const ComparisonReport& report) {
   const auto response = [&](const auto& number) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/overloaded.hpp"
+#include "model/reduced_drive.hpp"
 #include "output/answer_report.hpp"
 #include "output/columns.hpp"
 #include "output/drive_text.hpp"
@@ -259,6 +260,18 @@ Json json_analysis(const DescribingAnalysis& analysis, const DescribeReport& rep
 }
 
 }  // namespace
+
+DescribeReport describe_report_of(const Drive& drive, const Answer& answer, const AngleUnit& angle,
+                                  const Provenance& provenance) {
+  const drive::ReducedDrive reduced = reduce(drive);
+  return {.analyses = drive::describing_analyses(reduced),
+          .drive = drive,
+          .answer = answer,
+          .backlash = reduced.backlash,
+          .angle = angle,
+          .is_normalized = is_normalized(drive),
+          .provenance = provenance};
+}
 
 std::string describe_text(const DescribeReport& report) {
   std::string text = exact_text(report);

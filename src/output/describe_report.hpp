@@ -21,6 +21,10 @@ struct DescribeReport {
   Provenance provenance = {};
 };
 
+/// The describing functions of the drive beside its exact answer.
+DescribeReport describe_report_of(const Drive& drive, const Answer& answer,
+                                  const AngleUnit& angle = {}, const Provenance& provenance = {});
+
 /// The exact answer in one line. Then for each analysis a table of predicted and exact values with
 /// the error in per cent, the loop and the assumptions. Ends with a newline.
 std::string describe_text(const DescribeReport& report);

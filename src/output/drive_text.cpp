@@ -45,7 +45,9 @@ std::string value_text(const Parameter& parameter, const Drive& drive) {
     return toml_text(parameter.choices[choice->chosen(drive)]);
   }
   if (auto* const* list = std::get_if<std::vector<double>*>(&slot)) return list_text(**list);
-  if (auto* const* text = std::get_if<std::string*>(&slot)) return toml_text(**text);
+  if (auto* const* text = std::get_if<std::string*>(&slot)) {
+    return (*text)->empty() ? "" : toml_text(**text);
+  }
   if (auto* const* rows = std::get_if<Rows*>(&slot)) {
     std::string text = "[";
     for (std::size_t i = 0; i < (*rows)->size(); ++i) {
@@ -64,7 +66,9 @@ Json value_json(const Parameter& parameter, const Drive& drive) {
   }
   if (auto* const* list = std::get_if<std::vector<double>*>(&slot)) return **list;
   if (auto* const* rows = std::get_if<Rows*>(&slot)) return **rows;
-  if (auto* const* text = std::get_if<std::string*>(&slot)) return **text;
+  if (auto* const* text = std::get_if<std::string*>(&slot)) {
+    return (*text)->empty() ? Json(nullptr) : Json(**text);
+  }
   const std::optional<double> number = number_in(parameter, drive);
   return number ? json_number(*number) : Json(nullptr);
 }

@@ -16,6 +16,7 @@
 namespace gearlash {
 namespace {
 
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -292,6 +293,37 @@ TEST_F(DriveFileTable, EdgeANameIsNeeded) {
   EXPECT_THAT(
       refusals(replaced(text_, "\"move.csv\"", "\"\""), folder_),
       ElementsAre(HasSubstr("18:8: reference.file = \"\": must be the name of a CSV file")));
+}
+
+TEST_F(DriveFileTable, MayStandInTheDrivesOwnFile) {
+  const std::string inline_text =
+      replaced(text_, "file = \"move.csv\"", "times = [0, 0.5, 1]\nvalues = [0, 1.5, 0.75]");
+  const Drive drive = parse_drive(inline_text, "drive.toml", folder_, {}).drive;
+  const auto table = std::get<TableSignal>(*drive.reference);
+  EXPECT_THAT(table.times, ElementsAre(0.0, 0.5, 1.0));
+  EXPECT_THAT(table.values, ElementsAre(0.0, 1.5, 0.75));
+  EXPECT_EQ(table.file, "");
+}
+
+TEST_F(DriveFileTable, EdgePointsAreCheckedLikeAFile) {
+  write("time (s),position (deg)\n0,0\n1,1\n");
+  const auto with = [&](const std::string& keys) {
+    return refusals(replaced(text_, "file = \"move.csv\"", keys), folder_);
+  };
+  EXPECT_THAT(with("times = [0, 1]"), ElementsAre(HasSubstr("reference.values")));
+  EXPECT_THAT(with("times = [0, 1]\nvalues = [0]"), ElementsAre(HasSubstr("as many as values")));
+  EXPECT_THAT(with("times = [1, 0]\nvalues = [0, 1]"), ElementsAre(HasSubstr("reference.times")));
+  EXPECT_THAT(with("file = \"move.csv\"\ntimes = [0]\nvalues = [0]"),
+              Contains(HasSubstr("reference.times")));
+  EXPECT_THAT(with("values = [0]"), Contains(HasSubstr("reference.file")));
+}
+
+TEST(BareNumbers, AreInSiWhereAProgramGivesThem) {
+  const std::string text = replaced(plain, "\"1 deg\"", "0.25") + "[loop]\nerror_gain = 3\n";
+  EXPECT_FALSE(refusals(text, {}).empty());
+  const Drive drive = parse_drive(text, "", {}, {}, BareNumbers::in_si).drive;
+  EXPECT_EQ(drive.gearbox.backlash, 0.25);
+  EXPECT_EQ(std::get<PID>(drive.controller.law).proportional, 3.0);
 }
 
 // ---- faults -------------------------------------------------------------------------------------

@@ -7,6 +7,8 @@
 
 #include "analysis/design/target.hpp"
 #include "analysis/design/value_scan.hpp"
+#include "analysis/final_servo.hpp"
+#include "analysis/grid/axis.hpp"
 #include "base/on_threads.hpp"
 #include "base/range_check.hpp"
 #include "closed_form/growth_at_rest.hpp"
@@ -277,6 +279,18 @@ FeasibleValues feasible_values(const ChangeableDrive& drive, std::string_view pa
   if (found.intervals.empty()) found.closest = search.closest(found.searched);
   found.evaluations = search.evaluations();
   return found;
+}
+
+bool is_closed_form_task(const Drive& drive, const Target& target,
+                         const std::vector<std::string>& parameters) {
+  const std::optional<Drive> closed = closed_form_drive(drive);
+  if (!closed || !is_of_performance(target)) return false;
+  const ChangeableDrive changeable(*closed);
+  return std::none_of(parameters.begin(), parameters.end(), [&](const std::string& name) {
+    const bool has_range = name.find('=') != std::string::npos;
+    return has_range || (changeable.find(name) == nullptr &&
+                         parameter_of({.path = path_named(name, drive)}, drive) != nullptr);
+  });
 }
 
 FeasibleValues feasible_values(const Drive& drive, std::string_view parameter,

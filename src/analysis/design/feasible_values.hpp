@@ -1,7 +1,9 @@
 // The values of one parameter for which a drive meets its target, all other parameters fixed.
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "analysis/design/changeable_drive.hpp"
 #include "gearlash/design.hpp"
@@ -26,5 +28,11 @@ namespace gearlash {
 /// have.
 FeasibleValues feasible_values(const ChangeableDrive& drive, std::string_view parameter,
                                const Target& target);
+
+/// Whether the closed form answers for this target and these parameters: names, or axes as they are
+/// typed. A name that is no parameter of the drive counts as one of the closed form, which knows
+/// more (ChangeableDrive), and lists what it knows.
+bool is_closed_form_task(const Drive& drive, const Target& target,
+                         const std::vector<std::string>& parameters);
 
 }  // namespace gearlash

@@ -249,6 +249,13 @@ std::vector<Fault> validate(const StudyQuestions& questions) {
   return check.faults();
 }
 
+SamplePlan usual_sampling(const TolerancedDrive& drive, const StudyQuestions& questions) {
+  if (is_searched(drive)) return sampling_of(64);
+  const detail::DrawnAnswers answers(drive, questions.target, questions.amplitude,
+                                     widest_vector_unit());
+  return sampling_of(answers.are_one_by_one() || may_bounce(drive) ? 512 : 65536);
+}
+
 ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& sampling,
                                 const StudyQuestions& questions, const Workers& workers,
                                 Progress& progress) {

@@ -248,6 +248,13 @@ std::vector<Fault> faults_of_searched(const TolerancedDrive& drive) {
 
 }  // namespace
 
+bool may_bounce(const TolerancedDrive& drive) {
+  const auto* rigid = std::get_if<RigidContact>(&drive.nominal.contact);
+  return (rigid != nullptr && rigid->restitution > 0.0) ||
+         std::any_of(drive.varied.begin(), drive.varied.end(),
+                     [](const auto& varied) { return varied.path == "contact.restitution"; });
+}
+
 bool is_searched(const TolerancedDrive& drive) {
   if (faults(drive.nominal).empty() && !closed_form_drive(drive.nominal)) return true;
   return std::any_of(drive.varied.begin(), drive.varied.end(),

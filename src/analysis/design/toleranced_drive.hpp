@@ -24,6 +24,9 @@ std::string_view unit_of(const Drive& drive, std::string_view path);
 
 /// Whether the closed form does not answer for the drive, or for a parameter that varies.
 bool is_searched(const TolerancedDrive& drive);
+
+/// Whether faces may bounce: a sample then takes milliseconds.
+bool may_bounce(const TolerancedDrive& drive);
 /// faults(), and that the drive must have a closed form, as its varied parameters must.
 std::vector<Fault> faults_of_toleranced_servo(const TolerancedDrive& drive);
 

@@ -31,6 +31,44 @@ bool are_same(const Axis& one, const Axis& other, const Drive& drive) {
   return parameter != nullptr && parameter == parameter_of(other, drive);
 }
 
+/// The smallest and the largest value of each path on an axis. Words have no order: all of them.
+Grid grid_of_ends(const DriveList& list) {
+  Grid grid{.drive = list.drive};
+  for (std::size_t i = 0; i < list.paths.size(); ++i) {
+    Axis axis{.path = list.paths[i]};
+    const std::span<const double> values = list.values[i];
+    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    axis.values.push_back(*least);
+    if (*least < *most) axis.values.push_back(*most);
+    grid.axes.push_back(std::move(axis));
+  }
+  return grid;
+}
+
+/// Faults of the shape of a list, and of values that are no numbers.
+std::vector<Fault> faults_of_columns(const DriveList& list) {
+  RangeCheck check;
+  if (list.paths.size() != list.values.size()) {
+    check.refuse("values", std::to_string(list.values.size()) + " columns",
+                 "must be as many as paths: " + std::to_string(list.paths.size()));
+    return check.faults();
+  }
+  for (std::size_t i = 0; i < list.paths.size(); ++i) {
+    const std::span<const double> values = list.values[i];
+    if (values.size() != list.size() || values.empty()) {
+      check.refuse(list.paths[i], std::to_string(values.size()) + " values",
+                   "must be as many as " + list.paths.front() + " has, at least one");
+    }
+    const auto none =
+        std::find_if(values.begin(), values.end(), [](double value) { return std::isnan(value); });
+    if (none != values.end()) {
+      check.refuse(list.paths[i] + "[" + std::to_string(none - values.begin()) + "]", "nan",
+                   "must be a number");
+    }
+  }
+  return check.faults();
+}
+
 }  // namespace
 
 std::size_t Grid::size() const {
@@ -69,6 +107,11 @@ std::vector<Fault> faults(const Grid& grid, const std::vector<std::string>& fiel
   }
   const bool are_axes_sound = check.faults().empty();
   return check.include(faults_of_corners(grid, are_axes_sound)).faults();
+}
+
+std::vector<Fault> faults(const DriveList& list) {
+  std::vector<Fault> found = faults_of_columns(list);
+  return found.empty() ? faults(grid_of_ends(list), list.paths) : found;
 }
 
 Table::Table(std::size_t rows, std::span<const Quantity> quantities, std::size_t line)
@@ -114,6 +157,13 @@ Table evaluate(const Grid& grid, std::span<const Quantity> quantities, Progress&
   require_none(faults(grid));
   Table table(grid.size(), quantities, grid.axes.empty() ? 0 : grid.axes.back().values.size());
   evaluate(grid, GridPoints(grid), 0, grid.size(), columns_of(table), progress);
+  return table;
+}
+
+Table evaluate(const DriveList& list, std::span<const Quantity> quantities, Progress& progress) {
+  require_none(faults(list));
+  Table table(list.size(), quantities);
+  evaluate(list, GridPoints(grid_of_ends(list)), columns_of(table), progress);
   return table;
 }
 

@@ -138,14 +138,46 @@ class GridWalk {
   std::vector<double> values_;
 };
 
-/// Consecutive points: those in closed form are solved as a batch, the others searched as a run.
+/// The rows of a list in order.
+class ListWalk {
+ public:
+  ListWalk(const DriveList& list, std::size_t first)
+      : list_(list), row_(first), values_(list.paths.size()) {
+    take_values();
+  }
+
+  std::span<const double> values() const { return values_; }
+
+  void go_on() {
+    ++row_;
+    if (row_ < list_.size()) take_values();
+  }
+
+ private:
+  void take_values() {
+    for (std::size_t i = 0; i < values_.size(); ++i) values_[i] = list_.values[i][row_];
+  }
+
+  const DriveList& list_;
+  std::size_t row_;
+  std::vector<double> values_;
+};
+
+/// Whether the drives of a part that are searched are neighbours, which may be followed.
+enum class Neighbours : bool { none, in_order };
+
+/// Consecutive points: those in closed form are solved as a batch, the others searched.
 class Part {
  public:
-  Part(const GridPoints& points, const CycleColumns& columns)
-      : points_(points), columns_(columns), servos_(columns.verdict.size()) {}
+  Part(const GridPoints& points, const CycleColumns& columns, Neighbours neighbours)
+      : points_(points),
+        columns_(columns),
+        servos_(columns.verdict.size()),
+        longest_run_(neighbours == Neighbours::in_order ? columns.verdict.size() : 1) {}
 
-  GridCount work_out(GridWalk walk, bool proved, VectorUnit unit, SharedProgress& progress) {
-    GridWalk walk_again = walk;
+  template <class Walk>
+  GridCount work_out(Walk walk, bool proved, VectorUnit unit, SharedProgress& progress) {
+    Walk walk_again = walk;
     for (std::size_t row = 0; row < servos_.size(); ++row, walk.go_on()) {
       points_.are_of_normal_form() ? place(row, points_.normal_form_at(walk.values()))
                                    : place(row, points_.drive_at(walk.values()));
@@ -200,11 +232,16 @@ class Part {
   }
 
   void search(SharedProgress& progress) {
-    const auto take = [&](std::size_t index, const Answer& answer) {
-      write(columns_, searched_rows_[index], answer);
-      return progress.finish(1);
-    };
-    search_run(searched_, {.proofs = false, .borders = false}, take, progress);
+    for (std::size_t first = 0; first < searched_.size(); first += longest_run_) {
+      const auto take = [&](std::size_t index, const Answer& answer) {
+        write(columns_, searched_rows_[first + index], answer);
+        return progress.finish(1);
+      };
+      const std::size_t count = std::min(longest_run_, searched_.size() - first);
+      search_run(std::span<const Drive>(searched_).subspan(first, count),
+                 {.proofs = false, .borders = false}, take, progress);
+      if (progress.is_stopped()) return;
+    }
   }
 
   /// Scales all rows from the normal form to SI.
@@ -226,6 +263,7 @@ class Part {
   const GridPoints& points_;
   CycleColumns columns_;
   std::vector<NormalizedServo> servos_;
+  std::size_t longest_run_;
   std::vector<Scale> scales_;
   std::vector<std::size_t> searched_rows_;
   std::vector<Drive> searched_;
@@ -335,30 +373,59 @@ std::vector<std::size_t> parts_of(const Grid& grid, const EnginesNeeded& engines
 
 }  // namespace
 
-GridCount evaluate(const Grid& grid, const GridPoints& points, std::size_t first, std::size_t count,
-                   const CycleColumns& columns, Progress& progress, const Workers& workers) {
+namespace {
+
+/// Works out the parts on all cores: `work(first, part, progress)` for the rows of each.
+template <class Work>
+GridCount evaluate_parts(const GridPoints& points, const std::vector<std::size_t>& begins,
+                         const CycleColumns& columns, Neighbours neighbours, Progress& progress,
+                         std::size_t threads, const Work& work) {
+  const std::size_t count = begins.back();
   GridCount total;
   std::mutex adding;
   SharedProgress searches(progress, count);
-  const std::vector<std::size_t> begins =
-      parts_of(grid, points.engines(), first, count,
-               points_at_a_time(points.engines(), FigureColumns(columns, points.drive())));
-  const auto work = [&](std::size_t index) {
+  on_threads(threads, begins.size() - 1, [&](std::size_t index) {
     if (searches.is_stopped()) return;
     const std::size_t begin = begins[index];
     const std::size_t rows = begins[index + 1] - begin;
-    Part points_of_part(points, rows_of(columns, begin, rows));
-    const GridCount of_part =
-        points_of_part.work_out(GridWalk(grid, first + begin), grid.proved, workers.unit, searches);
+    Part part(points, rows_of(columns, begin, rows), neighbours);
+    const GridCount of_part = work(begin, part, searches);
     {
       const std::scoped_lock lock(adding);
       total.add(of_part);
     }
     searches.finish(rows - of_part.searched);
-  };
-  on_threads(workers.threads, begins.size() - 1, work);
+  });
   total.stopped = searches.is_stopped() && searches.done() < count;
   return total;
+}
+
+}  // namespace
+
+GridCount evaluate(const Grid& grid, const GridPoints& points, std::size_t first, std::size_t count,
+                   const CycleColumns& columns, Progress& progress, const Workers& workers) {
+  const std::vector<std::size_t> begins =
+      parts_of(grid, points.engines(), first, count,
+               points_at_a_time(points.engines(), FigureColumns(columns, points.drive())));
+  const auto work = [&](std::size_t begin, Part& part, SharedProgress& searches) {
+    return part.work_out(GridWalk(grid, first + begin), grid.proved, workers.unit, searches);
+  };
+  return evaluate_parts(points, begins, columns, Neighbours::in_order, progress, workers.threads,
+                        work);
+}
+
+void evaluate(const DriveList& list, const GridPoints& points, const CycleColumns& columns,
+              Progress& progress) {
+  std::size_t at_a_time =
+      points_at_a_time(points.engines(), FigureColumns(columns, points.drive()));
+  if (points.engines().search) at_a_time = 1;
+  std::vector<std::size_t> begins;
+  for (std::size_t begin = 0; begin < list.size(); begin += at_a_time) begins.push_back(begin);
+  begins.push_back(list.size());
+  const auto work = [&](std::size_t begin, Part& part, SharedProgress& searches) {
+    return part.work_out(ListWalk(list, begin), false, widest_vector_unit(), searches);
+  };
+  evaluate_parts(points, begins, columns, Neighbours::none, progress, 0, work);
 }
 
 }  // namespace gearlash

@@ -38,6 +38,11 @@ GridCount evaluate(const Grid& grid, const GridPoints& points, std::size_t first
                    const CycleColumns& columns, Progress& progress = no_progress(),
                    const Workers& workers = {});
 
+/// The same for the drives of a list. Precondition: faults(list) is empty, `points` are of
+/// grid_of_ends().
+void evaluate(const DriveList& list, const GridPoints& points, const CycleColumns& columns,
+              Progress& progress);
+
 /// The table's own columns.
 CycleColumns columns_of(Table& table);
 

@@ -1,0 +1,113 @@
+// Answers: their numbers, their text, and derivatives.
+#include <pybind11/complex.h>
+#include <pybind11/stl.h>
+
+#include <complex>
+
+#include "analysis/describing/describing_function.hpp"
+#include "arrays.hpp"
+#include "gearlash/analyse.hpp"
+#include "gearlash/input.hpp"
+#include "gearlash/output.hpp"
+#include "gearlash/sensitivity.hpp"
+#include "input/drive_file.hpp"
+#include "interruptible.hpp"
+#include "module.hpp"
+#include "output/comparison_report.hpp"
+#include "output/describe_report.hpp"
+#include "records.hpp"
+
+namespace gearlash::python {
+namespace {
+
+py::object analysed(py::handle drive, py::handle wanted, const py::object& progress) {
+  const Drive& of = drive_of(drive);
+  const auto questions = from_python<Wanted>(wanted, "wanted");
+  return to_python(
+      interruptible(progress, [&](Progress& reports) { return analyse(of, questions, reports); }));
+}
+
+Answer answer_from(py::handle answer) { return from_python<Answer>(answer, "answer"); }
+
+py::object derivatives_of(py::handle drive, const std::vector<std::string>& names,
+                          const std::vector<std::string>& paths) {
+  std::vector<Quantity> quantities;
+  for (const std::string& name : names) {
+    quantities.push_back(from_python<Quantity>(py::str(name), "quantities"));
+  }
+  const std::vector<std::string_view> views(paths.begin(), paths.end());
+  const Drive& of = drive_of(drive);
+  return to_python(
+      interruptible(py::none(), [&](Progress&) { return derivatives(of, quantities, views); }));
+}
+
+/// JSON and text of one report.
+struct Written {
+  std::string json;
+  std::string text;
+};
+
+py::tuple described(py::handle drive, const py::object& progress) {
+  const Drive& of = drive_of(drive);
+  const Written written = interruptible(progress, [&](Progress& reports) {
+    const DescribeReport report = describe_report_of(of, analyse(of, {.proofs = false}, reports));
+    return Written{describe_json(report), describe_text(report)};
+  });
+  return py::make_tuple(written.json, written.text);
+}
+
+py::tuple compared(py::handle drive, const std::vector<std::string>& sensors,
+                   std::optional<double> step, std::optional<double> until,
+                   const py::object& progress) {
+  const Drive& of = drive_of(drive);
+  std::vector<SensorPlace> places;
+  for (const std::string& name : sensors) {
+    const std::optional<SensorPlace> place = sensor_named(name);
+    if (!place) throw InvalidInput({{"sensors", name, "must be load, motor or both", ""}});
+    places.push_back(*place);
+  }
+  const Written written = interruptible(progress, [&](Progress& reports) {
+    const ComparisonReport report =
+        compare_sensors(of, places, step_of_comparison(of, step, until), {}, reports);
+    return Written{comparison_json(report), comparison_text(report)};
+  });
+  return py::make_tuple(written.json, written.text);
+}
+
+/// Gains of the gap that inertia drives.
+py::array_t<std::complex<double>> gains(double gap, const Numbers& amplitudes) {
+  std::vector<std::complex<double>> list;
+  for (py::ssize_t i = 0; i < amplitudes.size(); ++i) {
+    list.push_back(describing_gain(InertiaControlledBacklash{.gap = gap}, amplitudes.data()[i]));
+  }
+  return array_of(std::move(list));
+}
+
+}  // namespace
+
+void add_analysis(py::module_& module) {
+  module.def("analyse", analysed);
+  module.def("derivatives", derivatives_of);
+  module.def("describe", described);
+  module.def("compare", compared);
+  module.def("describing_gain", gains);
+  module.def("value", [](py::handle answer, const std::string& quantity) {
+    return to_python(
+        answer_from(answer).value(from_python<Quantity>(py::str(quantity), "quantity")));
+  });
+  module.def("headline", [](py::handle drive, py::handle answer) {
+    return headline(drive_of(drive), answer_from(answer));
+  });
+  module.def("to_text", [](py::handle drive, py::handle answer) {
+    return to_text(drive_of(drive), answer_from(answer));
+  });
+  module.def("to_json", [](py::handle drive, py::handle answer) {
+    return to_json(drive_of(drive), answer_from(answer));
+  });
+  module.def("widest_backlash_of_ceiling", [](py::handle ceiling, double amplitude,
+                                              double backlash) {
+    return to_python(from_python<Ceiling>(ceiling, "ceiling").widest_backlash(amplitude, backlash));
+  });
+}
+
+}  // namespace gearlash::python

@@ -1,0 +1,135 @@
+// What must change: designs, margins, production runs and tuned gains.
+#include "gearlash/design.hpp"
+
+#include <pybind11/stl.h>
+
+#include "analysis/design/feasible_values.hpp"
+#include "gearlash/input.hpp"
+#include "gearlash/tolerance.hpp"
+#include "gearlash/tune.hpp"
+#include "input/axis_text.hpp"
+#include "interruptible.hpp"
+#include "module.hpp"
+#include "records.hpp"
+
+namespace gearlash::python {
+namespace {
+
+std::vector<std::string> texts_of(const py::object& parameters) {
+  std::vector<std::string> texts;
+  for (const py::handle& one : parameters) {
+    if (py::isinstance<py::str>(one)) texts.push_back(one.cast<std::string>());
+  }
+  return texts;
+}
+
+/// One FeasibleValues for each of the parameters: paths, "PATH=FROM:TO:COUNT" or gearlash.Axis.
+py::list designed(py::handle drive, py::handle target, const py::object& parameters,
+                  const py::object& progress) {
+  const Drive& of = drive_of(drive);
+  const auto limits = from_python<Target>(target, "target");
+  const std::vector<std::string> texts = texts_of(parameters);
+  const bool is_closed =
+      texts.size() == py::len(parameters) && is_closed_form_task(of, limits, texts);
+  py::list answers;
+  for (const py::handle& one : parameters) {
+    if (is_closed) {
+      const std::string name = one.cast<std::string>();
+      answers.append(to_python(
+          interruptible(progress, [&](Progress&) { return feasible_values(of, name, limits); })));
+      continue;
+    }
+    const Axis axis = py::isinstance<py::str>(one)
+                          ? read_axis_or_name("parameters", one.cast<std::string>(), of)
+                          : from_python<Axis>(one, "parameters");
+    answers.append(to_python(interruptible(
+        progress, [&](Progress& reports) { return feasible_values(of, axis, limits, reports); })));
+  }
+  return answers;
+}
+
+py::object margin_of(py::handle drive, py::handle axes, const py::object& progress) {
+  const Drive& of = drive_of(drive);
+  const auto list = from_python<std::vector<Axis>>(axes, "axes");
+  return to_python(interruptible(progress, [&](Progress& reports) {
+    return list.empty() ? hunting_margin(of, reports) : hunting_margin(of, list, reports);
+  }));
+}
+
+py::object studied(py::handle series, py::handle sampling, py::handle questions, double error,
+                   const py::object& progress) {
+  const auto drives = from_python<TolerancedDrive>(series, "series");
+  const auto plan = from_python<SamplePlan>(sampling, "sampling");
+  const auto asked = from_python<StudyQuestions>(questions, "questions");
+  return to_python(interruptible(progress, [&](Progress& reports) {
+    return error > 0.0 ? study_tolerances_to(error, drives, plan, asked, reports)
+                       : study_tolerances(drives, plan, asked, reports);
+  }));
+}
+
+py::object indices(py::handle series, py::handle sampling, py::handle questions,
+                   const py::object& progress) {
+  const auto drives = from_python<TolerancedDrive>(series, "series");
+  const auto plan = from_python<SamplePlan>(sampling, "sampling");
+  const auto asked = from_python<StudyQuestions>(questions, "questions");
+  return to_python(interruptible(progress, [&](Progress& reports) {
+    return study_sensitivities(drives, plan, asked, reports);
+  }));
+}
+
+py::object widest(py::handle series, py::handle demand, py::handle sampling,
+                  const py::object& progress) {
+  const auto drives = from_python<TolerancedDrive>(series, "series");
+  const auto wanted = from_python<BacklashDemand>(demand, "demand");
+  const auto plan = from_python<SamplePlan>(sampling, "sampling");
+  return to_python(interruptible(
+      progress, [&](Progress& reports) { return widest_backlash(drives, wanted, plan, reports); }));
+}
+
+py::object tuned(py::handle task, py::handle effort, const py::object& progress) {
+  const auto wanted = from_python<TuneTask>(task, "task");
+  const auto most = from_python<TuneEffort>(effort, "effort");
+  return to_python(
+      interruptible(progress, [&](Progress& reports) { return tune(wanted, most, reports); }));
+}
+
+}  // namespace
+
+void add_design(py::module_& module) {
+  module.def("target", [](const std::string& text, py::handle drive) {
+    return to_python(parse_target(text, drive_of(drive)));
+  });
+  module.def("design", designed);
+  module.def("usual_parameters",
+             [](py::handle drive) { return to_python(usual_parameters(drive_of(drive))); });
+  module.def("axis", [](const std::string& text, py::handle drive) {
+    return to_python(read_axis_or_name("axis", text, drive_of(drive)));
+  });
+  module.def("margins", margin_of);
+  module.def("tolerance_study", studied);
+  module.def("sensitivity_indices", indices);
+  module.def("widest_backlash", widest);
+  module.def("sampling_of", [](std::size_t samples, std::uint64_t seed) {
+    return to_python(sampling_of(samples, {.seed = seed}));
+  });
+  module.def("usual_sampling", [](py::handle series, py::handle questions) {
+    return to_python(usual_sampling(from_python<TolerancedDrive>(series, "series"),
+                                    from_python<StudyQuestions>(questions, "questions")));
+  });
+  module.def("tune", tuned);
+  module.def("usual_gains",
+             [](py::handle drive) { return to_python(usual_gains(drive_of(drive))); });
+  module.def("usual_axis_to_tune", [](py::handle drive, const std::string& path) {
+    return to_python(usual_axis_to_tune(drive_of(drive), path));
+  });
+  module.def("usual_target",
+             [](py::handle drive) { return to_python(usual_target(drive_of(drive))); });
+  module.def("permits", [](py::handle values, double value) {
+    return from_python<FeasibleValues>(values, "values").contains(value);
+  });
+  module.def("nearest", [](py::handle values) {
+    return to_python(from_python<FeasibleValues>(values, "values").nearest());
+  });
+}
+
+}  // namespace gearlash::python

@@ -1,0 +1,60 @@
+// Long work of the library, called from Python: other Python threads run meanwhile, and Ctrl-C or
+// a progress function stops it.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <chrono>
+#include <exception>
+#include <thread>
+#include <utility>
+
+#include "gearlash/progress.hpp"
+
+namespace gearlash::python {
+
+namespace py = pybind11;
+
+/// Looks for signals every few hundredths of a second, in the calling thread, which always takes
+/// part in the work, and calls `report(share)`, if it is not None, as often. Work stops where
+/// either raises, and where `report` returns False.
+class PythonProgress final : public Progress {
+ public:
+  explicit PythonProgress(py::object report)
+      : report_(std::move(report)), has_report_(!report_.is_none()) {}
+
+  bool go_on(double share, std::size_t bytes) override;
+
+  /// Raises what stopped the work. With the interpreter's lock.
+  void raise_if_stopped() const {
+    if (raised_) std::rethrow_exception(raised_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  /// Whether it is time again.
+  static bool is_due(Clock::time_point& last);
+
+  py::object report_;
+  bool has_report_;
+  std::thread::id caller_ = std::this_thread::get_id();
+  Clock::time_point looked_ = Clock::now();
+  Clock::time_point reported_ = looked_;
+  bool goes_on_ = true;
+  std::exception_ptr raised_{};
+};
+
+/// work(progress), without the interpreter's lock.
+template <class Work>
+auto interruptible(const py::object& report, Work work) {
+  PythonProgress progress(report);
+  auto result = [&] {
+    const py::gil_scoped_release unlocked;
+    return work(progress);
+  }();
+  progress.raise_if_stopped();
+  return result;
+}
+
+}  // namespace gearlash::python

@@ -1,0 +1,68 @@
+// gearlash._core: the C++ library for the Python package beside it, which has the documentation.
+#include "module.hpp"
+
+#include "gearlash/fault.hpp"
+#include "gearlash/version.hpp"
+#include "records.hpp"
+
+namespace gearlash::python {
+namespace {
+
+/// {"Verdict": ("cannot hunt", …), …}
+py::dict words() {
+  py::dict all;
+  for_each_enumeration([&]<class Enumeration>(const Enumeration*) {
+    py::list list;
+    for (const auto& word : Words<Enumeration>::all) {
+      list.append(Words<Enumeration>::named(word.value));
+    }
+    all[Words<Enumeration>::name] = py::tuple(list);
+  });
+  return all;
+}
+
+/// {"Start": Start(), …} with the defaults of C++.
+py::dict default_records() {
+  py::dict all;
+  for_each_record(
+      [&]<class Struct>(const Struct*) { all[Record<Struct>::name] = to_python(Struct{}); });
+  return all;
+}
+
+/// The record as it comes back from C++.
+py::object there_and_back(py::handle record) {
+  py::object back;
+  for_each_record([&]<class Struct>(const Struct*) {
+    if (!back && py::isinstance(record, class_named(Record<Struct>::name))) {
+      back = to_python(from_python<Struct>(record, "record"));
+    }
+  });
+  return back;
+}
+
+void translate(std::exception_ptr raised) {
+  try {
+    if (raised) std::rethrow_exception(raised);
+  } catch (const InvalidInput& error) {
+    const py::object type = py::module_::import("gearlash._errors").attr("InvalidInput");
+    PyErr_SetObject(type.ptr(), type(to_python(error.faults())).ptr());
+  }
+}
+
+}  // namespace
+}  // namespace gearlash::python
+
+PYBIND11_MODULE(_core, module) {
+  namespace python = gearlash::python;
+  pybind11::register_exception_translator(python::translate);
+  module.attr("__version__") = gearlash::version;
+  module.def("words", python::words);
+  module.def("default_records", python::default_records);
+  module.def("there_and_back", python::there_and_back, pybind11::arg("record"));
+  python::add_drives(module);
+  python::add_analysis(module);
+  python::add_motions(module);
+  python::add_grids(module);
+  python::add_design(module);
+  python::add_thesis(module);
+}

@@ -1,0 +1,110 @@
+// Motions: samples as arrays over the vectors of C++, events as columns.
+#include <pybind11/stl.h>
+
+#include "arrays.hpp"
+#include "gearlash/motion.hpp"
+#include "interruptible.hpp"
+#include "module.hpp"
+#include "records.hpp"
+
+namespace gearlash::python {
+namespace {
+
+Motion simulated(py::handle drive, double until, py::handle start, std::size_t most_events,
+                 const py::object& progress) {
+  const Drive& of = drive_of(drive);
+  const Span span{.until = until,
+                  .start = from_python<std::optional<Start>>(start, "start"),
+                  .most_events = most_events};
+  return interruptible(progress, [&](Progress& reports) { return simulate(of, span, reports); });
+}
+
+py::dict columns_of_samples(Samples samples) {
+  py::dict columns;
+  columns["time"] = array_of(std::move(samples.time));
+  columns["load_position"] = array_of(std::move(samples.load_position));
+  columns["load_speed"] = array_of(std::move(samples.load_speed));
+  columns["motor_position"] = array_of(std::move(samples.motor_position));
+  columns["motor_speed"] = array_of(std::move(samples.motor_speed));
+  columns["motor_torque"] = array_of(std::move(samples.motor_torque));
+  columns["reference"] = array_of(std::move(samples.reference));
+  columns["load_torque"] = array_of(std::move(samples.load_torque));
+  return columns;
+}
+
+py::dict at(const Motion& motion, const Numbers& times) {
+  const auto count = static_cast<std::size_t>(times.size());
+  const double* const time = times.data();
+  Samples samples;
+  std::vector<bool> apart;
+  {
+    const py::gil_scoped_release unlocked;
+    for (std::size_t i = 0; i < count; ++i) {
+      const MotionSample sample = motion.at(time[i]);
+      samples.time.push_back(sample.time);
+      samples.load_position.push_back(sample.shafts.load_position);
+      samples.load_speed.push_back(sample.shafts.load_speed);
+      samples.motor_position.push_back(sample.shafts.motor_position);
+      samples.motor_speed.push_back(sample.shafts.motor_speed);
+      samples.motor_torque.push_back(sample.motor_torque);
+      samples.reference.push_back(sample.reference);
+      samples.load_torque.push_back(sample.load_torque);
+    }
+  }
+  return columns_of_samples(std::move(samples));
+}
+
+/// One tuple for each event, in the order of the fields of gearlash._motion.EVENT.
+py::list events(const Motion& motion) {
+  py::list rows;
+  for (const MotionEvent& event : motion.events()) {
+    rows.append(py::make_tuple(
+        event.time, std::string(event.what), std::string(event.mode_after),
+        event.before.load_position, event.before.load_speed, event.before.motor_position,
+        event.before.motor_speed, event.after.load_position, event.after.load_speed,
+        event.after.motor_position, event.after.motor_speed,
+        event.energy_lost.value_or(std::numeric_limits<double>::quiet_NaN())));
+  }
+  return rows;
+}
+
+std::vector<std::string> modes_at(const Motion& motion, const Numbers& times) {
+  std::vector<std::string> modes;
+  for (py::ssize_t i = 0; i < times.size(); ++i) {
+    modes.emplace_back(motion.at(times.data()[i]).mode);
+  }
+  return modes;
+}
+
+}  // namespace
+
+void add_motions(py::module_& module) {
+  py::class_<Motion>(module, "Motion")
+      .def("sampled",
+           [](const Motion& motion, double every) {
+             Samples samples = [&] {
+               const py::gil_scoped_release unlocked;
+               return motion.sampled(every);
+             }();
+             return columns_of_samples(std::move(samples));
+           })
+      .def("sample_count", &Motion::sample_count)
+      .def("at", at)
+      .def("modes_at", modes_at)
+      .def("events", events)
+      .def("touches",
+           [](const Motion& motion) {
+             py::list rows;
+             for (const MotionTouch& touch : motion.touches()) rows.append(to_python(touch));
+             return py::tuple(rows);
+           })
+      .def("energy", [](const Motion& motion) { return to_python(motion.energy()); })
+      .def_property_readonly("end_time", &Motion::end_time)
+      .def_property_readonly("stop", [](const Motion& motion) { return to_python(motion.stop()); })
+      .def_property_readonly("stop_text", &Motion::stop_text)
+      .def_property_readonly("engine",
+                             [](const Motion& motion) { return to_python(motion.engine()); });
+  module.def("simulate", simulated);
+}
+
+}  // namespace gearlash::python

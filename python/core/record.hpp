@@ -1,0 +1,210 @@
+// Values of C++ as values of Python, and back: structs as the dataclasses of gearlash._records, by
+// the lists of their members in the generated records.hpp.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "gearlash/drive.hpp"
+
+namespace gearlash::python {
+
+namespace py = pybind11;
+
+template <class Struct, class Type>
+struct Member {
+  const char* name;
+  Type Struct::*place;
+};
+
+/// Specialised for every struct: its name, and the tuple of its members.
+template <class Struct>
+struct Record;
+
+template <class Enumeration>
+struct Word {
+  Enumeration value;
+  const char* text;  ///< nullptr where name_of() has it
+};
+
+/// Specialised for every enumeration: its name, all its values, and named().
+template <class Enumeration>
+struct Words;
+
+template <class Type>
+concept IsRecord = requires { Record<Type>::members; };
+template <class Type>
+concept IsWord = requires { Words<Type>::all; };
+
+template <class Type, template <class...> class Template>
+inline constexpr bool is_a = false;
+template <template <class...> class Template, class... Arguments>
+inline constexpr bool is_a<Template<Arguments...>, Template> = true;
+
+/// The class of gearlash._records. It lives as long as the interpreter.
+py::handle class_named(const char* name);
+
+/// gearlash.Drive of a drive, and back.
+py::object drive_to_python(Drive drive);
+const Drive& drive_of(py::handle object);
+
+/// Throws TypeError: "NAME must be PERMITTED, not TYPE".
+[[noreturn]] void refuse_type(const char* name, const std::string& permitted, py::handle found);
+
+// ---- to Python ----------------------------------------------------------------------------------
+
+template <class Type>
+py::object to_python(const Type& value);
+
+template <class Struct>
+py::object record_to_python(const Struct& value) {
+  return std::apply(
+      [&](const auto&... member) {
+        static const py::handle type = class_named(Record<Struct>::name);
+        return py::object(type(to_python(value.*(member.place))...));
+      },
+      Record<Struct>::members);
+}
+
+/// Records, words, lists as tuples, and numbers, with None for NaN.
+template <class Type>
+py::object to_python(const Type& value) {
+  if constexpr (std::is_same_v<Type, double>) {
+    return std::isnan(value) ? py::object(py::none()) : py::object(py::float_(value));
+  } else if constexpr (std::is_same_v<Type, bool>) {
+    return py::bool_(value);
+  } else if constexpr (std::is_integral_v<Type>) {
+    return py::int_(value);
+  } else if constexpr (std::is_convertible_v<Type, std::string_view>) {
+    return py::str(std::string(std::string_view(value)));
+  } else if constexpr (std::is_same_v<Type, Drive>) {
+    return drive_to_python(value);
+  } else if constexpr (IsWord<Type>) {
+    return py::str(Words<Type>::named(value));
+  } else if constexpr (IsRecord<Type>) {
+    return record_to_python(value);
+  } else if constexpr (is_a<Type, std::optional>) {
+    return value ? to_python(*value) : py::object(py::none());
+  } else if constexpr (is_a<Type, std::variant>) {
+    return std::visit([](const auto& held) { return to_python(held); }, value);
+  } else {
+    static_assert(is_a<Type, std::vector>);
+    py::tuple list(value.size());
+    for (std::size_t i = 0; i < value.size(); ++i) list[i] = to_python(value[i]);
+    return list;
+  }
+}
+
+// ---- from Python --------------------------------------------------------------------------------
+
+/// `name` is that of the argument or the member, for errors.
+template <class Type>
+Type from_python(py::handle object, const char* name);
+
+template <class Struct>
+Struct record_from_python(py::handle object, const char* name) {
+  if (!py::isinstance(object, class_named(Record<Struct>::name))) {
+    refuse_type(name, std::string("a gearlash.") + Record<Struct>::name, object);
+  }
+  Struct value;
+  std::apply(
+      [&](const auto&... member) {
+        ((value.*(member.place) = from_python<std::decay_t<decltype(value.*(member.place))>>(
+              object.attr(member.name), member.name)),
+         ...);
+      },
+      Record<Struct>::members);
+  return value;
+}
+
+template <class Enumeration>
+Enumeration word_from_python(py::handle object, const char* name) {
+  std::string permitted;
+  const std::string text =
+      py::isinstance<py::str>(object) ? object.cast<std::string>() : std::string();
+  for (const Word<Enumeration>& word : Words<Enumeration>::all) {
+    const std::string own = Words<Enumeration>::named(word.value);
+    if (own == text) return word.value;
+    permitted += (permitted.empty() ? "" : ", ") + own;
+  }
+  throw InvalidInput({{name, std::string(py::str(object)), "must be one of " + permitted, ""}});
+}
+
+template <class Variant, std::size_t index = 0>
+Variant variant_from_python(py::handle object, const char* name) {
+  if constexpr (index == std::variant_size_v<Variant>) {
+    refuse_type(name, "one of the records that are permitted here", object);
+  } else {
+    using Held = std::variant_alternative_t<index, Variant>;
+    if (py::isinstance(object, class_named(Record<Held>::name))) {
+      return record_from_python<Held>(object, name);
+    }
+    return variant_from_python<Variant, index + 1>(object, name);
+  }
+}
+
+template <class Type>
+Type number_from_python(py::handle object, const char* name) {
+  try {
+    return py::float_(py::reinterpret_borrow<py::object>(object)).cast<Type>();
+  } catch (const py::error_already_set&) {
+    refuse_type(name, "a number", object);
+  }
+}
+
+template <class Type>
+Type from_python(py::handle object, const char* name) {
+  if constexpr (std::is_same_v<Type, double>) {
+    return object.is_none() ? std::numeric_limits<double>::quiet_NaN()
+                            : number_from_python<double>(object, name);
+  } else if constexpr (std::is_same_v<Type, bool>) {
+    if (!py::isinstance<py::bool_>(object)) refuse_type(name, "True or False", object);
+    return object.cast<bool>();
+  } else if constexpr (std::is_integral_v<Type>) {
+    try {
+      return object.cast<Type>();
+    } catch (const py::cast_error&) {
+      refuse_type(name, std::is_signed_v<Type> ? "an integer" : "an integer from 0 on", object);
+    }
+  } else if constexpr (std::is_same_v<Type, std::string>) {
+    if (!py::isinstance<py::str>(object)) refuse_type(name, "text", object);
+    return object.cast<std::string>();
+  } else if constexpr (std::is_same_v<Type, std::string_view>) {
+    return {};  // of static storage: facts that only the library gives
+  } else if constexpr (std::is_same_v<Type, Drive>) {
+    return drive_of(object);
+  } else if constexpr (IsWord<Type>) {
+    return word_from_python<Type>(object, name);
+  } else if constexpr (IsRecord<Type>) {
+    return record_from_python<Type>(object, name);
+  } else if constexpr (is_a<Type, std::optional>) {
+    if (object.is_none()) return std::nullopt;
+    return from_python<typename Type::value_type>(object, name);
+  } else if constexpr (is_a<Type, std::variant>) {
+    return variant_from_python<Type>(object, name);
+  } else {
+    static_assert(is_a<Type, std::vector>);
+    if (py::isinstance<py::str>(object) || !py::isinstance<py::iterable>(object)) {
+      refuse_type(name, "a sequence", object);
+    }
+    Type list;
+    for (const py::handle& one : object) {
+      list.push_back(from_python<typename Type::value_type>(one, name));
+    }
+    return list;
+  }
+}
+
+}  // namespace gearlash::python

@@ -1,0 +1,266 @@
+"""What must change: designs, margins, production runs and tuned gains."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Union
+
+from gearlash import _core
+from gearlash._analysis import Progress
+from gearlash._drive import Drive
+from gearlash._records import (Axis, BacklashDemand, Distribution, FeasibleValues, HuntingMargin,
+                               ParameterTolerance, SamplePlan, SensitivityStudy, StudyQuestions,
+                               Target, TolerancedDrive, ToleranceStudy, TunedDrive, TuneEffort,
+                               TuneTask, WidestBacklash)
+
+TargetLike = Union[str, Target]
+SeriesLike = Union[Drive, TolerancedDrive]
+
+
+def target(text: TargetLike, drive: Drive) -> Target:
+    """Read a target as the tool does: "no-hunting", "amplitude <= 1 arcmin and frequency >= 5 Hz".
+
+    Raises
+    ------
+    InvalidInput
+        For unknown quantities, wrong units and contradictions.
+    """
+    return _core.target(text, drive) if isinstance(text, str) else text
+
+
+def design(drive: Drive, wanted: TargetLike, parameters: Sequence[str | Axis] | None = None, *,
+           progress: Progress = None) -> dict[str, FeasibleValues]:
+    """Find the values of single parameters that meet a target.
+
+    Parameters
+    ----------
+    drive : Drive
+    wanted : str or Target
+        As of :func:`target`.
+    parameters : sequence of str or Axis, optional
+        Paths, ``"PATH=FROM:TO:COUNT[:log]"`` with units, or axes; default those that are easiest to
+        change.
+    progress : callable, optional
+        As of :func:`gearlash.analyse`.
+
+    Returns
+    -------
+    dict of path to FeasibleValues
+        ``intervals`` in SI, certain to be all of them if ``kind`` is "certified".
+
+    Raises
+    ------
+    InvalidInput
+        For an unsound drive, target or parameter.
+
+    Examples
+    --------
+    >>> import gearlash
+    >>> servo = gearlash.Drive.normal_form(0.19, 2, 0.1, 0.3)
+    >>> found = gearlash.design(servo, "no-hunting", ["servo.damping"])["servo.damping"]
+    >>> found.kind, round(found.nearest, 6)
+    ('certified', 0.849487)
+    """
+    asked = list(parameters) if parameters is not None else list(_core.usual_parameters(drive))
+    answers = _core.design(drive, target(wanted, drive), asked, progress)
+    return {answer.parameter: answer for answer in answers}
+
+
+def margins(drive: Drive, axes: Sequence[Axis | str] = (), *,
+            progress: Progress = None) -> HuntingMargin:
+    """Report how far each parameter is from the border of hunting, and all of them together.
+
+    Parameters
+    ----------
+    drive : Drive
+    axes : sequence of Axis or str
+        The parameters, as of :func:`design`; default those that a designer considers first.
+    progress : callable, optional
+        As of :func:`gearlash.analyse`.
+
+    Raises
+    ------
+    InvalidInput
+        For an unsound drive and for axes that it does not have.
+    """
+    listed = tuple(_core.axis(one, drive) if isinstance(one, str) else one for one in axes)
+    return _core.margins(drive, listed, progress)
+
+
+def series(drive: SeriesLike, varied: Mapping[str, Distribution] | None = None) -> TolerancedDrive:
+    """Make a series of drives: a drive, and what varies from unit to unit.
+
+    Parameters
+    ----------
+    drive : Drive or TolerancedDrive
+        A drive from a file brings the file's tolerances.
+    varied : mapping of path to Distribution
+        UniformBetween, UniformAbout, Normal or DiscreteLots, in SI, beside those of the file.
+    """
+    if isinstance(drive, TolerancedDrive):
+        return drive
+    added = {path: ParameterTolerance(path, spread) for path, spread in (varied or {}).items()}
+    kept = tuple(one for one in drive.tolerances if one.path not in added)
+    return TolerancedDrive(nominal=drive, varied=kept + tuple(added.values()))
+
+
+def tolerance(drive: SeriesLike, varied: Mapping[str, Distribution] | None = None, *,
+              target: TargetLike | None = None, samples: int | None = None,
+              error: float | None = None, seed: int = 1960, quantity: str = "amplitude",
+              progress: Progress = None) -> ToleranceStudy:
+    """Predict how many samples of a production run hunt, and how many meet a target.
+
+    Parameters
+    ----------
+    drive, varied
+        As of :func:`series`.
+    target : str or Target, optional
+        For the yield.
+    samples : int, optional
+        The least number, rounded up to 16 times a power of two; default 65,536 in closed form, 512
+        with bounces, 64 of drives that are searched.
+    error : float, optional
+        Instead: as many as the probability of hunting and the yield need to be known to within this
+        share, 1e-6 … 0.5.
+    seed : int
+        Equal seeds give equal bits on every machine.
+    quantity : str
+        "amplitude" of the load, or "motor_amplitude".
+    progress : callable, optional
+        As of :func:`gearlash.analyse`.
+
+    Returns
+    -------
+    ToleranceStudy
+
+    Raises
+    ------
+    InvalidInput
+        With every fault of the drive, the distributions, the target and the sampling.
+
+    Notes
+    -----
+    Sobol's sequence with random digital shifts (Owen; L'Ecuyer and Lemieux, 2002).
+
+    Examples
+    --------
+    >>> import gearlash
+    >>> servo = gearlash.Drive.normal_form(0.3, 2, 0.1, 0.3)
+    >>> study = gearlash.tolerance(servo, {"servo.damping": gearlash.UniformBetween(0.7, 1.0)})
+    >>> abs(study.hunting.value - (0.849487 - 0.7) / 0.3) < 1e-4
+    True
+    """
+    one, questions, sampling = _study(drive, varied, target, samples, seed, quantity)
+    return _core.tolerance_study(one, sampling, questions, error or 0.0, progress)
+
+
+def sensitivity_indices(drive: SeriesLike, varied: Mapping[str, Distribution] | None = None, *,
+                        samples: int | None = None, seed: int = 1960,
+                        quantity: str = "amplitude", progress: Progress = None) -> SensitivityStudy:
+    """Report which tolerance is responsible: Sobol's indices of amplitude and of hunting.
+
+    Parameters are those of :func:`tolerance`.
+    """
+    one, questions, sampling = _study(drive, varied, None, samples, seed, quantity)
+    return _core.sensitivity_indices(one, sampling, questions, progress)
+
+
+def widest_backlash(drive: SeriesLike, target: TargetLike, share: float = 0.95, *,
+                    varied: Mapping[str, Distribution] | None = None,
+                    samples: int | None = None, seed: int = 1960,
+                    progress: Progress = None) -> WidestBacklash | None:
+    """Find how much backlash production may permit, so that a share of the samples meets a target.
+
+    Returns
+    -------
+    WidestBacklash or None
+        rad; None where not even the least backlash gives the share.
+
+    Raises
+    ------
+    InvalidInput
+        With every fault of the drive, the target and the sampling.
+    """
+    one, _, sampling = _study(drive, varied, target, samples, seed, "amplitude")
+    demand = BacklashDemand(target=_target(target, one), yield_=share)
+    return _core.widest_backlash(one, demand, sampling, progress)
+
+
+def _target(text: TargetLike, one: TolerancedDrive) -> Target:
+    return target(text, one.nominal)
+
+
+def _study(drive: SeriesLike, varied: Mapping[str, Distribution] | None, wanted: TargetLike | None,
+           samples: int | None, seed: int, quantity: str
+           ) -> tuple[TolerancedDrive, StudyQuestions, SamplePlan]:
+    one = series(drive, varied)
+    questions = StudyQuestions(amplitude=quantity,
+                               target=Target() if wanted is None else _target(wanted, one))
+    plan = (_core.usual_sampling(one, questions) if samples is None
+            else _core.sampling_of(samples, seed))
+    return one, questions, SamplePlan(plan.points, plan.replicates, seed)
+
+
+def tune(drive: SeriesLike, parameters: Sequence[str | Axis] | None = None, *,
+         varied: Mapping[str, Distribution] | None = None, target: TargetLike | None = None,
+         aim: str = "bandwidth", share: float = 1.0, least_phase_margin: float | None = None,
+         units: int = 64, seed: int = 1960, progress: Progress = None) -> TunedDrive:
+    """Find the best values of several parameters for a whole series of drives.
+
+    Parameters
+    ----------
+    drive, varied
+        As of :func:`series`; without tolerances it is one drive.
+    parameters : sequence of str or Axis, optional
+        Numbers to tune: from 0.1 to 10 times the present value, or over an axis; default the
+        controller's gains above 0.
+    target : str or Target, optional
+        Which each unit must keep; default to come to rest, or to hunt by one step of the encoder at
+        most, and not to run away.
+    aim : str
+        "bandwidth" (greatest), "settling" (shortest) or "static_error" (least), of the worst unit.
+    share : float
+        Of the units that must keep the target, above 0 to 1.
+    least_phase_margin : float, optional
+        rad; default 0.5235988 (30 deg).
+    units : int
+        Of the series, to which each proposal is put.
+    seed : int
+        Of the units.
+    progress : callable, optional
+        As of :func:`gearlash.analyse`.
+
+    Returns
+    -------
+    TunedDrive
+
+    Raises
+    ------
+    InvalidInput
+        For faults of the series, the target and the ranges.
+
+    Notes
+    -----
+    Mutapcic and Boyd, Optimization Methods and Software 24 (2009). Searched, not proved.
+    """
+    one = series(drive, varied)
+    nominal = one.nominal
+    axes = tuple(_axis_to_tune(nominal, parameter)
+                 for parameter in (parameters or _core.usual_gains(nominal)))
+    tuned = {given.path for given in axes}
+    task = TuneTask(
+        series=TolerancedDrive(nominal, tuple(v for v in one.varied if v.path not in tuned)),
+        tuned=axes,
+        target=_core.usual_target(nominal) if target is None else _target(target, one),
+        aim=aim, share=share,
+        least_phase_margin=0.5235987755982988 if least_phase_margin is None
+        else least_phase_margin)
+    return _core.tune(task, TuneEffort(units=units, seed=seed), progress)
+
+
+def _axis_to_tune(drive: Drive, parameter: str | Axis) -> Axis:
+    if isinstance(parameter, Axis):
+        return parameter
+    if "=" not in parameter:
+        return _core.usual_axis_to_tune(drive, parameter)
+    return _core.axis(parameter, drive)

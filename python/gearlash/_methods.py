@@ -1,0 +1,158 @@
+"""What records do beside holding numbers. Each class here is the base of the record of its name."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+from gearlash import _core
+
+if TYPE_CHECKING:
+    from gearlash import _records
+    from gearlash._drive import Drive
+
+
+class Cycle:
+    period: float
+
+    @property
+    def frequency(self) -> float:
+        """1/period, Hz."""
+        return 1.0 / self.period
+
+
+class EnergyLost:
+    motor_friction: float
+    load_friction: float
+    impacts: float
+
+    @property
+    def total(self) -> float:
+        """The sum, J in a period."""
+        return self.motor_friction + self.load_friction + self.impacts
+
+
+class Bounds:
+    low: float
+    high: float
+
+    def __contains__(self, value: float) -> bool:
+        return self.low <= value <= self.high
+
+
+class Ceiling:
+    def widest_backlash(self, amplitude: float, backlash: float) -> float | None:
+        """Give the largest backlash, rad, that provably keeps the load within `amplitude`, rad.
+
+        Parameters
+        ----------
+        amplitude : float
+            rad, the permitted deviation of the load from the motion without a gap.
+        backlash : float
+            rad, the drive's own.
+
+        Returns
+        -------
+        float or None
+            None if the other terms exceed the amplitude or there is no ceiling.
+        """
+        return _core.widest_backlash_of_ceiling(self, amplitude, backlash)
+
+
+def _amplitude(cycle: _records.Cycle) -> float:
+    return cycle.amplitude
+
+
+class Answer:
+    cycles: tuple[_records.Cycle, ...]
+    drive: Drive | None
+    verdict: str
+
+    @property
+    def hunts(self) -> bool:
+        """Whether the drive moves permanently of itself, from every start or if disturbed."""
+        return self.verdict in ("hunts", "hunts if disturbed", "hunts irregularly",
+                                "grows without bound", "runs away", "runs away if disturbed")
+
+    @property
+    def largest_stable(self) -> _records.Cycle | None:
+        """The cycle that is seen in practice: the largest that is not unstable."""
+        stable = [cycle for cycle in self.cycles if cycle.stability != "unstable"]
+        return max(stable, key=_amplitude) if stable else None
+
+    def value(self, quantity: str) -> float | None:
+        """Give a quantity in SI; None if it does not exist or is not known.
+
+        Parameters
+        ----------
+        quantity : str
+            One of :func:`gearlash.quantities`: "amplitude", "frequency", "ceiling", …. Amplitudes
+            are 0 if the drive comes to rest.
+        """
+        return _core.value(self, quantity)
+
+    def to_json(self) -> str:
+        """Give the output of ``gearlash limit-cycle --format json``."""
+        return _core.to_json(self._of_drive(), self)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Give :meth:`to_json` as Python's own types."""
+        parsed: dict[str, Any] = json.loads(self.to_json())
+        return parsed
+
+    @property
+    def headline(self) -> str:
+        """The answer in one line."""
+        return _core.headline(self._of_drive(), self)
+
+    def _of_drive(self) -> Drive:
+        if self.drive is None:
+            raise ValueError("the answer has no drive; use dataclasses.replace(answer, drive=…)")
+        return self.drive
+
+    def __str__(self) -> str:
+        return _core.to_text(self.drive, self) if self.drive is not None else repr(self)
+
+    def _repr_html_(self) -> str:
+        from gearlash import _notebook
+
+        return _notebook.html_of_answer(self)
+
+    def _repr_png_(self) -> bytes | None:
+        from gearlash import _notebook
+
+        return _notebook.png_of_answer(self)
+
+
+class Jacobian:
+    quantities: tuple[str, ...]
+    paths: tuple[str, ...]
+    values: tuple[float | None, ...]
+    present: tuple[float, ...]
+    slopes: tuple[float | None, ...]
+
+    def slope(self, quantity: str, path: str) -> float | None:
+        """Give ∂quantity/∂parameter in SI; None where it does not exist."""
+        return self.slopes[self.quantities.index(quantity) * len(self.paths)
+                           + self.paths.index(path)]
+
+    def elasticity(self, quantity: str, path: str) -> float | None:
+        """Give ∂ln quantity/∂ln parameter: per cent per one per cent."""
+        slope = self.slope(quantity, path)
+        value = self.values[self.quantities.index(quantity)]
+        if slope is None or value is None:
+            return None
+        return slope * self.present[self.paths.index(path)] / value
+
+
+class FeasibleValues:
+    def __contains__(self, value: float) -> bool:
+        """Whether the value of the parameter meets the target."""
+        return _core.permits(self, value)
+
+    @property
+    def nearest(self) -> float | None:
+        """The feasible value nearest to the present one, by ratio; None where there is none."""
+        return _core.nearest(self)
+
+

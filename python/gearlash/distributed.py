@@ -1,0 +1,124 @@
+"""Sweeps past one machine, by Dask.
+
+A grid is dealt out in pieces of whole lines of its last axis, so that a drive is followed from its
+neighbours as :func:`gearlash.sweep` does, and the data are the same to the bit for any number of
+workers. Pieces are small and taken as workers become free, for their costs differ hundredfold. A
+piece whose worker dies is computed again by another.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearlash import _core
+from gearlash._drive import Drive
+from gearlash._records import Axis
+from gearlash._sweep import AxisLike, Table, axis, dataset
+
+if TYPE_CHECKING:
+    import xarray
+
+_Piece = tuple[NDArray[np.uint8], dict[str, NDArray[np.float64]]]
+
+
+def _evaluate(drive: Drive, axes: Sequence[Axis], quantities: Sequence[str], proved: bool) -> _Piece:
+    """Answer one piece, in a worker."""
+    verdicts, columns = _core.evaluate_grid(drive, list(axes), list(quantities), proved, None)
+    # Copies, for memory of C++ cannot be sent.
+    return np.array(verdicts), {name: np.array(column) for name, column in columns.items()}
+
+
+def pieces(axes: Sequence[Axis], most: int = 4096) -> list[list[Axis]]:
+    """Divide a grid into smaller ones, in its order, each of at most about `most` points.
+
+    Each has one value of the leading axes, a part of one axis and all of the axes after it; the last
+    axis is never divided, unless it is the only one.
+
+    Examples
+    --------
+    >>> import gearlash
+    >>> from gearlash.distributed import pieces
+    >>> x, y = gearlash.Axis("a", (1.0, 2.0, 3.0)), gearlash.Axis("b", (1.0, 2.0))
+    >>> [[one.values for one in piece] for piece in pieces([x, y], most=4)]
+    [[(1.0, 2.0), (1.0, 2.0)], [(3.0,), (1.0, 2.0)]]
+    """
+    if len(axes) <= 1:
+        return [list(axes)]
+    inner = math.prod(len(one.values) for one in axes[1:])
+    if inner > most and len(axes) > 2:
+        return [[_part(axes[0], i, i + 1), *piece]
+                for i in range(len(axes[0].values)) for piece in pieces(axes[1:], most)]
+    step = max(1, most // inner)
+    return [[_part(axes[0], i, i + step), *axes[1:]]
+            for i in range(0, len(axes[0].values), step)]
+
+
+def _part(one: Axis, begin: int, end: int) -> Axis:
+    return Axis(one.path, one.values[begin:end], one.logarithmic)
+
+
+def graph(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis], quantities: Sequence[str], *,
+          proved: bool = False, most: int = 4096) -> list[Any]:
+    """Give the pieces as :func:`dask.delayed` values, in the order of the grid.
+
+    Each gives the verdicts' numbers and the columns of its points. For programs that schedule them
+    themselves; :func:`sweep` does it for all others.
+    """
+    from dask.delayed import delayed
+
+    listed = _listed(drive, axes)
+    one = delayed(_evaluate, pure=True)
+    return [one(drive, piece, tuple(quantities), proved) for piece in pieces(listed, most)]
+
+
+def _listed(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis]) -> list[Axis]:
+    if isinstance(axes, Mapping):
+        return [axis(drive, path, values) for path, values in axes.items()]
+    return list(axes)
+
+
+def sweep(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis],
+          quantities: Sequence[str] = ("amplitude", "frequency"), client: Any = None, *,
+          proved: bool = False, most: int | None = None) -> xarray.Dataset | Table:
+    """Answer for a grid on all workers of a Dask cluster.
+
+    Parameters
+    ----------
+    drive, axes, quantities, proved
+        As of :func:`gearlash.sweep`.
+    client : distributed.Client
+        Its workers need Gearlash of this version.
+    most : int, optional
+        Points of a piece at most; default 65,536 of drives in closed form, else one line of the
+        last axis.
+
+    Returns
+    -------
+    xarray.Dataset or Table
+        Equal to that of :func:`gearlash.sweep` to the bit.
+    """
+    from distributed import as_completed
+
+    listed = _listed(drive, axes)
+    _core.check_grid(drive, listed)  # before anything is sent
+    if most is None:
+        is_closed = _core.is_closed_grid(drive, listed)
+        most = 65_536 if is_closed else len(listed[-1].values) if listed else 1
+    tasks = pieces(listed, most)
+    futures = [client.submit(_evaluate, drive, piece, tuple(quantities), proved, pure=False,
+                             key=f"gearlash-{id(tasks)}-{number}", retries=3)
+               for number, piece in enumerate(tasks)]
+    numbers = {future.key: number for number, future in enumerate(futures)}
+    done: dict[int, _Piece] = {}
+    for future, piece in as_completed(futures, with_results=True):
+        done[numbers[future.key]] = piece
+        future.release()
+    parts = [done[number] for number in range(len(tasks))]
+    verdicts = np.concatenate([part[0] for part in parts])
+    columns = {name: np.concatenate([part[1][name] for part in parts]) for name in parts[0][1]}
+    return dataset(drive, listed, verdicts, columns)

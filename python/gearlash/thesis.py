@@ -1,0 +1,111 @@
+"""N. C. New's thesis of 1960: its program, its printout and its charts."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gearlash import _core
+
+#: The columns of a printout.
+COLUMNS = ("time", "motor_speed", "motor_position", "load_speed", "load_position")
+
+
+def table_2() -> NDArray[np.float64]:
+    """Give Table II as the thesis prints it.
+
+    Returns
+    -------
+    array, shape (38, 5)
+        Columns as :data:`COLUMNS`; ω_n = 1 rad/s, a step of 1 rad.
+    """
+    return _core.thesis_table_2()
+
+
+def printout(lines: int = 38, servo: tuple[float, float, float, float] | None = None, *,
+             machine: bool = False) -> NDArray[np.float64]:
+    """Run the program of Table I and give what it prints.
+
+    Parameters
+    ----------
+    lines : int
+        How many.
+    servo : (damping, inertia_ratio, friction_ratio, backlash), optional
+        Default the servo of Table II.
+    machine : bool
+        Run the octal words on the emulated CDC 1604, in its own 48-bit arithmetic; otherwise the
+        readable port in double precision.
+
+    Returns
+    -------
+    array, shape (lines, 5)
+        Columns as :data:`COLUMNS`.
+
+    Raises
+    ------
+    InvalidInput
+        Unless both inertias are positive.
+
+    Examples
+    --------
+    >>> from gearlash import thesis
+    >>> thesis.printout(2)[:, 0].tolist()
+    [0.08, 0.16]
+    """
+    return _core.thesis_printout(lines, servo, machine)
+
+
+@dataclass(frozen=True)
+class SettledCycle:
+    """The limit cycle as the program of 1960 finds it; rad, and s for ω_n = 1 rad/s.
+
+    Attributes
+    ----------
+    settled, hunts, diverged : bool
+    amplitude : float
+        Half the peak-to-peak of the load, mean of the last cycles.
+    period : float
+    cycles : int
+        Number of averaged cycles.
+    run_time : float
+        Computed time of the servo.
+    """
+
+    settled: bool
+    hunts: bool
+    diverged: bool
+    amplitude: float
+    period: float
+    cycles: int
+    run_time: float
+
+
+def run(damping: float, inertia_ratio: float, friction_ratio: float, backlash: float = 0.3, *,
+        machine: bool = False) -> SettledCycle:
+    """Run the program of 1960 until its cycle has settled.
+
+    Parameters are those of :func:`printout`. Its amplitudes are 1 to 4 % too large.
+
+    Examples
+    --------
+    >>> from gearlash import thesis
+    >>> thesis.run(0.19, 2, 0.1).amplitude > 0.241611108
+    True
+    """
+    return SettledCycle(**_core.thesis_run(damping, inertia_ratio, friction_ratio, backlash,
+                                           machine))
+
+
+def figures() -> list[dict[str, Any]]:
+    """Compute figures 2 to 11: amplitudes over friction ratio, backlash or inertia ratio.
+
+    Returns
+    -------
+    list of dict
+        ``number``, ``caption`` and ``curves``; each curve has ``name``, ``exact`` (array, shape
+        (n, 2): place and amplitude in rad) and ``program`` (the points of 1960, likewise).
+    """
+    return _core.thesis_figures()

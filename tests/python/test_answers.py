@@ -1,0 +1,75 @@
+import json
+import math
+
+import pytest
+
+import gearlash
+
+
+def without_provenance(report):
+    """The report without what made it, at any depth."""
+    if isinstance(report, dict):
+        return {key: without_provenance(value) for key, value in report.items()
+                if key not in ("command", "version")}
+    return [without_provenance(one) for one in report] if isinstance(report, list) else report
+
+
+def test_numbers_of_the_sample_servo(servo):
+    answer = gearlash.analyse(servo)
+    cycle = answer.largest_stable
+    assert (answer.verdict, answer.certainty, answer.engine) == ("hunts", "enclosed", "closed form")
+    assert cycle.amplitude == pytest.approx(0.241611108, abs=5e-10)
+    assert cycle.period == pytest.approx(6.456205, abs=5e-7)
+    assert answer.value("frequency") == cycle.frequency == 1 / cycle.period
+    assert answer.hunts and answer.drive == servo
+    assert answer.ceiling.load / 0.3 == pytest.approx(0.8542, abs=5e-5)
+    spec = answer.ceiling.widest_backlash(0.1, 0.3)
+    assert spec == pytest.approx(0.1 / answer.ceiling.load * 0.3, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["elinco-fd162.toml", "robot-joint.toml", "normalized.toml"])
+def test_json_is_that_of_the_tool(example, tool, name):
+    drive = gearlash.Drive.from_toml(example(name))
+    ours = gearlash.analyse(drive).to_dict()
+    theirs = json.loads(tool("limit-cycle", example(name), "--format", "json"))
+    assert without_provenance(ours) == without_provenance(theirs)
+
+
+@pytest.mark.parametrize("command", ["describe", "compare"])
+def test_reports_are_those_of_the_tool(example, tool, command):
+    file = example("elinco-fd162.toml")
+    report = getattr(gearlash, command)(gearlash.Drive.from_toml(file))
+    theirs = json.loads(tool(command, file, "--format", "json"))
+    assert without_provenance(report) == without_provenance(theirs)
+    assert str(report).strip()
+
+
+def test_derivatives(servo):
+    slopes = gearlash.derivatives(servo, ["amplitude", "period"],
+                                  ["servo.backlash", "servo.damping"])
+    step = 1e-6
+    ends = [gearlash.analyse(servo.with_({"servo.damping": 0.19 + by})).value("amplitude")
+            for by in (-step, step)]
+    assert slopes.slope("amplitude", "servo.damping") == pytest.approx(
+        (ends[1] - ends[0]) / (2 * step), rel=1e-7)
+    assert slopes.slope("period", "servo.backlash") == pytest.approx(0.0, abs=1e-12)
+    assert slopes.elasticity("amplitude", "servo.backlash") == pytest.approx(1.0, rel=1e-12)
+
+
+def test_quantities_are_the_registry():
+    known = {info.name: info.unit for info in gearlash.quantities()}
+    assert known["amplitude"] == "rad" and known["settling_time"] == "s"
+
+
+def test_text_and_notebook(servo):
+    answer = gearlash.analyse(servo)
+    assert answer.headline in str(answer)
+    assert "13.8" in answer._repr_html_()
+
+
+def test_restitution_and_rest():
+    bouncing = gearlash.Drive.normal_form(0.19, 2, 0.1, 0.3, restitution=0.3)
+    assert gearlash.analyse(bouncing).value("amplitude") == pytest.approx(0.24010464, abs=5e-9)
+    quiet = gearlash.analyse(gearlash.Drive.normal_form(0.9, 2, 0.5, 0.3))
+    assert quiet.verdict == "cannot hunt" and not quiet.hunts and quiet.value("amplitude") == 0.0
+    assert quiet.largest_stable is None and not math.isnan(quiet.growth_at_rest)

@@ -1,0 +1,64 @@
+"""Every record, made from the headers of C++, keeps what it holds on the way there and back."""
+
+import dataclasses
+import pickle
+from math import inf  # noqa: F401  repr of infinite bounds
+
+import pytest
+
+import gearlash
+from gearlash import _core, _records
+
+NAMES = sorted(_core.default_records())
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_defaults_are_those_of_cpp(name):
+    made = getattr(_records, name)()
+    assert made == _core.default_records()[name]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_record_survives_repr_pickle_and_cpp(name):
+    record = getattr(_records, name)()
+    if name in ("TolerancedDrive", "TunedDrive"):  # of which an empty drive is no sound one
+        member = "nominal" if name == "TolerancedDrive" else "drive"
+        record = dataclasses.replace(record, **{member: gearlash.Drive.normal_form(1, 1, 1)})
+    if name == "TuneTask":
+        series = gearlash.TolerancedDrive(gearlash.Drive.normal_form(1, 1, 1))
+        record = dataclasses.replace(record, series=series)
+    assert eval(repr(record), vars(gearlash)) == record
+    assert pickle.loads(pickle.dumps(record)) == record
+    if not name.endswith("Info"):
+        assert _core.there_and_back(record) == record
+
+
+def test_an_answer_survives_as_a_whole(servo, pd_drive):
+    for drive in (servo, pd_drive):
+        answer = gearlash.analyse(drive, loop=True)
+        space = {**vars(gearlash), "inf": inf}
+        assert eval(repr(answer), space) == answer
+        assert pickle.loads(pickle.dumps(answer)) == answer
+        assert dataclasses.replace(_core.there_and_back(answer), drive=drive) == answer
+
+
+def test_every_word_comes_back():
+    for name, words in _core.words().items():
+        assert len(set(words)) == len(words), name
+        assert all(words)
+
+
+def test_records_take_keywords_and_refuse_changes():
+    start = gearlash.Start(load_position=0.1, gap_speed=2.0)
+    assert start.load_speed == 0.0 and start.gap is None
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        start.gap = 1.0
+    with pytest.raises(TypeError):
+        gearlash.Start(position=1.0)
+
+
+def test_a_wrong_member_is_named(servo):
+    with pytest.raises(TypeError, match="load_position"):
+        gearlash.simulate(servo, 1.0, start=gearlash.Start(load_position="far"))
+    with pytest.raises(gearlash.InvalidInput, match="hunts if disturbed"):
+        _core.there_and_back(gearlash.Answer(verdict="perhaps"))

@@ -1,0 +1,132 @@
+"""Threads, forks, Ctrl-C, progress and memory at the boundary of the module."""
+
+import gc
+import multiprocessing
+import os
+import resource
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+
+import numpy as np
+import pytest
+
+import gearlash
+
+
+def small_sweep(servo):
+    return gearlash.sweep(servo, {"servo.damping": "0.1:0.9:200", "servo.inertia_ratio": "0.5:4:20"},
+                          ["amplitude"])["amplitude"].values
+
+
+def test_two_threads_at_once(servo, pd_drive):
+    expected = small_sweep(servo)
+    searched = gearlash.analyse(pd_drive)
+    found = {}
+
+    def work(number):
+        found[number] = (small_sweep(servo), gearlash.analyse(pd_drive))
+
+    threads = [threading.Thread(target=work, args=(number,)) for number in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for values, answer in found.values():
+        assert np.array_equal(values, expected, equal_nan=True)
+        assert answer == searched
+
+
+def test_other_python_threads_run_meanwhile(pd_drive):
+    ticks = []
+    stop = threading.Event()
+
+    def tick():
+        while not stop.wait(0.001):
+            ticks.append(None)
+
+    ticker = threading.Thread(target=tick)
+    ticker.start()
+    gearlash.sweep(pd_drive, {"controller.proportional": "5:40:12"}, ["amplitude"])
+    stop.set()
+    ticker.join()
+    assert len(ticks) > 3
+
+
+def in_a_fork(servo, queue):
+    queue.put(small_sweep(servo))
+
+
+def test_a_fork_after_work_in_the_parent(servo):
+    expected = small_sweep(servo)
+    context = multiprocessing.get_context("fork")
+    queue = context.Queue()
+    child = context.Process(target=in_a_fork, args=(servo, queue))
+    child.start()
+    found = queue.get(timeout=60)
+    child.join(timeout=60)
+    assert child.exitcode == 0
+    assert np.array_equal(found, expected, equal_nan=True)
+
+
+def test_ctrl_c_interrupts():
+    program = textwrap.dedent("""
+        import gearlash, sys
+        drive = gearlash.Drive.from_toml(sys.argv[1])
+        print("begun", flush=True)
+        try:
+            gearlash.sweep(drive, {"controller.proportional": "100 V/rad:1000 V/rad:4000"})
+        except KeyboardInterrupt:
+            print("interrupted", flush=True)
+    """)
+    joint = os.path.join(os.path.dirname(__file__), "../../examples/robot-joint.toml")
+    child = subprocess.Popen([sys.executable, "-c", program, joint], stdout=subprocess.PIPE,
+                             text=True)
+    assert child.stdout.readline() == "begun\n"
+    threading.Timer(0.3, child.send_signal, [signal.SIGINT]).start()
+    out, _ = child.communicate(timeout=60)
+    assert out == "interrupted\n"
+
+
+def test_progress_reports_and_stops(pd_drive):
+    shares = []
+    gearlash.sweep(pd_drive, {"controller.proportional": "5:40:600"}, ["amplitude"],
+                   progress=shares.append)
+    assert shares == sorted(shares) and 0 <= shares[0] <= shares[-1] <= 1
+    stopped = gearlash.sweep(pd_drive, {"controller.proportional": "5:40:400"}, ["amplitude"],
+                             progress=lambda share: False)
+    assert np.isnan(stopped["amplitude"].values).any()
+
+
+def test_an_exception_of_progress_is_raised(pd_drive):
+    def fail(share):
+        raise RuntimeError("no more")
+
+    with pytest.raises(RuntimeError, match="no more"):
+        gearlash.sweep(pd_drive, {"controller.proportional": "5:40:400"}, progress=fail)
+
+
+def test_memory_does_not_grow(servo, pd_drive):
+    def once():
+        answer = gearlash.analyse(servo)
+        answer.to_json()
+        motion = gearlash.simulate(servo, 50.0, start=gearlash.Start(load_position=0.1))
+        motion.sampled(0.001).load_position.sum()
+        motion.events
+        gearlash.sweep(servo, arrays={"servo.damping": np.linspace(0.1, 0.5, 20_000)})
+        for bad in ({"gearbox.backlash": -1.0}, {"no.such": 1.0}):
+            with pytest.raises(gearlash.InvalidInput):
+                pd_drive.with_(bad)
+
+    def used():
+        gc.collect()
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+
+    for _ in range(30):
+        once()
+    before = used()
+    for _ in range(120):
+        once()
+    assert used() - before < 4_000  # kB; one of these calls keeps 400 kB in arrays alone

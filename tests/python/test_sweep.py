@@ -1,0 +1,114 @@
+import numpy as np
+import pandas
+import pytest
+import xarray
+
+import gearlash
+
+
+def test_axes_give_the_grid(servo):
+    data = gearlash.sweep(servo, {"servo.damping": "0.1:0.4:4", "servo.inertia_ratio": [1.0, 2.0]},
+                          ["amplitude", "period", "growth_at_rest"])
+    assert isinstance(data, xarray.Dataset)
+    assert data["amplitude"].dims == ("servo.damping", "servo.inertia_ratio")
+    one = gearlash.analyse(servo.with_({"servo.damping": 0.1, "servo.inertia_ratio": 2.0}))
+    point = data.sel({"servo.damping": 0.1, "servo.inertia_ratio": 2.0})
+    assert float(point["amplitude"]) == pytest.approx(one.value("amplitude"), rel=1e-12)
+    assert data["amplitude"].attrs["units"] == "rad"
+    assert gearlash.verdict_words(data)[0, 1] == "hunts"
+
+
+def test_arrays_are_broadcast_and_equal_the_grid_to_the_bit(servo):
+    dampings, ratios = np.linspace(0.05, 0.6, 40), np.geomspace(0.1, 10, 30)
+    grid = gearlash.sweep(servo, {"servo.damping": dampings, "servo.inertia_ratio": ratios},
+                          ["amplitude", "multiplier"])
+    same = gearlash.sweep(servo, arrays={"servo.damping": dampings[:, None],
+                                         "servo.inertia_ratio": ratios},
+                          quantities=["amplitude", "multiplier"])
+    for name in ("amplitude", "multiplier", "verdict"):
+        assert np.array_equal(grid[name].values, same[name].values, equal_nan=True), name
+    zipped = gearlash.sweep(servo, arrays={"servo.damping": dampings[:30],
+                                           "servo.inertia_ratio": ratios})
+    assert zipped["amplitude"].shape == (30,)
+    assert np.array_equal(zipped["amplitude"].values, np.diag(grid["amplitude"].values[:30]),
+                          equal_nan=True)
+
+
+def test_columns_are_memory_of_cpp(servo):
+    _, columns = gearlash._core.evaluate_grid(
+        servo, [gearlash.linear("servo.damping", 0.1, 0.5, 1000)], ["amplitude"], False, None)
+    column = columns["amplitude"]
+    assert not column.flags.owndata
+    del columns
+    assert np.isfinite(column).all()
+
+
+def test_a_searched_drive_and_words(pd_drive, tool, tmp_path):
+    axes = {"sensor.position": ["load", "motor"], "gearbox.backlash": "1 mrad, 2 mrad"}
+    data = gearlash.sweep(pd_drive, axes, ["amplitude", "motor_amplitude"])
+    assert data["sensor.position"].values.tolist() == ["load", "motor"]
+    one = gearlash.analyse(pd_drive.with_({"sensor.position": "motor", "gearbox.backlash": 2e-3}))
+    assert float(data["motor_amplitude"].sel({"sensor.position": "motor",
+                                              "gearbox.backlash": 2e-3})) == pytest.approx(
+        one.value("motor_amplitude"), rel=1e-6)
+    listed = gearlash.sweep(pd_drive, arrays={"gearbox.backlash": [1e-3, 2e-3]},
+                            quantities=["amplitude"])
+    assert listed["amplitude"].values == pytest.approx(data["amplitude"].values[0], rel=1e-6)
+
+
+def test_the_tool_maps_the_same(example, tool, tmp_path):
+    file = tmp_path / "map.csv"
+    tool("map", example("elinco-fd162.toml"), "--x", "gearbox.backlash=1 arcmin:1 deg:7",
+         "--y", "controller.proportional=50 V/rad:300 V/rad:5", "--output", file)
+    drive = gearlash.Drive.from_toml(example("elinco-fd162.toml"))
+    data = gearlash.sweep(drive, {"gearbox.backlash": "1 arcmin:1 deg:7",
+                                  "controller.proportional": "50 V/rad:300 V/rad:5"}, ["amplitude"])
+    table = pandas.read_csv(file, float_precision="round_trip")
+    told = {(row.gearbox_backlash, row.controller_proportional): row.amplitude
+            for row in table.itertuples()}
+    for point, amplitude in data["amplitude"].stack(point=data["amplitude"].dims).to_series().items():
+        assert told[point] == amplitude
+
+
+@pytest.mark.parametrize(("arrays", "error"), [
+    ({"servo.damping": [0.1, np.nan]}, ValueError),
+    ({"servo.damping": ["a", "b"]}, TypeError),
+    ({"servo.damping": [0.1, 0.2], "servo.backlash": [0.1, 0.2, 0.3]}, ValueError),
+    ({"servo.damping": []}, ValueError),
+    ({"servo.damping": [-1.0]}, gearlash.InvalidInput),
+    ({"servo.nonsense": [1.0]}, gearlash.InvalidInput),
+    ({"servo.damping": np.array([1 + 2j])}, TypeError)])
+def test_bad_arrays(servo, arrays, error):
+    with pytest.raises(error):
+        gearlash.sweep(servo, arrays=arrays)
+
+
+def test_bad_axes(servo):
+    with pytest.raises(gearlash.InvalidInput, match="amplitudo"):
+        gearlash.sweep(servo, {"servo.damping": [0.1]}, ["amplitudo"])
+    with pytest.raises(gearlash.InvalidInput):
+        gearlash.sweep(servo, {"servo.damping": "0.1:0.4"})
+    with pytest.raises(gearlash.InvalidInput, match="points"):
+        gearlash.sweep(servo, [gearlash.linear(f"servo.{name}", 0.1, 0.5, 1_000_000)
+                               for name in ("damping", "friction_ratio")])
+    with pytest.raises(ValueError, match="dimension"):
+        gearlash.sweep(servo, {"servo.damping": np.zeros((2, 2))})
+    with pytest.raises(TypeError):
+        gearlash.sweep(servo)
+
+
+def test_huge_shapes_are_refused_before_memory_is_taken(servo):
+    huge = np.broadcast_to(np.float64(0.1), (10**6, 10**6))
+    with pytest.raises((MemoryError, ValueError)):
+        gearlash.sweep(servo, arrays={"servo.damping": huge})
+
+
+def test_non_contiguous_arrays_and_other_types(servo):
+    base = np.linspace(0.1, 0.5, 20)
+    plain = gearlash.sweep(servo, arrays={"servo.damping": base[::2].copy()})["amplitude"].values
+    for array in (base[::2], base[::2].astype(">f8"), base.repeat(2)[::4]):
+        assert np.array_equal(
+            gearlash.sweep(servo, arrays={"servo.damping": array})["amplitude"].values, plain,
+            equal_nan=True)
+    ints = gearlash.sweep(servo, arrays={"servo.inertia_ratio": np.array([1, 2])})
+    assert ints["amplitude"].shape == (2,)
