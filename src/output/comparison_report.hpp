@@ -24,7 +24,7 @@ struct ComparisonReport {
 /// One column for each case: hunting, static error at the load, step response. Ends with a newline.
 std::string comparison_text(const ComparisonReport& report);
 
-/// The JSON that docs/command-line.md specifies.
+/// The JSON that docs/reference/command-line.md specifies.
 std::string comparison_json(const ComparisonReport& report);
 
 }  // namespace gearlash
