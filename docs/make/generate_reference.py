@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes the reference pages that come from the tool, its registries, schemas and headers.
 
-Usage: generate_reference.py TOOL PARAMETERS.json SCHEMAS HEADERS FOLDER
+Usage: generate_reference.py TOOL PARAMETERS.json SCHEMAS HEADERS XML FOLDER
 """
 
 import json
@@ -9,6 +9,7 @@ import pathlib
 import re
 import subprocess
 import sys
+from xml.etree import ElementTree
 
 SCOPES = {
     "answer": "Of the drive as a whole",
@@ -206,15 +207,48 @@ def index_page(title, text, names):
     return f"# {title}\n\n{text}\n\n```{{toctree}}\n:maxdepth: 1\n\n{listed}\n```\n"
 
 
-def header_page(header):
+def text_of(element):
+    return "".join(element.itertext()) if element is not None else ""
+
+
+def types_of(function):
+    types = ", ".join(text_of(one.find("type")) for one in function.findall("param"))
+    constant = " const" if function.get("const") == "yes" else ""
+    return f"({types}){constant}"
+
+
+def declared_in(xml, header):
+    """The directives of what a header declares, in its order: (line, directive)."""
+    place = f"include/gearlash/{header.name}"
+    for file in xml.glob("*.xml"):
+        for whole in ElementTree.parse(file).getroot().findall("compounddef"):
+            name = whole.findtext("compoundname")
+            location = whole.find("location")
+            if whole.get("kind") in ("struct", "class") and location.get("file") == place:
+                is_inner = "::" in name.removeprefix("gearlash::").removeprefix("hybrid::")
+                if not is_inner:
+                    yield int(location.get("line")), f"doxygen{whole.get('kind')}:: {name}"
+            if whole.get("kind") == "namespace":
+                for member in whole.findall("sectiondef/memberdef"):
+                    location = member.find("location")
+                    if location.get("file") != place:
+                        continue
+                    kind = member.get("kind")
+                    path = f"{name}::{member.findtext('name')}"
+                    if kind == "function":
+                        path += types_of(member)
+                    yield int(location.get("line")), f"doxygen{kind}:: {path}"
+
+
+def header_page(header, xml):
     """A page of reStructuredText, which Breathe speaks."""
-    purpose = header.read_text().split("\n")[0].removeprefix("// ").strip()
+    purpose = header.read_text().split("\n#")[0].replace("// ", "").strip()
     title = f"gearlash/{header.name}"
-    return (f"{title}\n{'=' * len(title)}\n\n{purpose}\n\n"
-            f".. doxygenfile:: include/gearlash/{header.name}\n"
-            "   :project: gearlash\n"
-            "   :sections: briefdescription detaileddescription innerclass"
-            " enum typedef func var public* define\n")
+    parts = [f"{title}\n{'=' * len(title)}\n", purpose + "\n"]
+    for _, directive in sorted(declared_in(xml, header)):
+        members = "   :members:\n" if directive.startswith(("doxygenstruct", "doxygenclass")) else ""
+        parts.append(f".. {directive}\n{members}")
+    return "\n".join(parts)
 
 
 def write(path, text):
@@ -225,7 +259,7 @@ def write(path, text):
 
 
 def main():
-    tool, parameters, schemas, headers, folder = (pathlib.Path(name) for name in sys.argv[1:])
+    tool, parameters, schemas, headers, xml, folder = (pathlib.Path(name) for name in sys.argv[1:])
     listed = json.loads(parameters.read_text())
     write(folder / "verbs.md", verbs_page(tool))
     write(folder / "parameters.md", parameters_page(listed))
@@ -240,7 +274,7 @@ def main():
 
     files = sorted(headers.glob("*.hpp"))
     for file in files:
-        write(folder / "cpp" / f"{file.stem}.rst", header_page(file))
+        write(folder / "cpp" / f"{file.stem}.rst", header_page(file, xml))
     write(folder / "cpp" / "index.md", index_page(
         "C++", "The public headers, `include/gearlash`. All numbers are in SI units, angles in rad.",
         [file.stem for file in files]))
