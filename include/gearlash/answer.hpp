@@ -96,7 +96,7 @@ struct Rest {
   /// swings.
   std::optional<double> swing_ratio{};
   /// Of the starts: integral action against dry friction without stiction moves them ever less and
-  /// ever later, or hardly ever (docs/reference/drives.md).
+  /// ever later, or hardly ever (docs/explanation/drives.md).
   std::size_t creeping_starts = 0;
 };
 
