@@ -87,7 +87,7 @@ def prose_of(page):
     """The paragraphs, headings and points of lists, without code, tables and comments."""
     text = without_fences(page.read_text())
     text = without_comments(text)
-    text = re.sub(r"`[^`]+`", " code ", text)
+    text = re.sub(r"`[^`]+`", " Code ", text)
     text = re.sub(r"!\[((?:[^\[\]])*)\]\([^)]*\)", "", text)
     text = LINK.sub(r"\1", text)
     return re.sub(r"https?://\S+", " address ", text)
