@@ -29,3 +29,13 @@ html_theme = "furo"
 html_title = f"Gearlash {release}"
 html_show_sourcelink = False
 html_copy_source = False
+
+
+def as_text(app, env, node, text):
+    """The text of a link to something in the repository that is neither a page nor a file to load."""
+    target = (BUILT / "source/docs" / node["refdoc"]).parent / node["reftarget"]
+    return text if target.exists() else None
+
+
+def setup(app):
+    app.connect("missing-reference", as_text)
