@@ -129,7 +129,7 @@ docs: tool  ## write the pages of docs as HTML: build/docs/html/index.html
 	docs/make/build $(TOOL) $(RELEASE)/docs/make/list_parameters
 
 docs-check: docs  ## dead links, spelling and long sentences in the pages
-	/usr/bin/python3 docs/make/check_pages.py
+	/usr/bin/python3 docs/make/check_pages.py build/docs/source/docs/reference/generated
 
 FORMAT := find include src apps tests benchmarks examples -name '*.[ch]pp' \
             -exec clang-format-16

@@ -163,8 +163,8 @@ void add_servo_options(Command& command, ServoOptions& options) {
 void add_servo_or_drive_options(Command& command, ServoOptions& options) {
   add_options(command, options,
               "Read the drive from this file: a data sheet or normalised servo\n"
-              "(docs/reference/data-sheets.md), or any drive (docs/reference/drives.md);\n"
-              "- is standard input",
+              "(docs/reference/data-sheets.md), or any drive\n"
+              "(docs/reference/drives.md); - is standard input",
               "Set the shaft with the position sensor: load, motor or both (position\n"
               "of the load, speed of the motor)");
 }

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Checks the pages: links within the repository, spelling, length of sentences.
 
-Usage: check_pages.py [--list-words]
+Usage: check_pages.py [--list-words] [FOLDER]
 
 Prints one line for each fault, and the mean length of the sentences of each page. Exit status 1 if
 there is a fault. --list-words prints the words that neither the dictionary nor docs/spelling.txt has.
+Of the pages of FOLDER, which are generated, only the spelling is checked.
 """
 
 import pathlib
@@ -135,17 +136,26 @@ def unknown_words(page):
     return {word for word in words - listed if is_word(word)}
 
 
+def faults_of_spelling(page, words):
+    unknown = sorted(unknown_words(page))
+    words.update(unknown)
+    return [f"{name_of(page)}: word = {word}: not in the dictionary" for word in unknown]
+
+
 def main():
     faults = []
     words = set()
+    for folder in sys.argv[1:]:
+        if folder.startswith("--"):
+            continue
+        for page in sorted(pathlib.Path(folder).resolve().rglob("*.md")):
+            faults += faults_of_spelling(page, words)
     for page in pages():
         name = name_of(page)
         faults += faults_of_links(page)
         if name in HISTORY:
             continue
-        unknown = unknown_words(page)
-        words |= unknown
-        faults += [f"{name}: word = {word}: not in the dictionary" for word in sorted(unknown)]
+        faults += faults_of_spelling(page, words)
         lengths = list(sentences_of(page))
         if not lengths or name in FORMULAS:
             continue
