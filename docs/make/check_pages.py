@@ -133,7 +133,7 @@ def unknown_words(page):
     run = subprocess.run(["hunspell", "-d", "en_US", "-i", "utf-8", "-l"], input=text,
                          capture_output=True, text=True, check=True)
     words = {word.strip("'").removesuffix("'s") for word in run.stdout.split()}
-    return {word for word in words - listed if is_word(word)}
+    return {word for word in words if is_word(word) and not listed & {word, word.lower()}}
 
 
 def faults_of_spelling(page, words):
