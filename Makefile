@@ -131,7 +131,7 @@ docs: tool  ## write the pages of docs as HTML: build/docs/html/index.html
 docs-check: docs  ## dead links, spelling and long sentences in the pages
 	/usr/bin/python3 docs/make/check_pages.py build/docs/source/docs/reference/generated
 
-FORMAT := find include src apps tests benchmarks examples -name '*.[ch]pp' \
+FORMAT := find include src apps tests benchmarks examples docs -name '*.[ch]pp' \
             -exec clang-format-16
 
 format:  ## lay out all C++ as .clang-format says
