@@ -15,7 +15,7 @@ export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 .DEFAULT_GOAL := help
 .PHONY: help demo tool test python bench versions clang sanitize fuzz browser oracle million followed designed tuned \
         derivatives seeded-faults \
-        coverage readme format format-check tidy clean package package-check
+        coverage readme docs docs-check format format-check tidy clean package package-check
 
 help:  ## this list
 	@awk -F':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -125,11 +125,19 @@ coverage:  ## the share of lines that the tests run
 	ctest --preset coverage
 	gcovr --root . --filter include --filter src --filter apps build/coverage
 
-readme: tool  ## renew the output and the pictures in README.md
+readme: tool  ## renew the outputs and the pictures in README.md and docs
 	@$(BUILD) release --target hybrid_examples --target drive_examples
 	scripts/readme
 
-FORMAT := find include src apps python tests benchmarks examples -name '*.[ch]pp' \
+docs: tool  ## write the pages of docs as HTML: build/docs/html/index.html
+	@$(INSTALL) docs
+	@$(BUILD) release --target list_parameters
+	docs/make/build $(TOOL) $(RELEASE)/docs/make/list_parameters
+
+docs-check: docs  ## dead links, spelling and long sentences in the pages
+	/usr/bin/python3 docs/make/check_pages.py build/docs/source/docs/reference/generated
+
+FORMAT := find include src apps python tests benchmarks examples docs -name '*.[ch]pp' \
             -exec clang-format-16
 
 format:  ## lay out all C++ as .clang-format says

@@ -101,7 +101,8 @@ void add_compare_command(Command& app, Action& action) {
   command
       ->add_option("DRIVE.toml", options->servo.file,
                    "Read the drive from this file: a data sheet or normalised servo\n"
-                   "(docs/data-sheets.md), or any drive (docs/drives.md)")
+                   "(docs/reference/data-sheets.md), or any drive\n"
+                   "(docs/reference/drives.md)")
       ->type_name("")
       ->required();
   add_set_option(*command, options->servo);

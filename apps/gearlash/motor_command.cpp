@@ -44,7 +44,9 @@ void add_motor_command(Command& app, Action& action) {
   const auto options = std::make_shared<ServoOptions>();
   Command* command = app.add_subcommand(
       "motor", "Convert a data sheet to the numbers of the charts, step by step");
-  command->add_option("DRIVE.toml", options->file, "Read this data sheet (docs/data-sheets.md)")
+  command
+      ->add_option("DRIVE.toml", options->file,
+                   "Read this data sheet (docs/reference/data-sheets.md)")
       ->type_name("")
       ->required();
   add_set_option(*command, *options);

@@ -156,14 +156,15 @@ std::string option_name(std::string field) {
 void add_servo_options(Command& command, ServoOptions& options) {
   add_options(command, options,
               "Read the servo from this file: a data sheet or normalised servo\n"
-              "(docs/data-sheets.md); - is standard input",
+              "(docs/reference/data-sheets.md); - is standard input",
               "Set the shaft with the position sensor: load");
 }
 
 void add_servo_or_drive_options(Command& command, ServoOptions& options) {
   add_options(command, options,
               "Read the drive from this file: a data sheet or normalised servo\n"
-              "(docs/data-sheets.md), or any drive (docs/drives.md); - is standard\ninput",
+              "(docs/reference/data-sheets.md), or any drive\n"
+              "(docs/reference/drives.md); - is standard input",
               "Set the shaft with the position sensor: load, motor or both (position\n"
               "of the load, speed of the motor)");
 }

@@ -96,7 +96,7 @@ struct Rest {
   /// swings.
   std::optional<double> swing_ratio{};
   /// Of the starts: integral action against dry friction without stiction moves them ever less and
-  /// ever later, or hardly ever (docs/drives.md).
+  /// ever later, or hardly ever (docs/explanation/drives.md).
   std::size_t creeping_starts = 0;
 };
 
@@ -190,7 +190,7 @@ struct SafeStarts {
 /// A proved bound of every motion in the end, hunting of any kind included: how far it can be from
 /// the motion of the loop with the gap closed, without dry friction and encoder, under the same
 /// reference and load torque; a sine of the load torque is not part of that motion but a term. Each
-/// bound is the sum of its terms (docs/mathematics.md, "The ceiling").
+/// bound is the sum of its terms (docs/explanation/mathematics.md, "The ceiling").
 struct Ceiling {
   std::optional<double> load{};   ///< rad; empty if there is none
   std::optional<double> motor{};  ///< rad, at the load's shaft

@@ -67,8 +67,8 @@ struct DesignChartOptions {
 /// the same error is relatively larger there. So the largest error in a cell is divided by the
 /// least value in the cell (growth at rest in its interpolated form). The stated error of a cell is
 /// 3.2 times the largest such error of the cell and of the cells that touch it, which covers a jump
-/// of the slope anywhere on one axis. It is an estimate, not a bound; docs/design-charts.md reports
-/// how well it did.
+/// of the slope anywhere on one axis. It is an estimate, not a bound;
+/// docs/explanation/chart-errors.md reports how well it did.
 ///
 /// A cell is interpolated if its stated error is within the tolerance and its points, and those of
 /// each cell that touches it, are similar: one verdict, all with values or all without, and μ₀

@@ -6,8 +6,8 @@
 
 namespace gearlash {
 
-// A register is a number without a unit: the firmware's manual states its unit. docs/drives.md has
-// the conversions with their sources.
+// A register is a number without a unit: the firmware's manual states its unit.
+// docs/reference/drives.md has the conversions with their sources.
 //
 // tracking_time: s, ≥ 0, as that of PID and CascadeController; it stands for the firmware's own
 // anti-windup, which has another form. 0: none. If it is not given, that of ODrive's decay, and the

@@ -55,9 +55,9 @@ struct HybridSystem;
 /// An event fires at the first time after which its guard is on the wrong side; one that is on the
 /// wrong side as its mode begins fires at once. Of several at one instant those of timers come
 /// first; the others follow in the order in which they were added. No event is lost, and none fires
-/// twice for one reason (docs/hybrid.md). Every function that takes a system throws InvalidInput
-/// with all its faults: shapes that do not agree, modes that are not there, numbers that are not
-/// finite.
+/// twice for one reason (docs/explanation/hybrid.md). Every function that takes a system throws
+/// InvalidInput with all its faults: shapes that do not agree, modes that are not there, numbers
+/// that are not finite.
 class System {
  public:
   explicit System(std::vector<std::string> state_names);
@@ -121,7 +121,8 @@ class Motion {
 };
 
 /// The motion from a start at time 0. Steps are series with proved remainders: there is no step
-/// size, and an event is a first crossing; docs/hybrid.md says what rounding leaves open.
+/// size, and an event is a first crossing; docs/explanation/hybrid.md says what rounding leaves
+/// open.
 [[nodiscard]] Motion simulate(const System& system, Mode start, const Row& state, double until);
 
 struct Orbit {

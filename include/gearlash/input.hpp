@@ -10,8 +10,8 @@
 
 namespace gearlash {
 
-/// Reads a file of at most 1 MiB. docs/drives.md has the keys. Tables of signals are files beside
-/// it. Tolerances are left out. Throws InvalidInput with every fault and its place.
+/// Reads a file of at most 1 MiB. docs/reference/drives.md has the keys. Tables of signals are
+/// files beside it. Tolerances are left out. Throws InvalidInput with every fault and its place.
 [[nodiscard]] Drive read_drive(const std::filesystem::path& toml);
 
 /// The same for text; tables are in `folder`.

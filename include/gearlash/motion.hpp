@@ -142,8 +142,8 @@ class Motion {
 /// The motion under the drive's own reference and load torque. There is no step size. The closed
 /// form answers for the servo of 1960 with a reference that is constant from 0 on. The general
 /// engine answers for every other drive, from event to event and exact except for rounding
-/// (docs/hybrid.md). Throws InvalidInput for an unsound drive and for faults of the span: "until",
-/// "start.gap", ….
+/// (docs/explanation/hybrid.md). Throws InvalidInput for an unsound drive and for faults of the
+/// span: "until", "start.gap", ….
 [[nodiscard]] Motion simulate(const Drive& drive, const Span& span,
                               Progress& progress = no_progress());
 

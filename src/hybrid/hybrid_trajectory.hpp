@@ -161,10 +161,11 @@ class Trajectory {
 /// than the estimated rounding: 16 epsilons of all terms that a step adds, for the state and again
 /// for the guard (estimates of first order). On steps of 2/‖A‖ that is at most 1,070 epsilons
 /// (2.4e-13) of |d| + Σ|c_i x_i|. Each x_i counts as the largest number beside its weight, with
-/// what the offset b gives it in a step. The largest in 1.5e6 passages was 1.5e-13 (docs/hybrid.md;
-/// tests/hybrid/grazing_band_test.cpp). Such a passage is listed as a touch with its possible depth
-/// (Touch::within). A state this near a guard as its mode begins counts as on it. The error of
-/// earlier steps is not included: it moves the motion, as a change of the start does.
+/// what the offset b gives it in a step. The largest in 1.5e6 passages was 1.5e-13
+/// (docs/explanation/hybrid.md; tests/hybrid/grazing_band_test.cpp). Such a passage is listed as a
+/// touch with its possible depth (Touch::within). A state this near a guard as its mode begins
+/// counts as on it. The error of earlier steps is not included: it moves the motion, as a change of
+/// the start does.
 ///
 /// Let firings of one transition alone, or up to four in turn, have intervals (from turn to turn)
 /// that shrink by a steady ratio ρ. Their limit is d ρ/(1 − ρ) after the last, with d the last

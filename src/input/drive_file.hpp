@@ -33,9 +33,9 @@ enum class BareNumbers : bool { refused, in_si };
 
 inline constexpr std::size_t largest_drive_file = 1024 * 1024;  ///< bytes
 
-/// Reads TOML text of at most largest_drive_file bytes. docs/drives.md lists the keys, their units
-/// and defaults. Error lines call the text `source_name`. `settings` replace values of the text;
-/// their faults are located at "--set". Signal tables are read from files in `folder`.
+/// Reads TOML text of at most largest_drive_file bytes. docs/reference/drives.md lists the keys,
+/// their units and defaults. Error lines call the text `source_name`. `settings` replace values of
+/// the text; their faults are located at "--set". Signal tables are read from files in `folder`.
 ///
 /// Throws only InvalidInput and std::bad_alloc. InvalidInput lists every fault in the order of the
 /// file: unknown sections and keys (with the nearest known one), missing ones, and values of the

@@ -27,8 +27,8 @@ inline constexpr std::size_t largest_sweep_file = 1024 * 1024;  ///< bytes
 /// last varying fastest; `quantities`, a list of names; `keep`, a list of what to keep instead of
 /// every point ("counts", …, the members of Kept); and `verdicts`, "computed" or "proved". The
 /// other sections are those of a drive file without the varied parameters; [servo] without backlash
-/// gives amplitudes in backlashes (docs/command-line.md). Signal tables are read from `folder`.
-/// Throws InvalidInput with every fault, as parse_drive() does.
+/// gives amplitudes in backlashes (docs/reference/command-line.md). Signal tables are read from
+/// `folder`. Throws InvalidInput with every fault, as parse_drive() does.
 SweepFile parse_sweep(std::string_view toml, std::string_view source_name,
                       const std::filesystem::path& folder = {});
 

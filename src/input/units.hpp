@@ -20,7 +20,8 @@ struct Measured {
 
 /// Reads "<number> <unit>", or a plain 0, which needs no unit. The number is decimal with a point,
 /// in every locale. The unit is a product or quotient of powers of UDUNITS-2's units and the
-/// aliases of docs/data-sheets.md ("oz in2", "oz-in^2", "N·m/A", "mNm/A", "V/(rad/s)", "V/krpm").
+/// aliases of docs/reference/data-sheets.md ("oz in2", "oz-in^2", "N·m/A", "mNm/A", "V/(rad/s)",
+/// "V/krpm").
 ///
 /// Differences from UDUNITS: oz is the avoirdupois ounce (a mass), Hz is 2π rad/s (cycles per
 /// second), and reciprocals, offsets and logarithms are not converted. A dimension that may omit

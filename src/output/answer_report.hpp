@@ -55,7 +55,8 @@ std::string headline(const AnswerReport& report);
 /// meaning of the answer. Ends with a newline.
 std::string answer_text(const AnswerReport& report);
 
-/// "gearlash/limit-cycle/2", specified in docs/command-line.md, in SI. Ends with a newline.
+/// "gearlash/limit-cycle/2", specified in docs/reference/command-line.md, in SI. Ends with a
+/// newline.
 std::string answer_json(const AnswerReport& report);
 
 /// One cycle of the report.

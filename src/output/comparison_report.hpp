@@ -46,7 +46,7 @@ drive::Step step_of_comparison(const Drive& drive, std::optional<double> size,
 /// One column for each case: hunting, static error at the load, step response. Ends with a newline.
 std::string comparison_text(const ComparisonReport& report);
 
-/// The JSON that docs/command-line.md specifies.
+/// The JSON that docs/reference/command-line.md specifies.
 std::string comparison_json(const ComparisonReport& report);
 
 }  // namespace gearlash

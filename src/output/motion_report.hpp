@@ -25,7 +25,8 @@ void write_samples_csv(const MotionReport& report, const TextSink& sink,
 /// shafts' positions and speeds before and after.
 void write_events_csv(const MotionReport& report, const TextSink& sink);
 
-/// "gearlash/simulate/2", specified in docs/command-line.md. Rows go to the sink one by one.
+/// "gearlash/simulate/2", specified in docs/reference/command-line.md. Rows go to the sink one by
+/// one.
 void write_motion_json(const MotionReport& report, const TextSink& sink,
                        Progress& progress = no_progress());
 

@@ -65,9 +65,10 @@ class MachineFault : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Memory, registers, and the instructions of docs/thesis.md. Integers are one's complement with a
-/// subtractive adder (x − x is +0); floating point follows `rules`. A return jump writes P+1 into
-/// the upper address of its target word and continues with that word's lower instruction.
+/// Memory, registers, and the instructions of docs/explanation/thesis.md. Integers are one's
+/// complement with a subtractive adder (x − x is +0); floating point follows `rules`. A return jump
+/// writes P+1 into the upper address of its target word and continues with that word's lower
+/// instruction.
 class Machine1604 {
  public:
   explicit Machine1604(FloatRules rules = {}) : rules_(rules), memory_(memory_words, 0) {}

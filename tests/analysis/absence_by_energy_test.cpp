@@ -35,7 +35,7 @@ TEST(OraclePositivePolynomial, IsDecidedByItsRoots) {
   EXPECT_FALSE(is_positive({Interval(-1e-9, 1.0), 1.0}));
 }
 
-/// B ≥ 0 of docs/mathematics.md, which is_dissipative() decides in rational numbers.
+/// B ≥ 0 of docs/explanation/mathematics.md, which is_dissipative() decides in rational numbers.
 TEST(OracleAbsenceByEnergy, OfTheServoIsItsOwnTheorem) {
   SeededDraws draws(20261123);
   int proved = 0;
@@ -175,7 +175,7 @@ struct Count {
 
 /// No drive of the region keeps swinging, and all end where rest is computed to be. Prints which
 /// share of the drives that rest is proved. GEARLASH_DRIVES=2000 asks for more
-/// (docs/verification.md).
+/// (docs/explanation/verification.md).
 TEST(PropertyAbsenceByEnergy, DrivesOfTheRegionComeToTheComputedRest) {
   const char* asked = std::getenv("GEARLASH_DRIVES");
   const int wanted = asked == nullptr ? 200 : std::atoi(asked);

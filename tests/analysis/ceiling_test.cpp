@@ -224,7 +224,7 @@ TEST(OracleCeiling, OfAFastComputerIsThatOfAContinuousController) {
 
 // ---- motion -------------------------------------------------------------------------------------
 
-/// GEARLASH_DRIVES=2000 asks for more (docs/verification.md).
+/// GEARLASH_DRIVES=2000 asks for more (docs/explanation/verification.md).
 int count_of_drives(int usual) {
   const char* asked = std::getenv("GEARLASH_DRIVES");
   return asked == nullptr ? usual : std::atoi(asked);

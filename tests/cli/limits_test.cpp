@@ -1,5 +1,5 @@
 // Every limit on orders, tables and counts: what exceeds it is refused by field, value and what is
-// permitted, and docs/command-line.md lists it.
+// permitted, and docs/reference/command-line.md lists it.
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -43,7 +43,7 @@ std::string list_of(const std::string& element, int count) {
 
 /// The section "Limits" of the page, without the commas within numbers.
 std::string page_of_limits() {
-  const std::string page = file_text(GEARLASH_SOURCE_DIRECTORY "/docs/command-line.md");
+  const std::string page = file_text(GEARLASH_SOURCE_DIRECTORY "/docs/reference/command-line.md");
   const std::size_t begin = page.find("\n## Limits\n");
   EXPECT_NE(begin, std::string::npos);
   std::string text = page.substr(begin, page.find("\n## ", begin + 1) - begin);

@@ -1,5 +1,5 @@
-// The theorem of docs/mathematics.md speaks of motions that have parted cleanly once. Arbitrary
-// starts may part at impacts first; here is how often in a row.
+// The theorem of docs/explanation/mathematics.md speaks of motions that have parted cleanly once.
+// Arbitrary starts may part at impacts first; here is how often in a row.
 #include <gtest/gtest.h>
 
 #include <algorithm>

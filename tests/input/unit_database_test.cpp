@@ -38,7 +38,7 @@ TEST(OracleUnitDatabase, EveryWordIsWhatUdunitsMakesOfIt) {
 }
 
 TEST(UnitDatabase, KnowsEveryUnitOfTheDocs) {
-  std::ifstream page(GEARLASH_SOURCE_DIRECTORY "/docs/data-sheets.md");
+  std::ifstream page(GEARLASH_SOURCE_DIRECTORY "/docs/reference/data-sheets.md");
   const std::regex quoted("`([^`]+)`");
   bool in_table = false;
   std::size_t words = 0;

@@ -1,5 +1,6 @@
 // oracle_run: random servos against the reference simulator, and the known limit cycles against its
-// long runs. Prints the tables of docs/verification.md; exit status 1 when anything disagrees.
+// long runs. Prints the tables of docs/explanation/verification.md; exit status 1 when anything
+// disagrees.
 
 #include <unistd.h>
 

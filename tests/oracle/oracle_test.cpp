@@ -1,5 +1,6 @@
 // The everyday part of the oracle: random servos that are not stiff against Boost.odeint, stiff
-// ones against the matrix exponential. oracle_run does a thousand (docs/verification.md).
+// ones against the matrix exponential. oracle_run does a thousand
+// (docs/explanation/verification.md).
 
 #include <gtest/gtest.h>
 

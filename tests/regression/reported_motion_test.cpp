@@ -72,7 +72,7 @@ TEST(ReportedMotion, IsWatchedForManyTicksOfAMotorWithinItsGap) {
 /// every 4.1850 s from 0.3 arcmin on. The large steps wind up the integral, which has no
 /// anti-windup, and the swings grow.
 TEST(ReportedMotion, OfTheDrivesPageIsDecidedInLittleTime) {
-  const Drive drive = first_drive_on("docs/drives.md");
+  const Drive drive = first_drive_on("docs/reference/drives.md");
   const Answer answer = analyse(drive);
   ASSERT_TRUE(answer.search);
   EXPECT_EQ(answer.search->count("undecided"), 0U);

@@ -429,7 +429,7 @@ TEST(HarmonicBalanceEdge, NaturalFrequencyRange) {
 
 // ---- The servo
 
-/// The numbers of docs/mathematics.md, "Describing functions".
+/// The numbers of docs/explanation/mathematics.md, "Describing functions".
 TEST(HarmonicBalanceOracle, EstimateBesideTheExactCycle) {
   struct Row {
     double damping, inertia_ratio, friction_ratio;

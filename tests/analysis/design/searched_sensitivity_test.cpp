@@ -186,7 +186,7 @@ Drive random_continuous_drive(std::uint64_t seed) {
   return drive;
 }
 
-/// GEARLASH_CYCLES=300 asks for more (docs/verification.md).
+/// GEARLASH_CYCLES=300 asks for more (docs/explanation/verification.md).
 TEST(PropertySearchedSensitivity, AgreesWithDifferencesOfTheCycles) {
   const char* asked = std::getenv("GEARLASH_CYCLES");
   const std::size_t cycles = asked != nullptr ? static_cast<std::size_t>(std::atoi(asked)) : 3;

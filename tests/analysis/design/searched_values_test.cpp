@@ -270,7 +270,7 @@ Task random_task(SeededDraws& draws) {
   return task;
 }
 
-/// GEARLASH_TASKS=300 asks for more (docs/verification.md).
+/// GEARLASH_TASKS=300 asks for more (docs/explanation/verification.md).
 TEST(PropertySearchedValues, MeetTheirTargetAndMissNothingWiderThanTheGrid) {
   const char* asked = std::getenv("GEARLASH_TASKS");
   const int tasks = asked != nullptr ? std::atoi(asked) : 10;

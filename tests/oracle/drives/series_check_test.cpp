@@ -82,7 +82,7 @@ TEST(OracleTextbookGains, AreThoseOfTheSymmetricOptimum) {
   EXPECT_NEAR(with_textbook_gains(drive).controller.position, 1.0 / 16e-3, 1e-9);
 }
 
-/// design_drives has more (docs/verification.md).
+/// design_drives has more (docs/explanation/verification.md).
 TEST(PropertyDesignTask, ItsAnswersHoldWhenPutBack) {
   for (const std::uint64_t seed : {3U, 9U}) {
     const DesignTask task = random_design_task(seed);

@@ -1,0 +1,41 @@
+"""Settings of Sphinx for `make docs`, which runs it over a copy of docs in build/docs/source."""
+
+import re
+from pathlib import Path
+
+BUILT = Path(__file__).resolve().parents[2]  # build/docs
+
+project = "Gearlash"
+author = "The authors of Gearlash"
+copyright = author
+cmake = (BUILT / "source/CMakeLists.txt").read_text()
+version = release = re.search(r"VERSION ([0-9.]+)\n", cmake).group(1)
+
+extensions = ["myst_parser", "breathe"]
+source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
+root_doc = "index"
+exclude_patterns = ["schemas"]
+
+myst_heading_anchors = 4
+myst_enable_extensions = []
+
+breathe_projects = {"gearlash": str(BUILT / "doxygen/xml")}
+breathe_default_project = "gearlash"
+breathe_default_members = ("members",)
+primary_domain = "cpp"
+highlight_language = "text"
+
+html_theme = "furo"
+html_title = f"Gearlash {release}"
+html_show_sourcelink = False
+html_copy_source = False
+
+
+def as_text(app, env, node, text):
+    """The text of a link to something in the repository that is neither a page nor a file to load."""
+    target = (BUILT / "source/docs" / node["refdoc"]).parent / node["reftarget"]
+    return text if target.exists() else None
+
+
+def setup(app):
+    app.connect("missing-reference", as_text)

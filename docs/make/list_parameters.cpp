@@ -1,0 +1,239 @@
+// Prints every parameter and quantity as JSON, from which the reference pages are made.
+#include <cstddef>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "gearlash/drive.hpp"
+#include "gearlash/parameter.hpp"
+#include "gearlash/quantity.hpp"
+#include "model/normalized_servo.hpp"
+#include "model/parameters.hpp"
+
+namespace {
+
+using namespace gearlash;
+using Json = nlohmann::ordered_json;
+using Words = std::vector<std::string>;
+
+bool is_choice(const Parameter& parameter, Drive& drive) {
+  return std::holds_alternative<Choice>(parameter.slot(drive));
+}
+
+Drive with_choice(Drive drive, const Parameter& parameter, std::size_t choice) {
+  std::get<Choice>(parameter.slot(drive)).choose(drive, choice);
+  return drive;
+}
+
+Drive with_all_sections() {
+  Drive drive;
+  for (const Section& section : all_sections()) {
+    if (section.name != "servo" && !section.is_present(drive)) section.add(drive);
+  }
+  return drive;
+}
+
+constexpr double present = 0.4375;  // no default of any number
+
+/// Some keys stand only beside others, such as the form of a dead band and a limit of the current
+/// of a motor whose torque constant is known. Here all are present.
+Drive with_all_numbers(Drive drive) {
+  for (const Parameter& parameter : all_parameters_of_drives()) {
+    const Slot slot = parameter.slot(drive);
+    if (auto* const* number = std::get_if<double*>(&slot); number != nullptr && **number == 0.0) {
+      **number = present;
+    }
+    if (auto* const* number = std::get_if<std::optional<double>*>(&slot)) **number = present;
+  }
+  return drive;
+}
+
+/// This drive, and those with one of its words changed, then two.
+std::vector<Drive> kinds_of(const Drive& drive) {
+  std::vector<Drive> drives = {drive};
+  std::size_t begin = 0;
+  for (int changes = 0; changes < 2; ++changes) {
+    const std::size_t end = drives.size();
+    for (std::size_t i = begin; i < end; ++i) {
+      for (const Parameter& parameter : all_parameters_of_drives()) {
+        if (!is_choice(parameter, drives[i])) continue;
+        for (std::size_t choice = 0; choice < parameter.choices.size(); ++choice) {
+          drives.push_back(with_choice(drives[i], parameter, choice));
+        }
+      }
+    }
+    begin = end;
+  }
+  return drives;
+}
+
+/// Drives that have, between them, every parameter. Those with all numbers are last, so that
+/// defaults come from the others.
+std::vector<Drive> drives_of_all_kinds() {
+  std::vector<Drive> all = {normal_form(0.2, 1.0, 0.2)};
+  for (const Drive& drive : {with_all_sections(), with_all_numbers(with_all_sections())}) {
+    const std::vector<Drive> kinds = kinds_of(drive);
+    all.insert(all.end(), kinds.begin(), kinds.end());
+  }
+  return all;
+}
+
+/// Whether the drive has the parameter as it is, with all its numbers, or with one of them more.
+bool can_exist(const Parameter& parameter, const Drive& drive) {
+  if (exists(parameter, drive) || exists(parameter, with_all_numbers(drive))) return true;
+  for (const Parameter& other : all_parameters_of_drives()) {
+    Drive more = drive;
+    const Slot slot = other.slot(more);
+    if (auto* const* number = std::get_if<std::optional<double>*>(&slot)) {
+      **number = present;
+      if (exists(parameter, more)) return true;
+    }
+  }
+  return false;
+}
+
+/// How the parameter depends on the words of a drive that has it.
+struct Dependence {
+  std::map<std::string, Words> exists_with{};  ///< words of a path, where others rule it out
+  std::map<std::string, std::map<std::string, Words>> units{};     ///< path → unit → words
+  std::map<std::string, std::map<std::string, Words>> defaults{};  ///< of a word, likewise
+};
+
+std::string unit_in(const Parameter& parameter, const Drive& drive) {
+  const Dimension* dimension = parameter.dimension(drive);
+  return dimension == nullptr ? "" : std::string(dimension->unit);
+}
+
+/// The word of a choice; empty for a number.
+std::string word_in(const Parameter& parameter, Drive drive) {
+  const Slot slot = parameter.slot(drive);
+  const auto* choice = std::get_if<Choice>(&slot);
+  if (choice == nullptr) return "";
+  const std::size_t chosen = choice->chosen(drive);
+  return chosen < parameter.choices.size() ? std::string(parameter.choices[chosen]) : "";
+}
+
+Dependence dependence_of(const Parameter& parameter, Drive drive) {
+  Dependence found;
+  for (const Parameter& other : all_parameters_of_drives()) {
+    if (&other == &parameter || !is_choice(other, drive)) continue;
+    Words words;
+    std::map<std::string, Words> units;
+    std::map<std::string, Words> defaults;
+    for (std::size_t choice = 0; choice < other.choices.size(); ++choice) {
+      const Drive varied = with_choice(drive, other, choice);
+      if (!can_exist(parameter, varied)) continue;
+      words.emplace_back(other.choices[choice]);
+      units[unit_in(parameter, varied)].emplace_back(other.choices[choice]);
+      defaults[word_in(parameter, varied)].emplace_back(other.choices[choice]);
+    }
+    if (words.size() < other.choices.size()) found.exists_with[std::string(other.path)] = words;
+    if (defaults.size() > 1) found.defaults[std::string(other.path)] = defaults;
+    if (units.size() > 1) found.units[std::string(other.path)] = units;
+  }
+  return found;
+}
+
+std::string permitted(const Parameter& parameter) {
+  switch (parameter.permitted) {
+    case Permitted::positive:
+      return "> 0";
+    case Permitted::not_negative:
+      return "≥ 0";
+    case Permitted::share:
+      return "0 … 1";
+    case Permitted::of_normal_form:
+      return permitted_values(parameter.key());
+    case Permitted::anything:
+      break;
+  }
+  return "any finite number";
+}
+
+std::string kind_of(const Slot& slot) {
+  if (std::holds_alternative<Choice>(slot)) return "choice";
+  if (std::holds_alternative<std::vector<double>*>(slot)) return "list";
+  if (std::holds_alternative<Rows*>(slot)) return "matrix";
+  return std::holds_alternative<std::string*>(slot) ? "file" : "number";
+}
+
+Json default_of(const Parameter& parameter, Drive& drive, const std::string& kind) {
+  if (parameter.is_required) return nullptr;
+  if (!parameter.otherwise.empty()) return std::string(parameter.otherwise);
+  if (kind == "choice") return word_in(parameter, drive);
+  if (kind == "number") {
+    const std::optional<double> value = number_in(parameter, drive);
+    const bool is_optional = std::holds_alternative<std::optional<double>*>(parameter.slot(drive));
+    if (value && *value != present) return *value;
+    if (value && !is_optional) return 0.0;
+  }
+  return nullptr;
+}
+
+Json described(const Parameter& parameter, Drive drive) {
+  const std::string kind = kind_of(parameter.slot(drive));
+  const Dependence dependence = dependence_of(parameter, drive);
+  Json aliases = Json::array();
+  for (const OtherForm& form : parameter.other_forms) {
+    const std::string unit = form.dimension == nullptr ? "" : std::string(form.dimension->unit);
+    aliases.push_back({{"path", std::string(form.path)}, {"unit", unit}});
+  }
+  Json words = Json::array();
+  for (const std::string& word : words_of(parameter)) words.push_back(word);
+  return {{"path", std::string(parameter.path)},
+          {"kind", kind},
+          {"meaning", std::string(parameter.meaning)},
+          {"unit", unit_in(parameter, drive)},
+          {"units", dependence.units},
+          {"defaults", dependence.defaults},
+          {"exists_with", dependence.exists_with},
+          {"permitted", kind == "number" ? permitted(parameter) : ""},
+          {"required", parameter.is_required},
+          {"default", default_of(parameter, drive, kind)},
+          {"words", kind == "choice" ? words : Json::array()},
+          {"aliases", aliases},
+          {"usual", {parameter.usual.low, parameter.usual.high}}};
+}
+
+Json described(const QuantityInfo& quantity) {
+  constexpr std::string_view scopes[] = {"answer", "motion", "ceiling", "loop", "step"};
+  return {{"name", std::string(quantity.name)},
+          {"unit", std::string(quantity.unit)},
+          {"meaning", std::string(quantity.meaning)},
+          {"scope", std::string(scopes[static_cast<std::size_t>(quantity.scope)])}};
+}
+
+}  // namespace
+
+int main() {
+  const std::vector<Drive> drives = drives_of_all_kinds();
+  Json parameters = Json::array();
+  for (const Parameter& parameter : all_parameters_of_drives()) {
+    const Drive* first = nullptr;
+    for (const Drive& drive : drives) {
+      if (exists(parameter, drive)) {
+        first = &drive;
+        break;
+      }
+    }
+    if (first == nullptr) {
+      std::cerr << "list_parameters: no drive has " << parameter.path << '\n';
+      return 1;
+    }
+    parameters.push_back(described(parameter, *first));
+  }
+  Json values = Json::array();
+  for (const QuantityInfo& quantity : quantities()) values.push_back(described(quantity));
+  Json sections = Json::object();
+  for (const Section& section : all_sections()) {
+    sections[std::string(section.name)] = std::string(section.contents);
+  }
+  std::cout
+      << Json{{"sections", sections}, {"parameters", parameters}, {"quantities", values}}.dump(1)
+      << '\n';
+}
