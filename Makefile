@@ -14,7 +14,7 @@ export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
 .PHONY: help demo tool test python bench versions clang sanitize fuzz browser oracle million followed designed tuned \
-        derivatives seeded-faults \
+        rivals derivatives seeded-faults \
         coverage readme docs docs-check format format-check tidy clean package package-check
 
 help:  ## this list
@@ -56,6 +56,10 @@ versions:  ## the part of bench beside version 0.1: drives, their time, memory a
 	cmake --preset bench
 	$(BUILD) bench --target gearlash_tool --target score_drives
 	benchmarks/beside-version-0.1 --jobs $(JOBS)
+
+rivals: tool  ## the thesis's servo through Siconos and Scilab: error and time beside Gearlash
+	@$(INSTALL) rivals
+	benchmarks/rivals/run --tool $(TOOL)
 
 clang:  ## build everything with clang 16, warnings being errors, and run every test
 	@$(INSTALL) test clang
