@@ -29,7 +29,7 @@ const std::filesystem::path root = GEARLASH_SOURCE_DIRECTORY;
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder,
                                             const std::string& extension) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (entry.path().extension() == extension) files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());

@@ -172,7 +172,8 @@ TEST(ServoFile, ByteOrderMarkAndLineEndingsChangeNothing) {
 
 TEST(ServoFile, EveryExampleIsRead) {
   std::size_t count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(source_directory / "examples")) {
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(source_directory / "examples")) {
     if (entry.path().extension() != ".toml" || entry.path().stem() == "sweep") continue;
     ++count;
     const std::optional<ServoOfFile> file = servo_of(read_written_drive(entry.path()));

@@ -27,7 +27,7 @@ Drive read(const std::string& text, const std::vector<Setting>& settings = {}) {
 }
 
 TEST(DriveText, EveryExampleReadsBackAsTheSameDrive) {
-  for (const auto& entry : std::filesystem::directory_iterator(examples)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(examples)) {
     if (entry.path().extension() != ".toml" || entry.path().stem() == "sweep") continue;
     const Drive drive = read(read_text_file(entry.path(), largest_drive_file));
     const std::string text = to_toml(drive);
