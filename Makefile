@@ -14,7 +14,7 @@ export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
 .PHONY: help demo tool test python bench versions clang sanitize fuzz browser oracle million followed designed tuned \
-        rivals derivatives seeded-faults \
+        python-sweep rivals derivatives seeded-faults \
         coverage readme docs docs-check format format-check tidy clean package package-check
 
 help:  ## this list
@@ -56,6 +56,12 @@ versions:  ## the part of bench beside version 0.1: drives, their time, memory a
 	cmake --preset bench
 	$(BUILD) bench --target gearlash_tool --target score_drives
 	benchmarks/beside-version-0.1 --jobs $(JOBS)
+
+python-sweep:  ## gearlash.sweep of a million servos beside the call of C++
+	@$(INSTALL) bench python
+	cmake --preset bench -DGEARLASH_BUILD_PYTHON=ON
+	$(BUILD) bench --target sweep_million --target gearlash_python_package
+	PYTHONPATH=build/bench/python benchmarks/python/sweep build/bench/benchmarks/sweep_million
 
 rivals: tool  ## the thesis's servo through Siconos and Scilab: error and time beside Gearlash
 	@$(INSTALL) rivals

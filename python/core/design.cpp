@@ -4,6 +4,8 @@
 #include <pybind11/stl.h>
 
 #include "analysis/design/feasible_values.hpp"
+#include "analysis/design/tolerance_study.hpp"
+#include "arrays.hpp"
 #include "gearlash/input.hpp"
 #include "gearlash/tolerance.hpp"
 #include "gearlash/tune.hpp"
@@ -67,6 +69,57 @@ py::object studied(py::handle series, py::handle sampling, py::handle questions,
   }));
 }
 
+/// Columns of what samples do, for pieces of a study.
+py::tuple answered_samples(py::handle series, py::handle sampling, py::handle questions,
+                           std::size_t first, std::size_t count, const py::object& progress) {
+  const auto drives = from_python<TolerancedDrive>(series, "series");
+  const auto plan = from_python<SamplePlan>(sampling, "sampling");
+  const auto asked = from_python<StudyQuestions>(questions, "questions");
+  const detail::DrawnResults results = interruptible(progress, [&](Progress& reports) {
+    return answer_samples(drives, plan, asked, first, count, reports);
+  });
+  std::vector<std::uint8_t> verdicts;
+  std::vector<std::uint8_t> meets;
+  std::vector<double> growth;
+  std::vector<double> amplitude;
+  std::vector<double> frequency;
+  for (std::size_t i = 0; i < results.rows(); ++i) {
+    const Performance& one = results.performance[i];
+    verdicts.push_back(static_cast<std::uint8_t>(one.verdict));
+    meets.push_back(results.meets[i] ? 1 : 0);
+    growth.push_back(one.growth_at_rest);
+    amplitude.push_back(one.amplitude);
+    frequency.push_back(one.frequency);
+  }
+  return py::make_tuple(array_of(std::move(verdicts)), array_of(std::move(meets)),
+                        array_of(std::move(growth)), array_of(std::move(amplitude)),
+                        array_of(std::move(frequency)), results.refused);
+}
+
+using Bytes = py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast>;
+
+py::object study_of_samples(py::handle series, py::handle sampling, py::handle questions,
+                            const Bytes& verdicts, const Bytes& meets, const Numbers& growth,
+                            const Numbers& amplitude, const Numbers& frequency,
+                            std::size_t refused) {
+  detail::DrawnResults results{.refused = refused};
+  for (const py::ssize_t size : {meets.size(), growth.size(), amplitude.size(), frequency.size()}) {
+    if (size != verdicts.size()) throw py::value_error("columns must be of one length");
+  }
+  for (py::ssize_t i = 0; i < verdicts.size(); ++i) {
+    const std::uint8_t verdict = verdicts.data()[i];
+    if (verdict >= std::size(Words<Verdict>::all)) throw py::value_error("unknown verdict");
+    results.performance.push_back({.verdict = static_cast<Verdict>(verdict),
+                                   .growth_at_rest = growth.data()[i],
+                                   .amplitude = amplitude.data()[i],
+                                   .frequency = frequency.data()[i]});
+    results.meets.push_back(meets.data()[i] != 0);
+  }
+  return to_python(study_of(from_python<TolerancedDrive>(series, "series"),
+                            from_python<SamplePlan>(sampling, "sampling"),
+                            from_python<StudyQuestions>(questions, "questions"), results));
+}
+
 py::object indices(py::handle series, py::handle sampling, py::handle questions,
                    const py::object& progress) {
   const auto drives = from_python<TolerancedDrive>(series, "series");
@@ -107,6 +160,8 @@ void add_design(py::module_& module) {
   });
   module.def("margins", margin_of);
   module.def("tolerance_study", studied);
+  module.def("answer_samples", answered_samples);
+  module.def("study_of", study_of_samples);
   module.def("sensitivity_indices", indices);
   module.def("widest_backlash", widest);
   module.def("sampling_of", [](std::size_t samples, std::uint64_t seed) {

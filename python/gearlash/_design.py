@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Union
+from typing import Any, Union
 
 from gearlash import _core
 from gearlash._analysis import Progress
@@ -107,7 +107,7 @@ def series(drive: SeriesLike, varied: Mapping[str, Distribution] | None = None) 
 def tolerance(drive: SeriesLike, varied: Mapping[str, Distribution] | None = None, *,
               target: TargetLike | None = None, samples: int | None = None,
               error: float | None = None, seed: int = 1960, quantity: str = "amplitude",
-              progress: Progress = None) -> ToleranceStudy:
+              client: Any = None, progress: Progress = None) -> ToleranceStudy:
     """Predict how many samples of a production run hunt, and how many meet a target.
 
     Parameters
@@ -126,6 +126,9 @@ def tolerance(drive: SeriesLike, varied: Mapping[str, Distribution] | None = Non
         Equal seeds give equal bits on every machine.
     quantity : str
         "amplitude" of the load, or "motor_amplitude".
+    client : distributed.Client, optional
+        Deal the samples out to its workers; see :mod:`gearlash.distributed`. The study is the same
+        for any number of workers. Not with `error`.
     progress : callable, optional
         As of :func:`gearlash.analyse`.
 
@@ -151,6 +154,12 @@ def tolerance(drive: SeriesLike, varied: Mapping[str, Distribution] | None = Non
     True
     """
     one, questions, sampling = _study(drive, varied, target, samples, seed, quantity)
+    if client is not None:
+        from gearlash import distributed
+
+        if error is not None:
+            raise TypeError("client needs samples, not error")
+        return distributed.study(one, sampling, questions, client)
     return _core.tolerance_study(one, sampling, questions, error or 0.0, progress)
 
 

@@ -1,4 +1,4 @@
-"""Sweeps past one machine, by Dask.
+"""Sweeps and tolerance studies past one machine, by Dask.
 
 A grid is dealt out in pieces of whole lines of its last axis, so that a drive is followed from its
 neighbours as :func:`gearlash.sweep` does, and the data are the same to the bit for any number of
@@ -9,7 +9,8 @@ piece whose worker dies is computed again by another.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+import uuid
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,7 +18,8 @@ from numpy.typing import NDArray
 
 from gearlash import _core
 from gearlash._drive import Drive
-from gearlash._records import Axis
+from gearlash._records import (Axis, SamplePlan, StudyQuestions, TolerancedDrive,
+                               ToleranceStudy)
 from gearlash._sweep import AxisLike, Table, axis, dataset
 
 if TYPE_CHECKING:
@@ -102,23 +104,65 @@ def sweep(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis],
     xarray.Dataset or Table
         Equal to that of :func:`gearlash.sweep` to the bit.
     """
-    from distributed import as_completed
-
     listed = _listed(drive, axes)
     _core.check_grid(drive, listed)  # before anything is sent
     if most is None:
         is_closed = _core.is_closed_grid(drive, listed)
         most = 65_536 if is_closed else len(listed[-1].values) if listed else 1
     tasks = pieces(listed, most)
-    futures = [client.submit(_evaluate, drive, piece, tuple(quantities), proved, pure=False,
-                             key=f"gearlash-{id(tasks)}-{number}", retries=3)
-               for number, piece in enumerate(tasks)]
-    numbers = {future.key: number for number, future in enumerate(futures)}
-    done: dict[int, _Piece] = {}
-    for future, piece in as_completed(futures, with_results=True):
-        done[numbers[future.key]] = piece
-        future.release()
-    parts = [done[number] for number in range(len(tasks))]
+    calls = [(drive, piece, tuple(quantities), proved) for piece in tasks]
+    parts: list[_Piece] = _dealt_out(client, _evaluate, calls)
     verdicts = np.concatenate([part[0] for part in parts])
     columns = {name: np.concatenate([part[1][name] for part in parts]) for name in parts[0][1]}
     return dataset(drive, listed, verdicts, columns)
+
+
+def study(series: TolerancedDrive, sampling: SamplePlan, questions: StudyQuestions, client: Any, *,
+          most: int | None = None) -> ToleranceStudy:
+    """Study a production run on all workers of a Dask cluster.
+
+    Parameters
+    ----------
+    series, sampling, questions
+        As :func:`gearlash.tolerance` makes them.
+    client : distributed.Client
+    most : int, optional
+        Samples of a piece at most; default a sixty-fourth of all.
+
+    Returns
+    -------
+    ToleranceStudy
+        Equal to that of :func:`gearlash.tolerance` to the bit.
+    """
+    samples = sampling.points * sampling.replicates
+    step = most or max(1, samples // 64)
+    calls = [(series, sampling, questions, first, min(step, samples - first))
+             for first in range(0, samples, step)]
+    parts = _dealt_out(client, _answer_samples, calls)
+    columns = [np.concatenate([part[i] for part in parts]) for i in range(5)]
+    return _core.study_of(series, sampling, questions, *columns, sum(part[5] for part in parts))
+
+
+def _answer_samples(series: TolerancedDrive, sampling: SamplePlan, questions: StudyQuestions,
+                    first: int, count: int) -> tuple[Any, ...]:
+    """Answer for some samples, in a worker."""
+    *columns, refused = _core.answer_samples(series, sampling, questions, first, count, None)
+    return *(np.array(column) for column in columns), refused
+
+
+def _dealt_out(client: Any, work: Callable[..., Any], calls: Sequence[tuple[Any, ...]]) -> list[Any]:
+    """Give the results of all calls, in their order, taken by workers as they become free.
+
+    A call whose worker dies is made again by another, three times at most.
+    """
+    from distributed import as_completed
+
+    run = uuid.uuid4().hex
+    futures = [client.submit(work, *call, pure=False, key=f"gearlash-{run}-{number}", retries=3)
+               for number, call in enumerate(calls)]
+    numbers = {future.key: number for number, future in enumerate(futures)}
+    done: dict[int, Any] = {}
+    for future, result in as_completed(futures, with_results=True):
+        done[numbers[future.key]] = result
+        future.release()
+    return [done[number] for number in range(len(calls))]

@@ -78,6 +78,17 @@ def test_faults_are_raised_before_anything_is_sent(client, pd_drive):
         gearlash.sweep(pd_drive, {"gearbox.backlash": [-1.0, 1.0]}, client=client)
 
 
+def test_a_tolerance_study_is_that_of_one_process(client, pd_drive, servo):
+    varied = {"gearbox.backlash": gearlash.UniformBetween(1e-3, 3e-3),
+              "load.inertia": gearlash.Normal(5e-3, 3e-4)}
+    for drive, spread, samples in ((pd_drive, varied, 64), (
+            servo, {"servo.damping": gearlash.UniformBetween(0.7, 1.0)}, 2048)):
+        here = gearlash.tolerance(drive, spread, samples=samples)
+        assert gearlash.tolerance(drive, spread, samples=samples, client=client) == here
+    with pytest.raises(gearlash.InvalidInput):
+        gearlash.tolerance(pd_drive, {"no.such": gearlash.UniformBetween(1, 2)}, client=client)
+
+
 def test_a_graph_of_its_own_pieces(pd_drive):
     import dask
 

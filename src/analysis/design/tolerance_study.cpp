@@ -11,6 +11,7 @@
 #include "analysis/design/sampling.hpp"
 #include "base/on_threads.hpp"
 #include "base/range_check.hpp"
+#include "base/shared_progress.hpp"
 #include "base/special_numbers.hpp"
 #include "numeric/quantile_sketch.hpp"
 
@@ -256,41 +257,132 @@ SamplePlan usual_sampling(const TolerancedDrive& drive, const StudyQuestions& qu
   return sampling_of(answers.are_one_by_one() || may_bounce(drive) ? 512 : 65536);
 }
 
+namespace {
+
+/// What is kept of the results of all blocks, which may come in any order and from several threads.
+class Tally {
+ public:
+  Tally(const SamplePlan& sampling, const StudyQuestions& questions, std::size_t at_a_time)
+      : sampling_(sampling),
+        questions_(questions),
+        keeps_all_(sampling.samples() <= questions.most_exact),
+        columns_{std::vector<double>(kept()), std::vector<double>(kept())},
+        sketches_(keeps_all_ ? 0 : sampling.replicates),
+        blocks_(detail::block_count(sampling, at_a_time)) {}
+
+  void take(const detail::SampleBlock& block, const detail::DrawnResults& results) {
+    blocks_[block.index] = count_block(results);
+    if (keeps_all_) {
+      keep_block(results, block.replicate * sampling_.points + block.first, columns_);
+    } else {
+      keep_block(results, block, sketches_);
+    }
+  }
+
+  /// Once. `is_whole`: all blocks were taken.
+  ToleranceStudy study(bool is_whole, std::size_t threads) {
+    ToleranceStudy study = counted(sampling_, blocks_);
+    study.stopped = !is_whole;
+    if (!is_whole) return study;
+    if (!keeps_all_) {
+      add_values(sketches_, questions_, study);
+      return study;
+    }
+    const detail::SortedReplicates sizes = sorted(columns_.amplitude, sampling_, threads);
+    study.amplitude = quantiles_of(sizes, questions_.shares);
+    study.amplitude_of_hunting = quantiles_of(sizes.above(0.0), questions_.shares);
+    study.histogram = histogram_of(sizes, questions_.bins);
+    const detail::SortedReplicates frequencies = sorted(columns_.frequency, sampling_, threads);
+    study.frequency = quantiles_of(frequencies.above(no_cycle), questions_.shares);
+    return study;
+  }
+
+ private:
+  std::size_t kept() const { return keeps_all_ ? sampling_.samples() : 0; }
+
+  const SamplePlan& sampling_;
+  const StudyQuestions& questions_;
+  bool keeps_all_;
+  Columns columns_;
+  Sketches sketches_;
+  std::vector<Counts> blocks_;
+};
+
+/// The rows of a block among those of all samples.
+detail::DrawnResults rows_of(const detail::DrawnResults& all, std::size_t first,
+                             std::size_t count) {
+  const auto begin = static_cast<std::ptrdiff_t>(first);
+  const auto end = static_cast<std::ptrdiff_t>(first + count);
+  return {.performance = {all.performance.begin() + begin, all.performance.begin() + end},
+          .meets = {all.meets.begin() + begin, all.meets.begin() + end}};
+}
+
+}  // namespace
+
 ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& sampling,
                                 const StudyQuestions& questions, const Workers& workers,
                                 Progress& progress) {
   require_sound(drive, sampling, questions);
   const detail::DrawnValues values(drive, sampling, 1);
   const detail::DrawnAnswers answers(drive, questions.target, questions.amplitude, workers.unit);
-  const std::size_t at_a_time = answers.at_a_time();
-  const bool keeps_all = sampling.samples() <= questions.most_exact;
-  const std::size_t kept = keeps_all ? sampling.samples() : 0;
-  Columns columns{std::vector<double>(kept), std::vector<double>(kept)};
-  Sketches sketches(keeps_all ? 0 : sampling.replicates);
-  std::vector<Counts> blocks(detail::block_count(sampling, at_a_time));
+  Tally tally(sampling, questions, answers.at_a_time());
   const auto work = [&](const detail::SampleBlock& block, Progress& of_block) {
-    const detail::DrawnResults results = answers.of(block.count, values.of(block), of_block);
-    blocks[block.index] = count_block(results);
-    if (keeps_all) {
-      keep_block(results, block.replicate * sampling.points + block.first, columns);
-    } else {
-      keep_block(results, block, sketches);
-    }
+    tally.take(block, answers.of(block.count, values.of(block), of_block));
   };
-  const bool all_done = detail::for_all_blocks(sampling, at_a_time, workers, progress, work);
-  ToleranceStudy study = counted(sampling, blocks);
-  study.stopped = !all_done;
-  if (study.stopped) return study;
-  if (!keeps_all) {
-    add_values(sketches, questions, study);
-    return study;
+  const bool all_done =
+      detail::for_all_blocks(sampling, answers.at_a_time(), workers, progress, work);
+  return tally.study(all_done, workers.threads);
+}
+
+detail::DrawnResults answer_samples(const TolerancedDrive& drive, const SamplePlan& sampling,
+                                    const StudyQuestions& questions, std::size_t first,
+                                    std::size_t count, Progress& progress) {
+  require_sound(drive, sampling, questions);
+  const std::size_t samples = sampling.samples();
+  if (first >= samples || count == 0 || count > samples - first) {
+    require_none({{"samples", std::to_string(first) + " and " + std::to_string(count) + " more",
+                   "must be among the " + std::to_string(samples) + " of the plan", ""}});
   }
-  const detail::SortedReplicates sizes = sorted(columns.amplitude, sampling, workers.threads);
-  study.amplitude = quantiles_of(sizes, questions.shares);
-  study.amplitude_of_hunting = quantiles_of(sizes.above(0.0), questions.shares);
-  study.histogram = histogram_of(sizes, questions.bins);
-  const detail::SortedReplicates frequencies = sorted(columns.frequency, sampling, workers.threads);
-  study.frequency = quantiles_of(frequencies.above(no_cycle), questions.shares);
+  const detail::DrawnValues values(drive, sampling, 1);
+  const detail::DrawnAnswers answers(drive, questions.target, questions.amplitude,
+                                     widest_vector_unit());
+  std::vector<detail::DrawnResults> found(count);
+  SharedProgress shared(progress, count);
+  on_threads(0, count, [&](std::size_t i) {
+    const std::size_t sample = first + i;
+    const detail::SampleBlock block{
+        .replicate = sample / sampling.points, .first = sample % sampling.points, .count = 1};
+    if (shared.is_stopped()) return;
+    found[i] = answers.of(1, values.of(block), shared);
+    shared.finish(1);
+  });
+  detail::DrawnResults all;
+  for (const detail::DrawnResults& one : found) {
+    all.performance.push_back(one.performance.empty() ? Performance{} : one.performance.front());
+    all.meets.push_back(!one.meets.empty() && one.meets.front());
+    all.refused += one.refused;
+  }
+  return all;
+}
+
+ToleranceStudy study_of(const TolerancedDrive& drive, const SamplePlan& sampling,
+                        const StudyQuestions& questions, const detail::DrawnResults& results) {
+  require_sound(drive, sampling, questions);
+  if (results.rows() != sampling.samples()) {
+    require_none({{"results", std::to_string(results.rows()),
+                   "must be as many as samples: " + std::to_string(sampling.samples()), ""}});
+  }
+  const detail::DrawnAnswers answers(drive, questions.target, questions.amplitude,
+                                     widest_vector_unit());
+  Tally tally(sampling, questions, answers.at_a_time());
+  detail::for_all_blocks(sampling, answers.at_a_time(), {}, no_progress(),
+                         [&](const detail::SampleBlock& block, Progress&) {
+                           const std::size_t begin =
+                               block.replicate * sampling.points + block.first;
+                           tally.take(block, rows_of(results, begin, block.count));
+                         });
+  ToleranceStudy study = tally.study(true, 0);
+  study.refused = results.refused;
   return study;
 }
 

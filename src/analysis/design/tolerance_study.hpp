@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "analysis/design/drawn_results.hpp"
 #include "analysis/grid/grid_evaluation.hpp"
 #include "gearlash/tolerance.hpp"
 
@@ -15,6 +16,17 @@ std::vector<Fault> validate(const StudyQuestions& questions);
 ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& sampling,
                                 const StudyQuestions& questions, const Workers& workers,
                                 Progress& progress = no_progress());
+
+/// What samples do, replicate by replicate, from number `first` on, on all cores: for studies whose
+/// samples are dealt out to several machines. Throws InvalidInput as study_tolerances(), and for
+/// samples that the plan does not have.
+detail::DrawnResults answer_samples(const TolerancedDrive& drive, const SamplePlan& sampling,
+                                    const StudyQuestions& questions, std::size_t first,
+                                    std::size_t count, Progress& progress = no_progress());
+
+/// The study of what all samples do, in their order: that of study_tolerances(), to the bit.
+ToleranceStudy study_of(const TolerancedDrive& drive, const SamplePlan& sampling,
+                        const StudyQuestions& questions, const detail::DrawnResults& results);
 
 /// Solves varied.size() + 2 drives for each point: A and B, the two halves of Sobol points with
 /// twice as many coordinates as varied parameters, and AB_i, which is A with column i of B. With m
