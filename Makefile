@@ -78,7 +78,7 @@ clang:  ## build everything with clang 16, warnings being errors, and run every 
 # oracles of seventy digits, whose time is spent in Boost.
 sanitize:  ## clang 16 with AddressSanitizer and UndefinedBehaviorSanitizer, warnings being errors
 	@$(INSTALL) test clang
-	cmake --preset asan-ubsan
+	cmake --preset asan-ubsan -DGEARLASH_BUILD_PYTHON=ON
 	$(BUILD) asan-ubsan
 	ctest --preset asan-ubsan
 

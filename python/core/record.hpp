@@ -28,6 +28,8 @@ struct Member {
   const char* name;
   Type Struct::*place;
 };
+template <class Struct, class Type>
+Member(const char*, Type Struct::*) -> Member<Struct, Type>;  // clang 16 deduces no aggregate
 
 /// Specialised for every struct: its name, and the tuple of its members.
 template <class Struct>
