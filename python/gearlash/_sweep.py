@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Union
@@ -17,6 +18,9 @@ from gearlash._records import Axis
 
 if TYPE_CHECKING:
     import xarray
+
+#: The largest number of drives of one sweep over arrays, which are held in memory.
+MOST_DRIVES = 1_000_000_000
 
 AxisLike = Union[Axis, str, ArrayLike, Sequence[str]]
 
@@ -164,8 +168,11 @@ def sweep(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis] | None = N
 
 def _sweep_arrays(drive: Drive, arrays: Mapping[str, ArrayLike], quantities: Sequence[str],
                   progress: Progress) -> xarray.Dataset | Table:
+    shape = np.broadcast_shapes(*(np.shape(values) for values in arrays.values()))
+    if math.prod(shape) > MOST_DRIVES:
+        raise ValueError(f"arrays must give at most {MOST_DRIVES:,} drives, not {shape}; "
+                         "give a grid by axes")
     given = {path: _numbers(path, values) for path, values in arrays.items()}
-    shape = np.broadcast_shapes(*(array.shape for array in given.values()))
     flat = [np.ascontiguousarray(np.broadcast_to(array, shape)).reshape(-1)
             for array in given.values()]
     if flat and flat[0].size == 0:
