@@ -40,7 +40,8 @@ py::object there_and_back(py::handle record) {
   return back;
 }
 
-void translate(std::exception_ptr raised) {
+void translate(
+    std::exception_ptr raised) {  // NOLINT(performance-unnecessary-value-param): pybind11's
   try {
     if (raised) std::rethrow_exception(raised);
   } catch (const InvalidInput& error) {

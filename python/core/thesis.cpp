@@ -53,7 +53,7 @@ py::array_t<double> rows_of(const std::vector<ChartPoint>& points) {
   return array_of(std::move(numbers)).reshape({py::ssize_t(points.size()), py::ssize_t{2}});
 }
 
-py::array_t<double> printed(std::size_t lines, py::object servo, bool emulated) {
+py::array_t<double> printed(std::size_t lines, const py::object& servo, bool emulated) {
   ProgramParameters parameters = thesis::listed_parameters;
   if (!servo.is_none()) {
     const auto [damping, inertia_ratio, friction_ratio, backlash] =

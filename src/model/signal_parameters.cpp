@@ -147,8 +147,13 @@ std::vector<Parameter> shared_parameters(const Paths& paths,
                                            &TrapezoidSignal::time);
                },
            .dimension = &always<time>,
-           .meaning = "start time"},
-          {.path = paths.file,
+           .meaning = "start time"}};
+}
+
+/// The points of a table: in a file of its own, or in the drive's.
+template <class Which>
+std::vector<Parameter> table_parameters(const Paths& paths) {
+  return {{.path = paths.file,
            .slot = [](Drive& d) { return member_slot<Which>(d, &TableSignal::file); },
            .meaning = "CSV file of times and values, beside the drive's file",
            .is_required = true,
@@ -202,20 +207,24 @@ std::vector<Parameter> motion_parameters() {
 }  // namespace
 
 std::vector<Parameter> signal_parameters() {
-  std::vector<Parameter> list = shared_parameters<ReferenceSignal>(
-      {"reference.kind", "reference.value", "reference.before", "reference.after", "reference.mean",
-       "reference.amplitude", "reference.frequency", "reference.phase", "reference.time",
-       "reference.file", "reference.times", "reference.values"},
-      {"constant", "step", "ramp", "sine", "trapezoid", "table"});
-  for (Parameter& parameter : motion_parameters()) list.push_back(std::move(parameter));
-  for (Parameter& parameter : shared_parameters<LoadTorqueSignal>(
-           {"load_torque.kind", "load_torque.value", "load_torque.before", "load_torque.after",
-            "load_torque.mean", "load_torque.amplitude", "load_torque.frequency",
-            "load_torque.phase", "load_torque.time", "load_torque.file", "load_torque.times",
-            "load_torque.values"},
-           {"constant", "step", "sine", "table"})) {
-    list.push_back(std::move(parameter));
-  }
+  constexpr Paths reference = {"reference.kind",      "reference.value", "reference.before",
+                               "reference.after",     "reference.mean",  "reference.amplitude",
+                               "reference.frequency", "reference.phase", "reference.time",
+                               "reference.file",      "reference.times", "reference.values"};
+  constexpr Paths load_torque = {
+      "load_torque.kind", "load_torque.value",     "load_torque.before",    "load_torque.after",
+      "load_torque.mean", "load_torque.amplitude", "load_torque.frequency", "load_torque.phase",
+      "load_torque.time", "load_torque.file",      "load_torque.times",     "load_torque.values"};
+  std::vector<Parameter> list;
+  const auto add = [&](std::vector<Parameter> parameters) {
+    for (Parameter& parameter : parameters) list.push_back(std::move(parameter));
+  };
+  add(shared_parameters<ReferenceSignal>(
+      reference, {"constant", "step", "ramp", "sine", "trapezoid", "table"}));
+  add(table_parameters<ReferenceSignal>(reference));
+  add(motion_parameters());
+  add(shared_parameters<LoadTorqueSignal>(load_torque, {"constant", "step", "sine", "table"}));
+  add(table_parameters<LoadTorqueSignal>(load_torque));
   return list;
 }
 
