@@ -40,8 +40,9 @@ py::object there_and_back(py::handle record) {
   return back;
 }
 
-void translate(
-    std::exception_ptr raised) {  // NOLINT(performance-unnecessary-value-param): pybind11's
+// The parameter has the type that pybind11 demands.
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
+void translate(std::exception_ptr raised) {
   try {
     if (raised) std::rethrow_exception(raised);
   } catch (const InvalidInput& error) {
