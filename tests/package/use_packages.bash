@@ -32,10 +32,10 @@ description="$(echo wheel/gearlash-*.dist-info/METADATA)"
 check 'the wheel has types' test -f wheel/gearlash/py.typed -a -f wheel/gearlash/_core.pyi
 python3 -m venv alone
 check 'the wheel installs without a network' alone/bin/pip install --no-index --no-deps "$wheel"
-alone/bin/python -c 'import gearlash' 2>alone.log || true
-check 'alone it asks for NumPy' grep "No module named 'numpy'" alone.log
 read -ra needed < <(sed -n 's/^ *apt-get install //p' "$description")
 install --no-install-recommends "${needed[@]}"
+alone/bin/python -c 'import gearlash' 2>alone.log || true
+check 'without NumPy it says so' grep "No module named 'numpy'" alone.log
 python3 -m venv --system-site-packages environment
 check 'the wheel installs beside NumPy' environment/bin/pip install --no-index "$wheel"
 check 'pip finds nothing missing' environment/bin/pip check
