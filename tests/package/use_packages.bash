@@ -82,11 +82,11 @@ check 'one of them runs' build/consumer
 gearlash limit-cycle elinco-fd162.toml --format json >tool.json
 check "the wheel's answer is the tool's" python3 use_module.py --same wheel.json tool.json
 install --no-install-recommends ./python3-gearlash_*.deb
+check 'python3-gearlash compiles its bytecode' test -d /usr/lib/python3/dist-packages/gearlash/__pycache__
 check "python3-gearlash is $version" \
   test "$(python3 -c 'import gearlash; print(gearlash.__version__)')" = "$version"
 check 'its module' python3 use_module.py elinco-fd162.toml module.json
 check "its answer is the tool's" python3 use_module.py --same module.json tool.json
-check 'its bytecode' test -d /usr/lib/python3/dist-packages/gearlash/__pycache__
 check 'it recommends Matplotlib and xarray' test "$(dpkg-query --show --showformat='${Recommends}' \
   python3-gearlash)" = 'python3-matplotlib, python3-xarray'
 install --no-install-recommends python3-matplotlib python3-xarray
