@@ -15,7 +15,7 @@ export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 .DEFAULT_GOAL := help
 .PHONY: help demo tool test python bench versions clang sanitize fuzz browser oracle million followed designed tuned \
         python-sweep rivals derivatives seeded-faults \
-        coverage readme docs docs-check format format-check tidy clean package package-check
+        coverage readme docs docs-check format format-check tidy clean wheel package package-check
 
 help:  ## this list
 	@awk -F':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -166,9 +166,16 @@ tidy: tool  ## clang-tidy with the checks of .clang-tidy over the libraries and 
 
 # Packed files have the date of the last commit, or of the changelog without git, so that the same
 # sources give the same bytes.
-package: export SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct 2>/dev/null || \
+wheel package: export SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct 2>/dev/null || \
                                              stat --format=%Y CHANGELOG.md)
-package:  ## the tool and the library as Debian packages: build/*.deb
+wheel:  ## the Python module as a wheel for Debian 12's python3: build/*.whl
+	@$(INSTALL) package
+	cmake --preset package
+	rm -f build/*.whl
+	$(BUILD) package --target gearlash_wheel
+	mv build/package/wheel/*.whl build
+
+package:  ## the tool, the library and the Python module as Debian packages: build/*.deb
 	@$(INSTALL) package
 	cmake --preset package
 	rm -f build/*.deb
@@ -176,8 +183,8 @@ package:  ## the tool and the library as Debian packages: build/*.deb
 	cpack --config build/package/CPackConfig.cmake -B build/package/packages
 	mv build/package/packages/*.deb build
 
-package-check: package  ## install them into a bare Debian 12, build/package-root, and use them
-	scripts/package-check build/*.deb
+package-check: package wheel  ## install them into a bare Debian 12, build/package-root, and use them
+	scripts/package-check build/*.deb build/*.whl
 
 clean:  ## remove all that was built
 	rm -rf build examples/*.svg

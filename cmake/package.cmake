@@ -1,6 +1,7 @@
-# Two Debian packages by CPack: gearlash, the tool with its man pages, completions and documents,
-# and libgearlash-dev, the library. `make package` dates their contents by SOURCE_DATE_EPOCH, so
-# that the same sources give the same bytes.
+# Debian packages by CPack: gearlash, the tool with its man pages, completions and documents;
+# libgearlash-dev, the library; and, where it is built, python3-gearlash, the Python module.
+# `make package` dates their contents by SOURCE_DATE_EPOCH, so that the same sources give the same
+# bytes.
 
 set(pages "${PROJECT_BINARY_DIR}/pages")
 set(scripts "${PROJECT_SOURCE_DIR}/scripts")
@@ -24,9 +25,18 @@ install(DIRECTORY docs DESTINATION "${share}/doc/gearlash" COMPONENT tool
         FILES_MATCHING PATTERN "*.md" PATTERN pictures EXCLUDE)
 file(GLOB drives CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/examples/*.toml")
 install(FILES ${drives} DESTINATION "${share}/doc/gearlash/examples" COMPONENT tool)
-foreach(pair tool/gearlash development/libgearlash-dev)
+set(components tool/gearlash development/libgearlash-dev)
+if(TARGET gearlash_python)
+  set(modules "lib/python3/dist-packages/gearlash")  # Debian's folder for any Python 3
+  install(TARGETS gearlash_python LIBRARY DESTINATION "${modules}" COMPONENT python)
+  install(FILES ${gearlash_python_files} DESTINATION "${modules}" COMPONENT python)
+  list(APPEND components python/python3-gearlash)
+endif()
+set(CPACK_COMPONENTS_ALL)
+foreach(pair IN LISTS components)
   cmake_path(GET pair PARENT_PATH component)
   cmake_path(GET pair FILENAME package)
+  list(APPEND CPACK_COMPONENTS_ALL ${component})
   set(documents DESTINATION "${share}/doc/${package}" COMPONENT ${component})
   install(FILES LICENSE RENAME copyright ${documents})
   install(FILES "${pages}/changelog.gz" ${documents})
@@ -38,7 +48,6 @@ set(CPACK_PACKAGE_NAME gearlash)
 set(CPACK_PACKAGE_VENDOR "The Gearlash authors")
 set(CPACK_PACKAGE_CONTACT "The Gearlash authors")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # the first line of each description below
-set(CPACK_COMPONENTS_ALL tool development)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ
@@ -67,5 +76,19 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "limit cycles of geared servos with backlash (C++ library)
 Headers and static libraries of Gearlash, with its CMake package and its
 pkg-config files.")
+
+# py3compile writes the bytecode after the installation, and py3clean removes it.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-gearlash)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-matplotlib, python3-xarray")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-dask, python3-distributed, python3-scipy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${CMAKE_CURRENT_LIST_DIR}/python-package/postinst"
+                                              "${CMAKE_CURRENT_LIST_DIR}/python-package/prerm")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "limit cycles of geared servos with backlash (Python module)
+Drives as values, with NumPy arrays over the results of the C++ library: whether
+a servo hunts, how big and how fast, and what must change so that it does not.")
 
 include(CPack)

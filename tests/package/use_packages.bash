@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Run by scripts/package-check in a bare Debian, in a folder with the packages and with the
-# consumers of tests/install.
+# Run by scripts/package-check in a bare Debian, in a folder with the packages, the wheel, a drive,
+# use_module.py and the consumers of tests/install.
 set -euo pipefail
 
 install() {
@@ -23,6 +23,27 @@ check() {
 }
 
 apt-get update --quiet=2
+
+# The wheel comes first, so that it finds only what its own description asks for.
+install --no-install-recommends python3-venv
+wheel="$(echo gearlash-*.whl)"
+python3 -m zipfile --extract "$wheel" wheel
+description="$(echo wheel/gearlash-*.dist-info/METADATA)"
+check 'the wheel has types' test -f wheel/gearlash/py.typed -a -f wheel/gearlash/_core.pyi
+python3 -m venv alone
+check 'the wheel installs without a network' alone/bin/pip install --no-index --no-deps "$wheel"
+read -ra needed < <(sed -n 's/^ *apt-get install //p' "$description")
+install --no-install-recommends "${needed[@]}"
+alone/bin/python -c 'import gearlash' 2>alone.log || true
+check 'without NumPy it says so' grep "No module named 'numpy'" alone.log
+python3 -m venv --system-site-packages environment
+check 'the wheel installs beside NumPy' environment/bin/pip install --no-index "$wheel"
+check 'pip finds nothing missing' environment/bin/pip check
+check 'the module of the wheel' environment/bin/python use_module.py elinco-fd162.toml wheel.json
+version="$(environment/bin/python -c 'import gearlash; print(gearlash.__version__)' || true)"
+check 'its version is that of its description' grep --line-regexp "Version: $version" "$description"
+check 'it leaves' environment/bin/pip uninstall --yes gearlash
+
 install ./gearlash_*.deb
 version="$(dpkg-query --show --showformat='${Version}' gearlash)"
 examples=/usr/share/doc/gearlash/examples
@@ -58,7 +79,20 @@ check 'CMake finds the library' cmake -S consumer -B build -D GEARLASH_COMPONENT
 check 'programs by CMake' cmake --build build --target consumer file_consumer
 check 'one of them runs' build/consumer
 
-apt-get purge --quiet=2 --yes gearlash libgearlash-dev >purge.log 2>&1
+gearlash limit-cycle elinco-fd162.toml --format json >tool.json
+check "the wheel's answer is the tool's" python3 use_module.py --same wheel.json tool.json
+install --no-install-recommends ./python3-gearlash_*.deb
+check 'python3-gearlash compiles its bytecode' test -d /usr/lib/python3/dist-packages/gearlash/__pycache__
+check "python3-gearlash is $version" \
+  test "$(python3 -c 'import gearlash; print(gearlash.__version__)')" = "$version"
+check 'its module' python3 use_module.py elinco-fd162.toml module.json
+check "its answer is the tool's" python3 use_module.py --same module.json tool.json
+check 'it recommends Matplotlib and xarray' test "$(dpkg-query --show --showformat='${Recommends}' \
+  python3-gearlash)" = 'python3-matplotlib, python3-xarray'
+install --no-install-recommends python3-matplotlib python3-xarray
+check 'pictures and datasets' python3 use_module.py --recommended elinco-fd162.toml
+
+apt-get purge --quiet=2 --yes gearlash libgearlash-dev python3-gearlash >purge.log 2>&1
 check 'nothing is left of removed packages' \
   test -z "$(find /etc /usr /var -name '*gearlash*' -not -path '/var/cache/apt/*')"
 exit $((failures > 0))
