@@ -1,0 +1,22 @@
+"""The Python of the pages is run, block by block, in the root of the repository."""
+
+import doctest
+
+import pytest
+
+from conftest import ROOT
+
+PAGES = sorted(page for page in (ROOT / "docs").rglob("*.md") if ">>> " in page.read_text("utf-8"))
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_a_page_shows_what_python_prints_now(page, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    # A fence ends a block of output.
+    text = page.read_text("utf-8").replace("```", "\n")
+    parser = doctest.DocTestParser()
+    test = parser.get_doctest(text, {}, page.name, str(page), 0)
+    failures = []
+    runner = doctest.DocTestRunner(verbose=False)
+    runner.run(test, out=failures.append)
+    assert test.examples and not failures, "".join(failures)
