@@ -14,7 +14,7 @@ from gearlash import _core
 from gearlash._analysis import Progress
 from gearlash._drive import Drive
 from gearlash._motion import _numbers
-from gearlash._records import Axis
+from gearlash._records import Axis, ParameterInfo
 
 if TYPE_CHECKING:
     import xarray
@@ -179,24 +179,33 @@ def _sweep_arrays(drive: Drive, arrays: Mapping[str, ArrayLike], quantities: Seq
         raise ValueError(f"arrays must have at least one element; they have the shape {shape}")
     verdicts, columns = _core.evaluate_list(drive, list(given), flat, list(quantities), progress)
     dims = tuple(f"dim_{i}" for i in range(len(shape)))
-    return _made(dims, {}, shape, verdicts, columns,
+    return _made(drive, dims, {}, shape, verdicts, columns,
                  {path: np.broadcast_to(array, shape) for path, array in given.items()})
 
 
 def dataset(drive: Drive, axes: Sequence[Axis], verdicts: NDArray[np.uint8],
             columns: Mapping[str, NDArray[np.float64]]) -> xarray.Dataset | Table:
     """Make the result of a sweep from flat columns, in the order of the grid."""
-    choices = {info.path: info.choices for info in drive.parameters() if info.choices}
+    facts = _facts(drive)
     coords: dict[str, NDArray[Any]] = {}
     for one in axes:
-        words = choices.get(one.path)
+        words = facts[one.path].choices if one.path in facts else ()
         coords[one.path] = (np.array([words[int(value)] for value in one.values])
                             if words else np.array(one.values))
     shape = tuple(len(one.values) for one in axes)
-    return _made(tuple(coords), coords, shape, verdicts, columns, {})
+    return _made(drive, tuple(coords), coords, shape, verdicts, columns, {})
 
 
-def _made(dims: tuple[str, ...], coords: dict[str, NDArray[Any]], shape: tuple[int, ...],
+def _facts(drive: Drive) -> dict[str, ParameterInfo]:
+    """What is known of each parameter, by its path and by its aliases."""
+    facts: dict[str, ParameterInfo] = {}
+    for info in drive.parameters():
+        facts.update({alias: info for alias in info.aliases})
+    facts.update({info.path: info for info in drive.parameters()})
+    return facts
+
+
+def _made(drive: Drive, dims: tuple[str, ...], coords: dict[str, NDArray[Any]], shape: tuple[int, ...],
           verdicts: NDArray[np.uint8], columns: Mapping[str, NDArray[np.float64]],
           given: Mapping[str, NDArray[np.float64]]) -> xarray.Dataset | Table:
     words = _core.words()["Verdict"]
@@ -216,8 +225,17 @@ def _made(dims: tuple[str, ...], coords: dict[str, NDArray[Any]], shape: tuple[i
         if name != "verdict":
             variables[name] = (dims, column, {"units": facts[name].unit,
                                               "long_name": facts[name].meaning})
-    of_given = {path: (dims, array) for path, array in given.items()}
-    return xarray.Dataset(variables, coords={**coords, **of_given},
+    of_drive = _facts(drive)
+
+    def described(path: str) -> dict[str, str]:
+        info = of_drive.get(path)
+        if info is None:
+            return {}
+        return {"units": info.unit or "1", "long_name": info.meaning}
+
+    described_coords = {path: ((path,), array, described(path)) for path, array in coords.items()}
+    described_given = {path: (dims, array, described(path)) for path, array in given.items()}
+    return xarray.Dataset(variables, coords={**described_coords, **described_given},
                           attrs={"source": f"gearlash {_core.__version__}"})
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib import pyplot
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from gearlash._methods import Answer
 from gearlash._motion import Motion, simulate
@@ -108,7 +109,7 @@ def cycle(answer: Answer, which: Cycle | None = None, *, unit: str = "rad",
     for shaft in ("motor", "load"):
         ax.plot(samples[f"{shaft}_position"] / _unit(unit), samples[f"{shaft}_speed"] / _unit(unit),
                 color=COLOURS[shaft], linewidth=0.9, label=shaft)
-    ax.legend(frameon=False)
+    ax.legend(frameon=False, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
     return _tidy(ax, f"position ({unit})", f"speed ({unit}/s)")
 
 
@@ -144,11 +145,12 @@ def sweep(data: xarray.Dataset, quantity: str = "amplitude", *, unit: str | None
     if unit is not None and label == "rad":
         values, label = values / _unit(unit), unit
     dims = [str(name) for name in data[quantity].dims]
+    names = [_name_of(data, dim) for dim in dims]
     name = f"{quantity.replace('_', ' ')} ({label})"
     ax = _axes(ax)
     if len(dims) == 1:
         ax.plot(data[dims[0]], values, color=COLOURS["load"], linewidth=0.9)
-        _tidy(ax, dims[0], name)
+        _tidy(ax, names[0], name)
     elif len(dims) == 2:
         x, y = np.asarray(data[dims[1]]), np.asarray(data[dims[0]])
         mesh = ax.pcolormesh(x, y, values, shading="nearest", cmap="cividis", rasterized=True)
@@ -156,14 +158,32 @@ def sweep(data: xarray.Dataset, quantity: str = "amplitude", *, unit: str | None
         hunts = np.char.startswith(verdict_words(data), "hunts").astype(float)
         if 0.0 < hunts.mean() < 1.0:
             ax.contour(x, y, hunts, levels=[0.5], colors=[COLOURS["hunts"]], linewidths=1.0)
-        _tidy(ax, dims[1], dims[0])
+        _tidy(ax, names[1], names[0])
     else:
         raise ValueError(f"a sweep of one or two axes can be drawn, not of {len(dims)}")
     if logarithmic:
-        ax.set_xscale("log")
-        if len(dims) == 2:
-            ax.set_yscale("log")
+        for axis in (ax.xaxis, ax.yaxis)[:len(dims)]:
+            _by_ratio(ax, axis)
     return ax
+
+
+def _by_ratio(ax: Axes, axis: Any) -> None:
+    """A logarithmic axis with plain numbers, also at 2 and 5 where it spans less than two decades."""
+    (ax.set_xscale if axis is ax.xaxis else ax.set_yscale)("log")
+    low, high = sorted(axis.get_view_interval())
+    axis.set_major_formatter(FuncFormatter(_plain))
+    axis.set_minor_locator(LogLocator(subs=(2.0, 5.0)))
+    axis.set_minor_formatter(FuncFormatter(_plain) if high < 100.0 * low else NullFormatter())
+
+
+def _plain(value: float, _: Any) -> str:
+    return f"{value:g}"
+
+
+def _name_of(data: xarray.Dataset, path: str) -> str:
+    """The parameter with its unit: "gearbox.backlash (rad)"."""
+    unit = str(data[path].attrs.get("units", "1"))
+    return path if unit == "1" else f"{path} ({unit})"
 
 
 def distribution(study: ToleranceStudy, *, unit: str = "rad", ax: Axes | None = None) -> Axes:
