@@ -1,7 +1,7 @@
 # %% [markdown]
 # # A design chart of your own gearbox
 #
-# How large is the limit cycle over backlash and viscous friction of the load?
+# How large is the limit cycle over the motor's viscous friction and the proportional gain?
 # Put the path of your own drive file in place of this one.
 # Give a folder as first argument to save the figure.
 
@@ -20,18 +20,18 @@ drive = gearlash.Drive.from_toml(EXAMPLES / "first-servo.toml")
 print(gearlash.analyse(drive).headline)
 
 # %% [markdown]
-# Both begin at a quarter of their value in the file.
-# Backlash ends at four times that value, and friction at a hundred times.
+# Both axes are by ratio. The orange line is the border of hunting.
 
 # %%
-backlash, friction = drive["gearbox.backlash"], drive["load.friction"]
+friction, gain = drive["motor.friction"], drive["controller.proportional"]
 data = gearlash.sweep(drive, [
-    gearlash.logarithmic("load.friction", friction / 4, friction * 100, 41),
-    gearlash.logarithmic("gearbox.backlash", backlash / 4, backlash * 4, 41),
+    gearlash.logarithmic("motor.friction", friction, 3000 * friction, 31),
+    gearlash.logarithmic("controller.proportional", gain / 10, 10 * gain, 31),
 ], ["amplitude", "frequency"])
-hunts = int((data["amplitude"] > 0).sum())
-print(f"{hunts} of {data['amplitude'].size} drives hunt")
-print(f"largest amplitude: {float(data['amplitude'].max()):.6g} rad")
+words = gearlash.verdict_words(data)
+for word in sorted(set(words.flat)):
+    print(f"{word}: {(words == word).sum()} of {words.size} drives")
+print(f"largest amplitude: {float(data['amplitude'].max()):.4g} rad")
 
 # %%
 axes = plot.sweep(data, "amplitude", unit="mrad", logarithmic=True)

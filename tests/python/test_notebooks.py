@@ -25,6 +25,8 @@ def test_printout_agrees_with_the_table_within_its_last_digit(tmp_path: Path) ->
     differences = [float(text) for text in re.findall(r"\d\.\d+e-\d+", output)]
     assert len(differences) == 10
     assert max(differences) <= 1.01e-7
+    # The program of 1960 is a few thousandths off the exact motion in its first three seconds.
+    assert 0.001 < float(re.search(r"exact motion: ([\d.]+) rad", output)[1]) < 0.005
     assert [path.name for path in tmp_path.iterdir()] == ["printout-of-1960.pdf"]
 
 
@@ -32,11 +34,13 @@ def figures(folder: Path) -> list[str]:
     return sorted(path.name for path in folder.iterdir())
 
 
-def test_design_chart_holds_a_grid_of_hunting_drives(tmp_path: Path) -> None:
+def test_design_chart_has_the_border_of_hunting(tmp_path: Path) -> None:
     output = run("design_chart.py", str(tmp_path))
     assert "hunts: ±0.00664 rad (0.381°) at 3.91 Hz" in output
-    assert "1681 of 1681 drives hunt" in output
-    assert "largest amplitude: 0.0269829 rad" in output
+    counts = {word: int(count) for word, count in re.findall(r"^([a-z ]+): (\d+) of 961", output,
+                                                             re.M)}
+    assert sum(counts.values()) == 961
+    assert counts["cannot hunt"] > 50 and counts["hunts"] > 300
     assert figures(tmp_path) == ["design-chart.png"]
 
 
