@@ -140,9 +140,10 @@ readme: tool  ## renew the outputs and the pictures in README.md and docs
 	scripts/readme
 
 docs: tool  ## write the pages of docs as HTML: build/docs/html/index.html
-	@$(INSTALL) docs
-	@$(BUILD) release --target list_parameters
-	docs/make/build $(TOOL) $(RELEASE)/docs/make/list_parameters
+	@$(INSTALL) docs python
+	@cmake --preset release -DGEARLASH_BUILD_PYTHON=ON
+	@$(BUILD) release --target list_parameters --target gearlash_python_package
+	docs/make/build $(TOOL) $(RELEASE)/docs/make/list_parameters $(RELEASE)/python
 
 docs-check: docs  ## dead links, spelling and long sentences in the pages
 	/usr/bin/python3 docs/make/check_pages.py build/docs/source/docs/reference/generated

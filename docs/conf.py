@@ -11,7 +11,7 @@ copyright = author
 cmake = (BUILT / "source/CMakeLists.txt").read_text()
 version = release = re.search(r"VERSION ([0-9.]+)\n", cmake).group(1)
 
-extensions = ["myst_parser", "breathe"]
+extensions = ["myst_parser", "breathe", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 root_doc = "index"
 exclude_patterns = ["schemas"]
@@ -22,8 +22,13 @@ myst_enable_extensions = []
 breathe_projects = {"gearlash": str(BUILT / "doxygen/xml")}
 breathe_default_project = "gearlash"
 breathe_default_members = ("members",)
-primary_domain = "cpp"
 highlight_language = "text"
+
+autodoc_typehints = "none"  # docstrings have the types
+autodoc_member_order = "bysource"
+napoleon_google_docstring = False
+napoleon_use_ivar = True
+napoleon_use_rtype = False
 
 html_theme = "furo"
 html_title = f"Gearlash {release}"

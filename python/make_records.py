@@ -199,7 +199,7 @@ def annotation(member: Member, source: Source) -> str:
 def python_of(comment: str) -> str:
     """A comment with Python's words for those of C++."""
     for cpp, python in (("Answer::", "Answer."), ("::", "."), ("NaN", "None"), ("nullptr", "None"),
-                        ("\\", "\\\\")):
+                        ("\\", "\\\\"), ("|", "\\\\|")):  # of reStructuredText
         comment = comment.replace(cpp, python)
     return comment
 

@@ -258,12 +258,53 @@ def write(path, text):
         path.write_text(text)
 
 
+def python_page():
+    """Every public name of the Python package, by Sphinx from the docstrings."""
+    import gearlash  # the package that the build has made
+
+    records = set(gearlash._records.__all__)
+    own = [name for name in gearlash.__all__ if name not in records]
+    functions = [name for name in own if not isinstance(getattr(gearlash, name), type)
+                 and callable(getattr(gearlash, name))]
+    classes = [name for name in own if isinstance(getattr(gearlash, name), type)]
+    modules = [name for name in own if name not in functions + classes]
+    lines = ["Python", "======", "", "``import gearlash``: all numbers are in SI units, angles in "
+             "rad.", "", ".. py:module:: gearlash", ""]
+
+    def section(title):
+        lines.extend([title, "-" * len(title), ""])
+
+    section("Functions")
+    lines.extend(f".. autofunction:: gearlash.{name}\n" for name in functions)
+    section("Classes")
+    lines.extend(f".. autoclass:: gearlash.{name}\n   :members:\n" for name in classes)
+    for name in [*modules, "plot"]:
+        section(f"gearlash.{name}")
+        lines.append(f".. automodule:: gearlash.{name}\n   :members:\n")
+    section("Records")
+    lines.append("Values of one kind each, made from the public headers of C++. They take keywords, "
+                 "compare equal by their members, never change and can be pickled.\n")
+    lines.extend(f".. autoclass:: gearlash.{name}\n   :members:\n   :inherited-members:\n"
+                 f"   :exclude-members: {members_of(getattr(gearlash, name))}\n"
+                 for name in sorted(records))
+    return "\n".join(lines)
+
+
+def members_of(record):
+    """The members of a record, which its own docstring has."""
+    import dataclasses
+
+    return ", ".join(member.name for member in dataclasses.fields(record))
+
+
 def main():
     tool, parameters, schemas, headers, xml, folder = (pathlib.Path(name) for name in sys.argv[1:])
     listed = json.loads(parameters.read_text())
     write(folder / "verbs.md", verbs_page(tool))
     write(folder / "parameters.md", parameters_page(listed))
     write(folder / "quantities.md", quantities_page(listed))
+
+    write(folder / "python.rst", python_page())
 
     files = sorted(schemas.glob("*.schema.json"))
     for file in files:
