@@ -14,7 +14,7 @@ export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
 .PHONY: help demo tool test python bench versions clang sanitize fuzz browser oracle million followed designed tuned \
-        python-sweep rivals derivatives seeded-faults \
+        python-sweep dask-rates rivals derivatives seeded-faults \
         coverage readme docs docs-check format format-check tidy clean wheel package package-check
 
 help:  ## this list
@@ -62,6 +62,12 @@ python-sweep:  ## gearlash.sweep of a million servos beside the call of C++
 	cmake --preset bench -DGEARLASH_BUILD_PYTHON=ON
 	$(BUILD) bench --target sweep_million --target gearlash_python_package
 	PYTHONPATH=build/bench/python benchmarks/python/sweep build/bench/benchmarks/sweep_million
+
+dask-rates:  ## searched drives a second on one Dask worker and on two, and a plan for many nodes
+	@$(INSTALL) python
+	cmake --preset release -DGEARLASH_BUILD_PYTHON=ON
+	$(BUILD) release --target gearlash_python_package
+	PYTHONPATH=$(RELEASE)/python benchmarks/python/dask-rates
 
 rivals: tool  ## the thesis's servo through Siconos and Scilab: error and time beside Gearlash
 	@$(INSTALL) rivals
