@@ -21,7 +21,7 @@ namespace gearlash::python {
 namespace {
 
 py::object analysed(py::handle drive, py::handle wanted, const py::object& progress) {
-  const Drive& of = drive_of(drive);
+  const Drive of = drive_of(drive);
   const auto questions = from_python<Wanted>(wanted, "wanted");
   return to_python(
       interruptible(progress, [&](Progress& reports) { return analyse(of, questions, reports); }));
@@ -36,7 +36,7 @@ py::object derivatives_of(py::handle drive, const std::vector<std::string>& name
     quantities.push_back(from_python<Quantity>(py::str(name), "quantities"));
   }
   const std::vector<std::string_view> views(paths.begin(), paths.end());
-  const Drive& of = drive_of(drive);
+  const Drive of = drive_of(drive);
   return to_python(
       interruptible(py::none(), [&](Progress&) { return derivatives(of, quantities, views); }));
 }
@@ -48,7 +48,7 @@ struct Written {
 };
 
 py::tuple described(py::handle drive, const py::object& progress) {
-  const Drive& of = drive_of(drive);
+  const Drive of = drive_of(drive);
   const Written written = interruptible(progress, [&](Progress& reports) {
     const DescribeReport report = describe_report_of(of, analyse(of, {.proofs = false}, reports));
     return Written{describe_json(report), describe_text(report)};
@@ -59,7 +59,7 @@ py::tuple described(py::handle drive, const py::object& progress) {
 py::tuple compared(py::handle drive, const std::vector<std::string>& sensors,
                    std::optional<double> step, std::optional<double> until,
                    const py::object& progress) {
-  const Drive& of = drive_of(drive);
+  const Drive of = drive_of(drive);
   std::vector<SensorPlace> places;
   for (const std::string& name : sensors) {
     const std::optional<SensorPlace> place = sensor_named(name);

@@ -6,6 +6,7 @@
 #include "analysis/design/feasible_values.hpp"
 #include "analysis/design/tolerance_study.hpp"
 #include "arrays.hpp"
+#include "base/progress_part.hpp"
 #include "gearlash/input.hpp"
 #include "gearlash/tolerance.hpp"
 #include "gearlash/tune.hpp"
@@ -26,46 +27,50 @@ std::vector<std::string> texts_of(const py::object& parameters) {
 }
 
 /// One FeasibleValues for each of the parameters: paths, "PATH=FROM:TO:COUNT" or gearlash.Axis.
-py::list designed(py::handle drive, py::handle target, const py::object& parameters,
-                  const py::object& progress) {
-  const Drive& of = drive_of(drive);
+py::object designed(py::handle drive, py::handle target, const py::object& parameters,
+                    const py::object& progress) {
+  const Drive of = drive_of(drive);
   const auto limits = from_python<Target>(target, "target");
   const std::vector<std::string> texts = texts_of(parameters);
   const bool is_closed =
       texts.size() == py::len(parameters) && is_closed_form_task(of, limits, texts);
-  py::list answers;
+  std::vector<Axis> axes;
   for (const py::handle& one : parameters) {
-    if (is_closed) {
-      const std::string name = one.cast<std::string>();
-      answers.append(to_python(
-          interruptible(progress, [&](Progress&) { return feasible_values(of, name, limits); })));
-      continue;
-    }
-    const Axis axis = py::isinstance<py::str>(one)
-                          ? read_axis_or_name("parameters", one.cast<std::string>(), of)
-                          : from_python<Axis>(one, "parameters");
-    answers.append(to_python(interruptible(
-        progress, [&](Progress& reports) { return feasible_values(of, axis, limits, reports); })));
+    if (is_closed) break;
+    axes.push_back(py::isinstance<py::str>(one)
+                       ? read_axis_or_name("parameters", one.cast<std::string>(), of)
+                       : from_python<Axis>(one, "parameters"));
   }
-  return answers;
+  const std::size_t count = py::len(parameters);
+  const auto answers = interruptible(progress, [&](Progress& reports) {
+    std::vector<FeasibleValues> found;
+    while (found.size() < count) {
+      ProgressPart part(reports, found.size(), count);
+      if (!part.go_on(0.0)) break;
+      found.push_back(is_closed ? feasible_values(of, texts[found.size()], limits)
+                                : feasible_values(of, axes[found.size()], limits, part));
+    }
+    return found;
+  });
+  return to_python(answers);
 }
 
 py::object margin_of(py::handle drive, py::handle axes, const py::object& progress) {
-  const Drive& of = drive_of(drive);
+  const Drive of = drive_of(drive);
   const auto list = from_python<std::vector<Axis>>(axes, "axes");
   return to_python(interruptible(progress, [&](Progress& reports) {
     return list.empty() ? hunting_margin(of, reports) : hunting_margin(of, list, reports);
   }));
 }
 
-py::object studied(py::handle series, py::handle sampling, py::handle questions, double error,
-                   const py::object& progress) {
+py::object studied(py::handle series, py::handle sampling, py::handle questions,
+                   std::optional<double> error, const py::object& progress) {
   const auto drives = from_python<TolerancedDrive>(series, "series");
   const auto plan = from_python<SamplePlan>(sampling, "sampling");
   const auto asked = from_python<StudyQuestions>(questions, "questions");
   return to_python(interruptible(progress, [&](Progress& reports) {
-    return error > 0.0 ? study_tolerances_to(error, drives, plan, asked, reports)
-                       : study_tolerances(drives, plan, asked, reports);
+    return error ? study_tolerances_to(*error, drives, plan, asked, reports)
+                 : study_tolerances(drives, plan, asked, reports);
   }));
 }
 

@@ -19,10 +19,12 @@ void forget_files(Drive& drive) {
 }
 
 py::tuple read(const std::string& text, const std::string& name, const std::string& folder,
-               const std::vector<std::pair<std::string, std::string>>& settings) {
+               const std::vector<std::pair<std::string, std::string>>& settings,
+               bool is_of_program) {
   std::vector<Setting> list;
   for (const auto& [path, value] : settings) list.push_back({path, value});
-  WrittenDrive written = parse_drive(text, name, folder, list, BareNumbers::in_si);
+  WrittenDrive written = parse_drive(text, name, folder, list,
+                                     is_of_program ? BareNumbers::in_si : BareNumbers::refused);
   forget_files(written.drive);
   return py::make_tuple(py::cast(std::move(written.drive)), to_python(written.tolerances));
 }

@@ -75,10 +75,12 @@ py::tuple evaluated_list(py::handle drive, const std::vector<std::string>& paths
 void add_grids(py::module_& module) {
   module.def("evaluate_grid", evaluated_grid);
   module.def("evaluate_list", evaluated_list);
-  module.def("check_grid", [](py::handle drive, py::handle axes) {
-    const std::vector<Fault> found = faults(grid_of(drive, axes));
-    if (!found.empty()) throw InvalidInput(found);
-  });
+  module.def("check_grid",
+             [](py::handle drive, py::handle axes, const std::vector<std::string>& names) {
+               (void)quantities_named(names);
+               const std::vector<Fault> found = faults(grid_of(drive, axes));
+               if (!found.empty()) throw InvalidInput(found);
+             });
   module.def("is_closed_grid", [](py::handle drive, py::handle axes) {
     return !GridPoints(grid_of(drive, axes)).engines().search;
   });

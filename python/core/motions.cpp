@@ -12,7 +12,7 @@ namespace {
 
 Motion simulated(py::handle drive, double until, py::handle start, std::size_t most_events,
                  const py::object& progress) {
-  const Drive& of = drive_of(drive);
+  const Drive of = drive_of(drive);
   const Span span{.until = until,
                   .start = from_python<std::optional<Start>>(start, "start"),
                   .most_events = most_events};
@@ -32,14 +32,35 @@ py::dict columns_of_samples(Samples samples) {
   return columns;
 }
 
+/// The most samples of a call: 64 bytes each.
+constexpr double most_samples = 1e8;
+
+py::dict sampled(const Motion& motion, double every) {
+  const double count = motion.end_time() / every;
+  if (every > 0.0 && !(count <= most_samples)) {
+    throw InvalidInput({{"every", std::string(py::str(py::float_(every))) + " s",
+                         "must give at most 100,000,000 samples", ""}});
+  }
+  return columns_of_samples(
+      interruptible(py::none(), [&](Progress&) { return motion.sampled(every); }));
+}
+
 py::dict at(const Motion& motion, const Numbers& times) {
   const auto count = static_cast<std::size_t>(times.size());
   const double* const time = times.data();
-  Samples samples;
-  std::vector<bool> apart;
-  {
-    const py::gil_scoped_release unlocked;
+  const double end = motion.end_time();
+  for (std::size_t i = 0; i < count; ++i) {
+    if (time[i] >= 0.0 && time[i] <= end) continue;
+    throw InvalidInput({{"times", std::string(py::str(py::float_(time[i]))) + " s",
+                         "must be from 0 to the end of the motion, " +
+                             std::string(py::str(py::float_(end))) + " s",
+                         ""}});
+  }
+  return columns_of_samples(interruptible(py::none(), [&](Progress& reports) {
+    Samples samples;
+    constexpr std::size_t at_a_time = 4096;
     for (std::size_t i = 0; i < count; ++i) {
+      if (i % at_a_time == 0 && !reports.go_on(0.0)) break;
       const MotionSample sample = motion.at(time[i]);
       samples.time.push_back(sample.time);
       samples.load_position.push_back(sample.shafts.load_position);
@@ -50,8 +71,8 @@ py::dict at(const Motion& motion, const Numbers& times) {
       samples.reference.push_back(sample.reference);
       samples.load_torque.push_back(sample.load_torque);
     }
-  }
-  return columns_of_samples(std::move(samples));
+    return samples;
+  }));
 }
 
 /// One tuple for each event, in the order of the fields of gearlash._motion.EVENT.
@@ -80,14 +101,7 @@ std::vector<std::string> modes_at(const Motion& motion, const Numbers& times) {
 
 void add_motions(py::module_& module) {
   py::class_<Motion>(module, "Motion")
-      .def("sampled",
-           [](const Motion& motion, double every) {
-             Samples samples = [&] {
-               const py::gil_scoped_release unlocked;
-               return motion.sampled(every);
-             }();
-             return columns_of_samples(std::move(samples));
-           })
+      .def("sampled", sampled)
       .def("sample_count", &Motion::sample_count)
       .def("at", at)
       .def("modes_at", modes_at)

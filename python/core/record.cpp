@@ -5,19 +5,25 @@
 namespace gearlash::python {
 
 py::handle class_named(const char* name) {
-  return py::object(py::module_::import("gearlash._records").attr(name)).release();
+  // The module keeps its classes alive.
+  return py::object(py::module_::import("gearlash._records").attr(name)).ptr();
 }
+
+namespace {
+
+py::handle drive_class() {
+  return py::object(py::module_::import("gearlash._drive").attr("Drive")).ptr();
+}
+
+}  // namespace
 
 py::object drive_to_python(Drive drive) {
-  static const py::handle type =
-      py::object(py::module_::import("gearlash._drive").attr("Drive")).release();
-  return type.attr("_of")(py::cast(std::move(drive)));
+  return drive_class().attr("_of")(py::cast(std::move(drive)));
 }
 
-const Drive& drive_of(py::handle object) {
-  const py::object core = py::getattr(object, "_core", py::none());
-  if (!py::isinstance<Drive>(core)) refuse_type("drive", "a gearlash.Drive", object);
-  return core.cast<const Drive&>();  // which `object` keeps alive
+Drive drive_of(py::handle object) {
+  if (!py::isinstance(object, drive_class())) refuse_type("drive", "a gearlash.Drive", object);
+  return object.attr("_core").cast<Drive>();
 }
 
 void refuse_type(const char* name, const std::string& permitted, py::handle found) {

@@ -60,7 +60,8 @@ py::handle class_named(const char* name);
 
 /// gearlash.Drive of a drive, and back.
 py::object drive_to_python(Drive drive);
-const Drive& drive_of(py::handle object);
+/// A copy, so that nothing that Python does meanwhile can change or free it.
+Drive drive_of(py::handle object);
 
 /// Throws TypeError: "NAME must be PERMITTED, not TYPE".
 [[noreturn]] void refuse_type(const char* name, const std::string& permitted, py::handle found);
@@ -74,7 +75,7 @@ template <class Struct>
 py::object record_to_python(const Struct& value) {
   return std::apply(
       [&](const auto&... member) {
-        static const py::handle type = class_named(Record<Struct>::name);
+        const py::handle type = class_named(Record<Struct>::name);
         return py::object(type(to_python(value.*(member.place))...));
       },
       Record<Struct>::members);
@@ -157,20 +158,23 @@ Variant variant_from_python(py::handle object, const char* name) {
   }
 }
 
-template <class Type>
-Type number_from_python(py::handle object, const char* name) {
-  try {
-    return py::float_(py::reinterpret_borrow<py::object>(object)).cast<Type>();
-  } catch (const py::error_already_set&) {
+/// Refuses what Python would convert to a number too: text, bytes, True, arrays.
+inline double number_from_python(py::handle object, const char* name) {
+  const bool is_number = PyNumber_Check(object.ptr()) != 0 && !py::hasattr(object, "__len__");
+  const bool is_array = py::hasattr(object, "ndim") && object.attr("ndim").cast<int>() > 0;
+  if ((!is_number && !py::hasattr(object, "ndim")) || is_array || PyBool_Check(object.ptr()) != 0) {
     refuse_type(name, "a number", object);
   }
+  const double value = PyFloat_AsDouble(object.ptr());
+  if (PyErr_Occurred() != nullptr) throw py::error_already_set();
+  return value;
 }
 
 template <class Type>
 Type from_python(py::handle object, const char* name) {
   if constexpr (std::is_same_v<Type, double>) {
     return object.is_none() ? std::numeric_limits<double>::quiet_NaN()
-                            : number_from_python<double>(object, name);
+                            : number_from_python(object, name);
   } else if constexpr (std::is_same_v<Type, bool>) {
     if (!py::isinstance<py::bool_>(object)) refuse_type(name, "True or False", object);
     return object.cast<bool>();

@@ -1,6 +1,7 @@
 // The thesis of 1960: its program, its table and its figures.
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "arrays.hpp"
@@ -38,11 +39,25 @@ py::array_t<double> rows_of(const std::vector<PrintedLine>& lines) {
   return array_of(std::move(numbers)).reshape({py::ssize_t(lines.size()), py::ssize_t{5}});
 }
 
-std::vector<PrintedLine> lines_of_machine(const ProgramParameters& parameters, std::size_t count) {
+constexpr std::size_t most_lines = 1'000'000;
+
+std::vector<PrintedLine> lines_of_machine(const ProgramParameters& parameters, std::size_t count,
+                                          Progress& reports) {
   thesis::ThesisMachine machine;
   machine.set(parameters);
   std::vector<PrintedLine> lines;
-  while (lines.size() < count) lines.push_back(machine.next_line());
+  while (lines.size() < count && reports.go_on(0.0)) lines.push_back(machine.next_line());
+  return lines;
+}
+
+std::vector<PrintedLine> lines_of_port(const ProgramParameters& parameters, std::size_t count,
+                                       Progress& reports) {
+  thesis::Program1960<double> program(parameters);
+  std::vector<PrintedLine> lines;
+  while (lines.size() < count && reports.go_on(0.0)) {
+    program.step([&](const PrintedLine& line) { lines.push_back(line); });
+  }
+  lines.resize(std::min(lines.size(), count));
   return lines;
 }
 
@@ -54,6 +69,9 @@ py::array_t<double> rows_of(const std::vector<ChartPoint>& points) {
 }
 
 py::array_t<double> printed(std::size_t lines, const py::object& servo, bool emulated) {
+  if (lines > most_lines) {
+    throw InvalidInput({{"lines", std::to_string(lines), "must be at most 1,000,000", ""}});
+  }
   ProgramParameters parameters = thesis::listed_parameters;
   if (!servo.is_none()) {
     const auto [damping, inertia_ratio, friction_ratio, backlash] =
@@ -61,9 +79,9 @@ py::array_t<double> printed(std::size_t lines, const py::object& servo, bool emu
     parameters =
         thesis::program_parameters(servo_of(damping, inertia_ratio, friction_ratio, backlash));
   }
-  return rows_of(interruptible(py::none(), [&](Progress&) {
-    return emulated ? lines_of_machine(parameters, lines)
-                    : thesis::printout<double>(parameters, lines);
+  return rows_of(interruptible(py::none(), [&](Progress& reports) {
+    return emulated ? lines_of_machine(parameters, lines, reports)
+                    : lines_of_port(parameters, lines, reports);
   }));
 }
 

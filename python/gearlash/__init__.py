@@ -23,6 +23,16 @@ from gearlash._sweep import Table, axis, linear, logarithmic, sweep, verdict_wor
 
 __version__: str = _core.__version__
 
+
+def __getattr__(name: str) -> object:
+    """Import :mod:`gearlash.plot`, and Matplotlib with it, where it is first named."""
+    if name == "plot":
+        import importlib
+
+        return importlib.import_module("gearlash.plot")
+    raise AttributeError(f"module gearlash has no attribute {name}")
+
+
 __all__ = [
     "Drive", "InvalidInput", "Motion", "Report", "Samples", "Section", "Table", "analyse", "axis",
     "compare", "derivatives", "describe", "design", "linear", "logarithmic", "margins",

@@ -4,14 +4,24 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from collections.abc import Callable, Sequence
-from typing import Any, Optional
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, Optional, TypeVar
 
 from gearlash import _core
 from gearlash._drive import Drive
 from gearlash._records import Answer, Jacobian, QuantityInfo, Wanted
 
 Progress = Optional[Callable[[float], Optional[bool]]]
+
+
+_One = TypeVar("_One")
+
+
+def listed(name: str, several: Iterable[_One]) -> list[_One]:
+    """A list of what was given; a text, which Python would take letter by letter, is refused."""
+    if isinstance(several, (str, bytes)):
+        raise TypeError(f"{name} must be a sequence, such as [{several!r}], not a text")
+    return list(several)
 
 
 def analyse(drive: Drive, *, proofs: bool = True, ceiling: bool = True, loop: bool = False,
@@ -104,7 +114,8 @@ def derivatives(drive: Drive, quantities: Sequence[str], parameters: Sequence[st
     >>> round(slopes.elasticity("amplitude", "servo.backlash"), 12)
     1.0
     """
-    return _core.derivatives(drive, list(quantities), list(parameters))
+    return _core.derivatives(drive, listed("quantities", quantities),
+                             listed("parameters", parameters))
 
 
 class Report(dict[str, Any]):
@@ -177,7 +188,7 @@ def compare(drive: Drive, sensors: Sequence[str] = ("load", "motor", "both"), *,
     InvalidInput
         For a faulty drive, a step of 0 and a time that is not positive.
     """
-    return Report(*_core.compare(drive, list(sensors), step, until, progress))
+    return Report(*_core.compare(drive, listed("sensors", sensors), step, until, progress))
 
 
 def quantities() -> tuple[QuantityInfo, ...]:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Union
 
 from gearlash import _core
-from gearlash._analysis import Progress
+from gearlash._analysis import Progress, listed
 from gearlash._drive import Drive
 from gearlash._records import (Axis, BacklashDemand, Distribution, FeasibleValues, HuntingMargin,
                                ParameterTolerance, SamplePlan, SensitivityStudy, StudyQuestions,
@@ -61,7 +61,8 @@ def design(drive: Drive, wanted: TargetLike, parameters: Sequence[str | Axis] | 
     >>> found.kind, round(found.nearest, 6)
     ('certified', 0.849487)
     """
-    asked = list(parameters) if parameters is not None else list(_core.usual_parameters(drive))
+    asked = (listed("parameters", parameters) if parameters is not None
+             else list(_core.usual_parameters(drive)))
     answers = _core.design(drive, target(wanted, drive), asked, progress)
     return {answer.parameter: answer for answer in answers}
 
@@ -83,8 +84,9 @@ def margins(drive: Drive, axes: Sequence[Axis | str] = (), *,
     InvalidInput
         For an unsound drive and for axes that it does not have.
     """
-    listed = tuple(_core.axis(one, drive) if isinstance(one, str) else one for one in axes)
-    return _core.margins(drive, listed, progress)
+    asked = tuple(_core.axis(one, drive) if isinstance(one, str) else one
+                  for one in listed("axes", axes))
+    return _core.margins(drive, asked, progress)
 
 
 def series(drive: SeriesLike, varied: Mapping[str, Distribution] | None = None) -> TolerancedDrive:
@@ -97,11 +99,11 @@ def series(drive: SeriesLike, varied: Mapping[str, Distribution] | None = None) 
     varied : mapping of path to Distribution
         UniformBetween, UniformAbout, Normal or DiscreteLots, in SI, beside those of the file.
     """
-    if isinstance(drive, TolerancedDrive):
-        return drive
+    nominal, own = ((drive.nominal, drive.varied) if isinstance(drive, TolerancedDrive)
+                    else (drive, drive.tolerances))
     added = {path: ParameterTolerance(path, spread) for path, spread in (varied or {}).items()}
-    kept = tuple(one for one in drive.tolerances if one.path not in added)
-    return TolerancedDrive(nominal=drive, varied=kept + tuple(added.values()))
+    kept = tuple(one for one in own if one.path not in added)
+    return TolerancedDrive(nominal=nominal, varied=kept + tuple(added.values()))
 
 
 def tolerance(drive: SeriesLike, varied: Mapping[str, Distribution] | None = None, *,
@@ -159,8 +161,8 @@ def tolerance(drive: SeriesLike, varied: Mapping[str, Distribution] | None = Non
 
         if error is not None:
             raise TypeError("client needs samples, not error")
-        return distributed.study(one, sampling, questions, client)
-    return _core.tolerance_study(one, sampling, questions, error or 0.0, progress)
+        return distributed.study(one, sampling, questions, client, progress=progress)
+    return _core.tolerance_study(one, sampling, questions, error, progress)
 
 
 def sensitivity_indices(drive: SeriesLike, varied: Mapping[str, Distribution] | None = None, *,
@@ -202,6 +204,8 @@ def _target(text: TargetLike, one: TolerancedDrive) -> Target:
 def _study(drive: SeriesLike, varied: Mapping[str, Distribution] | None, wanted: TargetLike | None,
            samples: int | None, seed: int, quantity: str
            ) -> tuple[TolerancedDrive, StudyQuestions, SamplePlan]:
+    if samples is not None and samples < 1:
+        raise ValueError(f"samples must be at least 1, not {samples}")
     one = series(drive, varied)
     questions = StudyQuestions(amplitude=quantity,
                                target=Target() if wanted is None else _target(wanted, one))
@@ -221,8 +225,8 @@ def tune(drive: SeriesLike, parameters: Sequence[str | Axis] | None = None, *,
     drive, varied
         As of :func:`series`; without tolerances it is one drive.
     parameters : sequence of str or Axis, optional
-        Numbers to tune: from 0.1 to 10 times the present value, or over an axis; default the
-        controller's gains above 0.
+        Numbers to tune: from 0.1 to 10 times the present value, over ``"PATH=FROM:TO"`` with units,
+        or over an axis; default the controller's gains above 0.
     target : str or Target, optional
         Which each unit must keep; default to come to rest, or to hunt by one step of the encoder at
         most, and not to run away.
@@ -255,7 +259,8 @@ def tune(drive: SeriesLike, parameters: Sequence[str | Axis] | None = None, *,
     one = series(drive, varied)
     nominal = one.nominal
     axes = tuple(_axis_to_tune(nominal, parameter)
-                 for parameter in (parameters or _core.usual_gains(nominal)))
+                 for parameter in (listed("parameters", parameters) if parameters is not None
+                                   else _core.usual_gains(nominal)))
     tuned = {given.path for given in axes}
     task = TuneTask(
         series=TolerancedDrive(nominal, tuple(v for v in one.varied if v.path not in tuned)),
@@ -272,4 +277,6 @@ def _axis_to_tune(drive: Drive, parameter: str | Axis) -> Axis:
         return parameter
     if "=" not in parameter:
         return _core.usual_axis_to_tune(drive, parameter)
-    return _core.axis(parameter, drive)
+    has_two_ends = parameter.count(":") == 1
+    given = _core.axis(f"{parameter}:2" if has_two_ends else parameter, drive)
+    return Axis(given.path, given.values, logarithmic=given.values[0] > 0.0)

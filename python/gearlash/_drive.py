@@ -6,7 +6,7 @@ import json
 import math
 import os
 import tomllib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
 
@@ -19,14 +19,19 @@ Value = Union[float, str, list[Any]]
 
 
 def _toml_value(value: Any) -> str:
-    """A value of Python as TOML. Strings of TOML have the escapes of JSON."""
+    """A value of Python as TOML."""
     if hasattr(value, "tolist"):  # a number or an array of NumPy
         value = value.tolist()
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_toml_value(one) for one in value) + "]"
     if isinstance(value, (bool, int, float)):
         return json.dumps(value) if math.isfinite(value) else _toml_value(str(value))
-    return json.dumps(str(value), ensure_ascii=False)
+    return _toml_text(str(value))
+
+
+def _toml_text(text: str) -> str:
+    """Text as TOML, whose escapes are those of JSON; only DEL must be one as well."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def _toml(sections: Mapping[str, Mapping[str, Any]]) -> str:
@@ -34,8 +39,8 @@ def _toml(sections: Mapping[str, Mapping[str, Any]]) -> str:
     for name, keys in sections.items():
         if not isinstance(keys, Mapping):
             raise TypeError(f"{name} must be a mapping of keys to values, not {type(keys).__name__}")
-        lines.append(f"[{json.dumps(name)}]")
-        lines += [f"{json.dumps(key)} = {_toml_value(value)}" for key, value in keys.items()]
+        lines.append(f"[{_toml_text(str(name))}]")
+        lines += [f"{_toml_text(str(key))} = {_toml_value(value)}" for key, value in keys.items()]
     return "\n".join(lines)
 
 
@@ -90,6 +95,9 @@ class Drive:
         object.__setattr__(self, "_core", made)
         object.__setattr__(self, "_tolerances", tolerances)
 
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError(f"a drive never changes: {name} cannot be deleted")
+
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"a drive never changes: use drive.with_({{...}}) instead of {name} =")
 
@@ -111,8 +119,8 @@ class Drive:
         Parameters
         ----------
         source : str or path
-            A path; or the text itself, which has a line break or a ``=``. Signal tables that a
-            file names stand beside it.
+            A path; or the text itself, which has a line break. Signal tables that a file names
+            stand beside it. As in every file, a number that has a unit is written with it.
 
         Raises
         ------
@@ -134,13 +142,13 @@ class Drive:
         >>> gearlash.Drive.from_toml(text)
         Drive.normal_form(damping=0.19, inertia_ratio=2.0, friction_ratio=0.1, backlash=0.3)
         """
-        if isinstance(source, str) and ("\n" in source or "=" in source):
-            text, name, folder = source, "text", ""
+        if isinstance(source, str) and "\n" in source:
+            text, name, folder = source.encode(), "text", ""
         else:
             path = Path(source)
-            text, name, folder = path.read_text(encoding="utf-8"), str(path), str(path.parent)
+            text, name, folder = path.read_bytes(), str(path), str(path.parent)
         drive = cls.__new__(cls)
-        drive._take(*core.read(text, name, folder, []))
+        drive._take(*core.read(text, name, folder, [], False))
         return drive
 
     @classmethod
@@ -204,12 +212,14 @@ class Drive:
         >>> servo.with_({"servo.backlash": "12 arcmin"})["servo.backlash"]
         0.0034906585039886587
         """
-        numbers = [(path, float(value)) for path, value in changes.items()
+        if not isinstance(changes, Mapping):
+            raise TypeError(f"changes must be a mapping, not {type(changes).__name__}")
+        numbers = [(str(path), float(value)) for path, value in changes.items()
                    if isinstance(value, (int, float)) and not isinstance(value, bool)]
         if len(numbers) == len(changes):
             made = self._core.with_numbers(numbers)
         else:
-            settings = [(path, "none" if value is None else _setting(value))
+            settings = [(str(path), "none" if value is None else _setting(value))
                         for path, value in changes.items()]
             made, _ = _read(self.to_toml(), "", "", settings)
         drive = type(self).__new__(type(self))
@@ -220,6 +230,12 @@ class Drive:
     def tolerances(self) -> tuple[ParameterTolerance, ...]:
         """The tolerances that its file gives; see :func:`gearlash.tolerance`."""
         return self._tolerances
+
+    def with_tolerances(self, tolerances: Iterable[ParameterTolerance]) -> Drive:
+        """Give the drive with these tolerances instead of its own."""
+        drive = type(self).__new__(type(self))
+        drive._take(self._core, tuple(tolerances))
+        return drive
 
     @property
     def is_normal_form(self) -> bool:
@@ -240,15 +256,37 @@ class Drive:
                 for name, keys in self.sections().items() for key in keys}
 
     def to_toml(self) -> str:
-        """Give the file of the drive with all defaults, in SI. Numbers read back exactly."""
+        """Give the file of the drive with all defaults, in SI. Numbers read back exactly.
+
+        It is one drive: tolerances are left out.
+        """
         return self._core.to_toml()
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write :meth:`to_toml` to a file, which appears whole or not at all."""
-        core.save(os.fspath(path), self.to_toml())
+        """Write :meth:`to_toml` to a file, which appears whole or not at all.
+
+        Raises
+        ------
+        OSError
+            If it cannot be written.
+        """
+        try:
+            core.save(os.fspath(path), self.to_toml())
+        except RuntimeError as error:
+            raise OSError(str(error)) from None
+
+    def __contains__(self, path: object) -> bool:
+        """Whether the drive has this parameter, by its path."""
+        return any(path == info.path or path in info.aliases for info in self.parameters())
+
+    def __iter__(self) -> Iterator[str]:
+        """The paths of the parameters that this drive has."""
+        return (info.path for info in self.parameters())
 
     def __getitem__(self, path: str) -> Value:
         """Give a parameter by its path: a number in SI, a word or a list."""
+        if not isinstance(path, str):
+            raise TypeError(f"path must be text, not {type(path).__name__}")
         section, _, key = path.partition(".")
         written = self.sections().get(section, {}).get(key)
         if isinstance(written, list):
@@ -267,7 +305,8 @@ class Drive:
         return [*super().__dir__(), *self.sections()]
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Drive) and self.to_toml() == other.to_toml()
+        return (isinstance(other, Drive) and self.to_toml() == other.to_toml()
+                and self._tolerances == other._tolerances)
 
     def __hash__(self) -> int:
         return hash(self.to_toml())
@@ -276,6 +315,10 @@ class Drive:
         return _unpickled, (self.to_toml(), self._tolerances)
 
     def __repr__(self) -> str:
+        nominal = self._repr_of_nominal()
+        return f"{nominal}.with_tolerances({self._tolerances!r})" if self._tolerances else nominal
+
+    def _repr_of_nominal(self) -> str:
         sections = self.sections()
         servo = sections.pop("servo", None)
         if servo is None:
@@ -289,7 +332,7 @@ class Drive:
                 f"{name}={keys!r}" for name, keys in sections.items()) + ")"
         names = ["damping", "inertia_ratio", "friction_ratio", "backlash"]
         names += ["natural_frequency"] if "natural_frequency" in servo else []
-        numbers = [f"{name}={self[f'servo.{name}']!r}" for name in names]
+        numbers = [f"{name}={_literal(self[f'servo.{name}'])}" for name in names]
         if contact["restitution"]:
             numbers.append(f"restitution={float(contact['restitution'])!r}")
         return f"Drive.normal_form({', '.join(numbers)})"
@@ -313,6 +356,8 @@ class Section(Mapping[str, Value]):
         return self._drive[f"{self._name}.{key}"]
 
     def __getattr__(self, key: str) -> Value:
+        if key.startswith("_"):  # of a copy whose members are not there yet
+            raise AttributeError(key)
         try:
             return self[key]
         except KeyError:
@@ -328,6 +373,11 @@ class Section(Mapping[str, Value]):
         return repr(dict(self))
 
 
+def _literal(value: Value) -> str:
+    """A number as Python reads it back, also where it is infinite."""
+    return f"float({str(value)!r})" if value in (math.inf, -math.inf) else repr(value)
+
+
 def _kind(drive: Drive, path: str) -> str:
     return next((info.kind for info in drive.parameters() if info.path == path), "number")
 
@@ -340,12 +390,12 @@ def _read(text: str, name: str, folder: str, settings: list[tuple[str, str]]
     from gearlash._errors import InvalidInput
 
     try:
-        return core.read(text, name, folder, settings)
+        return core.read(text, name, folder, settings, True)
     except InvalidInput as error:
         raise InvalidInput(tuple(replace(fault, where="") for fault in error.faults)) from None
 
 
 def _unpickled(text: str, tolerances: tuple[ParameterTolerance, ...]) -> Drive:
     drive = Drive.__new__(Drive)
-    drive._take(core.read(text, "", "", [])[0], tolerances)
+    drive._take(core.read(text, "", "", [], True)[0], tolerances)
     return drive

@@ -46,6 +46,12 @@ class Samples(Mapping[str, NDArray[np.float64]]):
     def __len__(self) -> int:
         return len(self._columns)
 
+    def __eq__(self, other: object) -> bool:
+        return (isinstance(other, Samples) and list(self) == list(other)
+                and all(np.array_equal(self[name], other[name]) for name in self))
+
+    __hash__ = None  # type: ignore[assignment]
+
     def __reduce__(self) -> tuple[Any, ...]:
         return Samples, ({name: np.array(column) for name, column in self._columns.items()},)
 
@@ -80,7 +86,7 @@ class Motion:
         Raises
         ------
         ValueError
-            For a time that is not a number.
+            For a time that is not a number or not within the motion.
         """
         array = _numbers("times", times)
         columns = self._core.at(array)
@@ -180,6 +186,8 @@ def simulate(drive: Drive, until: float, *, start: Start | None = None,
 
 def _numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:
     """Real numbers of any layout and real type as contiguous doubles."""
+    if isinstance(values, np.ma.MaskedArray):
+        raise TypeError(f"{name} must not be a masked array")
     array = np.asarray(values)
     if array.dtype.kind not in "fiu":
         raise TypeError(f"{name} must be an array of real numbers, not of {array.dtype}")

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearlash import _core
-from gearlash._analysis import Progress
+from gearlash._analysis import Progress, listed
 from gearlash._drive import Drive
 from gearlash._motion import _numbers
 from gearlash._records import Axis, ParameterInfo
@@ -58,6 +58,8 @@ def axis(drive: Drive, path: str, values: AxisLike) -> Axis:
         For a parameter that the drive does not have, and for values that it must not have.
     """
     if isinstance(values, Axis):
+        if values.path != path:
+            raise ValueError(f"{path} must have an axis of its own, not one of {values.path}")
         return values
     if isinstance(values, str):
         return _core.read_axis(path, values, drive)
@@ -156,14 +158,15 @@ def sweep(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis] | None = N
         if proved or client is not None:
             raise TypeError("proved and client need axes")
         return _sweep_arrays(drive, arrays, quantities, progress)
-    listed = [axis(drive, path, values) for path, values in axes.items()
-              ] if isinstance(axes, Mapping) else list(axes or ())
+    asked = listed("quantities", quantities)
+    grid = [axis(drive, path, values) for path, values in axes.items()
+            ] if isinstance(axes, Mapping) else listed("axes", axes or ())
     if client is not None:
         from gearlash import distributed
 
-        return distributed.sweep(drive, listed, quantities, client, proved=proved)
-    verdicts, columns = _core.evaluate_grid(drive, listed, list(quantities), proved, progress)
-    return dataset(drive, listed, verdicts, columns)
+        return distributed.sweep(drive, grid, asked, client, proved=proved, progress=progress)
+    verdicts, columns = _core.evaluate_grid(drive, grid, asked, proved, progress)
+    return dataset(drive, grid, verdicts, columns)
 
 
 def _sweep_arrays(drive: Drive, arrays: Mapping[str, ArrayLike], quantities: Sequence[str],
@@ -172,12 +175,14 @@ def _sweep_arrays(drive: Drive, arrays: Mapping[str, ArrayLike], quantities: Seq
     if math.prod(shape) > MOST_DRIVES:
         raise ValueError(f"arrays must give at most {MOST_DRIVES:,} drives, not {shape}; "
                          "give a grid by axes")
-    given = {path: _numbers(path, values) for path, values in arrays.items()}
+    # Copies: what the caller does to his arrays later must change neither drives nor coordinates.
+    given = {path: np.array(_numbers(path, values)) for path, values in arrays.items()}
     flat = [np.ascontiguousarray(np.broadcast_to(array, shape)).reshape(-1)
             for array in given.values()]
     if flat and flat[0].size == 0:
         raise ValueError(f"arrays must have at least one element; they have the shape {shape}")
-    verdicts, columns = _core.evaluate_list(drive, list(given), flat, list(quantities), progress)
+    verdicts, columns = _core.evaluate_list(drive, list(given), flat,
+                                             listed("quantities", quantities), progress)
     dims = tuple(f"dim_{i}" for i in range(len(shape)))
     return _made(drive, dims, {}, shape, verdicts, columns,
                  {path: np.broadcast_to(array, shape) for path, array in given.items()})

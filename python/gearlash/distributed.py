@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlash import _core
+from gearlash._analysis import Progress
 from gearlash._drive import Drive
 from gearlash._records import (Axis, SamplePlan, StudyQuestions, TolerancedDrive,
                                ToleranceStudy)
@@ -24,6 +25,9 @@ from gearlash._sweep import AxisLike, Table, axis, dataset
 
 if TYPE_CHECKING:
     import xarray
+
+#: Drives that a sweep follows from neighbour to neighbour at most, searched afresh at both ends.
+RUN = 32
 
 _Piece = tuple[NDArray[np.uint8], dict[str, NDArray[np.float64]]]
 
@@ -38,8 +42,9 @@ def _evaluate(drive: Drive, axes: Sequence[Axis], quantities: Sequence[str], pro
 def pieces(axes: Sequence[Axis], most: int = 4096) -> list[list[Axis]]:
     """Divide a grid into smaller ones, in its order, each of at most about `most` points.
 
-    Each has one value of the leading axes, a part of one axis and all of the axes after it; the last
-    axis is never divided, unless it is the only one.
+    Each has one value of the leading axes, a part of one axis and all of the axes after it. The last
+    axis is divided only if it is the only one, at multiples of :data:`RUN` values: there a sweep on
+    one machine begins a new run too.
 
     Examples
     --------
@@ -49,8 +54,11 @@ def pieces(axes: Sequence[Axis], most: int = 4096) -> list[list[Axis]]:
     >>> [[one.values for one in piece] for piece in pieces([x, y], most=4)]
     [[(1.0, 2.0), (1.0, 2.0)], [(3.0,), (1.0, 2.0)]]
     """
-    if len(axes) <= 1:
-        return [list(axes)]
+    if not axes:
+        return [[]]
+    if len(axes) == 1:
+        step = max(1, most // RUN) * RUN
+        return [[_part(axes[0], i, i + step)] for i in range(0, len(axes[0].values), step)]
     inner = math.prod(len(one.values) for one in axes[1:])
     if inner > most and len(axes) > 2:
         return [[_part(axes[0], i, i + 1), *piece]
@@ -86,7 +94,8 @@ def _listed(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis]) -> list
 
 def sweep(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis],
           quantities: Sequence[str] = ("amplitude", "frequency"), client: Any = None, *,
-          proved: bool = False, most: int | None = None) -> xarray.Dataset | Table:
+          proved: bool = False, most: int | None = None,
+          progress: Progress = None) -> xarray.Dataset | Table:
     """Answer for a grid on all workers of a Dask cluster.
 
     Parameters
@@ -97,7 +106,10 @@ def sweep(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis],
         Its workers need Gearlash of this version.
     most : int, optional
         Points of a piece at most; default 65,536 of drives in closed form, else one line of the
-        last axis.
+        last axis, or :data:`RUN` where it is the only one.
+    progress : callable, optional
+        Called with the share of the pieces that are done. If it returns False the work is cancelled
+        and RuntimeError raised.
 
     Returns
     -------
@@ -105,20 +117,21 @@ def sweep(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis],
         Equal to that of :func:`gearlash.sweep` to the bit.
     """
     listed = _listed(drive, axes)
-    _core.check_grid(drive, listed)  # before anything is sent
+    _core.check_grid(drive, listed, list(quantities))  # before anything is sent
     if most is None:
         is_closed = _core.is_closed_grid(drive, listed)
-        most = 65_536 if is_closed else len(listed[-1].values) if listed else 1
+        line = len(listed[-1].values) if len(listed) > 1 else RUN
+        most = 65_536 if is_closed else line
     tasks = pieces(listed, most)
     calls = [(drive, piece, tuple(quantities), proved) for piece in tasks]
-    parts: list[_Piece] = _dealt_out(client, _evaluate, calls)
+    parts: list[_Piece] = _dealt_out(client, _evaluate, calls, progress)
     verdicts = np.concatenate([part[0] for part in parts])
     columns = {name: np.concatenate([part[1][name] for part in parts]) for name in parts[0][1]}
     return dataset(drive, listed, verdicts, columns)
 
 
 def study(series: TolerancedDrive, sampling: SamplePlan, questions: StudyQuestions, client: Any, *,
-          most: int | None = None) -> ToleranceStudy:
+          most: int | None = None, progress: Progress = None) -> ToleranceStudy:
     """Study a production run on all workers of a Dask cluster.
 
     Parameters
@@ -138,7 +151,7 @@ def study(series: TolerancedDrive, sampling: SamplePlan, questions: StudyQuestio
     step = most or max(1, samples // 64)
     calls = [(series, sampling, questions, first, min(step, samples - first))
              for first in range(0, samples, step)]
-    parts = _dealt_out(client, _answer_samples, calls)
+    parts = _dealt_out(client, _answer_samples, calls, progress)
     columns = [np.concatenate([part[i] for part in parts]) for i in range(5)]
     return _core.study_of(series, sampling, questions, *columns, sum(part[5] for part in parts))
 
@@ -150,19 +163,26 @@ def _answer_samples(series: TolerancedDrive, sampling: SamplePlan, questions: St
     return *(np.array(column) for column in columns), refused
 
 
-def _dealt_out(client: Any, work: Callable[..., Any], calls: Sequence[tuple[Any, ...]]) -> list[Any]:
+def _dealt_out(client: Any, work: Callable[..., Any], calls: Sequence[tuple[Any, ...]],
+               progress: Progress) -> list[Any]:
     """Give the results of all calls, in their order, taken by workers as they become free.
 
-    A call whose worker dies is made again by another, three times at most.
+    A call whose worker dies is made again by another, as often as the cluster's setting
+    ``distributed.scheduler.allowed-failures`` permits. Nothing stays behind where one fails.
     """
     from distributed import as_completed
 
     run = uuid.uuid4().hex
-    futures = [client.submit(work, *call, pure=False, key=f"gearlash-{run}-{number}", retries=3)
+    futures = [client.submit(work, *call, pure=False, key=f"gearlash-{run}-{number}")
                for number, call in enumerate(calls)]
     numbers = {future.key: number for number, future in enumerate(futures)}
     done: dict[int, Any] = {}
-    for future, result in as_completed(futures, with_results=True):
-        done[numbers[future.key]] = result
-        future.release()
+    try:
+        for future, result in as_completed(futures, with_results=True):
+            done[numbers[future.key]] = result
+            future.release()
+            if progress is not None and progress(len(done) / len(calls)) is False:
+                raise RuntimeError("stopped by progress")
+    finally:
+        client.cancel([future for future in futures if numbers[future.key] not in done])
     return [done[number] for number in range(len(calls))]

@@ -95,7 +95,7 @@ def cycle(answer: Answer, which: Cycle | None = None, *, unit: str = "rad",
     Raises
     ------
     ValueError
-        For an answer without a cycle.
+        For an answer without a cycle, and a cycle that the motion does not lead to.
     """
     which = which or answer.largest_stable
     if which is None or answer.drive is None:
@@ -105,6 +105,10 @@ def cycle(answer: Answer, which: Cycle | None = None, *, unit: str = "rad",
     settled = _settling_time(which)
     moving = simulate(drive, settled + which.period, start=begin)
     samples = moving.at(np.linspace(settled, moving.end_time, 2000))
+    drawn = float(np.ptp(samples.load_position)) / 2
+    if abs(drawn - which.amplitude) > 2e-3 * max(which.amplitude, which.motor_amplitude):
+        raise ValueError(f"the motion from ±{which.amplitude:.4g} rad leads to ±{drawn:.4g} rad: "
+                         "the cycle is not stable, or another one draws the start in")
     ax = _axes(ax)
     for shaft in ("motor", "load"):
         ax.plot(samples[f"{shaft}_position"] / _unit(unit), samples[f"{shaft}_speed"] / _unit(unit),

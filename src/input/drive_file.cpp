@@ -1,6 +1,7 @@
 #include "input/drive_file.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "gearlash/input.hpp"
 #include "input/drive_reader.hpp"
@@ -54,8 +55,9 @@ void apply(TomlDocument& document, const Setting& setting) {
 
 /// The text with its settings applied.
 TomlDocument document_with(std::string_view toml, std::string_view source_name,
-                           const std::vector<Setting>& settings) {
-  TomlDocument document(toml, source_name, largest_drive_file);
+                           const std::vector<Setting>& settings,
+                           std::size_t most_bytes = largest_drive_file) {
+  TomlDocument document(toml, source_name, most_bytes);
   for (const Setting& setting : settings) apply(document, setting);
   return document;
 }
@@ -69,7 +71,11 @@ bool has_normal_form(std::string_view toml, std::string_view source_name) {
 WrittenDrive parse_drive(std::string_view toml, std::string_view source_name,
                          const std::filesystem::path& folder, const std::vector<Setting>& settings,
                          BareNumbers bare_numbers) {
-  const TomlDocument document = document_with(toml, source_name, settings);
+  // What a program has in memory may be longer than a file: the points of its tables.
+  const std::size_t most_bytes = bare_numbers == BareNumbers::in_si
+                                     ? std::numeric_limits<std::size_t>::max()
+                                     : largest_drive_file;
+  const TomlDocument document = document_with(toml, source_name, settings, most_bytes);
   Findings findings(document);
   WrittenDrive written = read_drive(document, findings, folder, {}, bare_numbers);
   findings.require_none();

@@ -28,7 +28,7 @@ struct Setting {
 };
 
 /// Whether numbers without a unit are taken, in SI, where a unit belongs: from a program, whose
-/// numbers are in SI. In a file they are a fault.
+/// numbers are in SI and whose text may be of any length. In a file they are a fault.
 enum class BareNumbers : bool { refused, in_si };
 
 inline constexpr std::size_t largest_drive_file = 1024 * 1024;  ///< bytes

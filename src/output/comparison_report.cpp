@@ -127,6 +127,9 @@ std::string meaning(const ComparisonReport& report) {
 ComparisonReport compare_sensors(const Drive& drive, const std::vector<SensorPlace>& places,
                                  const drive::Step& step, const ReportStyle& style,
                                  Progress& progress) {
+  if (places.empty()) {
+    require_none({{"sensors", "", "must name load, motor or both", ""}});
+  }
   ComparisonReport report{.cases = {}, .provenance = style.provenance};
   for (const SensorPlace place : places) {
     ProgressPart part(progress, report.cases.size(), places.size());

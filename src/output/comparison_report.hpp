@@ -29,7 +29,7 @@ struct ReportStyle {
 };
 
 /// The drive with its sensor at each of these places; an encoder keeps its counts per turn on
-/// either shaft. Precondition: a sound drive.
+/// either shaft. Throws InvalidInput where no place is named. Precondition: a sound drive.
 ComparisonReport compare_sensors(const Drive& drive, const std::vector<SensorPlace>& places,
                                  const drive::Step& step, const ReportStyle& style,
                                  Progress& progress = no_progress());

@@ -44,6 +44,25 @@ def test_reports_are_those_of_the_tool(example, tool, command):
     assert str(report).strip()
 
 
+def test_what_is_not_a_sequence_is_refused(servo, pd_drive):
+    with pytest.raises(gearlash.InvalidInput, match="sensors"):
+        gearlash.compare(pd_drive, [])
+    for call in (lambda: gearlash.compare(pd_drive, "load"),
+                 lambda: gearlash.derivatives(servo, "amplitude", ["servo.damping"]),
+                 lambda: gearlash.sweep(servo, {"servo.damping": [0.1]}, "amplitude"),
+                 lambda: gearlash.design(servo, "no-hunting", "servo.damping")):
+        with pytest.raises(TypeError, match="sequence"):
+            call()
+
+
+def test_nothing_but_a_drive_is_analysed(servo):
+    class Duck:
+        _core = property(lambda self: servo.with_({"servo.damping": 0.2})._core)
+
+    with pytest.raises(TypeError, match="gearlash.Drive"):
+        gearlash.analyse(Duck())
+
+
 def test_derivatives(servo):
     slopes = gearlash.derivatives(servo, ["amplitude", "period"],
                                   ["servo.backlash", "servo.damping"])

@@ -73,7 +73,23 @@ def test_a_killed_worker_loses_nothing(cluster, client, pd_drive):
     identical(here, there)
 
 
+def test_one_axis_is_divided_where_a_new_run_begins(client, pd_drive):
+    axis = {"controller.proportional": "5:40:70:log"}
+    here = gearlash.sweep(pd_drive, axis, QUANTITIES)
+    shares = []
+    there = gearlash.sweep(pd_drive, axis, QUANTITIES, client=client, progress=shares.append)
+    assert shares == [1 / 3, 2 / 3, 1.0]
+    identical(here, there)
+
+
+def test_a_stop_leaves_nothing_behind(client, pd_drive):
+    with pytest.raises(RuntimeError, match="stopped"):
+        ours.sweep(pd_drive, axes(), QUANTITIES, client, most=1, progress=lambda share: False)
+
+
 def test_faults_are_raised_before_anything_is_sent(client, pd_drive):
+    with pytest.raises(gearlash.InvalidInput, match="amplitudo"):
+        gearlash.sweep(pd_drive, axes(), ["amplitudo"], client=client)
     with pytest.raises(gearlash.InvalidInput, match="backlash"):
         gearlash.sweep(pd_drive, {"gearbox.backlash": [-1.0, 1.0]}, client=client)
 

@@ -1,3 +1,4 @@
+import copy
 import math
 import pickle
 
@@ -15,12 +16,13 @@ EXAMPLES = ["elinco-fd162.toml", "robot-joint.toml", "telescope-axis.toml", "nor
 @pytest.mark.parametrize("name", EXAMPLES)
 def test_every_example_survives_repr_pickle_and_toml(example, name):
     drive = Drive.from_toml(example(name))
-    assert eval(repr(drive), {"Drive": Drive}) == drive
-    assert pickle.loads(pickle.dumps(drive)) == drive
-    assert pickle.loads(pickle.dumps(drive)).tolerances == drive.tolerances
-    assert Drive.from_toml(drive.to_toml()) == drive
-    assert Drive(**drive.sections()) == drive
+    assert eval(repr(drive), vars(gearlash)) == drive
+    assert copy.deepcopy(drive) == copy.copy(drive) == pickle.loads(pickle.dumps(drive)) == drive
+    nominal = drive.with_tolerances([])
+    assert (nominal == drive) == (not drive.tolerances)
+    assert Drive.from_toml(drive.to_toml()) == Drive(**drive.sections()) == nominal
     assert hash(Drive(**drive.sections())) == hash(drive)
+    assert all(path in drive for path in drive) and "no.such" not in drive
 
 
 def test_numbers_are_in_si_and_texts_have_units(pd_drive):
@@ -49,6 +51,8 @@ def test_with_changes_numbers_words_and_sections(pd_drive):
 def test_a_drive_never_changes(pd_drive):
     with pytest.raises(AttributeError, match="with_"):
         pd_drive.controller = 3
+    with pytest.raises(AttributeError, match="deleted"):
+        del pd_drive._core
 
 
 def test_a_signal_from_arrays_is_a_table(pd_drive):
@@ -71,6 +75,30 @@ def test_a_table_of_a_file_becomes_its_points(tmp_path, pd_drive):
     assert Drive.from_toml(drive.to_toml()) == drive
 
 
+def test_sections_can_be_copied(pd_drive):
+    assert dict(copy.copy(pd_drive.motor)) == dict(pickle.loads(pickle.dumps(pd_drive.motor)))
+
+
+def test_an_infinite_number_reads_back():
+    massless = Drive.normal_form(0.19, math.inf, 0.1)
+    assert eval(repr(massless), {"Drive": Drive}) == massless
+
+
+def test_long_tables_can_be_sent(pd_drive):
+    times = np.linspace(0.0, 10.0, 100_000)
+    drive = Drive(**{**pd_drive.sections(),
+                     "reference": {"kind": "table", "times": times, "values": np.sin(times)}})
+    assert pickle.loads(pickle.dumps(drive)) == drive
+
+
+def test_a_file_has_units_as_the_tool_demands(tmp_path):
+    (tmp_path / "bare.toml").write_text("[motor]\nkind = \"torque-controlled\"\ninertia = 2e-6\n")
+    with pytest.raises(InvalidInput, match="unit"):
+        Drive.from_toml(tmp_path / "bare.toml")
+    (tmp_path / "a=b.toml").write_text(Drive.normal_form(1, 1, 1).to_toml())
+    assert Drive.from_toml(str(tmp_path / "a=b.toml")).is_normal_form
+
+
 def test_all_faults_are_reported_at_once():
     with pytest.raises(InvalidInput) as caught:
         Drive(motor={"kind": "torque-controlled", "inertia": -1.0, "friction": "3 apples"},
@@ -80,8 +108,8 @@ def test_all_faults_are_reported_at_once():
     assert set(faults) >= {"motor.inertia", "motor.friction", "load.frction", "gearbox.ratio"}
     assert faults["motor.inertia"].permitted and faults["motor.inertia"].where == ""
     assert "motor.friction" in str(caught.value)
-    copy = pickle.loads(pickle.dumps(caught.value))
-    assert copy.faults == caught.value.faults
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert again.faults == caught.value.faults
 
 
 def test_faults_of_a_file_have_their_place(tmp_path):
@@ -113,6 +141,11 @@ def test_wrong_types_are_type_errors(pd_drive):
         Drive.normal_form("much", 2, 0.1)
     with pytest.raises(OSError):
         Drive.from_toml("/nowhere/drive.toml")
+    with pytest.raises(OSError, match="nowhere"):
+        pd_drive.save("/nowhere/drive.toml")
+    for odd in ("\x7f", "\U0001f600", '"]\n[x'):
+        with pytest.raises(InvalidInput):
+            Drive(motor={"kind": odd, odd: odd})
     with pytest.raises(AttributeError, match="sections"):
         _ = pd_drive.wheels
 

@@ -50,18 +50,17 @@ def test_events_are_a_structured_array(servo):
     events = motion.events
     assert events.dtype == gearlash._motion.EVENT
     assert (np.diff(events["time"]) >= 0).all()
-    hits = events[np.char.startswith(events["what"], "impact")] if events.size else events
-    assert events.size > 5
+    hits = events[np.char.startswith(events["what"], "impact")]
+    assert hits.size > 2 and (hits["energy_lost"] > 0).all()
     assert motion.energy.stored_at_start + motion.energy.supplied == pytest.approx(
         motion.energy.stored + motion.energy.motor_friction + motion.energy.load_friction
         + motion.energy.impacts, rel=1e-9)
-    assert hits.dtype == events.dtype
 
 
 def test_samples_can_be_pickled(servo):
     samples = gearlash.simulate(servo, 1.0).sampled(0.1)
     copy = pickle.loads(pickle.dumps(samples))
-    assert np.array_equal(copy.time, samples.time) and list(copy) == list(samples)
+    assert copy == samples and copy != gearlash.simulate(servo, 2.0).sampled(0.1)
 
 
 @pytest.mark.parametrize(("times", "error"), [
@@ -70,6 +69,18 @@ def test_samples_can_be_pickled(servo):
 def test_bad_times(servo, times, error):
     with pytest.raises(error, match="times"):
         gearlash.simulate(servo, 1.0).at(times)
+
+
+@pytest.mark.parametrize("time", [-1e-9, 1.0 + 1e-9, np.inf])
+def test_times_outside_the_motion(servo, time):
+    with pytest.raises(gearlash.InvalidInput, match="end of the motion"):
+        gearlash.simulate(servo, 1.0).at([0.5, time])
+
+
+def test_too_many_samples_are_refused(servo):
+    for every in (1e-19, 1e-300, 1e-9):
+        with pytest.raises(gearlash.InvalidInput, match="100,000,000"):
+            gearlash.simulate(servo, 5.0).sampled(every)
 
 
 def test_bad_spans(servo):

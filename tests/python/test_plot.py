@@ -74,6 +74,15 @@ def test_the_distribution_of_a_production_run(servo):
     assert "100.0% hunt" in ax.get_title()
 
 
+def test_another_cycle_is_never_drawn_in_its_place():
+    drive = gearlash.Drive.normal_form(0.01, 0.01, 0.5, 0.3, restitution=1.0)
+    answer = gearlash.analyse(drive)
+    unstable = [cycle for cycle in answer.cycles if cycle.stability == "unstable"]
+    for cycle in unstable:
+        with pytest.raises(ValueError, match="not stable"):
+            plot.cycle(answer, cycle)
+
+
 def test_what_cannot_be_drawn_is_said(servo):
     quiet = gearlash.analyse(gearlash.Drive.normal_form(0.9, 2, 0.5, 0.3))
     with pytest.raises(ValueError, match="cannot hunt"):

@@ -2,8 +2,11 @@
 
 import dataclasses
 import pickle
+import sys
+from fractions import Fraction
 from math import inf  # noqa: F401  repr of infinite bounds
 
+import numpy as np
 import pytest
 
 import gearlash
@@ -57,8 +60,18 @@ def test_records_take_keywords_and_refuse_changes():
         gearlash.Start(position=1.0)
 
 
+def test_reading_a_record_keeps_no_reference(servo):
+    before = sys.getrefcount(gearlash.Start)
+    for _ in range(100):
+        gearlash.simulate(servo, 0.1, start=gearlash.Start(load_position=0.1))
+    assert sys.getrefcount(gearlash.Start) < before + 10
+
+
 def test_a_wrong_member_is_named(servo):
-    with pytest.raises(TypeError, match="load_position"):
-        gearlash.simulate(servo, 1.0, start=gearlash.Start(load_position="far"))
+    for wrong in ("far", "0.5", b"0.5", True, [0.5], np.array([0.5])):
+        with pytest.raises(TypeError, match="load_position"):
+            gearlash.simulate(servo, 1.0, start=gearlash.Start(load_position=wrong))
+    for right in (1, np.float32(0.5), np.array(0.5), Fraction(1, 2)):
+        gearlash.simulate(servo, 1.0, start=gearlash.Start(load_position=right))
     with pytest.raises(gearlash.InvalidInput, match="hunts if disturbed"):
         _core.there_and_back(gearlash.Answer(verdict="perhaps"))

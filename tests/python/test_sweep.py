@@ -97,6 +97,20 @@ def test_bad_axes(servo):
         gearlash.sweep(servo)
 
 
+def test_coordinates_are_copies(servo):
+    dampings = np.array([0.1, 0.2, 0.3])
+    data = gearlash.sweep(servo, arrays={"servo.damping": dampings})
+    dampings[:] = 9.0
+    assert data["servo.damping"].values.tolist() == [0.1, 0.2, 0.3]
+
+
+def test_an_axis_has_the_path_that_it_is_given_for(servo):
+    with pytest.raises(ValueError, match="servo.backlash"):
+        gearlash.sweep(servo, {"servo.damping": gearlash.linear("servo.backlash", 0.1, 0.2, 2)})
+    with pytest.raises(TypeError, match="masked"):
+        gearlash.sweep(servo, arrays={"servo.damping": np.ma.masked_equal([0.1, 0.2], 0.1)})
+
+
 def test_huge_shapes_are_refused_before_memory_is_taken(servo):
     huge = np.broadcast_to(np.float64(0.1), (10**6, 10**6))
     with pytest.raises(ValueError, match="1,000,000,000 drives"):
