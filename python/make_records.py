@@ -207,8 +207,8 @@ def python_of(comment: str) -> str:
 def class_text(struct: Struct, source: Source, extra: list[str]) -> str:
     wrapped = textwrap.fill(python_of(struct.comment) or f"See its members.", 92,
                             initial_indent='    """', subsequent_indent="    ")
-    lines = ["@_dataclass(frozen=True)", f"class {struct.name}(_methods.{struct.name}):"
-             if struct.name in extra else f"class {struct.name}:", wrapped, ""]
+    base = struct.name if struct.name in extra else "Record"
+    lines = ["@_dataclass(frozen=True)", f"class {struct.name}(_methods.{base}):", wrapped, ""]
     if struct.members:
         lines += ["    Attributes", "    ----------"]
     for member in struct.members:

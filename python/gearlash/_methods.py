@@ -12,7 +12,16 @@ if TYPE_CHECKING:
     from gearlash._drive import Drive
 
 
-class Cycle:
+class Record:
+    """What all records do."""
+
+    def _repr_html_(self) -> str:
+        from gearlash import _notebook
+
+        return _notebook.html_of_record(self)
+
+
+class Cycle(Record):
     period: float
 
     @property
@@ -21,7 +30,7 @@ class Cycle:
         return 1.0 / self.period
 
 
-class EnergyLost:
+class EnergyLost(Record):
     motor_friction: float
     load_friction: float
     impacts: float
@@ -32,7 +41,7 @@ class EnergyLost:
         return self.motor_friction + self.load_friction + self.impacts
 
 
-class Bounds:
+class Bounds(Record):
     low: float
     high: float
 
@@ -40,7 +49,7 @@ class Bounds:
         return self.low <= value <= self.high
 
 
-class Ceiling:
+class Ceiling(Record):
     def widest_backlash(self, amplitude: float, backlash: float) -> float | None:
         """Give the largest backlash, rad, that provably keeps the load within `amplitude`, rad.
 
@@ -63,7 +72,7 @@ def _amplitude(cycle: _records.Cycle) -> float:
     return cycle.amplitude
 
 
-class Answer:
+class Answer(Record):
     cycles: tuple[_records.Cycle, ...]
     drive: Drive | None
     verdict: str
@@ -124,7 +133,7 @@ class Answer:
         return _notebook.png_of_answer(self)
 
 
-class Jacobian:
+class Jacobian(Record):
     quantities: tuple[str, ...]
     paths: tuple[str, ...]
     values: tuple[float | None, ...]
@@ -145,7 +154,7 @@ class Jacobian:
         return slope * self.present[self.paths.index(path)] / value
 
 
-class FeasibleValues:
+class FeasibleValues(Record):
     def __contains__(self, value: float) -> bool:
         """Whether the value of the parameter meets the target."""
         return _core.permits(self, value)

@@ -62,8 +62,10 @@ class Samples(Mapping[str, NDArray[np.float64]]):
 class Motion:
     """The motion that :func:`simulate` gives."""
 
-    def __init__(self, core: _core.Motion, drive: Drive) -> None:
+    def __init__(self, core: _core.Motion, drive: Drive,
+                 span: tuple[float, Start | None, int]) -> None:
         self._core = core
+        self._span = span
         #: the drive that moves
         self.drive = drive
 
@@ -135,6 +137,9 @@ class Motion:
         """"closed form" or "general"."""
         return self._core.engine
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _simulated_again, (self.drive, *self._span)
+
     def __repr__(self) -> str:
         return f"<Motion to {self.end_time:g} s, {len(self._core.events())} events, {self.stop}>"
 
@@ -181,7 +186,13 @@ def simulate(drive: Drive, until: float, *, start: Start | None = None,
     >>> sorted(set(motion.events["what"].tolist()))
     ['faces part', 'impact backward', 'impact forward']
     """
-    return Motion(_core.simulate(drive, until, start, most_events, progress), drive)
+    core = _core.simulate(drive, until, start, most_events, progress)
+    return Motion(core, drive, (until, start, most_events))
+
+
+def _simulated_again(drive: Drive, until: float, start: Start | None, most_events: int) -> Motion:
+    """A copied motion: computed anew, with the same bits."""
+    return simulate(drive, until, start=start, most_events=most_events)
 
 
 def _numbers(name: str, values: ArrayLike) -> NDArray[np.float64]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import html
 import io
 from collections.abc import Sequence
@@ -26,6 +27,16 @@ def html_of_drive(drive: Drive) -> str:
     rows = [(path, str(value), facts[path].unit if path in facts else "")
             for path, value in drive.to_dict().items()]
     return _table(rows, ("parameter", "value", "unit"))
+
+
+def html_of_record(record: Any) -> str:
+    """A table of its members; long ones are cut."""
+    most = 200
+    rows = []
+    for member in dataclasses.fields(record):
+        text = repr(getattr(record, member.name))
+        rows.append((member.name, text if len(text) <= most else text[:most] + " …"))
+    return f"<b>{type(record).__name__}</b>" + _table(rows, ("member", "value"))
 
 
 def html_of_answer(answer: Answer) -> str:

@@ -57,6 +57,12 @@ def test_events_are_a_structured_array(servo):
         + motion.energy.impacts, rel=1e-9)
 
 
+def test_a_motion_can_be_pickled(servo):
+    motion = gearlash.simulate(servo, 3.0, start=gearlash.Start(load_position=0.1))
+    copy = pickle.loads(pickle.dumps(motion))
+    assert copy.sampled(0.01) == motion.sampled(0.01) and copy.drive == servo
+
+
 def test_samples_can_be_pickled(servo):
     samples = gearlash.simulate(servo, 1.0).sampled(0.1)
     copy = pickle.loads(pickle.dumps(samples))

@@ -32,6 +32,7 @@ def test_a_record_survives_repr_pickle_and_cpp(name):
         record = dataclasses.replace(record, series=series)
     assert eval(repr(record), vars(gearlash)) == record
     assert pickle.loads(pickle.dumps(record)) == record
+    assert name in record._repr_html_() or name == "Answer"
     if not name.endswith("Info"):
         assert _core.there_and_back(record) == record
 
