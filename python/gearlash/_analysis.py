@@ -4,24 +4,15 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Optional, TypeVar
+from collections.abc import Callable, Sequence
+from typing import Any, Optional
 
 from gearlash import _core
+from gearlash._arguments import listed, optional_number
 from gearlash._drive import Drive
 from gearlash._records import Answer, Jacobian, QuantityInfo, Wanted
 
 Progress = Optional[Callable[[float], Optional[bool]]]
-
-
-_One = TypeVar("_One")
-
-
-def listed(name: str, several: Iterable[_One]) -> list[_One]:
-    """A list of what was given; a text, which Python would take letter by letter, is refused."""
-    if isinstance(several, (str, bytes)):
-        raise TypeError(f"{name} must be a sequence, such as [{several!r}], not a text")
-    return list(several)
 
 
 def analyse(drive: Drive, *, proofs: bool = True, ceiling: bool = True, loop: bool = False,
@@ -74,7 +65,8 @@ def analyse(drive: Drive, *, proofs: bool = True, ceiling: bool = True, loop: bo
     >>> round(answer.cycles[0].amplitude, 9), round(answer.cycles[0].period, 6)
     (0.241611108, 6.456205)
     """
-    wanted = Wanted(proofs=proofs, ceiling=ceiling, loop=loop, step=step, borders=borders)
+    wanted = Wanted(proofs=proofs, ceiling=ceiling, loop=loop, step=optional_number("step", step),
+                    borders=borders)
     return dataclasses.replace(_core.analyse(drive, wanted, progress), drive=drive)
 
 
@@ -188,7 +180,8 @@ def compare(drive: Drive, sensors: Sequence[str] = ("load", "motor", "both"), *,
     InvalidInput
         For a faulty drive, a step of 0 and a time that is not positive.
     """
-    return Report(*_core.compare(drive, listed("sensors", sensors), step, until, progress))
+    return Report(*_core.compare(drive, listed("sensors", sensors), optional_number("step", step),
+                                 optional_number("until", until), progress))
 
 
 def quantities() -> tuple[QuantityInfo, ...]:

@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Union
 
 from gearlash import _core
-from gearlash._analysis import Progress, listed
+from gearlash._analysis import Progress
+from gearlash._arguments import listed, number, optional_number, whole
 from gearlash._drive import Drive
 from gearlash._records import (Axis, BacklashDemand, Distribution, FeasibleValues, HuntingMargin,
                                ParameterTolerance, SamplePlan, SensitivityStudy, StudyQuestions,
@@ -162,7 +163,7 @@ def tolerance(drive: SeriesLike, varied: Mapping[str, Distribution] | None = Non
         if error is not None:
             raise TypeError("client needs samples, not error")
         return distributed.study(one, sampling, questions, client, progress=progress)
-    return _core.tolerance_study(one, sampling, questions, error, progress)
+    return _core.tolerance_study(one, sampling, questions, optional_number("error", error), progress)
 
 
 def sensitivity_indices(drive: SeriesLike, varied: Mapping[str, Distribution] | None = None, *,
@@ -193,7 +194,7 @@ def widest_backlash(drive: SeriesLike, target: TargetLike, share: float = 0.95, 
         With every fault of the drive, the target and the sampling.
     """
     one, _, sampling = _study(drive, varied, target, samples, seed, "amplitude")
-    demand = BacklashDemand(target=_target(target, one), yield_=share)
+    demand = BacklashDemand(target=_target(target, one), yield_=number("share", share))
     return _core.widest_backlash(one, demand, sampling, progress)
 
 
@@ -204,14 +205,12 @@ def _target(text: TargetLike, one: TolerancedDrive) -> Target:
 def _study(drive: SeriesLike, varied: Mapping[str, Distribution] | None, wanted: TargetLike | None,
            samples: int | None, seed: int, quantity: str
            ) -> tuple[TolerancedDrive, StudyQuestions, SamplePlan]:
-    if samples is not None and samples < 1:
-        raise ValueError(f"samples must be at least 1, not {samples}")
     one = series(drive, varied)
     questions = StudyQuestions(amplitude=quantity,
                                target=Target() if wanted is None else _target(wanted, one))
     plan = (_core.usual_sampling(one, questions) if samples is None
-            else _core.sampling_of(samples, seed))
-    return one, questions, SamplePlan(plan.points, plan.replicates, seed)
+            else _core.sampling_of(whole("samples", samples, 1), 0))
+    return one, questions, SamplePlan(plan.points, plan.replicates, whole("seed", seed, 0))
 
 
 def tune(drive: SeriesLike, parameters: Sequence[str | Axis] | None = None, *,
@@ -269,7 +268,7 @@ def tune(drive: SeriesLike, parameters: Sequence[str | Axis] | None = None, *,
         aim=aim, share=share,
         least_phase_margin=0.5235987755982988 if least_phase_margin is None
         else least_phase_margin)
-    return _core.tune(task, TuneEffort(units=units, seed=seed), progress)
+    return _core.tune(task, TuneEffort(units=whole("units", units, 1), seed=whole("seed", seed, 0)), progress)
 
 
 def _axis_to_tune(drive: Drive, parameter: str | Axis) -> Axis:

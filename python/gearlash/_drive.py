@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Union
 
 from gearlash import _core as core
+from gearlash._arguments import number, optional_number
 
 if TYPE_CHECKING:
     from gearlash._records import ParameterInfo, ParameterTolerance
@@ -188,8 +189,11 @@ class Drive:
         >>> gearlash.analyse(servo).verdict
         'hunts'
         """
-        return cls._of(core.normal_form(damping, inertia_ratio, friction_ratio, backlash,
-                                         restitution, natural_frequency))
+        return cls._of(core.normal_form(
+            number("damping", damping), number("inertia_ratio", inertia_ratio),
+            number("friction_ratio", friction_ratio), number("backlash", backlash),
+            number("restitution", restitution),
+            optional_number("natural_frequency", natural_frequency)))
 
     def with_(self, changes: Mapping[str, Value | None]) -> Drive:
         """Give the drive with other values of some parameters.

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearlash import _core
 from gearlash._analysis import Progress
+from gearlash._arguments import number, whole
 from gearlash._drive import Drive
 from gearlash._records import EnergyBooks, MotionTouch, Start
 
@@ -77,7 +78,7 @@ class Motion:
         InvalidInput
             Unless `every` is positive.
         """
-        return Samples(self._core.sampled(every))
+        return Samples(self._core.sampled(number("every", every)))
 
     def at(self, times: ArrayLike) -> Samples:
         """Give the states at any times, s, from 0 to :attr:`end_time`.
@@ -186,8 +187,8 @@ def simulate(drive: Drive, until: float, *, start: Start | None = None,
     >>> sorted(set(motion.events["what"].tolist()))
     ['faces part', 'impact backward', 'impact forward']
     """
-    core = _core.simulate(drive, until, start, most_events, progress)
-    return Motion(core, drive, (until, start, most_events))
+    end, most = number("until", until), whole("most_events", most_events, 0)
+    return Motion(_core.simulate(drive, end, start, most, progress), drive, (end, start, most))
 
 
 def _simulated_again(drive: Drive, until: float, start: Start | None, most_events: int) -> Motion:

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearlash import _core
-from gearlash._analysis import Progress, listed
+from gearlash._analysis import Progress
+from gearlash._arguments import listed
 from gearlash._drive import Drive
 from gearlash._motion import _numbers
 from gearlash._records import Axis, ParameterInfo

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlash import _core
+from gearlash._arguments import whole
 
 #: The columns of a printout.
 COLUMNS = ("time", "motor_speed", "motor_position", "load_speed", "load_position")
@@ -55,7 +56,7 @@ def printout(lines: int = 38, servo: tuple[float, float, float, float] | None = 
     >>> thesis.printout(2)[:, 0].tolist()
     [0.08, 0.16]
     """
-    return _core.thesis_printout(lines, servo, machine)
+    return _core.thesis_printout(whole("lines", lines, 0, 1_000_000), servo, machine)
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,39 @@
+"""A wrong argument is named by the function that was called."""
+
+import pytest
+
+import gearlash
+from gearlash import thesis
+
+
+@pytest.mark.parametrize(("name", "call"), [
+    ("until", lambda servo: gearlash.simulate(servo, "1 s")),
+    ("until", lambda servo: gearlash.simulate(servo, None)),
+    ("until", lambda servo: gearlash.simulate(servo, True)),
+    ("most_events", lambda servo: gearlash.simulate(servo, 1.0, most_events=1e4)),
+    ("every", lambda servo: gearlash.simulate(servo, 1.0).sampled("0.1")),
+    ("step", lambda servo: gearlash.analyse(servo, step="1")),
+    ("damping", lambda servo: gearlash.Drive.normal_form(None, 2, 0.1)),
+    ("damping", lambda servo: gearlash.Drive.normal_form(True, 2, 0.1)),
+    ("samples", lambda servo: gearlash.tolerance(servo, samples=1e3)),
+    ("seed", lambda servo: gearlash.tolerance(servo, samples=64, seed=0.5)),
+    ("units", lambda servo: gearlash.tune(servo, ["servo.damping"], units="many")),
+    ("lines", lambda servo: thesis.printout("two")),
+    ("start", lambda servo: gearlash.simulate(servo, 1.0, start=0.5)),
+    ("quantities", lambda servo: gearlash.sweep(servo, {"servo.damping": [0.1]}, "amplitude"))])
+def test_a_wrong_type(servo, name, call):
+    with pytest.raises(TypeError, match=f"{name} must"):
+        call(servo)
+
+
+@pytest.mark.parametrize(("name", "call"), [
+    ("most_events", lambda servo: gearlash.simulate(servo, 1.0, most_events=-1)),
+    ("samples", lambda servo: gearlash.tolerance(servo, samples=0)),
+    ("samples", lambda servo: gearlash.tolerance(servo, samples=-1)),
+    ("seed", lambda servo: gearlash.tolerance(servo, samples=64, seed=-1)),
+    ("until", lambda servo: gearlash.simulate(servo, 10**400)),
+    ("lines", lambda servo: thesis.printout(-1)),
+    ("lines", lambda servo: thesis.printout(10**8))])
+def test_a_value_out_of_range(servo, name, call):
+    with pytest.raises(ValueError, match=f"{name} must"):
+        call(servo)
