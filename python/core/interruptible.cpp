@@ -1,5 +1,7 @@
 #include "interruptible.hpp"
 
+#include <algorithm>
+
 namespace gearlash::python {
 
 bool PythonProgress::is_due(Clock::time_point& last) {
@@ -19,7 +21,8 @@ bool PythonProgress::go_on(double share, std::size_t) {
   try {
     if (looks && PyErr_CheckSignals() != 0) throw py::error_already_set();
     if (reports) {
-      const py::object answer = report_(share);
+      share_ = std::max(share_, share);
+      const py::object answer = report_(share_);
       goes_on_ = answer.is_none() || answer.cast<bool>();
     }
   } catch (...) {

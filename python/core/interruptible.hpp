@@ -41,6 +41,7 @@ class PythonProgress final : public Progress {
   std::thread::id caller_ = std::this_thread::get_id();
   Clock::time_point looked_ = Clock::now();
   Clock::time_point reported_ = looked_;
+  double share_ = 0.0;  ///< reported last: parts of a work that begin anew do not lower it
   bool goes_on_ = true;
   std::exception_ptr raised_{};
 };
