@@ -38,8 +38,8 @@ test:  ## build everything and run every test
 	ctest --preset release
 
 python:  ## build the Python module, build/release/python, and run its tests
-	@$(INSTALL) python
-	cmake --preset release -DGEARLASH_BUILD_PYTHON=ON
+	@$(INSTALL) test
+	cmake --preset release -DGEARLASH_BUILD_TESTS=ON -DGEARLASH_BUILD_PYTHON=ON
 	$(BUILD) release --target gearlash_python_package --target gearlash_tool
 	ctest --preset release --label-regex '^python$$'
 
