@@ -47,19 +47,6 @@ struct TuneOptions {
   std::string format = "text";
 };
 
-Axis by_ratio_if_positive(Axis axis) {
-  if (!axis.values.empty()) axis.logarithmic = axis.values.front() > 0.0;
-  return axis;
-}
-
-/// PATH=FROM:TO, by ratio where both ends are positive; or an axis as of design.
-Axis read_range(const std::string& text, const Drive& drive) {
-  const bool has_two_ends = std::count(text.begin(), text.end(), ':') == 1;
-  Axis axis = read_axis_or_name("--parameters", has_two_ends ? text + ":2" : text, drive);
-  const bool is_usual = text.find('=') == std::string::npos;
-  return is_usual ? usual_axis_to_tune(drive, axis.path) : by_ratio_if_positive(std::move(axis));
-}
-
 /// The usual target in words.
 std::string text_of_usual(const Target& target, const AngleUnit& angle) {
   if (target.limits.empty()) return "no-hunting and no-runaway";
@@ -86,7 +73,8 @@ void read_numbers(const TuneOptions& options, Task& task, Faults& faults) {
   task.task.aim = read_aim(options.aim, faults);
   task.task.share = read_share("--share", options.share, faults);
   task.task.least_phase_margin = faults.collect(
-      [&] { return read_si("--phase-margin", options.phase_margin, dimensions::angle); }, 0.5);
+      [&] { return read_si("--phase-margin", options.phase_margin, dimensions::angle); },
+      task.task.least_phase_margin);
   constexpr std::size_t most_units = 100'000;
   const auto whole = [&](const char* field, const std::string& text, std::uint64_t least,
                          std::uint64_t most) {
@@ -109,7 +97,8 @@ Task read_task(const TuneOptions& options) {
   task.task.series = {drive, written->tolerances};
   for (const std::string& text :
        options.parameters.empty() ? usual_gains(drive) : options.parameters) {
-    task.task.tuned.push_back(faults.collect([&] { return read_range(text, drive); }, Axis{}));
+    task.task.tuned.push_back(
+        faults.collect([&] { return read_axis_to_tune("--parameters", text, drive); }, Axis{}));
   }
   if (task.task.tuned.empty()) {
     faults.add({"--parameters", "", "must name what to tune: the drive has no gain above 0", ""});

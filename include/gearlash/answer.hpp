@@ -27,6 +27,10 @@ enum class Verdict : std::uint8_t {
   undecided
 };
 
+/// Whether a drive can move permanently, by itself or after a disturbance, or runs away: any
+/// verdict but cannot_hunt, comes_to_rest, forced and undecided.
+[[nodiscard]] bool hunts(Verdict verdict);
+
 /// How certain a statement is, from the least to the most.
 enum class Certainty : std::uint8_t {
   searched,  ///< found by a search, which may have missed something

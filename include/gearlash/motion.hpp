@@ -117,10 +117,13 @@ class Motion {
   explicit Motion(std::shared_ptr<const Source> source) : source_(std::move(source)) {}
 
   /// Samples at 0, every, 2 every, … up to the end. A short decimal step gives short decimal times.
-  /// Throws InvalidInput unless `every` is positive.
-  [[nodiscard]] Samples sampled(double every) const;
-  /// The number of those samples.
+  /// Throws InvalidInput unless `every` is positive and gives at most a hundred million samples, 64
+  /// bytes each. Progress that stops leaves the samples up to then.
+  [[nodiscard]] Samples sampled(double every, Progress& progress = no_progress()) const;
+  /// The number of those samples. Throws InvalidInput unless `every` is positive.
   [[nodiscard]] std::size_t sample_count(double every) const;
+  /// Samples at any times, in any order. Throws InvalidInput for a time outside 0 … end_time().
+  [[nodiscard]] Samples at(std::span<const double> times, Progress& progress = no_progress()) const;
   /// The state at any time from 0 to end_time(); other times are clamped. At an event: the state
   /// after it. Nothing is allocated after a thread's first call.
   [[nodiscard]] MotionSample at(double time) const;

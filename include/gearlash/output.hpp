@@ -8,11 +8,16 @@
 
 #include "gearlash/answer.hpp"
 #include "gearlash/drive.hpp"
+#include "gearlash/tolerance.hpp"
 
 namespace gearlash {
 
 /// A file of the drive with all defaults filled in, in SI units. Numbers read back exactly.
 [[nodiscard]] std::string to_toml(const Drive& drive);
+
+/// The same with tolerances, as read_toleranced_drive() takes them. A file has one nominal value:
+/// of a distribution about a value, or of lots, it is that of the distribution.
+[[nodiscard]] std::string to_toml(const TolerancedDrive& drive);
 
 /// The output of `gearlash limit-cycle --format json`.
 [[nodiscard]] std::string to_json(const Drive& drive, const Answer& answer);

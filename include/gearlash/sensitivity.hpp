@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gearlash/drive.hpp"
+#include "gearlash/progress.hpp"
 #include "gearlash/quantity.hpp"
 
 namespace gearlash {
@@ -43,12 +44,14 @@ struct Jacobian {
 /// Bifurcations of Non-Smooth Mechanical Systems, 2004, ch. 7), for every number that is neither 0
 /// nor within 0.3 % of the end of its permitted range. Jacobian::reason says why a cycle has none:
 /// a computer's ticks, an encoder's steps, infinitely many bounces in a period, a multiplier of 1.
-/// They hold as long as the cycle has the same events.
+/// They hold as long as the cycle has the same events. They take seconds: the search of the cycle.
+/// If Progress stops it, the cycle is the one found by then.
 ///
 /// Throws InvalidInput for a drive that is unsound, for another quantity, and for a path that is no
 /// number of the drive, or with a closed form does not enter it.
 [[nodiscard]] Jacobian derivatives(const Drive& drive, std::span<const Quantity> quantities,
-                                   std::span<const std::string_view> paths);
+                                   std::span<const std::string_view> paths,
+                                   Progress& progress = no_progress());
 [[nodiscard]] Jacobian derivatives(const Drive& drive, std::initializer_list<Quantity> quantities,
                                    std::initializer_list<std::string_view> paths);
 

@@ -34,7 +34,7 @@ struct TuneTask {
   Aim aim = Aim::bandwidth;   ///< judged by the unit that is worst in it
   double share = 1.0;         ///< of the units that must keep the target, above 0 to 1
   /// rad, 0 … π/2: units whose linear loop has less are not considered, and need no search.
-  double least_phase_margin = 0.5;
+  double least_phase_margin = 0.5235987755982988;  // 30 deg
 };
 
 /// How far a tuning goes.

@@ -345,17 +345,25 @@ std::size_t Motion::sample_count(double every) const {
   return count_of_samples(source_->asked_until, every);
 }
 
-Samples Motion::sampled(double every) const {
+namespace {
+
+/// The samples of a motion at time_of(0), time_of(1), ….
+template <class TimeOf>
+Samples samples_of(const Motion& motion, std::size_t count, const TimeOf& time_of,
+                   Progress& progress) {
   Samples samples;
-  const std::size_t count = sample_count(every);
   for (std::vector<double>* column :
        {&samples.time, &samples.load_position, &samples.load_speed, &samples.motor_position,
         &samples.motor_speed, &samples.motor_torque, &samples.reference, &samples.load_torque}) {
     column->reserve(count);
   }
-  const DecimalMultiples time_of(every);
+  constexpr std::size_t at_a_time = 4096;
   for (std::size_t i = 0; i < count; ++i) {
-    const MotionSample sample = at(time_of(i));
+    if (i % at_a_time == 0 &&
+        !progress.go_on(static_cast<double>(i) / static_cast<double>(count))) {
+      break;
+    }
+    const MotionSample sample = motion.at(time_of(i));
     samples.time.push_back(time_of(i));
     samples.load_position.push_back(sample.shafts.load_position);
     samples.load_speed.push_back(sample.shafts.load_speed);
@@ -366,6 +374,30 @@ Samples Motion::sampled(double every) const {
     samples.load_torque.push_back(sample.load_torque);
   }
   return samples;
+}
+
+}  // namespace
+
+Samples Motion::sampled(double every, Progress& progress) const {
+  constexpr double most_samples = 1e8;
+  const auto count = sample_count(every);
+  if (static_cast<double>(count) > most_samples) {
+    throw InvalidInput(
+        {{"every", exact_text(every) + " s", "must give at most 100,000,000 samples", ""}});
+  }
+  return samples_of(*this, count, DecimalMultiples(every), progress);
+}
+
+Samples Motion::at(std::span<const double> times, Progress& progress) const {
+  const double last = std::max(end_time(), source_->asked_until);  // they differ by rounding
+  for (const double time : times) {
+    if (time >= 0.0 && time <= last) continue;
+    throw InvalidInput(
+        {{"times", exact_text(time) + " s",
+          "must be from 0 to the end of the motion, " + exact_text(last) + " s", ""}});
+  }
+  return samples_of(
+      *this, times.size(), [&](std::size_t i) { return times[i]; }, progress);
 }
 
 std::span<const MotionEvent> Motion::events() const noexcept { return source_->events; }

@@ -1,5 +1,6 @@
 #include "base/decimal_multiples.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -26,7 +27,8 @@ double DecimalMultiples::operator()(std::size_t count) const {
 
 std::size_t count_of_samples(double end, double every) {
   constexpr double rounding = 1e-9;
-  return static_cast<std::size_t>(std::floor(end / every + rounding)) + 1;
+  constexpr double most = 9e18;  // of a std::size_t
+  return static_cast<std::size_t>(std::min(std::floor(end / every + rounding), most)) + 1;
 }
 
 }  // namespace gearlash

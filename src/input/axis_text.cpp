@@ -6,6 +6,7 @@
 #include "analysis/grid/axis.hpp"
 #include "base/range_check.hpp"
 #include "gearlash/parameter.hpp"
+#include "gearlash/tune.hpp"
 #include "input/parameter_text.hpp"
 #include "input/section_reader.hpp"
 #include "input/units.hpp"
@@ -71,6 +72,14 @@ Axis read_axis_or_name(std::string_view field, std::string_view text, const Driv
   const Axis named{.path = path_named(text, drive)};
   if (parameter_of(named, drive) == nullptr) refuse(field, text, known_text(drive, text));
   return usual_axis(field, drive, text);
+}
+
+Axis read_axis_to_tune(std::string_view field, const std::string& text, const Drive& drive) {
+  const bool has_two_ends = std::count(text.begin(), text.end(), ':') == 1;
+  Axis axis = read_axis_or_name(field, has_two_ends ? text + ":2" : text, drive);
+  if (text.find('=') == std::string::npos) return usual_axis_to_tune(drive, axis.path);
+  axis.logarithmic = axis.values.front() > 0.0;
+  return axis;
 }
 
 Drive drive_of_axes(const Drive& drive, const std::vector<AxisText>& axes) {

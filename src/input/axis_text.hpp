@@ -32,4 +32,8 @@ Axis read_axis(const AxisText& text, const Drive& drive);
 /// An axis as typed, or usual_axis() of a name alone: "controller.proportional". Throws as both do.
 Axis read_axis_or_name(std::string_view field, std::string_view text, const Drive& drive);
 
+/// The values that tune() may try: PATH=FROM:TO, by ratio where both ends are positive; an axis as
+/// typed; or usual_axis_to_tune() of a name alone. Throws as these do.
+Axis read_axis_to_tune(std::string_view field, const std::string& text, const Drive& drive);
+
 }  // namespace gearlash

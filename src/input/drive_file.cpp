@@ -28,8 +28,23 @@ void take_out(TomlDocument& document, const std::string& path) {
   for (const OtherForm& form : parameter.other_forms) document.remove(form.path);
 }
 
+/// Why no drive has the path of a setting, with the nearest known one; empty if one has.
+std::string why_unknown(const Setting& setting) {
+  const bool is_without = setting.text == nothing && is_section(setting.path);
+  if (is_without || find_parameter(setting.path) != nullptr) return {};
+  std::vector<std::string> paths;
+  for (const Parameter& parameter : all_parameters_of_drives()) {
+    paths.emplace_back(parameter.path);
+    for (const OtherForm& form : parameter.other_forms) paths.emplace_back(form.path);
+  }
+  return "must be a parameter of a drive" + guess_of(paths, setting.path);
+}
+
 /// Replaces the parameter's value, under whatever name the document gives it.
 void apply(TomlDocument& document, const Setting& setting) {
+  if (const std::string why = why_unknown(setting); !why.empty()) {
+    refuse(setting.path, setting.text, why);
+  }
   if (setting.text == nothing) return take_out(document, setting.path);
   const Parameter& parameter = *find_parameter(setting.path);
   std::string place = setting.path;
@@ -45,9 +60,12 @@ void apply(TomlDocument& document, const Setting& setting) {
   for (const OtherForm& form : parameter.other_forms) {
     take_out(form.path, form.dimension == nullptr);
   }
-  // Everything but a list becomes text, which the key's reader parses: "30 arcmin", "0.25".
+  // Everything but a list or a table becomes text, which the key's reader parses: "30 arcmin",
+  // "1/4".
   if (const std::optional<toml::array> list = list_in(setting.text)) {
     document.set(place, *list);
+  } else if (const std::optional<toml::table> table = table_in(setting.text)) {
+    document.set(place, *table);
   } else {
     document.set(place, toml::value<std::string>(setting.text));
   }
@@ -88,14 +106,8 @@ Setting read_setting(const std::string& text) {
     refuse("--set", text, "must be PATH=VALUE, such as gearbox.ratio=50");
   }
   Setting setting{text.substr(0, sign), text.substr(sign + 1)};
-  const bool is_without = setting.text == nothing && is_section(setting.path);
-  if (!is_without && find_parameter(setting.path) == nullptr) {
-    std::vector<std::string> paths;
-    for (const Parameter& parameter : all_parameters_of_drives()) {
-      paths.emplace_back(parameter.path);
-      for (const OtherForm& form : parameter.other_forms) paths.emplace_back(form.path);
-    }
-    refuse("--set", setting.path, "must be a parameter of a drive" + guess_of(paths, setting.path));
+  if (const std::string why = why_unknown(setting); !why.empty()) {
+    refuse("--set", setting.path, why);
   }
   return setting;
 }

@@ -220,14 +220,23 @@ std::string TomlDocument::written(const toml::node& node) const {
       " …");
 }
 
-std::optional<toml::array> list_in(std::string_view text) {
+namespace {
+
+template <class Node>
+std::optional<Node> node_in(std::string_view text) {
   try {
     const toml::table table = toml::parse("value = " + std::string(text));
-    const toml::array* list = table["value"].as_array();
-    if (list != nullptr && table.size() == 1) return *list;
-  } catch (const toml::parse_error&) {  // not a list
+    const Node* node = table["value"].as<Node>();
+    if (node != nullptr && table.size() == 1) return *node;
+  } catch (const toml::parse_error&) {  // another one
   }
   return std::nullopt;
 }
+
+}  // namespace
+
+std::optional<toml::array> list_in(std::string_view text) { return node_in<toml::array>(text); }
+
+std::optional<toml::table> table_in(std::string_view text) { return node_in<toml::table>(text); }
 
 }  // namespace gearlash

@@ -48,5 +48,7 @@ class TomlDocument {
 
 /// Reads a TOML list such as "[1, 2.5]"; nothing for any other text.
 std::optional<toml::array> list_in(std::string_view text);
+/// The same for a table: "{ value = \"2 mrad\", tolerance = \"10 %\" }".
+std::optional<toml::table> table_in(std::string_view text);
 
 }  // namespace gearlash

@@ -43,6 +43,18 @@ std::optional<double> Ceiling::widest_backlash(double amplitude, double backlash
   return (1.0 - rounding) * (times * backlash);
 }
 
+bool hunts(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::cannot_hunt:
+    case Verdict::comes_to_rest:
+    case Verdict::forced:
+    case Verdict::undecided:
+      return false;
+    default:
+      return true;
+  }
+}
+
 const char* name_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::cannot_hunt:

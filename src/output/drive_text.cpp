@@ -59,6 +59,43 @@ std::string value_text(const Parameter& parameter, const Drive& drive) {
   return number ? number_text(*number, parameter.dimension(drive)) : "";
 }
 
+const Distribution* distribution_of(const Parameter& parameter, const TolerancedDrive& drive) {
+  for (const ParameterTolerance& varied : drive.varied) {
+    if (find_parameter(varied.path, drive.nominal) == &parameter) return &varied.distribution;
+  }
+  return nullptr;
+}
+
+/// The value with its tolerance as TOML, in one of the forms of input/toleranced_value.hpp.
+std::string toleranced_text(const Distribution& varies, const Parameter& parameter,
+                            const Drive& drive) {
+  const auto number = [&](double value) { return number_text(value, parameter.dimension(drive)); };
+  if (const auto* exact = std::get_if<ExactValue>(&varies)) return number(exact->value);
+  if (const auto* about = std::get_if<UniformAbout>(&varies)) {
+    return fmt::format("{{ value = {}, tolerance = {} }}", number(about->nominal),
+                       number(about->tolerance));
+  }
+  if (const auto* between = std::get_if<UniformBetween>(&varies)) {
+    const double nominal = number_in(parameter, drive).value_or(between->min);
+    return fmt::format("{{ value = {}, min = {}, max = {} }}", number(nominal),
+                       number(between->min), number(between->max));
+  }
+  if (const auto* normal = std::get_if<Normal>(&varies)) {
+    const auto end = [&](const char* name, const std::optional<double>& value) {
+      return value ? fmt::format(", {} = {}", name, number(*value)) : std::string();
+    };
+    return fmt::format("{{ value = {}, normal = {}{}{} }}", number(normal->mean),
+                       number(normal->standard_deviation), end("min", normal->min),
+                       end("max", normal->max));
+  }
+  std::string lots;
+  for (const Lot& lot : std::get<DiscreteLots>(varies).lots) {
+    lots += fmt::format("{}{{ value = {}, weight = {} }}", lots.empty() ? "" : ", ",
+                        number(lot.value), exact_text(lot.weight));
+  }
+  return fmt::format("{{ lots = [{}] }}", lots);
+}
+
 Json value_json(const Parameter& parameter, const Drive& drive) {
   const Slot slot = parameter.slot(const_cast<Drive&>(drive));
   if (const auto* choice = std::get_if<Choice>(&slot)) {
@@ -90,12 +127,28 @@ Drive with_defaults(const Drive& drive) {
 
 }  // namespace
 
-std::string to_toml(const Drive& drive) {
+namespace {
+
+enum class Followers : bool { left_out, written };
+
+/// Whether the parameter has the value of another one, because none is given.
+bool follows(const Parameter& parameter, const Drive& drive) {
+  if (parameter.otherwise.empty()) return false;
+  const Slot slot = parameter.slot(const_cast<Drive&>(drive));
+  const auto* given = std::get_if<std::optional<double>*>(&slot);
+  return given != nullptr && !**given;
+}
+
+std::string toml_of(const TolerancedDrive& toleranced, Followers followers) {
+  const Drive& drive = toleranced.nominal;
   std::string text;
   std::string_view section;
   for (const Parameter& parameter : all_parameters_of_drives()) {
     if (!exists(parameter, drive)) continue;
-    const std::string value = value_text(parameter, drive);
+    if (followers == Followers::left_out && follows(parameter, drive)) continue;
+    const Distribution* varies = distribution_of(parameter, toleranced);
+    const std::string value = varies == nullptr ? value_text(parameter, drive)
+                                                : toleranced_text(*varies, parameter, drive);
     if (value.empty()) continue;
     if (parameter.section() != section) {
       section = parameter.section();
@@ -105,6 +158,14 @@ std::string to_toml(const Drive& drive) {
   }
   return text;
 }
+
+}  // namespace
+
+std::string to_toml(const Drive& drive) { return to_toml(TolerancedDrive{drive, {}}); }
+
+std::string to_toml(const TolerancedDrive& drive) { return toml_of(drive, Followers::written); }
+
+std::string given_toml(const TolerancedDrive& drive) { return toml_of(drive, Followers::left_out); }
 
 nlohmann::ordered_json drive_json(const Drive& drive) {
   Json json = Json::object();

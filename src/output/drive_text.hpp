@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gearlash/drive.hpp"
+#include "gearlash/tolerance.hpp"
 #include "output/report_units.hpp"
 
 namespace gearlash {
@@ -13,6 +14,9 @@ namespace gearlash {
 /// A drive file in SI units with all defaults written out. Numbers read back exactly. A signal
 /// table is named by its file.
 std::string to_toml(const Drive& drive);
+std::string to_toml(const TolerancedDrive& drive);  ///< see gearlash/output.hpp
+/// The same without parameters that have the value of another one, so that they still follow it.
+std::string given_toml(const TolerancedDrive& drive);
 
 /// The start of every JSON answer: schema "gearlash/NAME/2", version, command and units.
 nlohmann::ordered_json json_head(const char* name, const Provenance& provenance);

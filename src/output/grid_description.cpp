@@ -11,29 +11,8 @@
 namespace gearlash {
 namespace {
 
-/// A number of the drive that is not on an axis.
-struct FixedNumber {
-  std::string name;
-  std::string meaning;
-  std::string unit;
-  double value;
-};
-
-std::vector<FixedNumber> fixed_numbers(const Grid& grid) {
-  std::vector<FixedNumber> fixed;
-  const Json parameters = fixed_parameters(grid);  // a variable, because items() refers to it
-  for (const auto& [path, value] : parameters.items()) {
-    if (!value.is_number() && value != "inf") continue;
-    const Axis axis{.path = path};
-    fixed.push_back({column_name(path), std::string(parameter_of(axis, grid.drive)->meaning),
-                     unit_of(axis, grid.drive), get(grid.drive, path)});
-  }
-  return fixed;
-}
-
 /// The words of an axis in the order of their numbers: "load motor".
-std::string words_of(const Axis& axis, const Drive& drive) {
-  const Parameter& parameter = *parameter_of(axis, drive);
+std::string text_of_choices(const Parameter& parameter) {
   std::string words;
   for (const std::string_view word : parameter.choices) {
     words += (words.empty() ? "" : " ") + std::string(word);
@@ -43,19 +22,36 @@ std::string words_of(const Axis& axis, const Drive& drive) {
 
 void describe_axis(NetcdfFile& file, const Axis& axis, const Grid& grid,
                    NetcdfDimension dimension) {
-  const std::string unit = unit_of(axis, grid.drive);
-  const NetcdfVariable variable = file.add_numbers(
-      column_name(axis.path), {dimension}, std::string(parameter_of(axis, grid.drive)->meaning),
-      unit.empty() ? "1" : unit);
-  file.set_attribute(variable, "path", axis.path);
-  file.set_attribute(variable, "spacing", axis.logarithmic ? "logarithmic" : "linear");
-  if (unit.empty()) file.set_attribute(variable, "words", words_of(axis, grid.drive));
+  const NamedParameter parameter = named_parameter(axis, grid.drive);
+  const NetcdfVariable variable =
+      file.add_numbers(parameter.name, {dimension}, parameter.meaning, parameter.unit);
+  file.set_attribute(variable, "path", parameter.path);
+  file.set_attribute(variable, "spacing", spacing_of(axis));
+  if (!parameter.words.empty()) file.set_attribute(variable, "words", parameter.words);
 }
 
 }  // namespace
 
-std::string meaning_of(const Axis& axis, const Grid& grid) {
-  return std::string(parameter_of(axis, grid.drive)->meaning);
+NamedParameter named_parameter(const Axis& axis, const Drive& drive) {
+  const Parameter& parameter = *parameter_of(axis, drive);
+  const std::string unit = unit_of(axis, drive);
+  return {.name = column_name(axis.path),
+          .path = axis.path,
+          .meaning = std::string(parameter.meaning),
+          .unit = unit.empty() ? "1" : unit,
+          .words = text_of_choices(parameter)};
+}
+
+std::string spacing_of(const Axis& axis) { return axis.logarithmic ? "logarithmic" : "linear"; }
+
+std::vector<FixedNumber> fixed_numbers(const Grid& grid) {
+  std::vector<FixedNumber> fixed;
+  const Json parameters = fixed_parameters(grid);  // a variable, because items() refers to it
+  for (const auto& [path, value] : parameters.items()) {
+    if (!value.is_number() && value != "inf") continue;
+    fixed.push_back({named_parameter(Axis{.path = path}, grid.drive), get(grid.drive, path)});
+  }
+  return fixed;
 }
 
 std::vector<std::pair<std::string, std::string>> attributes_of_file(const GridContents& contents) {
@@ -89,8 +85,9 @@ std::vector<NetcdfDimension> describe_axes(NetcdfFile& file, const Grid& grid) {
 std::string describe_fixed_numbers(NetcdfFile& file, const Grid& grid) {
   std::string names;
   for (const FixedNumber& number : fixed_numbers(grid)) {
-    file.add_numbers(number.name, {}, number.meaning, number.unit);
-    names += (names.empty() ? "" : " ") + number.name;
+    const NamedParameter& parameter = number.parameter;
+    file.add_numbers(parameter.name, {}, parameter.meaning, parameter.unit);
+    names += (names.empty() ? "" : " ") + parameter.name;
   }
   return names;
 }
@@ -100,7 +97,7 @@ void write_parameters(NetcdfFile& file, const Grid& grid) {
     file.write(file.variable(column_name(axis.path)), {0}, {axis.values.size()}, axis.values);
   }
   for (const FixedNumber& number : fixed_numbers(grid)) {
-    file.write(file.variable(number.name), {}, {}, std::span(&number.value, 1));
+    file.write(file.variable(number.parameter.name), {}, {}, std::span(&number.value, 1));
   }
 }
 

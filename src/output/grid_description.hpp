@@ -1,4 +1,4 @@
-// What the NetCDF files of a grid say of the grid itself: axes, fixed numbers, origin.
+// What the data of a grid say of the grid itself: axes, fixed numbers, origin.
 #pragma once
 
 #include <string>
@@ -25,8 +25,26 @@ std::vector<std::pair<std::string, std::string>> attributes_of_file(const GridCo
 /// "cannot_hunt", "hunts", … in the order of the enumeration.
 std::vector<std::string> verdict_words();
 
-/// What the axis's parameter means.
-std::string meaning_of(const Axis& axis, const Grid& grid);
+/// A parameter as the data of a grid show it.
+struct NamedParameter {
+  std::string name;  ///< of its column
+  std::string path;
+  std::string meaning;
+  std::string unit;   ///< as UDUNITS spells it
+  std::string words;  ///< of a choice, in the order of their numbers: "load motor"; else empty
+};
+
+NamedParameter named_parameter(const Axis& axis, const Drive& drive);
+/// "linear", "logarithmic".
+std::string spacing_of(const Axis& axis);
+
+/// A number of the drive that is not on an axis, in SI.
+struct FixedNumber {
+  NamedParameter parameter;
+  double value;
+};
+
+std::vector<FixedNumber> fixed_numbers(const Grid& grid);
 
 /// Declares the axes as dimensions with their coordinates. Returns the dimensions.
 std::vector<NetcdfDimension> describe_axes(NetcdfFile& file, const Grid& grid);

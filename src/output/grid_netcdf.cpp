@@ -166,10 +166,10 @@ void GridNetcdf::write_boundary(const std::vector<MapCurve>& curves) {
   const NetcdfDimension dimension =
       file_.add_dimension("hunting_boundary_point", boundary.front().size());
   for (const Axis& axis : grid_.axes) {
-    file_.add_numbers(
-        boundary_name(axis), {dimension},
-        meaning_of(axis, grid_) + ", where hunting ends (growth at rest 1); NaN between curves",
-        unit_of(axis, grid_.drive));
+    file_.add_numbers(boundary_name(axis), {dimension},
+                      named_parameter(axis, grid_.drive).meaning +
+                          ", where hunting ends (growth at rest 1); NaN between curves",
+                      unit_of(axis, grid_.drive));
   }
   file_.end_description();
   for (std::size_t i = 0; i < boundary.size(); ++i) {

@@ -66,10 +66,9 @@ void add_extremes(const Grid& grid, const ReducedQuantity& reduced, NetcdfDimens
   add(name, "smallest and largest " + std::string(info.meaning), std::string(info.unit),
       std::move(values));
   for (std::size_t k = 0; k < grid.axes.size(); ++k) {
-    const std::string unit = unit_of(grid.axes[k], grid.drive);
-    add(name + "_" + column_name(grid.axes[k].path),
-        meaning_of(grid.axes[k], grid) + ", at the first such point", unit.empty() ? "1" : unit,
-        std::move(places[k]));
+    const NamedParameter parameter = named_parameter(grid.axes[k], grid.drive);
+    add(name + "_" + parameter.name, parameter.meaning + ", at the first such point",
+        parameter.unit, std::move(places[k]));
   }
 }
 
@@ -122,9 +121,8 @@ void describe_border(const Grid& grid, ReducedGrid& reduced, NetcdfFile& file) {
   file.add_flags(border_verdict, {dimension},
                  "verdict at a point of which a neighbor's along an axis differs", verdict_words());
   for (const Axis& axis : grid.axes) {
-    const std::string unit = unit_of(axis, grid.drive);
-    file.add_numbers(border_name(axis), {dimension}, meaning_of(axis, grid),
-                     unit.empty() ? "1" : unit);
+    const NamedParameter parameter = named_parameter(axis, grid.drive);
+    file.add_numbers(border_name(axis), {dimension}, parameter.meaning, parameter.unit);
   }
 }
 

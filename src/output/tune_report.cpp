@@ -202,7 +202,7 @@ std::string tune_json(const TuneReport& report) {
 std::string tuned_toml(const TuneReport& report) {
   return fmt::format("# Tuned by: {}\n# {} the target: {}\n\n", report.provenance.command,
                      count_text(report.tuned), report.target_text) +
-         to_toml(report.tuned.drive);
+         to_toml(TolerancedDrive{report.tuned.drive, report.task.series.varied});
 }
 
 }  // namespace gearlash

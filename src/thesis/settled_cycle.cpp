@@ -83,12 +83,12 @@ void describe(const std::vector<Cycle>& cycles, SettledCycle& result) {
 
 /// step(cycles) advances by one step. It returns false if the arithmetic has overflowed.
 template <class Step>
-SettledCycle settle(const Step& step) {
+SettledCycle settle(const Step& step, Progress& progress) {
   constexpr double longest_run = 20'000.0;
   constexpr double longest_quiet = 100.0;
   Cycles cycles;
   SettledCycle result;
-  while (result.run_time < longest_run) {
+  while (result.run_time < longest_run && progress.go_on(result.run_time / longest_run)) {
     const std::size_t count = cycles.all().size();
     result.diverged = !step(cycles) || cycles.out_of_bounds();
     if (result.diverged) return result;
@@ -109,21 +109,23 @@ SettledCycle settle(const Step& step) {
 
 }  // namespace
 
-SettledCycle run_until_settled(const ProgramParameters& parameters, const Mending& mending) {
+SettledCycle run_until_settled(const ProgramParameters& parameters, const Mending& mending,
+                               Progress& progress) {
   Program1960<double> program(parameters, mending);
-  return settle([&](Cycles& cycles) {
+  const auto step = [&](Cycles& cycles) {
     bool contact = false;
     program.step([&](const PrintedLine& line) { contact = contact || line.at_contact; });
     cycles.take(program.line(), contact);
     return true;
-  });
+  };
+  return settle(step, progress);
 }
 
-MachineRun run_machine_until_settled(const ProgramParameters& parameters) {
+MachineRun run_machine_until_settled(const ProgramParameters& parameters, Progress& progress) {
   ThesisMachine machine;
   machine.set(parameters);
   MachineRun run;
-  run.cycle = settle([&](Cycles& cycles) {
+  const auto step = [&](Cycles& cycles) {
     try {
       const bool contact = machine.step();
       cycles.take(machine.state(), contact);
@@ -131,7 +133,8 @@ MachineRun run_machine_until_settled(const ProgramParameters& parameters) {
     } catch (const std::overflow_error&) {  // the machine's exponent fault
       return false;
     }
-  });
+  };
+  run.cycle = settle(step, progress);
   run.instructions = machine.machine().registers().executed;
   return run;
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "gearlash/progress.hpp"
 #include "thesis/program_1960.hpp"
 
 namespace gearlash::thesis {
@@ -23,8 +24,9 @@ struct SettledCycle {
 
 /// Runs the program in double precision. The run ends when the mean amplitude of twenty cycles
 /// differs from that of the twenty before by less than a thousandth, after 100 s without contact,
-/// after 20,000 s, or when the numbers exceed all bounds.
-SettledCycle run_until_settled(const ProgramParameters& parameters, const Mending& mending = {});
+/// after 20,000 s, when the numbers exceed all bounds, or when Progress stops it.
+SettledCycle run_until_settled(const ProgramParameters& parameters, const Mending& mending = {},
+                               Progress& progress = no_progress());
 
 /// The same run on the emulated machine, in its own arithmetic; `instructions` counts those
 /// executed.
@@ -32,6 +34,7 @@ struct MachineRun {
   SettledCycle cycle;
   std::size_t instructions = 0;
 };
-MachineRun run_machine_until_settled(const ProgramParameters& parameters);
+MachineRun run_machine_until_settled(const ProgramParameters& parameters,
+                                     Progress& progress = no_progress());
 
 }  // namespace gearlash::thesis

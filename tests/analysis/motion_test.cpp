@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -39,6 +40,41 @@ Drive general_drive() {
 Drive limited(Drive drive) {
   drive.motor.limit = 1e9;
   return drive;
+}
+
+TEST(Motion, IsSampledAtAnyTimes) {
+  for (const Drive& drive : {sample_drive(), general_drive()}) {
+    const Motion motion = simulate(drive, {.until = 2.0});
+    const std::array times = {1.3, 0.0, 0.77, 2.0, 0.77};
+    const Samples samples = motion.at(times);
+    ASSERT_EQ(samples.time.size(), times.size());
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const MotionSample one = motion.at(times[i]);
+      EXPECT_EQ(samples.time[i], times[i]);
+      EXPECT_EQ(samples.load_position[i], one.shafts.load_position);
+      EXPECT_EQ(samples.motor_speed[i], one.shafts.motor_speed);
+      EXPECT_EQ(samples.motor_torque[i], one.motor_torque);
+    }
+    for (const double outside : {-1e-9, 2.1, std::nan("")}) {
+      EXPECT_THROW((void)motion.at(std::array{outside}), InvalidInput);
+    }
+  }
+}
+
+TEST(Motion, GivesAHundredMillionSamplesAtMost) {
+  const Motion motion = simulate(sample_drive(), {.until = 2.0});
+  EXPECT_THROW((void)motion.sampled(1e-9), InvalidInput);
+  EXPECT_THROW((void)motion.sampled(1e-300), InvalidInput);
+}
+
+/// Stops at once.
+class Stop : public Progress {
+  bool go_on(double, std::size_t) override { return false; }
+};
+
+TEST(Motion, SamplingCanBeStopped) {
+  Stop stop;
+  EXPECT_TRUE(simulate(sample_drive(), {.until = 2.0}).sampled(0.1, stop).time.empty());
 }
 
 TEST(OracleMotion, OfTheClosedFormIsItsTrajectoryInSeconds) {

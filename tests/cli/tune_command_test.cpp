@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "gearlash/input.hpp"
 #include "tool.hpp"
 
 namespace gearlash {
@@ -35,9 +37,18 @@ TEST(TuneCommand, TheDriveThatItWritesMeetsTheTarget) {
 }
 
 TEST(TuneCommand, OfASeriesNamesTheUnitThatLimits) {
+  const Scratch scratch;
+  const std::string file = (scratch / "tuned.toml").string();
   const Outcome run = run_tool({"tune", "examples/toleranced.toml", "--target", "no-hunting",
-                                "--phase-margin", "0 deg", "--units", "16"});
+                                "--phase-margin", "0 deg", "--units", "16", "--write", file});
   ASSERT_EQ(run.status, 0) << run.err;
+  // What is not tuned keeps its tolerance.
+  TolerancedDrive given = read_toleranced_drive(std::filesystem::path(GEARLASH_SOURCE_DIRECTORY) /
+                                                "examples/toleranced.toml");
+  EXPECT_EQ(std::erase_if(given.varied,
+                          [](const auto& one) { return one.path == "controller.proportional"; }),
+            1U);
+  EXPECT_EQ(read_toleranced_drive(file).varied, given.varied);
   EXPECT_THAT(run.out, AllOf(HasSubstr("All 16 units tried meet the target, with a bandwidth of"),
                              HasSubstr("The unit that limits, as an earlier proposal had it:"),
                              HasSubstr("Searched, not proved")));

@@ -105,6 +105,21 @@ TEST(Settings, OfNoParameterAreRefusedWithTheNearest) {
   EXPECT_THROW(read_setting("motor.inertia"), InvalidInput);
 }
 
+TEST(Settings, OfAProgramAreRefusedByTheirPath) {
+  EXPECT_EQ(fault_of({{"gearbox.rtio", "50"}}),
+            "gearbox.rtio = 50: must be a parameter of a drive (did you mean gearbox.ratio?)");
+}
+
+TEST(Settings, MayHaveATolerance) {
+  for (const char* text : {"50 ± 2", "{ value = 50, tolerance = 2 }"}) {
+    const WrittenDrive written = parse_drive(sheet, "servo.toml", {}, {{"gearbox.ratio", text}});
+    EXPECT_EQ(written.drive.gearbox.ratio, 50.0);
+    ASSERT_EQ(written.tolerances.size(), 1U);
+    EXPECT_EQ(written.tolerances.front(),
+              (ParameterTolerance{"gearbox.ratio", UniformAbout{50.0, 2.0}}));
+  }
+}
+
 TEST(SetByText, TakesUnitsWordsAndLists) {
   Drive drive = with({});
   set(drive, "gearbox.backlash", "30 arcmin");

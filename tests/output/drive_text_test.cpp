@@ -114,6 +114,41 @@ TEST(DriveText, DefaultsAreNamed) {
   EXPECT_THAT(defaults, Not(Contains("motor.inertia")));
 }
 
+TEST(DriveText, EveryKindOfToleranceReadsBack) {
+  const std::string text = read_text_file(examples / "robot-joint.toml", largest_drive_file);
+  const Drive nominal = read(text, {{"gearbox.backlash", "1.5 mrad"},
+                                    {"load.inertia", "0.03 kg m2"},
+                                    {"load.friction", "0.01 N m s/rad"},
+                                    {"gearbox.ratio", "20"}});
+  const TolerancedDrive drive{nominal,
+                              {{"gearbox.ratio", DiscreteLots{{{19.0, 1.0}, {20.0, 2.5}}}},
+                               {"gearbox.backlash", UniformBetween{1e-3 / 3.0, 2e-3}},
+                               {"load.inertia", UniformAbout{0.03, 0.003 / 7.0}},
+                               {"load.friction", Normal{0.01, 0.001 / 3.0, 0.005, std::nullopt}}}};
+  const WrittenDrive again = parse_drive(to_toml(drive), "drive.toml", examples);
+  EXPECT_EQ(drive_json(again.drive), drive_json(nominal));
+  EXPECT_EQ(again.tolerances, drive.varied);
+  EXPECT_EQ(to_toml(TolerancedDrive{again.drive, again.tolerances}), to_toml(drive));
+}
+
+TEST(DriveText, ATolerancedDriveHasTheNominalValueOfItsDistribution) {
+  Drive drive = normal_form(0.2, 1.0, 0.5);
+  const TolerancedDrive toleranced{drive, {{"servo.damping", UniformAbout{0.3, 0.1}}}};
+  EXPECT_EQ(read(to_toml(toleranced)).servo->damping, 0.3);
+  const TolerancedDrive exact{drive, {{"servo.damping", ExactValue{0.4}}}};
+  EXPECT_EQ(read(to_toml(exact)).servo->damping, 0.4);
+}
+
+TEST(DriveText, WhatFollowsAnotherParameterIsLeftOutWhereNoneIsGiven) {
+  Drive drive = read(read_text_file(examples / "toleranced-joint.toml", largest_drive_file));
+  EXPECT_THAT(to_toml(drive), HasSubstr("breakaway = \"0.02 N m\"\nstribeck"));
+  const std::string text = given_toml({drive, {}});
+  EXPECT_THAT(text, HasSubstr("breakaway = \"0.0034323275 N m\""));  // given
+  EXPECT_THAT(text, Not(HasSubstr("breakaway = \"0.02 N m\"")));
+  EXPECT_EQ(given_toml({read(text), {}}), text);
+  EXPECT_EQ(to_toml(read(text)), to_toml(drive));
+}
+
 TEST(DriveText, InfinityIsText) {
   Drive drive = normal_form(0.2, std::numeric_limits<double>::infinity(), 0.5);
   EXPECT_EQ(to_toml(read(to_toml(drive))), to_toml(drive));

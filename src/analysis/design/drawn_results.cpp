@@ -15,17 +15,7 @@ double amplitude_in(const Answer& answer, Quantity amplitude) {
 
 }  // namespace
 
-bool DrawnResults::hunts(std::size_t row) const {
-  switch (verdict(row)) {
-    case Verdict::cannot_hunt:
-    case Verdict::comes_to_rest:
-    case Verdict::forced:
-    case Verdict::undecided:
-      return false;
-    default:
-      return true;
-  }
-}
+bool DrawnResults::hunts(std::size_t row) const { return gearlash::hunts(verdict(row)); }
 
 DrawnAnswers::DrawnAnswers(const TolerancedDrive& drive, const Target& target, Quantity amplitude,
                            VectorUnit unit)

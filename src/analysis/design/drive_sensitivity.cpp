@@ -179,7 +179,7 @@ std::optional<double> Jacobian::elasticity(std::size_t quantity, std::size_t par
 }
 
 Jacobian derivatives(const Drive& drive, std::span<const Quantity> quantities,
-                     std::span<const std::string_view> paths) {
+                     std::span<const std::string_view> paths, Progress& progress) {
   RangeCheck check;
   for (const Quantity quantity : quantities) {
     const auto is_among = [&](const auto& all) {
@@ -193,7 +193,7 @@ Jacobian derivatives(const Drive& drive, std::span<const Quantity> quantities,
   }
   require_none(check.faults());
   const std::vector<std::string> names(paths.begin(), paths.end());
-  if (!closed_form_drive(drive)) return searched_derivatives(drive, quantities, names);
+  if (!closed_form_drive(drive)) return searched_derivatives(drive, quantities, names, progress);
   const ChangeableDrive changeable(drive);
   return jacobian_of(drivetrain_sensitivity(changeable.drivetrain()), quantities, changeable,
                      names);

@@ -108,9 +108,9 @@ Jacobian searched_derivatives(const Drive& drive, const Analysis& analysis,
 }
 
 Jacobian searched_derivatives(const Drive& drive, std::span<const Quantity> quantities,
-                              const std::vector<std::string>& paths) {
+                              const std::vector<std::string>& paths, Progress& progress) {
   presents_of(drive, paths);  // before the search
-  return searched_derivatives(drive, analyse_in_full(drive), quantities, paths);
+  return searched_derivatives(drive, analyse_in_full(drive, {}, progress), quantities, paths);
 }
 
 Jacobian searched_derivatives(const Drive& drive, const Analysis& analysis) {

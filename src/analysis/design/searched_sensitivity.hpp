@@ -27,6 +27,6 @@ Jacobian searched_derivatives(const Drive& drive, const Analysis& analysis);
 
 /// The same after an analysis of the drive. Throws InvalidInput for an unsound drive too.
 Jacobian searched_derivatives(const Drive& drive, std::span<const Quantity> quantities,
-                              const std::vector<std::string>& paths);
+                              const std::vector<std::string>& paths, Progress& progress);
 
 }  // namespace gearlash
