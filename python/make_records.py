@@ -6,7 +6,7 @@ Reads the headers of include/gearlash, which are written in one style, and write
   _records.py   a frozen dataclass for each struct, with its members, defaults and comments
   records.hpp   for each struct the list of its members, and for each enumeration its words
 
-make_records.py HEADERS_FOLDER _RECORDS.PY RECORDS.HPP
+make_records.py _RECORDS.PY RECORDS.HPP HEADER...    (a header after those that it needs)
 """
 
 import keyword
@@ -16,9 +16,6 @@ import textwrap
 from dataclasses import dataclass, field
 from pathlib import Path
 
-# In the order in which one header needs another.
-HEADERS = ["fault", "bounds", "parameter", "quantity", "answer", "analyse", "motion",
-           "sensitivity", "grid", "design", "tolerance", "tune"]
 # Spans of memory, classes with behaviour of their own, and what the module gives as arrays.
 LEFT_OUT = {"DriveList", "Grid", "MotionEvent", "MotionSample", "Samples", "Shafts", "Span"}
 
@@ -219,20 +216,28 @@ def class_text(struct: Struct, source: Source, extra: list[str]) -> str:
     if struct.name == "Answer":
         lines += ["    drive : Drive | None", "        the drive that was analysed"]
     lines += ['    """', ""]
-    for member in struct.members:
-        lines.append(f"    {python_name(member)}: {annotation(member, source)}"
-                     f" = {python_default(member, source)}")
+    declared = [(python_name(member), annotation(member, source), python_default(member, source))
+                for member in struct.members]
     if struct.name == "Answer":
-        lines.append("    drive: Drive | None = None")
+        declared.append(("drive", "Drive | None", "None"))
+    lines += [f"    {name}: {of} = {default}" for name, of, default in declared]
+    sequences = [name for name, of, _ in declared if of.startswith("tuple[")]
+    if sequences:  # any sequence may be given, and is kept as a tuple
+        given = ", ".join(
+            f"{name}: Iterable[{of[len('tuple['):-len(', ...]')]}] = ..." if name in sequences
+            else f"{name}: {of} = ..." for name, of, _ in declared)
+        lines += ["", f"    _sequences = {tuple(sequences)!r}", "", "    if TYPE_CHECKING:",
+                  f"        def __init__(self, {given}) -> None: ..."]
     return "\n".join(lines) + "\n\n\n"
 
 
 def python_text(source: Source, extra: list[str]) -> str:
     text = ('"""The records of the C++ library, made by python/make_records.py."""\n\n'
             "from __future__ import annotations\n\n"
+            "from collections.abc import Iterable\n"
             "from dataclasses import dataclass as _dataclass\n"
             "from dataclasses import field as _field\n"
-            "from typing import Union\n\n"
+            "from typing import TYPE_CHECKING, Union\n\n"
             "from gearlash import _methods\n"
             "from gearlash._core import words as _words\n"
             "from gearlash._drive import Drive\n\n"
@@ -250,9 +255,9 @@ def python_text(source: Source, extra: list[str]) -> str:
 # ---- C++ ------------------------------------------------------------------------------------------
 
 
-def cpp_text(source: Source) -> str:
+def cpp_text(source: Source, headers: list[Path]) -> str:
     text = "// The members of the public structs, made by python/make_records.py.\n#pragma once\n\n"
-    text += "".join(f'#include "gearlash/{header}.hpp"\n' for header in HEADERS)
+    text += "".join(f'#include "gearlash/{header.name}"\n' for header in headers)
     text += '#include "record.hpp"\n\nnamespace gearlash::python {\n\n'
     for name, enumeration in source.enumerations.items():
         words = ", ".join(f'{{{name}::{word}, "{word}"}}' for word, _ in enumeration.members)
@@ -281,13 +286,13 @@ def cpp_text(source: Source) -> str:
 
 
 def main() -> None:
-    headers, python, cpp = map(Path, sys.argv[1:])
+    python, cpp, *headers = map(Path, sys.argv[1:])
     source = Source()
-    for name in HEADERS:
-        read((headers / f"{name}.hpp").read_text(encoding="utf-8"), source)
+    for header in headers:
+        read(header.read_text(encoding="utf-8"), source)
     methods = (Path(__file__).parent / "gearlash" / "_methods.py").read_text(encoding="utf-8")
     extra = re.findall(r"^class (\w+)", methods, re.M)
-    for path, text in ((python, python_text(source, extra)), (cpp, cpp_text(source))):
+    for path, text in ((python, python_text(source, extra)), (cpp, cpp_text(source, headers))):
         if not path.exists() or path.read_text(encoding="utf-8") != text:
             path.write_text(text, encoding="utf-8")
 

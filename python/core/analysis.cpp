@@ -30,15 +30,15 @@ py::object analysed(py::handle drive, py::handle wanted, const py::object& progr
 Answer answer_from(py::handle answer) { return from_python<Answer>(answer, "answer"); }
 
 py::object derivatives_of(py::handle drive, const std::vector<std::string>& names,
-                          const std::vector<std::string>& paths) {
+                          const std::vector<std::string>& paths, const py::object& progress) {
   std::vector<Quantity> quantities;
   for (const std::string& name : names) {
     quantities.push_back(from_python<Quantity>(py::str(name), "quantities"));
   }
   const std::vector<std::string_view> views(paths.begin(), paths.end());
   const Drive of = drive_of(drive);
-  return to_python(
-      interruptible(py::none(), [&](Progress&) { return derivatives(of, quantities, views); }));
+  return to_python(interruptible(
+      progress, [&](Progress& reports) { return derivatives(of, quantities, views, reports); }));
 }
 
 /// JSON and text of one report.
@@ -91,6 +91,22 @@ void add_analysis(py::module_& module) {
   module.def("describe", described);
   module.def("compare", compared);
   module.def("describing_gain", gains);
+  module.def("hunts", [](const std::string& verdict) {
+    return hunts(from_python<Verdict>(py::str(verdict), "verdict"));
+  });
+  module.def("largest_stable", [](py::handle answer) {
+    const Answer given = answer_from(answer);
+    const Cycle* cycle = given.largest_stable();
+    return cycle == nullptr ? py::object(py::none()) : to_python(*cycle);
+  });
+  module.def("slope", [](py::handle jacobian, std::size_t quantity, std::size_t parameter) {
+    return to_python(from_python<Jacobian>(jacobian, "jacobian").slope(quantity, parameter));
+  });
+  module.def("elasticity", [](py::handle jacobian, std::size_t quantity, std::size_t parameter) {
+    return to_python(from_python<Jacobian>(jacobian, "jacobian").elasticity(quantity, parameter));
+  });
+  module.def("fault_text",
+             [](py::handle fault) { return to_string(from_python<Fault>(fault, "fault")); });
   module.def("value", [](py::handle answer, const std::string& quantity) {
     return to_python(
         answer_from(answer).value(from_python<Quantity>(py::str(quantity), "quantity")));

@@ -179,8 +179,8 @@ void add_design(py::module_& module) {
   module.def("tune", tuned);
   module.def("usual_gains",
              [](py::handle drive) { return to_python(usual_gains(drive_of(drive))); });
-  module.def("usual_axis_to_tune", [](py::handle drive, const std::string& path) {
-    return to_python(usual_axis_to_tune(drive_of(drive), path));
+  module.def("axis_to_tune", [](const std::string& text, py::handle drive) {
+    return to_python(read_axis_to_tune("parameters", text, drive_of(drive)));
   });
   module.def("usual_target",
              [](py::handle drive) { return to_python(usual_target(drive_of(drive))); });

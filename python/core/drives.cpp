@@ -1,10 +1,14 @@
-// Drives: read, changed, written.
+// Drives with their tolerances: read, changed, written.
 #include <pybind11/stl.h>
+
+#include <algorithm>
 
 #include "gearlash/output.hpp"
 #include "gearlash/parameter.hpp"
 #include "input/drive_file.hpp"
+#include "model/parameters.hpp"
 #include "module.hpp"
+#include "output/drive_text.hpp"
 #include "records.hpp"
 
 namespace gearlash::python {
@@ -18,43 +22,66 @@ void forget_files(Drive& drive) {
   }
 }
 
-py::tuple read(const std::string& text, const std::string& name, const std::string& folder,
-               const std::vector<std::pair<std::string, std::string>>& settings,
-               bool is_of_program) {
+TolerancedDrive read(const std::string& text, const std::string& name, const std::string& folder,
+                     const std::vector<std::pair<std::string, std::string>>& settings,
+                     bool is_of_program) {
   std::vector<Setting> list;
   for (const auto& [path, value] : settings) list.push_back({path, value});
   WrittenDrive written = parse_drive(text, name, folder, list,
                                      is_of_program ? BareNumbers::in_si : BareNumbers::refused);
   forget_files(written.drive);
-  return py::make_tuple(py::cast(std::move(written.drive)), to_python(written.tolerances));
+  return {std::move(written.drive), std::move(written.tolerances)};
 }
 
-Drive with_numbers(Drive drive, const std::vector<std::pair<std::string, double>>& numbers) {
-  for (const auto& [path, value] : numbers) set(drive, path, value);
-  if (const std::vector<Fault> found = faults(drive); !found.empty()) throw InvalidInput(found);
+/// A number that is set has no tolerance, as one that the tool sets has none.
+TolerancedDrive with_numbers(TolerancedDrive drive,
+                             const std::vector<std::pair<std::string, double>>& numbers) {
+  for (const auto& [path, value] : numbers) {
+    set(drive.nominal, path, value);
+    std::erase_if(drive.varied, [&, &changed = path](const ParameterTolerance& varied) {
+      return find_parameter(varied.path) == find_parameter(changed);
+    });
+  }
+  if (const std::vector<Fault> found = faults(drive.nominal); !found.empty()) {
+    throw InvalidInput(found);
+  }
   return drive;
 }
 
-Drive checked_normal_form(double damping, double inertia_ratio, double friction_ratio,
-                          double backlash, double restitution,
-                          std::optional<double> natural_frequency) {
+/// As its file reads, so that a drive is all that its file says.
+TolerancedDrive with_tolerances(const TolerancedDrive& drive, py::handle tolerances) {
+  const TolerancedDrive varied{
+      drive.nominal, from_python<std::vector<ParameterTolerance>>(tolerances, "tolerances")};
+  if (const std::vector<Fault> found = faults(varied); !found.empty()) throw InvalidInput(found);
+  return read(given_toml(varied), "", "", {}, true);
+}
+
+TolerancedDrive checked_normal_form(double damping, double inertia_ratio, double friction_ratio,
+                                    double backlash, double restitution,
+                                    std::optional<double> natural_frequency) {
   Drive drive = normal_form(damping, inertia_ratio, friction_ratio, backlash, restitution);
   drive.servo->natural_frequency = natural_frequency;
   if (const std::vector<Fault> found = faults(drive); !found.empty()) throw InvalidInput(found);
-  return drive;
+  return {std::move(drive), {}};
 }
 
 }  // namespace
 
 void add_drives(py::module_& module) {
-  py::class_<Drive>(module, "Drive")
+  using Bound = TolerancedDrive;
+  py::class_<Bound>(module, "Drive")
       .def(py::init<>())
-      .def("get", [](const Drive& drive, const std::string& path) { return get(drive, path); })
-      .def("parameters", [](const Drive& drive) { return to_python(parameters_of(drive)); })
-      .def("to_toml", [](const Drive& drive) { return to_toml(drive); })
+      .def("get",
+           [](const Bound& drive, const std::string& path) { return get(drive.nominal, path); })
+      .def("parameters", [](const Bound& drive) { return to_python(parameters_of(drive.nominal)); })
+      .def("to_toml", [](const Bound& drive) { return to_toml(drive); })
+      .def("given_toml", [](const Bound& drive) { return given_toml(drive); })
       .def("with_numbers", with_numbers)
+      .def("with_tolerances", with_tolerances)
+      .def_property_readonly("tolerances",
+                             [](const Bound& drive) { return to_python(drive.varied); })
       .def_property_readonly("is_normal_form",
-                             [](const Drive& drive) { return drive.servo.has_value(); });
+                             [](const Bound& drive) { return drive.nominal.servo.has_value(); });
   module.def("save", [](const std::string& path, const std::string& text) { save(path, text); });
   module.def("read", read);
   module.def("normal_form", checked_normal_form);

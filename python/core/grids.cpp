@@ -1,12 +1,15 @@
 // Many drives at once: grids and lists, with their columns as arrays without copies.
 #include <pybind11/stl.h>
 
+#include "analysis/grid/axis.hpp"
 #include "analysis/grid/grid_points.hpp"
 #include "arrays.hpp"
 #include "gearlash/grid.hpp"
+#include "gearlash/version.hpp"
 #include "input/axis_text.hpp"
 #include "interruptible.hpp"
 #include "module.hpp"
+#include "output/grid_description.hpp"
 #include "records.hpp"
 
 namespace gearlash::python {
@@ -28,8 +31,9 @@ std::vector<Quantity> quantities_named(const std::vector<std::string>& names) {
 /// The verdicts' numbers, and the columns by name.
 py::tuple columns_of_table(Table&& computed, const std::vector<Quantity>& quantities) {
   const auto table = std::make_shared<const Table>(std::move(computed));
-  static_assert(sizeof(Verdict) == sizeof(std::uint8_t));
-  const auto verdicts = array_over(reinterpret_cast<const std::uint8_t*>(table->verdicts().data()),
+  static_assert(sizeof(Verdict) == sizeof(std::int8_t));
+  // As a signed byte, which is what NetCDF has.
+  const auto verdicts = array_over(reinterpret_cast<const std::int8_t*>(table->verdicts().data()),
                                    table->rows(), table);
   py::dict columns;
   for (const Quantity quantity : quantities) {
@@ -70,6 +74,39 @@ py::tuple evaluated_list(py::handle drive, const std::vector<std::string>& paths
       quantities);
 }
 
+py::dict dict_of(const NamedParameter& parameter) {
+  using namespace py::literals;
+  return py::dict("name"_a = parameter.name, "path"_a = parameter.path,
+                  "meaning"_a = parameter.meaning, "unit"_a = parameter.unit,
+                  "words"_a = py::str(parameter.words).attr("split")());
+}
+
+/// What the tool's NetCDF files say of the grid.
+py::dict description(py::handle drive, py::handle axes, bool proved) {
+  const Grid grid = grid_of(drive, axes, proved);
+  py::list described;
+  for (const Axis& axis : grid.axes) {
+    described.append(dict_of(named_parameter(axis, grid.drive)));
+    described[described.size() - 1]["spacing"] = spacing_of(axis);
+  }
+  py::list fixed;
+  for (const FixedNumber& number : fixed_numbers(grid)) {
+    fixed.append(dict_of(number.parameter));
+    fixed[fixed.size() - 1]["value"] = number.value;
+  }
+  py::dict attributes;
+  const Provenance provenance{.command = "gearlash.sweep", .version = version};
+  for (const auto& [name, text] : attributes_of_file({grid, {}, provenance})) {
+    attributes[py::str(name)] = text;
+  }
+  py::dict all;
+  all["axes"] = described;
+  all["fixed"] = fixed;
+  all["attributes"] = attributes;
+  all["verdicts"] = verdict_words();
+  return all;
+}
+
 }  // namespace
 
 void add_grids(py::module_& module) {
@@ -83,6 +120,10 @@ void add_grids(py::module_& module) {
              });
   module.def("is_closed_grid", [](py::handle drive, py::handle axes) {
     return !GridPoints(grid_of(drive, axes)).engines().search;
+  });
+  module.def("description", description);
+  module.def("path_named", [](const std::string& name, py::handle drive) {
+    return path_named(name, drive_of(drive));
   });
   module.def("linear", [](const std::string& path, double from, double to, std::size_t count) {
     return to_python(linear(path, from, to, count));

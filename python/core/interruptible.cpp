@@ -2,7 +2,16 @@
 
 #include <algorithm>
 
+#include "record.hpp"
+
 namespace gearlash::python {
+
+PythonProgress::PythonProgress(py::object report)
+    : report_(std::move(report)), has_report_(!report_.is_none()) {
+  if (has_report_ && PyCallable_Check(report_.ptr()) == 0) {
+    refuse_type("progress", "a function or None", report_);
+  }
+}
 
 bool PythonProgress::is_due(Clock::time_point& last) {
   constexpr std::chrono::milliseconds pause(30);
@@ -23,7 +32,9 @@ bool PythonProgress::go_on(double share, std::size_t) {
     if (reports) {
       share_ = std::max(share_, share);
       const py::object answer = report_(share_);
-      goes_on_ = answer.is_none() || answer.cast<bool>();
+      const int truth = answer.is_none() ? 1 : PyObject_IsTrue(answer.ptr());
+      if (truth < 0) throw py::error_already_set();
+      goes_on_ = truth == 1;
     }
   } catch (...) {
     raised_ = std::current_exception();

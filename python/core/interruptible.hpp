@@ -20,8 +20,8 @@ namespace py = pybind11;
 /// either raises, and where `report` returns False.
 class PythonProgress final : public Progress {
  public:
-  explicit PythonProgress(py::object report)
-      : report_(std::move(report)), has_report_(!report_.is_none()) {}
+  /// Throws TypeError for what is neither a function nor None.
+  explicit PythonProgress(py::object report);
 
   bool go_on(double share, std::size_t bytes) override;
 

@@ -32,47 +32,15 @@ py::dict columns_of_samples(Samples samples) {
   return columns;
 }
 
-/// The most samples of a call: 64 bytes each.
-constexpr double most_samples = 1e8;
-
 py::dict sampled(const Motion& motion, double every) {
-  const double count = motion.end_time() / every;
-  if (every > 0.0 && !(count <= most_samples)) {
-    throw InvalidInput({{"every", std::string(py::str(py::float_(every))) + " s",
-                         "must give at most 100,000,000 samples", ""}});
-  }
   return columns_of_samples(
-      interruptible(py::none(), [&](Progress&) { return motion.sampled(every); }));
+      interruptible(py::none(), [&](Progress& reports) { return motion.sampled(every, reports); }));
 }
 
 py::dict at(const Motion& motion, const Numbers& times) {
-  const auto count = static_cast<std::size_t>(times.size());
-  const double* const time = times.data();
-  const double end = motion.end_time();
-  for (std::size_t i = 0; i < count; ++i) {
-    if (time[i] >= 0.0 && time[i] <= end) continue;
-    throw InvalidInput({{"times", std::string(py::str(py::float_(time[i]))) + " s",
-                         "must be from 0 to the end of the motion, " +
-                             std::string(py::str(py::float_(end))) + " s",
-                         ""}});
-  }
-  return columns_of_samples(interruptible(py::none(), [&](Progress& reports) {
-    Samples samples;
-    constexpr std::size_t at_a_time = 4096;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (i % at_a_time == 0 && !reports.go_on(0.0)) break;
-      const MotionSample sample = motion.at(time[i]);
-      samples.time.push_back(sample.time);
-      samples.load_position.push_back(sample.shafts.load_position);
-      samples.load_speed.push_back(sample.shafts.load_speed);
-      samples.motor_position.push_back(sample.shafts.motor_position);
-      samples.motor_speed.push_back(sample.shafts.motor_speed);
-      samples.motor_torque.push_back(sample.motor_torque);
-      samples.reference.push_back(sample.reference);
-      samples.load_torque.push_back(sample.load_torque);
-    }
-    return samples;
-  }));
+  const std::span<const double> given(times.data(), static_cast<std::size_t>(times.size()));
+  return columns_of_samples(
+      interruptible(py::none(), [&](Progress& reports) { return motion.at(given, reports); }));
 }
 
 /// One tuple for each event, in the order of the fields of gearlash._motion.EVENT.

@@ -18,12 +18,12 @@ py::handle drive_class() {
 }  // namespace
 
 py::object drive_to_python(Drive drive) {
-  return drive_class().attr("_of")(py::cast(std::move(drive)));
+  return drive_class().attr("_of")(py::cast(TolerancedDrive{std::move(drive), {}}));
 }
 
 Drive drive_of(py::handle object) {
   if (!py::isinstance(object, drive_class())) refuse_type("drive", "a gearlash.Drive", object);
-  return object.attr("_core").cast<Drive>();
+  return object.attr("_core").cast<const TolerancedDrive&>().nominal;
 }
 
 void refuse_type(const char* name, const std::string& permitted, py::handle found) {

@@ -39,8 +39,6 @@ py::array_t<double> rows_of(const std::vector<PrintedLine>& lines) {
   return array_of(std::move(numbers)).reshape({py::ssize_t(lines.size()), py::ssize_t{5}});
 }
 
-constexpr std::size_t most_lines = 1'000'000;
-
 std::vector<PrintedLine> lines_of_machine(const ProgramParameters& parameters, std::size_t count,
                                           Progress& reports) {
   thesis::ThesisMachine machine;
@@ -69,9 +67,6 @@ py::array_t<double> rows_of(const std::vector<ChartPoint>& points) {
 }
 
 py::array_t<double> printed(std::size_t lines, const py::object& servo, bool emulated) {
-  if (lines > most_lines) {
-    throw InvalidInput({{"lines", std::to_string(lines), "must be at most 1,000,000", ""}});
-  }
   ProgramParameters parameters = thesis::listed_parameters;
   if (!servo.is_none()) {
     const auto [damping, inertia_ratio, friction_ratio, backlash] =
@@ -99,9 +94,9 @@ py::dict run(double damping, double inertia_ratio, double friction_ratio, double
              bool emulated) {
   const ProgramParameters parameters =
       thesis::program_parameters(servo_of(damping, inertia_ratio, friction_ratio, backlash));
-  const thesis::SettledCycle cycle = interruptible(py::none(), [&](Progress&) {
-    return emulated ? thesis::run_machine_until_settled(parameters).cycle
-                    : thesis::run_until_settled(parameters);
+  const thesis::SettledCycle cycle = interruptible(py::none(), [&](Progress& reports) {
+    return emulated ? thesis::run_machine_until_settled(parameters, reports).cycle
+                    : thesis::run_until_settled(parameters, {}, reports);
   });
   using namespace py::literals;
   return py::dict("settled"_a = cycle.settled, "hunts"_a = cycle.hunts,

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, Optional
 
 from gearlash import _core
-from gearlash._arguments import listed, optional_number
+from gearlash._arguments import optional_number, texts, where_given
 from gearlash._drive import Drive
 from gearlash._records import Answer, Jacobian, QuantityInfo, Wanted
 
@@ -16,7 +16,8 @@ Progress = Optional[Callable[[float], Optional[bool]]]
 
 
 def analyse(drive: Drive, *, proofs: bool = True, ceiling: bool = True, loop: bool = False,
-            step: float | None = None, borders: bool = True, progress: Progress = None) -> Answer:
+            step: float | None = None, borders: bool = True, motion_bytes: int | None = None,
+            progress: Progress = None) -> Answer:
     """Report whether a drive hunts, how large and fast, and how certain that is.
 
     The closed form answers for the servo of 1960 and every drive that is one by its physics, in
@@ -36,6 +37,9 @@ def analyse(drive: Drive, *, proofs: bool = True, ceiling: bool = True, loop: bo
     borders : bool
         Search what lies between starts that end differently: unstable cycles, and from which step
         on a drive hunts.
+    motion_bytes : int, optional
+        That a search keeps of a motion at most; default 64,000,000. It takes two to three times as
+        many in all.
     progress : callable, optional
         Called with the share of the work done, 0 … 1. If it returns False the work stops, and the
         answer is what is known by then. Ctrl-C raises KeyboardInterrupt.
@@ -66,11 +70,12 @@ def analyse(drive: Drive, *, proofs: bool = True, ceiling: bool = True, loop: bo
     (0.241611108, 6.456205)
     """
     wanted = Wanted(proofs=proofs, ceiling=ceiling, loop=loop, step=optional_number("step", step),
-                    borders=borders)
+                    borders=borders, **where_given(motion_bytes=motion_bytes))
     return dataclasses.replace(_core.analyse(drive, wanted, progress), drive=drive)
 
 
-def derivatives(drive: Drive, quantities: Sequence[str], parameters: Sequence[str]) -> Jacobian:
+def derivatives(drive: Drive, quantities: Sequence[str], parameters: Sequence[str], *,
+                progress: Progress = None) -> Jacobian:
     """Give exact derivatives of the limit cycle with respect to parameters.
 
     Parameters
@@ -81,6 +86,8 @@ def derivatives(drive: Drive, quantities: Sequence[str], parameters: Sequence[st
         drives amplitude, motor_amplitude, center, period and frequency.
     parameters : sequence of str
         Paths of numbers.
+    progress : callable, optional
+        As of :func:`analyse`.
 
     Returns
     -------
@@ -106,8 +113,8 @@ def derivatives(drive: Drive, quantities: Sequence[str], parameters: Sequence[st
     >>> round(slopes.elasticity("amplitude", "servo.backlash"), 12)
     1.0
     """
-    return _core.derivatives(drive, listed("quantities", quantities),
-                             listed("parameters", parameters))
+    return _core.derivatives(drive, texts("quantities", quantities),
+                             texts("parameters", parameters), progress)
 
 
 class Report(dict[str, Any]):
@@ -180,7 +187,7 @@ def compare(drive: Drive, sensors: Sequence[str] = ("load", "motor", "both"), *,
     InvalidInput
         For a faulty drive, a step of 0 and a time that is not positive.
     """
-    return Report(*_core.compare(drive, listed("sensors", sensors), optional_number("step", step),
+    return Report(*_core.compare(drive, texts("sensors", sensors), optional_number("step", step),
                                  optional_number("until", until), progress))
 
 

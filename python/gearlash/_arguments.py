@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import operator
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any, TypeVar
 
 _One = TypeVar("_One")
@@ -37,4 +37,42 @@ def listed(name: str, several: Iterable[_One]) -> list[_One]:
     """A list of what was given; a text, which Python would take letter by letter, is refused."""
     if isinstance(several, (str, bytes)):
         raise TypeError(f"{name} must be a sequence, such as [{several!r}], not a text")
+    if not isinstance(several, Iterable):
+        raise TypeError(f"{name} must be a sequence, not {type(several).__name__}")
     return list(several)
+
+
+def texts(name: str, several: Iterable[str]) -> list[str]:
+    """A list of texts."""
+    given = listed(name, several)
+    for one in given:
+        text(name, one)
+    return given
+
+
+def text(name: str, given: str) -> str:
+    if not isinstance(given, str):
+        raise TypeError(f"{name} must be text, not {type(given).__name__}")
+    return given
+
+
+def truth(name: str, given: bool) -> bool:
+    """True or False, also of NumPy; nothing that only counts as one of them."""
+    if type(given).__name__ not in ("bool", "bool_"):
+        raise TypeError(f"{name} must be True or False, not {type(given).__name__}")
+    return bool(given)
+
+
+def mapping(name: str, given: Mapping[str, _One]) -> dict[str, _One]:
+    """A mapping whose keys are text."""
+    if not isinstance(given, Mapping):
+        raise TypeError(f"{name} must be a mapping, not {type(given).__name__}")
+    for key in given:
+        if not isinstance(key, str):
+            raise TypeError(f"{name} must have text as keys, not {type(key).__name__}: {key!r}")
+    return dict(given)
+
+
+def where_given(**options: Any) -> dict[str, Any]:
+    """The options that are not None; of the others a record has its own default."""
+    return {name: value for name, value in options.items() if value is not None}

@@ -7,7 +7,8 @@ from typing import Any, Union
 
 from gearlash import _core
 from gearlash._analysis import Progress
-from gearlash._arguments import listed, number, optional_number, whole
+from gearlash._arguments import (listed, mapping, number, optional_number, text, where_given,
+                                  whole)
 from gearlash._drive import Drive
 from gearlash._records import (Axis, BacklashDemand, Distribution, FeasibleValues, HuntingMargin,
                                ParameterTolerance, SamplePlan, SensitivityStudy, StudyQuestions,
@@ -18,7 +19,7 @@ TargetLike = Union[str, Target]
 SeriesLike = Union[Drive, TolerancedDrive]
 
 
-def target(text: TargetLike, drive: Drive) -> Target:
+def target(wanted: TargetLike, drive: Drive) -> Target:
     """Read a target as the tool does: "no-hunting", "amplitude <= 1 arcmin and frequency >= 5 Hz".
 
     Raises
@@ -26,7 +27,7 @@ def target(text: TargetLike, drive: Drive) -> Target:
     InvalidInput
         For unknown quantities, wrong units and contradictions.
     """
-    return _core.target(text, drive) if isinstance(text, str) else text
+    return wanted if isinstance(wanted, Target) else _core.target(text("target", wanted), drive)
 
 
 def design(drive: Drive, wanted: TargetLike, parameters: Sequence[str | Axis] | None = None, *,
@@ -102,7 +103,8 @@ def series(drive: SeriesLike, varied: Mapping[str, Distribution] | None = None) 
     """
     nominal, own = ((drive.nominal, drive.varied) if isinstance(drive, TolerancedDrive)
                     else (drive, drive.tolerances))
-    added = {path: ParameterTolerance(path, spread) for path, spread in (varied or {}).items()}
+    added = {path: ParameterTolerance(path, spread)
+             for path, spread in mapping("varied", varied or {}).items()}
     kept = tuple(one for one in own if one.path not in added)
     return TolerancedDrive(nominal=nominal, varied=kept + tuple(added.values()))
 
@@ -110,7 +112,8 @@ def series(drive: SeriesLike, varied: Mapping[str, Distribution] | None = None) 
 def tolerance(drive: SeriesLike, varied: Mapping[str, Distribution] | None = None, *,
               target: TargetLike | None = None, samples: int | None = None,
               error: float | None = None, seed: int = 1960, quantity: str = "amplitude",
-              client: Any = None, progress: Progress = None) -> ToleranceStudy:
+              shares: Sequence[float] | None = None, bins: int | None = None, client: Any = None,
+              progress: Progress = None) -> ToleranceStudy:
     """Predict how many samples of a production run hunt, and how many meet a target.
 
     Parameters
@@ -129,6 +132,10 @@ def tolerance(drive: SeriesLike, varied: Mapping[str, Distribution] | None = Non
         Equal seeds give equal bits on every machine.
     quantity : str
         "amplitude" of the load, or "motor_amplitude".
+    shares : sequence of float, optional
+        Of the samples, 0 … 1, for the quantiles; default 5, 25, 50, 75 and 95 %.
+    bins : int, optional
+        Of the histogram; default 40, 0 for none.
     client : distributed.Client, optional
         Deal the samples out to its workers; see :mod:`gearlash.distributed`. The study is the same
         for any number of workers. Not with `error`.
@@ -156,7 +163,8 @@ def tolerance(drive: SeriesLike, varied: Mapping[str, Distribution] | None = Non
     >>> abs(study.hunting.value - (0.849487 - 0.7) / 0.3) < 1e-4
     True
     """
-    one, questions, sampling = _study(drive, varied, target, samples, seed, quantity)
+    one, questions, sampling = _study(drive, varied, target, samples, seed, quantity,
+                                      shares=shares, bins=bins)
     if client is not None:
         from gearlash import distributed
 
@@ -198,16 +206,17 @@ def widest_backlash(drive: SeriesLike, target: TargetLike, share: float = 0.95, 
     return _core.widest_backlash(one, demand, sampling, progress)
 
 
-def _target(text: TargetLike, one: TolerancedDrive) -> Target:
-    return target(text, one.nominal)
+def _target(wanted: TargetLike, one: TolerancedDrive) -> Target:
+    return target(wanted, one.nominal)
 
 
 def _study(drive: SeriesLike, varied: Mapping[str, Distribution] | None, wanted: TargetLike | None,
-           samples: int | None, seed: int, quantity: str
+           samples: int | None, seed: int, quantity: str, **more: Any
            ) -> tuple[TolerancedDrive, StudyQuestions, SamplePlan]:
     one = series(drive, varied)
     questions = StudyQuestions(amplitude=quantity,
-                               target=Target() if wanted is None else _target(wanted, one))
+                               target=Target() if wanted is None else _target(wanted, one),
+                               **where_given(**more))
     plan = (_core.usual_sampling(one, questions) if samples is None
             else _core.sampling_of(whole("samples", samples, 1), 0))
     return one, questions, SamplePlan(plan.points, plan.replicates, whole("seed", seed, 0))
@@ -216,7 +225,8 @@ def _study(drive: SeriesLike, varied: Mapping[str, Distribution] | None, wanted:
 def tune(drive: SeriesLike, parameters: Sequence[str | Axis] | None = None, *,
          varied: Mapping[str, Distribution] | None = None, target: TargetLike | None = None,
          aim: str = "bandwidth", share: float = 1.0, least_phase_margin: float | None = None,
-         units: int = 64, seed: int = 1960, progress: Progress = None) -> TunedDrive:
+         units: int | None = None, rounds: int | None = None, evaluations: int | None = None,
+         seed: int = 1960, progress: Progress = None) -> TunedDrive:
     """Find the best values of several parameters for a whole series of drives.
 
     Parameters
@@ -235,8 +245,10 @@ def tune(drive: SeriesLike, parameters: Sequence[str | Axis] | None = None, *,
         Of the units that must keep the target, above 0 to 1.
     least_phase_margin : float, optional
         rad; default 0.5235988 (30 deg).
-    units : int
-        Of the series, to which each proposal is put.
+    units : int, optional
+        Of the series, to which each proposal is put; default 64.
+    rounds, evaluations : int, optional
+        Of proposing, and of proposals in each; default 8 and 60.
     seed : int
         Of the units.
     progress : callable, optional
@@ -257,7 +269,8 @@ def tune(drive: SeriesLike, parameters: Sequence[str | Axis] | None = None, *,
     """
     one = series(drive, varied)
     nominal = one.nominal
-    axes = tuple(_axis_to_tune(nominal, parameter)
+    axes = tuple(parameter if isinstance(parameter, Axis)
+                 else _core.axis_to_tune(text("parameters", parameter), nominal)
                  for parameter in (listed("parameters", parameters) if parameters is not None
                                    else _core.usual_gains(nominal)))
     tuned = {given.path for given in axes}
@@ -265,17 +278,9 @@ def tune(drive: SeriesLike, parameters: Sequence[str | Axis] | None = None, *,
         series=TolerancedDrive(nominal, tuple(v for v in one.varied if v.path not in tuned)),
         tuned=axes,
         target=_core.usual_target(nominal) if target is None else _target(target, one),
-        aim=aim, share=share,
-        least_phase_margin=0.5235987755982988 if least_phase_margin is None
-        else least_phase_margin)
-    return _core.tune(task, TuneEffort(units=whole("units", units, 1), seed=whole("seed", seed, 0)), progress)
-
-
-def _axis_to_tune(drive: Drive, parameter: str | Axis) -> Axis:
-    if isinstance(parameter, Axis):
-        return parameter
-    if "=" not in parameter:
-        return _core.usual_axis_to_tune(drive, parameter)
-    has_two_ends = parameter.count(":") == 1
-    given = _core.axis(f"{parameter}:2" if has_two_ends else parameter, drive)
-    return Axis(given.path, given.values, logarithmic=given.values[0] > 0.0)
+        aim=aim, share=share, **where_given(least_phase_margin=least_phase_margin))
+    effort = TuneEffort(seed=whole("seed", seed, 0), **where_given(
+        **{name: whole(name, value, 1) for name, value in
+           {"units": units, "rounds": rounds, "evaluations": evaluations}.items()
+           if value is not None}))
+    return _core.tune(task, effort, progress)

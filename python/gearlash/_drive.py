@@ -6,23 +6,29 @@ import json
 import math
 import os
 import tomllib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any, SupportsFloat, Union
 
 from gearlash import _core as core
-from gearlash._arguments import number, optional_number
+from gearlash._arguments import listed, mapping, number, optional_number
 
 if TYPE_CHECKING:
     from gearlash._records import ParameterInfo, ParameterTolerance
 
-Value = Union[float, str, list[Any]]
+#: What a parameter has: a number in SI, a word, or a list. Typed so that a number needs no cast.
+Value = Union[float, Any]
+#: What a parameter takes: a number in SI, a text with its unit, a word, a list, a value with its
+#: tolerance, or None to take it out.
+Given = Union[SupportsFloat, str, Sequence[Any], Mapping[str, Any], None]
 
 
 def _toml_value(value: Any) -> str:
     """A value of Python as TOML."""
     if hasattr(value, "tolist"):  # a number or an array of NumPy
         value = value.tolist()
+    if isinstance(value, Mapping):  # a value with its tolerance
+        return "{" + ", ".join(f"{key} = {_toml_value(one)}" for key, one in value.items()) + "}"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_toml_value(one) for one in value) + "]"
     if isinstance(value, (bool, int, float)):
@@ -61,8 +67,9 @@ class Drive:
     **sections : mapping of str to float, str or list
         The sections of a drive's file: ``motor``, ``gearbox``, ``load``, ``controller``,
         ``contact``, ``sensor``, ``sampling``, ``reference``, ``load_torque``, or ``servo`` for the
-        normal form. A number is in SI, a text has its unit: ``"30 arcmin"``. The reference page of
-        the keys lists them all.
+        normal form. A number is in SI, a text has its unit: ``"30 arcmin"``. What varies in
+        production has its tolerance: ``"2 mrad ± 10 %"`` or ``{"min": 0.001, "max": 0.003}``. The
+        reference page of the keys lists them all.
 
     Raises
     ------
@@ -84,17 +91,12 @@ class Drive:
     20.0
     """
 
-    __slots__ = ("_core", "_tolerances")
+    __slots__ = ("_core",)
 
     _core: core.Drive
-    _tolerances: tuple[ParameterTolerance, ...]
 
     def __init__(self, **sections: Mapping[str, Any]) -> None:
-        self._take(*_read(_toml(sections), "", "", []))
-
-    def _take(self, made: core.Drive, tolerances: tuple[ParameterTolerance, ...]) -> None:
-        object.__setattr__(self, "_core", made)
-        object.__setattr__(self, "_tolerances", tolerances)
+        object.__setattr__(self, "_core", _read(_toml(sections), []))
 
     def __delattr__(self, name: str) -> None:
         raise AttributeError(f"a drive never changes: {name} cannot be deleted")
@@ -105,7 +107,7 @@ class Drive:
     @classmethod
     def _of(cls, made: core.Drive) -> Drive:
         drive = cls.__new__(cls)
-        drive._take(made, ())
+        object.__setattr__(drive, "_core", made)
         return drive
 
     @classmethod
@@ -148,9 +150,7 @@ class Drive:
         else:
             path = Path(source)
             text, name, folder = path.read_bytes(), str(path), str(path.parent)
-        drive = cls.__new__(cls)
-        drive._take(*core.read(text, name, folder, [], False))
-        return drive
+        return cls._of(core.read(text, name, folder, [], False))
 
     @classmethod
     def normal_form(cls, damping: float, inertia_ratio: float, friction_ratio: float,
@@ -195,14 +195,15 @@ class Drive:
             number("restitution", restitution),
             optional_number("natural_frequency", natural_frequency)))
 
-    def with_(self, changes: Mapping[str, Value | None]) -> Drive:
+    def with_(self, changes: Mapping[str, Given]) -> Drive:
         """Give the drive with other values of some parameters.
 
         Parameters
         ----------
         changes : mapping of path to value
             A number in SI, a text with its unit, a word, a list, or None to take a key or a
-            section out. Aliases are permitted: ``controller.kp``.
+            section out. Aliases are permitted: ``controller.kp``. A parameter that is given without
+            a tolerance has none from then on.
 
         Raises
         ------
@@ -216,30 +217,33 @@ class Drive:
         >>> servo.with_({"servo.backlash": "12 arcmin"})["servo.backlash"]
         0.0034906585039886587
         """
-        if not isinstance(changes, Mapping):
-            raise TypeError(f"changes must be a mapping, not {type(changes).__name__}")
-        numbers = [(str(path), float(value)) for path, value in changes.items()
-                   if isinstance(value, (int, float)) and not isinstance(value, bool)]
-        if len(numbers) == len(changes):
-            made = self._core.with_numbers(numbers)
-        else:
-            settings = [(str(path), "none" if value is None else _setting(value))
-                        for path, value in changes.items()]
-            made, _ = _read(self.to_toml(), "", "", settings)
-        drive = type(self).__new__(type(self))
-        drive._take(made, self._tolerances)
-        return drive
+        given = mapping("changes", changes)
+        numbers = [(path, number(path, value)) for path, value in given.items()
+                   if isinstance(value, SupportsFloat) and not isinstance(value, bool)
+                   and getattr(value, "ndim", 0) == 0]
+        if len(numbers) == len(given):
+            return self._of(self._core.with_numbers(numbers))
+        settings = [(path, "none" if value is None else _setting(value))
+                    for path, value in given.items()]
+        return self._of(_read(self._core.given_toml(), settings))
 
     @property
     def tolerances(self) -> tuple[ParameterTolerance, ...]:
-        """The tolerances that its file gives; see :func:`gearlash.tolerance`."""
-        return self._tolerances
+        """What varies from unit to unit; see :func:`gearlash.tolerance`."""
+        return self._core.tolerances
 
     def with_tolerances(self, tolerances: Iterable[ParameterTolerance]) -> Drive:
-        """Give the drive with these tolerances instead of its own."""
-        drive = type(self).__new__(type(self))
-        drive._take(self._core, tuple(tolerances))
-        return drive
+        """Give the drive with these tolerances instead of its own.
+
+        A drive has one nominal value: of a distribution about a value, or of lots, it is that of
+        the distribution.
+
+        Raises
+        ------
+        InvalidInput
+            For parameters that are no numbers of the drive, and for values they must not have.
+        """
+        return self._of(self._core.with_tolerances(listed("tolerances", tolerances)))
 
     @property
     def is_normal_form(self) -> bool:
@@ -251,19 +255,22 @@ class Drive:
         return self._core.parameters()
 
     def sections(self) -> dict[str, dict[str, Any]]:
-        """Give what the constructor takes: sections of keys, with all defaults and units."""
+        """Give what the constructor takes: sections of keys, with units.
+
+        All defaults are there, but for a parameter that has the value of another one.
+        """
+        return tomllib.loads(self._core.given_toml())
+
+    def _written(self) -> dict[str, dict[str, Any]]:
         return tomllib.loads(self.to_toml())
 
     def to_dict(self) -> dict[str, Value]:
         """Give every parameter by its path: numbers in SI, words and lists."""
         return {f"{name}.{key}": self[f"{name}.{key}"]
-                for name, keys in self.sections().items() for key in keys}
+                for name, keys in self._written().items() for key in keys}
 
     def to_toml(self) -> str:
-        """Give the file of the drive with all defaults, in SI. Numbers read back exactly.
-
-        It is one drive: tolerances are left out.
-        """
+        """Give the file of the drive with all defaults, in SI. Numbers read back exactly."""
         return self._core.to_toml()
 
     def save(self, path: str | os.PathLike[str]) -> None:
@@ -292,7 +299,7 @@ class Drive:
         if not isinstance(path, str):
             raise TypeError(f"path must be text, not {type(path).__name__}")
         section, _, key = path.partition(".")
-        written = self.sections().get(section, {}).get(key)
+        written = self._written().get(section, {}).get(key)
         if isinstance(written, list):
             return written
         if isinstance(written, str) and _kind(self, path) in ("choice", "file"):
@@ -309,20 +316,15 @@ class Drive:
         return [*super().__dir__(), *self.sections()]
 
     def __eq__(self, other: object) -> bool:
-        return (isinstance(other, Drive) and self.to_toml() == other.to_toml()
-                and self._tolerances == other._tolerances)
+        return isinstance(other, Drive) and self.to_toml() == other.to_toml()
 
     def __hash__(self) -> int:
         return hash(self.to_toml())
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _unpickled, (self.to_toml(), self._tolerances)
+        return _unpickled, (self._core.given_toml(),)
 
     def __repr__(self) -> str:
-        nominal = self._repr_of_nominal()
-        return f"{nominal}.with_tolerances({self._tolerances!r})" if self._tolerances else nominal
-
-    def _repr_of_nominal(self) -> str:
         sections = self.sections()
         servo = sections.pop("servo", None)
         if servo is None:
@@ -331,7 +333,7 @@ class Drive:
         sections.pop("sensor")
         rest = {name: keys for name, keys in sections.items() if name != "contact"}
         contact = sections["contact"]
-        if rest or contact["kind"] != "rigid":
+        if rest or contact["kind"] != "rigid" or self.tolerances:
             return f"Drive(servo={servo!r}, " + ", ".join(
                 f"{name}={keys!r}" for name, keys in sections.items()) + ")"
         names = ["damping", "inertia_ratio", "friction_ratio", "backlash"]
@@ -355,7 +357,7 @@ class Section(Mapping[str, Value]):
         self._name = name
 
     def __getitem__(self, key: str) -> Value:
-        if key not in self._drive.sections()[self._name]:
+        if key not in self._drive._written()[self._name]:
             raise KeyError(key)
         return self._drive[f"{self._name}.{key}"]
 
@@ -368,10 +370,10 @@ class Section(Mapping[str, Value]):
             raise AttributeError(f"{self._name} has no {key}; it has {', '.join(self)}") from None
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._drive.sections()[self._name])
+        return iter(self._drive._written()[self._name])
 
     def __len__(self) -> int:
-        return len(self._drive.sections()[self._name])
+        return len(self._drive._written()[self._name])
 
     def __repr__(self) -> str:
         return repr(dict(self))
@@ -386,20 +388,17 @@ def _kind(drive: Drive, path: str) -> str:
     return next((info.kind for info in drive.parameters() if info.path == path), "number")
 
 
-def _read(text: str, name: str, folder: str, settings: list[tuple[str, str]]
-          ) -> tuple[core.Drive, tuple[ParameterTolerance, ...]]:
+def _read(text: str, settings: list[tuple[str, str]]) -> core.Drive:
     """Read text that a program made: places in it mean nothing to the caller."""
     from dataclasses import replace
 
     from gearlash._errors import InvalidInput
 
     try:
-        return core.read(text, name, folder, settings, True)
+        return core.read(text, "", "", settings, True)
     except InvalidInput as error:
         raise InvalidInput(tuple(replace(fault, where="") for fault in error.faults)) from None
 
 
-def _unpickled(text: str, tolerances: tuple[ParameterTolerance, ...]) -> Drive:
-    drive = Drive.__new__(Drive)
-    drive._take(core.read(text, "", "", [], True)[0], tolerances)
-    return drive
+def _unpickled(text: str) -> Drive:
+    return Drive._of(core.read(text, "", "", [], True))

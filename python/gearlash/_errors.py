@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from gearlash import _core
+
 if TYPE_CHECKING:
     from gearlash._records import Fault
 
@@ -31,15 +33,9 @@ class InvalidInput(ValueError):
     faults: tuple[Fault, ...]
 
     def __init__(self, faults: tuple[Fault, ...]) -> None:
-        super().__init__("\n".join(_line(fault) for fault in faults))
+        super().__init__("\n".join(_core.fault_text(fault) for fault in faults))
         self.faults = tuple(faults)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), (self.faults,)
 
-
-def _line(fault: Fault) -> str:
-    """As to_string(Fault) of C++: "servo.toml:3:11: motor.inertia = -1: must be positive"."""
-    place = f"{fault.where}: " if fault.where else ""
-    value = f" = {fault.value}" if fault.value else ""
-    return f"{place}{fault.path}{value}: {fault.permitted}"

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from gearlash import _core
+from gearlash._arguments import listed
 
 if TYPE_CHECKING:
     from gearlash import _records
@@ -14,6 +15,16 @@ if TYPE_CHECKING:
 
 class Record:
     """What all records do."""
+
+    _sequences: ClassVar[tuple[str, ...]] = ()
+
+    def __post_init__(self) -> None:
+        """Keep sequences as tuples, for a record never changes."""
+        for name in self._sequences:
+            given = getattr(self, name)
+            if not isinstance(given, tuple):
+                kept = given.tolist() if hasattr(given, "tolist") else given
+                object.__setattr__(self, name, tuple(listed(name, kept)))
 
     def _repr_html_(self) -> str:
         from gearlash import _notebook
@@ -68,10 +79,6 @@ class Ceiling(Record):
         return _core.widest_backlash_of_ceiling(self, amplitude, backlash)
 
 
-def _amplitude(cycle: _records.Cycle) -> float:
-    return cycle.amplitude
-
-
 class Answer(Record):
     cycles: tuple[_records.Cycle, ...]
     drive: Drive | None
@@ -79,15 +86,13 @@ class Answer(Record):
 
     @property
     def hunts(self) -> bool:
-        """Whether the drive moves permanently of itself, from every start or if disturbed."""
-        return self.verdict in ("hunts", "hunts if disturbed", "hunts irregularly",
-                                "grows without bound", "runs away", "runs away if disturbed")
+        """Whether the drive can move permanently, by itself or if disturbed, or runs away."""
+        return _core.hunts(self.verdict)
 
     @property
     def largest_stable(self) -> _records.Cycle | None:
         """The cycle that is seen in practice: the largest that is not unstable."""
-        stable = [cycle for cycle in self.cycles if cycle.stability != "unstable"]
-        return max(stable, key=_amplitude) if stable else None
+        return _core.largest_stable(self)
 
     def value(self, quantity: str) -> float | None:
         """Give a quantity in SI; None if it does not exist or is not known.
@@ -142,16 +147,17 @@ class Jacobian(Record):
 
     def slope(self, quantity: str, path: str) -> float | None:
         """Give ∂quantity/∂parameter in SI; None where it does not exist."""
-        return self.slopes[self.quantities.index(quantity) * len(self.paths)
-                           + self.paths.index(path)]
+        return _core.slope(self, *self._places(quantity, path))
 
     def elasticity(self, quantity: str, path: str) -> float | None:
-        """Give ∂ln quantity/∂ln parameter: per cent per one per cent."""
-        slope = self.slope(quantity, path)
-        value = self.values[self.quantities.index(quantity)]
-        if slope is None or value is None:
-            return None
-        return slope * self.present[self.paths.index(path)] / value
+        """Give ∂ln quantity/∂ln parameter: per cent per one per cent; 0 where the parameter is 0."""
+        return _core.elasticity(self, *self._places(quantity, path))
+
+    def _places(self, quantity: str, path: str) -> tuple[int, int]:
+        for name, known in ((quantity, self.quantities), (path, self.paths)):
+            if name not in known:
+                raise KeyError(f"{name}; this Jacobian has {', '.join(known)}")
+        return self.quantities.index(quantity), self.paths.index(path)
 
 
 class FeasibleValues(Record):

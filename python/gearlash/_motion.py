@@ -76,7 +76,7 @@ class Motion:
         Raises
         ------
         InvalidInput
-            Unless `every` is positive.
+            Unless `every` is positive and gives at most a hundred million samples.
         """
         return Samples(self._core.sampled(number("every", every)))
 

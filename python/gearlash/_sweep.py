@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearlash import _core
 from gearlash._analysis import Progress
-from gearlash._arguments import listed
+from gearlash._arguments import listed, mapping, texts, truth
 from gearlash._drive import Drive
 from gearlash._motion import _numbers
-from gearlash._records import Axis, ParameterInfo
+from gearlash._records import Axis
 
 if TYPE_CHECKING:
     import xarray
@@ -66,11 +66,11 @@ def axis(drive: Drive, path: str, values: AxisLike) -> Axis:
         return _core.read_axis(path, values, drive)
     array = np.atleast_1d(np.asarray(values))
     if array.dtype.kind in "US":
-        return _core.read_axis(path, ",".join(str(word) for word in array.tolist()), drive)
+        return _core.read_axis(path, ",".join(str(word) for word in array.ravel().tolist()), drive)
     if array.ndim != 1:
         raise ValueError(f"{path} must have one dimension on an axis, not {array.ndim}; "
                          "give arrays that are broadcast as arrays=…")
-    return Axis(path=path, values=tuple(_numbers(path, array).tolist()))
+    return Axis(path=_core.path_named(path, drive), values=_numbers(path, array))
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,9 +80,9 @@ class Table(Mapping[str, NDArray[Any]]):
     Attributes
     ----------
     dims : tuple of str
-        The parameters on the axes, in their order; of broadcast arrays ``dim_0``, ``dim_1``, ….
+        The axes, in their order; of broadcast arrays ``dim_0``, ``dim_1``, ….
     coords : dict of str to array
-        Their values: numbers in SI, or words.
+        The values of the parameters: numbers in SI, or words.
     data : dict of str to array
         ``verdict``, words; and a column for each quantity, nan where it is not known.
     """
@@ -104,7 +104,7 @@ class Table(Mapping[str, NDArray[Any]]):
 def sweep(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis] | None = None,
           quantities: Sequence[str] = ("amplitude", "frequency"), *,
           arrays: Mapping[str, ArrayLike] | None = None, proved: bool = False,
-          client: Any = None, progress: Progress = None) -> xarray.Dataset | Table:
+          client: Any = None, progress: Progress = None) -> xarray.Dataset | Any:
     """Answer for many drives on all cores.
 
     Parameters
@@ -129,9 +129,12 @@ def sweep(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis] | None = N
     Returns
     -------
     xarray.Dataset or Table
-        A Dataset where xarray is installed. ``verdict`` as an integer with the attributes
-        ``flag_values`` and ``flag_meanings``; every quantity as a variable in SI, nan where it is
-        not known. Drives that come to rest have amplitude 0.
+        A Dataset where xarray is installed, else a Table. Its names and attributes are those of the
+        tool's NetCDF files: a parameter is named ``gearbox_backlash``, or ``damping`` for one of
+        the normal form, and has its ``path``; numbers that do not vary are coordinates too. Words
+        are text. ``verdict`` is an integer with the attributes ``flag_values`` and
+        ``flag_meanings``; every quantity is a variable in SI, nan where it is not known. Drives
+        that come to rest have amplitude 0.
 
     Raises
     ------
@@ -158,91 +161,84 @@ def sweep(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis] | None = N
     if arrays is not None:
         if proved or client is not None:
             raise TypeError("proved and client need axes")
-        return _sweep_arrays(drive, arrays, quantities, progress)
-    asked = listed("quantities", quantities)
-    grid = [axis(drive, path, values) for path, values in axes.items()
-            ] if isinstance(axes, Mapping) else listed("axes", axes or ())
+        return _sweep_arrays(drive, arrays, texts("quantities", quantities), progress)
+    asked = texts("quantities", quantities)
+    grid = ([axis(drive, path, values) for path, values in mapping("axes", axes).items()]
+            if isinstance(axes, Mapping) else listed("axes", axes or ()))
     if client is not None:
         from gearlash import distributed
 
         return distributed.sweep(drive, grid, asked, client, proved=proved, progress=progress)
-    verdicts, columns = _core.evaluate_grid(drive, grid, asked, proved, progress)
-    return dataset(drive, grid, verdicts, columns)
+    verdicts, columns = _core.evaluate_grid(drive, grid, asked, truth("proved", proved), progress)
+    return dataset(drive, grid, verdicts, columns, proved=proved)
 
 
-def _sweep_arrays(drive: Drive, arrays: Mapping[str, ArrayLike], quantities: Sequence[str],
-                  progress: Progress) -> xarray.Dataset | Table:
+def _sweep_arrays(drive: Drive, arrays: Mapping[str, ArrayLike], quantities: list[str],
+                  progress: Progress) -> xarray.Dataset | Any:
+    # Copies: what the caller does to his arrays later must change neither drives nor coordinates.
     shape = np.broadcast_shapes(*(np.shape(values) for values in arrays.values()))
     if math.prod(shape) > MOST_DRIVES:
         raise ValueError(f"arrays must give at most {MOST_DRIVES:,} drives, not {shape}; "
                          "give a grid by axes")
-    # Copies: what the caller does to his arrays later must change neither drives nor coordinates.
-    given = {path: np.array(_numbers(path, values)) for path, values in arrays.items()}
+    given = {_core.path_named(path, drive): np.array(_numbers(path, values))
+             for path, values in mapping("arrays", arrays).items()}
     flat = [np.ascontiguousarray(np.broadcast_to(array, shape)).reshape(-1)
             for array in given.values()]
     if flat and flat[0].size == 0:
         raise ValueError(f"arrays must have at least one element; they have the shape {shape}")
-    verdicts, columns = _core.evaluate_list(drive, list(given), flat,
-                                             listed("quantities", quantities), progress)
+    verdicts, columns = _core.evaluate_list(drive, list(given), flat, quantities, progress)
+    about = _core.description(drive, [Axis(path, column[:1]) for path, column
+                                      in zip(given, flat)], False)
     dims = tuple(f"dim_{i}" for i in range(len(shape)))
-    return _made(drive, dims, {}, shape, verdicts, columns,
-                 {path: np.broadcast_to(array, shape) for path, array in given.items()})
+    coords = {info["name"]: (dims, np.broadcast_to(array, shape), _described(info))
+              for info, array in zip(about["axes"], given.values())}
+    return _made(about, dims, coords, shape, verdicts, columns)
 
 
-def dataset(drive: Drive, axes: Sequence[Axis], verdicts: NDArray[np.uint8],
-            columns: Mapping[str, NDArray[np.float64]]) -> xarray.Dataset | Table:
+def dataset(drive: Drive, axes: Sequence[Axis], verdicts: NDArray[np.int8],
+            columns: Mapping[str, NDArray[np.float64]], *, proved: bool = False
+            ) -> xarray.Dataset | Any:
     """Make the result of a sweep from flat columns, in the order of the grid."""
-    facts = _facts(drive)
-    coords: dict[str, NDArray[Any]] = {}
-    for one in axes:
-        words = facts[one.path].choices if one.path in facts else ()
-        coords[one.path] = (np.array([words[int(value)] for value in one.values])
-                            if words else np.array(one.values))
-    shape = tuple(len(one.values) for one in axes)
-    return _made(drive, tuple(coords), coords, shape, verdicts, columns, {})
+    about = _core.description(drive, axes, proved)
+    coords: dict[str, _Coordinate] = {}
+    for one, info in zip(axes, about["axes"]):
+        words = info["words"]
+        values = (np.array([words[int(value)] for value in one.values]) if words
+                  else np.array(one.values))
+        coords[info["name"]] = ((info["name"],), values,
+                                {**_described(info), "spacing": info["spacing"]})
+    return _made(about, tuple(coords), coords, tuple(len(one.values) for one in axes), verdicts,
+                 columns)
 
 
-def _facts(drive: Drive) -> dict[str, ParameterInfo]:
-    """What is known of each parameter, by its path and by its aliases."""
-    facts: dict[str, ParameterInfo] = {}
-    for info in drive.parameters():
-        facts.update({alias: info for alias in info.aliases})
-    facts.update({info.path: info for info in drive.parameters()})
-    return facts
+#: Dimensions, values and attributes, as xarray takes them.
+_Coordinate = tuple[tuple[str, ...], NDArray[Any], dict[str, str]]
 
 
-def _made(drive: Drive, dims: tuple[str, ...], coords: dict[str, NDArray[Any]], shape: tuple[int, ...],
-          verdicts: NDArray[np.uint8], columns: Mapping[str, NDArray[np.float64]],
-          given: Mapping[str, NDArray[np.float64]]) -> xarray.Dataset | Table:
-    words = _core.words()["Verdict"]
-    shaped = {name: column.reshape(shape) for name, column in columns.items()}
+def _described(info: Mapping[str, Any]) -> dict[str, str]:
+    return {"units": info["unit"], "long_name": info["meaning"], "path": info["path"]}
+
+
+def _made(about: Mapping[str, Any], dims: tuple[str, ...], coords: dict[str, _Coordinate],
+          shape: tuple[int, ...], verdicts: NDArray[np.int8],
+          columns: Mapping[str, NDArray[np.float64]]) -> xarray.Dataset | Any:
+    shaped = {name: column.reshape(shape) for name, column in columns.items() if name != "verdict"}
     codes = verdicts.reshape(shape)
     try:
         import xarray
     except ImportError:
-        named = np.array(words)[codes]
-        return Table(dims, {**coords, **given}, {**shaped, "verdict": named})
+        named = np.array(_core.words()["Verdict"])[codes]
+        return Table(dims, {name: values for name, (_, values, _) in coords.items()},
+                     {**shaped, "verdict": named})
+    flags = {"flag_values": np.arange(len(about["verdicts"]), dtype=np.int8),
+             "flag_meanings": " ".join(about["verdicts"]), "long_name": "verdict on the drive"}
     facts = {info.name: info for info in _core.quantities()}
-    flags = {"flag_values": np.arange(len(words), dtype=np.uint8),
-             "flag_meanings": " ".join(word.replace(" ", "_") for word in words),
-             "long_name": facts["verdict"].meaning}
     variables: dict[str, Any] = {"verdict": (dims, codes, flags)}
     for name, column in shaped.items():
-        if name != "verdict":
-            variables[name] = (dims, column, {"units": facts[name].unit,
-                                              "long_name": facts[name].meaning})
-    of_drive = _facts(drive)
-
-    def described(path: str) -> dict[str, str]:
-        info = of_drive.get(path)
-        if info is None:
-            return {}
-        return {"units": info.unit or "1", "long_name": info.meaning}
-
-    described_coords = {path: ((path,), array, described(path)) for path, array in coords.items()}
-    described_given = {path: (dims, array, described(path)) for path, array in given.items()}
-    return xarray.Dataset(variables, coords={**described_coords, **described_given},
-                          attrs={"source": f"gearlash {_core.__version__}"})
+        variables[name] = (dims, column, {"units": facts[name].unit,
+                                          "long_name": facts[name].meaning})
+    fixed = {info["name"]: ((), info["value"], _described(info)) for info in about["fixed"]}
+    return xarray.Dataset(variables, coords={**coords, **fixed}, attrs=about["attributes"])
 
 
 def verdict_words(data: xarray.Dataset | Table) -> NDArray[np.str_]:

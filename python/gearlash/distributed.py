@@ -18,10 +18,11 @@ from numpy.typing import NDArray
 
 from gearlash import _core
 from gearlash._analysis import Progress
+from gearlash._arguments import listed, texts
 from gearlash._drive import Drive
 from gearlash._records import (Axis, SamplePlan, StudyQuestions, TolerancedDrive,
                                ToleranceStudy)
-from gearlash._sweep import AxisLike, Table, axis, dataset
+from gearlash._sweep import AxisLike, axis, dataset
 
 if TYPE_CHECKING:
     import xarray
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
 #: Drives that a sweep follows from neighbour to neighbour at most, searched afresh at both ends.
 RUN = 32
 
-_Piece = tuple[NDArray[np.uint8], dict[str, NDArray[np.float64]]]
+_Piece = tuple[NDArray[np.int8], dict[str, NDArray[np.float64]]]
 
 
 def _evaluate(drive: Drive, axes: Sequence[Axis], quantities: Sequence[str], proved: bool) -> _Piece:
@@ -81,21 +82,21 @@ def graph(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis], quantitie
     """
     from dask.delayed import delayed
 
-    listed = _listed(drive, axes)
     one = delayed(_evaluate, pure=True)
-    return [one(drive, piece, tuple(quantities), proved) for piece in pieces(listed, most)]
+    return [one(drive, piece, tuple(texts("quantities", quantities)), proved)
+            for piece in pieces(_listed(drive, axes), most)]
 
 
 def _listed(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis]) -> list[Axis]:
     if isinstance(axes, Mapping):
         return [axis(drive, path, values) for path, values in axes.items()]
-    return list(axes)
+    return listed("axes", axes)
 
 
 def sweep(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis],
           quantities: Sequence[str] = ("amplitude", "frequency"), client: Any = None, *,
           proved: bool = False, most: int | None = None,
-          progress: Progress = None) -> xarray.Dataset | Table:
+          progress: Progress = None) -> xarray.Dataset | Any:
     """Answer for a grid on all workers of a Dask cluster.
 
     Parameters
@@ -116,18 +117,18 @@ def sweep(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis],
     xarray.Dataset or Table
         Equal to that of :func:`gearlash.sweep` to the bit.
     """
-    listed = _listed(drive, axes)
-    _core.check_grid(drive, listed, list(quantities))  # before anything is sent
+    grid = _listed(drive, axes)
+    _core.check_grid(drive, grid, texts("quantities", quantities))  # before anything is sent
     if most is None:
-        is_closed = _core.is_closed_grid(drive, listed)
-        line = len(listed[-1].values) if len(listed) > 1 else RUN
+        is_closed = _core.is_closed_grid(drive, grid)
+        line = len(grid[-1].values) if len(grid) > 1 else RUN
         most = 65_536 if is_closed else line
-    tasks = pieces(listed, most)
+    tasks = pieces(grid, most)
     calls = [(drive, piece, tuple(quantities), proved) for piece in tasks]
     parts: list[_Piece] = _dealt_out(client, _evaluate, calls, progress)
     verdicts = np.concatenate([part[0] for part in parts])
     columns = {name: np.concatenate([part[1][name] for part in parts]) for name in parts[0][1]}
-    return dataset(drive, listed, verdicts, columns)
+    return dataset(drive, grid, verdicts, columns, proved=proved)
 
 
 def study(series: TolerancedDrive, sampling: SamplePlan, questions: StudyQuestions, client: Any, *,
@@ -181,7 +182,8 @@ def _dealt_out(client: Any, work: Callable[..., Any], calls: Sequence[tuple[Any,
         for future, result in as_completed(futures, with_results=True):
             done[numbers[future.key]] = result
             future.release()
-            if progress is not None and progress(len(done) / len(calls)) is False:
+            goes_on = None if progress is None else progress(len(done) / len(calls))
+            if goes_on is not None and not goes_on:
                 raise RuntimeError("stopped by progress")
     finally:
         client.cancel([future for future in futures if numbers[future.key] not in done])

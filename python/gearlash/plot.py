@@ -184,9 +184,10 @@ def _plain(value: float, _: Any) -> str:
     return f"{value:g}"
 
 
-def _name_of(data: xarray.Dataset, path: str) -> str:
+def _name_of(data: xarray.Dataset, dimension: str) -> str:
     """The parameter with its unit: "gearbox.backlash (rad)"."""
-    unit = str(data[path].attrs.get("units", "1"))
+    about = data[dimension].attrs
+    path, unit = str(about.get("path", dimension)), str(about.get("units", "1"))
     return path if unit == "1" else f"{path} ({unit})"
 
 

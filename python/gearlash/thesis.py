@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gearlash import _core
-from gearlash._arguments import whole
+from gearlash._arguments import number, truth, whole
 
 #: The columns of a printout.
 COLUMNS = ("time", "motor_speed", "motor_position", "load_speed", "load_position")
@@ -56,7 +56,19 @@ def printout(lines: int = 38, servo: tuple[float, float, float, float] | None = 
     >>> thesis.printout(2)[:, 0].tolist()
     [0.08, 0.16]
     """
-    return _core.thesis_printout(whole("lines", lines, 0, 1_000_000), servo, machine)
+    if servo is not None:
+        if isinstance(servo, str) or len(tuple(servo)) != 4:
+            raise ValueError("servo must be four numbers: damping, inertia_ratio, friction_ratio "
+                             f"and backlash, not {servo!r}")
+        servo = _four(*servo)
+    return _core.thesis_printout(whole("lines", lines, 0, 1_000_000), servo,
+                                 truth("machine", machine))
+
+
+def _four(damping: float, inertia_ratio: float, friction_ratio: float, backlash: float
+          ) -> tuple[float, float, float, float]:
+    return (number("damping", damping), number("inertia_ratio", inertia_ratio),
+            number("friction_ratio", friction_ratio), number("backlash", backlash))
 
 
 @dataclass(frozen=True)
@@ -96,8 +108,8 @@ def run(damping: float, inertia_ratio: float, friction_ratio: float, backlash: f
     >>> thesis.run(0.19, 2, 0.1).amplitude > 0.241611108
     True
     """
-    return SettledCycle(**_core.thesis_run(damping, inertia_ratio, friction_ratio, backlash,
-                                           machine))
+    return SettledCycle(**_core.thesis_run(
+        *_four(damping, inertia_ratio, friction_ratio, backlash), truth("machine", machine)))
 
 
 def figures() -> list[dict[str, Any]]:

@@ -75,6 +75,21 @@ def test_derivatives(servo):
     assert slopes.elasticity("amplitude", "servo.backlash") == pytest.approx(1.0, rel=1e-12)
 
 
+def test_a_jacobian_has_what_it_was_asked_for(servo):
+    slopes = gearlash.derivatives(servo, ["amplitude"], ["servo.damping"])
+    with pytest.raises(KeyError, match="servo.damping"):
+        slopes.slope("amplitude", "servo.backlash")
+    with pytest.raises(KeyError, match="amplitude"):
+        slopes.elasticity("period", "servo.damping")
+
+
+def test_hunting_is_what_a_tolerance_study_counts():
+    hunting = {word for word in gearlash._core.words()["Verdict"]
+               if gearlash.Answer(verdict=word).hunts}
+    assert hunting == {"hunts", "hunts if disturbed", "hunts irregularly", "grows without bound",
+                       "runs away", "runs away if disturbed", "undamped"}
+
+
 def test_quantities_are_the_registry():
     known = {info.name: info.unit for info in gearlash.quantities()}
     assert known["amplitude"] == "rad" and known["settling_time"] == "s"

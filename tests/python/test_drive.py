@@ -20,7 +20,7 @@ def test_every_example_survives_repr_pickle_and_toml(example, name):
     assert copy.deepcopy(drive) == copy.copy(drive) == pickle.loads(pickle.dumps(drive)) == drive
     nominal = drive.with_tolerances([])
     assert (nominal == drive) == (not drive.tolerances)
-    assert Drive.from_toml(drive.to_toml()) == Drive(**drive.sections()) == nominal
+    assert Drive.from_toml(drive.to_toml()) == Drive(**drive.sections()) == drive
     assert hash(Drive(**drive.sections())) == hash(drive)
     assert all(path in drive for path in drive) and "no.such" not in drive
 
@@ -46,6 +46,37 @@ def test_with_changes_numbers_words_and_sections(pd_drive):
     sampled = pd_drive.with_({"sampling.period": "1 ms"})
     assert sampled["sampling.period"] == 1e-3
     assert sampled.with_({"sampling": None}) == pd_drive
+
+
+def test_tolerances_are_part_of_a_drive(pd_drive, tmp_path):
+    varied = (gearlash.ParameterTolerance("gearbox.backlash", gearlash.UniformBetween(1e-3, 3e-3)),
+              gearlash.ParameterTolerance("load.inertia", gearlash.Normal(5e-3, 1e-4)))
+    drive = pd_drive.with_tolerances(varied)
+    assert drive.tolerances == varied and drive != pd_drive
+    assert drive.with_tolerances([]) == pd_drive
+    assert drive.gearbox.backlash == pd_drive.gearbox.backlash
+    drive.save(tmp_path / "drive.toml")
+    assert Drive.from_toml(tmp_path / "drive.toml") == drive
+    # What is set has no tolerance, as with --set; what is not keeps its own.
+    for changes in ({"gearbox.backlash": 2e-3}, {"gearbox.backlash": "2 mrad"},
+                    {"gearbox.backlash": 2e-3, "sensor.position": "motor"}):
+        assert [one.path for one in drive.with_(changes).tolerances] == ["load.inertia"]
+    shared = pd_drive.with_({"gearbox.backlash": "2 mrad ± 10 %"})
+    assert shared == pd_drive.with_({"gearbox.backlash": {"value": 2e-3, "tolerance": "10 %"}})
+    assert shared.tolerances[0].distribution == gearlash.UniformAbout(2e-3, 2e-4)
+    for bad in (gearlash.ParameterTolerance("no.such", gearlash.Normal(1, 1)),
+                gearlash.ParameterTolerance("gearbox.backlash", gearlash.UniformBetween(-1, 1))):
+        with pytest.raises(InvalidInput, match=bad.path):
+            pd_drive.with_tolerances([bad])
+
+
+def test_what_follows_another_parameter_still_does_in_copies(pd_drive):
+    drive = pd_drive.with_({"motor.coulomb": 1e-4, "motor.friction": "1e-5 N m s/rad"})
+    for copied in (drive, pickle.loads(pickle.dumps(drive)), Drive(**drive.sections()),
+                   eval(repr(drive), {"Drive": Drive}), drive.with_tolerances([])):
+        for coulomb in (2e-4, "0.2 mN m"):
+            assert copied.with_({"motor.coulomb": coulomb})["motor.breakaway"] == 2e-4
+        assert copied["motor.breakaway"] == copied.motor.breakaway == 1e-4
 
 
 def test_a_drive_never_changes(pd_drive):
@@ -122,6 +153,8 @@ def test_faults_of_a_file_have_their_place(tmp_path):
 
 @pytest.mark.parametrize(("changes", "path"), [
     ({"controller.nonsense": 1.0}, "controller.nonsense"),
+    ({"controller.nonsense": "1"}, "controller.nonsense"),
+    ({"controller.nonsense": None}, "controller.nonsense"),
     ({"gearbox.backlash": -1.0}, "gearbox.backlash"),
     ({"gearbox.backlash": math.nan}, "gearbox.backlash"),
     ({"gearbox.backlash": "1 kg"}, "gearbox.backlash"),
@@ -139,6 +172,8 @@ def test_wrong_types_are_type_errors(pd_drive):
         gearlash.analyse("a drive")
     with pytest.raises(TypeError):
         Drive.normal_form("much", 2, 0.1)
+    with pytest.raises(TypeError, match="text as keys"):
+        pd_drive.with_({3: 1.0})
     with pytest.raises(OSError):
         Drive.from_toml("/nowhere/drive.toml")
     with pytest.raises(OSError, match="nowhere"):

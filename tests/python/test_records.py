@@ -1,10 +1,13 @@
 """Every record, made from the headers of C++, keeps what it holds on the way there and back."""
 
+import ast
 import dataclasses
 import pickle
+import re
 import sys
 from fractions import Fraction
 from math import inf  # noqa: F401  repr of infinite bounds
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -61,6 +64,16 @@ def test_records_take_keywords_and_refuse_changes():
         gearlash.Start(position=1.0)
 
 
+def test_sequences_are_kept_as_tuples():
+    axis = gearlash.Axis("gearbox.backlash", np.array([1e-3, 2e-3]))
+    assert axis == gearlash.Axis("gearbox.backlash", [1e-3, 2e-3])
+    assert axis.values == (1e-3, 2e-3) and hash(axis)
+    with pytest.raises(TypeError, match="values"):
+        gearlash.Axis("sensor.position", "load")
+    with pytest.raises(TypeError, match="values"):
+        gearlash.Axis("gearbox.backlash", 1e-3)
+
+
 def test_reading_a_record_keeps_no_reference(servo):
     before = sys.getrefcount(gearlash.Start)
     for _ in range(100):
@@ -76,3 +89,42 @@ def test_a_wrong_member_is_named(servo):
         gearlash.simulate(servo, 1.0, start=gearlash.Start(load_position=right))
     with pytest.raises(gearlash.InvalidInput, match="hunts if disturbed"):
         _core.there_and_back(gearlash.Answer(verdict="perhaps"))
+
+
+def declared_in_the_stub():
+    """Functions and methods of _core.pyi, with the numbers of their parameters; None for any."""
+    tree = ast.parse(Path(_core.__file__).with_name("_core.pyi").read_text(encoding="utf-8"))
+    counts = {}
+
+    def take(prefix, body):
+        for node in body:
+            if isinstance(node, ast.FunctionDef):
+                given = node.args
+                count = len(given.posonlyargs) + len(given.args)
+                is_property = any(isinstance(one, ast.Name) and one.id == "property"
+                                  for one in node.decorator_list)
+                counts[prefix + node.name] = None if given.vararg or is_property else count
+            elif isinstance(node, ast.ClassDef):
+                take(f"{node.name}.", node.body)
+
+    take("", tree.body)
+    return counts
+
+
+def test_the_stub_declares_what_the_library_has():
+    found = {}
+    for name, value in vars(_core).items():
+        members = {f"{name}.{key}": one for key, one in vars(value).items()
+                   if not key.startswith("_") or key == "__init__"} if isinstance(value, type) else {
+                   name: value}
+        for path, one in members.items():
+            if callable(one) or isinstance(one, property):
+                found[path] = one
+    stub = declared_in_the_stub()
+    loader = {"__loader__"}
+    constructed = {path for path in found if path.endswith(".__init__") and path not in stub}
+    assert set(found) - loader - constructed == set(stub)
+    for name, count in stub.items():
+        if count is not None:
+            head = found[name].__doc__.partition(") ->")[0]
+            assert len(re.findall(r"\w+: ", head)) == count, head

@@ -10,9 +10,9 @@ def test_axes_give_the_grid(servo):
     data = gearlash.sweep(servo, {"servo.damping": "0.1:0.4:4", "servo.inertia_ratio": [1.0, 2.0]},
                           ["amplitude", "period", "growth_at_rest"])
     assert isinstance(data, xarray.Dataset)
-    assert data["amplitude"].dims == ("servo.damping", "servo.inertia_ratio")
+    assert data["amplitude"].dims == ("damping", "inertia_ratio")
     one = gearlash.analyse(servo.with_({"servo.damping": 0.1, "servo.inertia_ratio": 2.0}))
-    point = data.sel({"servo.damping": 0.1, "servo.inertia_ratio": 2.0})
+    point = data.sel(damping=0.1, inertia_ratio=2.0)
     assert float(point["amplitude"]) == pytest.approx(one.value("amplitude"), rel=1e-12)
     assert data["amplitude"].attrs["units"] == "rad"
     assert gearlash.verdict_words(data)[0, 1] == "hunts"
@@ -46,10 +46,10 @@ def test_columns_are_memory_of_cpp(servo):
 def test_a_searched_drive_and_words(pd_drive, tool, tmp_path):
     axes = {"sensor.position": ["load", "motor"], "gearbox.backlash": "1 mrad, 2 mrad"}
     data = gearlash.sweep(pd_drive, axes, ["amplitude", "motor_amplitude"])
-    assert data["sensor.position"].values.tolist() == ["load", "motor"]
+    assert data["sensor_position"].values.tolist() == ["load", "motor"]
     one = gearlash.analyse(pd_drive.with_({"sensor.position": "motor", "gearbox.backlash": 2e-3}))
-    assert float(data["motor_amplitude"].sel({"sensor.position": "motor",
-                                              "gearbox.backlash": 2e-3})) == pytest.approx(
+    assert float(data["motor_amplitude"].sel(sensor_position="motor",
+                                             gearbox_backlash=2e-3)) == pytest.approx(
         one.value("motor_amplitude"), rel=1e-6)
     listed = gearlash.sweep(pd_drive, arrays={"gearbox.backlash": [1e-3, 2e-3]},
                             quantities=["amplitude"])
@@ -68,6 +68,51 @@ def test_the_tool_maps_the_same(example, tool, tmp_path):
             for row in table.itertuples()}
     for point, amplitude in data["amplitude"].stack(point=data["amplitude"].dims).to_series().items():
         assert told[point] == amplitude
+
+
+def test_the_data_are_named_as_in_the_files_of_the_tool(pd_drive, tool, tmp_path):
+    axes = {"gearbox.backlash": "1 mrad:4 mrad:4:log", "sensor.position": "load,motor"}
+    text = "".join(line for line in pd_drive.to_toml().splitlines(keepends=True)
+                   if not line.startswith(("backlash", "position")))
+    (tmp_path / "sweep.toml").write_text(
+        f'[sweep]\naxes = {[f"{path} = {values}" for path, values in axes.items()]}\n'
+        f'quantities = ["amplitude", "frequency"]\n{text}')
+    tool("sweep", tmp_path / "sweep.toml", "--output", tmp_path / "map.nc")
+    data = gearlash.sweep(pd_drive, axes, ["amplitude", "frequency"])
+    with xarray.open_dataset(tmp_path / "map.nc") as told:
+        assert set(told.variables) == set(data.variables)
+        assert dict(told.sizes) == dict(data.sizes)
+        assert {*told.coords} == {*data.coords}
+        for name in told.variables:
+            assert data[name].dims == told[name].dims, name
+            if name != "sensor_position":  # words are text, and numbers in the file
+                assert data[name].dtype == told[name].dtype, name
+                assert np.array_equal(data[name], told[name], equal_nan=True), name
+            for key, value in told[name].attrs.items():
+                if (name, key) not in {("sensor_position", "words")}:
+                    assert np.array_equal(data[name].attrs[key], value), (name, key)
+        words = told["sensor_position"].attrs["words"].split()
+        assert [words[int(at)] for at in told["sensor_position"]] == [*data["sensor_position"].values]
+        assert {key: value for key, value in told.attrs.items() if key not in ("history", "sweep")
+                } == {key: value for key, value in data.attrs.items() if key != "history"}
+
+
+def test_an_axis_may_have_another_name_of_its_parameter(pd_drive):
+    data = gearlash.sweep(pd_drive, {"backlash": [1e-3, 2e-3]}, ["amplitude"])
+    assert data["amplitude"].dims == ("gearbox_backlash",)
+    listed = gearlash.sweep(pd_drive, arrays={"backlash": [1e-3, 2e-3]}, quantities=["amplitude"])
+    assert np.array_equal(data["gearbox_backlash"], listed["gearbox_backlash"])
+
+
+def test_a_table_where_xarray_is_missing(servo, monkeypatch):
+    axes = {"servo.damping": [0.1, 0.2]}
+    data = gearlash.sweep(servo, axes)
+    monkeypatch.setitem(__import__("sys").modules, "xarray", None)
+    table = gearlash.sweep(servo, axes)
+    assert isinstance(table, gearlash.Table) and table.dims == ("damping",)
+    assert np.array_equal(table["amplitude"], data["amplitude"])
+    assert table["verdict"].tolist() == gearlash.verdict_words(data).tolist() == ["hunts", "hunts"]
+    assert table.coords["damping"].tolist() == [0.1, 0.2]
 
 
 @pytest.mark.parametrize(("arrays", "error"), [
@@ -101,7 +146,7 @@ def test_coordinates_are_copies(servo):
     dampings = np.array([0.1, 0.2, 0.3])
     data = gearlash.sweep(servo, arrays={"servo.damping": dampings})
     dampings[:] = 9.0
-    assert data["servo.damping"].values.tolist() == [0.1, 0.2, 0.3]
+    assert data["damping"].values.tolist() == [0.1, 0.2, 0.3]
 
 
 def test_an_axis_has_the_path_that_it_is_given_for(servo):
