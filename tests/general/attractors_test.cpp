@@ -399,6 +399,39 @@ TEST(Attractors, OfAStiffMeshAreKnownToRounding) {
   EXPECT_NEAR(found.cycles[0].amplitude, 0.24126970446464, 5e-12);
 }
 
+/// A robot's joint with a gear that twists. Steps that are too small for its friction move nothing.
+ReducedDrive twisting_joint(double proportional, bool derivative_of_speed) {
+  ReducedDrive drive;
+  drive.motor = {1.213, {.viscous = 3.0, .coulomb = 4.0, .breakaway = 4.0}};
+  drive.load = {1.0, {.viscous = 1.0}};
+  drive.contact = CompliantContact{31e3, 5.0};
+  drive.sensing.load_share_of_speed = 1.0;
+  drive.controller = ProportionalIntegralDerivative{.proportional = proportional,
+                                                    .derivative = 150.0,
+                                                    .filter = 1e-3,
+                                                    .derivative_of_speed = derivative_of_speed};
+  drive.torque_limit = 140.0;
+  return drive;
+}
+
+void expect_same_cycles(const AttractorSearch& one, const AttractorSearch& other) {
+  ASSERT_EQ(one.cycles.size(), other.cycles.size());
+  for (std::size_t i = 0; i < one.cycles.size(); ++i) {
+    EXPECT_EQ(one.cycles[i].is_symmetric, other.cycles[i].is_symmetric) << i;
+    EXPECT_NEAR(one.cycles[i].amplitude / other.cycles[i].amplitude, 1.0, 1e-9) << i;
+    EXPECT_NEAR(one.cycles[i].period() / other.cycles[i].period(), 1.0, 1e-9) << i;
+    EXPECT_NEAR(one.cycles[i].multiplier, other.cycles[i].multiplier, 1e-7) << i;
+  }
+}
+
+/// Where the reference stands, s/(T s + 1) of the error and 1/(T s + 1) of −v are one controller.
+TEST(OracleAttractors, AFilteredSpeedIsTheFilteredDerivativeOfThePosition) {
+  const AttractorSearch of_position = find_attractors(twisting_joint(5e3, false));
+  ASSERT_EQ(of_position.cycles.size(), 2U);
+  EXPECT_TRUE(of_position.cycles[0].is_symmetric);
+  expect_same_cycles(find_attractors(twisting_joint(5e3, true)), of_position);
+}
+
 // ---- from one drive to its neighbour ------------------------------------------------------------
 
 TEST(FollowAttractors, FindsWhatASearchFinds) {
@@ -453,6 +486,13 @@ TEST(FollowAttractors, FollowsUnstableCyclesToo) {
   for (const std::size_t i : {0U, 1U}) {
     EXPECT_NEAR(followed->cycles[i].amplitude, searched.cycles[i].amplitude, 1e-11);
   }
+}
+
+/// Though from most starts nothing moves.
+TEST(FollowCycles, FindsWhatASearchFinds) {
+  const AttractorSearch known = find_attractors(twisting_joint(5e3, true));
+  const ReducedDrive near = twisting_joint(5.1e3, true);
+  expect_same_cycles(follow_cycles(near, known), find_attractors(near));
 }
 
 TEST(FollowAttractors, GivesUpWhereTheStateHasOtherNumbers) {

@@ -97,7 +97,7 @@ FollowedCycle CycleFollowing::known(double parameter, const drive::AttractorSear
                                     const drive::FoundCycle& cycle) const {
   FollowedCycle known{.parameter = parameter, .cycle = cycle, .context = {}};
   known.context.system = search.system;
-  known.context.outcomes = {search.outcomes.front()};
+  known.context.outcomes = search.outcomes;
   known.context.cycles = {cycle};
   return known;
 }

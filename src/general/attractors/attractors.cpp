@@ -43,7 +43,8 @@ class Search {
         unscaled_(search_setting(drive, options.chosen_starts)) {
     starts_ =
         options.starts.empty() ? usual_starts(unscaled_, options.chosen_starts) : options.starts;
-    setting_ = scaled(unscaled_, glance());
+    const std::optional<Trajectory> motion = glance();
+    setting_ = motion ? scaled(unscaled_, *motion) : unscaled_;
     result_.coordinates = setting_.coordinates;
     result_.system = unscaled_.system.system();
     result_.swing_time = setting_.swing_time;
@@ -54,8 +55,7 @@ class Search {
 
   AttractorSearch follow(const AttractorSearch& known) {
     close_near(known);
-    result_.outcomes.resize(1);
-    result_.outcomes.front().start = starts_.front();
+    for (const ShaftStates& start : starts_) result_.outcomes.emplace_back().start = start;
     finish();
     return std::move(result_);
   }
@@ -96,13 +96,30 @@ class Search {
     return result_.is_complete;
   }
 
-  /// A short first motion, which shows the magnitude of the numbers.
-  Trajectory glance() const {
-    const ShaftStates& start = starts_[starts_.size() / 2];
+  /// A short first motion, which shows the magnitude of the numbers: that of the middle start, or
+  /// of the next one that moves. Where nothing moves, a number may be nothing but rounding.
+  std::optional<Trajectory> glance() const {
+    const std::size_t count = starts_.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      Trajectory motion = glance_from(starts_[(count / 2 + i) % count]);
+      if (moves(motion)) return motion;
+    }
+    return std::nullopt;
+  }
+
+  Trajectory glance_from(const ShaftStates& start) const {
     return simulate(unscaled_.system, unscaled_.start(start),
                     {.until = budget_.glance_swings * unscaled_.swing_time,
                      .event_limit = budget_.glance_events,
                      .step_limit = steps_kept(unscaled_, budget_)});
+  }
+
+  bool moves(const Trajectory& motion) const {
+    const double no_move = tolerances_.rest.no_move * unscaled_.small_length;
+    const auto goes = [&](const Watched& shaft) {
+      return extent_of(rough_samples(motion, shaft)).width() > no_move;
+    };
+    return goes(unscaled_.load) || goes(unscaled_.motor);
   }
 
   void close_near(const AttractorSearch& known) {
@@ -305,8 +322,8 @@ AttractorSearch find_attractors(const ReducedDrive& drive, const AttractorOption
 
 AttractorSearch follow_cycles(const ReducedDrive& drive, const AttractorSearch& known) {
   AttractorOptions options{.most_edges = 0};
-  if (!known.outcomes.empty()) {
-    options.starts = {within_gap(known.outcomes.front().start, drive)};
+  for (const Outcome& outcome : known.outcomes) {
+    options.starts.push_back(within_gap(outcome.start, drive));
   }
   return Search(drive, options, no_progress()).follow(known);
 }

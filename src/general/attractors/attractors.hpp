@@ -180,7 +180,7 @@ std::optional<AttractorSearch> follow_attractors(const ReducedDrive& drive,
 
 /// Those of the cycles of `known` that Newton's method finds again in a drive that differs
 /// slightly, stable or not, with the system that their orbits are of. Nothing is watched: the
-/// result has one outcome, undecided, with the first start of `known`. Throws InvalidInput.
+/// result has the starts of `known`, undecided. Throws InvalidInput.
 AttractorSearch follow_cycles(const ReducedDrive& drive, const AttractorSearch& known);
 
 }  // namespace gearlash::drive
