@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "general/attractors/attractors.hpp"
+#include "general/attractors/found_cycle.hpp"
 #include "general/attractors/motion_watch.hpp"
 
 namespace gearlash::drive {
@@ -29,6 +30,20 @@ AttractorOptions few_starts() {
   options.swing_times = 40.0;
   options.budget.patience = 1.0;
   return options;
+}
+
+TEST(SearchTolerances, TheShaftsOfACycleReturn) {
+  AttractorOptions options = few_starts();
+  const AttractorSearch found = find_attractors(hunting, options);
+  ASSERT_EQ(found.cycles.size(), 1U);
+  EXPECT_LT(found.cycles[0].mismatch, 1e-12);
+  const SearchSetting setting = search_setting(hunting);
+  hybrid::PeriodicOrbit not_closed = found.cycles[0].orbit;
+  not_closed.period *= 1.0 + 1e-4;  // its residual is still that of the orbit
+  EXPECT_FALSE(
+      returns(measured(setting, not_closed, options.tolerances), options.tolerances.cycle));
+  options.tolerances.cycle.return_of_shafts = -1.0;
+  EXPECT_EQ(find_attractors(hunting, options).count(MotionEnd::cycle), 0U);
 }
 
 TEST(SearchTolerances, DefaultsFindTheCycleAndTheRest) {

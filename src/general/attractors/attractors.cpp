@@ -140,7 +140,8 @@ class Search {
         orbit = neighbouring_orbit(setting_.system, near, *system_of_known, options_.shooting);
       }
       if (!orbit || !(orbit->residual < tolerances_.cycle.residual)) continue;
-      result_.cycles.push_back(measured(setting_, *orbit, tolerances_));
+      const FoundCycle found = measured(setting_, *orbit, tolerances_);
+      if (returns(found, tolerances_.cycle)) result_.cycles.push_back(found);
     }
   }
 

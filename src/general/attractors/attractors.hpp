@@ -43,6 +43,7 @@ struct FoundCycle {
   double frequency = 0.0;     ///< rad/s, 2π/period
   double impact_speed = 0.0;  ///< rad/s, |ω_M − ω_L| at the hardest impact; 0 without impacts
   double multiplier = 0.0;    ///< the largest modulus of the orbit's
+  double mismatch = 0.0;      ///< rad, by which a shaft misses its place after a period
   /// After half a period the drive is its mirror image about the reference.
   bool is_symmetric = false;
   /// Not symmetric, and its mirror image was found too. Both count as this one.

@@ -105,6 +105,7 @@ std::optional<FoundCycle> CycleClosing::closed_cycle(const Trajectory& motion,
   const FoundCycle cycle = measured(setting_, shortest(*orbit), options_.tolerances);
   if (!(extent_of(cycle) > tolerances_.least_amplitude * setting_.small_length))
     return std::nullopt;
+  if (!returns(cycle, tolerances_)) return std::nullopt;
   const Extent load = lately(motion, setting_.load, cycle.period());
   const Extent motor = lately(motion, setting_.motor, cycle.period());
   const auto is_as = [&](double seen, double wanted) {

@@ -68,6 +68,10 @@ double hardest_impact(const SearchSetting& setting, const PeriodicOrbit& orbit) 
   return hardest;
 }
 
+double missed(const std::vector<Sample>& of_shaft) {
+  return of_shaft.empty() ? 0.0 : std::abs(of_shaft.back().value - of_shaft.front().value);
+}
+
 }  // namespace
 
 Trajectory motion_on(const hybrid::PreparedSystem& system, const PeriodicOrbit& orbit,
@@ -91,9 +95,12 @@ FoundCycle measured(const SearchSetting& setting, const PeriodicOrbit& orbit,
                     const SearchTolerances& all) {
   const CycleTolerances& tolerances = all.cycle;
   const Trajectory motion = motion_on(setting.system, orbit, 1.0);
-  const Extent load = extent_of(samples(motion, setting.load));
-  const Extent motor = extent_of(samples(motion, setting.motor));
+  const std::vector<Sample> of_load = samples(motion, setting.load);
+  const std::vector<Sample> of_motor = samples(motion, setting.motor);
+  const Extent load = extent_of(of_load);
+  const Extent motor = extent_of(of_motor);
   FoundCycle cycle;
+  cycle.mismatch = std::max(missed(of_load), missed(of_motor));
   cycle.orbit = without_spare_multipliers(setting, orbit);
   cycle.multiplier = largest_multiplier(cycle.orbit);
   cycle.stability = stability_of(cycle.multiplier, tolerances);
@@ -111,6 +118,11 @@ FoundCycle measured(const SearchSetting& setting, const PeriodicOrbit& orbit,
 
 double extent_of(const FoundCycle& cycle) {
   return std::max(cycle.amplitude, cycle.motor_amplitude);
+}
+
+bool returns(const FoundCycle& cycle, const CycleTolerances& tolerances) {
+  return cycle.mismatch <=
+         tolerances.return_of_shafts * std::max(1.0, cycle.multiplier) * extent_of(cycle);
 }
 
 bool is_one_with(FoundCycle& known, const FoundCycle& cycle, const CycleTolerances& tolerances) {

@@ -24,6 +24,10 @@ FoundCycle measured(const SearchSetting& setting, const hybrid::PeriodicOrbit& o
 /// The larger of both amplitudes: the load may stand while the motor hunts within the gap.
 double extent_of(const FoundCycle& cycle);
 
+/// Whether the shafts return. The residual of the orbit, a share of the largest of all numbers,
+/// does not tell where one of them is of another magnitude than the shafts' positions.
+bool returns(const FoundCycle& cycle, const CycleTolerances& tolerances);
+
 /// Whether two are one cycle, mirror images (which is noted), or members of a family of neutral
 /// ones.
 bool is_one_with(FoundCycle& known, const FoundCycle& cycle, const CycleTolerances& tolerances);

@@ -50,6 +50,9 @@ struct CycleTolerances {
   double widest_nearness = 1e-2;
   /// A closed orbit must close this well, as a share of the state.
   double residual = 1e-9;
+  /// Both shafts must be back in their places after a period, to this share of the cycle's extent,
+  /// or this share times an unstable one's multiplier.
+  double return_of_shafts = 1e-6;
   /// Anything below this share of the small length is rest.
   double least_amplitude = 1e-9;
   /// A motion is on a cycle if amplitudes and centre agree to this share of its amplitude.
