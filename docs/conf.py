@@ -3,6 +3,9 @@
 import re
 from pathlib import Path
 
+from pygments.lexer import RegexLexer, bygroups
+from pygments.token import Generic, Text
+
 BUILT = Path(__file__).resolve().parents[2]  # build/docs
 
 project = "Gearlash"
@@ -31,9 +34,18 @@ napoleon_use_ivar = True
 napoleon_use_rtype = False
 
 html_theme = "furo"
+html_static_path = ["static", str(BUILT / "theme")]
+html_css_files = ["pages.css"]
 html_title = f"Gearlash {release}"
 html_show_sourcelink = False
 html_copy_source = False
+
+
+class Shown(RegexLexer):
+    """What a terminal shows: commands after "$ ", and their output."""
+
+    name = "text"
+    tokens = {"root": [(r"^(\$ )(.*\n)", bygroups(Generic.Prompt, Generic.Strong)), (r".*\n", Text)]}
 
 
 def as_text(app, env, node, text):
@@ -43,4 +55,5 @@ def as_text(app, env, node, text):
 
 
 def setup(app):
+    app.add_lexer("text", Shown)
     app.connect("missing-reference", as_text)
