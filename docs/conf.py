@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+from docutils import nodes
 from pygments.lexer import RegexLexer, bygroups
 from pygments.token import Generic, Text
 
@@ -48,6 +49,31 @@ class Shown(RegexLexer):
     tokens = {"root": [(r"^(\$ )(.*\n)", bygroups(Generic.Prompt, Generic.Strong)), (r".*\n", Text)]}
 
 
+GENERATED = {"Verbs": "verbs", "Parameters": "parameters", "Quantities": "quantities",
+             "JSON": "json/index", "C++": "cpp/index", "Python": "python"}
+
+
+def link_generated(app, page, source):
+    """The repository lacks the generated pages, so that its pages name them in italics."""
+    if re.fullmatch("reference/[^/]+", page):
+        for name, target in GENERATED.items():
+            italics = rf"(?<!\*)\*{re.escape(name)}\*(?!\*)"
+            source[0] = re.sub(italics, f"[{name}](generated/{target}.md)", source[0])
+
+
+def escape_underscores(app, what, name, thing, options, lines):
+    """A member such as `yield_` is no reference."""
+    lines[:] = [re.sub(r"^:(\w+) (\w+)_:", r":\1 \2\\_:", line) for line in lines]
+
+
+def drop_empty_dashes(app, doctree):
+    """A parameter without a description needs no dash after its type."""
+    for field in doctree.findall(nodes.field):
+        for paragraph in field.findall(nodes.paragraph):
+            while paragraph.children and paragraph[-1].astext() in ("", " -- ", " – "):
+                paragraph.pop()
+
+
 def as_text(app, env, node, text):
     """The text of a link to something in the repository that is neither a page nor a file to load."""
     target = (BUILT / "source/docs" / node["refdoc"]).parent / node["reftarget"]
@@ -56,4 +82,7 @@ def as_text(app, env, node, text):
 
 def setup(app):
     app.add_lexer("text", Shown)
+    app.connect("source-read", link_generated)
+    app.connect("autodoc-process-docstring", escape_underscores, priority=900)  # after napoleon
+    app.connect("doctree-read", drop_empty_dashes)
     app.connect("missing-reference", as_text)

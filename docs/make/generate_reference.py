@@ -246,7 +246,8 @@ def header_page(header, xml):
     title = f"gearlash/{header.name}"
     parts = [f"{title}\n{'=' * len(title)}\n", purpose + "\n"]
     for _, directive in sorted(declared_in(xml, header)):
-        members = "   :members:\n" if directive.startswith(("doxygenstruct", "doxygenclass")) else ""
+        has_members = directive.startswith(("doxygenstruct", "doxygenclass"))
+        members = "   :members:\n   :undoc-members:\n" if has_members else ""
         parts.append(f".. {directive}\n{members}")
     return "\n".join(parts)
 

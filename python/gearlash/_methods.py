@@ -91,7 +91,7 @@ class Answer(Record):
 
     @property
     def largest_stable(self) -> _records.Cycle | None:
-        """The cycle that is seen in practice: the largest that is not unstable."""
+        """The cycle that is seen in practice, the largest that is not unstable."""
         return _core.largest_stable(self)
 
     def value(self, quantity: str) -> float | None:

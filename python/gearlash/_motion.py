@@ -102,7 +102,7 @@ class Motion:
 
     @property
     def events(self) -> NDArray[np.void]:
-        """The events as a structured array: time, what, mode_after, states before and after.
+        """The events as a structured array of time, what, mode_after, states before and after.
 
         Ticks of a computer's clock are not events. ``energy_lost`` is nan where it is not known.
         """
