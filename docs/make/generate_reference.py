@@ -168,8 +168,9 @@ def type_in(schema):
     kinds = kinds if isinstance(kinds, list) else [kinds]
     words = []
     for kind in kinds:
-        if kind == "array" and isinstance(schema.get("items"), dict):
-            words.append("array of " + type_in(schema["items"]))
+        items = schema.get("items")
+        if kind == "array" and isinstance(items, dict) and set(items) - {"description"}:
+            words.append("array of " + type_in(items))
         else:
             words.append(kind)
     return " or ".join(words)
@@ -179,25 +180,42 @@ def anchor(name):
     return name.replace("_", "-").lower()
 
 
-def fields_of(schema, prefix=""):
+def part_of(schema, path):
+    """What a schema refers to, in its own file or another, or the schema itself."""
+    file, _, place = schema.get("$ref", "").partition("#/$defs/")
+    if not place:
+        return schema
+    return json.loads((path.parent / (file or path.name)).read_text())["$defs"][place]
+
+
+def fields_of(schema, path, prefix=""):
     """Rows of a table for an object's fields, those of objects within it after each."""
     for name, field in schema.get("properties", {}).items():
-        yield code(prefix + name), type_in(field), field.get("description", "")
-        yield from fields_of(field, f"{prefix}{name}.")
+        meaning = field.get("description") or part_of(field, path).get("description")
+        if not meaning:
+            raise SystemExit(f"{path}: {prefix}{name} has no description")
+        yield code(prefix + name), type_in(field), meaning
+        yield from fields_of(field, path, f"{prefix}{name}.")
         items = field.get("items")
         if isinstance(items, dict):
-            yield from fields_of(items, f"{prefix}{name}[].")
+            yield from fields_of(items, path, f"{prefix}{name}[].")
 
 
 def schema_page(path):
     schema = json.loads(path.read_text())
-    parts = [f"# JSON of {path.name.split('.')[0]}\n", schema.get("description", "") + "\n",
-             table(("field", "type", "meaning"), fields_of(schema))]
+    parts = [f"# JSON of {path.name.split('.')[0]}\n", schema.get("description", "") + "\n"]
+    if "properties" in schema:
+        parts.append(table(("field", "type", "meaning"), fields_of(schema, path)))
+    else:
+        parts[0] = f"# {schema['title'][0].upper()}{schema['title'][1:]}\n"
     for name, part in schema.get("$defs", {}).items():
         parts.append(f"## {name.replace('_', ' ')}\n")
-        if part.get("description"):
-            parts.append(part["description"] + "\n")
-        rows = list(fields_of(part))
+        meaning = part.get("description") or part_of(part, path).get("description")
+        if meaning:
+            parts.append(meaning + "\n")
+        items = part.get("items")
+        of = items if isinstance(items, dict) and "properties" in items else part
+        rows = list(fields_of(of, path))
         parts.append(table(("field", "type", "meaning"), rows) if rows else type_in(part) + ".\n")
     return "\n".join(parts)
 
