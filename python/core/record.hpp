@@ -146,15 +146,16 @@ Enumeration word_from_python(py::handle object, const char* name) {
 }
 
 template <class Variant, std::size_t index = 0>
-Variant variant_from_python(py::handle object, const char* name) {
+Variant variant_from_python(py::handle object, const char* name, std::string permitted = {}) {
   if constexpr (index == std::variant_size_v<Variant>) {
-    refuse_type(name, "one of the records that are permitted here", object);
+    refuse_type(name, "one of " + permitted, object);
   } else {
     using Held = std::variant_alternative_t<index, Variant>;
     if (py::isinstance(object, class_named(Record<Held>::name))) {
       return record_from_python<Held>(object, name);
     }
-    return variant_from_python<Variant, index + 1>(object, name);
+    permitted += std::string(index == 0 ? "gearlash." : ", gearlash.") + Record<Held>::name;
+    return variant_from_python<Variant, index + 1>(object, name, std::move(permitted));
   }
 }
 
@@ -176,13 +177,19 @@ Type from_python(py::handle object, const char* name) {
     return object.is_none() ? std::numeric_limits<double>::quiet_NaN()
                             : number_from_python(object, name);
   } else if constexpr (std::is_same_v<Type, bool>) {
-    if (!py::isinstance<py::bool_>(object)) refuse_type(name, "True or False", object);
-    return object.cast<bool>();
+    const std::string type = py::str(py::type::handle_of(object).attr("__name__"));
+    if (type != "bool" && type != "bool_")
+      refuse_type(name, "True or False", object);  // NumPy's too
+    return py::bool_(py::reinterpret_borrow<py::object>(object));
   } else if constexpr (std::is_integral_v<Type>) {
     try {
       return object.cast<Type>();
     } catch (const py::cast_error&) {
-      refuse_type(name, std::is_signed_v<Type> ? "an integer" : "an integer from 0 on", object);
+      const char* const permitted =
+          std::is_signed_v<Type> ? "an integer" : "an integer from 0 to 18446744073709551615";
+      if (PyLong_Check(object.ptr()) == 0) refuse_type(name, permitted, object);
+      throw InvalidInput(
+          {{name, std::string(py::str(object)), std::string("must be ") + permitted, ""}});
     }
   } else if constexpr (std::is_same_v<Type, std::string>) {
     if (!py::isinstance<py::str>(object)) refuse_type(name, "text", object);

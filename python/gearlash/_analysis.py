@@ -38,8 +38,8 @@ def analyse(drive: Drive, *, proofs: bool = True, ceiling: bool = True, loop: bo
         Search what lies between starts that end differently: unstable cycles, and from which step
         on a drive hunts.
     motion_bytes : int, optional
-        That a search keeps of a motion at most; default 64,000,000. It takes two to three times as
-        many in all.
+        That a search keeps of a motion at most, but for its last thousand steps; default 64,000,000.
+        It takes two to three times as many in all.
     progress : callable, optional
         Called with the share of the work done, 0 … 1. If it returns False the work stops, and the
         answer is what is known by then. Ctrl-C raises KeyboardInterrupt.

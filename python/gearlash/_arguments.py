@@ -73,6 +73,22 @@ def mapping(name: str, given: Mapping[str, _One]) -> dict[str, _One]:
     return dict(given)
 
 
+def share(name: str, value: Any) -> float:
+    """A number above 0, at most 1."""
+    found = number(name, value)
+    if not 0.0 < found <= 1.0:
+        raise ValueError(f"{name} must be above 0 and at most 1, not {found:g}")
+    return found
+
+
+def one_of(name: str, given: str, permitted: Iterable[str]) -> str:
+    """A word."""
+    words = list(permitted)
+    if text(name, given) not in words:
+        raise ValueError(f"{name} must be one of {', '.join(words)}, not {given}")
+    return given
+
+
 def where_given(**options: Any) -> dict[str, Any]:
     """The options that are not None; of the others a record has its own default."""
     return {name: value for name, value in options.items() if value is not None}

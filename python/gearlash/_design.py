@@ -7,16 +7,20 @@ from typing import Any, Union
 
 from gearlash import _core
 from gearlash._analysis import Progress
-from gearlash._arguments import (listed, mapping, number, optional_number, text, where_given,
-                                  whole)
+from gearlash._arguments import (listed, mapping, number, one_of, optional_number, text,
+                                 where_given, whole)
+from gearlash._arguments import share as _share
 from gearlash._drive import Drive
-from gearlash._records import (Axis, BacklashDemand, Distribution, FeasibleValues, HuntingMargin,
-                               ParameterTolerance, SamplePlan, SensitivityStudy, StudyQuestions,
-                               Target, TolerancedDrive, ToleranceStudy, TunedDrive, TuneEffort,
-                               TuneTask, WidestBacklash)
+from gearlash._records import (Axis, BacklashDemand, DiscreteLots, Distribution, ExactValue,
+                               FeasibleValues, HuntingMargin, Normal, ParameterTolerance,
+                               SamplePlan, SensitivityStudy, StudyQuestions, Target,
+                               TolerancedDrive, ToleranceStudy, TunedDrive, TuneEffort, TuneTask,
+                               UniformAbout, UniformBetween, WidestBacklash)
 
 TargetLike = Union[str, Target]
 SeriesLike = Union[Drive, TolerancedDrive]
+
+_DISTRIBUTIONS = (UniformBetween, UniformAbout, Normal, DiscreteLots, ExactValue)
 
 
 def target(wanted: TargetLike, drive: Drive) -> Target:
@@ -100,11 +104,28 @@ def series(drive: SeriesLike, varied: Mapping[str, Distribution] | None = None) 
         A drive from a file brings the file's tolerances.
     varied : mapping of path to Distribution
         UniformBetween, UniformAbout, Normal or DiscreteLots, in SI, beside those of the file.
+
+    Returns
+    -------
+    TolerancedDrive
+
+    Raises
+    ------
+    TypeError
+        For something else than a drive or a distribution.
     """
+    if not isinstance(drive, (Drive, TolerancedDrive)):
+        raise TypeError("drive must be a gearlash.Drive or a gearlash.TolerancedDrive, not "
+                        f"{type(drive).__name__}")
     nominal, own = ((drive.nominal, drive.varied) if isinstance(drive, TolerancedDrive)
                     else (drive, drive.tolerances))
-    added = {path: ParameterTolerance(path, spread)
-             for path, spread in mapping("varied", varied or {}).items()}
+    added = {}
+    for path, spread in mapping("varied", varied or {}).items():
+        if not isinstance(spread, _DISTRIBUTIONS):
+            names = ", ".join(kind.__name__ for kind in _DISTRIBUTIONS)
+            raise TypeError(f"varied must have one of {names} for {path}, not "
+                            f"{type(spread).__name__}")
+        added[path] = ParameterTolerance(path, spread)
     kept = tuple(one for one in own if one.path not in added)
     return TolerancedDrive(nominal=nominal, varied=kept + tuple(added.values()))
 
@@ -186,10 +207,23 @@ def sensitivity_indices(drive: SeriesLike, varied: Mapping[str, Distribution] | 
 
 
 def widest_backlash(drive: SeriesLike, target: TargetLike, share: float = 0.95, *,
-                    varied: Mapping[str, Distribution] | None = None,
+                    least: float | None = None, varied: Mapping[str, Distribution] | None = None,
                     samples: int | None = None, seed: int = 1960,
                     progress: Progress = None) -> WidestBacklash | None:
     """Find how much backlash production may permit, so that a share of the samples meets a target.
+
+    Parameters
+    ----------
+    drive, varied, samples, seed
+        As of :func:`tolerance`. The backlash is uniform from `least` to the value that is sought.
+    target : str or Target
+        Without a lower limit of amplitude.
+    share : float
+        Of the samples that must meet the target, above 0 to 1.
+    least : float, optional
+        rad, from 0 on; default the lowest value of a backlash that varies, else its nominal value.
+    progress : callable, optional
+        As of :func:`gearlash.analyse`.
 
     Returns
     -------
@@ -200,9 +234,21 @@ def widest_backlash(drive: SeriesLike, target: TargetLike, share: float = 0.95, 
     ------
     InvalidInput
         With every fault of the drive, the target and the sampling.
+
+    Examples
+    --------
+    >>> import gearlash
+    >>> servo = gearlash.Drive.normal_form(0.19, 2, 0.1, 0.3)
+    >>> varied = {"servo.damping": gearlash.UniformBetween(0.18, 0.2)}
+    >>> widest = gearlash.widest_backlash(servo, "amplitude <= 0.1 rad", least=0.0, varied=varied)
+    >>> round(widest.max, 2)
+    0.13
+    >>> print(gearlash.widest_backlash(servo, "amplitude <= 0.1 rad", varied=varied))  # from 0.3 on
+    None
     """
     one, _, sampling = _study(drive, varied, target, samples, seed, "amplitude")
-    demand = BacklashDemand(target=_target(target, one), yield_=number("share", share))
+    demand = BacklashDemand(target=_target(target, one), yield_=_share("share", share),
+                            min=optional_number("least", least))
     return _core.widest_backlash(one, demand, sampling, progress)
 
 
@@ -214,7 +260,11 @@ def _study(drive: SeriesLike, varied: Mapping[str, Distribution] | None, wanted:
            samples: int | None, seed: int, quantity: str, **more: Any
            ) -> tuple[TolerancedDrive, StudyQuestions, SamplePlan]:
     one = series(drive, varied)
-    questions = StudyQuestions(amplitude=quantity,
+    for one_share in listed("shares", more.get("shares") or ()):
+        if not 0.0 <= number("shares", one_share) <= 1.0:
+            raise ValueError(f"shares must be from 0 to 1, not {one_share}")
+    questions = StudyQuestions(amplitude=one_of("quantity", quantity,
+                                                ("amplitude", "motor_amplitude")),
                                target=Target() if wanted is None else _target(wanted, one),
                                **where_given(**more))
     plan = (_core.usual_sampling(one, questions) if samples is None
@@ -273,12 +323,14 @@ def tune(drive: SeriesLike, parameters: Sequence[str | Axis] | None = None, *,
                  else _core.axis_to_tune(text("parameters", parameter), nominal)
                  for parameter in (listed("parameters", parameters) if parameters is not None
                                    else _core.usual_gains(nominal)))
+    if not axes:
+        raise ValueError("parameters must name at least one number; the drive has no gains above 0")
     tuned = {given.path for given in axes}
     task = TuneTask(
         series=TolerancedDrive(nominal, tuple(v for v in one.varied if v.path not in tuned)),
         tuned=axes,
         target=_core.usual_target(nominal) if target is None else _target(target, one),
-        aim=aim, share=share, **where_given(least_phase_margin=least_phase_margin))
+        aim=aim, share=_share("share", share), **where_given(least_phase_margin=least_phase_margin))
     effort = TuneEffort(seed=whole("seed", seed, 0), **where_given(
         **{name: whole(name, value, 1) for name, value in
            {"units": units, "rounds": rounds, "evaluations": evaluations}.items()

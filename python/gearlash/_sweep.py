@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gearlash import _core
 from gearlash._analysis import Progress
-from gearlash._arguments import listed, mapping, texts, truth
+from gearlash._arguments import listed, mapping, number, text, texts, truth, whole
 from gearlash._drive import Drive
 from gearlash._motion import _numbers
 from gearlash._records import Axis
@@ -34,12 +34,17 @@ def linear(path: str, start: float, stop: float, count: int) -> Axis:
     InvalidInput
         For ends that are not finite or not in order, and a count below 2 or above 1,000,000.
     """
-    return _core.linear(path, start, stop, count)
+    return _core.linear(*_spaced(path, start, stop, count))
 
 
 def logarithmic(path: str, start: float, stop: float, count: int) -> Axis:
     """Make an axis of `count` values, evenly spaced in logarithm; otherwise as :func:`linear`."""
-    return _core.logarithmic(path, start, stop, count)
+    return _core.logarithmic(*_spaced(path, start, stop, count))
+
+
+def _spaced(path: str, start: float, stop: float, count: int) -> tuple[str, float, float, int]:
+    return (text("path", path), number("start", start), number("stop", stop),
+            whole("count", count, 1, 1_000_000))
 
 
 def axis(drive: Drive, path: str, values: AxisLike) -> Axis:
@@ -64,13 +69,23 @@ def axis(drive: Drive, path: str, values: AxisLike) -> Axis:
         return values
     if isinstance(values, str):
         return _core.read_axis(path, values, drive)
-    array = np.atleast_1d(np.asarray(values))
-    if array.dtype.kind in "US":
-        return _core.read_axis(path, ",".join(str(word) for word in array.ravel().tolist()), drive)
+    words = np.asarray(values)
+    if words.dtype.kind in "US":
+        return _core.read_axis(path, ",".join(str(word) for word in words.ravel().tolist()), drive)
+    array = np.atleast_1d(_numbers(path, values))
     if array.ndim != 1:
         raise ValueError(f"{path} must have one dimension on an axis, not {array.ndim}; "
                          "give arrays that are broadcast as arrays=…")
-    return Axis(path=_core.path_named(path, drive), values=_numbers(path, array))
+    return Axis(path=_path_of_number(drive, path), values=array)
+
+
+def _path_of_number(drive: Drive, path: str) -> str:
+    """The full path of a parameter that is no word."""
+    full = _core.path_named(path, drive)
+    for info in drive.parameters():
+        if info.path == full and info.choices:
+            raise TypeError(f"{path} must be one of {', '.join(info.choices)}, not a number")
+    return full
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,12 +191,22 @@ def sweep(drive: Drive, axes: Mapping[str, AxisLike] | Sequence[Axis] | None = N
 def _sweep_arrays(drive: Drive, arrays: Mapping[str, ArrayLike], quantities: list[str],
                   progress: Progress) -> xarray.Dataset | Any:
     # Copies: what the caller does to his arrays later must change neither drives nor coordinates.
-    shape = np.broadcast_shapes(*(np.shape(values) for values in arrays.values()))
+    shapes = {path: np.shape(values) for path, values in mapping("arrays", arrays).items()}
+    try:
+        shape = np.broadcast_shapes(*shapes.values())
+    except ValueError:
+        listed_shapes = ", ".join(f"{path} {size}" for path, size in shapes.items())
+        raise ValueError("arrays must have shapes that can be broadcast against each other, not "
+                         f"{listed_shapes}") from None
     if math.prod(shape) > MOST_DRIVES:
         raise ValueError(f"arrays must give at most {MOST_DRIVES:,} drives, not {shape}; "
                          "give a grid by axes")
-    given = {_core.path_named(path, drive): np.array(_numbers(path, values))
-             for path, values in mapping("arrays", arrays).items()}
+    given: dict[str, NDArray[np.float64]] = {}
+    for path, values in arrays.items():
+        full = _path_of_number(drive, path)
+        if full in given:
+            raise ValueError(f"arrays must give {full} once, not by two of its names")
+        given[full] = np.array(_numbers(path, values))
     flat = [np.ascontiguousarray(np.broadcast_to(array, shape)).reshape(-1)
             for array in given.values()]
     if flat and flat[0].size == 0:

@@ -171,6 +171,8 @@ def _dealt_out(client: Any, work: Callable[..., Any], calls: Sequence[tuple[Any,
     A call whose worker dies is made again by another, as often as the cluster's setting
     ``distributed.scheduler.allowed-failures`` permits. Nothing stays behind where one fails.
     """
+    if not hasattr(client, "submit"):
+        raise TypeError(f"client must be a distributed.Client, not {type(client).__name__}")
     from distributed import as_completed
 
     run = uuid.uuid4().hex

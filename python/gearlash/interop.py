@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gearlash import _core
+from gearlash._arguments import number, one_of
 from gearlash._motion import _numbers
 
 _NEGLIGIBLE = 1e-9  # of the largest coefficient
@@ -33,7 +34,14 @@ def _polynomials(system: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]
     if not (hasattr(system, "num") and hasattr(system, "den")):
         raise TypeError("a system must have num and den, zeros, poles and gain, or A, B, C and D, "
                         f"not be a {type(system).__name__}")
-    return _coefficients("num", system.num), _coefficients("den", system.den)
+    num, den = (np.trim_zeros(_coefficients(name, getattr(system, name)), "f")
+                for name in ("num", "den"))
+    if den.size == 0:
+        raise ValueError("den must not be 0")
+    if num.size > den.size:
+        raise ValueError(f"num must be of no higher degree than den, not {num.tolist()} over "
+                         f"{den.tolist()}")
+    return num, den
 
 
 def _period(system: Any) -> float | None:
@@ -82,6 +90,7 @@ def controller(system: Any, *, shaft: str = "mixed") -> dict[str, dict[str, Any]
     >>> joint.controller.num, joint.controller.den  # SciPy divides by the leading coefficient
     ([50, 20000], [1, 1000])
     """
+    one_of("shaft", shaft, ("load", "motor", "mixed"))
     if all(hasattr(system, name) for name in "ABCD") and not hasattr(system, "num"):
         return _state_space(system, shaft)
     num, den = _polynomials(system)
@@ -132,14 +141,18 @@ def shaft(system: Any) -> dict[str, float]:
     >>> gearlash.interop.shaft(signal.TransferFunction([2.0], [0.01, 0.002, 0.0]))
     {'inertia': 0.005, 'friction': 0.001}
     """
-    num, den = (np.trim_zeros(one, "f") for one in _polynomials(system))
+    num, den = _polynomials(system)
     if _period(system) is not None:
         raise ValueError("a shaft must be given by a continuous system")
     of_position = den.size == 3 and abs(den[2]) <= _NEGLIGIBLE * np.abs(den).max()
     if num.size != 1 or not (of_position or den.size == 2):
         raise ValueError("a shaft must be k/(J s² + F s), torque to position, or k/(J s + F), torque "
                          f"to speed, not {num.tolist()}/{den.tolist()}")
-    return {"inertia": float(den[0] / num[0]), "friction": float(den[1] / num[0])}
+    found = {"inertia": float(den[0] / num[0]), "friction": float(den[1] / num[0])}
+    if not (found["inertia"] > 0.0 and found["friction"] >= 0.0):
+        raise ValueError("a shaft must have an inertia above 0 and a friction from 0 on, not "
+                         f"{found['inertia']:g} kg m² and {found['friction']:g} N m s/rad")
+    return found
 
 
 class InertiaBacklash:
@@ -170,8 +183,8 @@ class InertiaBacklash:
     """
 
     def __init__(self, b: float) -> None:
-        self.b = float(b)
-        _core.describing_gain(self.b, np.array([self.b + 1.0]))  # refuses a bad gap
+        self.b = number("b", b)
+        _core.describing_gain(self.b, np.array([1.0]))  # refuses a bad gap
 
     def describing_function(self, A: ArrayLike) -> Any:
         """Give the complex gain N(A) for amplitudes A > 0 of any shape."""

@@ -12,6 +12,7 @@ import numpy as np
 from matplotlib import pyplot
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
+from gearlash._arguments import whole
 from gearlash._methods import Answer
 from gearlash._motion import Motion, simulate
 from gearlash._records import Cycle, Start, ToleranceStudy
@@ -68,7 +69,7 @@ def motion(moving: Motion, *, unit: str = "rad", points: int = 2000, ax: Axes | 
     matplotlib.axes.Axes
     """
     ax = _axes(ax)
-    samples = moving.at(np.linspace(0.0, moving.end_time, points))
+    samples = moving.at(np.linspace(0.0, moving.end_time, whole("points", points, 2, 10**8)))
     for name, label in (("motor_position", "motor"), ("load_position", "load")):
         ax.plot(samples.time, samples[name] / _unit(unit), color=COLOURS[label], linewidth=0.9,
                 label=label)
@@ -97,6 +98,8 @@ def cycle(answer: Answer, which: Cycle | None = None, *, unit: str = "rad",
     ValueError
         For an answer without a cycle, and a cycle that the motion does not lead to.
     """
+    if not isinstance(answer, Answer):
+        raise TypeError(f"answer must be a gearlash.Answer, not {type(answer).__name__}")
     which = which or answer.largest_stable
     if which is None or answer.drive is None:
         raise ValueError(f"the answer has no cycle to draw: {answer.verdict}")
@@ -142,8 +145,11 @@ def sweep(data: xarray.Dataset, quantity: str = "amplitude", *, unit: str | None
     Raises
     ------
     ValueError
-        For another number of axes.
+        For another number of axes, and a quantity that the sweep does not have.
     """
+    if quantity not in data or quantity == "verdict":
+        has = ", ".join(str(name) for name in data if name != "verdict")
+        raise ValueError(f"quantity must be one of the sweep's, {has}, not {quantity}")
     values = np.asarray(data[quantity], dtype=float)
     label = str(data[quantity].attrs.get("units", ""))
     if unit is not None and label == "rad":

@@ -107,3 +107,10 @@ def test_restitution_and_rest():
     quiet = gearlash.analyse(gearlash.Drive.normal_form(0.9, 2, 0.5, 0.3))
     assert quiet.verdict == "cannot hunt" and not quiet.hunts and quiet.value("amplitude") == 0.0
     assert quiet.largest_stable is None and not math.isnan(quiet.growth_at_rest)
+
+
+def test_a_search_that_keeps_little_of_a_motion_has_the_same_verdict(example):
+    drive = gearlash.Drive.from_toml(example("telescope-axis.toml"))
+    whole = gearlash.analyse(drive, borders=False)
+    assert whole.verdict == "hunts"
+    assert gearlash.analyse(drive, borders=False, motion_bytes=0).headline == whole.headline

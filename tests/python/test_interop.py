@@ -109,3 +109,16 @@ def test_the_describing_function_has_the_form_of_python_control():
         interop.InertiaBacklash(-1.0)
     with pytest.raises(gearlash.InvalidInput):
         nonlinearity.describing_function(0.0)
+
+
+@pytest.mark.parametrize(("call", "wanted"), [
+    (lambda: interop.shaft(signal.TransferFunction([-1.0], [1.0, 1.0, 0.0])), "an inertia above 0"),
+    (lambda: interop.shaft(signal.TransferFunction([1.0], [1.0, -1.0, 0.0])), "a friction from 0 on"),
+    (lambda: interop.controller(signal.TransferFunction([1.0], [1.0, 1.0]), shaft="foo"),
+     "shaft must be one of load, motor, mixed"),
+    (lambda: interop.controller(control_transfer_function([1.0, 0.0, 0.0], [1.0, 1.0])),
+     "num must be of no higher degree than den"),
+    (lambda: interop.controller(control_transfer_function([1.0], [0.0])), "den must not be 0")])
+def test_what_no_drive_can_have_is_refused(call, wanted):
+    with pytest.raises(ValueError, match=wanted):
+        call()

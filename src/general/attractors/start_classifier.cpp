@@ -16,7 +16,8 @@ using hybrid::Trajectory;
 
 std::size_t steps_kept(const SearchSetting& setting, const SearchBudget& budget) {
   const auto numbers = static_cast<std::size_t>(setting.system.system().size());
-  return budget.bytes_kept / (sizeof(double) * (numbers + 3));
+  constexpr std::size_t least = 1000;  // fewer would show neither rest nor swings
+  return std::max(least, budget.bytes_kept / (sizeof(double) * (numbers + 3)));
 }
 
 Verdict StartClassifier::end_of(const State& start, double patience, double longer) {

@@ -33,8 +33,8 @@ struct Verdict {
   }
 };
 
-/// Steps of a motion that SearchBudget::bytes_kept allows. A step keeps its time, its mode and all
-/// numbers.
+/// Steps of a motion that SearchBudget::bytes_kept allows, a thousand at least. A step keeps its
+/// time, its mode and all numbers.
 std::size_t steps_kept(const SearchSetting& setting, const SearchBudget& budget);
 
 /// Watches starts one after the other. What one led to is known to the next.
