@@ -30,7 +30,7 @@ Slot of_plant(Drive& drive, Member& member) {
 std::vector<Parameter> servo_parameters() {
   return {{.path = "servo.damping",
            .slot = [](Drive& d) { return slot_of(d.servo, &NormalForm::damping); },
-           .meaning = "damping coefficient (F_M + F_L)/(2 ω_n (J_M + J_L))",
+           .meaning = "damping ratio (F_M + F_L)/(2 ω_n (J_M + J_L))",
            .permitted = Permitted::of_normal_form,
            .is_required = true,
            .usual = {0.01, 2.0}},

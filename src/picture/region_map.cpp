@@ -29,7 +29,7 @@ std::string meaning_of(Cost cost) {
     case Cost::damping:
       break;
   }
-  return "damping coefficient";
+  return "damping ratio";
 }
 
 }  // namespace
