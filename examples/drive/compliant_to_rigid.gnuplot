@@ -2,7 +2,7 @@
 set terminal svg size 720,480 font 'sans,13' background rgb 'white'
 set encoding utf8
 set output ARG1
-set title "Faces that give tend to rigid ones"
+set title "Compliant contact tends to rigid contact"
 set xlabel "stiffness of the mesh, by that of the loop"
 set ylabel "amplitude of the cycle, from that of rigid faces"
 set logscale xy

@@ -211,7 +211,7 @@ std::vector<Parameter> pid_parameters() {
   return {{.path = "controller.proportional",
            .slot = [](Drive& d) { return of_law(d, &PID::proportional); },
            .dimension = &gain_dimension,
-           .meaning = "output per error",
+           .meaning = "proportional gain, output per error",
            .is_required = true,
            .other_forms = {{"loop.error_gain"}, {"controller.kp"}, {"actuator.kp"}},
            .usual = {1e-3, 1e4}},

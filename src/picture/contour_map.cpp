@@ -224,7 +224,7 @@ std::string legend(const ContourMap& map, PictureFormat format) {
   std::string commands = "unset key\n";
   for (std::size_t i = 0; i < lines.size(); ++i) {
     constexpr double lowest = 0.04;  // shares of the picture's height
-    const double middle = lines.size() == 1 ? lowest : 0.065 - 0.04 * static_cast<double>(i);
+    const double middle = lines.size() == 1 ? lowest : 0.054 - 0.036 * static_cast<double>(i);
     double whole = -between;
     for (const LegendEntry& entry : lines[i]) whole += width_of(entry) + between;
     double right = 0.5 * (Paper::left_margin + Paper::right_margin - whole);

@@ -364,16 +364,13 @@ double heading_height(const std::string& title, const std::vector<std::string>& 
          heading_line * static_cast<double>(lines.size()) + 25.0;
 }
 
+constexpr std::size_t legend_columns = 2;  // for more gnuplot lacks the width
+
 /// The height of the legend, with the axis above it.
-double legend_height(std::size_t names, std::size_t columns) {
+double legend_height(std::size_t names) {
   constexpr double axis = 72.0;
   constexpr double row = 27.0;
-  return axis + row * static_cast<double>((names + columns - 1) / columns);
-}
-
-/// Three columns unless a gear makes the name of the torque long.
-std::size_t legend_columns(const MotionPicture& picture) {
-  return picture.drive.gearbox.ratio == 1.0 ? 3 : 2;
+  return axis + row * static_cast<double>((names + legend_columns - 1) / legend_columns);
 }
 
 /// `top`: of the first panel.
@@ -442,7 +439,7 @@ std::string draw_time_response(const MotionPicture& picture, PictureFormat forma
   const std::vector<std::string> lines = heading_lines(picture, response.end);
   const double top = heading_height(picture.title, lines) +
                      (response.is_end_enlarged ? room_for_column_title : 0.0);
-  double height = top + legend_height(legend.size(), legend_columns(picture));
+  double height = top + legend_height(legend.size());
   for (const Panel& panel : panels) height += panel.height + gap_between;
 
   std::string script = terminal(format, height) + "set encoding utf8\n" + response.curve.text() +
@@ -459,7 +456,7 @@ std::string draw_time_response(const MotionPicture& picture, PictureFormat forma
       "unset grid\nunset xlabel\nunset ylabel\nunset object\n"
       "set key at screen 0.54, screen 0.004 bottom center horizontal Left reverse samplen 3 "
       "spacing 1.2 maxcols " +
-      std::to_string(legend_columns(picture)) + "\n" + plot_command(legend);
+      std::to_string(legend_columns) + "\n" + plot_command(legend);
   return run_gnuplot(script + "unset multiplot\n", picture.title);
 }
 
