@@ -38,7 +38,8 @@ class Struct:
 @dataclass
 class Enumeration:
     name: str
-    members: list[tuple[str, str]]  # name and comment
+    members: list[str]
+    words: list[str]  # what name_of() gives
 
 
 @dataclass
@@ -137,15 +138,22 @@ def read(header: str, source: Source) -> None:
         source.structs.append(struct)
     for match in re.finditer(r"^enum class (\w+)[^{]*\{([^}]*)\};", header, re.M):
         name, body = match.groups()
-        members = []
-        for line in body.splitlines():
-            code, _, note = line.partition("///")
-            for word in re.findall(r"\w+", code):
-                members.append((word, comment_of([note])))
-        source.enumerations[name] = Enumeration(name, members)
+        members = re.findall(r"\w+", re.sub("//.*", "", body))
+        source.enumerations[name] = Enumeration(name, members, list(members))
     for name, kinds in re.findall(r"^using (\w+) = std::variant<([^>]*)>;", header, re.M):
         source.variants[name] = [kind.strip() for kind in kinds.split(",")]
-    source.named.update(re.findall(r"name_of\((\w+) ", header))
+    for above, name in re.findall(rf"{above}[^\n]*name_of\((\w+) ", header, re.M):
+        source.named.add(name)
+        if enumeration := source.enumerations.get(name):
+            enumeration.words = words_by(comment_of(above.splitlines()), enumeration.members)
+
+
+def words_by(comment: str, members: list[str]) -> list[str]:
+    """The words of an enumeration by the comment on its name_of()."""
+    quoted = re.findall('"([^"]+)"', comment)
+    if len(quoted) == len(members):
+        return quoted
+    return [name.replace("_", " ") if "with spaces" in comment else name for name in members]
 
 
 # ---- Python ---------------------------------------------------------------------------------------
@@ -173,14 +181,14 @@ def python_default(member: Member, source: Source) -> str:
         if kind == "Drive":
             return "_field(default_factory=Drive._empty)"
         if kind in source.enumerations:
-            return f"_WORDS[{kind!r}][0]"
+            return repr(source.enumerations[kind].words[0])
         empty = {"std::string": '""', "std::string_view": '""', "double": "0.0"}
         return empty.get(kind) or f"_field(default_factory={kind})"
     if "quiet_NaN" in default:
         return "None"
     if found := re.fullmatch(r"(\w+)::(\w+)", default):
-        index = [name for name, _ in source.enumerations[found[1]].members].index(found[2])
-        return f"_WORDS[{found[1]!r}][{index}]"
+        enumeration = source.enumerations[found[1]]
+        return repr(enumeration.words[enumeration.members.index(found[2])])
     if found := re.fullmatch(r"{(.*)}", default):
         return f"({found[1]},)"
     if found := re.fullmatch(r"std::size_t{(\d+)} << (\d+)U", default):
@@ -237,13 +245,12 @@ def python_text(source: Source, extra: list[str]) -> str:
             "from collections.abc import Iterable\n"
             "from dataclasses import dataclass as _dataclass\n"
             "from dataclasses import field as _field\n"
-            "from typing import TYPE_CHECKING, Union\n\n"
+            "from typing import TYPE_CHECKING, Literal, Union\n\n"
             "from gearlash import _methods\n"
-            "from gearlash._core import words as _words\n"
-            "from gearlash._drive import Drive\n\n"
-            "_WORDS = _words()\n\n")
-    for name in source.enumerations:
-        text += f"{name} = str\n"
+            "from gearlash._drive import Drive\n\n")
+    for name, enumeration in source.enumerations.items():
+        words = "".join(f"    {word!r},\n" for word in enumeration.words)
+        text += f"{name} = Literal[\n{words}]\n"
     for name, kinds in source.variants.items():
         text += f"{name} = Union[{', '.join(repr(kind) for kind in kinds)}]\n"
     text += "\n\n" + "".join(class_text(struct, source, extra) for struct in source.structs)
@@ -260,9 +267,9 @@ def cpp_text(source: Source, headers: list[Path]) -> str:
     text += "".join(f'#include "gearlash/{header.name}"\n' for header in headers)
     text += '#include "record.hpp"\n\nnamespace gearlash::python {\n\n'
     for name, enumeration in source.enumerations.items():
-        words = ", ".join(f'{{{name}::{word}, "{word}"}}' for word, _ in enumeration.members)
+        words = ", ".join(f'{{{name}::{word}, "{word}"}}' for word in enumeration.members)
         if name in source.named:
-            words = ", ".join(f"{{{name}::{word}, nullptr}}" for word, _ in enumeration.members)
+            words = ", ".join(f"{{{name}::{word}, nullptr}}" for word in enumeration.members)
         text += (f"template <>\nstruct Words<{name}> {{\n"
                  f'  static constexpr const char* name = "{name}";\n'
                  f"  static constexpr Word<{name}> all[] = {{{words}}};\n"

@@ -95,8 +95,7 @@ namespace {
 void add_options(Command& command, ServoOptions& options, const char* file_help,
                  const char* sensor_help) {
   command.add_option("DRIVE.toml", options.file, file_help)->type_name("");
-  command
-      .add_option("--damping", options.damping, "Set the damping ratio: 0, or 1e-15 to 1000")
+  command.add_option("--damping", options.damping, "Set the damping ratio: 0, or 1e-15 to 1000")
       ->type_name("NUMBER")
       ->group(servo_group);
   command

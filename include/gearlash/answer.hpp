@@ -57,16 +57,16 @@ enum class Engine : std::uint8_t { closed_form, general };
 
 /// Energy lost in a period, J. The loop feeds in the same amount.
 struct EnergyLost {
-  double motor_friction = 0.0;
-  double load_friction = 0.0;
-  double impacts = 0.0;
+  double motor_friction = 0.0;  ///< J, in the motor's friction
+  double load_friction = 0.0;   ///< J, in the load's friction
+  double impacts = 0.0;         ///< J
 
   [[nodiscard]] double total() const { return motor_friction + load_friction + impacts; }
 };
 
 struct Cycle {
-  CycleKind kind = CycleKind::symmetric;
-  Stability stability = Stability::stable;
+  CycleKind kind = CycleKind::symmetric;      ///< its symmetry
+  Stability stability = Stability::stable;    ///< for all possible disturbances
   Certainty certainty = Certainty::computed;  ///< that it exists, and how stable it is
   double amplitude = 0.0;                     ///< rad, half the peak-to-peak of the load
   double motor_amplitude = 0.0;               ///< rad, of the motor, referred to the load's shaft
@@ -81,7 +81,7 @@ struct Cycle {
   bool has_mirror_image = false;      ///< the mirror image counts as this cycle
   bool settles = false;    ///< bounces settle before each separation, or contact is plastic
   std::size_t starts = 0;  ///< starts of a search that led here
-  std::optional<EnergyLost> energy{};
+  std::optional<EnergyLost> energy{};  ///< J a period; empty where the inertias are not known
   /// Peak to peak of the measured position, in steps of its encoder, if it has one.
   std::optional<double> encoder_steps{};
 
@@ -110,14 +110,14 @@ struct IrregularMotion {
   std::optional<double> motor_amplitude{};  ///< rad
   double center = 0.0;                      ///< rad, of the load, from the reference
   bool is_motor_alone = false;  ///< the motor moves within the gap, the load hardly moves
-  std::optional<double> mean_amplitude{};  ///< rad, half of extreme to extreme
-  std::optional<double> amplitude_deviation{};
-  std::optional<double> mean_period{};  ///< s
-  std::optional<double> period_deviation{};
+  std::optional<double> mean_amplitude{};       ///< rad, half of extreme to extreme
+  std::optional<double> amplitude_deviation{};  ///< rad, its standard deviation
+  std::optional<double> mean_period{};          ///< s
+  std::optional<double> period_deviation{};     ///< s, its standard deviation
   std::optional<double> mismatch{};  ///< share, least mean difference of swings a few swings apart
   std::optional<double> exponent{};  ///< 1/s, the largest Lyapunov exponent
   std::optional<double> watched{};   ///< s, duration of the measurement
-  std::size_t starts = 0;
+  std::size_t starts = 0;            ///< of a search that led here
   std::optional<double> encoder_steps{};  ///< as of a cycle
 };
 
@@ -126,7 +126,10 @@ inline constexpr double steps_of_quantization = 4.0;
 
 /// Where a start of a search led.
 struct StartOutcome {
-  double load_position = 0.0, load_speed = 0.0, motor_position = 0.0, motor_speed = 0.0;
+  double load_position = 0.0;          ///< rad
+  double load_speed = 0.0;             ///< rad/s
+  double motor_position = 0.0;         ///< rad, at the load's shaft
+  double motor_speed = 0.0;            ///< rad/s, at the load's shaft
   std::string end{};                   ///< "rest", "cycle", "irregular", "diverges", "undecided"
   std::optional<std::size_t> which{};  ///< index into the cycles, or into the irregular motions
   double watched = 0.0;                ///< s
@@ -145,26 +148,29 @@ struct Threshold {
 struct SearchRecord {
   /// s: the longest that a start is followed, unless hardly anything happens or it stands still.
   double watch_time = 0.0;
-  bool is_complete = true;  ///< not stopped
-  std::size_t borders = 0;  ///< searched between starts with different outcomes
-  std::vector<StartOutcome> starts{};
+  bool is_complete = true;             ///< not stopped
+  std::size_t borders = 0;             ///< searched between starts with different outcomes
+  std::vector<StartOutcome> starts{};  ///< in the order in which they were followed
 
   [[nodiscard]] std::size_t count(const std::string& end) const;
 };
 
 /// Proved bounds.
 struct ProvedBounds {
-  Bounds growth_at_rest{};
-  bool has_cycle = false;  ///< if so, the following members are its bounds
-  Bounds amplitude{};      ///< rad
-  Bounds period{};         ///< s
-  Bounds multiplier{};
+  Bounds growth_at_rest{};  ///< of Answer::growth_at_rest
+  bool has_cycle = false;   ///< if so, the following members are its bounds
+  Bounds amplitude{};       ///< rad
+  Bounds period{};          ///< s
+  Bounds multiplier{};      ///< of the Floquet multiplier
 };
 
 /// The servo of 1960 that a drive is equivalent to.
 struct NormalFormNumbers {
-  double damping = 0.0, inertia_ratio = 0.0, friction_ratio = 0.0, backlash = 0.0;
-  double restitution = 0.0;
+  double damping = 0.0;               ///< ζ
+  double inertia_ratio = 0.0;         ///< J_L/J_M
+  double friction_ratio = 0.0;        ///< F_L/(F_M + F_L)
+  double backlash = 0.0;              ///< rad
+  double restitution = 0.0;           ///< 0 … 1
   double natural_frequency = 1.0;     ///< rad/s
   std::optional<double> stiffness{};  ///< N m/rad; unknown for a normal form with a frequency
 };
@@ -213,7 +219,7 @@ struct Ceiling {
   /// N m: no motion in the end has a larger mean of the mesh torque's size. Rigid faces, a
   /// continuous controller, no dry friction, encoder or load torque; empty for others.
   std::optional<double> mesh_torque{};
-  std::vector<CeilingTerm> terms{};
+  std::vector<CeilingTerm> terms{};  ///< what each source contributes
   /// The term "gap speed" is bounded by what brakes it, not by the width of the gap.
   bool is_gap_speed_braked = false;
 
@@ -255,32 +261,32 @@ struct StepResponse {
 
 /// Something a reader should know. `code` is for programs.
 struct Note {
-  std::string code{};
-  std::string text{};
+  std::string code{};  ///< one word
+  std::string text{};  ///< a sentence or more
 };
 
 struct Answer {
-  Verdict verdict = Verdict::undecided;
-  Certainty certainty = Certainty::searched;     ///< of the verdict
-  Certainty completeness = Certainty::searched;  ///< of the list of cycles
-  Engine engine = Engine::general;
-  std::optional<NormalFormNumbers> normal_form{};
-  std::optional<double> growth_at_rest{};  ///< of a small motion in the gap, per half cycle
-  std::optional<ProvedBounds> bounds{};
-  std::optional<Ceiling> ceiling{};    ///< if wanted
-  std::optional<LinearLoop> loop{};    ///< if wanted; a relay has none
-  std::optional<StepResponse> step{};  ///< if wanted
-  bool is_dissipative = false;         ///< no restitution can make it hunt
-  bool rests_engaged = false;          ///< large motions may end at rest, with the faces together
-  bool neutral_swings = false;         ///< some cycles could not be separated from their neighbors
-  std::vector<Cycle> cycles{};         ///< by falling amplitude; from a search, stable ones first
-  std::optional<Rest> rest{};
-  std::vector<IrregularMotion> irregular{};
+  Verdict verdict = Verdict::undecided;            ///< what the motion ends in
+  Certainty certainty = Certainty::searched;       ///< of the verdict
+  Certainty completeness = Certainty::searched;    ///< of the list of cycles
+  Engine engine = Engine::general;                 ///< which answered
+  std::optional<NormalFormNumbers> normal_form{};  ///< empty if the drive has none
+  std::optional<double> growth_at_rest{};          ///< of a small motion in the gap, per half cycle
+  std::optional<ProvedBounds> bounds{};            ///< if wanted, in closed form
+  std::optional<Ceiling> ceiling{};                ///< if wanted
+  std::optional<LinearLoop> loop{};                ///< if wanted; a relay has none
+  std::optional<StepResponse> step{};              ///< if wanted
+  bool is_dissipative = false;                     ///< no restitution can make it hunt
+  bool rests_engaged = false;   ///< large motions may end at rest, with the faces together
+  bool neutral_swings = false;  ///< some cycles could not be separated from their neighbors
+  std::vector<Cycle> cycles{};  ///< by falling amplitude; from a search, stable ones first
+  std::optional<Rest> rest{};   ///< empty if no start led there
+  std::vector<IrregularMotion> irregular{};  ///< on which no cycle was closed
   /// Of a search beside which the drive also rests, or stays bounded: on the grid of its steps, and
   /// then bisected. A step between those of the grid may lead elsewhere.
   std::vector<Threshold> thresholds{};
-  std::optional<SearchRecord> search{};
-  std::vector<Note> notes{};
+  std::optional<SearchRecord> search{};  ///< empty in closed form
+  std::vector<Note> notes{};             ///< what a reader should know
 
   /// The cycle that is seen in practice: the largest that is not unstable, or nullptr.
   [[nodiscard]] const Cycle* largest_stable() const noexcept;
@@ -290,7 +296,7 @@ struct Answer {
   [[nodiscard]] std::optional<double> value(Quantity quantity) const;
 };
 
-/// "cannot hunt", "hunts if disturbed", …
+/// The enumerator's name with spaces: "cannot hunt", "hunts if disturbed", …
 [[nodiscard]] const char* name_of(Verdict verdict);
 /// "searched", "computed", "enclosed", "theorem".
 [[nodiscard]] const char* name_of(Certainty certainty);

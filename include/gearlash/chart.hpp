@@ -26,12 +26,12 @@ enum class ChartSource : std::uint8_t {
 
 /// In SI.
 struct ChartAnswer {
-  std::optional<double> value{};  ///< empty where there is no cycle
-  Verdict verdict = Verdict::undecided;
+  std::optional<double> value{};         ///< empty where there is no cycle
+  Verdict verdict = Verdict::undecided;  ///< of the drive there
   /// Stated error, relative (absolute for a growth at rest below 1), without rounding. 0 where
   /// solved; empty outside.
   std::optional<double> error{};
-  ChartSource source = ChartSource::outside;
+  ChartSource source = ChartSource::outside;  ///< where the value comes from
 
   bool operator==(const ChartAnswer&) const = default;
 };

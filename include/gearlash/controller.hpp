@@ -31,16 +31,16 @@ enum class PIDTerms : std::uint8_t { P, PD, PI, PID };
 /// proportional e + integral ∫e dt + derivative · s/(filter s + 1) e. Without a filter, or if the
 /// derivative is of the speed, it acts on −v: − derivative · 1/(filter s + 1) v.
 struct PID {
-  PIDTerms terms = PIDTerms::P;
-  double proportional = 0.0;  ///< output/rad
-  double integral = 0.0;      ///< output/(rad s); PI and PID
-  double derivative = 0.0;    ///< output s/rad; PD and PID
-  double filter = 0.0;        ///< s, ≥ 0; PD and PID
+  PIDTerms terms = PIDTerms::P;  ///< the others are 0
+  double proportional = 0.0;     ///< output/rad
+  double integral = 0.0;         ///< output/(rad s); PI and PID
+  double derivative = 0.0;       ///< output s/rad; PD and PID
+  double filter = 0.0;           ///< s, ≥ 0; PD and PID
   /// While the output is at its limit the integral is drawn back, with this time constant, to the
   /// value that would ask for the limit (back-calculation; Åström & Hägglund 2006, ch. 3.5). 0: it
   /// winds up.
-  double tracking_time = 0.0;  ///< s, ≥ 0; PI and PID
-  bool derivative_of_speed = false;
+  double tracking_time = 0.0;        ///< s, ≥ 0; PI and PID
+  bool derivative_of_speed = false;  ///< of the speed, not of the error
 
   bool operator==(const PID&) const = default;
 };
@@ -69,10 +69,10 @@ struct LeadLagController {
 /// gain · numerator/denominator e, coefficients by descending powers of s, or of z from sample to
 /// sample. Proper; in z, without a pole outside the unit circle.
 struct TransferFunctionController {
-  double gain = 0.0;  ///< output/rad
-  std::vector<double> numerator{};
-  std::vector<double> denominator{};
-  bool is_sampled = false;  ///< of z
+  double gain = 0.0;                  ///< output/rad
+  std::vector<double> numerator{};    ///< of no higher degree than the denominator
+  std::vector<double> denominator{};  ///< the first one not 0
+  bool is_sampled = false;            ///< of z
 
   bool operator==(const TransferFunctionController&) const = default;
 };
@@ -96,8 +96,8 @@ enum class RelayInput : std::uint8_t {
 
 /// ±level, or 0: see DeadBand, which has its thresholds.
 struct RelayController {
-  double level = 0.0;  ///< output, > 0
-  RelayInput input = RelayInput::error;
+  double level = 0.0;                    ///< output, > 0
+  RelayInput input = RelayInput::error;  ///< what it switches on
 
   bool operator==(const RelayController&) const = default;
 };
@@ -116,7 +116,7 @@ struct DeadBand {
   double width = 0.0;  ///< rad, half of the band, ≥ 0; rad/s for a relay of the speed
   /// ≥ 0, in the unit of the width. With a law that is not a relay, only for DeadBandForm::whole.
   double hysteresis = 0.0;
-  DeadBandForm form = DeadBandForm::excess;
+  DeadBandForm form = DeadBandForm::excess;  ///< what passes beyond it
 
   bool operator==(const DeadBand&) const = default;
 };
@@ -132,8 +132,8 @@ struct Compensation {
   double friction_speed = 0.0;  ///< rad/s of Controller::shaft, ≥ 0
   /// The backlash that the controller assumes, face to face. It adds ± half of it to the reference,
   /// with the sign of its last motion, or to the error, with the error's sign.
-  double backlash = 0.0;  ///< rad at the load's shaft
-  CompensationInput input = CompensationInput::reference;
+  double backlash = 0.0;                                   ///< rad at the load's shaft
+  CompensationInput input = CompensationInput::reference;  ///< which sign it follows
   /// Of the reference: the time constant in which the addition changes sides; 0: at once.
   double take_up_time = 0.0;  ///< s, ≥ 0
   /// Of the error: the error at which all of the half is added; below, in proportion.
@@ -146,9 +146,9 @@ struct Controller {
   std::variant<PID, CascadeController, LeadLagController, TransferFunctionController,
                StateSpaceController, RelayController>
       law{};
-  GainShaft shaft = GainShaft::mixed;
-  DeadBand dead_band{};
-  Compensation compensation{};
+  GainShaft shaft = GainShaft::mixed;  ///< where angles and torques are
+  DeadBand dead_band{};                ///< before the law
+  Compensation compensation{};         ///< beside the law
   /// If given, it replaces all of the above: the registers of a motor's firmware, which are
   /// converted to one of these laws.
   std::optional<Firmware> firmware{};
@@ -166,9 +166,9 @@ enum class Discretization : std::uint8_t {
 /// How a computer runs a controller: it reads at 0, period, 2 period, … and outputs each result
 /// `delay` later. It holds it until the next.
 struct Sampling {
-  double period = 0.0;  ///< s, > 0
-  double delay = 0.0;   ///< s, 0 … 100 periods
-  Discretization method = Discretization::tustin;
+  double period = 0.0;                             ///< s, > 0
+  double delay = 0.0;                              ///< s, 0 … 100 periods
+  Discretization method = Discretization::tustin;  ///< of integral, derivative and filters
   /// The measured speed is the difference of two positions divided by the period; else a
   /// tachometer's.
   bool speed_by_differences = true;

@@ -31,8 +31,8 @@ namespace gearlash {
 
 /// The values of a quantity that a target permits.
 struct QuantityLimit {
-  Quantity quantity{};
-  Bounds permitted{};
+  Quantity quantity{};  ///< which one
+  Bounds permitted{};   ///< SI, both ends included
 
   bool operator==(const QuantityLimit&) const = default;
 };
@@ -87,12 +87,13 @@ enum class BorderKind : std::uint8_t {
   rest,            ///< starts cease to lead to rest, or begin to
   unnamed          ///< the verdict changes, and no cycle that was followed accounts for it
 };
-/// "limit", "fold", "flip", "Neimark–Sacker", …
+/// "limit", "fold", "branching", "flip", "Neimark–Sacker", "grazing", "endless period", "rest",
+/// "unnamed".
 [[nodiscard]] const char* name_of(BorderKind kind);
 
 struct Border {
-  double end = 0.0;  ///< of an interval of FeasibleValues
-  BorderKind kind = BorderKind::unnamed;
+  double end = 0.0;                       ///< of an interval of FeasibleValues
+  BorderKind kind = BorderKind::unnamed;  ///< what happens there
   double at = 0.0;       ///< where it happens; the end where that is not known more closely
   double located = 0.0;  ///< the relative distance to which `at` is located
   std::string event{};   ///< of a grazing: "mode: event"
@@ -112,11 +113,11 @@ struct IntervalProof {
 /// The values of one parameter that meet a target.
 struct FeasibleValues {
   std::string parameter{};  ///< its path, or "tachometer" and so on
-  double present = 0.0;
+  double present = 0.0;     ///< its value now, SI; NaN if it is not given
   /// 0.001 to 1000 times the present value. Friction and feedback: 0 to ten times critical damping.
   /// Shares: 0 to 1. Narrower where the drive permits less.
   Bounds searched{};
-  SearchKind kind = SearchKind::certified;
+  SearchKind kind = SearchKind::certified;  ///< how sure the intervals are
   /// All values that meet the target, rising. An end is the last number that meets it, to a
   /// relative 1e-15 (with bounces 1e-6 where the cycle vanishes abruptly), or the end of the range.
   std::vector<Bounds> intervals{};
@@ -182,14 +183,14 @@ struct FeasibleValues {
 /// drive hunts at present: the last values without hunting. Empty where the searched range has
 /// none.
 struct ParameterMargin {
-  std::string parameter{};
-  double present = 0.0;  ///< NaN if it is not given
-  Bounds searched{};
+  std::string parameter{};                  ///< its path
+  double present = 0.0;                     ///< NaN if it is not given
+  Bounds searched{};                        ///< as of FeasibleValues
   SearchKind kind = SearchKind::certified;  ///< certified: no nearer value exists
   bool hunts = false;                       ///< at present; or it is not known to rest
   /// To a relative 1e-15 by the closed form, else to `located` of their value.
   std::optional<double> below{};
-  std::optional<double> above{};
+  std::optional<double> above{};  ///< the same upwards
   /// Of a word, searched: the choices with which a drive that hunts comes to rest, or one that
   /// rests hunts.
   std::vector<double> choices{};
@@ -230,8 +231,8 @@ struct LogChange {
 /// directions, followed in steps of 0.02, crosses the boundary nearer than that. Not guaranteed:
 /// that no part of the boundary between the rays is nearer; a least change is a local minimum.
 struct OverallMargin {
-  MarginOutcome outcome = MarginOutcome::out_of_reach;
-  bool hunts = false;                 ///< at present
+  MarginOutcome outcome = MarginOutcome::out_of_reach;  ///< whether there is one
+  bool hunts = false;                                   ///< at present
   std::optional<LogChange> change{};  ///< from the present drive to the boundary, if found
   std::size_t starts = 0;             ///< starts of the search for a least change
   std::size_t converged = 0;          ///< starts that converged to a least change
@@ -244,7 +245,7 @@ struct OverallMargin {
 /// The plane Σ x_i/m_i = 1 through these borders is nearest to the present drive in the direction
 /// 1/m_i. The drive is searched along this direction, up to the least |m_i|.
 struct CombinedMargin {
-  std::vector<std::string> parameters{};
+  std::vector<std::string> parameters{};  ///< their paths
   /// Of changed to present values: the last drive that does not hunt. All but one are 1 where no
   /// combined change is smaller than that of one parameter.
   std::vector<double> factors{};

@@ -63,9 +63,9 @@ struct Friction {
 };
 
 struct Motor {
-  MotorKind kind{};
+  MotorKind kind{};      ///< what turns the controller's output into torque
   double inertia = 0.0;  ///< kg m², ≥ 0
-  Friction friction{};
+  Friction friction{};   ///< at its own shaft
   /// Limit of the controller's output, > 0: N m for a torque-controlled motor, else V. None: no
   /// limit.
   std::optional<double> limit{};
@@ -93,7 +93,7 @@ struct Gearbox {
 
 struct Load {
   double inertia = 0.0;  ///< kg m², ≥ 0
-  Friction friction{};
+  Friction friction{};   ///< at its own shaft
   /// m g l of the load: the torque of its weight while its centre of mass is level with its axis,
   /// N m. It pulls backward, by −gravity · cos(angle above the horizontal).
   double gravity = 0.0;
@@ -120,9 +120,9 @@ enum class ContactDamping : std::uint8_t {
 
 /// Compliant faces: torque stiffness · δ + damping · δ̇, where δ is the compression.
 struct CompliantContact {
-  double stiffness = 0.0;  ///< N m/rad at the load's shaft, > 0
-  double damping = 0.0;    ///< N m s/rad at the load's shaft, ≥ 0
-  ContactDamping law = ContactDamping::limited;
+  double stiffness = 0.0;                        ///< N m/rad at the load's shaft, > 0
+  double damping = 0.0;                          ///< N m s/rad at the load's shaft, ≥ 0
+  ContactDamping law = ContactDamping::limited;  ///< how the damping acts
 
   bool operator==(const CompliantContact&) const = default;
 };
@@ -146,9 +146,9 @@ enum class SensorPlace : std::uint8_t {
 };
 
 struct Sensor {
-  SensorPlace position = SensorPlace::load;
+  SensorPlace position = SensorPlace::load;  ///< the shaft whose position is fed back
   std::optional<ShaftName> speed{};  ///< the position's shaft if not given; the motor with `both`
-  Encoder encoder{};
+  Encoder encoder{};                 ///< of the position
   Encoder speed_encoder{};  ///< its differences are the speed; `encoder` if on the same shaft
 
   bool operator==(const Sensor&) const = default;
@@ -169,12 +169,12 @@ struct NormalForm {
 /// One drive. The same type is read from files, set by path, varied, analysed and written.
 struct Drive {
   std::optional<NormalForm> servo{};  ///< if given, it replaces motor, gearbox, load and controller
-  Motor motor{};
-  Gearbox gearbox{};
-  Load load{};
-  Contact contact{};
-  Sensor sensor{};
-  Controller controller{};
+  Motor motor{};                      ///< drives the gearbox
+  Gearbox gearbox{};                  ///< has the gap
+  Load load{};                        ///< what is moved
+  Contact contact{};                  ///< of the faces
+  Sensor sensor{};                    ///< what the controller reads
+  Controller controller{};            ///< gives the motor's torque or voltage
   std::optional<Sampling> sampling{};   ///< without it the controller is continuous
   std::optional<Signal> reference{};    ///< rad; 0 if not given
   std::optional<Signal> load_torque{};  ///< N m, on the load, forward; 0 if not given

@@ -40,20 +40,20 @@ struct Span {
 
 /// Positions rad, speeds rad/s.
 struct Shafts {
-  double load_position = 0.0;
-  double load_speed = 0.0;
-  double motor_position = 0.0;
-  double motor_speed = 0.0;
+  double load_position = 0.0;   ///< rad
+  double load_speed = 0.0;      ///< rad/s
+  double motor_position = 0.0;  ///< rad, at the load's shaft
+  double motor_speed = 0.0;     ///< rad/s, at the load's shaft
 };
 
 /// An event of the motion. Clock ticks (a computer's sample, a point of a table) are not events.
 /// Texts live as long as the Motion and its copies.
 struct MotionEvent {
-  double time = 0.0;              ///< s
-  std::string_view what{};        ///< "faces part", "impact forward", "motor stops", …
-  std::string_view mode_after{};  ///< "apart", "forward; motor sticks", …
-  Shafts before{};
-  Shafts after{};
+  double time = 0.0;                    ///< s
+  std::string_view what{};              ///< "faces part", "impact forward", "motor stops", …
+  std::string_view mode_after{};        ///< "apart", "forward; motor sticks", …
+  Shafts before{};                      ///< just before it
+  Shafts after{};                       ///< just after it
   std::optional<double> energy_lost{};  ///< J, at an impact; closed form only
 };
 
@@ -68,12 +68,12 @@ struct MotionTouch {
 /// J, from the start: stored_at_start + supplied = stored + motor_friction + load_friction +
 /// impacts.
 struct EnergyBooks {
-  double stored_at_start = 0.0;
-  double supplied = 0.0;  ///< by the loop while the faces are apart
-  double stored = 0.0;    ///< kinetic, and in the loop's virtual spring
-  double motor_friction = 0.0;
-  double load_friction = 0.0;
-  double impacts = 0.0;
+  double stored_at_start = 0.0;  ///< kinetic, and in the loop's virtual spring
+  double supplied = 0.0;         ///< by the loop while the faces are apart
+  double stored = 0.0;           ///< kinetic, and in the loop's virtual spring
+  double motor_friction = 0.0;   ///< lost there
+  double load_friction = 0.0;    ///< lost there
+  double impacts = 0.0;          ///< lost at them
 };
 
 enum class MotionStop : std::uint8_t {
@@ -87,8 +87,8 @@ enum class MotionStop : std::uint8_t {
 };
 
 struct MotionSample {
-  double time = 0.0;  ///< s
-  Shafts shafts{};
+  double time = 0.0;          ///< s
+  Shafts shafts{};            ///< positions and speeds
   double motor_torque = 0.0;  ///< N m, of the motor, excluding its winding's friction
   double reference = 0.0;     ///< rad
   double load_torque = 0.0;   ///< N m
@@ -150,7 +150,7 @@ class Motion {
 [[nodiscard]] Motion simulate(const Drive& drive, const Span& span,
                               Progress& progress = no_progress());
 
-/// "reached_end", "event_limit", ….
+/// The enumerator's name: "reached_end", "event_limit", …
 [[nodiscard]] const char* name_of(MotionStop stop);
 
 }  // namespace gearlash

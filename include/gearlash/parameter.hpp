@@ -21,8 +21,8 @@ enum class ParameterKind : std::uint8_t {
 
 /// Facts about one parameter. Texts are of static storage.
 struct ParameterInfo {
-  std::string_view path{};
-  ParameterKind kind = ParameterKind::number;
+  std::string_view path{};                     ///< as in files
+  ParameterKind kind = ParameterKind::number;  ///< what its value is
   std::string_view unit{};                  ///< SI; empty for a number without unit, a word, a list
   std::string_view meaning{};               ///< one sentence, without a full stop
   std::vector<std::string_view> choices{};  ///< of a word

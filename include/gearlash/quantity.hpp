@@ -51,18 +51,18 @@ enum class QuantityKind : std::uint8_t { number, choice };
 
 /// What is known of one quantity. Texts are of static storage.
 struct QuantityInfo {
-  Quantity quantity{};
+  Quantity quantity{};         ///< its number
   std::string_view name{};     ///< "motor_amplitude"
   std::string_view unit{};     ///< SI: "rad", "s", …; "1" of a bare number; empty of a choice
   std::string_view meaning{};  ///< "amplitude of the load, half peak-to-peak"
-  QuantityScope scope = QuantityScope::motion;
-  QuantityKind kind = QuantityKind::number;
+  QuantityScope scope = QuantityScope::motion;  ///< what it is of
+  QuantityKind kind = QuantityKind::number;     ///< a number or a word
 };
 
 /// All of them, in the order of Quantity.
 [[nodiscard]] std::span<const QuantityInfo> quantities() noexcept;
 [[nodiscard]] const QuantityInfo& info_of(Quantity quantity) noexcept;
-/// "amplitude", "growth_at_rest", …
+/// The enumerator's name: "amplitude", "growth_at_rest", …
 [[nodiscard]] std::string_view name_of(Quantity quantity) noexcept;
 /// The quantity of that name, with "-" for "_" too, or of an older one ("size"); nothing where
 /// there is none.

@@ -19,8 +19,8 @@ namespace gearlash {
 /// is empty: without a limit cycle only growth at rest exists. So is a slope that does not exist or
 /// is not computed.
 struct Jacobian {
-  std::vector<Quantity> quantities{};
-  std::vector<std::string> paths{};
+  std::vector<Quantity> quantities{};           ///< the rows
+  std::vector<std::string> paths{};             ///< of the parameters, the columns
   std::vector<std::optional<double>> values{};  ///< of the quantities
   std::vector<double> present{};                ///< of the parameters
   std::vector<std::optional<double>> slopes{};  ///< quantity by quantity; see slope()

@@ -11,9 +11,9 @@ namespace gearlash {
 // signal is constant.
 
 struct StepSignal {
-  double before = 0.0;
-  double after = 0.0;  ///< from `time` on
-  double time = 0.0;
+  double before = 0.0;  ///< until `time`
+  double after = 0.0;   ///< from `time` on
+  double time = 0.0;    ///< s
 
   bool operator==(const StepSignal&) const = default;
 };
@@ -22,15 +22,15 @@ struct StepSignal {
 struct RampSignal {
   double value = 0.0;  ///< until `time`
   double rate = 0.0;   ///< per s
-  double time = 0.0;
+  double time = 0.0;   ///< s
 
   bool operator==(const RampSignal&) const = default;
 };
 
 /// mean + amplitude sin(frequency t + phase), at all times.
 struct SineSignal {
-  double mean = 0.0;
-  double amplitude = 0.0;
+  double mean = 0.0;       ///< rad or N m
+  double amplitude = 0.0;  ///< rad or N m
   double frequency = 0.0;  ///< rad/s, > 0
   double phase = 0.0;      ///< rad
 
@@ -39,8 +39,8 @@ struct SineSignal {
 
 /// From one position to another at limited speed and acceleration, as fast as both permit.
 struct TrapezoidSignal {
-  double from = 0.0;
-  double to = 0.0;
+  double from = 0.0;          ///< rad or N m
+  double to = 0.0;            ///< rad or N m
   double speed = 0.0;         ///< per s, > 0
   double acceleration = 0.0;  ///< per s², > 0
   double time = 0.0;          ///< of the start
@@ -50,8 +50,8 @@ struct TrapezoidSignal {
 
 /// Straight lines from point to point; constant after the last.
 struct TableSignal {
-  std::vector<double> times{};  ///< rising, at least one
-  std::vector<double> values{};
+  std::vector<double> times{};   ///< rising, at least one
+  std::vector<double> values{};  ///< rad or N m, as many
   std::string file{};  ///< the CSV file of the points, as its author named it; empty without one
 
   bool operator==(const TableSignal&) const = default;

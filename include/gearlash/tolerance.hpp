@@ -20,23 +20,23 @@ namespace gearlash {
 
 /// The same value in every sample.
 struct ExactValue {
-  double value = 0.0;
+  double value = 0.0;  ///< in the parameter's SI unit
 
   bool operator==(const ExactValue&) const = default;
 };
 
 /// Uniform from `min` to `max`.
 struct UniformBetween {
-  double min = 0.0;
-  double max = 0.0;
+  double min = 0.0;  ///< in the parameter's SI unit
+  double max = 0.0;  ///< ≥ min
 
   bool operator==(const UniformBetween&) const = default;
 };
 
 /// Uniform from nominal − tolerance to nominal + tolerance; the tolerance is absolute, ≥ 0.
 struct UniformAbout {
-  double nominal = 0.0;
-  double tolerance = 0.0;
+  double nominal = 0.0;    ///< in the parameter's SI unit
+  double tolerance = 0.0;  ///< in the same unit, ≥ 0
 
   bool operator==(const UniformAbout&) const = default;
 };
@@ -51,16 +51,16 @@ struct UniformAbout {
 /// standard_deviation > 0, min < max, min < mean + 3 standard deviations, max > mean − 3 standard
 /// deviations.
 struct Normal {
-  double mean = 0.0;
-  double standard_deviation = 1.0;
-  std::optional<double> min{};
-  std::optional<double> max{};
+  double mean = 0.0;                ///< in the parameter's SI unit
+  double standard_deviation = 1.0;  ///< in the same unit, > 0
+  std::optional<double> min{};      ///< none if empty
+  std::optional<double> max{};      ///< none if empty
 
   bool operator==(const Normal&) const = default;
 };
 
 struct Lot {
-  double value = 0.0;
+  double value = 0.0;   ///< in the parameter's SI unit
   double weight = 1.0;  ///< > 0; only ratios of weights matter
 
   bool operator==(const Lot&) const = default;
@@ -69,7 +69,7 @@ struct Lot {
 /// One of several values with probabilities proportional to their weights: lots from several
 /// makers, gear wheels of several ratios. At least one lot.
 struct DiscreteLots {
-  std::vector<Lot> lots{};
+  std::vector<Lot> lots{};  ///< at least one
 
   bool operator==(const DiscreteLots&) const = default;
 };
@@ -78,15 +78,15 @@ using Distribution = std::variant<ExactValue, UniformBetween, UniformAbout, Norm
 
 /// A parameter of a drive, by its path, that varies from sample to sample.
 struct ParameterTolerance {
-  std::string path{};
+  std::string path{};           ///< of a number of the drive
   Distribution distribution{};  ///< independent of the other parameters
 
   bool operator==(const ParameterTolerance&) const = default;
 };
 
 struct TolerancedDrive {
-  Drive nominal{};  ///< its varied parameters have no effect
-  std::vector<ParameterTolerance> varied{};
+  Drive nominal{};                           ///< its varied parameters have no effect
+  std::vector<ParameterTolerance> varied{};  ///< each path once
 
   bool operator==(const TolerancedDrive&) const = default;
 };
@@ -120,7 +120,7 @@ struct SamplePlan {
 
 /// A number estimated from a sample.
 struct Estimate {
-  double value = 0.0;
+  double value = 0.0;  ///< the estimate
   /// The standard deviation of the replicates' values divided by √replicates. Empty where fewer
   /// than two replicates give a value, or one gives an infinite value.
   std::optional<double> standard_error{};
@@ -153,10 +153,10 @@ struct QuantileEstimate {
 /// counts[i] drives have an amplitude from edges[i] to edges[i + 1]; the last edge is included. The
 /// edges are equally spaced from the smallest amplitude above 0 to the largest finite one.
 struct AmplitudeHistogram {
-  std::vector<double> edges{};  ///< rad; one more than counts, or none
-  std::vector<std::size_t> counts{};
-  std::size_t quiet = 0;    ///< amplitude 0
-  std::size_t unknown = 0;  ///< amplitude unknown or unbounded
+  std::vector<double> edges{};        ///< rad; one more than counts, or none
+  std::vector<std::size_t> counts{};  ///< of drives
+  std::size_t quiet = 0;              ///< amplitude 0
+  std::size_t unknown = 0;            ///< amplitude unknown or unbounded
 };
 
 /// A drive hunts if it can oscillate permanently, by itself or after a disturbance, or runs away
@@ -165,20 +165,20 @@ struct AmplitudeHistogram {
 /// undecided) counts as infinite in quantiles, and such a drive meets no target. The mean covers
 /// finite amplitudes only.
 struct ToleranceStudy {
-  SamplePlan sampling{};
+  SamplePlan sampling{};                                 ///< as it was taken
   Estimate hunting{};                                    ///< probability
   Estimate yield{};                                      ///< probability of meeting the target
   std::optional<Estimate> mean_amplitude{};              ///< rad, 0 where quiet
   std::vector<QuantileEstimate> amplitude{};             ///< rad, of all drives; 0 where quiet
   std::vector<QuantileEstimate> amplitude_of_hunting{};  ///< rad, of the drives that hunt
   std::vector<QuantileEstimate> frequency{};             ///< Hz, of the drives with a cycle
-  AmplitudeHistogram histogram{};
+  AmplitudeHistogram histogram{};                        ///< of amplitudes above 0
   /// 0: quantiles are those of all values. Else they are that close to them, relatively, and the
   /// histogram counts a value this close to an edge on either side of it. The lowest and the
   /// highest value are exact. (DDSketch: Masson, Rim and Lee, VLDB 2019.)
   double relative_accuracy = 0.0;
-  std::size_t undecided = 0;
-  std::size_t unknown_amplitudes = 0;
+  std::size_t undecided = 0;           ///< samples of which it is not known whether they hunt
+  std::size_t unknown_amplitudes = 0;  ///< samples whose amplitude is not known
   std::size_t refused = 0;  ///< draws that are no valid drive; 0 for a drive without faults()
   bool stopped = false;     ///< by Progress: then only the counts hold
 };
@@ -208,25 +208,25 @@ struct ToleranceStudy {
 /// Sobol's indices of one varied parameter: the share of a variance that disappears if this
 /// parameter is made exact (first order), and the share that remains if all others are (total).
 struct SensitivityIndices {
-  Estimate first_order{};
-  Estimate total{};
+  Estimate first_order{};  ///< alone
+  Estimate total{};        ///< with all interactions
 };
 
 struct NumberSensitivity {
-  std::string path{};
+  std::string path{};                                ///< of the parameter
   std::optional<SensitivityIndices> of_amplitude{};  ///< 0 where quiet; empty if it does not vary
   std::optional<SensitivityIndices>
       of_hunting{};  ///< of the indicator; empty if all drives or none hunt
 };
 
 struct SensitivityStudy {
-  SamplePlan sampling{};
+  SamplePlan sampling{};                     ///< as it was taken
   std::vector<NumberSensitivity> numbers{};  ///< in the order of TolerancedDrive::varied
   Estimate amplitude_variance{};             ///< rad²
   Estimate hunting_variance{};               ///< p(1 − p)
   std::size_t left_out = 0;                  ///< points whose amplitude is unknown or unbounded
-  std::size_t refused = 0;
-  bool stopped = false;
+  std::size_t refused = 0;                   ///< draws that are no valid drive
+  bool stopped = false;                      ///< by Progress: then nothing holds
 };
 
 /// Solves varied.size() + 2 drives for each point of the plan. Of the questions it reads which

@@ -48,7 +48,7 @@ struct TuneEffort {
 /// A unit of the series with the tuned values.
 struct TunedUnit {
   std::vector<double> values{};  ///< of TolerancedDrive::varied, in their order
-  Answer answer{};
+  Answer answer{};               ///< of the unit
 };
 
 struct TunedDrive {
@@ -64,9 +64,9 @@ struct TunedDrive {
   /// that failed. Empty where no unit limited any.
   std::optional<TunedUnit> limiting{};
   bool by_derivatives = false;  ///< the last proposal was closed in on by derivatives
-  std::size_t rounds = 0;
-  std::size_t analyses = 0;
-  bool stopped = false;  ///< by Progress: the best by then
+  std::size_t rounds = 0;       ///< of proposing and trying
+  std::size_t analyses = 0;     ///< of single drives
+  bool stopped = false;         ///< by Progress: the best by then
 };
 
 /// Every fault of the series, of the axes (words; less than two values; a parameter that also

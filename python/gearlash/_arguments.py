@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any, TypeVar
 
 _One = TypeVar("_One")
+_Word = TypeVar("_Word", bound=str)
 
 
 def number(name: str, value: Any) -> float:
@@ -81,12 +82,12 @@ def share(name: str, value: Any) -> float:
     return found
 
 
-def one_of(name: str, given: str, permitted: Iterable[str]) -> str:
+def one_of(name: str, given: str, permitted: tuple[_Word, ...]) -> _Word:
     """A word."""
-    words = list(permitted)
-    if text(name, given) not in words:
-        raise ValueError(f"{name} must be one of {', '.join(words)}, not {given}")
-    return given
+    for word in permitted:
+        if word == text(name, given):
+            return word
+    raise ValueError(f"{name} must be one of {', '.join(permitted)}, not {given}")
 
 
 def where_given(**options: Any) -> dict[str, Any]:

@@ -11,9 +11,9 @@ from gearlash._arguments import (listed, mapping, number, one_of, optional_numbe
                                  where_given, whole)
 from gearlash._arguments import share as _share
 from gearlash._drive import Drive
-from gearlash._records import (Axis, BacklashDemand, DiscreteLots, Distribution, ExactValue,
+from gearlash._records import (Aim, Axis, BacklashDemand, DiscreteLots, Distribution, ExactValue,
                                FeasibleValues, HuntingMargin, Normal, ParameterTolerance,
-                               SamplePlan, SensitivityStudy, StudyQuestions, Target,
+                               Quantity, SamplePlan, SensitivityStudy, StudyQuestions, Target,
                                TolerancedDrive, ToleranceStudy, TunedDrive, TuneEffort, TuneTask,
                                UniformAbout, UniformBetween, WidestBacklash)
 
@@ -263,8 +263,8 @@ def _study(drive: SeriesLike, varied: Mapping[str, Distribution] | None, wanted:
     for one_share in listed("shares", more.get("shares") or ()):
         if not 0.0 <= number("shares", one_share) <= 1.0:
             raise ValueError(f"shares must be from 0 to 1, not {one_share}")
-    questions = StudyQuestions(amplitude=one_of("quantity", quantity,
-                                                ("amplitude", "motor_amplitude")),
+    shafts: tuple[Quantity, Quantity] = ("amplitude", "motor_amplitude")
+    questions = StudyQuestions(amplitude=one_of("quantity", quantity, shafts),
                                target=Target() if wanted is None else _target(wanted, one),
                                **where_given(**more))
     plan = (_core.usual_sampling(one, questions) if samples is None
@@ -274,7 +274,7 @@ def _study(drive: SeriesLike, varied: Mapping[str, Distribution] | None, wanted:
 
 def tune(drive: SeriesLike, parameters: Sequence[str | Axis] | None = None, *,
          varied: Mapping[str, Distribution] | None = None, target: TargetLike | None = None,
-         aim: str = "bandwidth", share: float = 1.0, least_phase_margin: float | None = None,
+         aim: Aim = "bandwidth", share: float = 1.0, least_phase_margin: float | None = None,
          units: int | None = None, rounds: int | None = None, evaluations: int | None = None,
          seed: int = 1960, progress: Progress = None) -> TunedDrive:
     """Find the best values of several parameters for a whole series of drives.

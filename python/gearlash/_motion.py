@@ -12,7 +12,7 @@ from gearlash import _core
 from gearlash._analysis import Progress
 from gearlash._arguments import number, whole
 from gearlash._drive import Drive
-from gearlash._records import EnergyBooks, MotionTouch, Start
+from gearlash._records import EnergyBooks, Engine, MotionStop, MotionTouch, Start
 
 #: The fields of :attr:`Motion.events`.
 EVENT = np.dtype([("time", "f8"), ("what", "U48"), ("mode_after", "U80"),
@@ -124,7 +124,7 @@ class Motion:
         return self._core.end_time
 
     @property
-    def stop(self) -> str:
+    def stop(self) -> MotionStop:
         """"reached_end", or why the motion ended early."""
         return self._core.stop
 
@@ -134,7 +134,7 @@ class Motion:
         return self._core.stop_text
 
     @property
-    def engine(self) -> str:
+    def engine(self) -> Engine:
         """"closed form" or "general"."""
         return self._core.engine
 

@@ -247,7 +247,8 @@ std::string draw_contour_map(const ContourMap& map, PictureFormat format) {
   drawing.commands +=
       fmt::format("set lmargin screen {}\nset rmargin screen {}\nset bmargin screen {}\n",
                   Paper::left_margin, Paper::right_margin, Paper::bottom_margin);
-  drawing.commands += axis_commands('x', map.x) + axis_commands('y', map.y) + legend(map, format);
+  drawing.commands += axis_commands('x', map.x) + axis_commands('y', map.y) +
+                      "set ylabel offset 1,0\n" + legend(map, format);
   add_regions(map, paper, drawing);
   drawing.add(curves_block("hatching", map.hatching, paper), "hatching", hatching_style());
   drawing.add(curves_block("inner_hatching", map.inner_hatching, paper), "inner_hatching",

@@ -8,6 +8,7 @@ import sys
 from fractions import Fraction
 from math import inf  # noqa: F401  repr of infinite bounds
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -128,3 +129,8 @@ def test_the_stub_declares_what_the_library_has():
         if count is not None:
             head = found[name].__doc__.partition(") ->")[0]
             assert len(re.findall(r"\w+: ", head)) == count, head
+
+
+def test_words_in_types_are_those_of_cpp():
+    for name, words in _core.words().items():
+        assert get_args(getattr(_records, name)) == words

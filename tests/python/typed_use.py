@@ -21,6 +21,8 @@ cycle = answer.largest_stable
 if cycle is not None:
     peak: float = 2 * cycle.amplitude * cycle.frequency
 ceiling: float | None = answer.value("ceiling")
+is_quiet = answer.verdict in ("cannot hunt", "comes to rest")
+limit = gearlash.QuantityLimit("motor_amplitude", gearlash.Bounds(0.0, 1e-3))
 
 axes = [Axis("gearbox.backlash", [1e-3, 2e-3]), Axis("load.inertia", np.geomspace(1e-3, 1e-2, 5)),
         gearlash.linear("gearbox.ratio", 10, 20, 3)]
@@ -47,3 +49,6 @@ gearlash.simulate(drive, "1 s")  # type: ignore[arg-type]
 gearlash.analyse("drive.toml")  # type: ignore[arg-type]
 gearlash.Start(position=1.0)  # type: ignore[call-arg]
 answer.amplitude  # type: ignore[attr-defined]
+answer.verdict == "rests"  # type: ignore[comparison-overlap]
+gearlash.QuantityLimit("speed")  # type: ignore[arg-type]
+gearlash.tune(drive, aim="speed")  # type: ignore[arg-type]
