@@ -169,29 +169,28 @@ Parameter motor_kind() {
           .other_words = {{"brushed-dc", 0}}};
 }
 
-std::vector<Parameter> motor_parameters() {
-  std::vector<Parameter> list = {
-      motor_kind(),
-      {.path = "motor.inertia",
-       .slot = [](Drive& d) { return of_plant(d, d.motor.inertia); },
-       .dimension = &always<inertia>,
-       .meaning = "moment of inertia of the rotor, at its own shaft",
-       .permitted = Permitted::not_negative,
-       .is_required = true,
-       .other_forms = {{"joint.armature"}},
-       .usual = {1e-8, 1e-1}},
-      {.path = "motor.friction",
-       .slot = [](Drive& d) { return of_plant(d, d.motor.friction.viscous); },
-       .dimension = &always<torque_per_speed>,
-       .meaning = "viscous friction of the motor, without its back-EMF",
-       .permitted = Permitted::not_negative,
-       .is_required = true,
-       .other_forms = {{"joint.damping"}},
-       .usual = {1e-8, 1e-1}}};
-  for (auto* constants : {&motor_constants, &two_phase_constants}) {
-    for (Parameter& constant : (*constants)()) list.push_back(std::move(constant));
-  }
-  const std::vector<Parameter> dry = {
+std::vector<Parameter> rotor_parameters() {
+  return {motor_kind(),
+          {.path = "motor.inertia",
+           .slot = [](Drive& d) { return of_plant(d, d.motor.inertia); },
+           .dimension = &always<inertia>,
+           .meaning = "moment of inertia of the rotor, at its own shaft",
+           .permitted = Permitted::not_negative,
+           .is_required = true,
+           .other_forms = {{"joint.armature"}},
+           .usual = {1e-8, 1e-1}},
+          {.path = "motor.friction",
+           .slot = [](Drive& d) { return of_plant(d, d.motor.friction.viscous); },
+           .dimension = &always<torque_per_speed>,
+           .meaning = "viscous friction of the motor, without its back-EMF",
+           .permitted = Permitted::not_negative,
+           .is_required = true,
+           .other_forms = {{"joint.damping"}},
+           .usual = {1e-8, 1e-1}}};
+}
+
+std::vector<Parameter> motor_dry_friction() {
+  return {
       {.path = "motor.coulomb",
        .slot =
            [](Drive& d) {
@@ -226,7 +225,11 @@ std::vector<Parameter> motor_parameters() {
        .dimension = &always<angular_speed>,
        .meaning = "speed over which the dry friction falls from breakaway to coulomb; 0: at once",
        .permitted = Permitted::not_negative,
-       .usual = {1e-2, 100.0}},
+       .usual = {1e-2, 100.0}}};
+}
+
+std::vector<Parameter> motor_limits() {
+  return {
       {.path = "motor.voltage_limit",
        .slot = [](Drive& d) { return has_voltage(d) ? Slot{&d.motor.limit} : Slot{}; },
        .dimension = &limit_dimension,
@@ -258,39 +261,40 @@ std::vector<Parameter> motor_parameters() {
                   "the torque limit",
        .permitted = Permitted::positive,
        .usual = {0.1, 100.0}}};
-  list.insert(list.end(), dry.begin(), dry.end());
-  return list;
 }
 
-std::vector<Parameter> transmission_parameters() {
+std::vector<Parameter> gearbox_parameters() {
+  return {{.path = "gearbox.ratio",
+           .slot = [](Drive& d) { return of_plant(d, d.gearbox.ratio); },
+           .meaning = "motor turns per load turn",
+           .permitted = Permitted::positive,
+           .is_required = true,
+           .wanted = "positive, motor turns per load turn",
+           .usual = {1.0, 1000.0}},
+          {.path = "gearbox.backlash",
+           .slot = [](Drive& d) { return of_plant(d, d.gearbox.backlash); },
+           .dimension = &always<angle>,
+           .meaning = "backlash at the load's shaft, from face to face",
+           .permitted = Permitted::not_negative,
+           .is_required = true,
+           .other_forms = {{"joint.backlash"}},
+           .usual = {1e-5, 0.1}},
+          {.path = "gearbox.inertia",
+           .slot = [](Drive& d) { return of_plant(d, d.gearbox.inertia); },
+           .dimension = &always<inertia>,
+           .meaning = "moment of inertia of the gears, at the motor's shaft",
+           .permitted = Permitted::not_negative,
+           .usual = {1e-9, 1e-2}},
+          {.path = "gearbox.efficiency",
+           .slot = [](Drive& d) { return of_plant(d, d.gearbox.efficiency); },
+           .meaning = "efficiency as printed; not modelled, which every answer notes",
+           .permitted = Permitted::share,
+           .wanted = "a number from 0 to 1, or in percent",
+           .usual = {0.3, 1.0, false}}};
+}
+
+std::vector<Parameter> load_parameters() {
   return {
-      {.path = "gearbox.ratio",
-       .slot = [](Drive& d) { return of_plant(d, d.gearbox.ratio); },
-       .meaning = "motor turns per load turn",
-       .permitted = Permitted::positive,
-       .is_required = true,
-       .wanted = "positive, motor turns per load turn",
-       .usual = {1.0, 1000.0}},
-      {.path = "gearbox.backlash",
-       .slot = [](Drive& d) { return of_plant(d, d.gearbox.backlash); },
-       .dimension = &always<angle>,
-       .meaning = "backlash at the load's shaft, from face to face",
-       .permitted = Permitted::not_negative,
-       .is_required = true,
-       .other_forms = {{"joint.backlash"}},
-       .usual = {1e-5, 0.1}},
-      {.path = "gearbox.inertia",
-       .slot = [](Drive& d) { return of_plant(d, d.gearbox.inertia); },
-       .dimension = &always<inertia>,
-       .meaning = "moment of inertia of the gears, at the motor's shaft",
-       .permitted = Permitted::not_negative,
-       .usual = {1e-9, 1e-2}},
-      {.path = "gearbox.efficiency",
-       .slot = [](Drive& d) { return of_plant(d, d.gearbox.efficiency); },
-       .meaning = "efficiency as printed; not modelled, which every answer notes",
-       .permitted = Permitted::share,
-       .wanted = "a number from 0 to 1, or in percent",
-       .usual = {0.3, 1.0, false}},
       {.path = "load.inertia",
        .slot = [](Drive& d) { return of_plant(d, d.load.inertia); },
        .dimension = &always<inertia>,
@@ -388,7 +392,8 @@ std::vector<Parameter> contact_parameters() {
 
 std::vector<Parameter> mechanical_parameters() {
   std::vector<Parameter> list = servo_parameters();
-  for (auto* part : {&motor_parameters, &transmission_parameters, &contact_parameters}) {
+  for (auto* part : {&rotor_parameters, &motor_constants, &two_phase_constants, &motor_dry_friction,
+                     &motor_limits, &gearbox_parameters, &load_parameters, &contact_parameters}) {
     for (Parameter& parameter : (*part)()) list.push_back(std::move(parameter));
   }
   return list;
