@@ -280,7 +280,7 @@ struct Answer {
   bool rests_engaged = false;   ///< large motions may end at rest, with the faces together
   bool neutral_swings = false;  ///< some cycles could not be separated from their neighbors
   std::vector<Cycle> cycles{};  ///< by falling amplitude; from a search, stable ones first
-  std::optional<Rest> rest{};   ///< empty if no start led there
+  std::optional<Rest> rest{};   ///< empty if it is not known to rest
   std::vector<IrregularMotion> irregular{};  ///< on which no cycle was closed
   /// Of a search beside which the drive also rests, or stays bounded: on the grid of its steps, and
   /// then bisected. A step between those of the grid may lead elsewhere.

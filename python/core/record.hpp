@@ -185,11 +185,11 @@ Type from_python(py::handle object, const char* name) {
     try {
       return object.cast<Type>();
     } catch (const py::cast_error&) {
-      const char* const permitted =
-          std::is_signed_v<Type> ? "an integer" : "an integer from 0 to 18446744073709551615";
+      const std::string permitted = "an integer from " +
+                                    std::to_string(std::numeric_limits<Type>::min()) + " to " +
+                                    std::to_string(std::numeric_limits<Type>::max());
       if (PyLong_Check(object.ptr()) == 0) refuse_type(name, permitted, object);
-      throw InvalidInput(
-          {{name, std::string(py::str(object)), std::string("must be ") + permitted, ""}});
+      throw InvalidInput({{name, std::string(py::str(object)), "must be " + permitted, ""}});
     }
   } else if constexpr (std::is_same_v<Type, std::string>) {
     if (!py::isinstance<py::str>(object)) refuse_type(name, "text", object);

@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, Union
+from typing import Any, Union, get_args
 
-from gearlash import _core
+from gearlash import _core, _records
 from gearlash._analysis import Progress
 from gearlash._arguments import (listed, mapping, number, one_of, optional_number, text,
                                  where_given, whole)
 from gearlash._arguments import share as _share
 from gearlash._drive import Drive
-from gearlash._records import (Aim, Axis, BacklashDemand, DiscreteLots, Distribution, ExactValue,
-                               FeasibleValues, HuntingMargin, Normal, ParameterTolerance,
-                               Quantity, SamplePlan, SensitivityStudy, StudyQuestions, Target,
-                               TolerancedDrive, ToleranceStudy, TunedDrive, TuneEffort, TuneTask,
-                               UniformAbout, UniformBetween, WidestBacklash)
+from gearlash._records import (Aim, Axis, BacklashDemand, Distribution, FeasibleValues,
+                               HuntingMargin, ParameterTolerance, Quantity, SamplePlan,
+                               SensitivityStudy, StudyQuestions, Target, TolerancedDrive,
+                               ToleranceStudy, TunedDrive, TuneEffort, TuneTask, WidestBacklash)
 
 TargetLike = Union[str, Target]
 SeriesLike = Union[Drive, TolerancedDrive]
 
-_DISTRIBUTIONS = (UniformBetween, UniformAbout, Normal, DiscreteLots, ExactValue)
+_DISTRIBUTIONS = tuple(getattr(_records, kind.__forward_arg__) for kind in get_args(Distribution))
 
 
 def target(wanted: TargetLike, drive: Drive) -> Target:

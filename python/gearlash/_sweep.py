@@ -44,7 +44,7 @@ def logarithmic(path: str, start: float, stop: float, count: int) -> Axis:
 
 def _spaced(path: str, start: float, stop: float, count: int) -> tuple[str, float, float, int]:
     return (text("path", path), number("start", start), number("stop", stop),
-            whole("count", count, 1, 1_000_000))
+            whole("count", count, 0))
 
 
 def axis(drive: Drive, path: str, values: AxisLike) -> Axis:

@@ -50,7 +50,7 @@ from gearlash import thesis
     ("arrays", lambda servo: gearlash.sweep(servo, arrays={"servo.damping": [0.1],
                                                            "damping": [0.2]})),
     ("client", lambda servo: gearlash.sweep(servo, {"servo.damping": [0.1]}, client=3)),
-    ("varied must have one of UniformBetween, .* for servo.damping",
+    ("varied must have one of ExactValue, UniformBetween, .* for servo.damping",
      lambda servo: gearlash.tolerance(servo, {"servo.damping": 0.1})),
     ("b", lambda servo: gearlash.interop.InertiaBacklash("x")),
     ("answer", lambda servo: gearlash.plot.cycle(3)),
