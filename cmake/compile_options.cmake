@@ -7,7 +7,9 @@ if(NOT CMAKE_CXX_STANDARD GREATER_EQUAL 20)  # a project around this one may ask
 endif()
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)  # static libraries can go into a shared Python module
+if(NOT EMSCRIPTEN)
+  set(CMAKE_POSITION_INDEPENDENT_CODE ON)  # static libraries can go into a shared Python module
+endif()
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)    # for clang-tidy and editors
 
 # Gearlash promises the same bits from every build. A compiler may otherwise contract a*b + c into
@@ -25,6 +27,14 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
 endif()
 if(GEARLASH_WARNINGS_AS_ERRORS)
   add_compile_options(-Werror)
+endif()
+
+if(EMSCRIPTEN)
+  # Exceptions of WebAssembly itself: those made of JavaScript are slow and large.
+  add_compile_options(-fwasm-exceptions)
+  add_link_options(-fwasm-exceptions)
+  # Not ahead of Emscripten's own C library: see emscripten.cmake.
+  list(APPEND CMAKE_CXX_IMPLICIT_INCLUDE_DIRECTORIES /usr/include)
 endif()
 
 # Precompiles heavy third-party headers for all files of a target. Not with gcc 12: it would save

@@ -6,9 +6,11 @@ set(kernels "${CMAKE_CURRENT_SOURCE_DIR}/closed_form/lanes/cycle_kernel")
 set(optimised "$<$<NOT:$<CONFIG:Release,RelWithDebInfo,MinSizeRel>>:-O2>")
 # xsimd converts the exponents of all lanes to integers, those of lanes that are NaN as well, whose
 # results it then leaves out; of SSE2 it does so number by number, which clang's sanitizer notices.
-set_source_files_properties(
-  "${kernels}_baseline.cpp" PROPERTIES COMPILE_OPTIONS
-                                       "-fno-sanitize=float-cast-overflow;${optimised}")
+set(baseline -fno-sanitize=float-cast-overflow ${optimised})
+if(EMSCRIPTEN)
+  list(APPEND baseline -msimd128 -msse2)  # which Emscripten makes of WebAssembly's vectors
+endif()
+set_source_files_properties("${kernels}_baseline.cpp" PROPERTIES COMPILE_OPTIONS "${baseline}")
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   target_compile_definitions(gearlash_closed_form PRIVATE GEARLASH_X86_VECTOR_UNITS)
   # Sanitizers watch the baseline's kernel, which is the same template; of the others, some minutes'

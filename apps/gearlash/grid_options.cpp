@@ -12,7 +12,6 @@
 #include "analysis/grid/grid_evaluation.hpp"
 #include "analysis/grid/grid_pieces.hpp"
 #include "analysis/grid/hunting_boundary.hpp"
-#include "analysis/grid/motion_regions.hpp"
 #include "base/range_check.hpp"
 #include "input/axis_text.hpp"
 #include "machine_faults.hpp"
@@ -293,15 +292,6 @@ GridCount write_netcdf(const GridTask& task, const Provenance& provenance, const
   return count;
 }
 
-/// Regions of kinds of motion need a search, and axes on which one number lies between two others.
-bool has_regions(const Grid& grid) {
-  const auto is_of_numbers = [&](const Axis& axis) {
-    return parameter_of(axis, grid.drive)->choices.empty() && std::isfinite(axis.values.back());
-  };
-  return GridPoints(grid).engines().search &&
-         std::all_of(grid.axes.begin(), grid.axes.end(), is_of_numbers);
-}
-
 }  // namespace
 
 ExitStatus make_grid_files(const GridTask& task, const Provenance& provenance,
@@ -325,12 +315,8 @@ ExitStatus make_grid_files(const GridTask& task, const Provenance& provenance,
     count = evaluate(task.grid, GridPoints(task.grid), 0, task.grid.size(), columns_of(table.table),
                      *progress);
     if (task.has_boundary) {
-      table.hunting_boundary = hunting_boundary(task.grid, table.table[Quantity::growth_at_rest]);
-      table.dissipative_boundary = dissipative_boundary(task.grid);
-      if (has_regions(task.grid)) {
-        progress.emplace("Borders");
-        table.regions = motion_regions(task.grid, table.table, *progress);
-      }
+      progress.emplace("Borders");
+      add_borders(table, *progress);
     }
     if (output) write_table(task, table, count, *output);
   }

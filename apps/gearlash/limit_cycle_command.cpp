@@ -1,6 +1,4 @@
 // gearlash limit-cycle: whether a drive hunts, with the amplitude and frequency.
-#include <algorithm>
-#include <cmath>
 #include <memory>
 #include <numbers>
 
@@ -10,16 +8,14 @@
 #include "analysis/final_servo.hpp"
 #include "base/special_numbers.hpp"
 #include "command.hpp"
-#include "gearlash/motion.hpp"
 #include "input/axis_text.hpp"
 #include "input/units.hpp"
 #include "machine_faults.hpp"
 #include "output/answer_report.hpp"
 #include "output/change_report.hpp"
 #include "output/output_file.hpp"
-#include "picture/attractor_picture.hpp"
+#include "picture/answer_picture.hpp"
 #include "picture/ceiling_picture.hpp"
-#include "picture/phase_portrait.hpp"
 #include "picture/tornado.hpp"
 #include "plot_option.hpp"
 #include "servo_options.hpp"
@@ -68,102 +64,6 @@ struct Work {
   Limits limits{};
 };
 
-/// A round number not far above `value`.
-double round_up(double value) {
-  const double power = std::pow(10.0, std::floor(std::log10(value)));
-  for (const double factor : {1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0}) {
-    if (value <= factor * power) return factor * power;
-  }
-  return 10.0 * power;
-}
-
-/// A step from rest that shows both the approach and the cycle. Its height is free, because
-/// everything scales with the backlash.
-struct Step {
-  double size;   ///< rad
-  double until;  ///< normalised
-};
-
-Step step_to_draw(const Work& work) {
-  const NormalizedServo& servo = work.analysis.servo->servo;
-  const AngleUnit& unit = work.report.angle;
-  const auto rounded = [&](double size) {
-    return unit.radians * round_up(unit.from_radians(size));
-  };
-  constexpr double turn = 2.0 * std::numbers::pi;
-  if (const LimitCycle* cycle = largest_stable(*work.analysis.closed)) {
-    // Until a disturbance is down to a hundredth, which the cycle's line hides, but at most eight
-    // periods, because more lines cannot be told apart.
-    const double periods = std::log(0.01) / std::log(std::abs(cycle->multiplier));
-    return {rounded(1.8 * std::max(cycle->amplitude, cycle->motor_amplitude)),
-            cycle->period * std::clamp(std::ceil(periods), 4.0, 8.0)};
-  }
-  const double settling_time =
-      servo.damping < 1.0 ? 5.0 / std::max(servo.damping, 0.01) : 10.0 * servo.damping;
-  return {servo.backlash > 0.0 ? rounded(4.0 * servo.backlash) : 1.0,
-          servo.damping < 1.0 ? std::clamp(settling_time, 2.0 * turn, 20.0 * turn) : settling_time};
-}
-
-/// At rest on a face. If such a step may end at rest, a small motion in the gap instead, which
-/// grows into the cycle.
-ServoState start_to_draw(const Work& work, const Step& step) {
-  const LimitCycle* cycle = largest_stable(*work.analysis.closed);
-  if (cycle == nullptr || !work.analysis.closed->rests_engaged) {
-    return engaged_start(work.analysis.servo->servo, 0.0, 0.0, step.size);
-  }
-  constexpr double share = 0.2;
-  const ServoState& start = cycle->start;
-  const double load_position = step.size + share * start.load_position;
-  return {load_position + (start.motor_position - start.load_position), share * start.motor_speed,
-          load_position, share * start.load_speed};
-}
-
-/// The motion from `state` until `until`, both in the normal form.
-Motion motion_from(const Work& work, const ServoState& state, double reference, double until) {
-  Drive drive = work.report.drive;
-  drive.reference = reference;
-  drive.load_torque.reset();
-  const double rate = work.analysis.servo->natural_frequency;
-  const Start start{.load_position = state.load_position,
-                    .load_speed = state.load_speed * rate,
-                    .gap = state.motor_position - state.load_position,
-                    .gap_speed = state.gap_speed() * rate};
-  return simulate(drive, {.until = until / rate, .start = start});
-}
-
-MotionPicture servo_picture(const Work& work) {
-  const Step step = step_to_draw(work);
-  const LimitCycle* cycle = largest_stable(*work.analysis.closed);
-  MotionPicture picture{.title = headline(work.report),
-                        .drive = work.report.drive,
-                        .angle = work.report.angle,
-                        .period = 2.0 * std::numbers::pi / work.analysis.servo->natural_frequency};
-  picture.motions.push_back(
-      {.motion = motion_from(work, start_to_draw(work, step), step.size, step.until),
-       .name = cycle != nullptr ? "on its way" : "",
-       .role = cycle != nullptr ? MotionRole::background : MotionRole::subject});
-  if (cycle != nullptr) {
-    picture.motions.push_back({.motion = motion_from(work, cycle->start, 0.0, cycle->period),
-                               .name = "limit cycle",
-                               .is_cycle = true});
-  }
-  constexpr std::size_t most_others = 2;  // more cannot be told apart
-  for (const LimitCycle& other : work.analysis.closed->cycles) {
-    if (&other == cycle || picture.motions.size() >= 2 + most_others) continue;
-    const double stays = std::abs(other.multiplier);
-    const std::string swing = " ±" + angle_text(other.amplitude, work.report.angle, 3);
-    const std::string name = (stays < 1.0 ? "stable cycle" : "unstable cycle") + swing;
-    const bool is_named = std::any_of(picture.motions.begin(), picture.motions.end(),
-                                      [&](const DrawnMotion& drawn) { return drawn.name == name; });
-    if (is_named) continue;  // cannot be told apart either
-    picture.motions.push_back({.motion = motion_from(work, other.start, 0.0, other.period),
-                               .name = name,
-                               .is_cycle = true,
-                               .role = stays < 1.0 ? MotionRole::subject : MotionRole::unstable});
-  }
-  return picture;
-}
-
 std::string draw_tornado(const Work& work, PictureFormat format) {
   const BarChart chart = tornado_of(*work.report.sensitivity);
   if (chart.bars.empty()) {
@@ -186,46 +86,18 @@ std::string draw_ceiling(const Work& work, PictureFormat format) {
   return draw_bar_chart(ceiling_bars(work.report), format);
 }
 
-/// The cycles of a search with the ways to them. The basins are watched if there are several.
-MotionPicture searched_picture(const Work& work) {
-  const drive::AttractorSearch& search = *work.analysis.search;
-  const drive::ReducedDrive& reduced = work.analysis.reduced;
-  MotionPicture picture = attractor_picture(headline(work.report), work.report.drive, reduced,
-                                            search, work.report.angle);
-  const std::optional<StartPlane> plane = plane_to_draw(picture, reduced, search);
-  if (!plane || search.outcomes.empty()) return picture;
-  std::optional<Basins> basins;
-  if (has_several_basins(search)) {
-    TerminalProgress progress("Basins");
-    progress.stop_after(work.limits.seconds);
-    progress.stop_above(work.limits.bytes);
-    basins = basins_of(reduced, search, *plane, progress);
-    if (!basins->is_complete) basins.reset();
-  }
-  add_portrait(picture, reduced, search, *plane, basins ? &*basins : nullptr);
-  return picture;
-}
-
-/// The motion that leads to the hunting, over time.
-MotionPicture response_picture(const Work& work) {
-  if (!work.analysis.closed) {
-    return hunting_picture(headline(work.report), work.report.drive, work.analysis.reduced,
-                           *work.analysis.search, work.report.angle);
-  }
-  MotionPicture picture = servo_picture(work);
-  picture.motions.resize(1);
-  if (const LimitCycle* cycle = largest_stable(*work.analysis.closed)) {
-    picture.hunting_period = cycle->period / work.analysis.servo->natural_frequency;
-  }
-  return picture;
+std::string draw_phase(const Work& work, PictureFormat format) {
+  TerminalProgress progress("Basins");
+  progress.stop_after(work.limits.seconds);
+  progress.stop_above(work.limits.bytes);
+  return draw_phase_plane(phase_picture(work.report, work.analysis, progress), format);
 }
 
 std::string draw(const Work& work, const Plot& plot) {
   if (plot.kind == "tornado") return draw_tornado(work, plot.format);
   if (plot.kind == "ceiling") return draw_ceiling(work, plot.format);
-  if (plot.kind == "time") return draw_time_response(response_picture(work), plot.format);
-  return draw_phase_plane(work.analysis.closed ? servo_picture(work) : searched_picture(work),
-                          plot.format);
+  if (plot.kind == "phase") return draw_phase(work, plot.format);
+  return draw_time_response(response_picture(work.report, work.analysis), plot.format);
 }
 
 /// A verdict of hunting is undecided if the search found no amplitude.

@@ -420,9 +420,9 @@ Analysis analyse_near(const Drive& drive, const Analysis& near, const Wanted& wa
   return analysed(drive, &near, wanted, progress);
 }
 
-Answer analyse_until(const Drive& drive, const Wanted& wanted, const IsEnough& is_enough,
-                     Progress& progress) {
-  return analysed(drive, nullptr, wanted, progress, is_enough).answer;
+Analysis analyse_until(const Drive& drive, const Wanted& wanted, const IsEnough& is_enough,
+                       Progress& progress, const Analysis* near) {
+  return analysed(drive, near, wanted, progress, is_enough);
 }
 
 Answer analyse(const Drive& drive, const Wanted& wanted, Progress& progress) {

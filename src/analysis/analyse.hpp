@@ -32,9 +32,10 @@ Analysis analyse_near(const Drive& drive, const Analysis& near, const Wanted& wa
                       Progress& progress = no_progress());
 
 /// The same, but where a search is needed it ends with the first start after which `is_enough`.
-Answer analyse_until(const Drive& drive, const Wanted& wanted,
-                     const std::function<bool(const drive::AttractorSearch&)>& is_enough,
-                     Progress& progress = no_progress());
+/// `near`: as of analyse_near(), or nullptr.
+Analysis analyse_until(const Drive& drive, const Wanted& wanted,
+                       const std::function<bool(const drive::AttractorSearch&)>& is_enough,
+                       Progress& progress = no_progress(), const Analysis* near = nullptr);
 
 /// The answer for a servo in the normal form, in SI. `stiffness`: K, N m/rad; without it there are
 /// no energies. Proved bounds are left out, because they need the error of the data.

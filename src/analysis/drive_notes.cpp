@@ -1,22 +1,18 @@
 #include "analysis/drive_notes.hpp"
 
-#include <array>
-#include <charconv>
 #include <numbers>
 #include <string>
 
+#include "base/decimal.hpp"
 #include "model/firmware.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash {
 namespace {
 
-/// With four digits.
 std::string text_of(double value) {
-  std::array<char, 32> text{};
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 4);
-  return {text.data(), end.ptr};
+  constexpr int digits = 4;
+  return rounded_text(value, digits);
 }
 
 /// The gains that a firmware's registers are, where that is from, and what is left out.

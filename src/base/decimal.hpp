@@ -1,7 +1,8 @@
-// Converts decimal numbers to doubles, independently of locale and standard library.
+// Converts decimal numbers to doubles and back, independently of locale and standard library.
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace gearlash {
@@ -10,5 +11,23 @@ namespace gearlash {
 /// of `text`. Empty if no normal or subnormal double holds it. Precondition: `text` is such a
 /// number.
 std::optional<double> nearest_double(std::string_view text);
+
+/// The shortest decimal that reads back as a finite `value`, as std::to_chars() writes it: "0.3",
+/// "1e-07", "6.02214076e+23".
+std::string shortest_text(double value);
+/// The same with an exponent always: "3e-01".
+std::string shortest_scientific_text(double value);
+/// With so many significant digits, 1 to 17, as printf's %g.
+std::string rounded_text(double value, int digits);
+
+namespace by_trial {
+
+// What the above do where the standard library writes no doubles: they print ever more digits until
+// the text reads back. The locale must be that of C, as in a browser.
+std::string shortest_text(double value);
+std::string shortest_scientific_text(double value);
+std::string rounded_text(double value, int digits);
+
+}  // namespace by_trial
 
 }  // namespace gearlash

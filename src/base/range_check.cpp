@@ -1,8 +1,9 @@
 #include "base/range_check.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <limits>
+
+#include "base/decimal.hpp"
 
 namespace gearlash {
 namespace {
@@ -18,9 +19,7 @@ std::string with_unit(std::string_view text, std::string_view unit) {
 std::string exact_text(double value) {
   if (std::isnan(value)) return "nan";
   if (std::isinf(value)) return value > 0.0 ? "inf" : "-inf";
-  char buffer[32];
-  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value);
-  return std::string(buffer, end);
+  return shortest_text(value);
 }
 
 RangeCheck& RangeCheck::refuse(std::string_view field, std::string_view value,

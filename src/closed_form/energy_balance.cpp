@@ -1,12 +1,11 @@
 #include "closed_form/energy_balance.hpp"
 
-#include <array>
 #include <boost/multiprecision/cpp_int.hpp>
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <string>
 
+#include "base/decimal.hpp"
 #include "base/interval.hpp"
 
 namespace gearlash {
@@ -29,10 +28,7 @@ struct Sides {
 
 /// The shortest decimal that reads back as the number.
 Rational decimal(double value) {
-  std::array<char, 32> text{};
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::scientific);
-  std::string digits(text.data(), end.ptr);
+  std::string digits = shortest_scientific_text(value);
   const std::size_t exponent_at = digits.find('e');
   int power = std::atoi(digits.c_str() + exponent_at + 1);
   digits.resize(exponent_at);

@@ -9,13 +9,10 @@
 
 namespace gearlash {
 
-std::map<std::string, std::string> written_texts(const std::filesystem::path& toml) {
+std::map<std::string, std::string> texts_written_in(std::string_view toml) {
   std::map<std::string, std::string> texts;
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(toml, error)) return texts;
   try {
-    const std::string text = read_text_file(toml, largest_drive_file);
-    const TomlDocument document(text, toml.string(), largest_drive_file);
+    const TomlDocument document(toml, "", largest_drive_file);
     for (const auto& [section, node] : document.root()) {
       const toml::table* table = node.as_table();
       if (table == nullptr) continue;
@@ -29,6 +26,16 @@ std::map<std::string, std::string> written_texts(const std::filesystem::path& to
     return {};
   }
   return texts;
+}
+
+std::map<std::string, std::string> written_texts(const std::filesystem::path& toml) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(toml, error)) return {};
+  try {
+    return texts_written_in(read_text_file(toml, largest_drive_file));
+  } catch (const InvalidInput&) {
+    return {};
+  }
 }
 
 }  // namespace gearlash

@@ -58,9 +58,9 @@ static_assert(QuantileSketch::relative_accuracy > 1.0 / (2.0 * parts + 1.0));
 
 void QuantileSketch::count_in(Octaves& octaves, std::uint64_t bucket, std::uint64_t count) {
   if (octaves.empty()) octaves.resize(octaves_of_doubles);
-  std::vector<std::uint64_t>& octave = octaves[bucket / parts];
+  std::vector<std::uint64_t>& octave = octaves[static_cast<std::size_t>(bucket / parts)];
   if (octave.empty()) octave.resize(parts);
-  octave[bucket % parts] += count;
+  octave[static_cast<std::size_t>(bucket % parts)] += count;
   in_buckets_ += count;
 }
 

@@ -1,5 +1,9 @@
 #include "output/grid_table.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/grid/hunting_boundary.hpp"
 #include "output/csv_table.hpp"
 #include "output/drive_text.hpp"
 #include "output/json_values.hpp"
@@ -74,7 +78,22 @@ void write_columns(const Table& table, const TextSink& sink) {
   sink("\n  }");
 }
 
+/// Regions of kinds of motion need a search, and axes on which one number lies between two others.
+bool has_regions(const Grid& grid) {
+  const auto is_of_numbers = [&](const Axis& axis) {
+    return parameter_of(axis, grid.drive)->choices.empty() && std::isfinite(axis.values.back());
+  };
+  return GridPoints(grid).engines().search &&
+         std::all_of(grid.axes.begin(), grid.axes.end(), is_of_numbers);
+}
+
 }  // namespace
+
+void add_borders(GridTable& table, Progress& progress) {
+  table.hunting_boundary = hunting_boundary(table.grid, table.table[Quantity::growth_at_rest]);
+  table.dissipative_boundary = dissipative_boundary(table.grid);
+  if (has_regions(table.grid)) table.regions = motion_regions(table.grid, table.table, progress);
+}
 
 std::string certainty_of(const Grid& grid) {
   const EnginesNeeded engines = GridPoints(grid).engines();

@@ -24,6 +24,11 @@ struct GridTable {
   std::optional<std::vector<MotionRegion>> regions{};  ///< for a map of searched drives only
 };
 
+/// Adds a map's borders: where hunting ends in closed form, and the regions of drives that are
+/// searched over two axes of numbers. `table` is complete, its axes are y, x, and it has growth at
+/// rest.
+void add_borders(GridTable& table, Progress& progress = no_progress());
+
 /// The certainty of the grid's verdicts: "computed", "enclosed", "searched", or two of them with
 /// the drives that each applies to.
 std::string certainty_of(const Grid& grid);

@@ -54,7 +54,7 @@ void add_extremes(const Grid& grid, const ReducedQuantity& reduced, NetcdfDimens
     values = {reduced.smallest->value, reduced.largest->value};
     for (std::size_t i = 0; i < 2; ++i) {
       const std::uint64_t point = i == 0 ? reduced.smallest->point : reduced.largest->point;
-      const std::vector<double> place = values_at(grid, point);
+      const std::vector<double> place = values_at(grid, static_cast<std::size_t>(point));
       for (std::size_t k = 0; k < place.size(); ++k) places[k][i] = place[k];
     }
   }
@@ -199,7 +199,7 @@ std::string extremes_text(const Grid& grid, const ReducedGrid& reduced) {
       const bool is_first = extreme == &*one.smallest;
       Row row = {is_first ? std::string(info.name) : "", is_first ? std::to_string(one.known) : "",
                  value_text(extreme->value, info)};
-      const std::vector<double> place = values_at(grid, extreme->point);
+      const std::vector<double> place = values_at(grid, static_cast<std::size_t>(extreme->point));
       for (std::size_t k = 0; k < place.size(); ++k) {
         const std::string unit = unit_of(grid.axes[k], grid.drive);
         std::string text = unit.empty() ? text_of(grid.axes[k], grid.drive, place[k])

@@ -81,9 +81,10 @@ TEST(Analyse, WithoutBordersTheVerdictIsTheSame) {
 TEST(Analyse, EndsWithTheStartAfterWhichNoMoreAreWanted) {
   const Drive drive = pd_drive();
   const Answer whole = analyse(drive, {.borders = false});
-  const Answer part = analyse_until(
-      drive, {.borders = false},
-      [](const drive::AttractorSearch& search) { return search.outcomes.size() == 3; });
+  const Answer part =
+      analyse_until(drive, {.borders = false}, [](const drive::AttractorSearch& search) {
+        return search.outcomes.size() == 3;
+      }).answer;
   ASSERT_GT(whole.search->starts.size(), 3U);
   EXPECT_EQ(part.search->starts.size(), 3U);
   EXPECT_EQ(part.search->starts[2].end, whole.search->starts[2].end);
@@ -109,9 +110,11 @@ TEST(EdgeAnalyse, ElasticFacesUnderACascadeHaveAnAnswer) {
                                            .speed_integral = 73.20463671925833,
                                            .tracking_time = 0.007281293848360734};
   drive.controller.shaft = GainShaft::motor;
-  const Answer answer = analyse_until(  // the ninth start led there
-      drive, {.proofs = false, .borders = false},
-      [](const drive::AttractorSearch& search) { return search.outcomes.size() == 9; });
+  const Answer answer =
+      analyse_until(  // the ninth start led there
+          drive, {.proofs = false, .borders = false},
+          [](const drive::AttractorSearch& search) { return search.outcomes.size() == 9; })
+          .answer;
   EXPECT_EQ(answer.search->count("undecided"), 0U);
 }
 

@@ -1,9 +1,15 @@
-// Decimal numbers are read to the nearest double, and refused where there is none.
+// Decimal numbers are read to the nearest double, and refused where there is none; doubles are
+// written with and without the standard library in the same characters.
 #include "base/decimal.hpp"
 
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cmath>
 #include <limits>
+#include <vector>
+
+#include "seeded_draws.hpp"
 
 namespace gearlash {
 namespace {
@@ -16,6 +22,54 @@ TEST(Decimal, ReadsTheNearestDouble) {
   EXPECT_EQ(nearest_double("4.9e-324"), std::numeric_limits<double>::denorm_min());
   EXPECT_EQ(nearest_double("1.7976931348623157e308"), std::numeric_limits<double>::max());
   EXPECT_EQ(nearest_double("1e309"), std::nullopt);
+}
+
+std::vector<double> doubles_of_every_size() {
+  using Limits = std::numeric_limits<double>;
+  std::vector<double> values = {0.0,
+                                -0.0,
+                                1.0,
+                                0.1,
+                                -0.3,
+                                1e22,
+                                1e23,
+                                1e21,
+                                1e-7,
+                                123456.0,
+                                6.02214076e23,
+                                Limits::max(),
+                                1e5,
+                                1e-5,
+                                12e20,
+                                Limits::min(),
+                                Limits::denorm_min()};
+  for (int power = -320; power <= 308; ++power) values.push_back(std::pow(10.0, power));
+  for (int power = -1074; power <= 1023; ++power) values.push_back(std::ldexp(1.0, power));
+  constexpr std::uint64_t seed = 20261126;
+  SeededDraws draws(seed);
+  for (int i = 0; i < 5'000; ++i) {
+    values.push_back(draws.either_sign(1e-300, 1e300));
+    values.push_back(std::round(draws.log_uniform(1.0, 1e20)));
+    values.push_back(std::round(draws.log_uniform(1.0, 1e4)) / 1000.0);
+  }
+  return values;
+}
+
+TEST(Decimal, WritesTheSameTextWithoutTheStandardLibrary) {
+  for (const double value : doubles_of_every_size()) {
+    EXPECT_EQ(by_trial::shortest_text(value), shortest_text(value));
+    EXPECT_EQ(by_trial::shortest_scientific_text(value), shortest_scientific_text(value));
+    EXPECT_EQ(by_trial::rounded_text(value, 4), rounded_text(value, 4));
+  }
+}
+
+TEST(Decimal, ReadsBackWhatItWrote) {
+  for (const double value : doubles_of_every_size()) {
+    if (value == 0.0) continue;
+    const auto read = nearest_double(by_trial::shortest_text(value));
+    ASSERT_TRUE(read) << value;
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(*read), std::bit_cast<std::uint64_t>(value));
+  }
 }
 
 }  // namespace

@@ -131,12 +131,14 @@ class Units {
     JudgedUnit judged{.is_tried = true, .missed_by = loop.lacks};
     if (judged.missed_by > 0.0) return judged;
     const Drive drive = this->drive(unit, tuned);
-    judged.answer = analyse_until(
-        drive, wanted_for(task_.target, task_.series.nominal),
-        [&](const drive::AttractorSearch& search) {
-          return is_missed_already(task_.target, search, drive.sampling.has_value());
-        },
-        progress);
+    judged.answer =
+        analyse_until(
+            drive, wanted_for(task_.target, task_.series.nominal),
+            [&](const drive::AttractorSearch& search) {
+              return is_missed_already(task_.target, search, drive.sampling.has_value());
+            },
+            progress)
+            .answer;
     judged.is_met = is_met(task_.target, judged.answer);
     judged.is_known = is_known(task_.target, judged.answer);
     if (!judged.is_met) {

@@ -100,9 +100,9 @@ std::vector<Fault> faults(const Grid& grid, const std::vector<std::string>& fiel
                    "must be another parameter than that of " + name_of_axis(j));
     }
   }
-  if (points > static_cast<double>(most_points_of_a_grid)) {
+  if (points > most_points_of_a_grid) {
     check.refuse("points", exact_text(points),
-                 "must be at most " + exact_text(static_cast<double>(most_points_of_a_grid)) +
+                 "must be at most " + exact_text(most_points_of_a_grid) +
                      " on all axes together");
   }
   const bool are_axes_sound = check.faults().empty();

@@ -1,0 +1,194 @@
+#include "core.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <optional>
+
+#include "analysis/analyse.hpp"
+#include "analysis/design/changeable_drive.hpp"
+#include "analysis/final_servo.hpp"
+#include "drive_reply.hpp"
+#include "gearlash/design.hpp"
+#include "gearlash/version.hpp"
+#include "grid_reply.hpp"
+#include "input/axis_text.hpp"
+#include "limited_progress.hpp"
+#include "output/answer_report.hpp"
+#include "output/change_report.hpp"
+#include "output/parameter_text.hpp"
+#include "picture/answer_picture.hpp"
+#include "picture/attractor_picture.hpp"
+#include "picture_reply.hpp"
+#include "thesis/figures.hpp"
+
+namespace gearlash::web {
+namespace {
+
+Json faults_json(const std::vector<Fault>& faults) {
+  return json_list(faults, [](const Fault& fault) {
+    return Json{{"path", fault.path},
+                {"value", fault.value},
+                {"permitted", fault.permitted},
+                {"where", fault.where}};
+  });
+}
+
+/// Values of margins as a reader has them, beside the numbers.
+Json margin_with_texts(const WrittenDrive& written,
+                       const std::optional<ChangeableDrive>& changeable,
+                       const HuntingMargin& margin) {
+  Json json = changeable ? margin_json(*changeable, margin) : margin_json(written.drive, margin);
+  Json texts = Json::array();
+  for (const ParameterMargin& one : margin.parameters) {
+    Json text = {{"parameter", one.parameter}, {"below", nullptr}, {"above", nullptr}};
+    if (find_parameter(one.parameter, written.drive) != nullptr) {
+      const ParameterText words(written.drive, one.parameter, written.angle);
+      text["present"] = words.of(one.present);
+      if (one.below) text["below"] = words.of(*one.below);
+      if (one.above) text["above"] = words.of(*one.above);
+      text["choices"] = json_list(one.choices, [&](double choice) { return words.of(choice); });
+    }
+    texts.push_back(std::move(text));
+  }
+  json["texts"] = std::move(texts);
+  json["is_complete"] = !margin.stopped;
+  return json;
+}
+
+}  // namespace
+
+/// One page: its drive, its last answer, and the columns of the reply at hand.
+class Core::Session {
+ public:
+  explicit Session(Host host) : host_(std::move(host)) {}
+
+  Json reply_to(const Json& request) {
+    numbers_ = Numbers();
+    LimitedProgress progress(host_, request.value("seconds", infinity));
+    const std::string ask = request.at("ask");
+    if (ask == "version") return {{"version", version}};
+    if (ask == "thesis") return thesis_figure(request.at("figure"), progress);
+    const DriveText text = drive_text_of(request.at("drive"));
+    const WrittenDrive written = parse(text);
+    if (ask == "drive") return drive_reply(text, written);
+    if (ask == "file") return file_reply(written);
+    if (ask == "answer") return answer(request, text, written, progress);
+    if (ask == "map") return map_reply(request, written, numbers_, progress);
+    if (ask == "chart") return chart_reply(request, written, numbers_, progress);
+    if (ask == "margins") return margins(request, written, progress);
+    refuse("ask", ask, "must be version, thesis, drive, file, answer, map, chart or margins");
+  }
+
+  std::vector<double> take_numbers() { return numbers_.take(); }
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  /// Coarse: without proofs and borders; a search follows that of the drive before, or one start.
+  Analysis analysed(bool is_coarse, const WrittenDrive& written, Progress& progress) {
+    Wanted wanted{.proofs = !is_coarse, .ceiling = true, .borders = !is_coarse};
+    if (!is_coarse) return analyse_in_full(written.drive, wanted, progress);
+    return analyse_until(
+        written.drive, wanted,
+        [](const drive::AttractorSearch& search) { return !search.outcomes.empty(); }, progress,
+        last_ ? &*last_ : nullptr);
+  }
+
+  /// How the answer was found, for the page to say.
+  static const char* means_of(const Analysis& analysis, bool is_coarse) {
+    if (analysis.closed) return "closed form";
+    if (analysis.search->outcomes.empty()) return "proof by energy";
+    if (analysis.is_followed) return "followed";
+    return is_coarse ? "one start" : "search";
+  }
+
+  Json answer(const Json& request, const DriveText& text, const WrittenDrive& written,
+              Progress& progress) {
+    const bool is_coarse = request.value("level", "fine") == "coarse";
+    if (last_text_ && last_text_->toml != text.toml) last_.reset();  // another drive
+    const Analysis analysis = analysed(is_coarse, written, progress);
+    const AnswerReport report = report_of(written.drive, analysis.answer, written.angle, {});
+    Json json = {{"level", is_coarse ? "coarse" : "fine"},
+                 {"means", means_of(analysis, is_coarse)},
+                 {"is_complete", !analysis.search || analysis.search->is_complete},
+                 {"headline", headline(report)},
+                 {"report", is_coarse ? Json(nullptr) : Json(answer_text(report))},
+                 {"answer", Json::parse(answer_json(report))},
+                 {"unit", written.angle.name},
+                 {"unit_in_si", written.angle.radians}};
+    if (is_drawn(analysis)) {
+      json["response"] = motion_picture_json(response_picture(report, analysis), numbers_);
+      json["phase"] =
+          motion_picture_json(phase_of(report, analysis, is_coarse, progress), numbers_);
+    }
+    // What is known of a drive with one start is too little to follow.
+    if (!is_coarse || analysis.is_followed) {
+      last_ = analysis;
+      last_text_ = text;
+    }
+    return json;
+  }
+
+  static bool is_drawn(const Analysis& analysis) {
+    return analysis.closed || !analysis.search->outcomes.empty();
+  }
+
+  /// While dragging, no starts are watched for the picture alone.
+  static MotionPicture phase_of(const AnswerReport& report, const Analysis& analysis,
+                                bool is_coarse, Progress& progress) {
+    if (!is_coarse || analysis.closed) return phase_picture(report, analysis, progress);
+    return attractor_picture(headline(report), report.drive, analysis.reduced, *analysis.search,
+                             report.angle);
+  }
+
+  static Json margins(const Json& request, const WrittenDrive& written, Progress& progress) {
+    std::vector<Axis> axes;
+    for (const Json& path : request.value("parameters", Json::array())) {
+      axes.push_back(read_axis_or_name("parameters", path.get<std::string>(), written.drive));
+    }
+    if (!axes.empty()) {
+      return margin_with_texts(written, std::nullopt,
+                               hunting_margin(written.drive, axes, progress));
+    }
+    std::optional<ChangeableDrive> changeable;
+    if (closed_form_drive(written.drive)) changeable = ChangeableDrive(written.drive);
+    return margin_with_texts(written, changeable, hunting_margin(written.drive, progress));
+  }
+
+  Json thesis_figure(int number, Progress& progress) {
+    for (const thesis::PhaseFigure& figure : thesis::thesis_phase_figures()) {
+      if (figure.number == number) return line_chart_json(chart_of(figure), numbers_);
+    }
+    for (const thesis::Figure& figure : thesis::thesis_figures()) {
+      if (figure.number == number) return line_chart_json(chart_of(figure, progress), numbers_);
+    }
+    refuse("figure", std::to_string(number), "must be the number of a figure: 2 to 15");
+  }
+
+  Host host_;
+  Numbers numbers_;
+  std::optional<Analysis> last_;
+  std::optional<DriveText> last_text_;
+};
+
+Core::Core(Host host) : session_(std::make_unique<Session>(std::move(host))) {}
+Core::~Core() = default;
+
+Reply Core::ask(std::string_view request) {
+  Reply reply;
+  Json json;
+  try {
+    json = session_->reply_to(Json::parse(request));
+    reply.numbers = session_->take_numbers();
+  } catch (const InvalidInput& error) {
+    json = {{"faults", faults_json(error.faults())}};
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    json = {{"failure", error.what()}};
+  }
+  reply.json = json.dump();
+  return reply;
+}
+
+}  // namespace gearlash::web

@@ -1,0 +1,117 @@
+#include "grid_reply.hpp"
+
+#include <string>
+#include <vector>
+
+#include "analysis/grid/bifurcations.hpp"
+#include "analysis/grid/grid_evaluation.hpp"
+#include "base/range_check.hpp"
+#include "gearlash/grid.hpp"
+#include "input/axis_text.hpp"
+#include "output/grid_table.hpp"
+#include "picture/grid_map.hpp"
+#include "picture/grid_words.hpp"
+#include "picture_reply.hpp"
+
+namespace gearlash::web {
+namespace {
+
+/// An axis with its drawn unit, for placing a mark.
+Json axis_facts(const Axis& axis, const Drive& drive, const AngleUnit& angle) {
+  const ChartAxis drawn = chart_axis(axis, drive, angle);
+  return {{"path", axis.path},
+          {"label", drawn.label},
+          {"logarithmic", axis.logarithmic},
+          {"unit_in_si", drawn_unit(axis, drive, angle)}};
+}
+
+Axis read(const char* field, const Json& request, const Drive& drive) {
+  return read_axis_or_name(field, request.at(field).get<std::string>(), drive);
+}
+
+/// More points than a picture shows would keep the page waiting.
+void require_few(const Grid& grid) {
+  constexpr double most_points = 40'000;
+  double points = 1.0;  // their product may be larger than a std::size_t of WebAssembly
+  for (const Axis& axis : grid.axes) points *= static_cast<double>(axis.values.size());
+  if (points <= most_points) return;
+  throw InvalidInput({{"points", exact_text(points),
+                       "must be at most " + exact_text(most_points) +
+                           " in the page; the command line has room for more",
+                       ""}});
+}
+
+Json branch_json(const CycleBranch& branch, const AngleUnit& angle, double unit, Numbers& numbers) {
+  std::vector<double> curve;
+  for (const CycleAt& cycle : branch.points) {
+    curve.insert(curve.end(), {cycle.parameter / unit, angle.from_radians(cycle.amplitude)});
+  }
+  return {{"stability", name_of(branch.stability)}, {"line", numbers.add(curve)}};
+}
+
+}  // namespace
+
+Json map_reply(const Json& request, const WrittenDrive& written, Numbers& numbers,
+               Progress& progress) {
+  const std::string name = request.value("quantity", "amplitude");
+  const std::optional<Quantity> quantity = find_quantity(name);
+  if (!quantity) refuse("quantity", name, "must be the name of a quantity");
+  GridTable table{
+      .grid = {.drive = written.drive,
+               .axes = {read("y", request, written.drive), read("x", request, written.drive)}},
+      .angle = written.angle};
+  const Grid& grid = table.grid;
+  require_none(faults(grid, {"y", "x"}));
+  require_few(grid);
+  const std::vector<Quantity> quantities = {Quantity::growth_at_rest, *quantity};
+  table.table = Table(grid.size(), quantities);
+  const GridCount count =
+      evaluate(grid, GridPoints(grid), 0, grid.size(), columns_of(table.table), progress);
+  add_borders(table, progress);
+  Json json = contour_map_json(map_of(table, *quantity), numbers);
+  json["axes"] = {{"x", axis_facts(grid.axes[1], grid.drive, written.angle)},
+                  {"y", axis_facts(grid.axes[0], grid.drive, written.angle)}};
+  json["points"] = grid.size();
+  json["is_complete"] = !count.stopped;
+  return json;
+}
+
+Json chart_reply(const Json& request, const WrittenDrive& written, Numbers& numbers,
+                 Progress& progress) {
+  const Axis axis = read("x", request, written.drive);
+  require_none(faults(Grid{.drive = written.drive, .axes = {axis}}, {"x"}));
+  const BifurcationDiagram diagram = bifurcations_of(written.drive, axis, progress);
+  const AngleUnit& angle = written.angle;
+  const double unit = drawn_unit(axis, written.drive, angle);
+  std::vector<double> irregular;
+  for (const IrregularAt& motion : diagram.irregular) {
+    irregular.insert(irregular.end(),
+                     {motion.parameter / unit, angle.from_radians(motion.amplitude)});
+  }
+  return {{"x", axis_facts(axis, written.drive, angle)},
+          {"low", axis.values.front() / unit},
+          {"high", axis.values.back() / unit},
+          {"y_label", "amplitude (" + angle.name + ")"},
+          {"branches", json_list(diagram.branches,
+                                 [&](const CycleBranch& branch) {
+                                   return branch_json(branch, angle, unit, numbers);
+                                 })},
+          {"irregular", numbers.add(irregular)},
+          {"borders", json_list(diagram.borders,
+                                [&](const MarkedBorder& border) {
+                                  return Json{
+                                      {"at", border.parameter / unit},
+                                      {"word", border.word},
+                                      {"amplitude", border.cycle ? json_number(angle.from_radians(
+                                                                       border.cycle->amplitude))
+                                                                 : Json(nullptr)}};
+                                })},
+          {"rests", json_list(diagram.rests,
+                              [&](const Bounds& rest) {
+                                return Json{rest.low / unit, rest.high / unit};
+                              })},
+          {"searched", diagram.searched},
+          {"is_complete", diagram.is_complete}};
+}
+
+}  // namespace gearlash::web
