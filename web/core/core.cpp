@@ -14,7 +14,6 @@
 #include "input/axis_text.hpp"
 #include "limited_progress.hpp"
 #include "output/answer_report.hpp"
-#include "output/change_report.hpp"
 #include "output/parameter_text.hpp"
 #include "picture/answer_picture.hpp"
 #include "picture/attractor_picture.hpp"
@@ -33,26 +32,40 @@ Json faults_json(const std::vector<Fault>& faults) {
   });
 }
 
-/// Values of margins as a reader has them, beside the numbers.
-Json margin_with_texts(const WrittenDrive& written,
-                       const std::optional<ChangeableDrive>& changeable,
-                       const HuntingMargin& margin) {
-  Json json = changeable ? margin_json(*changeable, margin) : margin_json(written.drive, margin);
-  Json texts = Json::array();
-  for (const ParameterMargin& one : margin.parameters) {
-    Json text = {{"parameter", one.parameter}, {"below", nullptr}, {"above", nullptr}};
-    if (find_parameter(one.parameter, written.drive) != nullptr) {
-      const ParameterText words(written.drive, one.parameter, written.angle);
-      text["present"] = words.of(one.present);
-      if (one.below) text["below"] = words.of(*one.below);
-      if (one.above) text["above"] = words.of(*one.above);
-      text["choices"] = json_list(one.choices, [&](double choice) { return words.of(choice); });
-    }
-    texts.push_back(std::move(text));
-  }
-  json["texts"] = std::move(texts);
-  json["is_complete"] = !margin.stopped;
-  return json;
+/// The present value and the nearest ones at which hunting ends or begins, as a reader has them.
+/// `text_of`: of one value.
+template <class TextOf>
+Json margin_texts(const ParameterMargin& margin, const std::string& description, bool is_setting,
+                  const TextOf& text_of) {
+  const auto optional = [&](const std::optional<double>& value) {
+    return value ? Json(text_of(*value)) : Json(nullptr);
+  };
+  return {
+      {"parameter", margin.parameter},      {"description", description},
+      {"is_setting", is_setting},           {"is_certified", margin.kind == SearchKind::certified},
+      {"present", text_of(margin.present)}, {"below", optional(margin.below)},
+      {"above", optional(margin.above)},    {"choices", json_list(margin.choices, text_of)}};
+}
+
+/// `changeable`: of a margin in closed form, whose numbers are not all parameters of the drive.
+Json margins_json(const WrittenDrive& written, const std::optional<ChangeableDrive>& changeable,
+                  const HuntingMargin& margin) {
+  return {{"hunts", margin.hunts},
+          {"is_known", margin.is_known},
+          {"is_complete", !margin.stopped},
+          {"texts", json_list(margin.parameters, [&](const ParameterMargin& one) {
+             const Parameter* parameter = find_parameter(one.parameter, written.drive);
+             if (parameter != nullptr) {
+               const ParameterText words(written.drive, one.parameter, written.angle);
+               return margin_texts(one, std::string(parameter->meaning), true,
+                                   [&](double value) { return words.of(value); });
+             }
+             constexpr int digits = 6;
+             const ChangeableNumber& number = changeable->number(one.parameter);
+             return margin_texts(one, number.description, false, [&](double value) {
+               return significant(value, digits) + (number.unit == "1" ? "" : " " + number.unit);
+             });
+           })}};
 }
 
 }  // namespace
@@ -147,12 +160,11 @@ class Core::Session {
       axes.push_back(read_axis_or_name("parameters", path.get<std::string>(), written.drive));
     }
     if (!axes.empty()) {
-      return margin_with_texts(written, std::nullopt,
-                               hunting_margin(written.drive, axes, progress));
+      return margins_json(written, std::nullopt, hunting_margin(written.drive, axes, progress));
     }
     std::optional<ChangeableDrive> changeable;
     if (closed_form_drive(written.drive)) changeable = ChangeableDrive(written.drive);
-    return margin_with_texts(written, changeable, hunting_margin(written.drive, progress));
+    return margins_json(written, changeable, hunting_margin(written.drive, progress));
   }
 
   Json thesis_figure(int number, Progress& progress) {

@@ -1,0 +1,227 @@
+// Draws charts as SVG: axes, curves, areas, marks and a legend.
+import { escapeText, logarithmicTics, short, tics } from './numbers';
+
+export interface Theme {
+  ink: string;
+  faint: string;
+  grid: string;
+  paper: string;
+  load: string;
+  motor: string;
+  gap: string;
+  accent: string;
+  stop: string;
+  good: string;
+}
+
+// Colours that colour-blind readers distinguish (Okabe and Ito), with enough contrast for text.
+export const light: Theme = {
+  ink: '#1c2430', faint: '#5a6472', grid: '#e3e7ec', paper: '#ffffff', load: '#0067a5', motor: '#c04f00',
+  gap: '#f3d9a4', accent: '#7a3f8f', stop: '#a40000', good: '#00705a',
+};
+export const dark: Theme = {
+  ink: '#e9edf2', faint: '#a5b0bd', grid: '#343d49', paper: '#171c23', load: '#5cb8f0', motor: '#ff9d57',
+  gap: '#5b4a26', accent: '#d7a3e8', stop: '#ff8f8f', good: '#57d0ae',
+};
+
+export interface PlotAxis {
+  label: string;
+  low: number;
+  high: number;
+  logarithmic?: boolean;
+  tics?: [string, number][];
+}
+
+/** x and y by turns; NaN interrupts a line. */
+export type Points = ArrayLike<number>;
+
+export type Layer =
+  | { kind: 'line'; points: Points; colour: string; width?: number; dash?: string; fill?: string; closed?: boolean }
+  | { kind: 'marks'; points: Points; colour: string; size?: number; open?: boolean; shape?: 'circle' | 'cross' | 'diamond' }
+  | { kind: 'band'; from: number; to: number; fill: string; along: 'x' | 'y' }
+  | { kind: 'rule'; at: number; along: 'x' | 'y'; colour: string; dash?: string; text?: string }
+  | { kind: 'text'; x: number; y: number; text: string; colour: string };
+
+export interface LegendEntry {
+  name: string;
+  colour: string;
+  dash?: string;
+  mark?: 'circle' | 'open' | 'cross' | 'diamond' | 'area';
+}
+
+export interface Plot {
+  title: string;
+  subtitle?: string;
+  /** For readers that do not see the picture. */
+  description: string;
+  x: PlotAxis;
+  y: PlotAxis;
+  layers: Layer[];
+  legend: LegendEntry[];
+}
+
+const width = 640;
+const frame = { left: 74, right: 14, top: 12 };
+const letter = 7.2;
+
+type Scale = (value: number) => number;
+
+function scale(axis: PlotAxis, from: number, to: number): Scale {
+  const map = axis.logarithmic ? Math.log : (value: number) => value;
+  const low = map(axis.low);
+  const span = map(axis.high) - low || 1;
+  return (value) => from + ((map(value) - low) / span) * (to - from);
+}
+
+const at = (value: number): string => (Math.round(value * 100) / 100).toString();
+
+function pathOf(points: Points, x: Scale, y: Scale, closed: boolean): string {
+  let path = '';
+  let isDrawing = false;
+  for (let i = 0; i + 1 < points.length; i += 2) {
+    const right = x(points[i]!);
+    const down = y(points[i + 1]!);
+    if (!Number.isFinite(right) || !Number.isFinite(down)) {
+      isDrawing = false;
+      continue;
+    }
+    // Far outside, an SVG reader loses digits.
+    path += `${isDrawing ? 'L' : 'M'}${at(Math.max(-1e5, Math.min(1e5, right)))} ${at(Math.max(-1e5, Math.min(1e5, down)))}`;
+    isDrawing = true;
+  }
+  return closed && path ? `${path}Z` : path;
+}
+
+function mark(shape: string, right: number, down: number, size: number, colour: string, open: boolean): string {
+  const style = open ? `fill="none" stroke="${colour}" stroke-width="1.5"` : `fill="${colour}"`;
+  if (shape === 'cross') {
+    return `<path d="M${at(right - size)} ${at(down - size)}l${2 * size} ${2 * size}m0 ${-2 * size}l${-2 * size} ${2 * size}" stroke="${colour}" stroke-width="1.6"/>`;
+  }
+  if (shape === 'diamond') {
+    return `<path d="M${at(right)} ${at(down - size)}l${size} ${size}l${-size} ${size}l${-size} ${-size}z" ${style}/>`;
+  }
+  return `<circle cx="${at(right)}" cy="${at(down)}" r="${size}" ${style}/>`;
+}
+
+function layerText(layer: Layer, x: Scale, y: Scale, height: number, bottom: number): string {
+  switch (layer.kind) {
+    case 'line': {
+      const dash = layer.dash ? ` stroke-dasharray="${layer.dash}"` : '';
+      const stroke = layer.width === 0 ? 'stroke="none"' : `stroke="${layer.colour}" stroke-width="${layer.width ?? 1.8}"${dash}`;
+      return `<path d="${pathOf(layer.points, x, y, layer.closed ?? false)}" fill="${layer.fill ?? 'none'}" ${stroke} stroke-linejoin="round"/>`;
+    }
+    case 'marks': {
+      let text = '';
+      for (let i = 0; i + 1 < layer.points.length; i += 2) {
+        const right = x(layer.points[i]!);
+        const down = y(layer.points[i + 1]!);
+        if (!Number.isFinite(right) || !Number.isFinite(down)) continue;
+        text += mark(layer.shape ?? 'circle', right, down, layer.size ?? 3.5, layer.colour, layer.open ?? false);
+      }
+      return text;
+    }
+    case 'band': {
+      const [from, to] = [layer.from, layer.to].map(layer.along === 'x' ? x : y) as [number, number];
+      const low = Math.min(from, to);
+      const size = Math.abs(to - from);
+      return layer.along === 'x'
+        ? `<rect x="${at(low)}" y="${frame.top}" width="${at(size)}" height="${bottom - frame.top}" fill="${layer.fill}"/>`
+        : `<rect x="${frame.left}" y="${at(low)}" width="${width - frame.left - frame.right}" height="${at(size)}" fill="${layer.fill}"/>`;
+    }
+    case 'rule': {
+      const place = at((layer.along === 'x' ? x : y)(layer.at));
+      const ends = layer.along === 'x' ? `x1="${place}" x2="${place}" y1="${frame.top}" y2="${bottom}"` : `x1="${frame.left}" x2="${width - frame.right}" y1="${place}" y2="${place}"`;
+      const dash = layer.dash ? ` stroke-dasharray="${layer.dash}"` : '';
+      const label = layer.text ? `<text x="${at(Number(place) + 4)}" y="${frame.top + 14}" fill="${layer.colour}" font-size="12">${escapeText(layer.text)}</text>` : '';
+      return `<line ${ends} stroke="${layer.colour}" stroke-width="1.2"${dash}/>${label}`;
+    }
+    case 'text':
+      return `<text x="${at(x(layer.x))}" y="${at(y(layer.y))}" fill="${layer.colour}" font-size="12" text-anchor="middle" paint-order="stroke" stroke-width="3">${escapeText(layer.text)}</text>`;
+  }
+  return height.toString();
+}
+
+function ticsOf(axis: PlotAxis, most: number): [string, number][] {
+  if (axis.tics && axis.tics.length > 0) return axis.tics;
+  const values = axis.logarithmic ? logarithmicTics(axis.low, axis.high, most) : tics(axis.low, axis.high, most);
+  return values.map((value) => [short(value, 6), value]);
+}
+
+function axesText(plot: Plot, x: Scale, y: Scale, bottom: number, theme: Theme): string {
+  let text = '';
+  for (const [name, value] of ticsOf(plot.x, 7)) {
+    const right = at(x(value));
+    text += `<line x1="${right}" x2="${right}" y1="${frame.top}" y2="${bottom}" stroke="${theme.grid}"/>`;
+    text += `<text x="${right}" y="${bottom + 17}" text-anchor="middle" fill="${theme.faint}" font-size="12">${name}</text>`;
+  }
+  for (const [name, value] of ticsOf(plot.y, 6)) {
+    const down = at(y(value));
+    text += `<line y1="${down}" y2="${down}" x1="${frame.left}" x2="${width - frame.right}" stroke="${theme.grid}"/>`;
+    text += `<text x="${frame.left - 7}" y="${Number(down) + 4}" text-anchor="end" fill="${theme.faint}" font-size="12">${name}</text>`;
+  }
+  const middle = (frame.left + width - frame.right) / 2;
+  text += `<text x="${middle}" y="${bottom + 36}" text-anchor="middle" fill="${theme.ink}" font-size="13">${escapeText(plot.x.label)}</text>`;
+  const centre = (frame.top + bottom) / 2;
+  text += `<text x="16" y="${centre}" text-anchor="middle" fill="${theme.ink}" font-size="13" transform="rotate(-90 16 ${centre})">${escapeText(plot.y.label)}</text>`;
+  return text;
+}
+
+/** The entries in lines, and the height that they take. */
+function legendText(entries: LegendEntry[], top: number, theme: Theme): { text: string; height: number } {
+  const line = 20;
+  let text = '';
+  let right = frame.left;
+  let down = top;
+  for (const entry of entries) {
+    const length = 30 + entry.name.length * letter + 16;
+    if (right > frame.left && right + length > width) {
+      right = frame.left;
+      down += line;
+    }
+    const middle = down - 4;
+    if (entry.mark === 'area') text += `<rect x="${right}" y="${middle - 6}" width="22" height="12" fill="${entry.colour}"/>`;
+    else if (entry.mark) text += mark(entry.mark === 'open' ? 'circle' : entry.mark, right + 11, middle, 4, entry.colour, entry.mark === 'open');
+    else text += `<line x1="${right}" x2="${right + 22}" y1="${middle}" y2="${middle}" stroke="${entry.colour}" stroke-width="2.4"${entry.dash ? ` stroke-dasharray="${entry.dash}"` : ''}/>`;
+    text += `<text x="${right + 28}" y="${down}" fill="${theme.ink}" font-size="12.5">${escapeText(entry.name)}</text>`;
+    right += length;
+  }
+  return { text, height: entries.length > 0 ? down - top + line : 0 };
+}
+
+let clips = 0;
+
+/** The picture. `titled`: with its title in it, as a file needs it. */
+export function draw(plot: Plot, theme: Theme, titled = false, tall = 0.66): string {
+  const heading = titled ? (plot.subtitle ? 50 : 30) : 0;
+  const height = Math.round(width * tall);
+  const bottom = height - 48;
+  const x = scale(plot.x, frame.left, width - frame.right);
+  const y = scale(plot.y, bottom, frame.top);
+  const legend = legendText(plot.legend, height + 6, theme);
+  const total = height + legend.height + heading;
+  const clip = `clip${++clips}`;
+  const layers = plot.layers.map((layer) => layerText(layer, x, y, height, bottom)).join('');
+  const title = titled
+    ? `<text x="${frame.left}" y="20" fill="${theme.ink}" font-size="15" font-weight="600">${escapeText(plot.title)}</text>` +
+      (plot.subtitle ? `<text x="${frame.left}" y="40" fill="${theme.faint}" font-size="12.5">${escapeText(plot.subtitle)}</text>` : '')
+    : '';
+  return (
+    `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${total}" role="img" aria-label="${escapeText(`${plot.title}. ${plot.description}`)}" font-family="system-ui, sans-serif">` +
+    `<rect width="${width}" height="${total}" fill="${theme.paper}"/>${title}` +
+    `<g transform="translate(0 ${heading})"><clipPath id="${clip}"><rect x="${frame.left}" y="${frame.top}" width="${width - frame.left - frame.right}" height="${bottom - frame.top}"/></clipPath>` +
+    axesText(plot, x, y, bottom, theme) +
+    `<g clip-path="url(#${clip})">${layers.replaceAll('paint-order="stroke"', `paint-order="stroke" stroke="${theme.paper}"`)}</g>` +
+    `<rect x="${frame.left}" y="${frame.top}" width="${width - frame.left - frame.right}" height="${bottom - frame.top}" fill="none" stroke="${theme.faint}"/>` +
+    `${legend.text}</g></svg>`
+  );
+}
+
+/** Where a place of the axes is in the picture, as shares of its width and height. */
+export function placeIn(plot: Plot, place: [number, number], tall = 0.66): [number, number] {
+  const height = Math.round(width * tall);
+  const legend = legendText(plot.legend, height, light);
+  return [
+    scale(plot.x, frame.left, width - frame.right)(place[0]) / width,
+    scale(plot.y, height - 48, frame.top)(place[1]) / (height + legend.height),
+  ];
+}

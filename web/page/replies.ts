@@ -1,0 +1,227 @@
+// What the core replies: web/core writes these, in the same words.
+
+/** A column of numbers beside the JSON of a reply. */
+export interface Column {
+  at: number;
+  count: number;
+}
+
+export interface Fault {
+  path: string;
+  value: string;
+  permitted: string;
+  where: string;
+}
+
+export interface Slider {
+  low: number;
+  high: number;
+  logarithmic: boolean;
+}
+
+export type Value = number | string | null | Value[];
+
+export interface Parameter {
+  path: string;
+  kind: 'number' | 'choice' | 'list' | 'matrix' | 'file';
+  meaning: string;
+  value: Value;
+  is_default: boolean;
+  is_usual: boolean;
+  is_required: boolean;
+  choices?: string[];
+  unit?: string;
+  unit_in_si?: number;
+  permitted?: { least: number | null; most: number | null };
+  slider?: Slider;
+}
+
+export interface DriveReply {
+  parameters: Parameter[];
+  absent: { name: string; contents: string }[];
+  is_normal_form: boolean;
+  has_closed_form: boolean;
+  is_sampled: boolean;
+  angle: { name: string; radians: number };
+}
+
+/** One motion: columns of all its points, and its pieces between events. */
+export interface MotionCurve {
+  name: string;
+  name_of_motor: string;
+  role: 'subject' | 'background' | 'unstable' | 'to rest' | 'to hunting' | 'running away' | 'not known';
+  is_cycle: boolean;
+  end_time: number;
+  stop: string;
+  /** Why the motion is not drawn. */
+  reason?: string;
+  columns?: Record<'time' | 'load' | 'load_speed' | 'motor' | 'motor_speed' | 'torque' | 'reference', Column> & {
+    encoder?: Column;
+  };
+  /** Number of points, faces apart, a bounce, ends with an impact. */
+  pieces?: [number, boolean, boolean, boolean][];
+  /** Time, what happened, the mode after it. */
+  events?: [number, string, string][];
+}
+
+export interface MotionPicture {
+  title: string;
+  subtitle: string;
+  numbers: string;
+  unit: string;
+  gap: number;
+  torque_limit: number | null;
+  encoder_step: number;
+  hunting_period: number;
+  period: number;
+  motions: MotionCurve[];
+  window: null | {
+    positions: [number, number];
+    speeds: [number, number];
+    is_of_motor: boolean;
+    starts: [number, number, string][];
+    borders: Column[];
+  };
+}
+
+export interface Cycle {
+  kind: string;
+  stability: string;
+  certainty: string;
+  amplitude: number;
+  motor_amplitude: number;
+  center: number;
+  period: number;
+  frequency: number;
+  multiplier: number;
+  impact_speed: number;
+  residual: number;
+}
+
+/** The output of `gearlash limit-cycle --format json`, as far as the page reads it. */
+export interface Answer {
+  verdict: string;
+  certainty: string;
+  engine: string;
+  growth_at_rest: number | 'inf' | null;
+  ceiling: null | {
+    value: number | null;
+    motor: number | null;
+    reason: string | null;
+  };
+  cycles: Cycle[];
+  notes: { code: string; text: string }[];
+}
+
+export interface AnswerReply {
+  level: 'coarse' | 'fine';
+  means: 'closed form' | 'proof by energy' | 'followed' | 'one start' | 'search';
+  is_complete: boolean;
+  headline: string;
+  report: string | null;
+  answer: Answer;
+  unit: string;
+  unit_in_si: number;
+  response?: MotionPicture;
+  phase?: MotionPicture;
+}
+
+export interface AxisFacts {
+  path: string;
+  label: string;
+  logarithmic: boolean;
+  unit_in_si: number;
+}
+
+export interface ChartAxis {
+  label: string;
+  logarithmic: boolean;
+  low: number | null;
+  high: number | null;
+  tics: [string, number][];
+}
+
+export interface Contour {
+  level: number;
+  curves: Column[];
+}
+
+export interface MapReply {
+  title: string;
+  subtitle: string;
+  x: ChartAxis;
+  y: ChartAxis;
+  regions: { meaning: string; colour: string; outlines: Column[] }[];
+  contours: Contour[];
+  other_contours: Contour[];
+  boundary: Column[];
+  hatching: Column[];
+  inner_boundary: Column[];
+  inner_hatching: Column[];
+  contour_meaning: string;
+  other_meaning: string;
+  boundary_meaning: string;
+  hatching_meaning: string;
+  inner_meaning: string;
+  axes: { x: AxisFacts; y: AxisFacts };
+  points: number;
+  is_complete: boolean;
+}
+
+export interface ChartReply {
+  x: AxisFacts;
+  low: number;
+  high: number;
+  y_label: string;
+  branches: { stability: string; line: Column }[];
+  irregular: Column;
+  borders: { at: number; word: string; amplitude: number | null }[];
+  rests: [number, number][];
+  searched: number;
+  is_complete: boolean;
+}
+
+export interface MarginsReply {
+  hunts: boolean;
+  is_known: boolean;
+  texts: {
+    parameter: string;
+    description: string;
+    /** Whether it is a parameter of the drive, which can be set. */
+    is_setting: boolean;
+    is_certified: boolean;
+    present: string;
+    below: string | null;
+    above: string | null;
+    choices: string[];
+  }[];
+  is_complete: boolean;
+}
+
+export interface FigureReply {
+  title: string;
+  subtitle: string;
+  x: ChartAxis;
+  y: ChartAxis;
+  curves: { name: string; line: Column; marks: Column; ends: Column }[];
+  line_meaning: string;
+  mark_meaning: string;
+  end_meaning: string;
+  empty_meaning: string;
+}
+
+/** A drive as the page holds it. */
+export interface DriveText {
+  toml: string;
+  name: string;
+  settings: [string, string][];
+}
+
+/** A reply with its numbers. */
+export interface Replied<T> {
+  reply: T;
+  numbers: Float64Array;
+}
+
+export const column = (numbers: Float64Array, place: Column): Float64Array =>
+  numbers.subarray(place.at, place.at + place.count);
