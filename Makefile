@@ -13,7 +13,7 @@ BUILD := cmake --build --parallel $(JOBS) --preset
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo tool test python bench versions clang sanitize fuzz browser oracle million followed designed tuned \
+.PHONY: help demo tool test python web web-serve web-bench bench versions clang sanitize fuzz oracle million followed designed tuned \
         python-sweep dask-rates rivals derivatives seeded-faults \
         coverage readme docs docs-check format format-check tidy clean wheel package package-check
 
@@ -35,6 +35,7 @@ test:  ## build everything and run every test
 	@$(INSTALL) test
 	cmake --preset release -DGEARLASH_BUILD_TESTS=ON -DGEARLASH_BUILD_PYTHON=ON
 	$(BUILD) release
+	@$(MAKE) --no-print-directory web
 	ctest --preset release
 
 python:  ## build the Python module, build/release/python, and run its tests
@@ -42,6 +43,21 @@ python:  ## build the Python module, build/release/python, and run its tests
 	cmake --preset release -DGEARLASH_BUILD_TESTS=ON -DGEARLASH_BUILD_PYTHON=ON
 	$(BUILD) release --target gearlash_python_package --target gearlash_tool
 	ctest --preset release --label-regex '^python$$'
+
+SITE := build/web/site
+PORT ?= 8000
+web:  ## the explorer in the browser: build/web/site, and in one file explorer.html
+	@$(INSTALL) web
+	cmake --preset web
+	$(BUILD) web
+
+web-serve: web  ## serve it on this machine alone: PORT (8000)
+	@echo "http://127.0.0.1:$(PORT)/   (Ctrl-C ends it)"
+	@/usr/bin/python3 -m http.server --bind 127.0.0.1 --directory $(SITE) $(PORT)
+
+web-bench: web  ## how fast the page answers a drag, and how much is fetched
+	@$(INSTALL) test
+	taskset --cpu-list 0 node benchmarks/web/drags.mjs
 
 bench:  ## measure the speed beside SUNDIALS CVODE, Boost.odeint and version 0.1
 	@$(INSTALL) bench
@@ -99,10 +115,6 @@ fuzz:  ## feed random bytes to the readers for FUZZ_SECONDS (30)
 	build/asan-ubsan/tests/input/fuzz/reader_fuzzer -max_total_time=$(FUZZ_SECONDS) -print_final_stats=1 \
 	  -dict=tests/input/fuzz/reader.dict -artifact_prefix=$(FUZZED)- \
 	  $(FUZZED) tests/input/fuzz/corpus
-
-browser: tool  ## check that what a page needs compiles with clang 14 and libc++
-	@$(INSTALL) clang
-	JOBS=$(JOBS) scripts/check-for-browser $(RELEASE)
 
 oracle: programs  ## 1,000 random servos beside a slow and independent integration
 	$(RELEASE)/tests/oracle/oracle_run
@@ -182,7 +194,7 @@ wheel:  ## the Python module as a wheel for Debian 12's python3: build/*.whl
 	$(BUILD) package --target gearlash_wheel
 	mv build/package/wheel/*.whl build
 
-package:  ## the tool, the library and the Python module as Debian packages: build/*.deb
+package: web  ## the tool, the library and the Python module as Debian packages: build/*.deb
 	@$(INSTALL) package
 	cmake --preset package
 	rm -f build/*.deb

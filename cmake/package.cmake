@@ -23,6 +23,9 @@ install(FILES "${pages}/_gearlash" DESTINATION "${share}/zsh/vendor-completions"
 install(FILES README.md DESTINATION "${share}/doc/gearlash" COMPONENT tool)
 install(DIRECTORY docs DESTINATION "${share}/doc/gearlash" COMPONENT tool
         FILES_MATCHING PATTERN "*.md" PATTERN pictures EXCLUDE)
+# The page of `gearlash explore`, which `make web` makes.
+install(FILES "${PROJECT_SOURCE_DIR}/build/web/site/explorer.html" DESTINATION "${share}/gearlash"
+        COMPONENT tool)
 file(GLOB drives CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/examples/*.toml")
 install(FILES ${drives} DESTINATION "${share}/doc/gearlash/examples" COMPONENT tool)
 set(components tool/gearlash development/libgearlash-dev)

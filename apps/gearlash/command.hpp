@@ -33,6 +33,7 @@ void add_tune_command(Command& app, Action& action);
 void add_tolerance_command(Command& app, Action& action);
 void add_compare_command(Command& app, Action& action);
 void add_show_command(Command& app, Action& action);
+void add_explore_command(Command& app, Action& action);
 void add_thesis_command(Command& app, Action& action);
 
 /// Makes `run(*options, provenance)` the action of the command.

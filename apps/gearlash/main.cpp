@@ -62,6 +62,7 @@ ExitStatus parse_and_run(int argument_count, char** arguments) {
   add_map_command(app, action);
   add_sweep_command(app, action);
   add_show_command(app, action);
+  add_explore_command(app, action);
   add_thesis_command(app, action);
   const auto message =
       app.parse({arguments + std::min(argument_count, 1), arguments + argument_count});

@@ -52,6 +52,8 @@ gearlash limit-cycle --damping 0.19 --inertia-ratio 2 --friction-ratio 0.1 --bac
 check 'the amplitude of a limit cycle is 0.2416 rad' grep -E 'amplitude, load +±0\.2416[0-9]* rad' cycle.txt
 check 'a data sheet' gearlash limit-cycle "$examples/elinco-fd162.toml" --plot phase=cycle.svg
 check 'its picture' grep '</svg>' cycle.svg
+check 'a page for the browser' gearlash explore "$examples/elinco-fd162.toml" --output servo.html
+check 'it has the drive' grep 'id="user-drive">{"toml"' servo.html
 check 'a sweep into NetCDF' gearlash sweep "$examples/sweep.toml" --output sweep.nc
 
 # shellcheck source=/dev/null

@@ -82,7 +82,7 @@ class Core::Session {
     if (ask == "version") return {{"version", version}};
     if (ask == "thesis") return thesis_figure(request.at("figure"), progress);
     const DriveText text = drive_text_of(request.at("drive"));
-    const WrittenDrive written = parse(text);
+    const WrittenDrive written = parse(text, host_.folder);
     if (ask == "drive") return drive_reply(text, written);
     if (ask == "file") return file_reply(written);
     if (ask == "answer") return answer(request, text, written, progress);

@@ -14,6 +14,7 @@ struct Host {
   std::function<double()> seconds;  ///< a clock that only rises
   /// Takes the share of the work that is done, 0 … 1.
   std::function<void(double share)> report = [](double) {};
+  std::string folder{};  ///< of the tables that drives name
 };
 
 /// Columns of numbers stand beside the JSON, which refers to them as {"at": index, "count": n}.

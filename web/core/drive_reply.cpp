@@ -176,8 +176,8 @@ DriveText drive_text_of(const Json& json) {
   return text;
 }
 
-WrittenDrive parse(const DriveText& text) {
-  return parse_drive(text.toml, text.name, {}, text.settings);
+WrittenDrive parse(const DriveText& text, const std::string& folder) {
+  return parse_drive(text.toml, text.name, folder, text.settings);
 }
 
 Json drive_reply(const DriveText& text, const WrittenDrive& written) {

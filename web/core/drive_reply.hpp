@@ -21,8 +21,8 @@ struct DriveText {
 /// From {"toml": …, "name": …, "settings": [[path, text], …]}.
 DriveText drive_text_of(const Json& json);
 
-/// Throws InvalidInput with every fault.
-WrittenDrive parse(const DriveText& text);
+/// Tables of signals are in `folder`. Throws InvalidInput with every fault.
+WrittenDrive parse(const DriveText& text, const std::string& folder);
 
 /// Every parameter of the drive: its value, as SI and as text in its author's unit, that unit, what
 /// it means, and the range of its slider.

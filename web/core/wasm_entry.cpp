@@ -13,7 +13,8 @@ namespace {
 
 gearlash::web::Core& core() {
   static gearlash::web::Core core({.seconds = [] { return emscripten_get_now() / 1000.0; },
-                                   .report = [](double share) { gearlash_report(share); }});
+                                   .report = [](double share) { gearlash_report(share); },
+                                   .folder = "/tables"});
   return core;
 }
 

@@ -14,16 +14,23 @@ export class Overtaken extends Error {}
 type Report = (share: number) => void;
 
 interface Waiting {
-  id: number;
   resolve: (replied: Replied<unknown>) => void;
   reject: (error: Error) => void;
   report: Report | undefined;
 }
 
-/** One worker and the request that it is at. */
-class Lane {
+interface Message {
+  id: number;
+  share?: number;
+  broken?: string;
+  reply?: { faults?: Fault[]; failure?: string };
+  numbers: Float64Array;
+}
+
+/** One worker, which answers requests in their order. */
+export class Lane {
   private worker: Worker | null = null;
-  private waiting: Waiting | null = null;
+  private readonly waiting = new Map<number, Waiting>();
   private static last = 0;
 
   constructor(
@@ -31,74 +38,58 @@ class Lane {
     private readonly wasm: Promise<WebAssembly.Module>,
   ) {}
 
-  get isBusy(): boolean {
-    return this.waiting !== null;
-  }
-
   async ask<T>(request: object, report?: Report): Promise<Replied<T>> {
-    this.giveUp();
+    const wasm = await this.wasm;
     const id = ++Lane.last;
-    const answered = new Promise<Replied<unknown>>((resolve, reject) => {
-      this.waiting = { id, resolve, reject, report };
+    return new Promise((resolve, reject) => {
+      this.waiting.set(id, { resolve: (replied) => resolve(replied as Replied<T>), reject, report });
+      this.running(wasm).postMessage({ id, request });
     });
-    try {
-      const wasm = await this.wasm;
-      if (this.waiting?.id === id) this.running(wasm).postMessage({ id, request });
-    } catch (error) {
-      this.waiting = null;
-      throw error;
-    }
-    return (await answered) as Replied<T>;
   }
 
-  /** Ends the work at hand. A worker cannot be interrupted otherwise; a new one starts at once. */
+  /** Ends the work at hand. A worker cannot be interrupted otherwise; the next request starts a new one. */
   giveUp(): void {
-    if (!this.waiting) return;
-    const { reject } = this.waiting;
-    this.waiting = null;
-    this.worker?.terminate();
-    this.worker = null;
-    reject(new Overtaken());
+    if (this.waiting.size > 0) this.end(new Overtaken());
   }
 
   private running(wasm: WebAssembly.Module): Worker {
     if (this.worker) return this.worker;
     const worker = this.start();
-    worker.onmessage = (message) => this.take(message.data);
-    worker.onerror = (event) => this.fail(event.message || 'the worker could not start');
+    worker.onmessage = (message) => this.take(message.data as Message);
+    worker.onerror = (event) => this.end(new Error(event.message || 'the worker could not start'));
     worker.postMessage({ wasm });
     this.worker = worker;
     return worker;
   }
 
-  private take(data: { id: number; share?: number; broken?: string; reply?: any; numbers: Float64Array }): void {
-    if (data.broken !== undefined) return this.fail(data.broken);
-    const waiting = this.waiting;
-    if (!waiting || waiting.id !== data.id) return;
-    if (data.share !== undefined) return waiting.report?.(data.share);
-    this.waiting = null;
-    const { reply, numbers } = data;
+  private take(message: Message): void {
+    // A core that ran out of memory, or broke, is replaced.
+    if (message.broken !== undefined) {
+      const isMemory = /memory|OOM|bad_alloc/i.test(message.broken);
+      return this.end(new Error(isMemory ? 'This drive needs more memory than the page has.' : message.broken));
+    }
+    const waiting = this.waiting.get(message.id);
+    if (!waiting) return;
+    if (message.share !== undefined) return waiting.report?.(message.share);
+    this.waiting.delete(message.id);
+    const reply = message.reply!;
     if (reply.faults) waiting.reject(new InputError(reply.faults));
     else if (reply.failure) waiting.reject(new Error(reply.failure));
-    else waiting.resolve({ reply, numbers });
+    else waiting.resolve({ reply, numbers: message.numbers });
   }
 
-  /** A core that ran out of memory, or broke, is replaced. */
-  private fail(why: string): void {
-    const waiting = this.waiting;
-    this.waiting = null;
+  private end(error: Error): void {
+    const all = [...this.waiting.values()];
+    this.waiting.clear();
     this.worker?.terminate();
     this.worker = null;
-    waiting?.reject(new Error(/memory|OOM|bad_alloc/i.test(why) ? 'this drive needs more memory than the page has' : why));
+    for (const { reject } of all) reject(error);
   }
 }
 
-export class Core {
-  readonly quick: Lane;
-  readonly thorough: Lane;
-
-  constructor(start: () => Worker, wasm: Promise<WebAssembly.Module>) {
-    this.quick = new Lane(start, wasm);
-    this.thorough = new Lane(start, wasm);
-  }
+export interface Core {
+  /** Answers: the next one is followed from the last. */
+  answers: Lane;
+  /** Maps and changes, which take longer. */
+  studies: Lane;
 }

@@ -18,7 +18,7 @@ const point = (angle: number, distance: number): string =>
 /** The outline of a gear with a tooth, or a space, towards angle 0. */
 function outline(isToothAtZero: boolean): string {
   const half = (pitch / 2 - drawnGap / 2) / 2; // of a tooth on the pitch circle
-  const flank = 0.05;
+  const flank = 0.07;
   let path = '';
   for (let i = 0; i < teeth; ++i) {
     const middle = i * pitch + (isToothAtZero ? 0 : pitch / 2);

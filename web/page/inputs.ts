@@ -204,6 +204,9 @@ export class Inputs {
   }
 }
 
+/** Whether a fault is of a parameter, which can be typed. */
+export const isPath = (path: string): boolean => /^[a-z_]+\.[\w.[\]]+$/.test(path);
+
 /** The inputs of faults that belong to no field: values that a drive still needs. */
 export function missingInputs(faults: Fault[], changed: Changed): HTMLElement {
   const list = document.createElement('ul');
@@ -211,7 +214,7 @@ export function missingInputs(faults: Fault[], changed: Changed): HTMLElement {
     const item = document.createElement('li');
     const what = fault.value ? `${fault.path} = ${fault.value}` : fault.path;
     item.innerHTML = `<span><b>${escapeText(what)}</b> ${escapeText(fault.permitted)}${fault.where ? ` <small>(${escapeText(fault.where)})</small>` : ''}</span> `;
-    if (/^[a-z_]+\.[\w.[\]]+$/.test(fault.path)) {
+    if (isPath(fault.path)) {
       const field = document.createElement('input');
       field.setAttribute('aria-label', fault.path);
       field.placeholder = 'number unit';

@@ -1,5 +1,6 @@
 // Where the core and the worker come from: files beside the page, or the page itself if it is one
 // file.
+import type { DriveText } from './replies';
 
 /** Bytes of base64 text. */
 function bytesOf(base64: string): Uint8Array<ArrayBuffer> {
@@ -34,7 +35,7 @@ export function startWorker(): Worker {
 }
 
 /** The drive of a page that `gearlash explore` wrote. */
-export function embeddedDrive(): { toml: string; name: string } | null {
+export function embeddedDrive(): DriveText | null {
   const text = embedded('user-drive');
-  return text ? (JSON.parse(text) as { toml: string; name: string }) : null;
+  return text ? (JSON.parse(text) as DriveText) : null;
 }

@@ -46,6 +46,7 @@ export interface LegendEntry {
   name: string;
   colour: string;
   dash?: string;
+  width?: number;
   mark?: 'circle' | 'open' | 'cross' | 'diamond' | 'area';
 }
 
@@ -60,7 +61,6 @@ export interface Plot {
   legend: LegendEntry[];
 }
 
-const width = 640;
 const frame = { left: 74, right: 14, top: 12 };
 const letter = 7.2;
 
@@ -103,7 +103,7 @@ function mark(shape: string, right: number, down: number, size: number, colour: 
   return `<circle cx="${at(right)}" cy="${at(down)}" r="${size}" ${style}/>`;
 }
 
-function layerText(layer: Layer, x: Scale, y: Scale, height: number, bottom: number): string {
+function layerText(layer: Layer, x: Scale, y: Scale, width: number, bottom: number): string {
   switch (layer.kind) {
     case 'line': {
       const dash = layer.dash ? ` stroke-dasharray="${layer.dash}"` : '';
@@ -138,7 +138,6 @@ function layerText(layer: Layer, x: Scale, y: Scale, height: number, bottom: num
     case 'text':
       return `<text x="${at(x(layer.x))}" y="${at(y(layer.y))}" fill="${layer.colour}" font-size="12" text-anchor="middle" paint-order="stroke" stroke-width="3">${escapeText(layer.text)}</text>`;
   }
-  return height.toString();
 }
 
 function ticsOf(axis: PlotAxis, most: number): [string, number][] {
@@ -147,9 +146,9 @@ function ticsOf(axis: PlotAxis, most: number): [string, number][] {
   return values.map((value) => [short(value, 6), value]);
 }
 
-function axesText(plot: Plot, x: Scale, y: Scale, bottom: number, theme: Theme): string {
+function axesText(plot: Plot, x: Scale, y: Scale, width: number, bottom: number, theme: Theme): string {
   let text = '';
-  for (const [name, value] of ticsOf(plot.x, 7)) {
+  for (const [name, value] of ticsOf(plot.x, width < 460 ? 4 : 7)) {
     const right = at(x(value));
     text += `<line x1="${right}" x2="${right}" y1="${frame.top}" y2="${bottom}" stroke="${theme.grid}"/>`;
     text += `<text x="${right}" y="${bottom + 17}" text-anchor="middle" fill="${theme.faint}" font-size="12">${name}</text>`;
@@ -167,7 +166,7 @@ function axesText(plot: Plot, x: Scale, y: Scale, bottom: number, theme: Theme):
 }
 
 /** The entries in lines, and the height that they take. */
-function legendText(entries: LegendEntry[], top: number, theme: Theme): { text: string; height: number } {
+function legendText(entries: LegendEntry[], top: number, width: number, theme: Theme): { text: string; height: number } {
   const line = 20;
   let text = '';
   let right = frame.left;
@@ -181,7 +180,7 @@ function legendText(entries: LegendEntry[], top: number, theme: Theme): { text: 
     const middle = down - 4;
     if (entry.mark === 'area') text += `<rect x="${right}" y="${middle - 6}" width="22" height="12" fill="${entry.colour}"/>`;
     else if (entry.mark) text += mark(entry.mark === 'open' ? 'circle' : entry.mark, right + 11, middle, 4, entry.colour, entry.mark === 'open');
-    else text += `<line x1="${right}" x2="${right + 22}" y1="${middle}" y2="${middle}" stroke="${entry.colour}" stroke-width="2.4"${entry.dash ? ` stroke-dasharray="${entry.dash}"` : ''}/>`;
+    else text += `<line x1="${right}" x2="${right + 22}" y1="${middle}" y2="${middle}" stroke="${entry.colour}" stroke-width="${entry.width ?? 2.4}"${entry.dash ? ` stroke-dasharray="${entry.dash}"` : ''}/>`;
     text += `<text x="${right + 28}" y="${down}" fill="${theme.ink}" font-size="12.5">${escapeText(entry.name)}</text>`;
     right += length;
   }
@@ -190,38 +189,44 @@ function legendText(entries: LegendEntry[], top: number, theme: Theme): { text: 
 
 let clips = 0;
 
-/** The picture. `titled`: with its title in it, as a file needs it. */
-export function draw(plot: Plot, theme: Theme, titled = false, tall = 0.66): string {
-  const heading = titled ? (plot.subtitle ? 50 : 30) : 0;
-  const height = Math.round(width * tall);
+export interface Size {
+  /** Of the place on the screen, px: letters keep their size. */
+  width?: number;
+  /** With its title in it, as a file needs it. */
+  isTitled?: boolean;
+}
+
+/** The picture as SVG. */
+export function draw(plot: Plot, theme: Theme, size: Size = {}): string {
+  const width = Math.max(320, Math.min(640, size.width || 640));
+  const heading = size.isTitled ? (plot.subtitle ? 50 : 30) : 0;
+  const height = Math.round(width * (width < 460 ? 0.8 : 0.66));
   const bottom = height - 48;
   const x = scale(plot.x, frame.left, width - frame.right);
   const y = scale(plot.y, bottom, frame.top);
-  const legend = legendText(plot.legend, height + 6, theme);
+  const legend = legendText(plot.legend, height + 6, width, theme);
   const total = height + legend.height + heading;
   const clip = `clip${++clips}`;
-  const layers = plot.layers.map((layer) => layerText(layer, x, y, height, bottom)).join('');
-  const title = titled
+  const text = (layers: Layer[]): string =>
+    layers
+      .map((layer) => layerText(layer, x, y, width, bottom)).join('')
+      .replaceAll('paint-order="stroke"', `paint-order="stroke" stroke="${theme.paper}"`);
+  // Marks at the end of an axis are drawn whole, others outside not at all.
+  const isMark = (layer: Layer): boolean => layer.kind === 'marks';
+  const rectangle = (margin: number): string =>
+    `<rect x="${frame.left - margin}" y="${frame.top - margin}" width="${width - frame.left - frame.right + 2 * margin}" height="${bottom - frame.top + 2 * margin}"/>`;
+  const title = size.isTitled
     ? `<text x="${frame.left}" y="20" fill="${theme.ink}" font-size="15" font-weight="600">${escapeText(plot.title)}</text>` +
       (plot.subtitle ? `<text x="${frame.left}" y="40" fill="${theme.faint}" font-size="12.5">${escapeText(plot.subtitle)}</text>` : '')
     : '';
   return (
     `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${total}" role="img" aria-label="${escapeText(`${plot.title}. ${plot.description}`)}" font-family="system-ui, sans-serif">` +
     `<rect width="${width}" height="${total}" fill="${theme.paper}"/>${title}` +
-    `<g transform="translate(0 ${heading})"><clipPath id="${clip}"><rect x="${frame.left}" y="${frame.top}" width="${width - frame.left - frame.right}" height="${bottom - frame.top}"/></clipPath>` +
-    axesText(plot, x, y, bottom, theme) +
-    `<g clip-path="url(#${clip})">${layers.replaceAll('paint-order="stroke"', `paint-order="stroke" stroke="${theme.paper}"`)}</g>` +
+    `<g transform="translate(0 ${heading})"><clipPath id="${clip}">${rectangle(0)}</clipPath><clipPath id="${clip}m">${rectangle(7)}</clipPath>` +
+    axesText(plot, x, y, width, bottom, theme) +
+    `<g clip-path="url(#${clip})">${text(plot.layers.filter((layer) => !isMark(layer)))}</g>` +
     `<rect x="${frame.left}" y="${frame.top}" width="${width - frame.left - frame.right}" height="${bottom - frame.top}" fill="none" stroke="${theme.faint}"/>` +
+    `<g clip-path="url(#${clip}m)">${text(plot.layers.filter(isMark))}</g>` +
     `${legend.text}</g></svg>`
   );
-}
-
-/** Where a place of the axes is in the picture, as shares of its width and height. */
-export function placeIn(plot: Plot, place: [number, number], tall = 0.66): [number, number] {
-  const height = Math.round(width * tall);
-  const legend = legendText(plot.legend, height, light);
-  return [
-    scale(plot.x, frame.left, width - frame.right)(place[0]) / width,
-    scale(plot.y, height - 48, frame.top)(place[1]) / (height + legend.height),
-  ];
 }

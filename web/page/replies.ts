@@ -101,7 +101,7 @@ export interface Cycle {
 /** The output of `gearlash limit-cycle --format json`, as far as the page reads it. */
 export interface Answer {
   verdict: string;
-  certainty: string;
+  certainty: { verdict: string; stability: string; completeness: string };
   engine: string;
   growth_at_rest: number | 'inf' | null;
   ceiling: null | {
@@ -215,6 +215,8 @@ export interface DriveText {
   toml: string;
   name: string;
   settings: [string, string][];
+  /** Tables that it names, by name. */
+  files?: Record<string, string>;
 }
 
 /** A reply with its numbers. */

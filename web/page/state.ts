@@ -37,7 +37,8 @@ export async function addressOf(state: State): Promise<string> {
   if (state.example) {
     parts.set('example', state.example);
   } else {
-    const bytes = new TextEncoder().encode(state.drive.toml);
+    const { toml, files } = state.drive;
+    const bytes = new TextEncoder().encode(files && Object.keys(files).length > 0 ? JSON.stringify({ toml, files }) : toml);
     parts.set('drive', toText(await through(bytes, new CompressionStream('deflate-raw'))));
     parts.set('name', state.drive.name);
   }
@@ -50,7 +51,8 @@ export async function addressOf(state: State): Promise<string> {
 /** The state that an address has; `examples` are the texts by name. Throws an Error in words. */
 export async function stateOf(address: string, start: State, examples: Map<string, string>): Promise<State> {
   const parts = new URLSearchParams(address.replace(/^#/, ''));
-  const state: State = { ...start, drive: { ...start.drive, settings: [] }, x: parts.get('x') ?? '', y: parts.get('y') ?? '' };
+  const isNew = parts.has('example') || parts.has('drive');
+  const state: State = { ...start, drive: { ...start.drive, settings: isNew ? [] : start.drive.settings }, x: parts.get('x') ?? '', y: parts.get('y') ?? '' };
   const view = parts.get('view');
   state.view = view === 'story' || view === 'thesis' ? view : 'explore';
   const whole = (name: string, least: number, most: number): number => {
@@ -69,7 +71,9 @@ export async function stateOf(address: string, start: State, examples: Map<strin
   } else if (packed !== null) {
     try {
       const bytes = await through(fromText(packed), new DecompressionStream('deflate-raw'));
-      state.drive = { toml: new TextDecoder('utf-8', { fatal: true }).decode(bytes), name: parts.get('name') ?? 'drive.toml', settings: [] };
+      const text = new TextDecoder('utf-8', { fatal: true }).decode(bytes);
+      const more = text.startsWith('{') ? (JSON.parse(text) as { toml: string; files: Record<string, string> }) : { toml: text };
+      state.drive = { ...more, name: parts.get('name') ?? 'drive.toml', settings: [] };
       state.example = '';
     } catch {
       throw new Error('The drive in the link cannot be read: the link may have been cut off.');

@@ -1,5 +1,6 @@
 // The guided story: seven steps, each with one control and one sentence.
-import type { DriveText } from './replies';
+import { type Changed, singleInput } from './inputs';
+import type { DriveText, Parameter } from './replies';
 
 export interface StoryStep {
   title: string;
@@ -68,3 +69,43 @@ export const storySteps = (joint: string): StoryStep[] => [
     cards: ['changes', 'phase'],
   },
 ];
+
+const byId = (id: string): HTMLElement => document.getElementById(id)!;
+
+export class Story {
+  constructor(
+    readonly steps: StoryStep[],
+    private readonly goTo: (step: number) => void,
+  ) {}
+
+  /** Step `number`, from 1, with the control of its parameter. */
+  show(number: number, parameters: Parameter[], changed: Changed): void {
+    const step = this.steps[number - 1]!;
+    const title = byId('story-title');
+    title.textContent = `${number}. ${step.title}`;
+    title.tabIndex = -1;
+    byId('story-sentence').textContent = step.sentence;
+    this.list(number);
+    (byId('story-back') as HTMLButtonElement).disabled = number === 1;
+    (byId('story-next') as HTMLButtonElement).disabled = number === this.steps.length;
+    const parameter = parameters.find((one) => one.path === step.path);
+    const place = byId('story-input');
+    place.textContent = '';
+    if (parameter) singleInput(place, parameter, changed);
+  }
+
+  private list(present: number): void {
+    const list = byId('story-steps');
+    list.textContent = '';
+    this.steps.forEach(({ title }, i) => {
+      const item = document.createElement('li');
+      const button = document.createElement('button');
+      button.type = 'button';
+      button.textContent = `${i + 1}. ${title}`;
+      if (i + 1 === present) button.setAttribute('aria-current', 'step');
+      button.onclick = () => this.goTo(i + 1);
+      item.append(button);
+      list.append(item);
+    });
+  }
+}

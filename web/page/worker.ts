@@ -12,10 +12,24 @@ interface CoreModule {
   _gearlash_numbers(): number;
   _gearlash_number_count(): number;
   HEAPF64: Float64Array;
+  FS: { mkdirTree(path: string): void; writeFile(path: string, text: string): void };
 }
+
+/** Where the core looks for the tables that a drive names. */
+const folder = '/tables';
 
 let core: Promise<CoreModule>;
 let current = 0;
+
+/** Names with ".." would leave the folder, so they are left out, and the core does not find them. */
+function writeTables(module: CoreModule, files: Record<string, string>): void {
+  for (const [name, text] of Object.entries(files)) {
+    const path = `${folder}/${name}`;
+    if (name.split('/').includes('..')) continue;
+    module.FS.mkdirTree(path.slice(0, path.lastIndexOf('/')));
+    module.FS.writeFile(path, text);
+  }
+}
 
 function ask(module: CoreModule, request: unknown): { reply: unknown; numbers: Float64Array } {
   const text = JSON.stringify(request);
@@ -48,6 +62,7 @@ self.onmessage = async (message: MessageEvent) => {
   try {
     const module = await core;
     current = id;
+    writeTables(module, request.drive?.files ?? {});
     const { reply, numbers } = ask(module, request);
     self.postMessage({ id, reply, numbers }, { transfer: [numbers.buffer] });
   } catch (error) {

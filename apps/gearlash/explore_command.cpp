@@ -1,0 +1,130 @@
+// gearlash explore: the drive in a page of its own, which any browser opens without a network.
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "gearlash/parameter.hpp"
+#include "input/section_reader.hpp"
+#include "input/text_file.hpp"
+#include "machine_faults.hpp"
+#include "output/drive_text.hpp"
+#include "output/output_file.hpp"
+#include "servo_options.hpp"
+
+namespace gearlash::cli {
+namespace {
+
+constexpr char examples[] =
+    "  gearlash explore examples/robot-joint.toml --output joint.html\n"
+    "  gearlash explore examples/elinco-fd162.toml --backlash \"12 arcmin\" --output servo.html\n"
+    "  gearlash explore --damping 0.19 --inertia-ratio 2 --friction-ratio 0.1 --backlash 0.3 \\\n"
+    "      --output hunting.html\n";
+
+namespace fs = std::filesystem;
+
+struct ExploreOptions {
+  ServoOptions servo;
+  std::string output;
+};
+
+/// The page without a drive, as `make web` makes it: installed beside the tool, or in the build.
+fs::path page_without_drive() {
+  std::error_code error;
+  const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
+  const fs::path places[] = {folder.parent_path() / "share/gearlash/explorer.html",
+                             folder.parent_path() / "web/site/explorer.html"};
+  for (const fs::path& place : places) {
+    if (fs::is_regular_file(place, error)) return place;
+  }
+  throw OutputError("the page is not installed: " + places[0].string() +
+                    " is missing; in the sources, `make web` makes it");
+}
+
+/// For a script element, which "</" would end.
+std::string escaped(std::string json) {
+  for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos;) {
+    json.replace(at, 1, "\\u003c");
+  }
+  return json;
+}
+
+/// The contents of the tables that the drive names, by name. A drive from standard input names them
+/// relative to the working folder.
+nlohmann::ordered_json files_of(const Drive& drive, const std::string& file) {
+  constexpr std::size_t largest_table = 64U * 1024U * 1024U;
+  const fs::path folder = file == "-" ? fs::path() : fs::path(file).parent_path();
+  const nlohmann::ordered_json values = drive_json(drive);
+  nlohmann::ordered_json files = nlohmann::ordered_json::object();
+  for (const ParameterInfo& info : parameters_of(drive)) {
+    if (info.kind != ParameterKind::file) continue;
+    const nlohmann::ordered_json& name = values[std::string(info.path)];
+    if (!name.is_string() || name.get<std::string>().empty()) continue;
+    const std::string text = name.get<std::string>();
+    files[text] = read_text_file(folder / text, largest_table);
+  }
+  return files;
+}
+
+/// Whether options other than --set change what the file has.
+bool has_number_options(const ServoOptions& options) {
+  return options.damping || options.inertia_ratio || options.friction_ratio || options.backlash ||
+         options.restitution || options.sensor;
+}
+
+/// The author's own text with the settings, so that the page shows both.
+nlohmann::ordered_json drive_of_page(const ServoOptions& options, const WrittenDrive& written) {
+  nlohmann::ordered_json files = files_of(written.drive, options.file);
+  if (options.file.empty() || options.file == "-" || has_number_options(options)) {
+    return {{"toml", to_toml(TolerancedDrive{written.drive, written.tolerances})},
+            {"name", "drive.toml"},
+            {"settings", nlohmann::ordered_json::array()},
+            {"files", std::move(files)}};
+  }
+  nlohmann::ordered_json settings = nlohmann::ordered_json::array();
+  for (const std::string& text : options.settings) {
+    const Setting setting = read_setting(text);
+    settings.push_back({setting.path, setting.text});
+  }
+  return {{"toml", read_text_file(options.file, largest_drive_file)},
+          {"name", fs::path(options.file).filename().string()},
+          {"settings", std::move(settings)},
+          {"files", std::move(files)}};
+}
+
+ExitStatus run(const ExploreOptions& options, const Provenance&) {
+  Faults faults;
+  if (fs::path(options.output).extension() != ".html" && options.output != "-") {
+    faults.add({"--output", shown(options.output), "must end in .html", ""});
+  }
+  faults.require_distinct({"DRIVE.toml", options.servo.file}, {{"--output", options.output}});
+  const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
+  faults.require_none();
+  constexpr std::size_t largest_page = 16U * 1024U * 1024U;
+  std::string page = read_text_file(page_without_drive(), largest_page);
+  const std::string place = "id=\"user-drive\">";
+  const std::size_t at = page.find(place);
+  if (at == std::string::npos) throw OutputError("the page has no place for a drive");
+  page.insert(at + place.size(), escaped(drive_of_page(options.servo, *written).dump()));
+  write_file(options.output, page);
+  if (options.output != "-") write_file("-", options.output + ": open it in a browser\n");
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+void add_explore_command(Command& app, Action& action) {
+  const auto options = std::make_shared<ExploreOptions>();
+  Command* command = app.add_subcommand(
+      "explore", "Write the drive as a page for the browser, with sliders and pictures");
+  add_servo_or_drive_options(*command, options->servo);
+  command
+      ->add_option("--output", options->output,
+                   "Write this page, .html: one file, which works offline and in a mail")
+      ->type_name("FILE")
+      ->required();
+  command->footer(help_footer(examples));
+  set_action(*command, action, options, run);
+}
+
+}  // namespace gearlash::cli

@@ -1,0 +1,229 @@
+// The requests of the page, answered natively.
+#include "core.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "gearlash/analyse.hpp"
+#include "gearlash/drive.hpp"
+#include "gearlash/input.hpp"
+#include "gearlash/output.hpp"
+#include "gearlash/parameter.hpp"
+
+namespace gearlash::web {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr char servo[] =
+    "[servo]\ndamping = 0.19\ninertia_ratio = 2\nfriction_ratio = 0.1\nbacklash = \"0.3 rad\"\n";
+constexpr char joint[] =
+    "[motor]\nkind = \"torque-controlled\"\ninertia = \"0.12 kg cm2\"\nfriction = \"0.02 mN m "
+    "s/rad\"\n"
+    "[gearbox]\nratio = 50\nbacklash = \"30 arcmin\"\n"
+    "[load]\ninertia = \"0.05 kg m2\"\nfriction = \"0.02 N m s/rad\"\n"
+    "[controller]\nkind = \"PD\"\nshaft = \"load\"\nproportional = \"40 N m/rad\"\n"
+    "derivative = \"0.5 N m s/rad\"\n";
+
+/// A core whose clock stands still unless a test moves it.
+class WebCore : public testing::Test {
+ protected:
+  Json ask(Json request) {
+    const Reply reply = core_.ask(request.dump());
+    numbers_ = reply.numbers;
+    return Json::parse(reply.json);
+  }
+  static Json drive(const char* toml, Json settings = Json::array()) {
+    return {{"toml", toml}, {"name", "drive.toml"}, {"settings", std::move(settings)}};
+  }
+  std::vector<double> column(const Json& place) const {
+    const auto begin = numbers_.begin() + place.at("at").get<std::ptrdiff_t>();
+    return {begin, begin + place.at("count").get<std::ptrdiff_t>()};
+  }
+
+  double seconds_ = 0.0;
+  double seconds_a_look_ = 0.0;
+  int reports_ = 0;
+  Core core_{{.seconds = [this] { return seconds_ += seconds_a_look_; },
+              .report = [this](double) { ++reports_; },
+              .folder = testing::TempDir()}};
+  std::vector<double> numbers_;
+};
+
+TEST_F(WebCore, AnswersAsTheCommandLineDoes) {
+  for (const char* toml : {servo, joint}) {
+    const Json reply = ask({{"ask", "answer"}, {"drive", drive(toml)}});
+    const Drive parsed = parse_drive(toml);
+    const Json expected = Json::parse(to_json(parsed, analyse(parsed, {.ceiling = true})));
+    EXPECT_EQ(reply["answer"]["cycles"], expected["cycles"]);
+    EXPECT_EQ(reply["answer"]["ceiling"], expected["ceiling"]);
+    EXPECT_EQ(reply["level"], "fine");
+  }
+}
+
+TEST_F(WebCore, TheCoarseAnswerOfAServoIsTheFineOneWithoutItsProof) {
+  const Json coarse = ask({{"ask", "answer"}, {"level", "coarse"}, {"drive", drive(servo)}});
+  const Json fine = ask({{"ask", "answer"}, {"drive", drive(servo)}});
+  EXPECT_EQ(coarse["means"], "closed form");
+  EXPECT_EQ(coarse["headline"], fine["headline"]);
+  EXPECT_EQ(coarse["answer"]["certainty"]["verdict"], "computed");
+  EXPECT_EQ(fine["answer"]["certainty"]["verdict"], "enclosed");
+}
+
+TEST_F(WebCore, ADraggedDriveIsFollowedFromTheSearchBefore) {
+  const Json first = ask({{"ask", "answer"}, {"level", "coarse"}, {"drive", drive(joint)}});
+  EXPECT_EQ(first["means"], "one start");
+  const Json fine = ask({{"ask", "answer"}, {"drive", drive(joint)}});
+  EXPECT_EQ(fine["means"], "search");
+  const Json moved = drive(joint, {{"gearbox.backlash", "30.5 arcmin"}});
+  const Json followed = ask({{"ask", "answer"}, {"level", "coarse"}, {"drive", moved}});
+  EXPECT_EQ(followed["means"], "followed");
+  const Json searched = ask({{"ask", "answer"}, {"drive", moved}});
+  EXPECT_NEAR(followed["answer"]["cycles"][0]["amplitude"].get<double>(),
+              searched["answer"]["cycles"][0]["amplitude"].get<double>(), 1e-10);
+}
+
+TEST_F(WebCore, AnotherFileIsNotFollowedFromTheOneBefore) {
+  ask({{"ask", "answer"}, {"drive", drive(joint)}});
+  const std::string other = std::string(joint) + "# another file\n";
+  const Json reply = ask({{"ask", "answer"}, {"level", "coarse"}, {"drive", drive(other.c_str())}});
+  EXPECT_EQ(reply["means"], "one start");
+}
+
+TEST_F(WebCore, EveryFaultHasItsPathValueAndPlace) {
+  const Json reply =
+      ask({{"ask", "answer"},
+           {"drive", drive(servo, {{"servo.damping", "-1"}, {"servo.friction_ratio", "7"}})}});
+  ASSERT_EQ(reply["faults"].size(), 2U);
+  EXPECT_EQ(reply["faults"][0]["path"], "servo.damping");
+  EXPECT_EQ(reply["faults"][0]["value"], "-1");
+  EXPECT_NE(reply["faults"][0]["permitted"], "");
+  EXPECT_EQ(reply["faults"][1]["path"], "servo.friction_ratio");
+}
+
+TEST_F(WebCore, WhatIsNoRequestIsRefusedInWords) {
+  EXPECT_TRUE(Json::parse(core_.ask("{").json).contains("failure"));
+  EXPECT_TRUE(Json::parse(core_.ask("{}").json).contains("failure"));
+  EXPECT_TRUE(ask({{"ask", "nothing"}, {"drive", drive(servo)}}).contains("faults"));
+  EXPECT_TRUE(ask({{"ask", "answer"}, {"drive", drive("\x01")}}).contains("faults"));
+  EXPECT_TRUE(ask({{"ask", "thesis"}, {"figure", 99}}).contains("faults"));
+}
+
+TEST_F(WebCore, ParametersHaveValueUnitAndSlider) {
+  const Json reply = ask({{"ask", "drive"}, {"drive", drive(joint)}});
+  bool is_found = false;
+  for (const Json& parameter : reply["parameters"]) {
+    if (parameter["path"] != "gearbox.backlash") continue;
+    is_found = true;
+    EXPECT_EQ(parameter["unit"], "arcmin");
+    EXPECT_DOUBLE_EQ(parameter["value"].get<double>() / parameter["unit_in_si"].get<double>(),
+                     30.0);
+    EXPECT_LT(parameter["slider"]["low"], parameter["value"]);
+    EXPECT_GT(parameter["slider"]["high"], parameter["value"]);
+  }
+  EXPECT_TRUE(is_found);
+  EXPECT_FALSE(reply["has_closed_form"].get<bool>());
+}
+
+TEST_F(WebCore, CurvesAreColumnsOfOneLength) {
+  const Json reply = ask({{"ask", "answer"}, {"drive", drive(servo)}});
+  const Json& motion = reply["phase"]["motions"][0];
+  const std::size_t count = column(motion["columns"]["time"]).size();
+  ASSERT_GT(count, 100U);
+  for (const auto& [name, place] : motion["columns"].items()) {
+    EXPECT_EQ(column(place).size(), count) << name;
+  }
+  std::size_t in_pieces = 0;
+  for (const Json& piece : motion["pieces"]) in_pieces += piece[0].get<std::size_t>();
+  EXPECT_EQ(in_pieces, count);
+  const std::vector<double> time = column(motion["columns"]["time"]);
+  EXPECT_TRUE(std::is_sorted(time.begin(), time.end()));
+}
+
+TEST_F(WebCore, AnEncoderReadsWholeSteps) {
+  const Json reply =
+      ask({{"ask", "answer"}, {"drive", drive(joint, {{"sensor.resolution", "1 arcmin"}})}});
+  const Json& motion = reply["response"]["motions"][0];
+  const double step = reply["response"]["encoder_step"];
+  for (const double reading : column(motion["columns"]["encoder"])) {
+    EXPECT_NEAR(reading / step, std::round(reading / step), 1e-9);
+  }
+}
+
+TEST_F(WebCore, AMapHasItsBorderAndItsUnits) {
+  const Json reply = ask({{"ask", "map"},
+                          {"drive", drive(servo)},
+                          {"x", "servo.inertia_ratio=0.1:10:15:log"},
+                          {"y", "servo.damping=0.05:2:15:log"}});
+  EXPECT_FALSE(reply["boundary"].empty());
+  EXPECT_FALSE(reply["contours"].empty());
+  EXPECT_EQ(reply["axes"]["x"]["path"], "servo.inertia_ratio");
+  EXPECT_EQ(reply["points"], 225);
+}
+
+TEST_F(WebCore, AMapOfMorePointsThanAStdSizeTOfWebAssemblyIsRefused) {
+  const Json reply = ask({{"ask", "map"},
+                          {"drive", drive(servo)},
+                          {"x", "servo.inertia_ratio=0.1:10:65536"},
+                          {"y", "servo.damping=0.05:2:65536"}});
+  EXPECT_TRUE(reply.contains("faults"));
+}
+
+TEST_F(WebCore, AChartHasBranchesAndTheBorderOfHunting) {
+  const Json reply =
+      ask({{"ask", "chart"}, {"drive", drive(servo)}, {"x", "servo.damping=0.1:2:25:log"}});
+  ASSERT_EQ(reply["branches"].size(), 1U);
+  EXPECT_EQ(reply["branches"][0]["stability"], "stable");
+  EXPECT_FALSE(reply["borders"].empty());
+}
+
+TEST_F(WebCore, MarginsAreTextsThatCanBeSet) {
+  const Json reply = ask({{"ask", "margins"},
+                          {"drive", drive(servo)},
+                          {"parameters", {"servo.damping", "servo.backlash"}}});
+  ASSERT_EQ(reply["texts"].size(), 2U);
+  const Json& damping = reply["texts"][0];
+  EXPECT_TRUE(damping["is_setting"].get<bool>());
+  const Json set = drive(servo, {{"servo.damping", damping["above"]}});
+  const Json there = ask({{"ask", "answer"}, {"drive", set}});
+  EXPECT_NEAR(there["answer"]["growth_at_rest"].get<double>(), 1.0, 1e-4);
+}
+
+TEST_F(WebCore, AFigureOfTheThesisHasTheProgramsPoints) {
+  const Json reply = ask({{"ask", "thesis"}, {"figure", 12}});
+  EXPECT_FALSE(column(reply["curves"][0]["line"]).empty());
+  EXPECT_FALSE(column(reply["curves"][0]["marks"]).empty());
+}
+
+TEST_F(WebCore, ASearchEndsWithWhatIsKnownWhenItsTimeIsOver) {
+  seconds_a_look_ = 1.0;
+  const Json reply = ask({{"ask", "answer"}, {"drive", drive(joint)}, {"seconds", 5}});
+  EXPECT_FALSE(reply["is_complete"].get<bool>());
+  EXPECT_GT(reports_, 0);
+}
+
+TEST_F(WebCore, TheSavedFileIsTheSameDrive) {
+  const Json file =
+      ask({{"ask", "file"}, {"drive", drive(joint, {{"gearbox.backlash", "7 arcmin"}})}});
+  Drive expected = parse_drive(joint);
+  set(expected, "gearbox.backlash", "7 arcmin");
+  EXPECT_EQ(to_toml(parse_drive(file["toml"].get<std::string>())), to_toml(expected));
+}
+
+TEST_F(WebCore, ATableStandsInItsFolder) {
+  std::ofstream(testing::TempDir() + "steps-of-the-page.csv")
+      << "time (s), position (rad)\n0, 0\n1, 0.2\n2, 0.2\n";
+  const std::string toml =
+      std::string(joint) + "[reference]\nkind = \"table\"\nfile = \"steps-of-the-page.csv\"\n";
+  EXPECT_TRUE(ask({{"ask", "answer"}, {"drive", drive(toml.c_str())}}).contains("headline"));
+  const std::string missing =
+      std::string(joint) + "[reference]\nkind = \"table\"\nfile = \"not-there.csv\"\n";
+  EXPECT_TRUE(ask({{"ask", "answer"}, {"drive", drive(missing.c_str())}}).contains("faults"));
+}
+
+}  // namespace
+}  // namespace gearlash::web

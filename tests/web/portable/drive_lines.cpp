@@ -1,0 +1,67 @@
+#include "drive_lines.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "answer_line.hpp"
+#include "gearlash/analyse.hpp"
+
+namespace gearlash::portable {
+namespace {
+
+/// A cycle is known to its residual, a share of the state, times its condition. The residual itself
+/// is known to some ulps: it may be 0 by chance. On an unstable cycle an error grows with the
+/// multiplier within a period, and so does that of the product of slopes that the multiplier is.
+void print_cycle(const std::string& name, const Cycle& cycle) {
+  constexpr double least_residual = 4.0 * ulp;
+  const double known = std::max(cycle.residual, least_residual);
+  const double condition = condition_of_cycle(cycle.multiplier);
+  const double swing = std::max(cycle.amplitude, cycle.motor_amplitude);
+  const double growth = std::max(1.0, cycle.multiplier);
+  AnswerLine(cycle.stability == Stability::unstable ? "unstable-cycle" : "cycle", name)
+      .word("kind", name_of(cycle.kind))
+      .word("stability", name_of(cycle.stability))
+      .word("events", std::to_string(cycle.events_per_period))
+      .number("amplitude", cycle.amplitude, known * condition * swing)
+      .number("motor_amplitude", cycle.motor_amplitude, known * condition * swing)
+      .number("period", cycle.period, known * condition * cycle.period)
+      .number("multiplier", cycle.multiplier, known * condition * growth * growth);
+}
+
+/// A mean of n swings is known to their deviation/√n; an extent of them all to their deviation.
+void print_motion(const std::string& name, const IrregularMotion& motion) {
+  AnswerLine line("irregular", name);
+  line.word("motor_alone", motion.is_motor_alone ? "yes" : "no");
+  const bool is_measured = motion.mean_amplitude && motion.amplitude_deviation &&
+                           motion.mean_period && motion.period_deviation && motion.watched;
+  line.word("measured", is_measured ? "yes" : "no");
+  if (!is_measured) return;
+  const double root = std::sqrt(std::max(1.0, *motion.watched / *motion.mean_period));
+  line.number("amplitude", motion.amplitude, *motion.amplitude_deviation)
+      .number("mean_amplitude", *motion.mean_amplitude, *motion.amplitude_deviation / root)
+      .number("mean_period", *motion.mean_period, *motion.period_deviation / root);
+}
+
+}  // namespace
+
+void print_drive(const std::string& name, const Drive& drive, Listed listed) {
+  const bool is_all = listed == Listed::all;
+  const Answer answer = analyse(drive, {.proofs = false, .borders = is_all});
+  std::size_t cycles = 0;
+  for (const Cycle& cycle : answer.cycles) {
+    if (!is_all && cycle.stability == Stability::unstable) continue;
+    print_cycle(name + "." + std::to_string(cycles++), cycle);
+  }
+  std::size_t motions = 0;
+  for (const IrregularMotion& motion : answer.irregular) {
+    print_motion(name + "." + std::to_string(motions++), motion);
+  }
+  AnswerLine("drive", name)
+      .word("verdict", name_of(answer.verdict))
+      .word("engine", name_of(answer.engine))
+      .word("certainty", name_of(answer.certainty))
+      .word("cycles", std::to_string(cycles))
+      .word("irregular", std::to_string(motions));
+}
+
+}  // namespace gearlash::portable

@@ -1,0 +1,96 @@
+// The pictures in their cards, with buttons that save them.
+import { csv, save, savePng, svgFile } from './downloads';
+import { draw, type Plot, type Theme } from './plot';
+
+/** What a card shows, made anew for each theme. */
+export interface Card {
+  plot: (theme: Theme) => Plot;
+  /** Its data; default: the curves of its picture. */
+  data?: () => string;
+}
+
+/** The curves of a picture as a table: number of the curve, x, y. */
+function curvesOf(plot: Plot): string {
+  const numbers: number[] = [];
+  const x: number[] = [];
+  const y: number[] = [];
+  let curve = 0;
+  for (const layer of plot.layers) {
+    if (layer.kind !== 'line' && layer.kind !== 'marks') continue;
+    if (layer.kind === 'line' && layer.fill) continue;
+    ++curve;
+    for (let i = 0; i + 1 < layer.points.length; i += 2) {
+      if (!Number.isFinite(layer.points[i]!)) continue;
+      numbers.push(curve);
+      x.push(layer.points[i]!);
+      y.push(layer.points[i + 1]!);
+    }
+  }
+  const named = (label: string): string => `"${label.replaceAll('"', "'")}"`;
+  return csv(['curve', named(plot.x.label), named(plot.y.label)], [numbers, x, y]);
+}
+
+export class Cards {
+  private readonly cards = new Map<string, Card>();
+
+  constructor(
+    private readonly light: Theme,
+    private readonly fileName: () => string,
+    private readonly tell: (error: unknown) => void,
+  ) {}
+
+  /** Shows the card, drawn in `theme`. */
+  put(name: string, card: Card, theme: Theme): void {
+    this.keep(name, card);
+    const place = this.place(name);
+    place.classList.remove('stale');
+    place.innerHTML = draw(card.plot(theme), theme, { width: place.clientWidth });
+  }
+
+  /** The same for a card that draws itself. */
+  keep(name: string, card: Card): void {
+    this.cards.set(name, card);
+    this.addButtons(name);
+  }
+
+  /** Words in place of the picture. */
+  blank(name: string, why: string): void {
+    this.cards.delete(name);
+    const place = this.place(name);
+    place.classList.remove('stale');
+    place.textContent = why;
+    document.querySelector(`#card-${name} .buttons`)?.remove();
+  }
+
+  /** Marks the picture as that of another drive, until the next one. */
+  fade(name: string): void {
+    this.place(name).classList.add('stale');
+  }
+
+  redraw(theme: Theme): void {
+    for (const [name, card] of this.cards) if (document.querySelector(`#card-${name} .picture`)) this.put(name, card, theme);
+  }
+
+  private place(name: string): HTMLElement {
+    return document.querySelector<HTMLElement>(`#card-${name} .picture`)!;
+  }
+
+  private addButtons(name: string): void {
+    const article = document.getElementById(`card-${name}`)!;
+    if (article.querySelector('.buttons')) return;
+    const line = document.createElement('p');
+    line.className = 'buttons';
+    const add = (kind: string, does: (card: Card, file: string) => void): void => {
+      const button = document.createElement('button');
+      button.type = 'button';
+      button.textContent = kind;
+      button.setAttribute('aria-label', `${article.querySelector('h2')?.textContent || 'Figure'} as ${kind}`);
+      button.onclick = () => does(this.cards.get(name)!, `${this.fileName()}-${name}.${kind.toLowerCase()}`);
+      line.append(button);
+    };
+    add('SVG', (card, file) => save(file, svgFile(card.plot(this.light)), 'image/svg+xml'));
+    add('PNG', (card, file) => void savePng(file, card.plot(this.light)).catch(this.tell));
+    add('CSV', (card, file) => save(file, card.data ? card.data() : curvesOf(card.plot(this.light)), 'text/csv'));
+    article.append(line);
+  }
+}

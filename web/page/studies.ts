@@ -1,0 +1,208 @@
+// What takes longer than an answer: the map or chart with the border of hunting, and the nearest
+// changes.
+import type { Cards } from './cards';
+import { type Lane, Overtaken } from './core';
+import { escapeText, typed } from './numbers';
+import { branchChart, contourMap } from './pictures';
+import type { Theme } from './plot';
+import type { AnswerReply, ChartReply, DriveReply, DriveText, MapReply, MarginsReply, Parameter, Replied } from './replies';
+import { setOptions } from './state';
+import { wordsOf } from './words';
+
+/** What the studies need of the page. */
+export interface Page {
+  drive(): DriveText;
+  facts(): DriveReply;
+  answer(): AnswerReply | null;
+  theme(): Theme;
+  /** The axes that were chosen: paths, the second may be ''. */
+  axes(): { x: string; y: string };
+  patiently<T>(lane: Lane, request: object): Promise<Replied<T>>;
+  change(path: string, text: string): void;
+}
+
+/** Points on each axis: a closed form is solved at once, a search takes a second. */
+const pointsOf = { map: { closed: 41, searched: 7 }, chart: { closed: 61, searched: 13 } };
+const seconds = 120;
+
+const byId = (id: string): HTMLElement => document.getElementById(id)!;
+
+const isMap = (reply: MapReply | ChartReply): reply is MapReply => 'axes' in reply;
+
+export class Studies {
+  private map: { replied: Replied<MapReply | ChartReply>; key: string } | null = null;
+  private job = 0;
+
+  constructor(
+    private readonly page: Page,
+    private readonly lane: Lane,
+    private readonly cards: Cards,
+  ) {}
+
+  /** Another drive is loaded. */
+  forget(): void {
+    this.map = null;
+    ++this.job;
+    this.lane.giveUp();
+    this.cards.blank('map', '');
+    byId('map-words').textContent = '';
+    byId('changes').textContent = '';
+    byId('changes-words').textContent = '';
+    byId('changes-go').hidden = true;
+  }
+
+  giveUp(): void {
+    this.lane.giveUp();
+  }
+
+  // ---- the map ----------------------------------------------------------------------------------
+
+  /** An axis as on the command line, over the slider's range. */
+  private axisText(path: string, count: number): string {
+    const parameter = this.page.facts().parameters.find((one) => one.path === path)!;
+    const slider = parameter.slider!;
+    const unit = parameter.unit_in_si ?? 1;
+    const words = parameter.unit ? ` ${parameter.unit}` : '';
+    return `${path}=${typed(slider.low / unit)}${words}:${typed(slider.high / unit)}${words}:${count}${slider.logarithmic ? ':log' : ''}`;
+  }
+
+  private request(): { ask: 'map' | 'chart'; x: string; y?: string } {
+    const engine = this.page.facts().has_closed_form ? 'closed' : 'searched';
+    const { x, y } = this.page.axes();
+    if (y && y !== x) return { ask: 'map', x: this.axisText(x, pointsOf.map[engine]), y: this.axisText(y, pointsOf.map[engine]) };
+    return { ask: 'chart', x: this.axisText(x, pointsOf.chart[engine]) };
+  }
+
+  /** Computes the map, unless the present one holds: the drive differs on its axes alone. */
+  async drawMap(): Promise<void> {
+    const { x, y } = this.page.axes();
+    if (!x) return;
+    const present = this.page.drive();
+    const drive = { ...present, settings: present.settings.filter(([path]) => path !== x && path !== y) };
+    const request = this.keptAxes(drive) ?? this.request();
+    const key = JSON.stringify([drive, request]);
+    if (this.map?.key === key) return this.markHere();
+    this.lane.giveUp();
+    const job = ++this.job;
+    const words = byId('map-words');
+    words.textContent = 'Computing …';
+    this.cards.fade('map');
+    try {
+      const replied = await this.page.patiently<MapReply | ChartReply>(this.lane, { ...request, drive, seconds });
+      if (job !== this.job) return;
+      this.map = { replied, key };
+      words.innerHTML = this.commandText(request, drive, replied.reply.is_complete);
+      this.markHere();
+    } catch (error) {
+      if (job !== this.job) return;
+      words.textContent = error instanceof Overtaken ? 'Not computed for this drive.' : '';
+      if (!(error instanceof Overtaken)) this.cards.blank('map', wordsOf(error));
+    }
+  }
+
+  /** The request of the present map if it is of this drive and these axes: sliders that were widened since do not change it. */
+  private keptAxes(drive: DriveText): ReturnType<Studies['request']> | null {
+    if (!this.map) return null;
+    const [before, request] = JSON.parse(this.map.key) as [DriveText, ReturnType<Studies['request']>];
+    const path = (axis: string | undefined): string => (axis ?? '').split('=')[0]!;
+    const { x, y } = this.page.axes();
+    const isSame = JSON.stringify(before) === JSON.stringify(drive) && path(request.x) === x && path(request.y) === (y === x ? '' : y);
+    return isSame ? request : null;
+  }
+
+  private commandText(request: { ask: string; x: string; y?: string }, drive: DriveText, isComplete: boolean): string {
+    const axes = request.y ? `map --x '${request.x}' --y '${request.y}'` : `chart --x '${request.x}'`;
+    const plot = request.y ? 'map=map.svg' : 'bifurcation=branches.svg';
+    const stopped = isComplete ? '' : 'Stopped before the end. ';
+    return `${stopped}<code>gearlash ${escapeText(axes)} ${escapeText(drive.name + setOptions(drive))} --plot ${plot}</code>`;
+  }
+
+  /** Where the present drive is on an axis, in its unit. While a slider moves, its text is newer than the facts. */
+  private here(path: string, unit: number): number | null {
+    const parameter = this.page.facts().parameters.find((one) => one.path === path);
+    if (!parameter || typeof parameter.value !== 'number') return null;
+    const text = this.page.drive().settings.find(([other]) => other === path)?.[1];
+    const [, number, unitText] = /^\s*(-?[\d.eE+-]+)\s*(.*)$/.exec(text ?? '') ?? [];
+    const isKnown = number !== undefined && (unitText ?? '').trim() === (parameter.unit ?? '');
+    return (isKnown ? Number(number) * (parameter.unit_in_si ?? 1) : parameter.value) / unit;
+  }
+
+  /** Draws the map with the mark of the present drive. */
+  markHere(): void {
+    const answer = this.page.answer();
+    if (!this.map || !answer) return;
+    const { reply, numbers } = this.map.replied;
+    if (isMap(reply)) {
+      const x = this.here(reply.axes.x.path, reply.axes.x.unit_in_si);
+      const y = this.here(reply.axes.y.path, reply.axes.y.unit_in_si);
+      const place: [number, number] | null = x !== null && y !== null ? [x, y] : null;
+      this.cards.put('map', { plot: (theme) => contourMap(reply, numbers, theme, place) }, this.page.theme());
+      return;
+    }
+    const x = this.here(reply.x.path, reply.x.unit_in_si);
+    const cycle = answer.answer.cycles.find((one) => one.stability !== 'unstable');
+    const place: [number, number] | null = x === null ? null : [x, (cycle?.amplitude ?? 0) / answer.unit_in_si];
+    this.cards.put('map', { plot: (theme) => branchChart(reply, numbers, theme, place) }, this.page.theme());
+  }
+
+  // ---- changes ----------------------------------------------------------------------------------
+
+  offerChanges(): void {
+    byId('changes').textContent = '';
+    byId('changes-words').textContent = 'For this drive each number needs a search of its own, seconds to minutes in all.';
+    byId('changes-go').hidden = false;
+  }
+
+  /** A normal form's own numbers, a data sheet's as a designer changes them, else one search for each. */
+  private marginRequests(): object[] {
+    const facts = this.page.facts();
+    const paths = (wanted: (one: Parameter) => boolean): string[] =>
+      facts.parameters.filter((one) => one.kind === 'number' && typeof one.value === 'number' && one.value > 0 && wanted(one)).map((one) => one.path);
+    if (facts.is_normal_form) return [{ parameters: paths((one) => one.path !== 'servo.natural_frequency') }];
+    return facts.has_closed_form ? [{}] : paths((one) => one.is_usual).map((path) => ({ parameters: [path] }));
+  }
+
+  /** The nearest change of each parameter that stops hunting, or starts it. */
+  async searchChanges(): Promise<void> {
+    const drive = this.page.drive();
+    const words = byId('changes-words');
+    byId('changes-go').hidden = true;
+    words.textContent = 'Searching …';
+    const requests = this.marginRequests();
+    const rows: MarginsReply['texts'] = [];
+    try {
+      for (const [i, request] of requests.entries()) {
+        if (requests.length > 1) words.textContent = `Searching: ${i + 1} of ${requests.length} numbers …`;
+        const { reply } = await this.page.patiently<MarginsReply>(this.lane, { ask: 'margins', drive, ...request, seconds });
+        if (drive !== this.page.drive()) return;
+        rows.push(...reply.texts);
+        this.showChanges(reply.hunts, rows);
+      }
+    } catch (error) {
+      if (drive !== this.page.drive()) return;
+      words.textContent = error instanceof Overtaken ? 'Not searched for this drive.' : wordsOf(error);
+      byId('changes-go').hidden = false;
+    }
+  }
+
+  private showChanges(hunts: boolean, rows: MarginsReply['texts']): void {
+    byId('changes-words').textContent = hunts
+      ? 'It stops hunting where one number changes, all others as they are:'
+      : 'It starts to hunt where one number changes, all others as they are:';
+    const heads = ['number', 'now', 'down to', 'up to'].map((head) => `<th scope="col">${head}</th>`).join('');
+    const lines = rows.map(
+      (row) =>
+        `<tr><th scope="row" title="${escapeText(row.description)}">${escapeText(row.parameter)}</th><td>${escapeText(row.present)}</td>` +
+        `<td>${this.changeCell(row, row.below)}</td><td>${this.changeCell(row, row.above)}</td></tr>`,
+    );
+    byId('changes').innerHTML = `<table><thead><tr>${heads}</tr></thead><tbody>${lines.join('')}</tbody></table>`;
+    for (const button of byId('changes').querySelectorAll<HTMLButtonElement>('button')) {
+      button.onclick = () => this.page.change(button.dataset.path!, button.dataset.text!);
+    }
+  }
+
+  private changeCell(row: MarginsReply['texts'][0], text: string | null): string {
+    if (!text || !row.is_setting) return escapeText(text ?? '–');
+    return `<button type="button" data-path="${escapeText(row.parameter)}" data-text="${escapeText(text)}" title="Try it">${escapeText(text)}</button>`;
+  }
+}

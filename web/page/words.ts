@@ -1,0 +1,41 @@
+// The sentences about an answer.
+import { InputError } from './core';
+import { short } from './numbers';
+import type { AnswerReply } from './replies';
+
+export const capital = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
+
+export const wordsOf = (error: unknown): string =>
+  error instanceof InputError
+    ? error.faults.map((fault) => `${fault.path} = ${fault.value} ${fault.permitted}`).join('; ')
+    : error instanceof Error
+      ? error.message
+      : String(error);
+
+/** A bound is rounded up. */
+export function roundedUp(bound: number): number {
+  const shown = Number(bound.toPrecision(4));
+  if (shown >= bound || bound <= 0) return shown;
+  return Number((shown + 10 ** (Math.floor(Math.log10(bound)) - 3)).toPrecision(4));
+}
+
+export function ceilingText(reply: AnswerReply): string {
+  const { ceiling } = reply.answer;
+  if (!ceiling) return '';
+  if (ceiling.value === null) return `No ceiling: ${ceiling.reason ?? 'none is proved'}.`;
+  return `Ceiling, proved: the load swings by at most ±${short(roundedUp(ceiling.value / reply.unit_in_si))} ${reply.unit}, whatever happens in the gap.`;
+}
+
+export function levelText(reply: AnswerReply): string {
+  const found = {
+    'closed form': 'computed in closed form',
+    'proof by energy': 'proved by energy, without following a motion',
+    followed: 'followed from the answer before',
+    'one start': 'by following one motion',
+    search: 'searched from many starts',
+  }[reply.means];
+  if (reply.level === 'coarse') return `Coarse, while you change it: ${found}.`;
+  const { verdict } = reply.answer.certainty;
+  const isProved = reply.means === 'closed form' && (verdict === 'theorem' || verdict === 'enclosed');
+  return `Fine: ${found}${isProved ? ', and proved' : ''}.${reply.is_complete ? '' : ' The search was stopped before its end.'}`;
+}
