@@ -5,7 +5,8 @@
 
 FIRST and SECOND are programs, which are run, or texts that they printed. A program that ends in .js
 is run by node. Words and numbers without a unit must be equal. The difference of two numbers with
-units may be the number of units of FACTORS. Exit status: 0 alike, 1 not, 77 if a program is missing.
+units may be the number of units of FACTORS. Exit status: 0 alike, 1 not, 77 if a program or node is
+missing.
 """
 import argparse
 import collections
@@ -34,7 +35,7 @@ FACTORS = {
     ("cycle", "period"): 3,  # [0.23]
     ("cycle", "multiplier"): 40,  # [9.9]
     ("unstable-cycle", "amplitude"): 110,  # [28]
-    ("unstable-cycle", "motor_amplitude"): 110,  # [2.4]
+    ("unstable-cycle", "motor_amplitude"): 110,  # as the load's [2.4]
     ("unstable-cycle", "period"): 40,  # [9.2]
     ("unstable-cycle", "multiplier"): 55,  # [14]
     # Of irregular motion the units are standard deviations.

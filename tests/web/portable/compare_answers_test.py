@@ -80,6 +80,7 @@ class Program(unittest.TestCase):
     def setUpClass(cls):
         cls.text = subprocess.run([PROGRAM.resolve()], check=True, capture_output=True,
                                   encoding="ascii").stdout
+        cls.cases = compare_answers.cases_of(cls.text)
 
     def status(self, text):
         with tempfile.TemporaryDirectory() as folder:
@@ -89,20 +90,31 @@ class Program(unittest.TestCase):
             return subprocess.run([sys.executable, SCRIPT, *paths], stdout=subprocess.DEVNULL,
                                   check=False).returncode
 
+    def a_number(self, kind, key):
+        """A case, and the text of one of its numbers, that has a unit above 0."""
+        for case, fields in self.cases.items():
+            value = fields.get(key, "")
+            if case[0] == kind and value and compare_answers.number_and_unit(value)[1] > 0.0:
+                return case, value
+        self.fail(f"the program prints no {kind} {key}")
+
     def test_itself(self):
         self.assertEqual(self.status(self.text), 0)
 
+    def test_one_number_moved_in_the_text(self):
+        _, value = self.a_number("servo", "amplitude")
+        factor = compare_answers.FACTORS["servo", "amplitude"]
+        doctored = self.text.replace(value, moved(value, 1.5 * factor), 1)
+        self.assertNotEqual(doctored, self.text)
+        self.assertEqual(self.status(doctored), 1)
+
     def test_each_kind_of_number(self):
-        cases = compare_answers.cases_of(self.text)
-        for kind, key in compare_answers.FACTORS:
-            fields = next(fields for case, fields in cases.items()
-                          if case[0] == kind and float.fromhex(
-                              fields.get(key, "0x0p+0~0x0p+0").partition("~")[2]) > 0.0)
-            factor = compare_answers.FACTORS[kind, key]
-            old = f"{key}={fields[key]}"
-            doctored = self.text.replace(old, f"{key}={moved(fields[key], 1.5 * factor)}", 1)
-            self.assertNotEqual(doctored, self.text)
-            self.assertEqual(self.status(doctored), 1, f"{kind} {key}")
+        for (kind, key), factor in compare_answers.FACTORS.items():
+            case, value = self.a_number(kind, key)
+            doctored = {**self.cases[case], key: moved(value, 1.5 * factor)}
+            found, _ = compare_answers.differences(self.cases, {**self.cases, case: doctored})
+            self.assertEqual(len(found), 1, f"{kind} {key}")
+            self.assertIn(" ".join(case), found[0])
 
     def test_a_verdict_and_a_lost_cycle(self):
         self.assertEqual(self.status(self.text.replace("=hunts ", "=undecided ", 1)), 1)

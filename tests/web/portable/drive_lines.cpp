@@ -9,9 +9,11 @@
 namespace gearlash::portable {
 namespace {
 
-/// A cycle is known to its residual, a share of the state, times its condition. The residual itself
-/// is known to some ulps: it may be 0 by chance. On an unstable cycle an error grows with the
-/// multiplier within a period, and so does that of the product of slopes that the multiplier is.
+/// Two builds differ in the order in which the terms of matrix products are summed, hence to
+/// rounding. A cycle is known to its residual, a share of the state, times its condition. The
+/// residual itself is known to some ulps: it may be 0 by chance. On an unstable cycle an error
+/// grows with the multiplier within a period, and so does that of the product of slopes that the
+/// multiplier is.
 void print_cycle(const std::string& name, const Cycle& cycle) {
   constexpr double least_residual = 4.0 * ulp;
   const double known = std::max(cycle.residual, least_residual);

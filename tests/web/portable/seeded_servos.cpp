@@ -9,12 +9,12 @@
 // half cycle makes of the cycle. 2 √m (1 + √m): m is the square of the slope of the half cycle's
 // map, and this slope is 1 less a number of its size, so that it is known to ulps of 1 + √m.
 //
-// Both builds do the same operations in the same order, without fused ones. They differ only in
-// exp, log, sin and cos of their C libraries. Each of these is within about one ulp of the exact
-// value, so two of them differ by two at most. What they return enters a formula as a decay, an
-// angle or a position, where an ulp makes what an ulp of the data makes. A half cycle has some ten
-// of them, and the search of its time ends within some ulps, in one build perhaps a step earlier.
-// So a few units bound the difference.
+// Both builds do the same operations, without fused ones. They differ in exp, log, sin and cos of
+// their C libraries, and with bounces in the order in which matrix products are summed. Each of
+// these functions is within about one ulp of the exact value, so two of them differ by two at most.
+// What they return enters a formula as a decay, an angle or a position, where an ulp makes what an
+// ulp of the data makes. A half cycle has some ten of them, and the search of its time ends within
+// some ulps, in one build perhaps a step earlier. So a few units bound the difference.
 #include <array>
 #include <cmath>
 #include <string>
