@@ -19,6 +19,14 @@ std::string ParameterText::of(double value) const {
   return is_word() ? text_of(axis_, drive_, value) : with_unit(significant(value / size_, digits));
 }
 
+std::string ParameterText::at_least(double value) const {
+  return with_unit(significant(rounded_up(value / size_, digits), digits));
+}
+
+std::string ParameterText::at_most(double value) const {
+  return with_unit(significant(rounded_down(value / size_, digits), digits));
+}
+
 std::string ParameterText::of(const Bounds& interval) const {
   if (interval.low == interval.high) return of(interval.low);
   return significant(rounded_up(interval.low / size_, digits), digits) + " to " +

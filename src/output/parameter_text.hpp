@@ -19,6 +19,9 @@ class ParameterText {
 
   /// Empty for NaN.
   std::string of(double value) const;
+  /// Rounded up or down, so that the text is not on the other side of the value.
+  std::string at_least(double value) const;
+  std::string at_most(double value) const;
   /// "0.5 to 2 deg", rounded inwards.
   std::string of(const Bounds& interval) const;
 

@@ -115,13 +115,13 @@ onPage('all answers are there: pictures, gears, map, changes', 'example=normaliz
   assert.match(await page.textContent('#card-map svg'), /you are here/);
   assert.match(await page.textContent('#card-map svg'), /hunting ends/);
   // The border: hunting ends where the change says that it does.
-  const damping = await page.textContent('#changes tr:has-text("servo.damping") td:last-child');
+  const damping = await page.textContent('#changes tr:has-text("servo damping") td:last-child');
   const bound = Number(damping.trim());
   const at = (value) => JSON.parse(gearlash(['limit-cycle', 'examples/normalized.toml', '--set', `servo.damping=${value}`, '--format', 'json'])).verdict;
   assert.equal(at(bound * 0.999), 'hunts');
   assert.equal(at(bound * 1.001), 'cannot hunt');
   // Trying it brings the drive there.
-  await page.click('#changes tr:has-text("servo.damping") td:last-child button');
+  await page.click('#changes tr:has-text("servo damping") td:last-child button');
   await page.waitForFunction(() => /cannot hunt|comes to rest/i.test(document.getElementById('headline').textContent));
 });
 

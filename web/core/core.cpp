@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <functional>
 #include <optional>
 
 #include "analysis/analyse.hpp"
@@ -32,19 +33,40 @@ Json faults_json(const std::vector<Fault>& faults) {
   });
 }
 
-/// The present value and the nearest ones at which hunting ends or begins, as a reader has them.
-/// `text_of`: of one value.
-template <class TextOf>
-Json margin_texts(const ParameterMargin& margin, const std::string& description, bool is_setting,
-                  const TextOf& text_of) {
-  const auto optional = [&](const std::optional<double>& value) {
-    return value ? Json(text_of(*value)) : Json(nullptr);
+/// Texts of one number. Values beyond which hunting ends or begins are rounded to that side.
+struct NumberText {
+  std::function<std::string(double)> of;
+  std::function<std::string(double)> at_least;
+  std::function<std::string(double)> at_most;
+};
+
+NumberText text_of_parameter(const ParameterText& words) {
+  return {.of = [&words](double value) { return words.of(value); },
+          .at_least = [&words](double value) { return words.at_least(value); },
+          .at_most = [&words](double value) { return words.at_most(value); }};
+}
+
+NumberText text_in_unit(const std::string& unit) {
+  constexpr int digits = 6;
+  const auto with_unit = [unit](double value) {
+    return significant(value, digits) + (unit == "1" ? "" : " " + unit);
   };
-  return {
-      {"parameter", margin.parameter},      {"description", description},
-      {"is_setting", is_setting},           {"is_certified", margin.kind == SearchKind::certified},
-      {"present", text_of(margin.present)}, {"below", optional(margin.below)},
-      {"above", optional(margin.above)},    {"choices", json_list(margin.choices, text_of)}};
+  return {.of = with_unit,
+          .at_least = [=](double value) { return with_unit(rounded_up(value, digits)); },
+          .at_most = [=](double value) { return with_unit(rounded_down(value, digits)); }};
+}
+
+/// The present value and the nearest ones at which hunting ends or begins, as a reader has them.
+Json margin_texts(const ParameterMargin& margin, const std::string& description, bool is_setting,
+                  const NumberText& text) {
+  return {{"parameter", margin.parameter},
+          {"description", description},
+          {"is_setting", is_setting},
+          {"is_certified", margin.kind == SearchKind::certified},
+          {"present", text.of(margin.present)},
+          {"below", margin.below ? Json(text.at_most(*margin.below)) : Json(nullptr)},
+          {"above", margin.above ? Json(text.at_least(*margin.above)) : Json(nullptr)},
+          {"choices", json_list(margin.choices, text.of)}};
 }
 
 /// `changeable`: of a margin in closed form, whose numbers are not all parameters of the drive.
@@ -58,13 +80,10 @@ Json margins_json(const WrittenDrive& written, const std::optional<ChangeableDri
              if (parameter != nullptr) {
                const ParameterText words(written.drive, one.parameter, written.angle);
                return margin_texts(one, std::string(parameter->meaning), true,
-                                   [&](double value) { return words.of(value); });
+                                   text_of_parameter(words));
              }
-             constexpr int digits = 6;
              const ChangeableNumber& number = changeable->number(one.parameter);
-             return margin_texts(one, number.description, false, [&](double value) {
-               return significant(value, digits) + (number.unit == "1" ? "" : " " + number.unit);
-             });
+             return margin_texts(one, number.description, false, text_in_unit(number.unit));
            })}};
 }
 

@@ -44,7 +44,8 @@ export class Cards {
     this.keep(name, card);
     const place = this.place(name);
     place.classList.remove('stale');
-    place.innerHTML = draw(card.plot(theme), theme, { width: place.clientWidth });
+    const isOnPaper = place.classList.contains('for-print');
+    place.innerHTML = draw(card.plot(isOnPaper ? this.light : theme), isOnPaper ? this.light : theme, { width: place.clientWidth });
   }
 
   /** The same for a card that draws itself. */
@@ -67,8 +68,9 @@ export class Cards {
     this.place(name).classList.add('stale');
   }
 
+  /** Pictures on the screen that draw themselves have one for paper beside them. */
   redraw(theme: Theme): void {
-    for (const [name, card] of this.cards) if (document.querySelector(`#card-${name} .picture`)) this.put(name, card, theme);
+    for (const [name, card] of this.cards) this.put(name, card, theme);
   }
 
   private place(name: string): HTMLElement {

@@ -1,4 +1,5 @@
 // The page's side of the core: two workers, so that long work never delays the answer to a drag.
+import type { Parts } from './parts';
 import type { Fault, Replied } from './replies';
 
 /** Bad input: one fault for each value. */
@@ -33,17 +34,14 @@ export class Lane {
   private readonly waiting = new Map<number, Waiting>();
   private static last = 0;
 
-  constructor(
-    private readonly start: () => Worker,
-    private readonly wasm: Promise<WebAssembly.Module>,
-  ) {}
+  constructor(private readonly parts: Promise<Parts>) {}
 
   async ask<T>(request: object, report?: Report): Promise<Replied<T>> {
-    const wasm = await this.wasm;
+    const parts = await this.parts;
     const id = ++Lane.last;
     return new Promise((resolve, reject) => {
       this.waiting.set(id, { resolve: (replied) => resolve(replied as Replied<T>), reject, report });
-      this.running(wasm).postMessage({ id, request });
+      this.running(parts).postMessage({ id, request });
     });
   }
 
@@ -52,9 +50,9 @@ export class Lane {
     if (this.waiting.size > 0) this.end(new Overtaken());
   }
 
-  private running(wasm: WebAssembly.Module): Worker {
+  private running({ wasm, startWorker }: Parts): Worker {
     if (this.worker) return this.worker;
-    const worker = this.start();
+    const worker = startWorker();
     worker.onmessage = (message) => this.take(message.data as Message);
     worker.onerror = (event) => this.end(new Error(event.message || 'the worker could not start'));
     worker.postMessage({ wasm });

@@ -37,5 +37,5 @@ export function aboutOf(toml: string): string {
     if (!line.startsWith('#')) break;
     lines.push(line.slice(1).trim());
   }
-  return (/^.*?[.:](?= |$)/.exec(lines.join(' '))?.[0] ?? lines.join(' ')).replace(/[.:]$/, '');
+  return (/^.*?[^A-Z][.:](?= |$)/.exec(lines.join(' '))?.[0] ?? lines.join(' ')).replace(/[.:]$/, '');
 }

@@ -119,7 +119,7 @@ export class Inputs {
   private absent(drive: DriveReply, sections: Map<string, Parameter[]>): HTMLElement {
     const line = document.createElement('p');
     line.className = 'absent';
-    line.innerHTML = `Not in this drive: ${drive.absent.map(({ name, contents }) => `<span title="${escapeText(contents)}">${escapeText(titleOf(name))}</span>`).join(', ')}. `;
+    line.innerHTML = `Not in this drive: ${drive.absent.filter(({ name }) => name !== 'servo').map(({ name, contents }) => `<span title="${escapeText(contents)}">${escapeText(titleOf(name))}</span>`).join(', ')}. `;
     if (drive.absent.some(({ name }) => name === 'sampling') && sections.has('controller')) {
       const add = document.createElement('button');
       add.type = 'button';

@@ -9,7 +9,7 @@ import { aboutOf, examples } from './examples';
 import { GearView } from './gears';
 import { Inputs, isPath, missingInputs } from './inputs';
 import { driveIn, listenToFiles } from './opening';
-import { compiledCore, embeddedDrive, startWorker } from './parts';
+import { embeddedDrive, loadedParts } from './parts';
 import { phasePlane, positionsOverTime, tracesOf, type Traces } from './pictures';
 import { dark, light, type Theme } from './plot';
 import type { AnswerReply, DriveReply, DriveText, Fault, Parameter, Replied } from './replies';
@@ -120,6 +120,8 @@ class Explorer {
       this.redraw();
     };
     byId('print').onclick = () => window.print();
+    addEventListener('beforeprint', () => this.cards.redraw(light));
+    addEventListener('afterprint', () => this.redraw());
     byId('stop').onclick = () => this.stop();
     byId('save-toml').onclick = () => void this.saveDrive();
     byId('copy-link').onclick = () => void this.copyLink();
@@ -181,6 +183,8 @@ class Explorer {
     }
     this.inputs.reset();
     if (!(await this.readDrive())) return false;
+    byId('level').className = 'coarse';
+    byId('level').textContent = 'Answering …';
     this.rest();
     return true;
   }
@@ -413,7 +417,8 @@ class Explorer {
   /** A sentence that is not about a value; it stays until the next change. */
   private tell(sentence: string): void {
     byId('message').textContent = sentence;
-    if (sentence && !this.answer) byId('headline').textContent = 'No answer yet';
+    const isLoading = byId('headline').textContent?.startsWith('Loading');
+    if (sentence && isLoading) byId('headline').textContent = 'No answer yet';
   }
 
   private redraw(): void {
@@ -530,10 +535,9 @@ function keepItem(name: string, value: string): void {
   }
 }
 
-const wasm = compiledCore();
-wasm.catch((error: unknown) => {
+const parts = loadedParts();
+parts.catch(() => {
   byId('headline').textContent = 'The core did not load';
-  byId('message').textContent = `The numerical core of this page could not be loaded (${wordsOf(error)}). Reload the page; it needs WebAssembly with exceptions and vectors, as browsers have it since 2023.`;
 });
-const explorer = new Explorer({ answers: new Lane(startWorker, wasm), studies: new Lane(startWorker, wasm) });
-wasm.then(() => explorer.start()).catch(() => {});
+const explorer = new Explorer({ answers: new Lane(parts), studies: new Lane(parts) });
+void explorer.start();

@@ -17,21 +17,38 @@ async function unpacked(bytes: Uint8Array<ArrayBuffer>): Promise<ArrayBuffer> {
   return new Response(stream).arrayBuffer();
 }
 
-export async function compiledCore(): Promise<WebAssembly.Module> {
-  const packed = embedded('core-wasm');
-  if (packed) return WebAssembly.compile(await unpacked(bytesOf(packed)));
-  const response = await fetch('core.wasm');
-  if (!response.ok) throw new Error(`core.wasm: ${response.status} ${response.statusText}`);
-  return WebAssembly.compile(await response.arrayBuffer());
+/** What a worker is made of. It is fetched once, so that new workers need no network. */
+export interface Parts {
+  wasm: WebAssembly.Module;
+  startWorker: () => Worker;
 }
 
-let address: string | null = null;
+async function fetched(name: string): Promise<Response> {
+  const response = await fetch(name);
+  if (!response.ok) throw new Error(`${name}: ${response.status} ${response.statusText}`);
+  return response;
+}
 
-export function startWorker(): Worker {
-  const source = embedded('worker-source');
-  if (!source) return new Worker('worker.js');
-  address ??= URL.createObjectURL(new Blob([new TextDecoder().decode(bytesOf(source))], { type: 'text/javascript' }));
-  return new Worker(address);
+async function workerSource(): Promise<string> {
+  const packed = embedded('worker-source');
+  return packed ? new TextDecoder().decode(bytesOf(packed)) : (await fetched('worker.js')).text();
+}
+
+async function coreBytes(): Promise<ArrayBuffer> {
+  const packed = embedded('core-wasm');
+  return packed ? unpacked(bytesOf(packed)) : (await fetched('core.wasm')).arrayBuffer();
+}
+
+/** Throws an Error whose words are for the user. */
+export async function loadedParts(): Promise<Parts> {
+  try {
+    const [bytes, source] = await Promise.all([coreBytes(), workerSource()]);
+    const address = URL.createObjectURL(new Blob([source], { type: 'text/javascript' }));
+    return { wasm: await WebAssembly.compile(bytes), startWorker: () => new Worker(address) };
+  } catch (error) {
+    const why = error instanceof Error ? error.message : String(error);
+    throw new Error(`The numerical core of this page could not be loaded (${why}). Reload the page; it needs WebAssembly with exceptions and vectors, as browsers have had it since 2023.`);
+  }
 }
 
 /** The drive of a page that `gearlash explore` wrote. */

@@ -192,7 +192,7 @@ export class Studies {
     const heads = ['number', 'now', 'down to', 'up to'].map((head) => `<th scope="col">${head}</th>`).join('');
     const lines = rows.map(
       (row) =>
-        `<tr><th scope="row" title="${escapeText(row.description)}">${escapeText(row.parameter)}</th><td>${escapeText(row.present)}</td>` +
+        `<tr><th scope="row" title="${escapeText(`${row.parameter}: ${row.description}`)}">${escapeText(row.parameter.replace(/[._]/g, ' '))}</th><td>${escapeText(row.present)}</td>` +
         `<td>${this.changeCell(row, row.below)}</td><td>${this.changeCell(row, row.above)}</td></tr>`,
     );
     byId('changes').innerHTML = `<table><thead><tr>${heads}</tr></thead><tbody>${lines.join('')}</tbody></table>`;
