@@ -9,7 +9,7 @@ import { launch, open, serve, settled, site } from '../../tests/web/browser.mjs'
 
 const drags = 120;
 
-/** Milliseconds from each movement of the slider to the pictures of its answer. */
+/** Milliseconds from each movement of the slider to the pictures of its answer, before they are painted. */
 async function dragging(page, path) {
   return page.evaluate(
     async ([field, count]) => {
@@ -27,6 +27,8 @@ async function dragging(page, path) {
         });
         slider.dispatchEvent(new Event('input'));
         times.push(await shown);
+        // A hand moves on when it sees the pictures: after the frame in which they are painted.
+        await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
       }
       return times;
     },
@@ -51,7 +53,7 @@ for (const [name, example, path] of [
   const { page, close } = await open(browser, `${server.url}#example=${example}`);
   await settled(page);
   await page.waitForTimeout(500);
-  if (await page.isVisible('#stop')) await page.click('#stop');
+  await page.evaluate(() => document.getElementById('stop').click());
   const times = (await dragging(page, path)).sort((a, b) => a - b);
   console.log(`  ${name.padEnd(30)}${path.padEnd(24)}`.slice(0, 43).padEnd(43), share(times, 0.5).padStart(7), share(times, 0.9).padStart(7), share(times, 1).padStart(7));
   await close();

@@ -1,6 +1,6 @@
 // The pictures in their cards, with buttons that save them.
 import { csv, save, savePng, svgFile } from './downloads';
-import { draw, type Plot, type Theme } from './plot';
+import { draw, moveMark, type Plot, type Theme } from './plot';
 
 /** What a card shows, made anew for each theme. */
 export interface Card {
@@ -32,12 +32,15 @@ function curvesOf(plot: Plot): string {
 
 export class Cards {
   private readonly cards = new Map<string, Card>();
+  private readonly widths = new Map<string, number>();
 
   constructor(
     private readonly light: Theme,
     private readonly fileName: () => string,
     private readonly tell: (error: unknown) => void,
-  ) {}
+  ) {
+    addEventListener('resize', () => this.widths.clear());
+  }
 
   /** Shows the card, drawn in `theme`. */
   put(name: string, card: Card, theme: Theme): void {
@@ -45,13 +48,19 @@ export class Cards {
     const place = this.place(name);
     place.classList.remove('stale');
     const isOnPaper = place.classList.contains('for-print');
-    place.innerHTML = draw(card.plot(isOnPaper ? this.light : theme), isOnPaper ? this.light : theme, { width: place.clientWidth });
+    place.innerHTML = draw(card.plot(isOnPaper ? this.light : theme), isOnPaper ? this.light : theme, { width: isOnPaper ? 640 : this.widthOf(name), isMarkApart: true });
   }
 
   /** The same for a card that draws itself. */
   keep(name: string, card: Card): void {
     this.cards.set(name, card);
     this.addButtons(name);
+  }
+
+  /** Moves the mark of the card, which was drawn before. `card` draws it with the mark at its new place. */
+  move(name: string, card: Card, plot: Plot, to: [number, number]): void {
+    this.cards.set(name, card);
+    moveMark(this.place(name), plot, to);
   }
 
   /** Words in place of the picture. */
@@ -71,6 +80,15 @@ export class Cards {
   /** Pictures on the screen that draw themselves have one for paper beside them. */
   redraw(theme: Theme): void {
     for (const [name, card] of this.cards) this.put(name, card, theme);
+  }
+
+  /** Asking the browser for a width makes it lay out the page. */
+  private widthOf(name: string): number {
+    const known = this.widths.get(name);
+    if (known) return known;
+    const width = this.place(name).clientWidth;
+    this.widths.set(name, width);
+    return width;
   }
 
   private place(name: string): HTMLElement {

@@ -269,6 +269,7 @@ class Explorer {
       this.inputs.show(facts.reply);
       this.show(replied);
       byId('spoken').textContent = replied.reply.headline;
+      document.title = `Gearlash: ${replied.reply.headline}`;
     } catch (error) {
       this.refuse(error);
       return;
@@ -316,7 +317,6 @@ class Explorer {
     this.answer = replied;
     const { reply } = replied;
     byId('headline').textContent = capital(reply.headline);
-    document.title = `Gearlash: ${reply.headline}`;
     byId('ceiling').textContent = ceilingText(reply);
     const level = byId('level');
     level.className = reply.level;

@@ -315,7 +315,7 @@ export function contourMap(map: MapReply, numbers: Float64Array, theme: Theme, h
   if (map.hatching.length > 0) legend.push({ name: map.hatching_meaning, colour: theme.faint, mark: 'area' });
   if (map.inner_boundary.length > 0) legend.push({ name: map.inner_meaning, colour: theme.faint, dash: '6 4' });
   if (here) {
-    layers.push({ kind: 'marks', points: here, colour: theme.accent, size: 7, shape: 'diamond' });
+    layers.push({ kind: 'moving', at: here, colour: theme.accent });
     legend.push({ name: 'you are here', colour: theme.accent, mark: 'diamond' });
   }
   return {

@@ -38,6 +38,8 @@ export type Points = ArrayLike<number>;
 export type Layer =
   | { kind: 'line'; points: Points; colour: string; width?: number; dash?: string; fill?: string; closed?: boolean }
   | { kind: 'marks'; points: Points; colour: string; size?: number; open?: boolean; shape?: 'circle' | 'cross' | 'diamond' }
+  /** The one mark that moves: see moveMark(). */
+  | { kind: 'moving'; at: [number, number]; colour: string }
   | { kind: 'band'; from: number; to: number; fill: string; along: 'x' | 'y' }
   | { kind: 'rule'; at: number; along: 'x' | 'y'; colour: string; dash?: string; text?: string }
   | { kind: 'text'; x: number; y: number; text: string; colour: string };
@@ -120,6 +122,8 @@ function layerText(layer: Layer, x: Scale, y: Scale, width: number, bottom: numb
       }
       return text;
     }
+    case 'moving':
+      return `<g class="moving" transform="translate(${at(x(layer.at[0]))} ${at(y(layer.at[1]))})">${mark('diamond', 0, 0, 7, layer.colour, false)}</g>`;
     case 'band': {
       const [from, to] = [layer.from, layer.to].map(layer.along === 'x' ? x : y) as [number, number];
       const low = Math.min(from, to);
@@ -194,16 +198,27 @@ export interface Size {
   width?: number;
   /** With its title in it, as a file needs it. */
   isTitled?: boolean;
+  /** With the moving mark in a picture of its own, so that its move does not paint the other again. */
+  isMarkApart?: boolean;
+}
+
+function layout(plot: Plot, place: number | undefined): { width: number; height: number; bottom: number; x: Scale; y: Scale } {
+  const width = Math.max(320, Math.min(640, place || 640));
+  const height = Math.round(width * (width < 460 ? 0.8 : 0.66));
+  const bottom = height - 48;
+  return { width, height, bottom, x: scale(plot.x, frame.left, width - frame.right), y: scale(plot.y, bottom, frame.top) };
+}
+
+/** Moves the mark of a picture. */
+export function moveMark(picture: Element, plot: Plot, to: [number, number]): void {
+  const { x, y } = layout(plot, picture.querySelector('svg')?.viewBox.baseVal.width);
+  picture.querySelector('.moving')?.setAttribute('transform', `translate(${at(x(to[0]))} ${at(y(to[1]))})`);
 }
 
 /** The picture as SVG. */
 export function draw(plot: Plot, theme: Theme, size: Size = {}): string {
-  const width = Math.max(320, Math.min(640, size.width || 640));
+  const { width, height, bottom, x, y } = layout(plot, size.width);
   const heading = size.isTitled ? (plot.subtitle ? 50 : 30) : 0;
-  const height = Math.round(width * (width < 460 ? 0.8 : 0.66));
-  const bottom = height - 48;
-  const x = scale(plot.x, frame.left, width - frame.right);
-  const y = scale(plot.y, bottom, frame.top);
   const legend = legendText(plot.legend, height + 6, width, theme);
   const total = height + legend.height + heading;
   const clip = `clip${++clips}`;
@@ -212,7 +227,8 @@ export function draw(plot: Plot, theme: Theme, size: Size = {}): string {
       .map((layer) => layerText(layer, x, y, width, bottom)).join('')
       .replaceAll('paint-order="stroke"', `paint-order="stroke" stroke="${theme.paper}"`);
   // Marks at the end of an axis are drawn whole, others outside not at all.
-  const isMark = (layer: Layer): boolean => layer.kind === 'marks';
+  const isMark = (layer: Layer): boolean => layer.kind === 'marks' || layer.kind === 'moving';
+  const isApart = (layer: Layer): boolean => (size.isMarkApart ?? false) && layer.kind === 'moving';
   const rectangle = (margin: number): string =>
     `<rect x="${frame.left - margin}" y="${frame.top - margin}" width="${width - frame.left - frame.right + 2 * margin}" height="${bottom - frame.top + 2 * margin}"/>`;
   const title = size.isTitled
@@ -226,7 +242,8 @@ export function draw(plot: Plot, theme: Theme, size: Size = {}): string {
     axesText(plot, x, y, width, bottom, theme) +
     `<g clip-path="url(#${clip})">${text(plot.layers.filter((layer) => !isMark(layer)))}</g>` +
     `<rect x="${frame.left}" y="${frame.top}" width="${width - frame.left - frame.right}" height="${bottom - frame.top}" fill="none" stroke="${theme.faint}"/>` +
-    `<g clip-path="url(#${clip}m)">${text(plot.layers.filter(isMark))}</g>` +
-    `${legend.text}</g></svg>`
+    `<g clip-path="url(#${clip}m)">${text(plot.layers.filter((layer) => isMark(layer) && !isApart(layer)))}</g>` +
+    `${legend.text}</g></svg>` +
+    (plot.layers.some(isApart) ? `<svg class="overlay" viewBox="0 0 ${width} ${total}" aria-hidden="true">${text(plot.layers.filter(isApart))}</svg>` : '')
   );
 }

@@ -1,10 +1,10 @@
 // What takes longer than an answer: the map or chart with the border of hunting, and the nearest
 // changes.
-import type { Cards } from './cards';
+import type { Card, Cards } from './cards';
 import { type Lane, Overtaken } from './core';
 import { escapeText, typed } from './numbers';
 import { branchChart, contourMap } from './pictures';
-import type { Theme } from './plot';
+import type { Plot, Theme } from './plot';
 import type { AnswerReply, ChartReply, DriveReply, DriveText, MapReply, MarginsReply, Parameter, Replied } from './replies';
 import { setOptions } from './state';
 import { wordsOf } from './words';
@@ -31,6 +31,8 @@ const isMap = (reply: MapReply | ChartReply): reply is MapReply => 'axes' in rep
 
 export class Studies {
   private map: { replied: Replied<MapReply | ChartReply>; key: string } | null = null;
+  /** The map as it is on the page; its mark can be moved. */
+  private drawn: { map: object; plot: Plot } | null = null;
   private job = 0;
 
   constructor(
@@ -41,7 +43,7 @@ export class Studies {
 
   /** Another drive is loaded. */
   forget(): void {
-    this.map = null;
+    this.map = this.drawn = null;
     ++this.job;
     this.lane.giveUp();
     this.cards.blank('map', '');
@@ -136,7 +138,14 @@ export class Studies {
       const x = this.here(reply.axes.x.path, reply.axes.x.unit_in_si);
       const y = this.here(reply.axes.y.path, reply.axes.y.unit_in_si);
       const place: [number, number] | null = x !== null && y !== null ? [x, y] : null;
-      this.cards.put('map', { plot: (theme) => contourMap(reply, numbers, theme, place) }, this.page.theme());
+      const card: Card = { plot: (theme) => contourMap(reply, numbers, theme, place) };
+      if (this.drawn?.map === this.map && place) {
+        this.cards.move('map', card, this.drawn.plot, place);
+        return;
+      }
+      const plot = card.plot(this.page.theme());
+      this.drawn = place ? { map: this.map, plot } : null;
+      this.cards.put('map', card, this.page.theme());
       return;
     }
     const x = this.here(reply.x.path, reply.x.unit_in_si);
