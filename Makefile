@@ -166,7 +166,7 @@ docs: tool  ## write the pages of docs as HTML: build/docs/html/index.html
 docs-check: docs  ## dead links, spelling and long sentences in the pages
 	/usr/bin/python3 docs/make/check_pages.py build/docs/source/docs/reference/generated
 
-FORMAT := find include src apps python tests benchmarks examples docs -name '*.[ch]pp' \
+FORMAT := find include src apps python web/core tests benchmarks examples docs -name '*.[ch]pp' \
             -exec clang-format-16
 
 format:  ## lay out all C++ as .clang-format says
@@ -178,7 +178,7 @@ format-check:  ## is all C++ laid out so?
 	$(FORMAT) --dry-run --Werror {} +
 
 # All product files take ten processor-minutes; CI sets TIDIED to the changed ones.
-TIDIED ?= $(shell find src apps -name '*.cpp')
+TIDIED ?= $(shell find src apps web/core -name '*.cpp' -not -name wasm_entry.cpp)
 tidy: tool  ## clang-tidy with the checks of .clang-tidy over the libraries and the tool
 	@$(INSTALL) lint
 	echo $(TIDIED) | xargs -r -n 1 -P $(JOBS) clang-tidy-16 -p $(RELEASE) --quiet

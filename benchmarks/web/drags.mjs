@@ -48,7 +48,9 @@ for (const [name, example, path] of [
   ['servo, normal form', 'normalized', 'servo.damping'],
   ['servo, data sheet', 'elinco-fd162', 'gearbox.backlash'],
   ['continuous PD drive', 'first-servo', 'controller.derivative'],
+  ['continuous PID drive', 'first-servo&set=controller.kind%3DPID&set=controller.integral%3D50 N m/(rad s)&set=controller.filter%3D2 ms', 'controller.integral'],
   ['continuous cascade, encoder', 'telescope-axis', 'gearbox.backlash'],
+  ['sampled PID drive, encoder', 'robot-joint', 'controller.proportional'],
 ]) {
   const { page, close } = await open(browser, `${server.url}#example=${example}`);
   await settled(page);

@@ -16,7 +16,8 @@ namespace gearlash {
 class PackedNumbers {
  public:
   void add(std::uint64_t number) {
-    for (; number >= 32U; number >>= 5U) text_ += digits[32U + static_cast<std::size_t>(number & 31U)];
+    for (; number >= 32U; number >>= 5U)
+      text_ += digits[32U + static_cast<std::size_t>(number & 31U)];
     text_ += digits[static_cast<std::size_t>(number)];
   }
   void add_double(double number) { add(bits_of(number)); }

@@ -153,7 +153,9 @@ class Core::Session {
       json["phase"] =
           motion_picture_json(phase_of(report, analysis, is_coarse, progress), numbers_);
     }
-    // What is known of a drive with one start is too little to follow.
+    // What is known of a drive with one start is too little to follow; and where following failed,
+    // trying it again from ever farther away would cost more than the start.
+    last_.reset();
     if (!is_coarse || analysis.is_followed) {
       last_ = analysis;
       last_text_ = text;

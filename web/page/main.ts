@@ -247,10 +247,13 @@ class Explorer {
       });
   }
 
-  /** After a moment without a change: the fine answer, and what takes longer. */
+  /** After a moment without a change, and with the coarse answer: the fine one, and what takes longer. */
   private rest(): void {
     clearTimeout(this.resting);
-    this.resting = setTimeout(() => void this.settle(), restAfter);
+    this.resting = setTimeout(() => {
+      if (this.isAsking) this.rest();
+      else void this.settle();
+    }, restAfter);
   }
 
   private async settle(): Promise<void> {

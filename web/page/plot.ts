@@ -78,8 +78,10 @@ function scale(axis: PlotAxis, from: number, to: number): Scale {
 const at = (value: number): string => (Math.round(value * 100) / 100).toString();
 
 function pathOf(points: Points, x: Scale, y: Scale, closed: boolean): string {
+  const visible = 0.3; // px: points that are nearer to the last one are left out
   let path = '';
   let isDrawing = false;
+  let [lastRight, lastDown] = [Infinity, Infinity];
   for (let i = 0; i + 1 < points.length; i += 2) {
     const right = x(points[i]!);
     const down = y(points[i + 1]!);
@@ -87,6 +89,9 @@ function pathOf(points: Points, x: Scale, y: Scale, closed: boolean): string {
       isDrawing = false;
       continue;
     }
+    const isLast = i + 3 >= points.length || !Number.isFinite(points[i + 2]!);
+    if (isDrawing && !isLast && Math.abs(right - lastRight) < visible && Math.abs(down - lastDown) < visible) continue;
+    [lastRight, lastDown] = [right, down];
     // Far outside, an SVG reader loses digits.
     path += `${isDrawing ? 'L' : 'M'}${at(Math.max(-1e5, Math.min(1e5, right)))} ${at(Math.max(-1e5, Math.min(1e5, down)))}`;
     isDrawing = true;

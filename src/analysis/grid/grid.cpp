@@ -102,8 +102,7 @@ std::vector<Fault> faults(const Grid& grid, const std::vector<std::string>& fiel
   }
   if (points > most_points_of_a_grid) {
     check.refuse("points", exact_text(points),
-                 "must be at most " + exact_text(most_points_of_a_grid) +
-                     " on all axes together");
+                 "must be at most " + exact_text(most_points_of_a_grid) + " on all axes together");
   }
   const bool are_axes_sound = check.faults().empty();
   return check.include(faults_of_corners(grid, are_axes_sound)).faults();
