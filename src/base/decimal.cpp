@@ -4,8 +4,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
+#include <locale>
+#include <sstream>
 #include <string>
 
 namespace gearlash {
@@ -32,12 +33,16 @@ namespace {
 
 constexpr int most_digits = 17;  // read back as any double
 
-using Characters = std::array<char, 400>;  // 309 digits of the largest double
+enum class Notation { general, scientific, fixed };
 
-std::string printed(const char* format, int precision, double value) {
-  Characters text{};
-  const int length = std::snprintf(text.data(), text.size(), format, precision, value);
-  return {text.data(), static_cast<std::size_t>(length)};
+std::string printed(double value, int precision, Notation notation) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(precision);
+  if (notation == Notation::scientific) text.setf(std::ios::scientific, std::ios::floatfield);
+  if (notation == Notation::fixed) text.setf(std::ios::fixed, std::ios::floatfield);
+  text << value;
+  return text.str();
 }
 
 /// ± 0.d₁d₂… · 10^point.
@@ -58,7 +63,7 @@ std::string neighbour(const std::string& digits, int step) {
 Digits shortest_digits(double value) {
   Digits result{.sign = std::signbit(value) ? "-" : "", .digits = {}};
   for (int count = 1; count <= most_digits; ++count) {
-    const std::string text = printed("%.*e", count - 1, std::abs(value));
+    const std::string text = printed(std::abs(value), count - 1, Notation::scientific);
     const std::size_t e = text.find('e');
     result.point = std::atoi(text.c_str() + e + 1) + 1;
     std::string digits = text.substr(0, e);
@@ -84,7 +89,7 @@ std::string scientific(const Digits& number) {
 
 std::string fixed(const Digits& number, double value) {
   const int length = static_cast<int>(number.digits.size());
-  if (number.point >= length) return printed("%.*f", 0, value);  // an integer, in full
+  if (number.point >= length) return printed(value, 0, Notation::fixed);  // an integer, in full
   const std::string zeros(static_cast<std::size_t>(std::max(0, 1 - number.point)), '0');
   const std::string digits = zeros + number.digits;
   const auto whole = static_cast<std::size_t>(std::max(1, number.point));
@@ -94,18 +99,21 @@ std::string fixed(const Digits& number, double value) {
 }  // namespace
 
 std::string shortest_scientific_text(double value) {
-  return value == 0.0 ? printed("%.*e", 0, value) : scientific(shortest_digits(value));
+  return value == 0.0 ? printed(value, 0, Notation::scientific)
+                      : scientific(shortest_digits(value));
 }
 
 std::string shortest_text(double value) {
-  if (value == 0.0) return printed("%.*f", 0, value);
+  if (value == 0.0) return printed(value, 0, Notation::fixed);
   const Digits number = shortest_digits(value);
   const std::string with_exponent = scientific(number);
   const std::string without = fixed(number, value);
   return without.size() <= with_exponent.size() ? without : with_exponent;
 }
 
-std::string rounded_text(double value, int digits) { return printed("%.*g", digits, value); }
+std::string rounded_text(double value, int digits) {
+  return printed(value, digits, Notation::general);
+}
 
 }  // namespace by_trial
 

@@ -103,12 +103,12 @@ TEST(BadInput, UsageFaultsAreOneLine) {
   EXPECT_THAT(faults({}),
               ElementsAre("gearlash: subcommand is missing: must be limit-cycle, "
                           "simulate, design, tune, tolerance, compare, describe, motor, "
-                          "chart, map, sweep, show or thesis; see gearlash --help"));
+                          "chart, map, sweep, show, explore or thesis; see gearlash --help"));
   EXPECT_THAT(
       faults({"wobble"}),
       ElementsAre("gearlash: subcommand = wobble: must be limit-cycle, "
                   "simulate, design, tune, tolerance, compare, describe, motor, chart, map, "
-                  "sweep, show or thesis; see gearlash --help"));
+                  "sweep, show, explore or thesis; see gearlash --help"));
   EXPECT_THAT(faults({"limit-cycle", "--dampness", "1"}), ElementsAre(HasSubstr("--dampness")));
   EXPECT_THAT(faults({"limit-cycle", "--damping"}), ElementsAre(HasSubstr("--damping")));
   EXPECT_THAT(faults({"limit-cycle", "a.toml", "b.toml"}), ElementsAre(HasSubstr("b.toml")));

@@ -37,8 +37,11 @@ class WebCore : public testing::Test {
     numbers_ = reply.numbers;
     return Json::parse(reply.json);
   }
-  static Json drive(const char* toml, Json settings = Json::array()) {
-    return {{"toml", toml}, {"name", "drive.toml"}, {"settings", std::move(settings)}};
+  using Settings = std::vector<std::pair<std::string, std::string>>;
+  static Json drive(const char* toml, const Settings& settings = {}) {
+    Json list = Json::array();
+    for (const auto& [path, text] : settings) list.push_back(Json::array({path, text}));
+    return {{"toml", toml}, {"name", "drive.toml"}, {"settings", std::move(list)}};
   }
   std::vector<double> column(const Json& place) const {
     const auto begin = numbers_.begin() + place.at("at").get<std::ptrdiff_t>();
@@ -188,7 +191,7 @@ TEST_F(WebCore, MarginsAreTextsThatCanBeSet) {
   ASSERT_EQ(reply["texts"].size(), 2U);
   const Json& damping = reply["texts"][0];
   EXPECT_TRUE(damping["is_setting"].get<bool>());
-  const Json set = drive(servo, {{"servo.damping", damping["above"]}});
+  const Json set = drive(servo, {{"servo.damping", damping["above"].get<std::string>()}});
   const Json there = ask({{"ask", "answer"}, {"drive", set}});
   EXPECT_NEAR(there["answer"]["growth_at_rest"].get<double>(), 1.0, 1e-4);
 }

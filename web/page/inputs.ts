@@ -1,5 +1,5 @@
 // The inputs of a drive, made from the registry of parameters that the core sends.
-import { escapeText, inWords, short, typed } from './numbers';
+import { escapeText, inWords, typed } from './numbers';
 import type { DriveReply, Fault, Parameter, Slider } from './replies';
 
 /** Steps of a slider; arrow keys move by one, page keys by ten. */
@@ -231,5 +231,3 @@ export function singleInput(place: HTMLElement, parameter: Parameter, changed: C
   const inputs = new Inputs(place, changed);
   inputs.show({ parameters: [{ ...parameter, is_usual: true }], absent: [], is_normal_form: true, has_closed_form: true, is_sampled: false, angle: { name: 'rad', radians: 1 } });
 }
-
-export const valueText = (parameter: Parameter): string => (typeof parameter.value === 'number' ? short(parameter.value / (parameter.unit_in_si ?? 1)) : String(parameter.value));

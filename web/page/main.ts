@@ -100,13 +100,15 @@ class Explorer {
   }
 
   private listExamples(): void {
-    const list = byId<HTMLSelectElement>('example');
-    list.add(new Option('your own', ''));
-    for (const name of examples.keys()) list.add(new Option(name, name));
-    list.onchange = () => {
-      const toml = examples.get(list.value);
-      if (toml) void this.take({ toml, name: `${list.value}.toml`, settings: [] }, list.value);
-    };
+    for (const [name, toml] of examples) {
+      const button = document.createElement('button');
+      button.type = 'button';
+      button.textContent = name.replaceAll('-', ' ');
+      button.dataset.example = name;
+      button.title = aboutOf(toml);
+      button.onclick = () => void this.take({ toml, name: `${name}.toml`, settings: [] }, name);
+      byId('examples').append(button);
+    }
   }
 
   private listen(): void {
@@ -199,7 +201,10 @@ class Explorer {
     }
     this.showFaults([]);
     this.inputs.show(this.facts);
-    byId<HTMLSelectElement>('example').value = this.state.example;
+    for (const button of byId('examples').querySelectorAll('button')) {
+      if (button.dataset.example === this.state.example) button.setAttribute('aria-current', 'true');
+      else button.removeAttribute('aria-current');
+    }
     byId('about').textContent = aboutOf(this.state.drive.toml) || this.state.drive.name;
     this.listAxes();
     if (this.state.view === 'story') this.story.show(this.state.step, this.facts.parameters, (path, text, isDragging) => this.change(path, text, isDragging));
