@@ -49,21 +49,30 @@ std::string escaped(std::string json) {
   return json;
 }
 
-/// The contents of the tables that the drive names, by name. A drive from standard input names them
-/// relative to the working folder.
-nlohmann::ordered_json files_of(const Drive& drive, const std::string& file) {
+/// The tables that a drive names: contents by name, and settings by which the page finds those that
+/// stand in other folders.
+struct Tables {
+  nlohmann::ordered_json files = nlohmann::ordered_json::object();
+  nlohmann::ordered_json settings = nlohmann::ordered_json::array();
+};
+
+/// A drive from standard input names them relative to the working folder.
+Tables tables_of(const Drive& drive, const std::string& file) {
   constexpr std::size_t largest_table = 64U * 1024U * 1024U;
   const fs::path folder = file == "-" ? fs::path() : fs::path(file).parent_path();
   const nlohmann::ordered_json values = drive_json(drive);
-  nlohmann::ordered_json files = nlohmann::ordered_json::object();
+  Tables tables;
   for (const ParameterInfo& info : parameters_of(drive)) {
     if (info.kind != ParameterKind::file) continue;
-    const nlohmann::ordered_json& name = values[std::string(info.path)];
+    const std::string path(info.path);
+    const nlohmann::ordered_json& name = values[path];
     if (!name.is_string() || name.get<std::string>().empty()) continue;
-    const std::string text = name.get<std::string>();
-    files[text] = read_text_file(folder / text, largest_table);
+    const fs::path written = name.get<std::string>();
+    const std::string base = written.filename().string();
+    tables.files[base] = read_text_file(folder / written, largest_table);
+    if (written != base) tables.settings.push_back(nlohmann::ordered_json::array({path, base}));
   }
-  return files;
+  return tables;
 }
 
 /// Whether options other than --set change what the file has.
@@ -74,22 +83,22 @@ bool has_number_options(const ServoOptions& options) {
 
 /// The author's own text with the settings, so that the page shows both.
 nlohmann::ordered_json drive_of_page(const ServoOptions& options, const WrittenDrive& written) {
-  nlohmann::ordered_json files = files_of(written.drive, options.file);
+  Tables tables = tables_of(written.drive, options.file);
   if (options.file.empty() || options.file == "-" || has_number_options(options)) {
     return {{"toml", to_toml(TolerancedDrive{written.drive, written.tolerances})},
             {"name", "drive.toml"},
-            {"settings", nlohmann::ordered_json::array()},
-            {"files", std::move(files)}};
+            {"settings", std::move(tables.settings)},
+            {"files", std::move(tables.files)}};
   }
-  nlohmann::ordered_json settings = nlohmann::ordered_json::array();
+  nlohmann::ordered_json settings = std::move(tables.settings);
   for (const std::string& text : options.settings) {
     const Setting setting = read_setting(text);
-    settings.push_back({setting.path, setting.text});
+    settings.push_back(nlohmann::ordered_json::array({setting.path, setting.text}));
   }
   return {{"toml", read_text_file(options.file, largest_drive_file)},
           {"name", fs::path(options.file).filename().string()},
           {"settings", std::move(settings)},
-          {"files", std::move(files)}};
+          {"files", std::move(tables.files)}};
 }
 
 ExitStatus run(const ExploreOptions& options, const Provenance&) {

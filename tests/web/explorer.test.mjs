@@ -263,7 +263,7 @@ onPage('a value that is not permitted is marked in its field; the answer stays',
 onPage('it works offline once it is loaded', 'example=normalized', async (page, { context }) => {
   await idle(page);
   await context.setOffline(true);
-  await page.selectOption('#example', 'first-servo');
+  await page.click('[data-example=first-servo]');
   await page.waitForFunction(() => document.getElementById('command').value.includes('first-servo'));
   await page.waitForTimeout(300);
   await settled(page);
@@ -276,7 +276,7 @@ onPage('a long search can be stopped, and the page goes on', 'example=robot-join
   await page.locator('#stop').waitFor({ timeout: 60_000 });
   await page.click('#stop');
   await page.waitForFunction(() => /Stopped|Not computed/.test(document.getElementById('level').textContent + document.getElementById('map-words').textContent));
-  await page.selectOption('#example', 'normalized');
+  await page.click('[data-example=normalized]');
   await page.waitForFunction(() => document.getElementById('command').value.includes('normalized'));
   await page.waitForTimeout(300);
   await settled(page);
@@ -367,4 +367,43 @@ test('a core that does not load is said in words, and the page lives', async () 
 onPage('a link that was cut off is said in words', 'drive=abc!!&name=x.toml', async (page) => {
   await page.waitForFunction(() => /cut off/.test(document.getElementById('message').textContent));
   await settled(page);
+});
+
+onPage('a link that sets what the drive does not take says so, and answers without it', 'example=normalized&set=servo.damping%3D-1', async (page) => {
+  await page.waitForFunction(() => /left out: --set servo.damping=-1/.test(document.getElementById('message').textContent));
+  await settled(page);
+  await assertSameReport(page, ['limit-cycle', 'examples/normalized.toml']);
+});
+
+onPage('the drive that was explored is there again after the story', 'example=first-servo', async (page) => {
+  await settled(page);
+  await type(page, 'gearbox.backlash', '9 arcmin');
+  await page.waitForTimeout(300);
+  await settled(page);
+  const command = await page.inputValue('#command');
+  await page.click('[data-view=story]');
+  await page.locator('#story-title').waitFor();
+  await page.click('[data-view=explore]');
+  await page.waitForFunction((text) => document.getElementById('command').value === text, command);
+});
+
+onPage('another example ends a search that is running', 'example=robot-joint', async (page) => {
+  await page.waitForFunction(() => document.getElementById('level').textContent.startsWith('Answering'));
+  await page.click('[data-example=normalized]');
+  await page.waitForFunction(() => document.getElementById('command').value.includes('normalized'));
+  await settled(page);
+  await assertSameReport(page, ['limit-cycle', 'examples/normalized.toml']);
+});
+
+onPage('a proof without a motion leaves no motion of the drive before', 'example=first-servo', async (page) => {
+  await settled(page);
+  await type(page, 'sensor.position', 'motor');
+  await page.waitForFunction(() => /cannot hunt/i.test(document.getElementById('headline').textContent));
+  assert.equal(await page.locator('#traces canvas').count(), 0);
+  assert.ok(await page.isDisabled('#gear-play'));
+});
+
+onPage('a ceiling below the torque limit says its condition', 'example=telescope-axis', async (page) => {
+  await settled(page);
+  assert.match(await page.textContent('#ceiling'), /in the end .* as long as the torque stays below its limit/);
 });

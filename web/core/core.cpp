@@ -66,6 +66,7 @@ Json margin_texts(const ParameterMargin& margin, const std::string& description,
           {"present", text.of(margin.present)},
           {"below", margin.below ? Json(text.at_most(*margin.below)) : Json(nullptr)},
           {"above", margin.above ? Json(text.at_least(*margin.above)) : Json(nullptr)},
+          {"searched", text.of(margin.searched.low) + " to " + text.of(margin.searched.high)},
           {"choices", json_list(margin.choices, text.of)}};
 }
 

@@ -79,7 +79,11 @@ export class Cards {
 
   /** Pictures on the screen that draw themselves have one for paper beside them. */
   redraw(theme: Theme): void {
-    for (const [name, card] of this.cards) this.put(name, card, theme);
+    for (const [name, card] of this.cards) {
+      const isStale = this.place(name).classList.contains('stale');
+      this.put(name, card, theme);
+      if (isStale) this.fade(name);
+    }
   }
 
   /** Asking the browser for a width makes it lay out the page. */

@@ -2,7 +2,6 @@
 // angles are enlarged by the same factor, so that swing and gap are in proportion.
 import { short } from './numbers';
 import type { Traces } from './pictures';
-import type { Theme } from './plot';
 
 const teeth = 14;
 const pitch = (2 * Math.PI) / teeth;
@@ -70,7 +69,7 @@ export class GearView {
     return time && time.length > 0 ? time[time.length - 1]! : 0;
   }
 
-  take(traces: Traces, _theme: Theme): void {
+  take(traces: Traces): void {
     const share = this.endTime > 0 ? this.time / this.endTime : 0;
     this.traces = traces;
     const isEmpty = traces.time.length === 0;
@@ -81,6 +80,14 @@ export class GearView {
       return;
     }
     this.show(share * this.endTime);
+  }
+
+  /** Without a motion. */
+  clear(): void {
+    this.traces = null;
+    this.pause();
+    for (const part of [this.parts.play, this.parts.back, this.parts.on, this.parts.slider]) part.disabled = true;
+    this.parts.words.textContent = '';
   }
 
   play(): void {
@@ -124,16 +131,22 @@ export class GearView {
     const load = this.between(traces.load, at, time);
     const motor = this.between(traces.motor, at, time);
     const reference = this.between(traces.reference, at, time);
-    const scale = traces.gap > 0 ? drawnGap / traces.gap : 0;
+    const scale = drawnGap / (traces.gap > 0 ? traces.gap : this.swing() || 1);
     const degrees = (angle: number): string => ((angle * scale * 180) / Math.PI).toFixed(3);
     this.motor.setAttribute('transform', `translate(-${radius} 0) rotate(${degrees(motor - reference)})`);
     this.load.setAttribute('transform', `translate(${radius} 0) scale(-1 1) rotate(${degrees(load - reference)})`);
     this.parts.slider.value = String(time / (this.endTime || 1));
-    this.parts.slider.setAttribute('aria-valuetext', `${short(time, 3)} s`);
+    this.parts.slider.setAttribute('aria-valuetext', `${short(time, 3)} ${traces.timeUnit}`);
     const event = traces.events.findLast(([when]) => when <= time * (1 + 1e-12));
-    const gap = traces.gap > 0 ? (motor - load) / traces.gap + 0.5 : 0;
-    this.parts.words.textContent = `${short(time, 3)} s: ${event ? `${event[1]}; then ${event[2] || 'in contact'}` : 'start'}. The motor is at ${Math.round(100 * gap)} % of the gap.`;
+    const gap = traces.gap > 0 ? `The motor is at ${Math.round(100 * ((motor - load) / traces.gap + 0.5))} % of the gap.` : 'There is no backlash.';
+    this.parts.words.textContent = `${short(time, 3)} ${traces.timeUnit}: ${event ? `${event[1]}; then ${event[2] || 'in contact'}` : 'start'}. ${gap}`;
     this.moved(time);
+  }
+
+  /** The largest distance of the load from the reference. */
+  private swing(): number {
+    const { load, reference } = this.traces!;
+    return load.reduce((largest, position, i) => Math.max(largest, Math.abs(position - reference[i]!)), 0);
   }
 
   /** The last index whose time is not after `time`. */

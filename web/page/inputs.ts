@@ -226,8 +226,7 @@ export function missingInputs(faults: Fault[], changed: Changed): HTMLElement {
   return list;
 }
 
-/** One input by itself, for the story. */
-export function singleInput(place: HTMLElement, parameter: Parameter, changed: Changed): void {
-  const inputs = new Inputs(place, changed);
-  inputs.show({ parameters: [{ ...parameter, is_usual: true }], absent: [], is_normal_form: true, has_closed_form: true, is_sampled: false, angle: { name: 'rad', radians: 1 } });
-}
+/** A reply with one parameter alone, for the story. */
+export const only = (parameter: Parameter): DriveReply => ({
+  parameters: [{ ...parameter, is_usual: true }], absent: [], is_normal_form: true, has_closed_form: true, is_sampled: false, angle: { name: 'rad', radians: 1 },
+});

@@ -13,7 +13,7 @@ import { embeddedDrive, loadedParts } from './parts';
 import { phasePlane, positionsOverTime, tracesOf, type Traces } from './pictures';
 import { dark, light, type Theme } from './plot';
 import type { AnswerReply, DriveReply, DriveText, Fault, Parameter, Replied } from './replies';
-import { addressOf, commandOf, stateOf, withSetting, type State } from './state';
+import { addressOf, commandOf, setOptions, stateOf, withSetting, type State } from './state';
 import { Story, storySteps } from './story';
 import { Studies } from './studies';
 import { Thesis } from './thesis';
@@ -39,6 +39,8 @@ class Explorer {
   private isSearching = false;
   /** Whether the faults of the drive are values that can be typed. */
   private isCompletable = false;
+  /** What was explored before the story. */
+  private explored: Pick<State, 'drive' | 'example' | 'x' | 'y'> | null = null;
   /** Counts what the user did; an answer to older input is dropped. */
   private turn = 0;
   private readonly cards = new Cards(light, () => this.state.drive.name.replace(/\.toml$/, ''), (error) => this.tell(wordsOf(error)));
@@ -46,7 +48,7 @@ class Explorer {
   private readonly inputs = new Inputs(byId('inputs'), (path, text, isDragging) => this.change(path, text, isDragging));
   private readonly traces: TraceView;
   private readonly gears: GearView;
-  private readonly story = new Story(storySteps(examples.get('first-servo')!), (step) => void this.toStep(step));
+  private readonly story = new Story(storySteps(examples.get('first-servo')!), (step) => void this.toStep(step), (path, text, isDragging) => this.change(path, text, isDragging));
   private readonly thesis: Thesis;
 
   constructor(private readonly core: Core) {
@@ -139,7 +141,7 @@ class Explorer {
     }
     byId('story-back').onclick = () => void this.toStep(this.state.step - 1);
     byId('story-next').onclick = () => void this.toStep(this.state.step + 1);
-    byId('story-take').onclick = () => void this.look('explore');
+    byId('story-take').onclick = () => void this.look('explore', false);
     window.addEventListener('hashchange', () => void this.follow());
     listenToFiles(byId<HTMLInputElement>('file'), byId('dropping'), (list) => void this.open(list));
   }
@@ -153,7 +155,7 @@ class Explorer {
   // ---- the drive --------------------------------------------------------------------------------
 
   private async open(list: FileList): Promise<void> {
-    const drive = await driveIn(list, this.state.drive);
+    const drive = await driveIn(list, this.state.drive).catch((error: unknown) => `The file cannot be read: ${wordsOf(error)}`);
     if (typeof drive === 'string') this.tell(drive);
     else await this.take(drive, drive.toml === this.state.drive.toml ? this.state.example : '');
   }
@@ -163,7 +165,7 @@ class Explorer {
     const before = { ...this.state };
     this.tell('');
     Object.assign(this.state, { drive, example, x: '', y: '' });
-    if (this.state.view === 'story') this.state.view = 'explore';
+    this.state.view = 'explore';
     if ((await this.load()) || this.isCompletable) return;
     Object.assign(this.state, before);
     if (this.facts) await this.load();
@@ -171,6 +173,8 @@ class Explorer {
 
   /** Shows the state from the beginning. False if its drive has faults. */
   private async load(): Promise<boolean> {
+    clearTimeout(this.resting);
+    this.giveUp();
     this.showView();
     this.studies.forget();
     if (this.state.view === 'thesis') {
@@ -184,10 +188,20 @@ class Explorer {
       if (this.state.drive.toml !== step.drive.toml) Object.assign(this.state, { drive: step.drive, example: '', x: '', y: '' });
     }
     this.inputs.reset();
-    if (!(await this.readDrive())) return false;
-    byId('level').className = 'coarse';
-    byId('level').textContent = 'Answering …';
+    if (!(await this.readDrive()) && !(await this.readWithoutSettings())) return false;
+    this.answering();
+    if (!this.answer) byId('headline').textContent = 'Searching …';
     this.rest();
+    return true;
+  }
+
+  /** A link may have settings that its drive does not take. */
+  private async readWithoutSettings(): Promise<boolean> {
+    const refused = setOptions(this.state.drive);
+    if (this.facts !== null || refused === '') return false;
+    this.state.drive = { ...this.state.drive, settings: [] };
+    if (!(await this.readDrive())) return false;
+    this.tell(`The drive does not take what the link sets, so it is left out:${refused}`);
     return true;
   }
 
@@ -207,7 +221,7 @@ class Explorer {
     }
     byId('about').textContent = aboutOf(this.state.drive.toml) || this.state.drive.name;
     this.listAxes();
-    if (this.state.view === 'story') this.story.show(this.state.step, this.facts.parameters, (path, text, isDragging) => this.change(path, text, isDragging));
+    if (this.state.view === 'story') this.story.show(this.state.step, this.facts.parameters);
     this.showCommand();
     return true;
   }
@@ -219,6 +233,7 @@ class Explorer {
     this.giveUp();
     this.showCommand();
     if (!isDragging && (parameter?.kind === 'choice' || parameter?.kind !== 'number' || text === 'none')) {
+      this.answering();
       void this.readDrive().then((isRead) => isRead && this.rest());
       return;
     }
@@ -241,6 +256,7 @@ class Explorer {
     void this.core.answers
       .ask<AnswerReply>({ ask: 'answer', level: 'coarse', drive, seconds: 5 })
       .then((replied) => {
+        if (drive !== this.state.drive && drive.toml !== this.state.drive.toml) return; // another file
         this.showFaults([]);
         this.show(replied);
         performance.measure('coarse answer', { start }); // for web/benchmark
@@ -275,6 +291,7 @@ class Explorer {
       this.facts = facts.reply;
       this.showFaults([]);
       this.inputs.show(facts.reply);
+      if (this.state.view === 'story') this.story.update(this.state.step, facts.reply.parameters);
       this.show(replied);
       byId('spoken').textContent = replied.reply.headline;
       document.title = `Gearlash: ${replied.reply.headline}`;
@@ -308,6 +325,12 @@ class Explorer {
     }
   }
 
+  /** The answer on the page is that of the drive before. */
+  private answering(): void {
+    byId('level').className = 'coarse';
+    byId('level').textContent = 'Answering …';
+  }
+
   /** Ends all that takes long. */
   private giveUp(): void {
     ++this.turn;
@@ -329,7 +352,9 @@ class Explorer {
     const level = byId('level');
     level.className = reply.level;
     level.textContent = levelText(reply);
+    byId('report').classList.toggle('old', reply.report === null);
     if (reply.report !== null) byId('report').textContent = reply.report;
+    else byId('card-changes').classList.add('old');
     this.showPictures();
     this.studies.markHere();
   }
@@ -368,10 +393,16 @@ class Explorer {
   private showMotion(): void {
     if (!this.answer) return;
     const traces = this.chosenMotion();
-    if (!traces) return;
+    if (!traces) {
+      byId('time-title').textContent = 'There is no motion to draw: it is proved without following one.';
+      this.traces.clear();
+      this.gears.clear();
+      this.cards.blank('time', '');
+      return;
+    }
     byId('time-title').textContent = `${byId<HTMLSelectElement>('gear-motion').selectedOptions[0]?.text ?? ''}${traces.title ? `: ${traces.title}` : ''}`;
     this.traces.show(traces, this.theme);
-    this.gears.take(traces, this.theme);
+    this.gears.take(traces);
     this.cards.keep('time', { plot: (theme) => positionsOverTime(traces, theme), data: () => tracesData(traces) });
   }
 
@@ -409,7 +440,7 @@ class Explorer {
   }
 
   private showFaults(faults: Fault[]): void {
-    const others = this.inputs.mark(faults);
+    const others = this.state.view === 'story' ? this.story.mark(faults) : this.inputs.mark(faults);
     const place = byId('faults');
     place.textContent = '';
     if (faults.length === 0) return;
@@ -436,7 +467,11 @@ class Explorer {
 
   // ---- views ------------------------------------------------------------------------------------
 
-  private async look(view: State['view']): Promise<void> {
+  /** `returns`: to the drive that was explored before the story. */
+  private async look(view: State['view'], returns = true): Promise<void> {
+    const { drive, example, x, y } = this.state;
+    if (this.state.view === 'story' && view !== 'story' && returns) Object.assign(this.state, this.explored ?? {});
+    if (this.state.view !== 'story' && view === 'story') this.explored = { drive, example, x, y };
     this.state.view = view;
     void this.keepAddress();
     await this.load();

@@ -184,7 +184,7 @@ export function phasePlane(picture: MotionPicture, numbers: Float64Array, theme:
     subtitle: picture.numbers,
     description: `Speed over position, relative to the reference. ${picture.motions.filter((m) => m.is_cycle).length} cycles are drawn.`,
     x: { label: `position from the reference (${picture.unit})`, ...x },
-    y: { label: `speed (${picture.unit}/s)`, ...y },
+    y: { label: `speed (${picture.speed_unit})`, ...y },
     layers: [...layers, ...lines, ...marks],
     legend,
   };
@@ -195,6 +195,8 @@ export function phasePlane(picture: MotionPicture, numbers: Float64Array, theme:
 /** The columns of the first motion, for traces. */
 export interface Traces {
   unit: string;
+  timeUnit: string;
+  torqueUnit: string;
   time: Float64Array;
   load: Float64Array;
   motor: Float64Array;
@@ -214,6 +216,8 @@ export function tracesOf(picture: MotionPicture, numbers: Float64Array, index = 
   const of = (place: Column | undefined): Float64Array => (place ? column(numbers, place) : new Float64Array());
   return {
     unit: picture.unit,
+    timeUnit: picture.time_unit,
+    torqueUnit: picture.torque_unit,
     time: of(motion?.columns?.time),
     load: of(motion?.columns?.load),
     motor: of(motion?.columns?.motor),
@@ -257,7 +261,7 @@ export function positionsOverTime(traces: Traces, theme: Theme): Plot {
   return {
     title: traces.title,
     description: 'Positions of both shafts over time.',
-    x: { label: 'time (s)', low: 0, high: traces.time[traces.time.length - 1] || 1 },
+    x: { label: `time (${traces.timeUnit})`, low: 0, high: traces.time[traces.time.length - 1] || 1 },
     y: { label: `position (${traces.unit})`, ...widened(range, 0.05) },
     layers,
     legend,
@@ -333,6 +337,7 @@ export function branchChart(chart: ChartReply, numbers: Float64Array, theme: The
   const layers: Layer[] = [];
   const legend: LegendEntry[] = [];
   const range = { low: 0, high: 0 };
+  const positive = nothing();
   const name = (entry: LegendEntry): void => {
     if (!legend.some((other) => other.name === entry.name)) legend.push(entry);
   };
@@ -342,7 +347,9 @@ export function branchChart(chart: ChartReply, numbers: Float64Array, theme: The
   }
   for (const branch of chart.branches) {
     const points = column(numbers, branch.line);
-    include(range, points.filter((_, i) => i % 2 === 1));
+    const amplitudes = points.filter((_, i) => i % 2 === 1);
+    include(range, amplitudes);
+    include(positive, amplitudes.filter((amplitude) => amplitude > 0));
     const isStable = branch.stability !== 'unstable';
     const style = { colour: isStable ? theme.load : theme.ink, ...(isStable ? {} : { dash: '4 4' }) };
     if (points.length > 2) layers.push({ kind: 'line', points, width: isStable ? 2.4 : 1.5, ...style });
@@ -355,21 +362,26 @@ export function branchChart(chart: ChartReply, numbers: Float64Array, theme: The
     layers.push({ kind: 'marks', points: irregular, colour: theme.motor, shape: 'cross', size: 4 });
     name({ name: 'did not repeat', colour: theme.motor, mark: 'cross' });
   }
-  for (const border of chart.borders) {
-    layers.push({ kind: 'rule', at: border.at, along: 'x', colour: theme.stop, dash: '4 3', text: border.word });
-  }
+  chart.borders.forEach((border, i) => {
+    layers.push({ kind: 'rule', at: border.at, along: 'x', colour: theme.stop, dash: '4 3', text: border.word, row: i % 4 });
+  });
+  if (here) include(range, [here[1]]);
+  // As the command line draws it: by ratio where amplitudes differ by more than a factor of 30.
+  const isWide = positive.high > 30 * positive.low;
+  const y = isWide
+    ? { low: positive.low / 1.5, high: positive.high * 1.5, logarithmic: true }
+    : { low: 0, high: range.high > 0 ? 1.08 * range.high : 1 };
   if (here) {
     layers.push({ kind: 'rule', at: here[0], along: 'x', colour: theme.accent });
-    layers.push({ kind: 'marks', points: here, colour: theme.accent, size: 7, shape: 'diamond' });
+    layers.push({ kind: 'moving', at: [here[0], isWide ? Math.max(here[1], y.low) : here[1]], colour: theme.accent });
     name({ name: 'you are here', colour: theme.accent, mark: 'diamond' });
-    include(range, [here[1]]);
   }
   return {
     title: `Amplitude over ${chart.x.label}`,
     subtitle: `${chart.searched} drives were analysed${chart.is_complete ? '' : '; stopped before the end'}`,
     description: `${chart.branches.length} branches of cycles, ${chart.borders.length} borders.`,
     x: { label: chart.x.label, low: chart.low, high: chart.high, logarithmic: chart.x.logarithmic },
-    y: { label: chart.y_label, low: 0, high: range.high > 0 ? 1.08 * range.high : 1 },
+    y: { label: chart.y_label, ...y },
     layers,
     legend,
   };

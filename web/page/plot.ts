@@ -41,7 +41,7 @@ export type Layer =
   /** The one mark that moves: see moveMark(). */
   | { kind: 'moving'; at: [number, number]; colour: string }
   | { kind: 'band'; from: number; to: number; fill: string; along: 'x' | 'y' }
-  | { kind: 'rule'; at: number; along: 'x' | 'y'; colour: string; dash?: string; text?: string }
+  | { kind: 'rule'; at: number; along: 'x' | 'y'; colour: string; dash?: string; text?: string; row?: number }
   | { kind: 'text'; x: number; y: number; text: string; colour: string };
 
 export interface LegendEntry {
@@ -141,7 +141,7 @@ function layerText(layer: Layer, x: Scale, y: Scale, width: number, bottom: numb
       const place = at((layer.along === 'x' ? x : y)(layer.at));
       const ends = layer.along === 'x' ? `x1="${place}" x2="${place}" y1="${frame.top}" y2="${bottom}"` : `x1="${frame.left}" x2="${width - frame.right}" y1="${place}" y2="${place}"`;
       const dash = layer.dash ? ` stroke-dasharray="${layer.dash}"` : '';
-      const label = layer.text ? `<text x="${at(Number(place) + 4)}" y="${frame.top + 14}" fill="${layer.colour}" font-size="12">${escapeText(layer.text)}</text>` : '';
+      const label = layer.text ? `<text x="${at(Number(place) + 4)}" y="${frame.top + 14 + 14 * (layer.row ?? 0)}" fill="${layer.colour}" font-size="12">${escapeText(layer.text)}</text>` : '';
       return `<line ${ends} stroke="${layer.colour}" stroke-width="1.2"${dash}/>${label}`;
     }
     case 'text':

@@ -69,6 +69,10 @@ export interface MotionPicture {
   subtitle: string;
   numbers: string;
   unit: string;
+  /** 1/ω_n for a normal form without a natural frequency; so the next two. */
+  time_unit: string;
+  speed_unit: string;
+  torque_unit: string;
   gap: number;
   torque_limit: number | null;
   encoder_step: number;
@@ -108,6 +112,8 @@ export interface Answer {
     value: number | null;
     motor: number | null;
     reason: string | null;
+    /** Motion that reaches the torque limit ever again is not bounded. */
+    below_limit: boolean;
   };
   cycles: Cycle[];
   notes: { code: string; text: string }[];
@@ -193,6 +199,7 @@ export interface MarginsReply {
     present: string;
     below: string | null;
     above: string | null;
+    searched: string;
     choices: string[];
   }[];
   is_complete: boolean;

@@ -73,7 +73,7 @@ export async function stateOf(address: string, start: State, examples: Map<strin
       const bytes = await through(fromText(packed), new DecompressionStream('deflate-raw'));
       const text = new TextDecoder('utf-8', { fatal: true }).decode(bytes);
       const more = text.startsWith('{') ? (JSON.parse(text) as { toml: string; files: Record<string, string> }) : { toml: text };
-      state.drive = { ...more, name: parts.get('name') ?? 'drive.toml', settings: [] };
+      state.drive = { ...more, name: plainName(parts.get('name') ?? 'drive.toml'), settings: [] };
       state.example = '';
     } catch {
       throw new Error('The drive in the link cannot be read: the link may have been cut off.');
@@ -92,8 +92,11 @@ export function withSetting(drive: DriveText, path: string, text: string): Drive
   return { ...drive, settings: [...settings, [path, text]] };
 }
 
+/** A file's name in one line, which is no option of a command. */
+export const plainName = (name: string): string => name.replace(/[\u0000-\u001f\u007f]/g, '').replace(/^-/, './-') || 'drive.toml';
+
 /** For a shell. */
-const quoted = (text: string): string => (/^[\w./:=+-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
+export const quoted = (text: string): string => (/^[\w./:=+-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
 
 /** The settings as options of the command line. */
 export const setOptions = (drive: DriveText): string =>

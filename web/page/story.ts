@@ -1,6 +1,6 @@
 // The guided story: seven steps, each with one control and one sentence.
-import { type Changed, singleInput } from './inputs';
-import type { DriveText, Parameter } from './replies';
+import { type Changed, Inputs, only } from './inputs';
+import type { DriveText, Fault, Parameter } from './replies';
 
 export interface StoryStep {
   title: string;
@@ -35,7 +35,7 @@ export const storySteps = (joint: string): StoryStep[] => [
   },
   {
     title: 'Growth at rest',
-    sentence: 'A tiny swing in the gap is multiplied by the growth at rest every half turn: above 1 it grows, below 1 it dies out.',
+    sentence: 'A tiny swing in the gap is multiplied by the growth at rest every half swing: above 1 it grows, below 1 it dies out.',
     drive: named(servo(sample), 'story.toml'),
     path: 'servo.damping',
     cards: ['phase', 'map'],
@@ -73,13 +73,18 @@ export const storySteps = (joint: string): StoryStep[] => [
 const byId = (id: string): HTMLElement => document.getElementById(id)!;
 
 export class Story {
+  private readonly inputs: Inputs;
+
   constructor(
     readonly steps: StoryStep[],
     private readonly goTo: (step: number) => void,
-  ) {}
+    changed: Changed,
+  ) {
+    this.inputs = new Inputs(byId('story-input'), changed);
+  }
 
   /** Step `number`, from 1, with the control of its parameter. */
-  show(number: number, parameters: Parameter[], changed: Changed): void {
+  show(number: number, parameters: Parameter[]): void {
     const step = this.steps[number - 1]!;
     const title = byId('story-title');
     title.textContent = `${number}. ${step.title}`;
@@ -88,10 +93,19 @@ export class Story {
     this.list(number);
     (byId('story-back') as HTMLButtonElement).disabled = number === 1;
     (byId('story-next') as HTMLButtonElement).disabled = number === this.steps.length;
-    const parameter = parameters.find((one) => one.path === step.path);
-    const place = byId('story-input');
-    place.textContent = '';
-    if (parameter) singleInput(place, parameter, changed);
+    this.inputs.reset();
+    this.update(number, parameters);
+  }
+
+  /** The present value of the step's control. */
+  update(number: number, parameters: Parameter[]): void {
+    const parameter = parameters.find((one) => one.path === this.steps[number - 1]!.path);
+    if (parameter) this.inputs.show(only(parameter));
+  }
+
+  /** Marks the control; returns the faults that it does not show. */
+  mark(faults: Fault[]): Fault[] {
+    return this.inputs.mark(faults);
   }
 
   private list(present: number): void {

@@ -6,7 +6,7 @@ import { escapeText, typed } from './numbers';
 import { branchChart, contourMap } from './pictures';
 import type { Plot, Theme } from './plot';
 import type { AnswerReply, ChartReply, DriveReply, DriveText, MapReply, MarginsReply, Parameter, Replied } from './replies';
-import { setOptions } from './state';
+import { quoted, setOptions } from './state';
 import { wordsOf } from './words';
 
 /** What the studies need of the page. */
@@ -61,8 +61,9 @@ export class Studies {
 
   /** An axis as on the command line, over the slider's range. */
   private axisText(path: string, count: number): string {
-    const parameter = this.page.facts().parameters.find((one) => one.path === path)!;
-    const slider = parameter.slider!;
+    const parameter = this.page.facts().parameters.find((one) => one.path === path);
+    if (!parameter?.slider) return path;
+    const { slider } = parameter;
     const unit = parameter.unit_in_si ?? 1;
     const words = parameter.unit ? ` ${parameter.unit}` : '';
     return `${path}=${typed(slider.low / unit)}${words}:${typed(slider.high / unit)}${words}:${count}${slider.logarithmic ? ':log' : ''}`;
@@ -90,7 +91,7 @@ export class Studies {
     words.textContent = 'Computing …';
     this.cards.fade('map');
     try {
-      const replied = await this.page.patiently<MapReply | ChartReply>(this.lane, { ...request, drive, seconds });
+      const replied = await this.page.patiently<MapReply | ChartReply>(this.lane, { ...request, drive: present, seconds });
       if (job !== this.job) return;
       this.map = { replied, key };
       words.innerHTML = this.commandText(request, drive, replied.reply.is_complete);
@@ -116,7 +117,7 @@ export class Studies {
     const axes = request.y ? `map --x '${request.x}' --y '${request.y}'` : `chart --x '${request.x}'`;
     const plot = request.y ? 'map=map.svg' : 'bifurcation=branches.svg';
     const stopped = isComplete ? '' : 'Stopped before the end. ';
-    return `${stopped}<code>gearlash ${escapeText(axes)} ${escapeText(drive.name + setOptions(drive))} --plot ${plot}</code>`;
+    return `${stopped}<code>gearlash ${escapeText(axes)} ${escapeText(quoted(drive.name) + setOptions(drive))} --plot ${plot}</code>`;
   }
 
   /** Where the present drive is on an axis, in its unit. While a slider moves, its text is newer than the facts. */
@@ -185,7 +186,7 @@ export class Studies {
         const { reply } = await this.page.patiently<MarginsReply>(this.lane, { ask: 'margins', drive, ...request, seconds });
         if (drive !== this.page.drive()) return;
         rows.push(...reply.texts);
-        this.showChanges(reply.hunts, rows);
+        this.showChanges(reply, rows);
       }
     } catch (error) {
       if (drive !== this.page.drive()) return;
@@ -194,15 +195,18 @@ export class Studies {
     }
   }
 
-  private showChanges(hunts: boolean, rows: MarginsReply['texts']): void {
-    byId('changes-words').textContent = hunts
-      ? 'It stops hunting where one number changes, all others as they are:'
-      : 'It starts to hunt where one number changes, all others as they are:';
+  private showChanges({ hunts, is_known, is_complete }: MarginsReply, rows: MarginsReply['texts']): void {
+    byId('card-changes').classList.remove('old');
+    const what = !is_known ? 'It is known to come to rest' : hunts ? 'It stops hunting' : 'It starts to hunt';
+    const certainty = rows.every((row) => row.is_certified) ? 'Proved: no nearer value exists.' : 'Searched, not proved.';
+    byId('changes-words').textContent = `${what} where one number changes, all others as they are. ${certainty}${is_complete ? '' : ' Stopped before the end.'}`;
     const heads = ['number', 'now', 'down to', 'up to'].map((head) => `<th scope="col">${head}</th>`).join('');
     const lines = rows.map(
       (row) =>
         `<tr><th scope="row" title="${escapeText(`${row.parameter}: ${row.description}`)}">${escapeText(row.parameter.replace(/[._]/g, ' '))}</th><td>${escapeText(row.present)}</td>` +
-        `<td>${this.changeCell(row, row.below)}</td><td>${this.changeCell(row, row.above)}</td></tr>`,
+        (row.below || row.above
+          ? `<td>${this.changeCell(row, row.below)}</td><td>${this.changeCell(row, row.above)}</td></tr>`
+          : `<td colspan="2">${escapeText(row.choices.join(', ') || `nowhere from ${row.searched}`)}</td></tr>`),
     );
     byId('changes').innerHTML = `<table><thead><tr>${heads}</tr></thead><tbody>${lines.join('')}</tbody></table>`;
     for (const button of byId('changes').querySelectorAll<HTMLButtonElement>('button')) {

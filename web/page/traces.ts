@@ -31,7 +31,7 @@ export class TraceView {
       traces.time, traces.reference, traces.load, traces.motor,
     ] as unknown as [number[], number[], number[], number[]];
     if (traces.encoder) lines.push(traces.encoder as unknown as number[]);
-    const shape = JSON.stringify([traces.unit, traces.encoder !== null, traces.torqueLimit, theme.paper]);
+    const shape = JSON.stringify([traces.unit, traces.timeUnit, traces.encoder !== null, traces.torqueLimit, theme.paper]);
     if (!this.positions || !this.torque || shape !== this.shape) {
       this.shape = shape;
       this.make(traces, theme, lines as uPlot.AlignedData);
@@ -49,7 +49,8 @@ export class TraceView {
     this.torque?.setCursor({ left, top: 10 }, false);
   }
 
-  private clear(): void {
+  /** Without a motion. */
+  clear(): void {
     this.positions?.destroy();
     this.torque?.destroy();
     this.positions = this.torque = null;
@@ -58,6 +59,8 @@ export class TraceView {
 
   private make(traces: Traces, theme: Theme, lines: uPlot.AlignedData): void {
     this.clear();
+    const time = `time (${traces.timeUnit})`;
+    const torque = `torque (${traces.torqueUnit})`;
     const width = Math.max(280, this.place.clientWidth);
     const axis = { stroke: theme.faint, grid: { stroke: theme.grid, width: 1 }, ticks: { stroke: theme.grid } };
     const sync = { key: 'gearlash' };
@@ -69,14 +72,14 @@ export class TraceView {
     };
     const hooks = { setCursor: [(plot: uPlot) => this.moved(plot)] };
     const series: uPlot.Series[] = [
-      { label: 'time (s)', value },
+      { label: time, value },
       { label: 'reference', stroke: theme.faint, dash: [5, 4], width: 1, value },
       { label: 'load', stroke: theme.load, width: 2, value },
       { label: 'motor', stroke: theme.motor, dash: [8, 4], width: 1.5, value },
     ];
     if (traces.encoder) series.push({ label: 'encoder', stroke: theme.accent, width: 1, value });
     this.positions = new uPlot(
-      { ...common, height: height.positions, hooks, series, axes: [{ ...axis, label: 'time (s)', labelSize: 18 }, { ...axis, size: 64, label: `position (${traces.unit})`, labelSize: 18 }] },
+      { ...common, height: height.positions, hooks, series, axes: [{ ...axis, label: time, labelSize: 18 }, { ...axis, size: 64, label: `position (${traces.unit})`, labelSize: 18 }] },
       lines,
       this.place,
     );
@@ -85,8 +88,8 @@ export class TraceView {
       {
         ...common,
         height: height.torque,
-        series: [{ label: 'time (s)', value }, { label: limit === null ? 'torque (N m)' : `torque (N m), limit ±${short(limit)}`, stroke: theme.good, width: 1.5, value }],
-        axes: [{ ...axis, label: 'time (s)', labelSize: 18 }, { ...axis, size: 64, label: 'torque (N m)', labelSize: 18 }],
+        series: [{ label: time, value }, { label: limit === null ? torque : `${torque}, limit ±${short(limit)}`, stroke: theme.good, width: 1.5, value }],
+        axes: [{ ...axis, label: time, labelSize: 18 }, { ...axis, size: 64, label: torque, labelSize: 18 }],
       },
       [traces.time, traces.torque] as unknown as uPlot.AlignedData,
       this.place,

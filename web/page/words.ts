@@ -23,7 +23,8 @@ export function ceilingText(reply: AnswerReply): string {
   const { ceiling } = reply.answer;
   if (!ceiling) return '';
   if (ceiling.value === null) return `No ceiling: ${ceiling.reason ?? 'none is proved'}.`;
-  return `Ceiling, proved: the load swings by at most ±${short(roundedUp(ceiling.value / reply.unit_in_si))} ${reply.unit}, whatever happens in the gap.`;
+  const condition = ceiling.below_limit ? ', as long as the torque stays below its limit' : '';
+  return `Ceiling, proved: in the end the load swings by at most ±${short(roundedUp(ceiling.value / reply.unit_in_si))} ${reply.unit}, whatever happens in the gap${condition}.`;
 }
 
 export function levelText(reply: AnswerReply): string {
