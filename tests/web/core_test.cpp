@@ -148,8 +148,9 @@ TEST_F(WebCore, CurvesAreColumnsOfOneLength) {
 }
 
 TEST_F(WebCore, AnEncoderReadsWholeSteps) {
-  const Json reply =
-      ask({{"ask", "answer"}, {"drive", drive(joint, {{"sensor.resolution", "1 arcmin"}})}});
+  const Json reply = ask(
+      {{"ask", "answer"},
+       {"drive", drive(joint, {{"sensor.resolution", "1 arcmin"}, {"sampling.period", "1 ms"}})}});
   const Json& motion = reply["response"]["motions"][0];
   const double step = reply["response"]["encoder_step"];
   for (const double reading : column(motion["columns"]["encoder"])) {

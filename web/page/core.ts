@@ -91,3 +91,20 @@ export interface Core {
   /** Maps and changes, which take longer. */
   studies: Lane;
 }
+
+/** The work, with its progress and a button to stop where it takes longer than a moment. */
+export async function patiently<T>(lane: Lane, request: object): Promise<Replied<T>> {
+  const bar = document.getElementById('progress') as HTMLProgressElement;
+  const stop = document.getElementById('stop')!;
+  const moment = 600; // ms
+  const late = setTimeout(() => {
+    bar.removeAttribute('value');
+    bar.hidden = stop.hidden = false;
+  }, moment);
+  try {
+    return await lane.ask<T>(request, (share) => (bar.value = share));
+  } finally {
+    clearTimeout(late);
+    bar.hidden = stop.hidden = true;
+  }
+}

@@ -39,3 +39,24 @@ export function aboutOf(toml: string): string {
   }
   return (/^.*?[^A-Z][.:](?= |$)/.exec(lines.join(' '))?.[0] ?? lines.join(' ')).replace(/[.:]$/, '');
 }
+
+/** One button for each example. */
+export function listExamples(place: HTMLElement, chosen: (toml: string, name: string) => void): void {
+  for (const [name, toml] of examples) {
+    const button = document.createElement('button');
+    button.type = 'button';
+    button.textContent = name.replaceAll('-', ' ');
+    button.dataset.example = name;
+    button.title = aboutOf(toml);
+    button.onclick = () => chosen(toml, name);
+    place.append(button);
+  }
+}
+
+/** Marks the button of the example that is shown. */
+export function markExample(place: HTMLElement, name: string): void {
+  for (const button of place.querySelectorAll('button')) {
+    if (button.dataset.example === name) button.setAttribute('aria-current', 'true');
+    else button.removeAttribute('aria-current');
+  }
+}

@@ -3,21 +3,19 @@ import 'uplot/dist/uPlot.min.css';
 import './style.css';
 
 import { Cards } from './cards';
-import { type Core, InputError, Lane, Overtaken } from './core';
-import { csv, save } from './downloads';
-import { aboutOf, examples } from './examples';
-import { GearView } from './gears';
+import { type Core, InputError, Lane, Overtaken, patiently } from './core';
+import { aboutOf, examples, listExamples, markExample } from './examples';
 import { Inputs, isPath, missingInputs } from './inputs';
 import { driveIn, listenToFiles } from './opening';
 import { embeddedDrive, loadedParts } from './parts';
-import { phasePlane, positionsOverTime, tracesOf, type Traces } from './pictures';
+import { copyLink, keepTheme, keptTheme, saveDrive } from './keeping';
+import { Motions } from './motions';
 import { dark, light, type Theme } from './plot';
-import type { AnswerReply, DriveReply, DriveText, Fault, Parameter, Replied } from './replies';
+import type { AnswerReply, DriveReply, DriveText, Fault, Replied } from './replies';
 import { addressOf, commandOf, setOptions, stateOf, withSetting, type State } from './state';
 import { Story, storySteps } from './story';
-import { Studies } from './studies';
+import { listAxes, Studies } from './studies';
 import { Thesis } from './thesis';
-import { TraceView } from './traces';
 import { capital, ceilingText, levelText, wordsOf } from './words';
 
 const byId = <T extends Element = HTMLElement>(id: string): T => document.getElementById(id) as unknown as T;
@@ -46,20 +44,12 @@ class Explorer {
   private readonly cards = new Cards(light, () => this.state.drive.name.replace(/\.toml$/, ''), (error) => this.tell(wordsOf(error)));
   private readonly studies: Studies;
   private readonly inputs = new Inputs(byId('inputs'), (path, text, isDragging) => this.change(path, text, isDragging));
-  private readonly traces: TraceView;
-  private readonly gears: GearView;
+  private readonly motions: Motions;
   private readonly story = new Story(storySteps(examples.get('first-servo')!), (step) => void this.toStep(step), (path, text, isDragging) => this.change(path, text, isDragging));
   private readonly thesis: Thesis;
 
   constructor(private readonly core: Core) {
-    this.gears = new GearView(
-      {
-        picture: byId<SVGSVGElement>('gear-picture'),
-        play: byId('gear-play'), back: byId('gear-back'), on: byId('gear-on'), slider: byId('gear-time'), words: byId('gear-words'),
-      },
-      (time) => this.traces?.point(time),
-    );
-    this.traces = new TraceView(byId('traces'), () => {});
+    this.motions = new Motions(this.cards, () => this.theme);
     this.studies = new Studies(
       {
         drive: () => this.state.drive,
@@ -67,7 +57,6 @@ class Explorer {
         answer: () => this.answer?.reply ?? null,
         theme: () => this.theme,
         axes: () => this.state,
-        patiently: (lane, request) => this.patiently(lane, request),
         change: (path, text) => this.change(path, text, false),
       },
       core.studies,
@@ -83,8 +72,8 @@ class Explorer {
   // ---- beginning --------------------------------------------------------------------------------
 
   async start(): Promise<void> {
-    this.useTheme(localStorageItem('theme') ?? (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
-    this.listExamples();
+    this.useTheme(keptTheme() ?? (matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light'));
+    listExamples(byId('examples'), (toml, name) => void this.take({ toml, name: `${name}.toml`, settings: [] }, name));
     this.listen();
     const own = embeddedDrive();
     const [first, toml] = examples.entries().next().value as [string, string];
@@ -101,18 +90,6 @@ class Explorer {
     await this.load();
   }
 
-  private listExamples(): void {
-    for (const [name, toml] of examples) {
-      const button = document.createElement('button');
-      button.type = 'button';
-      button.textContent = name.replaceAll('-', ' ');
-      button.dataset.example = name;
-      button.title = aboutOf(toml);
-      button.onclick = () => void this.take({ toml, name: `${name}.toml`, settings: [] }, name);
-      byId('examples').append(button);
-    }
-  }
-
   private listen(): void {
     for (const button of document.querySelectorAll<HTMLButtonElement>('[data-view]')) {
       button.onclick = () => void this.look(button.dataset.view as State['view']);
@@ -120,18 +97,17 @@ class Explorer {
     byId('theme').onclick = () => {
       const name = this.theme === light ? 'dark' : 'light';
       this.useTheme(name);
-      keepItem('theme', name);
+      keepTheme(name);
       this.redraw();
     };
     byId('print').onclick = () => window.print();
     addEventListener('beforeprint', () => this.cards.redraw(light));
     addEventListener('afterprint', () => this.redraw());
     byId('stop').onclick = () => this.stop();
-    byId('save-toml').onclick = () => void this.saveDrive();
-    byId('copy-link').onclick = () => void this.copyLink();
+    byId('save-toml').onclick = () => void saveDrive(this.core.answers, this.state.drive).catch((error) => this.refuse(error));
+    byId('copy-link').onclick = () => void this.keepAddress().then(copyLink);
     byId('map-go').onclick = () => void this.studies.drawMap();
     byId('changes-go').onclick = () => void this.studies.searchChanges();
-    byId<HTMLSelectElement>('gear-motion').onchange = () => this.showMotion();
     for (const axis of ['x', 'y'] as const) {
       byId<HTMLSelectElement>(`map-${axis}`).onchange = (event) => {
         this.state[axis] = (event.target as HTMLSelectElement).value;
@@ -215,12 +191,9 @@ class Explorer {
     }
     this.showFaults([]);
     this.inputs.show(this.facts);
-    for (const button of byId('examples').querySelectorAll('button')) {
-      if (button.dataset.example === this.state.example) button.setAttribute('aria-current', 'true');
-      else button.removeAttribute('aria-current');
-    }
+    markExample(byId('examples'), this.state.example);
     byId('about').textContent = aboutOf(this.state.drive.toml) || this.state.drive.name;
-    this.listAxes();
+    Object.assign(this.state, listAxes(this.facts, this.state));
     if (this.state.view === 'story') this.story.show(this.state.step, this.facts.parameters);
     this.showCommand();
     return true;
@@ -231,9 +204,9 @@ class Explorer {
     this.tell('');
     const parameter = this.facts?.parameters.find((one) => one.path === path);
     this.giveUp();
+    if (!isDragging) this.answering();
     this.showCommand();
     if (!isDragging && (parameter?.kind === 'choice' || parameter?.kind !== 'number' || text === 'none')) {
-      this.answering();
       void this.readDrive().then((isRead) => isRead && this.rest());
       return;
     }
@@ -283,7 +256,7 @@ class Explorer {
     void this.keepAddress();
     try {
       this.isSearching = true;
-      const replied = await this.patiently<AnswerReply>(this.core.answers, { ask: 'answer', level: 'fine', drive, seconds: searchSeconds });
+      const replied = await patiently<AnswerReply>(this.core.answers, { ask: 'answer', level: 'fine', drive, seconds: searchSeconds });
       this.isSearching = false;
       if (turn !== this.turn) return;
       const facts = await this.core.answers.ask<DriveReply>({ ask: 'drive', drive });
@@ -306,23 +279,6 @@ class Explorer {
     if (turn !== this.turn || !shows('changes')) return;
     if (isQuick || isInStory) await this.studies.searchChanges();
     else this.studies.offerChanges();
-  }
-
-  /** With progress and a button to stop. */
-  private async patiently<T>(lane: Lane, request: object): Promise<Replied<T>> {
-    const bar = byId<HTMLProgressElement>('progress');
-    const late = setTimeout(() => {
-      bar.hidden = false;
-      bar.removeAttribute('value');
-      byId('stop').hidden = false;
-    }, 600);
-    try {
-      return await lane.ask<T>(request, (share) => (bar.value = share));
-    } finally {
-      clearTimeout(late);
-      bar.hidden = true;
-      byId('stop').hidden = true;
-    }
   }
 
   /** The answer on the page is that of the drive before. */
@@ -355,78 +311,8 @@ class Explorer {
     byId('report').classList.toggle('old', reply.report === null);
     if (reply.report !== null) byId('report').textContent = reply.report;
     else byId('card-changes').classList.add('old');
-    this.showPictures();
+    this.motions.show(replied);
     this.studies.markHere();
-  }
-
-  private showPictures(): void {
-    const { reply, numbers } = this.answer!;
-    this.listMotions();
-    const { phase } = reply;
-    if (phase) this.cards.put('phase', { plot: (theme) => phasePlane(phase, numbers, theme) }, this.theme);
-    else this.cards.blank('phase', 'There is no motion to draw: it is proved without following one.');
-    this.showMotion();
-  }
-
-  private listMotions(): void {
-    const list = byId<HTMLSelectElement>('gear-motion');
-    const names = ['the way there', ...(this.answer!.reply.phase?.motions ?? []).filter((motion) => motion.is_cycle && motion.columns).map((motion) => motion.name || 'cycle')];
-    if (Array.from(list.options, (option) => option.text).join('|') === names.join('|')) return;
-    const chosen = Math.max(0, list.selectedIndex);
-    list.textContent = '';
-    names.forEach((name, i) => list.add(new Option(name, String(i))));
-    list.selectedIndex = Math.min(chosen, names.length - 1);
-  }
-
-  /** The motion that the gears and the traces follow. */
-  private chosenMotion(): Traces | null {
-    const { reply, numbers } = this.answer!;
-    const chosen = byId<HTMLSelectElement>('gear-motion').selectedIndex;
-    if (chosen > 0 && reply.phase) {
-      const cycles = reply.phase.motions.map((motion, i) => [motion, i] as const).filter(([motion]) => motion.is_cycle && motion.columns);
-      const cycle = cycles[chosen - 1];
-      if (cycle) return { ...tracesOf(reply.phase, numbers, cycle[1]), title: cycle[0].name };
-    }
-    return reply.response ? tracesOf(reply.response, numbers) : null;
-  }
-
-  private showMotion(): void {
-    if (!this.answer) return;
-    const traces = this.chosenMotion();
-    if (!traces) {
-      byId('time-title').textContent = 'There is no motion to draw: it is proved without following one.';
-      this.traces.clear();
-      this.gears.clear();
-      this.cards.blank('time', '');
-      return;
-    }
-    byId('time-title').textContent = `${byId<HTMLSelectElement>('gear-motion').selectedOptions[0]?.text ?? ''}${traces.title ? `: ${traces.title}` : ''}`;
-    this.traces.show(traces, this.theme);
-    this.gears.take(traces);
-    this.cards.keep('time', { plot: (theme) => positionsOverTime(traces, theme), data: () => tracesData(traces) });
-  }
-
-  private numbersOfDrive(): Parameter[] {
-    return (this.facts?.parameters ?? []).filter((one) => one.kind === 'number' && typeof one.value === 'number' && one.value > 0);
-  }
-
-  private listAxes(): void {
-    const usual = this.numbersOfDrive().filter((one) => one.is_usual || one.path.startsWith('servo.'));
-    const paths = this.numbersOfDrive().map((one) => one.path);
-    if (!paths.includes(this.state.x)) {
-      const first = usual.find((one) => one.path === 'servo.inertia_ratio') ?? usual.find((one) => one.path.endsWith('backlash')) ?? usual[0];
-      this.state.x = first?.path ?? paths[0] ?? '';
-      const second = this.facts!.has_closed_form ? (usual.find((one) => one.path === 'servo.damping') ?? usual.find((one) => one.path !== this.state.x)) : undefined;
-      this.state.y = second?.path ?? '';
-    }
-    if (!paths.includes(this.state.y)) this.state.y = '';
-    for (const axis of ['x', 'y'] as const) {
-      const list = byId<HTMLSelectElement>(`map-${axis}`);
-      list.textContent = '';
-      if (axis === 'y') list.add(new Option('nothing else', ''));
-      for (const path of paths) list.add(new Option(path, path));
-      list.value = this.state[axis];
-    }
   }
 
   // ---- faults -----------------------------------------------------------------------------------
@@ -462,7 +348,7 @@ class Explorer {
 
   private redraw(): void {
     this.cards.redraw(this.theme);
-    if (this.answer) this.showMotion();
+    this.motions.follow();
   }
 
   // ---- views ------------------------------------------------------------------------------------
@@ -526,55 +412,6 @@ class Explorer {
 
   private showCommand(): void {
     byId<HTMLTextAreaElement>('command').value = commandOf(this.state.drive);
-  }
-
-  private async saveDrive(): Promise<void> {
-    try {
-      const { reply } = await this.core.answers.ask<{ toml: string }>({ ask: 'file', drive: this.state.drive });
-      const name = this.state.drive.name.endsWith('.toml') ? this.state.drive.name : `${this.state.drive.name}.toml`;
-      save(name, `# gearlash limit-cycle ${name}\n\n${reply.toml}`);
-      byId('saved').textContent = `Saved ${name} with all its numbers. gearlash limit-cycle ${name} gives the same answer.`;
-    } catch (error) {
-      this.refuse(error);
-    }
-  }
-
-  private async copyLink(): Promise<void> {
-    await this.keepAddress();
-    try {
-      await navigator.clipboard.writeText(location.href);
-      byId('saved').textContent = 'The link is copied: it holds the drive and this view.';
-    } catch {
-      byId('saved').textContent = 'The browser does not let the page copy. The link is in its address bar.';
-    }
-  }
-}
-
-/** The columns of a motion as a table. */
-function tracesData(traces: Traces): string {
-  const { unit } = traces;
-  const header = ['time_s', `load_${unit}`, `motor_${unit}`, `reference_${unit}`, 'motor_torque_N_m'];
-  const columns = [traces.time, traces.load, traces.motor, traces.reference, traces.torque];
-  if (traces.encoder) {
-    header.push(`encoder_${unit}`);
-    columns.push(traces.encoder);
-  }
-  return csv(header, columns);
-}
-
-/** Pages from a file or in a private window may have no storage. */
-function localStorageItem(name: string): string | null {
-  try {
-    return localStorage.getItem(`gearlash-${name}`);
-  } catch {
-    return null;
-  }
-}
-function keepItem(name: string, value: string): void {
-  try {
-    localStorage.setItem(`gearlash-${name}`, value);
-  } catch {
-    // kept for this visit alone
   }
 }
 

@@ -1,7 +1,7 @@
 // What takes longer than an answer: the map or chart with the border of hunting, and the nearest
 // changes.
 import type { Card, Cards } from './cards';
-import { type Lane, Overtaken } from './core';
+import { type Lane, Overtaken, patiently } from './core';
 import { escapeText, typed } from './numbers';
 import { branchChart, contourMap } from './pictures';
 import type { Plot, Theme } from './plot';
@@ -17,7 +17,6 @@ export interface Page {
   theme(): Theme;
   /** The axes that were chosen: paths, the second may be ''. */
   axes(): { x: string; y: string };
-  patiently<T>(lane: Lane, request: object): Promise<Replied<T>>;
   change(path: string, text: string): void;
 }
 
@@ -28,6 +27,26 @@ const seconds = 120;
 const byId = (id: string): HTMLElement => document.getElementById(id)!;
 
 const isMap = (reply: MapReply | ChartReply): reply is MapReply => 'axes' in reply;
+
+/** Lists the axes that the drive can have; gives the chosen ones, or the most telling if it lacks these. */
+export function listAxes(facts: DriveReply, chosen: { x: string; y: string }): { x: string; y: string } {
+  const numbers = facts.parameters.filter((one) => one.kind === 'number' && typeof one.value === 'number' && one.value > 0);
+  const usual = numbers.filter((one) => one.is_usual || one.path.startsWith('servo.')).map((one) => one.path);
+  const paths = numbers.map((one) => one.path);
+  let { x, y } = chosen;
+  if (!paths.includes(x)) {
+    x = usual.find((path) => path === 'servo.inertia_ratio') ?? usual.find((path) => path.endsWith('backlash')) ?? usual[0] ?? paths[0] ?? '';
+    y = facts.has_closed_form ? (usual.find((path) => path === 'servo.damping') ?? usual.find((path) => path !== x) ?? '') : '';
+  }
+  if (!paths.includes(y)) y = '';
+  for (const [name, value, first] of [['map-x', x, []], ['map-y', y, ['']]] as [string, string, string[]][]) {
+    const list = byId(name) as HTMLSelectElement;
+    list.textContent = '';
+    for (const path of [...first, ...paths]) list.add(new Option(path || 'nothing else', path));
+    list.value = value;
+  }
+  return { x, y };
+}
 
 export class Studies {
   private map: { replied: Replied<MapReply | ChartReply>; key: string } | null = null;
@@ -91,7 +110,7 @@ export class Studies {
     words.textContent = 'Computing …';
     this.cards.fade('map');
     try {
-      const replied = await this.page.patiently<MapReply | ChartReply>(this.lane, { ...request, drive: present, seconds });
+      const replied = await patiently<MapReply | ChartReply>(this.lane, { ...request, drive: present, seconds });
       if (job !== this.job) return;
       this.map = { replied, key };
       words.innerHTML = this.commandText(request, drive, replied.reply.is_complete);
@@ -183,7 +202,7 @@ export class Studies {
     try {
       for (const [i, request] of requests.entries()) {
         if (requests.length > 1) words.textContent = `Searching: ${i + 1} of ${requests.length} numbers …`;
-        const { reply } = await this.page.patiently<MarginsReply>(this.lane, { ask: 'margins', drive, ...request, seconds });
+        const { reply } = await patiently<MarginsReply>(this.lane, { ask: 'margins', drive, ...request, seconds });
         if (drive !== this.page.drive()) return;
         rows.push(...reply.texts);
         this.showChanges(reply, rows);

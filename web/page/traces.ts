@@ -13,10 +13,7 @@ export class TraceView {
   private shown: Traces | null = null;
   private shape = '';
 
-  constructor(
-    private readonly place: HTMLElement,
-    private readonly pointed: (time: number) => void,
-  ) {
+  constructor(private readonly place: HTMLElement) {
     new ResizeObserver(() => this.resize()).observe(place);
   }
 
@@ -70,7 +67,6 @@ export class TraceView {
       cursor: { sync, drag: { x: true, y: false } },
       scales: { x: { time: false } },
     };
-    const hooks = { setCursor: [(plot: uPlot) => this.moved(plot)] };
     const series: uPlot.Series[] = [
       { label: time, value },
       { label: 'reference', stroke: theme.faint, dash: [5, 4], width: 1, value },
@@ -79,7 +75,7 @@ export class TraceView {
     ];
     if (traces.encoder) series.push({ label: 'encoder', stroke: theme.accent, width: 1, value });
     this.positions = new uPlot(
-      { ...common, height: height.positions, hooks, series, axes: [{ ...axis, label: time, labelSize: 18 }, { ...axis, size: 64, label: `position (${traces.unit})`, labelSize: 18 }] },
+      { ...common, height: height.positions, series, axes: [{ ...axis, label: time, labelSize: 18 }, { ...axis, size: 64, label: `position (${traces.unit})`, labelSize: 18 }] },
       lines,
       this.place,
     );
@@ -94,11 +90,6 @@ export class TraceView {
       [traces.time, traces.torque] as unknown as uPlot.AlignedData,
       this.place,
     );
-  }
-
-  private moved(plot: uPlot): void {
-    const index = plot.cursor.idx;
-    if (index !== null && index !== undefined && this.shown) this.pointed(this.shown.time[index] ?? 0);
   }
 
   private resize(): void {
