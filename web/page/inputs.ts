@@ -195,6 +195,7 @@ export class Inputs {
     if (!row) return;
     row.parameter = parameter;
     if (document.activeElement !== row.field) row.field.value = shownText(parameter);
+    if (row.slider) row.slider.disabled = typeof parameter.value !== 'number';
     if (!row.slider || typeof parameter.value !== 'number') return;
     const range = row.range!;
     if (parameter.value < range.low || parameter.value > range.high) row.range = parameter.slider!;

@@ -16,7 +16,7 @@ import { addressOf, commandOf, setOptions, stateOf, withSetting, type State } fr
 import { Story, storySteps } from './story';
 import { listAxes, Studies } from './studies';
 import { Thesis } from './thesis';
-import { capital, ceilingText, levelText, wordsOf } from './words';
+import { capital, ceilingText, growthText, levelText, wordsOf } from './words';
 
 const byId = <T extends Element = HTMLElement>(id: string): T => document.getElementById(id) as unknown as T;
 
@@ -304,7 +304,7 @@ class Explorer {
     this.answer = replied;
     const { reply } = replied;
     byId('headline').textContent = capital(reply.headline);
-    byId('ceiling').textContent = ceilingText(reply);
+    byId('ceiling').textContent = growthText(reply) + ceilingText(reply);
     const level = byId('level');
     level.className = reply.level;
     level.textContent = levelText(reply);

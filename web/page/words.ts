@@ -19,6 +19,13 @@ export function roundedUp(bound: number): number {
   return Number((shown + 10 ** (Math.floor(Math.log10(bound)) - 3)).toPrecision(4));
 }
 
+/** Of a closed form: small motion grows, or dies out. */
+export function growthText(reply: AnswerReply): string {
+  const growth = reply.answer.growth_at_rest;
+  if (growth === null) return '';
+  return `Growth at rest ${growth === 'inf' ? '∞' : short(growth)}. `;
+}
+
 export function ceilingText(reply: AnswerReply): string {
   const { ceiling } = reply.answer;
   if (!ceiling) return '';
