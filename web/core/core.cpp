@@ -10,7 +10,6 @@
 #include "analysis/final_servo.hpp"
 #include "drive_reply.hpp"
 #include "gearlash/design.hpp"
-#include "gearlash/version.hpp"
 #include "grid_reply.hpp"
 #include "input/axis_text.hpp"
 #include "limited_progress.hpp"
@@ -99,7 +98,6 @@ class Core::Session {
     numbers_ = Numbers();
     LimitedProgress progress(host_, request.value("seconds", infinity));
     const std::string ask = request.at("ask");
-    if (ask == "version") return {{"version", version}};
     if (ask == "thesis") return thesis_figure(request.at("figure"), progress);
     const DriveText text = drive_text_of(request.at("drive"));
     const WrittenDrive written = parse(text, host_.folder);
@@ -109,7 +107,7 @@ class Core::Session {
     if (ask == "map") return map_reply(request, written, numbers_, progress);
     if (ask == "chart") return chart_reply(request, written, numbers_, progress);
     if (ask == "margins") return margins(request, written, progress);
-    refuse("ask", ask, "must be version, thesis, drive, file, answer, map, chart or margins");
+    refuse("ask", ask, "must be thesis, drive, file, answer, map, chart or margins");
   }
 
   std::vector<double> take_numbers() { return numbers_.take(); }
@@ -138,7 +136,7 @@ class Core::Session {
   Json answer(const Json& request, const DriveText& text, const WrittenDrive& written,
               Progress& progress) {
     const bool is_coarse = request.value("level", "fine") == "coarse";
-    if (last_text_ && last_text_->toml != text.toml) last_.reset();  // another drive
+    if (last_toml_ != text.toml) last_.reset();  // another drive
     const Analysis analysis = analysed(is_coarse, written, progress);
     const AnswerReport report = report_of(written.drive, analysis.answer, written.angle, {});
     Json json = {{"level", is_coarse ? "coarse" : "fine"},
@@ -159,7 +157,7 @@ class Core::Session {
     last_.reset();
     if (!is_coarse || analysis.is_followed) {
       last_ = analysis;
-      last_text_ = text;
+      last_toml_ = text.toml;
     }
     return json;
   }
@@ -202,7 +200,7 @@ class Core::Session {
   Host host_;
   Numbers numbers_;
   std::optional<Analysis> last_;
-  std::optional<DriveText> last_text_;
+  std::string last_toml_;
 };
 
 Core::Core(Host host) : session_(std::make_unique<Session>(std::move(host))) {}

@@ -5,7 +5,6 @@
 #include <map>
 #include <optional>
 
-#include "analysis/analyse.hpp"
 #include "analysis/final_servo.hpp"
 #include "gearlash/design.hpp"
 #include "gearlash/parameter.hpp"
@@ -36,22 +35,6 @@ ShownUnit shown_unit(const Parameter& parameter, const WrittenDrive& written,
   }
   if (dimension->unit == "rad") return {written.angle.name, written.angle.radians};
   return {std::string(dimension->unit), 1.0};
-}
-
-/// Permitted ends of a number; an end that is not permitted itself counts as one.
-Json permitted(const Parameter& parameter) {
-  switch (parameter.permitted) {
-    case Permitted::positive:
-    case Permitted::not_negative:
-    case Permitted::of_normal_form:
-      return {{"least", 0.0},
-              {"most", parameter.path == "servo.friction_ratio" ? Json(1.0) : Json()}};
-    case Permitted::share:
-      return {{"least", 0.0}, {"most", 1.0}};
-    case Permitted::anything:
-      break;
-  }
-  return {{"least", nullptr}, {"most", nullptr}};
 }
 
 /// Where a slider runs: the registry's range if it holds the value, else ten times down and up.
@@ -132,7 +115,6 @@ class ParameterList {
         shown_unit(parameter, written_, text == texts_.end() ? std::string() : text->second);
     json["unit"] = unit.name;
     json["unit_in_si"] = unit.in_si;
-    json["permitted"] = permitted(parameter);
     json["slider"] = slider(parameter, value.is_number() ? value.get<double>() : 0.0);
   }
 
@@ -159,15 +141,6 @@ Json absent_sections(const Drive& drive) {
 
 }  // namespace
 
-bool DriveText::operator==(const DriveText& other) const {
-  const auto same = [](const Setting& one, const Setting& another) {
-    return one.path == another.path && one.text == another.text;
-  };
-  return toml == other.toml && name == other.name &&
-         std::equal(settings.begin(), settings.end(), other.settings.begin(), other.settings.end(),
-                    same);
-}
-
 DriveText drive_text_of(const Json& json) {
   DriveText text{.toml = json.at("toml"), .name = json.value("name", "drive.toml"), .settings = {}};
   for (const Json& setting : json.value("settings", Json::array())) {
@@ -184,9 +157,7 @@ Json drive_reply(const DriveText& text, const WrittenDrive& written) {
   return {{"parameters", ParameterList(text, written).all()},
           {"absent", absent_sections(written.drive)},
           {"is_normal_form", written.drive.servo.has_value()},
-          {"has_closed_form", closed_form_drive(written.drive).has_value()},
-          {"is_sampled", written.drive.sampling.has_value()},
-          {"angle", {{"name", written.angle.name}, {"radians", written.angle.radians}}}};
+          {"has_closed_form", closed_form_drive(written.drive).has_value()}};
 }
 
 Json file_reply(const WrittenDrive& written) {

@@ -14,8 +14,6 @@ struct DriveText {
   std::string toml;
   std::string name;  ///< of the file, for the places of faults
   std::vector<Setting> settings;
-
-  bool operator==(const DriveText& other) const;
 };
 
 /// From {"toml": …, "name": …, "settings": [[path, text], …]}.

@@ -81,12 +81,6 @@ export class Inputs {
     });
   }
 
-  focus(path: string): void {
-    const row = this.rows.get(path);
-    row?.field.closest('details')?.setAttribute('open', '');
-    row?.field.focus();
-  }
-
   private make(drive: DriveReply): void {
     const open = new Set(Array.from(this.place.querySelectorAll<HTMLDetailsElement>('details[open]'), (d) => d.dataset.section));
     this.place.textContent = '';
@@ -229,5 +223,5 @@ export function missingInputs(faults: Fault[], changed: Changed): HTMLElement {
 
 /** A reply with one parameter alone, for the story. */
 export const only = (parameter: Parameter): DriveReply => ({
-  parameters: [{ ...parameter, is_usual: true }], absent: [], is_normal_form: true, has_closed_form: true, is_sampled: false, angle: { name: 'rad', radians: 1 },
+  parameters: [{ ...parameter, is_usual: true }], absent: [], is_normal_form: true, has_closed_form: true,
 });

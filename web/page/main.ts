@@ -232,7 +232,7 @@ class Explorer {
         if (drive !== this.state.drive && drive.toml !== this.state.drive.toml) return; // another file
         this.showFaults([]);
         this.show(replied);
-        performance.measure('coarse answer', { start }); // for web/benchmark
+        performance.measure('coarse answer', { start }); // for benchmarks/web
       })
       .catch((error) => this.refuse(error))
       .finally(() => {

@@ -32,7 +32,6 @@ export interface Parameter {
   choices?: string[];
   unit?: string;
   unit_in_si?: number;
-  permitted?: { least: number | null; most: number | null };
   slider?: Slider;
 }
 
@@ -41,8 +40,6 @@ export interface DriveReply {
   absent: { name: string; contents: string }[];
   is_normal_form: boolean;
   has_closed_form: boolean;
-  is_sampled: boolean;
-  angle: { name: string; radians: number };
 }
 
 /** One motion: columns of all its points, and its pieces between events. */

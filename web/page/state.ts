@@ -52,7 +52,7 @@ export async function addressOf(state: State): Promise<string> {
 export async function stateOf(address: string, start: State, examples: Map<string, string>): Promise<State> {
   const parts = new URLSearchParams(address.replace(/^#/, ''));
   const isNew = parts.has('example') || parts.has('drive');
-  const state: State = { ...start, drive: { ...start.drive, settings: isNew ? [] : start.drive.settings }, x: parts.get('x') ?? '', y: parts.get('y') ?? '' };
+  const state: State = { ...start, drive: { ...start.drive, settings: isNew ? [] : [...start.drive.settings] }, x: parts.get('x') ?? '', y: parts.get('y') ?? '' };
   const view = parts.get('view');
   state.view = view === 'story' || view === 'thesis' ? view : 'explore';
   const whole = (name: string, least: number, most: number): number => {
