@@ -96,8 +96,9 @@ clang:  ## build everything with clang 16, warnings being errors, and run every 
 	ctest --preset clang-16
 
 # Left out: tests that read sources, build other programs or run scripts, where the sanitizers watch
-# nothing; those that count allocations, which the sanitizers count themselves; the tests of the documents' output, which repeat those of the command line; and the
-# oracles of seventy digits, whose time is spent in Boost.
+# nothing; those that count allocations, which the sanitizers count themselves; those of the documents'
+# output and of the page, which repeat those of the command line; and the oracles, whose time is spent
+# in Boost's numbers of many digits.
 sanitize:  ## clang 16 with AddressSanitizer and UndefinedBehaviorSanitizer, warnings being errors
 	@$(INSTALL) test clang
 	cmake --preset asan-ubsan -DGEARLASH_BUILD_PYTHON=ON

@@ -18,8 +18,10 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)    # for clang-tidy and editors
 # it also breaks the infinities and NaNs that mark degenerate servos.
 add_compile_options(-ffp-contract=off)
 
-add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
-                    -Wold-style-cast)
+add_compile_options(-Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wold-style-cast)
+if(NOT CMAKE_UNITY_BUILD)  # where files share a compilation, one's local names are another's
+  add_compile_options(-Wshadow)
+endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # False alarms on every `"text" + std::string` (gcc bug 105651, fixed in gcc 13), and on lists of
   # lists as default arguments.
@@ -52,7 +54,7 @@ endfunction()
 # little optimisation it runs as fast and compiles in three quarters of the time. Its tests need no
 # optimisation.
 function(gearlash_optimise target level)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O${level}>)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O${level}> $<$<CONFIG:Debug>:-O0>)
   if(EMSCRIPTEN)  # a tenth smaller
     target_compile_options(${target} PRIVATE "SHELL:-mllvm -inline-threshold=20")
   endif()

@@ -152,6 +152,9 @@ inline Interval hull(const Interval& x, const Interval& y) {
   return {std::min(x.low, y.low), std::max(x.high, y.high)};
 }
 
+/// Near the middle, rounded: a number to steer by, not to prove with.
+inline double middle(const Interval& x) { return 0.5 * (x.low + x.high); }
+
 /// The intersection of two intervals that contain the same number.
 inline Interval common_part(const Interval& x, const Interval& y) {
   const Interval part{std::max(x.low, y.low), std::min(x.high, y.high)};

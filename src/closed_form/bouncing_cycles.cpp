@@ -21,10 +21,6 @@ namespace {
 /// are sought along motions.
 constexpr std::size_t most_cycles = 16;
 
-bool arrives(const Traversal& traversal) {
-  return traversal.outcome == Traversal::Outcome::arrived;
-}
-
 /// Whether half cycles shrink from one of two neighbouring samples and do not from the other.
 bool crosses(const PartingSample& above, const PartingSample& below) {
   return above.settles && below.settles && (above.growth() < 0.0) != (below.growth() < 0.0);
@@ -78,7 +74,7 @@ class Search {
  private:
   bool try_parting(double amplitude) {
     const Traversal first = budget_.first_arrival(amplitude);
-    return arrives(first) && known_.try_from(first.next, 1);
+    return first.arrives() && known_.try_from(first.next, 1);
   }
 
   /// Where the faces engage before they cross the gap again, the amplitude at which they part is
@@ -117,9 +113,9 @@ class Search {
       const double middle = (low * growth_high - high * growth_low) / (growth_high - growth_low);
       if (!(middle > low && middle < high)) return false;
       const Traversal first = budget_.first_arrival(middle);
-      if (!arrives(first)) return false;
+      if (!first.arrives()) return false;
       const Traversal second = budget_.traverse(first.next, Derivative::not_wanted);
-      if (!arrives(second) || !second.settled) return false;
+      if (!second.arrives() || !second.settled) return false;
       const double growth = std::log(std::abs(second.parting_amplitude) / middle);
       if (std::abs(growth) < near || high - low < near * high)
         return known_.try_from(first.next, 1);
@@ -179,7 +175,7 @@ class Search {
       const double amplitude = servo_.backlash * std::pow(10.0, -1.3 + 3.0 * i / (count - 1));
       if (amplitude >= all_settle_from_) return;
       const Traversal first = budget_.first_arrival(amplitude);
-      if (arrives(first)) watch(first.next);
+      if (first.arrives()) watch(first.next);
     }
   }
 
@@ -247,7 +243,7 @@ class Search {
     constexpr double captured = 1e-3;
     while (motion.count < limit) {
       const Traversal traversal = budget_.traverse(motion.arrival, Derivative::not_wanted);
-      if (!arrives(traversal) || traversal.next.norm() < negligible * servo_.backlash) {
+      if (!traversal.arrives() || traversal.next.norm() < negligible * servo_.backlash) {
         return Ending::settled;
       }
       if (traversal.settled && std::abs(traversal.parting_amplitude) >= all_settle_from_) {

@@ -192,7 +192,7 @@ std::optional<Iterated> iterated(const ServoDynamics& dynamics, const Arrival& a
   Iterated all{.end = arrival};
   for (int i = 0; i < order; ++i) {
     const Traversal one = traverse(dynamics, all.end);
-    if (one.outcome != Traversal::Outcome::arrived) return std::nullopt;
+    if (!one.arrives()) return std::nullopt;
     all.end = one.next;
     all.slope = one.slope * all.slope;
     all.duration += one.duration;

@@ -326,16 +326,14 @@ Interval BoxedHalfCycle::thrust(const Interval& time, const BoxedEnd& end) const
 
 namespace {
 
-double middle_of(const Interval& x) { return 0.5 * (x.low + x.high); }
-
 /// d ln ρ/d ln t near a flight time, accurate enough for a step.
 double slope_of_growth(const BoxedHalfCycle& half, double time, const BoxedEnd& here) {
   constexpr double nearby = 1e-3;
-  const double drive = middle_of(here.position + half.motor_rate() * here.speed);
-  const double slope = time * middle_of(here.kick) * drive / middle_of(here.form);
+  const double drive = middle(here.position + half.motor_rate() * here.speed);
+  const double slope = time * middle(here.kick) * drive / middle(here.form);
   if (half.has_two_masses() && slope > 0.0 && std::isfinite(slope)) return slope;
   const Interval there = half.end(time * (1.0 + nearby)).log_growth;
-  return (middle_of(there) - middle_of(here.log_growth)) / nearby;
+  return (middle(there) - middle(here.log_growth)) / nearby;
 }
 
 /// A flight time shorter (sign −1) or longer (+1) than that of the cycle of every servo in the box.

@@ -33,12 +33,8 @@ ResponseNorms response_norms(double damping) {
   return {(2.0 - lost) / lost, 2.0 * std::exp(-per_radian * std::acos(damping)) / lost};
 }
 
-bool arrives(const Traversal& traversal) {
-  return traversal.outcome == Traversal::Outcome::arrived;
-}
-
 double distance(const Arrival& from, const Traversal& to) {
-  return arrives(to) ? (to.next - from).norm() / from.norm() : infinity;
+  return to.arrives() ? (to.next - from).norm() / from.norm() : infinity;
 }
 
 /// Empty if the faces never close again.
@@ -50,13 +46,13 @@ struct Sampled {
 std::optional<Sampled> sampled(TraversalBudget& budget, double growth_at_rest, double amplitude) {
   constexpr double far = 1.0;  // a motion that grows so much does not come back in the next one
   const Traversal first = budget.first_arrival(amplitude);
-  if (!arrives(first)) return std::nullopt;
+  if (!first.arrives()) return std::nullopt;
   const Traversal second = budget.traverse(first.next, Derivative::not_wanted);
   Sampled result{.sample = {.amplitude = amplitude,
                             .arrival = first.next,
                             .once = distance(first.next, second),
                             .twice = infinity,
-                            .settles = second.settled && arrives(second),
+                            .settles = second.settled && second.arrives(),
                             .next_amplitude = std::abs(second.parting_amplitude),
                             .impacts = second.settled ? 0 : second.impacts}};
   if (std::isinf(result.sample.once)) return result;

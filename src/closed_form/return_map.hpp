@@ -29,6 +29,8 @@ struct Traversal {
   std::size_t events = 0;          ///< all events that were followed
   bool settled = false;            ///< the bounces settled (the map then has rank one)
   double parting_amplitude = 0.0;  ///< (y, ẏ) along the torque-free line when engaged faces part
+
+  bool arrives() const { return outcome == Outcome::arrived; }
 };
 
 /// Follows the motion from one arrival through its bounces, engagement and parting to the arrival

@@ -9,10 +9,6 @@
 namespace gearlash {
 namespace {
 
-bool arrives(const Traversal& traversal) {
-  return traversal.outcome == Traversal::Outcome::arrived;
-}
-
 std::optional<Iterate> iterate(TraversalBudget& budget, const Arrival& start, int order) {
   Iterate result;
   result.visited.reserve(static_cast<std::size_t>(order));
@@ -20,7 +16,7 @@ std::optional<Iterate> iterate(TraversalBudget& budget, const Arrival& start, in
   for (int step = 0; step < order; ++step) {
     if (!(result.end(2) > 0.0)) return std::nullopt;
     const Traversal traversal = budget.traverse(result.end, Derivative::wanted);
-    if (!arrives(traversal)) return std::nullopt;
+    if (!traversal.arrives()) return std::nullopt;
     result.visited.push_back(result.end);
     result.end = traversal.next;
     result.slope = traversal.slope * result.slope;

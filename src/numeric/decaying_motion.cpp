@@ -42,7 +42,7 @@ Matrix middle(const IntervalMatrix& matrix) {
   Matrix result(size, size);
   for (Index i = 0; i < size; ++i) {
     for (Index j = 0; j < size; ++j) {
-      result(i, j) = 0.5 * (entry(matrix, i, j).low + entry(matrix, i, j).high);
+      result(i, j) = middle(entry(matrix, i, j));
     }
   }
   return result;

@@ -259,8 +259,6 @@ void Part::advance(double length, std::vector<Series>& sums, std::vector<Interva
   }
 }
 
-double middle(const Interval& number) { return 0.5 * (number.low + number.high); }
-
 /// Input in the coordinates ξ: b = S(numbers + error), but for the error of the inverse.
 struct Transformed {
   std::vector<double> numbers;

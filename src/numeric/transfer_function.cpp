@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string_view>
 
 #include "base/range_check.hpp"
@@ -13,7 +14,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 void check_polynomial(RangeCheck& check, std::string_view field,
                       const std::vector<double>& coefficients) {

@@ -14,6 +14,11 @@ ParameterText::ParameterText(const Drive& drive, std::string parameter, const An
   if (unit_ == "1") unit_.clear();
 }
 
+void ParameterText::show_in(const std::string& unit, double size) {
+  unit_ = unit == "1" ? "" : unit;
+  size_ = size;
+}
+
 std::string ParameterText::of(double value) const {
   if (std::isnan(value)) return "";
   return is_word() ? text_of(axis_, drive_, value) : with_unit(significant(value / size_, digits));

@@ -9,11 +9,14 @@
 
 namespace gearlash {
 
-/// Angles are in the author's unit, other numbers in SI, choices are words. Precondition: the drive
-/// has the parameter, and outlives this.
+/// Angles are in the author's unit, other numbers in SI unless show_in() says otherwise, choices
+/// are words. Precondition: the drive has the parameter, and outlives this.
 class ParameterText {
  public:
   ParameterText(const Drive& drive, std::string parameter, const AngleUnit& angle);
+
+  /// Shows numbers in another unit, whose size is in SI.
+  void show_in(const std::string& unit, double size);
 
   bool is_word() const { return !parameter_of(axis_, drive_)->choices.empty(); }
 

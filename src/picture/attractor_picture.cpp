@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "analysis/motion.hpp"
 #include "model/reduced_drive.hpp"
@@ -65,25 +66,32 @@ Seen seen_in(const drive::AttractorSearch& search) {
   return {runs_away ? drive::MotionEnd::diverges : drive::MotionEnd::rest, 0, 0.0, 0.0, 0.0};
 }
 
-/// Of the starts that lead there the one nearest to twice the amplitude from the reference; to the
-/// middle of all starts if there is no amplitude.
+/// Of the starts at rest that lead there the one nearest to twice the amplitude from the reference;
+/// if there is no amplitude, the middle one by its distance. nullptr if there is none.
 const drive::Outcome* start_to_show(const drive::AttractorSearch& search, const Seen& seen,
                                     double reference) {
-  const auto away = [&](const drive::Outcome& outcome) {
-    return std::abs(outcome.start.load_position - reference);
-  };
-  const drive::Outcome* chosen = nullptr;
+  const bool has_which =
+      seen.end == drive::MotionEnd::cycle || seen.end == drive::MotionEnd::irregular;
+  std::vector<const drive::Outcome*> starts;
   for (const drive::Outcome& outcome : search.outcomes) {
     if (outcome.end != seen.end || outcome.start.load_speed != 0.0) continue;
-    const bool has_which =
-        seen.end == drive::MotionEnd::cycle || seen.end == drive::MotionEnd::irregular;
-    if (has_which && outcome.which != seen.which) continue;
-    const double wanted = 2.0 * seen.amplitude;
-    if (chosen == nullptr || std::abs(away(outcome) - wanted) < std::abs(away(*chosen) - wanted)) {
-      chosen = &outcome;
-    }
+    if (!has_which || outcome.which == seen.which) starts.push_back(&outcome);
   }
-  return chosen;
+  if (starts.empty()) return nullptr;
+  const auto away = [&](const drive::Outcome* outcome) {
+    return std::abs(outcome->start.load_position - reference);
+  };
+  if (seen.amplitude == 0.0) {
+    const auto middle = starts.begin() + static_cast<std::ptrdiff_t>(starts.size() / 2);
+    std::nth_element(starts.begin(), middle, starts.end(),
+                     [&](const auto* a, const auto* b) { return away(a) < away(b); });
+    return *middle;
+  }
+  const auto miss = [&](const drive::Outcome* outcome) {
+    return std::abs(away(outcome) - 2.0 * seen.amplitude);
+  };
+  return *std::min_element(starts.begin(), starts.end(),
+                           [&](const auto* a, const auto* b) { return miss(a) < miss(b); });
 }
 
 /// The last few mean periods of the watched motion.

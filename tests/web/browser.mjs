@@ -4,6 +4,7 @@ import { execFileSync } from 'node:child_process';
 import { mkdtempSync, mkdirSync, readFileSync, rmSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { createRequire } from 'node:module';
+import { after, before } from 'node:test';
 import { tmpdir } from 'node:os';
 import { extname, join, normalize } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -21,7 +22,7 @@ mkdirSync(shots, { recursive: true });
 
 const kinds = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm' };
 
-export async function serve() {
+async function serve() {
   const server = createServer((request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url, 'http://localhost').pathname));
     const file = join(site, path.endsWith('/') ? `${path}index.html` : path);
@@ -36,12 +37,26 @@ export async function serve() {
   return { url: `http://127.0.0.1:${server.address().port}/`, close: () => server.close() };
 }
 
-export const launch = () =>
+const launch = () =>
   chromium.launch({
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
     // The sandbox needs another user than root.
     args: [...(process.getuid() === 0 ? ['--no-sandbox'] : []), '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'],
   });
+
+/** A server and a browser for all tests of a file; both are there once the first test begins. */
+export function visit() {
+  const both = {};
+  before(async () => {
+    both.server = await serve();
+    both.browser = await launch();
+  });
+  after(async () => {
+    await both.browser.close();
+    both.server.close();
+  });
+  return both;
+}
 
 /** A page that must not complain: `complaints` are the errors on its console. */
 export async function open(browser, address, options = {}) {

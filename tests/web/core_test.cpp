@@ -108,6 +108,15 @@ TEST_F(WebCore, EveryFaultHasItsPathValueAndPlace) {
   EXPECT_EQ(reply["faults"][1]["path"], "servo.friction_ratio");
 }
 
+TEST_F(WebCore, TellsFaultsThatAValueCanMendFromOthers) {
+  const std::string unknown = std::string(joint) + "[sensor]\nnoise = 1\nresolution = \"-1 deg\"\n";
+  const Json reply = ask({{"ask", "drive"}, {"drive", drive(unknown.c_str())}});
+  ASSERT_EQ(reply["faults"].size(), 2U) << reply.dump();
+  for (const Json& fault : reply["faults"]) {
+    EXPECT_EQ(fault["is_parameter"].get<bool>(), fault["path"] == "sensor.resolution") << fault;
+  }
+}
+
 TEST_F(WebCore, WhatIsNoRequestIsRefusedInWords) {
   EXPECT_TRUE(Json::parse(core_.ask("{").json).contains("failure"));
   EXPECT_TRUE(Json::parse(core_.ask("{}").json).contains("failure"));
@@ -195,6 +204,14 @@ TEST_F(WebCore, MarginsAreTextsThatCanBeSet) {
   const Json set = drive(servo, {{"servo.damping", damping["above"].get<std::string>()}});
   const Json there = ask({{"ask", "answer"}, {"drive", set}});
   EXPECT_NEAR(there["answer"]["growth_at_rest"].get<double>(), 1.0, 1e-4);
+}
+
+TEST_F(WebCore, MarginsAreInTheUnitOfTheAuthor) {
+  const Json reply = ask({{"ask", "margins"},
+                          {"drive", drive(joint, {{"load.inertia", "500 kg cm2"}})},
+                          {"parameters", Json::array({"load.inertia=400 kg cm2:600 kg cm2:2"})}});
+  EXPECT_EQ(reply["texts"][0]["present"], "500 kg cm2");
+  EXPECT_EQ(reply["texts"][0]["searched"], "400 kg cm2 to 600 kg cm2");
 }
 
 TEST_F(WebCore, AFigureOfTheThesisHasTheProgramsPoints) {

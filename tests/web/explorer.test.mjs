@@ -2,25 +2,16 @@
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 
-import { assertSameReport, example, gearlash, idle, launch, open, root, serve, settled, temporaryFolder, type, wordsOf } from './browser.mjs';
+import { assertSameReport, example, gearlash, idle, open, root, settled, temporaryFolder, type, visit, wordsOf } from './browser.mjs';
 
-let server;
-let browser;
-before(async () => {
-  server = await serve();
-  browser = await launch();
-});
-after(async () => {
-  await browser.close();
-  server.close();
-});
+const both = visit();
 
 /** A test with a page of its own, whose console must stay silent. */
 const onPage = (name, hash, work, options = {}) =>
   test(name, { timeout: 180_000 }, async () => {
-    const tab = await open(browser, `${server.url}#${hash}`, options);
+    const tab = await open(both.browser, `${both.server.url}#${hash}`, options);
     try {
       await work(tab.page, tab);
       assert.deepEqual(tab.complaints, []);
@@ -171,7 +162,7 @@ onPage('a link holds the whole state', 'example=first-servo', async (page) => {
   await page.waitForTimeout(400);
   await idle(page);
   await page.waitForFunction(() => location.hash.includes('set=') && location.hash.includes('x=load.inertia'));
-  const again = await open(browser, page.url());
+  const again = await open(both.browser, page.url());
   await idle(again.page);
   for (const id of ['#headline', '#report', '#card-map svg']) assert.equal(await again.page.textContent(id), await page.textContent(id));
   assert.equal(await again.page.inputValue('#command'), await page.inputValue('#command'));
@@ -199,7 +190,7 @@ onPage('a good file dropped is answered, and its link carries it', 'example=norm
   writeFileSync(join(folder, 'mine.toml'), toml);
   await assertSameReport(page, ['limit-cycle', 'mine.toml'], folder);
   await page.waitForFunction(() => location.hash.includes('drive='));
-  const again = await open(browser, page.url());
+  const again = await open(both.browser, page.url());
   await settled(again.page);
   await assertSameReport(again.page, ['limit-cycle', 'mine.toml'], folder);
   await again.close();
@@ -213,6 +204,9 @@ onPage('a bad file is refused in words, with places; the drive before stays', 'e
   await page.waitForFunction(() => document.getElementById('message').textContent.includes('bad.toml'));
   await drop(page, [{ name: 'picture.toml', text: '\u0000\u0001PNG' }]);
   await page.waitForFunction(() => document.getElementById('message').textContent.includes('picture.toml'));
+  await drop(page, [{ name: 'slip.toml', text: example('first-servo.toml').replace('[load]', '[load]\nmass = "1 kg"') }]);
+  await page.waitForFunction(() => /slip\.toml.*mass/s.test(document.getElementById('message').textContent));
+  assert.equal(await page.locator('#faults input').count(), 0); // nothing to type would help
   assert.equal(await page.inputValue('#command'), 'gearlash limit-cycle normalized.toml');
   await type(page, 'servo.damping', '0.2');
   await settled(page);
@@ -260,6 +254,68 @@ onPage('a value that is not permitted is marked in its field; the answer stays',
   await assertSameReport(page, wordsOf(await page.inputValue('#command')).slice(1), join(root, 'examples'));
 });
 
+for (const name of ['normalized', 'elinco-fd162', 'first-servo', 'robot-joint']) {
+  onPage(`${name}: every slider goes to both its ends, with an answer or a fault in words`, `example=${name}`, async (page) => {
+    await settled(page);
+    const bad = await page.evaluate(async () => {
+      const wait = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+      const words = () => ['headline', 'level', 'message', 'faults'].map((id) => document.getElementById(id).textContent).join(' ') + [...document.querySelectorAll('#inputs .fault')].map((one) => one.textContent).join(' ');
+      const found = [];
+      for (const slider of [...document.querySelectorAll('#inputs input[type=range]')].filter((one) => !one.disabled)) {
+        const before = slider.value;
+        for (const end of ['0', '400', before]) {
+          const start = performance.now();
+          slider.value = end;
+          slider.dispatchEvent(new Event('input'));
+          const isAnswered = () => performance.getEntriesByName('coarse answer').some((one) => one.startTime >= start);
+          const isRefused = () => document.querySelector('#inputs [aria-invalid]') !== null || document.getElementById('message').textContent !== '' || document.getElementById('faults').textContent !== '';
+          for (let i = 0; i < 1500 && !isAnswered() && !isRefused(); ++i) await wait(10);
+          const text = words();
+          if ((!isAnswered() && !isRefused()) || /NaN|undefined|null|\[object|Infinity/.test(text)) found.push([slider.getAttribute('aria-label'), end, text]);
+        }
+      }
+      return found;
+    });
+    assert.deepEqual(bad, []);
+    await page.click('[data-example=normalized]');
+    await page.waitForFunction(() => document.getElementById('command').value === 'gearlash limit-cycle normalized.toml');
+    await page.waitForTimeout(300);
+    await settled(page);
+    await assertSameReport(page, ['limit-cycle', 'examples/normalized.toml']);
+  });
+}
+
+onPage('another unit keeps the sections open and the place of the reader', 'example=first-servo', async (page) => {
+  await settled(page);
+  await type(page, 'motor.inertia', '0.15 kg cm2');
+  await page.waitForFunction(() => document.getElementById('command').value.includes('0.15 kg cm2'));
+  await settled(page);
+  const open = () => page.$$eval('#inputs details', (all) => all.map((one) => `${one.dataset.section} ${one.open}`));
+  const before = await open();
+  await type(page, 'motor.inertia', '0.8 oz in2');
+  await page.waitForFunction(() => document.getElementById('command').value.includes('0.8 oz in2'));
+  await page.waitForTimeout(300);
+  await settled(page);
+  assert.deepEqual(await open(), before);
+  assert.equal(await page.evaluate(() => document.activeElement.id), 'field-motor-inertia');
+  const slider = page.locator('#field-motor-inertia ~ input[type=range]');
+  assert.match(await slider.getAttribute('aria-valuetext'), /^0\.8 oz in2$/);
+});
+
+onPage('one’s own drive is a click away after an example', 'example=normalized', async (page) => {
+  await settled(page);
+  await drop(page, [{ name: 'mine.toml', text: example('first-servo.toml') }]);
+  await page.waitForFunction(() => document.getElementById('command').value === 'gearlash limit-cycle mine.toml');
+  await type(page, 'gearbox.backlash', '9 arcmin');
+  await page.waitForTimeout(300);
+  await settled(page);
+  const command = await page.inputValue('#command');
+  await page.click('[data-example=normalized]');
+  await page.waitForFunction(() => document.getElementById('command').value === 'gearlash limit-cycle normalized.toml');
+  await page.click('text=your mine.toml');
+  await page.waitForFunction((text) => document.getElementById('command').value === text, command);
+});
+
 onPage('it works offline once it is loaded', 'example=normalized', async (page, { context }) => {
   await idle(page);
   await context.setOffline(true);
@@ -275,7 +331,7 @@ onPage('it works offline once it is loaded', 'example=normalized', async (page, 
 onPage('a long search can be stopped, and the page goes on', 'example=robot-joint', async (page) => {
   await page.locator('#stop').waitFor({ timeout: 60_000 });
   await page.click('#stop');
-  await page.waitForFunction(() => /Stopped|Not computed/.test(document.getElementById('level').textContent + document.getElementById('map-words').textContent));
+  await page.waitForFunction(() => /was stopped|Not computed/.test(document.getElementById('level').textContent + document.getElementById('map-words').textContent));
   await page.click('[data-example=normalized]');
   await page.waitForFunction(() => document.getElementById('command').value.includes('normalized'));
   await page.waitForTimeout(300);
@@ -350,10 +406,10 @@ onPage('the charts of 1960 are drawn with the points of their program', 'view=th
 });
 
 test('a core that does not load is said in words, and the page lives', async () => {
-  const context = await browser.newContext();
+  const context = await both.browser.newContext();
   const page = await context.newPage();
   await page.route('**/core.wasm', (route) => route.fulfill({ status: 404 }));
-  await page.goto(server.url);
+  await page.goto(both.server.url);
   await page.waitForFunction(() => document.getElementById('headline').textContent === 'The core did not load');
   assert.match(await page.textContent('#message'), /core\.wasm: 404/);
   await page.route('**/core.wasm', (route) => route.fulfill({ status: 200, body: 'not wasm' }));

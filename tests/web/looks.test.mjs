@@ -2,21 +2,12 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 
-import { idle, launch, open, requireOfPage, serve, settled, shots } from './browser.mjs';
+import { idle, open, requireOfPage, settled, shots, visit } from './browser.mjs';
 
 const axe = readFileSync(requireOfPage.resolve('axe-core/axe.min.js'), 'utf8');
-let server;
-let browser;
-before(async () => {
-  server = await serve();
-  browser = await launch();
-});
-after(async () => {
-  await browser.close();
-  server.close();
-});
+const both = visit();
 
 async function findings(page) {
   await page.evaluate(axe);
@@ -27,7 +18,7 @@ async function findings(page) {
 for (const theme of ['light', 'dark']) {
   for (const [name, hash] of Object.entries({ explore: 'example=normalized', searched: 'example=first-servo', story: 'view=story&step=3', thesis: 'view=thesis&figure=7' })) {
     test(`axe-core finds nothing: ${name}, ${theme}`, async () => {
-      const tab = await open(browser, `${server.url}#${hash}`, { colorScheme: theme });
+      const tab = await open(both.browser, `${both.server.url}#${hash}`, { colorScheme: theme });
       if (name === 'thesis') await tab.page.locator('#card-figure svg').waitFor();
       else await idle(tab.page);
       assert.deepEqual(await findings(tab.page), []);
@@ -38,7 +29,7 @@ for (const theme of ['light', 'dark']) {
 }
 
 test('axe-core finds nothing where a value is at fault', async () => {
-  const tab = await open(browser, `${server.url}#example=normalized&set=servo.damping=-1`);
+  const tab = await open(both.browser, `${both.server.url}#example=normalized&set=servo.damping=-1`);
   await tab.page.waitForFunction(() => document.getElementById('faults').textContent + document.getElementById('message').textContent !== '');
   assert.deepEqual(await findings(tab.page), []);
   await tab.close();
@@ -47,7 +38,7 @@ test('axe-core finds nothing where a value is at fault', async () => {
 for (const [name, width, height] of [['phone', 360, 740], ['tablet', 820, 1100], ['wide', 1920, 1080]]) {
   test(`it fits a ${name}`, async () => {
     for (const [view, hash] of Object.entries({ explore: 'example=elinco-fd162', story: 'view=story&step=4', thesis: 'view=thesis&figure=7' })) {
-      const tab = await open(browser, `${server.url}#${hash}`, { viewport: { width, height } });
+      const tab = await open(both.browser, `${both.server.url}#${hash}`, { viewport: { width, height } });
       if (view === 'thesis') await tab.page.locator('#card-figure svg').waitFor();
       else await idle(tab.page);
       const wider = await tab.page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
@@ -59,7 +50,7 @@ for (const [name, width, height] of [['phone', 360, 740], ['tablet', 820, 1100],
 }
 
 test('it is used by keys alone', async () => {
-  const tab = await open(browser, `${server.url}#example=normalized`);
+  const tab = await open(both.browser, `${both.server.url}#example=normalized`);
   const { page } = tab;
   await settled(page);
   const reached = new Set();

@@ -25,7 +25,9 @@ namespace {
 
 Json faults_json(const std::vector<Fault>& faults) {
   return json_list(faults, [](const Fault& fault) {
+    const std::string plain = fault.path.substr(0, fault.path.find('['));
     return Json{{"path", fault.path},
+                {"is_parameter", find_parameter(plain) != nullptr},
                 {"value", fault.value},
                 {"permitted", fault.permitted},
                 {"where", fault.where}};
@@ -70,15 +72,18 @@ Json margin_texts(const ParameterMargin& margin, const std::string& description,
 }
 
 /// `changeable`: of a margin in closed form, whose numbers are not all parameters of the drive.
-Json margins_json(const WrittenDrive& written, const std::optional<ChangeableDrive>& changeable,
-                  const HuntingMargin& margin) {
+Json margins_json(const DriveText& text, const WrittenDrive& written,
+                  const std::optional<ChangeableDrive>& changeable, const HuntingMargin& margin) {
+  const ShownUnits units(text, written);
   return {{"hunts", margin.hunts},
           {"is_known", margin.is_known},
           {"is_complete", !margin.stopped},
           {"texts", json_list(margin.parameters, [&](const ParameterMargin& one) {
              const Parameter* parameter = find_parameter(one.parameter, written.drive);
              if (parameter != nullptr) {
-               const ParameterText words(written.drive, one.parameter, written.angle);
+               ParameterText words(written.drive, one.parameter, written.angle);
+               const ShownUnit unit = units.of(*parameter);
+               words.show_in(unit.name, unit.in_si);
                return margin_texts(one, std::string(parameter->meaning), true,
                                    text_of_parameter(words));
              }
@@ -106,7 +111,7 @@ class Core::Session {
     if (ask == "answer") return answer(request, text, written, progress);
     if (ask == "map") return map_reply(request, written, numbers_, progress);
     if (ask == "chart") return chart_reply(request, written, numbers_, progress);
-    if (ask == "margins") return margins(request, written, progress);
+    if (ask == "margins") return margins(request, text, written, progress);
     refuse("ask", ask, "must be thesis, drive, file, answer, map, chart or margins");
   }
 
@@ -174,17 +179,19 @@ class Core::Session {
                              report.angle);
   }
 
-  static Json margins(const Json& request, const WrittenDrive& written, Progress& progress) {
+  static Json margins(const Json& request, const DriveText& text, const WrittenDrive& written,
+                      Progress& progress) {
     std::vector<Axis> axes;
     for (const Json& path : request.value("parameters", Json::array())) {
       axes.push_back(read_axis_or_name("parameters", path.get<std::string>(), written.drive));
     }
     if (!axes.empty()) {
-      return margins_json(written, std::nullopt, hunting_margin(written.drive, axes, progress));
+      return margins_json(text, written, std::nullopt,
+                          hunting_margin(written.drive, axes, progress));
     }
     std::optional<ChangeableDrive> changeable;
     if (closed_form_drive(written.drive)) changeable = ChangeableDrive(written.drive);
-    return margins_json(written, changeable, hunting_margin(written.drive, progress));
+    return margins_json(text, written, changeable, hunting_margin(written.drive, progress));
   }
 
   Json thesis_figure(int number, Progress& progress) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 
 #include "analysis/final_servo.hpp"
@@ -15,47 +14,25 @@
 namespace gearlash::web {
 namespace {
 
-/// A unit and its size in SI.
-struct ShownUnit {
-  std::string name;
-  double in_si = 1.0;
-};
-
-/// The author's unit of the parameter, else that of the drive's angles, else SI.
-ShownUnit shown_unit(const Parameter& parameter, const WrittenDrive& written,
-                     const std::string& text) {
-  const Dimension* dimension = parameter.dimension(written.drive);
-  if (dimension == nullptr) return {};
-  if (!text.empty()) {
-    try {
-      const Measured measured = read_quantity(parameter.path, text, *dimension);
-      if (!measured.unit.empty()) return {measured.unit, measured.unit_in_si};
-    } catch (const InvalidInput&) {  // written in another form: "43:1", a frequency for a period
-    }
-  }
-  if (dimension->unit == "rad") return {written.angle.name, written.angle.radians};
-  return {std::string(dimension->unit), 1.0};
-}
-
-/// Where a slider runs: the registry's range if it holds the value, else ten times down and up.
-Json slider(const Parameter& parameter, double value) {
+/// Where a slider runs: the registry's range of a normal form that is in it, a share's, else that
+/// of the axis searched if nothing else is known, from 0 or on both sides of it where the value
+/// needs it.
+Json slider(const Drive& drive, const Parameter& parameter, double value) {
   const UsualRange& usual = parameter.usual;
-  if (parameter.permitted == Permitted::share) {
-    return {{"low", 0.0}, {"high", 1.0}, {"logarithmic", false}};
-  }
   const bool is_of_form = parameter.permitted == Permitted::of_normal_form && usual.high > 0.0;
   if (is_of_form && value >= usual.low && value <= usual.high) {
     return {{"low", usual.low}, {"high", usual.high}, {"logarithmic", usual.is_logarithmic}};
   }
-  constexpr double factor = 10.0;
-  if (value > 0.0 && std::isfinite(value)) {
-    return {{"low", value / factor}, {"high", value * factor}, {"logarithmic", true}};
+  if (value < 0.0) return {{"low", 2.0 * value}, {"high", -2.0 * value}, {"logarithmic", false}};
+  Axis axis{.values = {0.0, 1.0}};
+  try {
+    axis = usual_axis(drive, parameter.path);
+  } catch (const InvalidInput&) {  // it has no usual range, and no value to take one from
   }
-  if (value < 0.0 && std::isfinite(value)) {
-    return {{"low", 2.0 * value}, {"high", -2.0 * value}, {"logarithmic", false}};
-  }
-  const double high = usual.high > 0.0 ? usual.high : 1.0;
-  return {{"low", 0.0}, {"high", high}, {"logarithmic", false}};
+  const bool is_by_ratio = axis.logarithmic && value > 0.0;
+  const double first = axis.values.front();
+  const double low = !is_by_ratio ? 0.0 : first > 0.0 ? first : axis.values.at(1);
+  return {{"low", low}, {"high", axis.values.back()}, {"logarithmic", is_by_ratio}};
 }
 
 const char* name_of(ParameterKind kind) {
@@ -79,12 +56,10 @@ class ParameterList {
  public:
   ParameterList(const DriveText& text, const WrittenDrive& written)
       : written_(written),
-        texts_(texts_written_in(text.toml)),
+        units_(text, written),
         values_(drive_json(written.drive)),
         defaults_(defaults_taken(written.drive)),
-        usual_(usual_parameters(written.drive)) {
-    for (const Setting& setting : text.settings) texts_[setting.path] = setting.text;
-  }
+        usual_(usual_parameters(written.drive)) {}
 
   Json all() const {
     return json_list(parameters_of(written_.drive),
@@ -110,12 +85,11 @@ class ParameterList {
   }
 
   void add_number(const Json& value, const Parameter& parameter, Json& json) const {
-    const auto text = texts_.find(std::string(parameter.path));
-    const ShownUnit unit =
-        shown_unit(parameter, written_, text == texts_.end() ? std::string() : text->second);
+    const ShownUnit unit = units_.of(parameter);
     json["unit"] = unit.name;
     json["unit_in_si"] = unit.in_si;
-    json["slider"] = slider(parameter, value.is_number() ? value.get<double>() : 0.0);
+    json["slider"] =
+        slider(written_.drive, parameter, value.is_number() ? value.get<double>() : 0.0);
   }
 
   static bool contains(const std::vector<std::string>& list, const std::string& path) {
@@ -123,7 +97,7 @@ class ParameterList {
   }
 
   const WrittenDrive& written_;
-  std::map<std::string, std::string> texts_;
+  ShownUnits units_;
   Json values_;
   std::vector<std::string> defaults_;
   std::vector<std::string> usual_;
@@ -140,6 +114,25 @@ Json absent_sections(const Drive& drive) {
 }
 
 }  // namespace
+
+ShownUnits::ShownUnits(const DriveText& text, const WrittenDrive& written)
+    : written_(written), texts_(texts_written_in(text.toml)) {
+  for (const Setting& setting : text.settings) texts_[setting.path] = setting.text;
+}
+
+ShownUnit ShownUnits::of(const Parameter& parameter) const {
+  const Dimension* dimension = parameter.dimension(written_.drive);
+  if (dimension == nullptr) return {};
+  if (const auto text = texts_.find(std::string(parameter.path)); text != texts_.end()) {
+    try {
+      const Measured measured = read_quantity(parameter.path, text->second, *dimension);
+      if (!measured.unit.empty()) return {measured.unit, measured.unit_in_si};
+    } catch (const InvalidInput&) {  // written in another form: "43:1", a frequency for a period
+    }
+  }
+  if (dimension->unit == "rad") return {written_.angle.name, written_.angle.radians};
+  return {std::string(dimension->unit), 1.0};
+}
 
 DriveText drive_text_of(const Json& json) {
   DriveText text{.toml = json.at("toml"), .name = json.value("name", "drive.toml"), .settings = {}};

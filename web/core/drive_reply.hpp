@@ -1,9 +1,11 @@
 // A drive with its parameters, as the page's inputs need it.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
+#include "gearlash/parameter.hpp"
 #include "input/drive_file.hpp"
 #include "output/json_values.hpp"
 
@@ -21,6 +23,25 @@ DriveText drive_text_of(const Json& json);
 
 /// Tables of signals are in `folder`. Throws InvalidInput with every fault.
 WrittenDrive parse(const DriveText& text, const std::string& folder);
+
+/// A unit and its size in SI.
+struct ShownUnit {
+  std::string name;
+  double in_si = 1.0;
+};
+
+/// The unit in which the page shows a parameter: the author's, else that of the drive's angles,
+/// else SI. Both arguments must outlive it.
+class ShownUnits {
+ public:
+  ShownUnits(const DriveText& text, const WrittenDrive& written);
+
+  ShownUnit of(const Parameter& parameter) const;
+
+ private:
+  const WrittenDrive& written_;
+  std::map<std::string, std::string> texts_;  ///< of values, by their paths
+};
 
 /// Every parameter of the drive: its value, as SI and as text in its author's unit, that unit, what
 /// it means, and the range of its slider.

@@ -12,6 +12,7 @@ import maxon from '../../examples/products/maxon-re40-gp42c.toml';
 import tMotor from '../../examples/products/t-motor-ak80-6.toml';
 import robot from '../../examples/robot-joint.toml';
 import telescope from '../../examples/telescope-axis.toml';
+import type { DriveText } from './replies';
 
 /** Texts by name. The first is shown to a stranger. */
 export const examples = new Map<string, string>([
@@ -51,6 +52,17 @@ export function listExamples(place: HTMLElement, chosen: (toml: string, name: st
     button.onclick = () => chosen(toml, name);
     place.append(button);
   }
+}
+
+/** A last button, which leads back to the user's own drive with all that was changed in it. */
+export function offerOwn(place: HTMLElement, drive: DriveText, chosen: (drive: DriveText) => void): void {
+  place.querySelector('[data-example=""]')?.remove();
+  const button = document.createElement('button');
+  button.type = 'button';
+  button.textContent = `your ${drive.name}`;
+  button.dataset.example = '';
+  button.onclick = () => chosen(drive);
+  place.append(button);
 }
 
 /** Marks the button of the example that is shown. */

@@ -10,7 +10,8 @@ const titles: Record<string, string> = {
   controller: 'Controller', sampling: 'Sampling', reference: 'Reference', load_torque: 'Load torque',
 };
 
-const titleOf = (section: string): string => titles[section] ?? inWords(section);
+/** The name of a section of a drive. */
+export const titleOf = (section: string): string => titles[section] ?? inWords(section);
 
 const toPosition = (value: number, slider: Slider): number =>
   slider.logarithmic
@@ -55,10 +56,12 @@ export class Inputs {
 
   /** Shows the drive. Where it has the same parameters as before only their values change. */
   show(drive: DriveReply): void {
-    const shape = JSON.stringify(drive.parameters.map(({ path, kind, unit }) => [path, kind, unit]));
+    const shape = JSON.stringify(drive.parameters.map(({ path, kind }) => [path, kind]));
+    const focused = this.place.contains(document.activeElement) ? document.activeElement!.id : '';
     if (shape !== this.shape) this.make(drive);
     this.shape = shape;
     for (const parameter of drive.parameters) this.update(parameter);
+    if (focused && document.activeElement?.id !== focused) document.getElementById(focused)?.focus();
   }
 
   /** Forgets the ranges of the sliders: another drive is loaded. */
@@ -100,6 +103,8 @@ export class Inputs {
       if (rest.length > 0) {
         const more = document.createElement('details');
         more.className = 'more';
+        more.dataset.section = `${section}.more`;
+        more.open = open.has(more.dataset.section);
         more.innerHTML = `<summary>${given.length > 0 ? 'more' : 'all'} (${rest.length})</summary>`;
         for (const parameter of rest) more.append(this.row(parameter));
         details.append(more);
@@ -199,9 +204,6 @@ export class Inputs {
   }
 }
 
-/** Whether a fault is of a parameter, which can be typed. */
-export const isPath = (path: string): boolean => /^[a-z_]+\.[\w.[\]]+$/.test(path);
-
 /** The inputs of faults that belong to no field: values that a drive still needs. */
 export function missingInputs(faults: Fault[], changed: Changed): HTMLElement {
   const list = document.createElement('ul');
@@ -209,13 +211,11 @@ export function missingInputs(faults: Fault[], changed: Changed): HTMLElement {
     const item = document.createElement('li');
     const what = fault.value ? `${fault.path} = ${fault.value}` : fault.path;
     item.innerHTML = `<span><b>${escapeText(what)}</b> ${escapeText(fault.permitted)}${fault.where ? ` <small>(${escapeText(fault.where)})</small>` : ''}</span> `;
-    if (isPath(fault.path)) {
-      const field = document.createElement('input');
-      field.setAttribute('aria-label', fault.path);
-      field.placeholder = 'number unit';
-      field.onchange = () => field.value.trim() && changed(fault.path, field.value.trim(), false);
-      item.append(field);
-    }
+    const field = document.createElement('input');
+    field.setAttribute('aria-label', fault.path);
+    field.placeholder = 'number unit';
+    field.onchange = () => field.value.trim() && changed(fault.path, field.value.trim(), false);
+    item.append(field);
     list.append(item);
   }
   return list;

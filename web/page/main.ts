@@ -4,8 +4,8 @@ import './style.css';
 
 import { Cards } from './cards';
 import { type Core, InputError, Lane, Overtaken, patiently } from './core';
-import { aboutOf, examples, listExamples, markExample } from './examples';
-import { Inputs, isPath, missingInputs } from './inputs';
+import { aboutOf, examples, listExamples, markExample, offerOwn } from './examples';
+import { Inputs, missingInputs } from './inputs';
 import { driveIn, listenToFiles } from './opening';
 import { embeddedDrive, loadedParts } from './parts';
 import { copyLink, keepTheme, keptTheme, saveDrive } from './keeping';
@@ -139,6 +139,7 @@ class Explorer {
   /** Another drive. It replaces the present one unless it is no drive at all. */
   private async take(drive: DriveText, example: string): Promise<void> {
     const before = { ...this.state };
+    if (before.example === '' && before.view === 'explore') offerOwn(byId('examples'), before.drive, (own) => void this.take(own, ''));
     this.tell('');
     Object.assign(this.state, { drive, example, x: '', y: '' });
     this.state.view = 'explore';
@@ -296,8 +297,8 @@ class Explorer {
   }
 
   private stop(): void {
+    if (this.isSearching) byId('level').textContent = 'The search for the fine answer was stopped. What is shown is older.';
     this.giveUp();
-    byId('level').textContent += ' Stopped.';
   }
 
   private show(replied: Replied<AnswerReply>): void {
@@ -319,10 +320,9 @@ class Explorer {
 
   private refuse(error: unknown): void {
     if (error instanceof Overtaken) return;
-    if (!(error instanceof InputError)) return this.tell(wordsOf(error));
-    this.isCompletable = error.faults.every((fault) => isPath(fault.path));
-    if (this.isCompletable) this.showFaults(error.faults);
-    else this.tell(error.faults.map((fault) => `${fault.where || fault.path}: ${fault.value} ${fault.permitted}`).join('; '));
+    this.isCompletable = error instanceof InputError && error.faults.every((fault) => fault.is_parameter);
+    if (this.isCompletable) this.showFaults((error as InputError).faults);
+    else this.tell(wordsOf(error));
   }
 
   private showFaults(faults: Fault[]): void {

@@ -8,6 +8,8 @@ export interface Column {
 
 export interface Fault {
   path: string;
+  /** Whether the path is that of a parameter, which can be typed. */
+  is_parameter: boolean;
   value: string;
   permitted: string;
   where: string;

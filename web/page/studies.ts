@@ -2,7 +2,8 @@
 // changes.
 import type { Card, Cards } from './cards';
 import { type Lane, Overtaken, patiently } from './core';
-import { escapeText, typed } from './numbers';
+import { titleOf } from './inputs';
+import { escapeText, inWords, typed } from './numbers';
 import { branchChart, contourMap } from './pictures';
 import type { Plot, Theme } from './plot';
 import type { AnswerReply, ChartReply, DriveReply, DriveText, MapReply, MarginsReply, Parameter, Replied } from './replies';
@@ -28,6 +29,23 @@ const byId = (id: string): HTMLElement => document.getElementById(id)!;
 
 const isMap = (reply: MapReply | ChartReply): reply is MapReply => 'axes' in reply;
 
+/** Fills a list with the parameters by section, after `none`. */
+function listPaths(list: HTMLSelectElement, paths: string[], chosen: string, none?: string): void {
+  list.textContent = '';
+  if (none) list.add(new Option(none, ''));
+  let group: HTMLOptGroupElement | null = null;
+  for (const path of paths) {
+    const label = titleOf(path.split('.')[0]!);
+    if (group?.label !== label) {
+      group = document.createElement('optgroup');
+      group.label = label;
+      list.append(group);
+    }
+    group.append(new Option(inWords(path), path));
+  }
+  list.value = chosen;
+}
+
 /** Lists the axes that the drive can have; gives the chosen ones, or the most telling if it lacks these. */
 export function listAxes(facts: DriveReply, chosen: { x: string; y: string }): { x: string; y: string } {
   const numbers = facts.parameters.filter((one) => one.kind === 'number' && typeof one.value === 'number' && one.value > 0);
@@ -39,12 +57,8 @@ export function listAxes(facts: DriveReply, chosen: { x: string; y: string }): {
     y = facts.has_closed_form ? (usual.find((path) => path === 'servo.damping') ?? usual.find((path) => path !== x) ?? '') : '';
   }
   if (!paths.includes(y)) y = '';
-  for (const [name, value, first] of [['map-x', x, []], ['map-y', y, ['']]] as [string, string, string[]][]) {
-    const list = byId(name) as HTMLSelectElement;
-    list.textContent = '';
-    for (const path of [...first, ...paths]) list.add(new Option(path || 'nothing else', path));
-    list.value = value;
-  }
+  listPaths(byId('map-x') as HTMLSelectElement, paths, x);
+  listPaths(byId('map-y') as HTMLSelectElement, paths, y, 'nothing else');
   return { x, y };
 }
 

@@ -1,13 +1,17 @@
 // The sentences about an answer.
 import { InputError } from './core';
 import { short } from './numbers';
-import type { AnswerReply } from './replies';
+import type { AnswerReply, Fault } from './replies';
 
 export const capital = (text: string): string => text.charAt(0).toUpperCase() + text.slice(1);
 
+/** "drive.toml:13:1: load.mass = 1 kg is not a key of [load]". */
+const faultText = ({ where, path, value, permitted }: Fault): string =>
+  `${where ? `${where}: ` : ''}${path}${value ? `${path ? ' = ' : ''}${value}` : ''} ${permitted}`;
+
 export const wordsOf = (error: unknown): string =>
   error instanceof InputError
-    ? error.faults.map((fault) => `${fault.path} = ${fault.value} ${fault.permitted}`).join('; ')
+    ? error.faults.map(faultText).join('; ')
     : error instanceof Error
       ? error.message
       : String(error);

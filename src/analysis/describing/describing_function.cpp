@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "base/bracketed_root.hpp"
+#include "base/overloaded.hpp"
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
 
@@ -12,15 +14,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr double half_pi = 0.5 * pi;
-
-template <class... Cases>
-struct Overloaded : Cases... {
-  using Cases::operator()...;
-};
-template <class... Cases>
-Overloaded(Cases...) -> Overloaded<Cases...>;
 
 double squared(double x) { return x * x; }
 

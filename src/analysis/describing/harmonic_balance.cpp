@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "base/bracketed_root.hpp"
@@ -12,7 +13,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 constexpr double turn = 2.0 * pi;
 
 /// The number of solutions in a range of frequencies, as far as bounds show it.

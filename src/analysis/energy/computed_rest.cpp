@@ -89,7 +89,7 @@ Vector4d unit(Unknown unknown) { return Vector4d::Unit(unknown); }
 /// rad. Equilibria that reach this far have no end.
 constexpr double endless = 1e6;
 
-enum class Face { backward, none, forward };
+enum class Engaged { backward, none, forward };
 
 class Equilibria {
  public:
@@ -111,14 +111,14 @@ class Equilibria {
   void add_with(std::optional<double> limit) {
     const auto requests = standing_requests(drive_, reference_, limit);
     if (!requests) return;
-    if (drive::is_joined(drive_)) return add(standing(Face::none, limit), *requests);
-    for (const Face face : {Face::backward, Face::none, Face::forward}) {
+    if (drive::is_joined(drive_)) return add(standing(Engaged::none, limit), *requests);
+    for (const Engaged face : {Engaged::backward, Engaged::none, Engaged::forward}) {
       add(standing(face, limit), *requests);
     }
   }
 
   /// The balance of both shafts, and the contact.
-  Polytope standing(Face face, std::optional<double> limit) const {
+  Polytope standing(Engaged face, std::optional<double> limit) const {
     Polytope all(unknowns);
     const double load_friction = drive_.load.friction.breakaway;
     const double motor_friction = drive_.motor.friction.breakaway;
@@ -139,14 +139,14 @@ class Equilibria {
     return all;
   }
 
-  void touch(Face face, Polytope& all) const {
+  void touch(Engaged face, Polytope& all) const {
     const auto* compliant = std::get_if<drive::CompliantContact>(&drive_.contact);
     const double half = 0.5 * drive_.backlash;
-    if (face == Face::none && !drive::is_joined(drive_)) {
+    if (face == Engaged::none && !drive::is_joined(drive_)) {
       all.equal(unit(mesh), 0.0).between(unit(gap), -half, half);
       return;
     }
-    const double side = face == Face::none ? 0.0 : face == Face::forward ? 1.0 : -1.0;
+    const double side = face == Engaged::none ? 0.0 : face == Engaged::forward ? 1.0 : -1.0;
     if (compliant != nullptr) {
       all.equal(unit(mesh) - compliant->stiffness * unit(gap), -compliant->stiffness * side * half);
     } else {

@@ -18,8 +18,6 @@ using drive::ReducedDrive;
 using Complex = std::complex<double>;
 using Polynomial = IntervalPolynomial;
 
-double middle(const Interval& number) { return 0.5 * (number.low + number.high); }
-
 Complex value(const Polynomial& polynomial, Complex s) {
   Complex sum = 0.0;
   for (std::size_t i = polynomial.size(); i-- > 0;) sum = sum * s + middle(polynomial[i]);

@@ -34,9 +34,9 @@ struct Change {
   bool is_above = false;  ///< whether the property holds above the place
 };
 
-class Values {
+class Answers {
  public:
-  Values(const Drive& drive, const Axis& axis) : drive_(drive), axis_(axis) {}
+  Answers(const Drive& drive, const Axis& axis) : drive_(drive), axis_(axis) {}
 
   std::optional<Analysis> at(double value, Progress& progress) const {
     Drive here = drive_;
@@ -447,7 +447,7 @@ void extend_to_rest(double parameter, bool rests_above, double half_gap,
 void add_rest_and_runaway(const Drive& drive, const Axis& axis,
                           const std::vector<std::optional<Analysis>>& values,
                           SharedProgress& progress, BifurcationDiagram& diagram) {
-  const Values all(drive, axis);
+  const Answers all(drive, axis);
   std::optional<double> rests_from;
   double last = axis.values.front();
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -491,7 +491,7 @@ BifurcationDiagram bifurcations_of(const Drive& drive, const Axis& axis, Progres
   const std::size_t count = axis.values.size();
   SharedProgress shared(progress, 3 * count);
   std::vector<std::optional<Analysis>> values(count);
-  const Values all(drive, axis);
+  const Answers all(drive, axis);
   on_threads(0, count, [&](std::size_t i) {
     if (!shared.is_stopped()) values[i] = all.at(axis.values[i], shared);
     shared.finish(2);
