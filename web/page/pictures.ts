@@ -316,7 +316,7 @@ export function contourMap(map: MapReply, numbers: Float64Array, theme: Theme, h
   if (map.contours.length > 0) legend.push({ name: map.title.replace(/ \(.*/, '').toLowerCase(), colour: theme.load });
   if (map.other_contours.length > 0) legend.push({ name: map.other_meaning, colour: theme.accent, dash: '2 3' });
   if (map.boundary.length > 0) legend.push({ name: map.boundary_meaning, colour: theme.stop });
-  if (map.hatching.length > 0) legend.push({ name: map.hatching_meaning, colour: theme.faint, mark: 'area' });
+  if (map.hatching.length > 0) legend.push({ name: map.hatching_meaning, colour: theme.faint, mark: 'hatched' });
   if (map.inner_boundary.length > 0) legend.push({ name: map.inner_meaning, colour: theme.faint, dash: '6 4' });
   if (here) {
     layers.push({ kind: 'moving', at: here, colour: theme.accent });

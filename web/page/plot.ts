@@ -49,7 +49,7 @@ export interface LegendEntry {
   colour: string;
   dash?: string;
   width?: number;
-  mark?: 'circle' | 'open' | 'cross' | 'diamond' | 'area';
+  mark?: 'circle' | 'open' | 'cross' | 'diamond' | 'area' | 'hatched';
 }
 
 export interface Plot {
@@ -188,6 +188,7 @@ function legendText(entries: LegendEntry[], top: number, width: number, theme: T
     }
     const middle = down - 4;
     if (entry.mark === 'area') text += `<rect x="${right}" y="${middle - 6}" width="22" height="12" fill="${entry.colour}"/>`;
+    else if (entry.mark === 'hatched') text += `<path d="M${right} ${middle + 6}v-12h22v12zl11 -12m0 12l11 -12" fill="none" stroke="${entry.colour}" stroke-width="0.8"/>`;
     else if (entry.mark) text += mark(entry.mark === 'open' ? 'circle' : entry.mark, right + 11, middle, 4, entry.colour, entry.mark === 'open');
     else text += `<line x1="${right}" x2="${right + 22}" y1="${middle}" y2="${middle}" stroke="${entry.colour}" stroke-width="${entry.width ?? 2.4}"${entry.dash ? ` stroke-dasharray="${entry.dash}"` : ''}/>`;
     text += `<text x="${right + 28}" y="${down}" fill="${theme.ink}" font-size="12.5">${escapeText(entry.name)}</text>`;

@@ -63,9 +63,9 @@ export const storySteps = (joint: string): StoryStep[] => [
   },
   {
     title: 'The cure',
-    sentence: 'Hunting ends at a border: the list shows, for each number of the drive, the nearest change that crosses it.',
-    drive: named(joint, 'first-servo.toml'),
-    path: 'controller.derivative',
+    sentence: 'Hunting ends at a border: the list shows, for each number of the servo, the nearest change that crosses it.',
+    drive: named(servo(sample), 'story.toml'),
+    path: 'servo.damping',
     cards: ['changes', 'phase'],
   },
 ];

@@ -196,13 +196,14 @@ export class Studies {
     byId('changes-go').hidden = false;
   }
 
-  /** A normal form's own numbers, a data sheet's as a designer changes them, else one search for each. */
+  /** A normal form's own numbers, a data sheet's as a designer changes them, else one search for each, and for the sensor's place. */
   private marginRequests(): object[] {
     const facts = this.page.facts();
-    const paths = (wanted: (one: Parameter) => boolean): string[] =>
-      facts.parameters.filter((one) => one.kind === 'number' && typeof one.value === 'number' && one.value > 0 && wanted(one)).map((one) => one.path);
-    if (facts.is_normal_form) return [{ parameters: paths((one) => one.path !== 'servo.natural_frequency') }];
-    return facts.has_closed_form ? [{}] : paths((one) => one.is_usual).map((path) => ({ parameters: [path] }));
+    const paths = (wanted: (one: Parameter) => boolean): string[] => facts.parameters.filter(wanted).map((one) => one.path);
+    const isAbove0 = (one: Parameter): boolean => one.kind === 'number' && typeof one.value === 'number' && one.value > 0;
+    if (facts.is_normal_form) return [{ parameters: paths((one) => isAbove0(one) && one.path !== 'servo.natural_frequency') }];
+    if (facts.has_closed_form) return [{}];
+    return paths((one) => (isAbove0(one) && one.is_usual) || one.path === 'sensor.position').map((path) => ({ parameters: [path] }));
   }
 
   /** The nearest change of each parameter that stops hunting, or starts it. */
@@ -239,7 +240,7 @@ export class Studies {
         `<tr><th scope="row" title="${escapeText(`${row.parameter}: ${row.description}`)}">${escapeText(row.parameter.replace(/[._]/g, ' '))}</th><td>${escapeText(row.present)}</td>` +
         (row.below || row.above
           ? `<td>${this.changeCell(row, row.below)}</td><td>${this.changeCell(row, row.above)}</td></tr>`
-          : `<td colspan="2">${escapeText(row.choices.join(', ') || `nowhere from ${row.searched}`)}</td></tr>`),
+          : `<td colspan="2">${row.choices.map((choice) => this.changeCell(row, choice)).join(' ') || escapeText(`nowhere from ${row.searched}`)}</td></tr>`),
     );
     byId('changes').innerHTML = `<table><thead><tr>${heads}</tr></thead><tbody>${lines.join('')}</tbody></table>`;
     for (const button of byId('changes').querySelectorAll<HTMLButtonElement>('button')) {
