@@ -97,8 +97,8 @@ clang:  ## build everything with clang 16, warnings being errors, and run every 
 
 # Left out: tests that read sources, build other programs or run scripts, where the sanitizers watch
 # nothing; those that count allocations, which the sanitizers count themselves; those of the documents'
-# output and of the page, which repeat those of the command line; and the oracles, whose time is spent
-# in Boost's numbers of many digits.
+# output and of the page, which repeat those of the command line; the oracles, whose time is spent in
+# Boost's numbers of many digits; and two tests that do for minutes what others do for seconds.
 sanitize:  ## clang 16 with AddressSanitizer and UndefinedBehaviorSanitizer, warnings being errors
 	@$(INSTALL) test clang
 	cmake --preset asan-ubsan -DGEARLASH_BUILD_PYTHON=ON
