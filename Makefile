@@ -99,11 +99,12 @@ clang:  ## build everything with clang 16, warnings being errors, and run every 
 # nothing; those that count allocations, which the sanitizers count themselves; those of the documents'
 # output and of the page, which repeat those of the command line; the oracles, whose time is spent in
 # Boost's numbers of many digits; and two tests that do for minutes what others do for seconds.
+# SANITIZED, a pattern of labels, runs the tests of some rooms alone.
 sanitize:  ## clang 16 with AddressSanitizer and UndefinedBehaviorSanitizer, warnings being errors
 	@$(INSTALL) test clang
 	cmake --preset asan-ubsan -DGEARLASH_BUILD_PYTHON=ON
 	$(BUILD) asan-ubsan
-	ctest --preset asan-ubsan
+	ctest --preset asan-ubsan $(if $(SANITIZED),--label-regex '$(SANITIZED)')
 
 # libFuzzer writes new inputs to the first folder, in the build, and only reads the corpus in the
 # sources. The build is that of `make sanitize`.

