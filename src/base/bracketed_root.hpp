@@ -64,7 +64,7 @@ inline double middle_of(double low, double high) {
 template <class Function>
 double bracketed_root(const Function& f, double low, double high, double guess, double sign_at_high,
                       double tolerance = std::numeric_limits<double>::epsilon()) {
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  constexpr double rounding = std::numeric_limits<double>::epsilon();
   constexpr int step_limit = 256;
   constexpr double wild = 1e3;
   double x = guess > low && guess < high ? guess : detail::middle_of(low, high);
@@ -75,7 +75,7 @@ double bracketed_root(const Function& f, double low, double high, double guess, 
     if (at_x.value == 0.0) return x;
     (at_x.value * sign_at_high > 0.0 ? high : low) = x;
     const bool bracketed = !std::isinf(high);
-    if (bracketed && high - low <= epsilon * std::abs(high)) return x;
+    if (bracketed && high - low <= rounding * std::abs(high)) return x;
     double step = detail::trusted_step(at_x);
     // Below the resolution of x a step has converged, even across the bracket's end.
     if (std::abs(step) <= tolerance * std::abs(x)) return std::fmin(std::fmax(x + step, low), high);

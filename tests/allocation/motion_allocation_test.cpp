@@ -34,7 +34,7 @@ void* operator new(std::size_t size) {
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
-namespace gearlash {
+namespace gearlash::motion_allocation_test {
 namespace {
 
 Drive geared_drive() {
@@ -105,4 +105,4 @@ TEST(Allocation, IsNotMadeByTheTicksOfAMotionThatIsObserved) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::motion_allocation_test

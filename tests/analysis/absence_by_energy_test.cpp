@@ -18,7 +18,7 @@
 #include "model/reduced_drive.hpp"
 #include "numeric/positive_polynomial.hpp"
 
-namespace gearlash {
+namespace gearlash::absence_by_energy_test {
 namespace {
 
 TEST(OraclePositivePolynomial, IsDecidedByItsRoots) {
@@ -234,4 +234,4 @@ TEST(AbsenceByEnergy, IsTheVerdictWithoutASearch) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::absence_by_energy_test

@@ -10,7 +10,7 @@
 #include "analysis/pd_drive.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::analyse_test {
 namespace {
 
 /// Speed fed back from the motor takes away all but `left` of its friction, 1 N m s/rad at the
@@ -161,4 +161,4 @@ TEST(Analyse, IsNoVerdictOnStartsThatAreUndecided) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::analyse_test

@@ -18,7 +18,7 @@
 #include "gearlash/motion.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::ceiling_test {
 namespace {
 
 using drive::ReducedDrive;
@@ -395,4 +395,4 @@ TEST(Ceiling, GivesTheWidestBacklashThatMeetsAnAmplitude) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::ceiling_test

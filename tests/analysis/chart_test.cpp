@@ -13,7 +13,7 @@
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
 
-namespace gearlash {
+namespace gearlash::chart_test {
 namespace {
 
 using testing::ElementsAre;
@@ -92,4 +92,4 @@ TEST(EdgeChart, BadInputIsAFault) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::chart_test

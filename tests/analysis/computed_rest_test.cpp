@@ -10,7 +10,7 @@
 #include "gearlash/motion.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::computed_rest_test {
 namespace {
 
 /// At the load's shaft: gap 0.2 rad, frictions 0.3 and 0.1 N m, gain 10 N m/rad.
@@ -148,4 +148,4 @@ TEST(PropertyComputedRest, HoldsEveryStandstill) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::computed_rest_test

@@ -9,7 +9,7 @@
 #include "gearlash/motion.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::dead_band_ceiling_test {
 namespace {
 
 Drive servo() {
@@ -95,4 +95,4 @@ TEST(PropertyDeadBandCeiling, IsAboveEveryMotion) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::dead_band_ceiling_test

@@ -12,7 +12,7 @@
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
 
-namespace gearlash {
+namespace gearlash::design_test {
 namespace {
 
 Target amplitude_within(const Bounds& limits) {
@@ -144,4 +144,4 @@ TEST(EdgeDesign, BadInputIsAFault) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::design_test

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-namespace gearlash::drive {
+namespace gearlash::drive::linear_loop_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -317,4 +317,4 @@ TEST(EdgeLinearLoop, AFaultyDriveIsRefused) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::linear_loop_test

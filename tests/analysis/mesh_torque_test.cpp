@@ -12,7 +12,7 @@
 #include "gearlash/motion.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::mesh_torque_test {
 namespace {
 
 /// |∫N dt| of the load between two moments, by its momentum and friction.
@@ -78,4 +78,4 @@ TEST(EdgeMeshTorque, HasNoBoundWhereTheTheoremSaysNothing) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::mesh_torque_test

@@ -10,7 +10,7 @@
 #include "analysis/motion.hpp"
 #include "closed_form/trajectory.hpp"
 
-namespace gearlash {
+namespace gearlash::motion_test {
 namespace {
 
 using testing::AnyOf;
@@ -292,4 +292,4 @@ TEST(EdgeMotion, TouchesOfTheGeneralEngineNameTheEvent) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::motion_test

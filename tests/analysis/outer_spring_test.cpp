@@ -11,7 +11,7 @@
 #include "model/reduced_drive.hpp"
 #include "numeric/linear_algebra.hpp"
 
-namespace gearlash {
+namespace gearlash::outer_spring_test {
 namespace {
 
 using drive::ReducedDrive;
@@ -176,4 +176,4 @@ TEST(AnswersOfJoinedShafts, NeedNoBacklash) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::outer_spring_test

@@ -5,7 +5,7 @@
 
 #include "gearlash/analyse.hpp"
 
-namespace gearlash {
+namespace gearlash::relay_test {
 namespace {
 
 constexpr double inertia = 2.0;
@@ -54,4 +54,4 @@ TEST(OracleRelayAnswer, OfThePositionHuntsWithTsypkinsPeriod) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::relay_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace gearlash::drive {
+namespace gearlash::drive::step_response_test {
 namespace {
 
 /// The load follows the motor: it weighs nothing, and the gap is none.
@@ -79,4 +79,4 @@ TEST(StepResponse, WhatHuntsBeyondTheBandDoesNotSettle) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::step_response_test

@@ -10,7 +10,7 @@
 #include "analysis/design/toleranced_samples.hpp"
 #include "gearlash/analyse.hpp"
 
-namespace gearlash {
+namespace gearlash::tolerance_test {
 namespace {
 
 using testing::Contains;
@@ -170,4 +170,4 @@ TEST(EdgeTolerance, BadInputIsAFault) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::tolerance_test

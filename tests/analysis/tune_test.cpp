@@ -14,7 +14,7 @@
 #include "gearlash/parameter.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::tune_test {
 namespace {
 
 using testing::Contains;
@@ -205,4 +205,4 @@ TEST(EdgeTune, StopsWithTheBestByThen) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::tune_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace gearlash {
+namespace gearlash::bracketed_root_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -86,4 +86,4 @@ TEST(EdgeBracketedRoot, AStepFromFarAwayIsNoConvergence) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::bracketed_root_test

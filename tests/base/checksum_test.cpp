@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace gearlash {
+namespace gearlash::checksum_test {
 namespace {
 
 TEST(Checksum, SeesEveryFlippedBit) {
@@ -25,4 +25,4 @@ TEST(Checksum, SeesOrderAndLength) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::checksum_test

@@ -11,7 +11,7 @@
 
 #include "seeded_draws.hpp"
 
-namespace gearlash {
+namespace gearlash::decimal_test {
 namespace {
 
 TEST(Decimal, ReadsTheNearestDouble) {
@@ -73,4 +73,4 @@ TEST(Decimal, ReadsBackWhatItWrote) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::decimal_test

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace gearlash {
+namespace gearlash::fault_test {
 namespace {
 
 TEST(InvalidInput, SaysAHundredAndCountsTheOthers) {
@@ -24,4 +24,4 @@ TEST(InvalidInput, SaysAHundredAndCountsTheOthers) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::fault_test

@@ -11,7 +11,7 @@
 #include "base/fifty_digits.hpp"
 #include "base/seeded_draws.hpp"
 
-namespace gearlash {
+namespace gearlash::interval_test {
 namespace {
 
 void expect_holds(const Interval& x, const Wide& exact, const char* what) {
@@ -169,4 +169,4 @@ TEST(EdgeInterval, OverflowAndUnderflowAreBounded) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::interval_test

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace gearlash {
+namespace gearlash::on_threads_test {
 namespace {
 
 TEST(OnThreads, EveryIndexOnce) {
@@ -35,4 +35,4 @@ TEST(OnThreads, WhatIsThrownIsThrownOn) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::on_threads_test

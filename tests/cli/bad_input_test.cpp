@@ -3,7 +3,7 @@
 
 #include "tool.hpp"
 
-namespace gearlash {
+namespace gearlash::bad_input_test {
 namespace {
 
 using test::lines_of;
@@ -140,4 +140,4 @@ TEST(BadInput, TooManySamplesAndTooLongPicturesAreRefused) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::bad_input_test

@@ -10,7 +10,7 @@
 #include "closed_form/limit_cycle.hpp"
 #include "tool.hpp"
 
-namespace gearlash {
+namespace gearlash::chart_command_test {
 namespace {
 
 using test::Outcome;
@@ -272,4 +272,4 @@ TEST(ChartCommand, FaultsAreToldAtOnce) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::chart_command_test

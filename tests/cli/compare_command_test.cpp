@@ -6,7 +6,7 @@
 
 #include "tool.hpp"
 
-namespace gearlash {
+namespace gearlash::compare_command_test {
 namespace {
 
 using nlohmann::json;
@@ -103,4 +103,4 @@ TEST(CompareCommand, AnswersWithTheGapAndWithoutIt) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::compare_command_test

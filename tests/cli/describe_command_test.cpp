@@ -7,7 +7,7 @@
 
 #include "tool.hpp"
 
-namespace gearlash {
+namespace gearlash::describe_command_test {
 namespace {
 
 using test::Outcome;
@@ -165,4 +165,4 @@ TEST(DescribeCommand, WhatCannotBeDecidedIsToldByTheStatus) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::describe_command_test

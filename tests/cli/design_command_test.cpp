@@ -9,7 +9,7 @@
 
 #include "tool.hpp"
 
-namespace gearlash {
+namespace gearlash::design_command_test {
 namespace {
 
 using test::file_text;
@@ -266,4 +266,4 @@ TEST(EdgeDesignCommand, OfAnyDriveFaultsAreToldAllAtOnce) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::design_command_test

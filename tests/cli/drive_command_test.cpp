@@ -8,7 +8,7 @@
 
 #include "tool.hpp"
 
-namespace gearlash {
+namespace gearlash::drive_command_test {
 namespace {
 
 using nlohmann::json;
@@ -282,4 +282,4 @@ TEST_F(DriveCommand, EdgeFaultsOfFileAndOptionsAreToldTogether) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::drive_command_test

@@ -3,7 +3,7 @@
 
 #include "tool.hpp"
 
-namespace gearlash {
+namespace gearlash::exit_status_test {
 namespace {
 
 using test::file_text;
@@ -128,4 +128,4 @@ TEST(ExitStatus, HelpListsThem) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::exit_status_test

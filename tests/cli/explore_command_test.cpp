@@ -8,7 +8,7 @@
 
 #include "tool.hpp"
 
-namespace gearlash {
+namespace gearlash::explore_command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -100,4 +100,4 @@ TEST_F(ExploreCommand, AMissingPageIsAFaultOfTheMachine) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::explore_command_test

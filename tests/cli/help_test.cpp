@@ -4,7 +4,7 @@
 #include "gearlash/version.hpp"
 #include "tool.hpp"
 
-namespace gearlash {
+namespace gearlash::help_test {
 namespace {
 
 using test::Outcome;
@@ -77,4 +77,4 @@ TEST(Help, Version) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::help_test

@@ -11,7 +11,7 @@
 #include "input/servo_of_file.hpp"
 #include "tool.hpp"
 
-namespace gearlash {
+namespace gearlash::limit_cycle_command_test {
 namespace {
 
 using nlohmann::json;
@@ -436,4 +436,4 @@ TEST(LimitCycleCommand, AnswersAtTheEndsOfTheRanges) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::limit_cycle_command_test

@@ -9,7 +9,7 @@
 
 #include "tool.hpp"
 
-namespace gearlash {
+namespace gearlash::limits_test {
 namespace {
 
 using test::file_text;
@@ -216,4 +216,4 @@ TEST_F(Limits, OfMotionsStopThem) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::limits_test

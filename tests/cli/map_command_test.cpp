@@ -10,7 +10,7 @@
 #include "closed_form/limit_cycle.hpp"
 #include "tool.hpp"
 
-namespace gearlash {
+namespace gearlash::map_command_test {
 namespace {
 
 using test::file_text;
@@ -306,4 +306,4 @@ TEST(MapCommand, APlaceThatCannotBeWrittenIsToldBeforeTheWork) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::map_command_test

@@ -5,7 +5,7 @@
 
 #include "tool.hpp"
 
-namespace gearlash {
+namespace gearlash::motor_command_test {
 namespace {
 
 using test::lines_of;
@@ -158,4 +158,4 @@ TEST(MotorCommand, ReadsFromAPipeWithoutTheAuthorsWords) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::motor_command_test

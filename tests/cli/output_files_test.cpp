@@ -3,7 +3,7 @@
 
 #include "tool.hpp"
 
-namespace gearlash {
+namespace gearlash::output_files_test {
 namespace {
 
 using test::file_text;
@@ -354,4 +354,4 @@ TEST(OutputFiles, PicturesOfAllKinds) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::output_files_test

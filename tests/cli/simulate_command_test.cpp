@@ -9,7 +9,7 @@
 #include "gearlash/motion.hpp"
 #include "tool.hpp"
 
-namespace gearlash {
+namespace gearlash::simulate_command_test {
 namespace {
 
 using nlohmann::json;
@@ -281,4 +281,4 @@ TEST(SimulateCommand, TheLongestTimeIsToldInItsUnit) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::simulate_command_test

@@ -8,7 +8,7 @@
 
 #include "tool.hpp"
 
-namespace gearlash {
+namespace gearlash::sweep_command_test {
 namespace {
 
 using test::file_text;
@@ -417,4 +417,4 @@ TEST(SweepCommand, TakesADataSheet) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::sweep_command_test

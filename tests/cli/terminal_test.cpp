@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-namespace gearlash::cli {
+namespace gearlash::cli::terminal_test {
 namespace {
 
 constexpr double megabyte = 1e6;
@@ -29,4 +29,4 @@ TEST(TerminalProgress, StopsAfterItsTime) {
 }
 
 }  // namespace
-}  // namespace gearlash::cli
+}  // namespace gearlash::cli::terminal_test

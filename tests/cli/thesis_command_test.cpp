@@ -5,7 +5,7 @@
 
 #include "tool.hpp"
 
-namespace gearlash {
+namespace gearlash::thesis_command_test {
 namespace {
 
 using test::Outcome;
@@ -211,4 +211,4 @@ TEST(ThesisCommand, FaultsAreOneLine) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::thesis_command_test

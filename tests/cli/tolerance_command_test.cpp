@@ -8,7 +8,7 @@
 
 #include "tool.hpp"
 
-namespace gearlash {
+namespace gearlash::tolerance_command_test {
 namespace {
 
 using test::lines_of;
@@ -143,4 +143,4 @@ TEST(EdgeToleranceCommand, FaultsAreToldAtOnce) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::tolerance_command_test

@@ -8,7 +8,7 @@
 #include "gearlash/input.hpp"
 #include "tool.hpp"
 
-namespace gearlash {
+namespace gearlash::tune_command_test {
 namespace {
 
 using test::Outcome;
@@ -80,4 +80,4 @@ TEST(EdgeTuneCommand, FaultsAreToldAtOnce) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::tune_command_test

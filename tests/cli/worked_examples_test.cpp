@@ -12,7 +12,7 @@
 
 #include "tool.hpp"
 
-namespace gearlash {
+namespace gearlash::worked_examples_test {
 namespace {
 
 using nlohmann::json;
@@ -118,4 +118,4 @@ TEST(WorkedExamples, PrintNoUndecidedAnswerOnAnyPage) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::worked_examples_test

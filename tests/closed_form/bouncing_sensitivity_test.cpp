@@ -17,7 +17,7 @@
 #include "closed_form/trajectory.hpp"
 #include "seventy_digits.hpp"
 
-namespace gearlash {
+namespace gearlash::bouncing_sensitivity_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -420,4 +420,4 @@ TEST(EdgeBouncingSensitivity, ADoubleMultiplierHasNoDerivative) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::bouncing_sensitivity_test

@@ -7,7 +7,7 @@
 
 #include "closed_form/limit_cycle.hpp"
 
-namespace gearlash {
+namespace gearlash::coexisting_cycles_test {
 namespace {
 
 struct Expected {
@@ -128,4 +128,4 @@ TEST(CoexistingCycles, OfThreeTraversals) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::coexisting_cycles_test

@@ -10,7 +10,7 @@
 #include "base/seeded_draws.hpp"
 #include "closed_form/engaged_flow.hpp"
 
-namespace gearlash {
+namespace gearlash::contact_law_test {
 namespace {
 
 ServoDynamics dynamics_of(double damping, double inertia_ratio, double friction_ratio,
@@ -291,4 +291,4 @@ TEST(PropertySettlingBounces, MirrorAndScale) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::contact_law_test

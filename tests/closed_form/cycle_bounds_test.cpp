@@ -9,7 +9,7 @@
 #include "base/seeded_draws.hpp"
 #include "closed_form/limit_cycle.hpp"
 
-namespace gearlash {
+namespace gearlash::cycle_bounds_test {
 namespace {
 
 /// Servos between two, of each number.
@@ -132,4 +132,4 @@ TEST(EdgeCycleBounds, AreTrueWithoutAGuessAndWithABadOne) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::cycle_bounds_test

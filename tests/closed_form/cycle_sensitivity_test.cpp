@@ -13,7 +13,7 @@
 #include "closed_form/limit_cycle.hpp"
 #include "seventy_digits.hpp"
 
-namespace gearlash {
+namespace gearlash::cycle_sensitivity_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -603,4 +603,4 @@ TEST(EdgeCycleSensitivity, AnIrregularMotionHasTheGrowthAlone) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::cycle_sensitivity_test

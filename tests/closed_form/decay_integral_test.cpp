@@ -15,7 +15,7 @@
 #include "base/fifty_digits.hpp"
 #include "base/seeded_draws.hpp"
 
-namespace gearlash {
+namespace gearlash::decay_integral_test {
 namespace {
 
 /// What the header promises over the whole quadrant.
@@ -154,4 +154,4 @@ TEST(PropertyDecayIntegral, PositiveAndDecreasing) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::decay_integral_test

@@ -7,7 +7,7 @@
 
 #include "base/seeded_draws.hpp"
 
-namespace gearlash {
+namespace gearlash::decay_slopes_test {
 namespace {
 
 using Real = boost::multiprecision::cpp_bin_float_50;
@@ -72,4 +72,4 @@ TEST(EdgeDecaySlopes, AtExponentsOfZero) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::decay_slopes_test

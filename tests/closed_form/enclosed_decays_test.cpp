@@ -9,7 +9,7 @@
 #include "base/seeded_draws.hpp"
 #include "seventy_digits.hpp"
 
-namespace gearlash {
+namespace gearlash::enclosed_decays_test {
 namespace {
 
 /// exp[0, −x] and exp[0, 0, −x]: seventy digits can spare what the quotients lose.
@@ -83,4 +83,4 @@ TEST(OracleEnclosedDecays, HoldAndAreNarrow) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::enclosed_decays_test

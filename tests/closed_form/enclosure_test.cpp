@@ -10,7 +10,7 @@
 #include "closed_form/limit_cycle.hpp"
 #include "exact_half_cycle.hpp"
 
-namespace gearlash {
+namespace gearlash::enclosure_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -166,4 +166,4 @@ TEST(EdgeEnclosure, DecimalsStandForThemselves) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::enclosure_test

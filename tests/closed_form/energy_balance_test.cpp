@@ -12,7 +12,7 @@
 #include "closed_form/growth_at_rest.hpp"
 #include "closed_form/limit_cycle.hpp"
 
-namespace gearlash {
+namespace gearlash::energy_balance_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -111,4 +111,4 @@ TEST(PropertyEnergyBalance, ItIsAProofForEveryRestitution) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::energy_balance_test

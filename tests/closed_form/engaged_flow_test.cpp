@@ -10,7 +10,7 @@
 #include "base/fifty_digits.hpp"
 #include "base/seeded_draws.hpp"
 
-namespace gearlash {
+namespace gearlash::engaged_flow_test {
 namespace {
 
 struct WideState {
@@ -246,4 +246,4 @@ TEST(EdgeFirstZero, ContinuousThroughCriticalDamping) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::engaged_flow_test

@@ -11,7 +11,7 @@
 
 #include "random_starts.hpp"
 
-namespace gearlash {
+namespace gearlash::extremes_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -138,4 +138,4 @@ TEST(EdgeExtremes, EmptyAndClampedStretches) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::extremes_test

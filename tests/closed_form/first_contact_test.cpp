@@ -10,7 +10,7 @@
 #include "base/fifty_digits.hpp"
 #include "base/seeded_draws.hpp"
 
-namespace gearlash {
+namespace gearlash::first_contact_test {
 namespace {
 
 /// u after `time`, as the flight under test gives it (gap_flight_test.cpp checks that).
@@ -286,4 +286,4 @@ TEST(EdgeFirstContact, HugeAndTinyGaps) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::first_contact_test

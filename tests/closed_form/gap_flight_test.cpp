@@ -12,7 +12,7 @@
 #include "base/seeded_draws.hpp"
 #include "closed_form/decay_integral.hpp"
 
-namespace gearlash {
+namespace gearlash::gap_flight_test {
 namespace {
 
 /// y_L, v_L, u − u₀, v_M − v_L after `time`.
@@ -359,4 +359,4 @@ TEST(PropertyGapFlight, PullStartsWithTheMeshTorquesAcceleration) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::gap_flight_test

@@ -9,7 +9,7 @@
 #include "closed_form/first_contact.hpp"
 #include "raw_flight.hpp"
 
-namespace gearlash {
+namespace gearlash::grazing_band_test {
 namespace {
 
 GapFlight flight_of(const FlightStart& start, double gap) {
@@ -32,7 +32,7 @@ double terms(const GapFlight& flight, double backlash, double motor_inertia, dou
 
 /// Speeds from far below to far above the gap's; now and then rates that nearly coincide, or a pull
 /// of the loop that nearly balances friction, so that ü is a small difference of large terms.
-FlightStart random_start(SeededDraws& draws) {
+FlightStart random_flight(SeededDraws& draws) {
   FlightStart start{};
   start.servo.damping = draws.log_uniform(0.01, 2.0);
   start.servo.inertia_ratio = draws.log_uniform(0.01, 100.0);
@@ -117,7 +117,7 @@ TEST(OracleGrazing, IsJudgedRightBeyondItsBandWhateverTheSpeed) {
   constexpr int flights = 1500;
   for (int i = 0; i < flights && !HasFailure(); ++i) {
     SCOPED_TRACE(i);
-    const FlightStart start = random_start(draws);
+    const FlightStart start = random_flight(draws);
     const RawFlight raw(start);
     Wide last = 0;
     double farthest = 0.0;
@@ -139,4 +139,4 @@ TEST(OracleGrazing, IsJudgedRightBeyondItsBandWhateverTheSpeed) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::grazing_band_test

@@ -12,7 +12,7 @@
 #include "closed_form/engaged_flow.hpp"
 #include "closed_form/trajectory.hpp"
 
-namespace gearlash {
+namespace gearlash::growth_at_rest_test {
 namespace {
 
 /// The servo's coefficients from its ratios, in fifty digits.
@@ -248,4 +248,4 @@ TEST(EdgeGrowthAtRest, MasslessSidesAreLimits) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::growth_at_rest_test

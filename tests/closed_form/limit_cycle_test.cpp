@@ -12,7 +12,7 @@
 #include "base/seeded_draws.hpp"
 #include "closed_form/extremes.hpp"
 
-namespace gearlash {
+namespace gearlash::limit_cycle_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -517,4 +517,4 @@ TEST(EdgeRestitution, MotionThatDiesAwaySlowlyIsNoHunting) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::limit_cycle_test

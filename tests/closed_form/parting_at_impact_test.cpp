@@ -8,7 +8,7 @@
 
 #include "closed_form/trajectory.hpp"
 
-namespace gearlash {
+namespace gearlash::parting_at_impact_test {
 namespace {
 
 constexpr unsigned seed = 1960;
@@ -65,4 +65,4 @@ TEST(PropertyPlasticContact, PartingAtImpactDoesNotPersist) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::parting_at_impact_test

@@ -10,7 +10,7 @@
 #include "base/seeded_draws.hpp"
 #include "closed_form/growth_at_rest.hpp"
 
-namespace gearlash {
+namespace gearlash::parting_scan_test {
 namespace {
 
 NormalizedServo random_servo(SeededDraws& draws) {
@@ -110,4 +110,4 @@ TEST(PartingScan, SamplesOfASettlingServo) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::parting_scan_test

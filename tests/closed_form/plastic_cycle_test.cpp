@@ -12,7 +12,7 @@
 #include "closed_form/extremes.hpp"
 #include "closed_form/growth_at_rest.hpp"
 
-namespace gearlash {
+namespace gearlash::plastic_cycle_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -306,4 +306,4 @@ TEST(EdgePlasticCycle, MasslessSidesAreTheLimitsOfLightOnes) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::plastic_cycle_test

@@ -9,7 +9,7 @@
 #include "closed_form/first_contact.hpp"
 #include "closed_form/trajectory.hpp"
 
-namespace gearlash {
+namespace gearlash::rattle_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -165,4 +165,4 @@ TEST(EdgeRattle, LongRunsReachTheirEnd) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::rattle_test

@@ -8,7 +8,7 @@
 
 #include "base/seeded_draws.hpp"
 
-namespace gearlash {
+namespace gearlash::return_map_test {
 namespace {
 
 TEST(PropertyReturnMap, DerivativeAgainstCentralDifferences) {
@@ -82,4 +82,4 @@ TEST(PropertyReturnMap, HomogeneousOfDegreeOneInArrivalAndBacklash) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::return_map_test

@@ -7,7 +7,7 @@
 #include "closed_form/trajectory.hpp"
 #include "random_starts.hpp"
 
-namespace gearlash {
+namespace gearlash::trajectory_energy_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -147,4 +147,4 @@ TEST(PropertyEnergy, LongRunsDoNotDrift) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::trajectory_energy_test

@@ -8,7 +8,7 @@
 #include "closed_form/trajectory.hpp"
 #include "random_starts.hpp"
 
-namespace gearlash {
+namespace gearlash::trajectory_event_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -337,4 +337,4 @@ TEST(EdgeEnd, TimesOutsideAreClamped) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::trajectory_event_test

@@ -8,7 +8,7 @@
 #include "closed_form/trajectory.hpp"
 #include "random_starts.hpp"
 
-namespace gearlash {
+namespace gearlash::trajectory_limit_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -210,4 +210,4 @@ TEST(EdgeLimits, FrictionlessMotionGrowsAndKeepsItsEnergyBooks) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::trajectory_limit_test

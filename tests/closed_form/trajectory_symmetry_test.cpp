@@ -7,7 +7,7 @@
 #include "closed_form/trajectory.hpp"
 #include "random_starts.hpp"
 
-namespace gearlash {
+namespace gearlash::trajectory_symmetry_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -231,4 +231,4 @@ TEST(PropertyTrajectory, ALaterEndChangesNothingBefore) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::trajectory_symmetry_test

@@ -9,7 +9,7 @@
 
 #include "closed_form/limit_cycle.hpp"
 
-namespace gearlash::drive {
+namespace gearlash::drive::attractors_test {
 namespace {
 
 /// ω_n = 1, total inertia 1, sensor on the load.
@@ -520,4 +520,4 @@ TEST(FollowAttractors, GivesUpWhereASearchWasStopped) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::attractors_test

@@ -8,7 +8,7 @@
 
 #include "general/assemble/drive_system.hpp"
 
-namespace gearlash::drive {
+namespace gearlash::drive::controller_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -101,4 +101,4 @@ TEST(Controller, IntegralActionHuntsWithStiction) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::controller_test

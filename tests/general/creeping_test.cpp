@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace gearlash::drive {
+namespace gearlash::drive::creeping_test {
 namespace {
 
 TEST(Standstills, AreThoseOfBothShafts) {
@@ -133,4 +133,4 @@ TEST(Fading, NeedsEvents) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::creeping_test

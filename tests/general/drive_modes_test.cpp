@@ -6,7 +6,7 @@
 #include "general/assemble/drive_system.hpp"
 #include "general/assemble/moving_frame.hpp"
 
-namespace gearlash::drive {
+namespace gearlash::drive::drive_modes_test {
 namespace {
 
 constexpr ShaftFriction dry{.viscous = 0.1, .coulomb = 0.5, .breakaway = 1.0};
@@ -154,4 +154,4 @@ TEST(DriveModes, SeenInAFrameTheyAreMadeOnDemandToo) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::drive_modes_test

@@ -9,7 +9,7 @@
 #include "base/correct_digits.hpp"
 #include "closed_form/trajectory.hpp"
 
-namespace gearlash::drive {
+namespace gearlash::drive::drive_system_test {
 namespace {
 
 // ---- Modelica's Rotational.Examples.Backlash ----------------------------------------------------
@@ -136,4 +136,4 @@ TEST(EdgeDriveSystem, FaultsAreToldAllAtOnce) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::drive_system_test

@@ -5,7 +5,7 @@
 
 #include "general/assemble/drive_system.hpp"
 
-namespace gearlash::drive {
+namespace gearlash::drive::dry_contact_test {
 namespace {
 
 /// J 2 and 1 kg m²; dry friction 0.2 and 0.1 N m that breaks away at 0.5 and 0.3 N m.
@@ -89,4 +89,4 @@ TEST(PropertyDryContact, AShaftThatStandsIsMovedByNoSpeed) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::dry_contact_test

@@ -9,7 +9,7 @@
 
 #include "general/assemble/drive_system.hpp"
 
-namespace gearlash::drive {
+namespace gearlash::drive::error_shape_test {
 namespace {
 
 constexpr double inertia = 2.0;
@@ -227,4 +227,4 @@ TEST(EdgeErrorShape, ThatMaySwitchWithoutEndIsRefused) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::error_shape_test

@@ -8,7 +8,7 @@
 
 #include "general/assemble/drive_system.hpp"
 
-namespace gearlash::drive {
+namespace gearlash::drive::falling_friction_test {
 namespace {
 
 double dry_torque(const ShaftFriction& friction, double speed) {
@@ -119,4 +119,4 @@ TEST(FallingFriction, FollowsTheSpeedAfterAnImpact) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::falling_friction_test

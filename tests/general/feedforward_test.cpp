@@ -8,7 +8,7 @@
 
 #include "general/assemble/drive_system.hpp"
 
-namespace gearlash::drive {
+namespace gearlash::drive::feedforward_test {
 namespace {
 
 constexpr double stiffness = 4.0;
@@ -120,4 +120,4 @@ TEST(OracleFeedforward, OfTheGapIsTakenUpInItsTime) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::feedforward_test

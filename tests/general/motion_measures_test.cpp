@@ -5,7 +5,7 @@
 
 #include "general/assemble/drive_system.hpp"
 
-namespace gearlash::drive {
+namespace gearlash::drive::motion_measures_test {
 namespace {
 
 ReducedDrive hunting_drive() {
@@ -39,4 +39,4 @@ TEST(MotionMeasures, OfSamplesOfOneTimeArePassingsAtThatTime) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::motion_measures_test

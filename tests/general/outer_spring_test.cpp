@@ -9,7 +9,7 @@
 #include "general/assemble/time_scale.hpp"
 #include "general/attractors/attractors.hpp"
 
-namespace gearlash::drive {
+namespace gearlash::drive::outer_spring_test {
 namespace {
 
 ReducedDrive two_shafts() {
@@ -132,4 +132,4 @@ TEST(OracleGravity, BreaksAHeldLoadAway) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::outer_spring_test

@@ -12,7 +12,7 @@
 
 #include "general/assemble/drive_system.hpp"
 
-namespace gearlash::drive {
+namespace gearlash::drive::sampled_drive_test {
 namespace {
 
 /// A motor by itself, far from both faces.
@@ -270,4 +270,4 @@ TEST(EdgeSampledDrive, FaultsAreToldAllAtOnce) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::sampled_drive_test

@@ -7,7 +7,7 @@
 #include "general/attractors/found_cycle.hpp"
 #include "general/attractors/motion_watch.hpp"
 
-namespace gearlash::drive {
+namespace gearlash::drive::search_tolerances_test {
 namespace {
 
 ReducedDrive servo(double damping, double inertia_ratio, double friction_ratio) {
@@ -187,4 +187,4 @@ TEST(SearchTolerances, ChosenStarts) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::search_tolerances_test

@@ -8,7 +8,7 @@
 
 #include "general/assemble/drive_system.hpp"
 
-namespace gearlash::drive {
+namespace gearlash::drive::signal_test {
 namespace {
 
 const Table table{{1.0, 2.0, 4.0}, {0.5, 1.5, -0.5}};
@@ -89,4 +89,4 @@ TEST(OracleSignal, ALoadTorqueMovesTheLoad) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::signal_test

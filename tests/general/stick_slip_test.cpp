@@ -12,7 +12,7 @@
 
 #include "general/attractors/attractors.hpp"
 
-namespace gearlash::drive {
+namespace gearlash::drive::stick_slip_test {
 namespace {
 
 // ---- a mass on a belt ---------------------------------------------------------------------------
@@ -477,4 +477,4 @@ TEST(OracleCompliantToRigid, WithCriticalDampingRestitutionIsExpMinus2) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::stick_slip_test

@@ -5,7 +5,7 @@
 
 #include "general/assemble/drive_system.hpp"
 
-namespace gearlash::drive {
+namespace gearlash::drive::torque_limit_test {
 namespace {
 
 /// A motor by itself, far from both faces, drawn to 1 rad.
@@ -70,4 +70,4 @@ TEST(OracleTorqueLimit, AntiWindupDrawsTheIntegralBack) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::torque_limit_test

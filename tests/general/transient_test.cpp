@@ -5,7 +5,7 @@
 
 #include "general/attractors/irregular_motion.hpp"
 
-namespace gearlash::drive {
+namespace gearlash::drive::transient_test {
 namespace {
 
 FoundCycle cycle(Stability stability, double amplitude, double period) {
@@ -90,4 +90,4 @@ TEST(Transient, OfASearchIsListedOnce) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::transient_test

@@ -8,7 +8,7 @@
 #include "general/assemble/drive_system.hpp"
 #include "general/assemble/time_scale.hpp"
 
-namespace gearlash::drive {
+namespace gearlash::drive::winding_test {
 namespace {
 
 constexpr double stiffness = 40.0;
@@ -166,4 +166,4 @@ TEST(OracleCurrentLimit, HoldsTheTorqueOfAWindingThatLags) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::winding_test

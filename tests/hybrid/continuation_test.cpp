@@ -11,7 +11,7 @@
 #include "closed_form/limit_cycle.hpp"
 #include "servo_system.hpp"
 
-namespace gearlash::hybrid {
+namespace gearlash::hybrid::continuation_test {
 namespace {
 
 /// x″ + 0.1x′ + x = A cos t with a stop at x = 1; turning points are events, too.
@@ -355,4 +355,4 @@ TEST(OracleContinuation, OfAServoAgreesWithTheClosedFormAllAlong) {
   }
 }
 
-}  // namespace gearlash::hybrid
+}  // namespace gearlash::hybrid::continuation_test

@@ -5,7 +5,7 @@
 
 #include "hybrid/hybrid_trajectory.hpp"
 
-namespace gearlash::hybrid {
+namespace gearlash::hybrid::fast_decays_test {
 namespace {
 
 /// Both shafts of a drive as one, in its load's and its motor's own numbers: the gap and its speed
@@ -132,4 +132,4 @@ TEST(FastDecays, AreOverWhereRoundingHoldsAnIntegral) {
 }
 
 }  // namespace
-}  // namespace gearlash::hybrid
+}  // namespace gearlash::hybrid::fast_decays_test

@@ -10,7 +10,7 @@
 
 #include "base/seeded_draws.hpp"
 
-namespace gearlash::hybrid {
+namespace gearlash::hybrid::first_exit_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -186,4 +186,4 @@ TEST(EdgeFirstExit, LastTermsThatAreLeftOutMayHoldItUp) {
 }
 
 }  // namespace
-}  // namespace gearlash::hybrid
+}  // namespace gearlash::hybrid::first_exit_test

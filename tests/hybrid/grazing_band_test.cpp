@@ -14,7 +14,7 @@
 #include "base/seeded_draws.hpp"
 #include "hybrid/hybrid_trajectory.hpp"
 
-namespace gearlash::hybrid {
+namespace gearlash::hybrid::grazing_band_test {
 namespace {
 
 constexpr int most_numbers = 3;
@@ -251,4 +251,4 @@ TEST(EdgeGrazing, WhatIsUnknownOfTheStartMayHideAPassage) {
 }
 
 }  // namespace
-}  // namespace gearlash::hybrid
+}  // namespace gearlash::hybrid::grazing_band_test

@@ -9,7 +9,7 @@
 #include "base/fifty_digits.hpp"
 #include "base/seeded_draws.hpp"
 
-namespace gearlash::hybrid {
+namespace gearlash::hybrid::guard_form_test {
 namespace {
 
 constexpr Eigen::Index size = 6;
@@ -91,4 +91,4 @@ TEST(OracleGuardTable, CoefficientsOfRandomFlowsAreAsUncertainAsItSays) {
 }
 
 }  // namespace
-}  // namespace gearlash::hybrid
+}  // namespace gearlash::hybrid::guard_form_test

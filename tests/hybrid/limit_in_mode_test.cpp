@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gearlash::hybrid {
+namespace gearlash::hybrid::limit_in_mode_test {
 namespace {
 
 AffineMode mode_of(const Matrix& matrix, const Vector& offset, const Vector& guard,
@@ -87,4 +87,4 @@ TEST(LimitInMode, TakesNumbersThatMoveAlikeForOne) {
 }
 
 }  // namespace
-}  // namespace gearlash::hybrid
+}  // namespace gearlash::hybrid::limit_in_mode_test

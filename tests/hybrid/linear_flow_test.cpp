@@ -7,7 +7,7 @@
 
 #include "hybrid/guard_form.hpp"
 
-namespace gearlash::hybrid {
+namespace gearlash::hybrid::linear_flow_test {
 namespace {
 
 /// Of lengthᵏ/k! beyond an order: of all orders, or of those that are odd or even alone.
@@ -55,4 +55,4 @@ TEST_P(OracleLinearFlow, TheSeriesLeavesOutWhatItSays) {
 INSTANTIATE_TEST_SUITE_P(Units, OracleLinearFlow, ::testing::Values(1.0, 0x1p-20, 0x1p10));
 
 }  // namespace
-}  // namespace gearlash::hybrid
+}  // namespace gearlash::hybrid::linear_flow_test

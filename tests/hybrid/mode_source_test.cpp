@@ -8,7 +8,7 @@
 #include "hybrid/periodic_orbit.hpp"
 #include "servo_system.hpp"
 
-namespace gearlash::hybrid {
+namespace gearlash::hybrid::mode_source_test {
 namespace {
 
 /// A ball that rests after `bounces` bounces, a mode for each of them.
@@ -116,4 +116,4 @@ TEST(EdgeModeSource, AListBesideASourceIsAFault) {
 }
 
 }  // namespace
-}  // namespace gearlash::hybrid
+}  // namespace gearlash::hybrid::mode_source_test

@@ -7,7 +7,7 @@
 
 #include "hybrid/hybrid_trajectory.hpp"
 
-namespace gearlash::hybrid {
+namespace gearlash::hybrid::observe_test {
 namespace {
 
 Vector vector_of(std::initializer_list<double> values) {
@@ -126,4 +126,4 @@ TEST(Observe, PassesOverTicksThatChangeNothing) {
 }
 
 }  // namespace
-}  // namespace gearlash::hybrid
+}  // namespace gearlash::hybrid::observe_test

@@ -8,7 +8,7 @@
 
 #include "hybrid/hybrid_trajectory.hpp"
 
-namespace gearlash::hybrid {
+namespace gearlash::hybrid::orbit_slopes_test {
 namespace {
 
 /// x′ = −x/lag ± 1/lag, switched at ±threshold. Another number is the integral of x: its extremes
@@ -111,4 +111,4 @@ TEST(EdgeOrbitSlopes, WhereTheParameterChangesTheShapeThereAreNone) {
 }
 
 }  // namespace
-}  // namespace gearlash::hybrid
+}  // namespace gearlash::hybrid::orbit_slopes_test

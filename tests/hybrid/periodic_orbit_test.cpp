@@ -12,7 +12,7 @@
 #include "closed_form/limit_cycle.hpp"
 #include "servo_system.hpp"
 
-namespace gearlash {
+namespace gearlash::periodic_orbit_test {
 namespace {
 
 using hybrid::Matrix;
@@ -226,4 +226,4 @@ TEST(EdgePeriodicOrbit, AShiftInTimeIsNoMultiplier) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::periodic_orbit_test

@@ -8,7 +8,7 @@
 
 #include "hybrid/periodic_orbit.hpp"
 
-namespace gearlash::hybrid {
+namespace gearlash::hybrid::reference_orbit_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -86,4 +86,4 @@ TEST(OracleReferenceOrbit, ItsCentreIsOfNoMatter) {
 }
 
 }  // namespace
-}  // namespace gearlash::hybrid
+}  // namespace gearlash::hybrid::reference_orbit_test

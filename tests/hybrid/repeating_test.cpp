@@ -8,7 +8,7 @@
 
 #include "hybrid/hybrid_trajectory.hpp"
 
-namespace gearlash::hybrid {
+namespace gearlash::hybrid::repeating_test {
 namespace {
 
 /// Numbers: place, speed, force, filtered reading. A clock reads the place to whole steps and
@@ -164,4 +164,4 @@ TEST(Repeating, SeesAWatchedFormChangeItsSign) {
 }
 
 }  // namespace
-}  // namespace gearlash::hybrid
+}  // namespace gearlash::hybrid::repeating_test

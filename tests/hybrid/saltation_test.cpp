@@ -14,7 +14,7 @@
 #include "hybrid/passage.hpp"
 #include "hybrid/periodic_orbit.hpp"
 
-namespace gearlash::hybrid {
+namespace gearlash::hybrid::saltation_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -266,4 +266,4 @@ TEST(OracleSaltation, ASampledLoopsMultiplierIsItsDiscreteEigenvalue) {
 }
 
 }  // namespace
-}  // namespace gearlash::hybrid
+}  // namespace gearlash::hybrid::saltation_test

@@ -11,7 +11,7 @@
 #include "hybrid/hybrid_trajectory.hpp"
 #include "servo_system.hpp"
 
-namespace gearlash {
+namespace gearlash::servo_oracle_test {
 namespace {
 
 NormalizedServo drawn_servo(SeededDraws& draws, int kind) {
@@ -104,4 +104,4 @@ TEST(OracleSimulateServo, EventsOfThousandServosAreThoseOfTheClosedForm) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::servo_oracle_test

@@ -7,7 +7,7 @@
 #include "base/correct_digits.hpp"
 #include "hybrid/hybrid_trajectory.hpp"
 
-namespace gearlash::hybrid {
+namespace gearlash::hybrid::simulate_test {
 namespace {
 
 Vector vector_of(std::initializer_list<double> values) {
@@ -402,4 +402,4 @@ TEST(EdgeSimulate, FaultsAreToldAllAtOnce) {
 }
 
 }  // namespace
-}  // namespace gearlash::hybrid
+}  // namespace gearlash::hybrid::simulate_test

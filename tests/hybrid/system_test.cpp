@@ -6,7 +6,7 @@
 
 #include "gearlash/hybrid.hpp"
 
-namespace gearlash::hybrid {
+namespace gearlash::hybrid::system_test {
 namespace {
 
 using testing::HasSubstr;
@@ -111,4 +111,4 @@ TEST(HybridSystem, EveryFaultIsReportedAtOnce) {
 }
 
 }  // namespace
-}  // namespace gearlash::hybrid
+}  // namespace gearlash::hybrid::system_test

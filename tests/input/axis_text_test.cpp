@@ -8,7 +8,7 @@
 
 #include "base/fault.hpp"
 
-namespace gearlash {
+namespace gearlash::axis_text_test {
 namespace {
 
 Axis axis(std::string_view text, const Drive& drive = normal_form(0.5, 1.0, 0.5)) {
@@ -117,4 +117,4 @@ TEST(EdgeAxisText, EachFaultIsOneLine) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::axis_text_test

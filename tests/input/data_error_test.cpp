@@ -10,7 +10,7 @@
 #include "closed_form/cycle_bounds.hpp"
 #include "input/servo_of_file.hpp"
 
-namespace gearlash {
+namespace gearlash::data_error_test {
 namespace {
 
 // By definition: the pound, standard gravity, the inch.
@@ -54,4 +54,4 @@ TEST(OracleDataError, TwoPhaseMotorBehindGears) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::data_error_test

@@ -16,7 +16,7 @@
 #include "input/drive_file.hpp"
 #include "input/servo_of_file.hpp"
 
-namespace gearlash {
+namespace gearlash::data_sheet_file_test {
 namespace {
 
 using ::testing::Contains;
@@ -569,4 +569,4 @@ TEST(ServoFileCorpus, EveryInputIsReadOrRefusedInWholeLines) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::data_sheet_file_test

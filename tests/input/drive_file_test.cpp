@@ -13,7 +13,7 @@
 #include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::drive_file_test {
 namespace {
 
 using ::testing::Contains;
@@ -408,4 +408,4 @@ TEST(EdgeDriveFile, WhatExcludesEachOtherIsTold) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::drive_file_test

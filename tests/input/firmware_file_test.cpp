@@ -12,7 +12,7 @@
 #include "model/firmware.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::firmware_file_test {
 namespace {
 
 using ::testing::AllOf;
@@ -145,4 +145,4 @@ TEST(FirmwareFile, AnswersAsTheDriveTypedInSIUnits) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::firmware_file_test

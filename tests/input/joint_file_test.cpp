@@ -8,7 +8,7 @@
 #include "input/text_of_drive.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::joint_file_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -116,4 +116,4 @@ TEST(JointFile, ASpringNeedsNoGap) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::joint_file_test

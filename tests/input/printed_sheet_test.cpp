@@ -10,7 +10,7 @@
 #include "input/text_of_drive.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::printed_sheet_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -167,4 +167,4 @@ TEST(PrintedSheet, AnInductanceBelowZeroIsRefused) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::printed_sheet_test

@@ -8,7 +8,7 @@
 #include "input/text_of_drive.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::robot_form_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -164,4 +164,4 @@ TEST(NonlinearControlFile, AContinuousControllerBehindACoarseEncoderIsRefused) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::robot_form_test

@@ -8,7 +8,7 @@
 #include "gearlash/parameter.hpp"
 #include "input/drive_file.hpp"
 
-namespace gearlash {
+namespace gearlash::setting_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -153,4 +153,4 @@ TEST(Tolerances, AreReadOfEveryParameter) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::setting_test

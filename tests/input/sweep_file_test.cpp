@@ -6,7 +6,7 @@
 
 #include "base/fault.hpp"
 
-namespace gearlash {
+namespace gearlash::sweep_file_test {
 namespace {
 
 using testing::ElementsAre;
@@ -106,4 +106,4 @@ TEST(SweepFile, FaultsAreToldWithTheirPlaces) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::sweep_file_test

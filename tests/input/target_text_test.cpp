@@ -10,7 +10,7 @@
 
 #include "gearlash/input.hpp"
 
-namespace gearlash {
+namespace gearlash::target_text_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -105,4 +105,4 @@ TEST(EdgeTargetText, FaultsAreToldAtOnceEachInALine) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::target_text_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace gearlash {
+namespace gearlash::toleranced_value_test {
 namespace {
 
 TolerancedValue read(const std::string& toml) {
@@ -30,4 +30,4 @@ TEST(TolerancedValue, NominalIsTheFirstOfTheHeaviestLots) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::toleranced_value_test

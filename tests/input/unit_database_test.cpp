@@ -10,7 +10,7 @@
 
 #include "input/unit_expression.hpp"
 
-namespace gearlash {
+namespace gearlash::unit_database_test {
 namespace {
 
 std::string described(const std::vector<Unit>& units) {
@@ -57,4 +57,4 @@ TEST(UnitDatabase, KnowsEveryUnitOfTheDocs) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::unit_database_test

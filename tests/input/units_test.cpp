@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-namespace gearlash {
+namespace gearlash::units_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -383,4 +383,4 @@ TEST(Units, RatesAreReciprocals) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::units_test

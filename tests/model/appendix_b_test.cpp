@@ -6,7 +6,7 @@
 
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::appendix_b_test {
 namespace {
 
 // Exact by definition: the foot is 0.3048 m, the pound 0.45359237 kg, standard gravity 9.80665
@@ -154,4 +154,4 @@ TEST(OracleAppendixA, TheShortWayToTheDrivetrainIsThatOfTheReducedDrive) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::appendix_b_test

@@ -7,7 +7,7 @@
 
 #include "model/rational_function.hpp"
 
-namespace gearlash::drive {
+namespace gearlash::drive::controller_transfer_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -123,4 +123,4 @@ TEST(EdgeControllerTransfer, ModesThatTheTorqueDoesNotShowAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::controller_transfer_test

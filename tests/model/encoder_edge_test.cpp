@@ -7,7 +7,7 @@
 
 #include "gearlash/drive.hpp"
 
-namespace gearlash {
+namespace gearlash::encoder_edge_test {
 namespace {
 
 using testing::HasSubstr;
@@ -68,4 +68,4 @@ TEST(EncoderCounts, HaveFortyBitsAtMost) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::encoder_edge_test

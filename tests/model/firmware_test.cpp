@@ -14,7 +14,7 @@
 #include "model/parameters.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::firmware_test {
 namespace {
 
 constexpr double turn = 2.0 * std::numbers::pi;
@@ -291,4 +291,4 @@ TEST(Firmware, IsTheDriveTypedInSIUnits) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::firmware_test

@@ -10,7 +10,7 @@
 #include "model/parameters.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::joint_gains_test {
 namespace {
 
 constexpr double ratio = 50.0;
@@ -135,4 +135,4 @@ TEST(Currents, GiveLimitAndFrictionOfATorqueControlledMotor) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::joint_gains_test

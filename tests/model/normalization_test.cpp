@@ -8,7 +8,7 @@
 #include "base/seeded_draws.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::normalization_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -152,4 +152,4 @@ TEST(PropertyReferring, GearRatioScalesAsAppendixASays) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::normalization_test

@@ -12,7 +12,7 @@
 #include "gearlash/parameter.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::parameters_test {
 namespace {
 
 Drive joint() {
@@ -298,4 +298,4 @@ TEST(ReducedDrives, TheClosedFormIsFoundByPhysics) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::parameters_test

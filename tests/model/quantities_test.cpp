@@ -6,7 +6,7 @@
 #include <set>
 #include <string_view>
 
-namespace gearlash {
+namespace gearlash::quantities_test {
 namespace {
 
 Cycle cycle(double amplitude, Stability stability) {
@@ -63,4 +63,4 @@ TEST(Quantities, AmplitudesAreZeroOfWhatComesToRestAndUnknownOfWhatIsUndecided) 
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::quantities_test

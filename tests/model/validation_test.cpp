@@ -11,7 +11,7 @@
 #include "base/range_check.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::validation_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -247,4 +247,4 @@ TEST(PropertyExactText, ReadsBackAsTheSameDouble) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::validation_test

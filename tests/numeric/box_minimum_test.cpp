@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace gearlash {
+namespace gearlash::box_minimum_test {
 namespace {
 
 TEST(OracleBoxMinimum, OfAQuadraticWithAJumpIsFound) {
@@ -102,4 +102,4 @@ TEST(EdgeBoxMinimum, BySlopesOfLimitsThatCannotBeKept) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::box_minimum_test

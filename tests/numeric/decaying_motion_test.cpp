@@ -10,7 +10,7 @@
 #include "base/fifty_digits.hpp"
 #include "base/seeded_draws.hpp"
 
-namespace gearlash {
+namespace gearlash::decaying_motion_test {
 namespace {
 
 using Rows = std::vector<std::vector<double>>;
@@ -169,4 +169,4 @@ TEST(PropertyDecayingMotion, EnclosesTheSumOfRandomSteps) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::decaying_motion_test

@@ -5,7 +5,7 @@
 
 #include "numeric/linear_algebra.hpp"
 
-namespace gearlash {
+namespace gearlash::matrix_exponential_test {
 namespace {
 
 TEST(MatrixExponential, KeepsItsDigitsInUnitsOfVeryDifferentSizes) {
@@ -37,4 +37,4 @@ TEST(EdgeMatrixExponential, OfWhatDecouplesIsThatOfItsParts) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::matrix_exponential_test

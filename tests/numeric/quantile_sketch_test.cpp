@@ -12,7 +12,7 @@
 
 #include "base/seeded_draws.hpp"
 
-namespace gearlash {
+namespace gearlash::quantile_sketch_test {
 namespace {
 
 constexpr std::uint64_t seed = 20190818;
@@ -193,4 +193,4 @@ TEST(PropertyQuantileSketch, IsReadBackAsItWasPacked) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::quantile_sketch_test

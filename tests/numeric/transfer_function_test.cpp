@@ -9,7 +9,7 @@
 #include "base/fifty_digits.hpp"
 #include "base/seeded_draws.hpp"
 
-namespace gearlash {
+namespace gearlash::transfer_function_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -125,4 +125,4 @@ TEST(TransferFunctionEdge, EveryFaultIsNamed) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::transfer_function_test

@@ -7,7 +7,7 @@
 #include "closed_form/trajectory.hpp"
 #include "segment_certificate.hpp"
 
-namespace gearlash::oracle {
+namespace gearlash::oracle::certificate_test {
 namespace {
 
 constexpr std::uint64_t seed = 1960;
@@ -62,4 +62,4 @@ TEST(Certificate, AnImpactThatIsPassedOverIsSeen) {
 }
 
 }  // namespace
-}  // namespace gearlash::oracle
+}  // namespace gearlash::oracle::certificate_test

@@ -11,7 +11,7 @@
 #include "raw_equations.hpp"
 #include "reference_cycle.hpp"
 
-namespace gearlash::oracle {
+namespace gearlash::oracle::oracle_test {
 namespace {
 
 constexpr std::uint64_t seed = 1960;
@@ -71,4 +71,4 @@ TEST(Oracle, IrregularHuntingIsAsLargeAsInALongRunOfTheReference) {
 }
 
 }  // namespace
-}  // namespace gearlash::oracle
+}  // namespace gearlash::oracle::oracle_test

@@ -9,7 +9,7 @@
 #include "gearlash/output.hpp"
 #include "output/comparison_report.hpp"
 
-namespace gearlash {
+namespace gearlash::answer_report_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -121,4 +121,4 @@ TEST(Comparison, OfAMotorThatTicksGivesItsAmplitude) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::answer_report_test

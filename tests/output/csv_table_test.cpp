@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace gearlash {
+namespace gearlash::csv_table_test {
 namespace {
 
 class CsvTables : public testing::Test {
@@ -47,4 +47,4 @@ TEST_F(CsvTables, HaveRowsOfOneLength) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::csv_table_test

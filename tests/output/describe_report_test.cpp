@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace gearlash {
+namespace gearlash::describe_report_test {
 namespace {
 
 using testing::HasSubstr;
@@ -111,4 +111,4 @@ TEST(EdgeDescribeReport, WhatIsOutsideOfTheLoopHasNoCycle) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::describe_report_test

@@ -12,7 +12,7 @@
 #include "input/text_file.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::drive_text_test {
 namespace {
 
 using ::testing::Contains;
@@ -156,4 +156,4 @@ TEST(DriveText, InfinityIsText) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::drive_text_test

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace gearlash {
+namespace gearlash::output_file_test {
 namespace {
 
 using testing::HasSubstr;
@@ -25,11 +25,11 @@ bool refuses_permissions = false;
 std::vector<std::string> synced;  ///< what fsync was asked for
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::output_file_test
 
 // In place of the system's own.
 extern "C" int fchmod(int descriptor, mode_t mode) noexcept {
-  if (!gearlash::refuses_permissions) {
+  if (!gearlash::output_file_test::refuses_permissions) {
     return static_cast<int>(syscall(SYS_fchmod, descriptor, mode));
   }
   errno = EPERM;
@@ -40,13 +40,13 @@ extern "C" int fsync(int descriptor) {
   struct stat file {};
   fstat(descriptor, &file);
   const bool has_a = faccessat(descriptor, "a", F_OK, 0) == 0;
-  gearlash::synced.emplace_back(!S_ISDIR(file.st_mode) ? "file"
-                                : has_a                ? "folder with a"
-                                                       : "folder");
+  gearlash::output_file_test::synced.emplace_back(!S_ISDIR(file.st_mode) ? "file"
+                                                  : has_a                ? "folder with a"
+                                                                         : "folder");
   return static_cast<int>(syscall(SYS_fsync, descriptor));
 }
 
-namespace gearlash {
+namespace gearlash::output_file_test {
 namespace {
 
 class OutputFiles : public testing::Test {
@@ -181,4 +181,4 @@ TEST_F(OutputFiles, AClosedPipeIsToldFromAFault) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::output_file_test

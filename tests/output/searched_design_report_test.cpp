@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-namespace gearlash {
+namespace gearlash::searched_design_report_test {
 namespace {
 
 using testing::HasSubstr;
@@ -63,4 +63,4 @@ TEST(SearchedDesignReport, LeavesWhatThereIsNotBlank) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::searched_design_report_test

@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace gearlash {
+namespace gearlash::bifurcation_picture_test {
 namespace {
 
 using testing::AllOf;
@@ -98,4 +98,4 @@ TEST(BifurcationPicture, NothingSaysSo) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::bifurcation_picture_test

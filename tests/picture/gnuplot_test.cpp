@@ -14,7 +14,7 @@
 
 #include "output/output_file.hpp"
 
-namespace gearlash {
+namespace gearlash::gnuplot_test {
 namespace {
 
 using testing::HasSubstr;
@@ -106,4 +106,4 @@ TEST_F(Gnuplot, APdfHasNoTimeOfDay) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::gnuplot_test

@@ -10,7 +10,7 @@
 #include "analysis/grid/servo_grids.hpp"
 #include "picture/grid_chart.hpp"
 
-namespace gearlash {
+namespace gearlash::grid_map_test {
 namespace {
 
 GridTable map_table(const Grid& grid) {
@@ -196,4 +196,4 @@ TEST(EdgeGridMap, NothingKnownIsAnEmptyPicture) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::grid_map_test

@@ -9,7 +9,7 @@
 
 #include "output/report_units.hpp"
 
-namespace gearlash {
+namespace gearlash::nyquist_picture_test {
 namespace {
 
 using drive::DescribedPart;
@@ -143,4 +143,4 @@ TEST(EdgeNyquistPicture, AnAmplitudeWithoutGainIsSaidSo) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::nyquist_picture_test

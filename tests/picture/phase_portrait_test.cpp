@@ -12,7 +12,7 @@
 #include "picture/attractor_picture.hpp"
 #include "picture/svg_reading.hpp"
 
-namespace gearlash {
+namespace gearlash::phase_portrait_test {
 namespace {
 
 using testing::AllOf;
@@ -121,4 +121,4 @@ TEST(PhasePlane, SpeedsThatLeapAreNotJoinedByTheLineOfTheMotion) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::phase_portrait_test

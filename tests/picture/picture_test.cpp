@@ -19,7 +19,7 @@
 #include "picture/motion_picture.hpp"
 #include "picture/svg_reading.hpp"
 
-namespace gearlash {
+namespace gearlash::picture_test {
 namespace {
 
 using testing::HasSubstr;
@@ -348,4 +348,4 @@ TEST(Picture, WhatCouldNotBeReadIsRefused) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::picture_test

@@ -13,7 +13,7 @@
 #include "picture/shown_end.hpp"
 #include "picture/svg_reading.hpp"
 
-namespace gearlash {
+namespace gearlash::time_response_test {
 namespace {
 
 using testing::AllOf;
@@ -167,4 +167,4 @@ TEST(TimeResponse, ALeapOfTheReferenceIsNotJoinedByALine) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::time_response_test

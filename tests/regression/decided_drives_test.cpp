@@ -15,7 +15,7 @@
 #include "general/attractors/attractors.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::decided_drives_test {
 namespace {
 
 const std::filesystem::path root = GEARLASH_SOURCE_DIRECTORY;
@@ -273,4 +273,4 @@ TEST(DecidedDrive, WithALagOfTwelfthOrderRunsAwayIfDisturbed) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::decided_drives_test

@@ -5,7 +5,7 @@
 #include "closed_form/raw_flight.hpp"
 #include "closed_form/trajectory.hpp"
 
-namespace gearlash {
+namespace gearlash::grazing_at_speed_test {
 namespace {
 
 // The servo and start as they were found.
@@ -87,4 +87,4 @@ TEST(GrazingAtSpeed, StatesOfAMotionKeepTheGapsSpeed) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::grazing_at_speed_test

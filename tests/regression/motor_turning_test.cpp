@@ -9,7 +9,7 @@
 #include "closed_form/limit_cycle.hpp"
 #include "closed_form/trajectory.hpp"
 
-namespace gearlash {
+namespace gearlash::motor_turning_test {
 namespace {
 
 struct Known {
@@ -67,4 +67,4 @@ TEST(RegressionMotorTurning, RootFinderDoesNotTakeAnExtremumForAZero) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::motor_turning_test

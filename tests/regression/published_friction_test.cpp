@@ -18,7 +18,7 @@
 #include "gearlash/analyse.hpp"
 #include "gearlash/input.hpp"
 
-namespace gearlash {
+namespace gearlash::published_friction_test {
 namespace {
 
 /// x″ = τ − friction, τ′ = −derivative x″ − proportional x′ − integral x, for a mass of 1.
@@ -164,4 +164,4 @@ TEST(OraclePublishedFriction, StaticEqualToCoulombFrictionHasNoCycle) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::published_friction_test

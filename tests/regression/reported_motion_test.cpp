@@ -20,7 +20,7 @@
 #include "model/reduced_drive.hpp"
 #include "output/answer_report.hpp"
 
-namespace gearlash {
+namespace gearlash::reported_motion_test {
 namespace {
 
 using testing::HasSubstr;
@@ -272,4 +272,4 @@ TEST(ReportedRest, HasNoDigitsOfRounding) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::reported_motion_test

@@ -6,7 +6,7 @@
 
 #include "hybrid/hybrid_trajectory.hpp"
 
-namespace gearlash::hybrid {
+namespace gearlash::hybrid::slow_motion_resolved_test {
 namespace {
 
 // The drive as it was found, its motor in the gap and its load at rest off the reference.
@@ -80,4 +80,4 @@ TEST(RegressionSlowMotionResolved, AfterFastDecaysHaveSettled) {
 }
 
 }  // namespace
-}  // namespace gearlash::hybrid
+}  // namespace gearlash::hybrid::slow_motion_resolved_test

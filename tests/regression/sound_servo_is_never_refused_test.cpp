@@ -4,7 +4,7 @@
 
 #include "closed_form/limit_cycle.hpp"
 
-namespace gearlash {
+namespace gearlash::sound_servo_is_never_refused_test {
 namespace {
 
 TEST(RegressionLimitCycle, ASoundServoIsNeverRefused) {
@@ -29,4 +29,4 @@ TEST(RegressionLimitCycle, NorOneOnTheBoundaryOfHunting) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::sound_servo_is_never_refused_test

@@ -12,7 +12,7 @@
 #include "closed_form/limit_cycle.hpp"
 #include "closed_form/trajectory.hpp"
 
-namespace gearlash {
+namespace gearlash::what_is_called_proved_test {
 namespace {
 
 NormalizedServo servo_of(double damping, double inertia_ratio, double friction_ratio,
@@ -130,4 +130,4 @@ TEST(RegressionProved, NothingIsProvedWhereTheEnclosureTouchesOne) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::what_is_called_proved_test

@@ -10,7 +10,7 @@
 #include "closed_form/limit_cycle.hpp"
 #include "thesis/chart_errors.hpp"
 
-namespace gearlash::thesis {
+namespace gearlash::thesis::extensions_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -131,4 +131,4 @@ TEST(Extensions, RestitutionOverTheChartsOf1960) {
 }
 
 }  // namespace
-}  // namespace gearlash::thesis
+}  // namespace gearlash::thesis::extensions_test

@@ -10,7 +10,7 @@
 #include "closed_form/servo_dynamics.hpp"
 #include "thesis/settled_cycle.hpp"
 
-namespace gearlash::thesis {
+namespace gearlash::thesis::figures_test {
 namespace {
 
 const Figure& figure(int number) {
@@ -93,4 +93,4 @@ TEST(Figures, AreDrawn) {
 }
 
 }  // namespace
-}  // namespace gearlash::thesis
+}  // namespace gearlash::thesis::figures_test

@@ -10,7 +10,7 @@
 #include "base/seeded_draws.hpp"
 #include "thesis/listing.hpp"
 
-namespace gearlash::thesis {
+namespace gearlash::thesis::float_1604_test {
 namespace {
 
 TEST(OracleFloat1604, ConstantsOfTheListingHaveItsWords) {
@@ -108,4 +108,4 @@ TEST(EdgeFloat1604, FaultsAndUnderflow) {
 }
 
 }  // namespace
-}  // namespace gearlash::thesis
+}  // namespace gearlash::thesis::float_1604_test

@@ -8,7 +8,7 @@
 #include "thesis/printout.hpp"
 #include "thesis/thesis_machine.hpp"
 
-namespace gearlash::thesis {
+namespace gearlash::thesis::machine_1604_test {
 namespace {
 
 /// Assembled at 100₈ and stepped `steps` times.
@@ -210,4 +210,4 @@ TEST(EdgeAssembler, NamesTheLineAtFault) {
 }
 
 }  // namespace
-}  // namespace gearlash::thesis
+}  // namespace gearlash::thesis::machine_1604_test

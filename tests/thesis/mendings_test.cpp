@@ -8,7 +8,7 @@
 #include "thesis/chart_reading.hpp"
 #include "thesis/settled_cycle.hpp"
 
-namespace gearlash::thesis {
+namespace gearlash::thesis::mendings_test {
 namespace {
 
 TEST(Mendings, EachPropertyCarriesNumbersOfThePrintout) {
@@ -76,4 +76,4 @@ TEST(OracleChartReading, ItsErrorIsTheProductOfItsCauses) {
 }
 
 }  // namespace
-}  // namespace gearlash::thesis
+}  // namespace gearlash::thesis::mendings_test

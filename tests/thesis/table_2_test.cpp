@@ -6,7 +6,7 @@
 #include "thesis/float_1604.hpp"
 #include "thesis/printout.hpp"
 
-namespace gearlash::thesis {
+namespace gearlash::thesis::table_2_test {
 namespace {
 
 template <class Number>
@@ -61,4 +61,4 @@ TEST(OracleTableTwo, OnlySumsWithoutGuardDigitsGiveTheDigitsPrinted) {
 }
 
 }  // namespace
-}  // namespace gearlash::thesis
+}  // namespace gearlash::thesis::table_2_test

@@ -14,7 +14,7 @@
 #include "gearlash/output.hpp"
 #include "gearlash/parameter.hpp"
 
-namespace gearlash::web {
+namespace gearlash::web::core_test {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -247,4 +247,4 @@ TEST_F(WebCore, ATableStandsInItsFolder) {
 }
 
 }  // namespace
-}  // namespace gearlash::web
+}  // namespace gearlash::web::core_test

@@ -15,7 +15,7 @@
 #include "gearlash/parameter.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::enclosed_ceiling_test {
 namespace {
 
 using testing::HasSubstr;
@@ -209,4 +209,4 @@ TEST(PropertyEnclosedCeiling, ATargetIsProvedOverTheValuesItSays) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::enclosed_ceiling_test

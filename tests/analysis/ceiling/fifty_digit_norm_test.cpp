@@ -14,7 +14,7 @@
 #include "base/seeded_draws.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::fifty_digit_norm_test {
 namespace {
 
 using drive::ReducedDrive;
@@ -279,4 +279,4 @@ TEST(OracleCeiling, OfTheSampleServoAndItsNeighboursInBacklashes) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::fifty_digit_norm_test

@@ -13,7 +13,7 @@
 #include "gearlash/motion.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::gap_speed_test {
 namespace {
 
 using testing::HasSubstr;
@@ -233,4 +233,4 @@ TEST(PropertySafeStarts, NeverMeetTheTorqueLimit) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::gap_speed_test

@@ -11,7 +11,7 @@
 #include "base/seeded_draws.hpp"
 #include "leaping_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::plant_ceiling_test {
 namespace {
 
 using drive::ReducedDrive;
@@ -196,4 +196,4 @@ TEST(OracleCeilingOfPlants, UnderAComputerIsTheSumOfTheAnswers) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::plant_ceiling_test

@@ -15,7 +15,7 @@
 #include "base/fifty_digits.hpp"
 #include "base/seeded_draws.hpp"
 
-namespace gearlash {
+namespace gearlash::describing_function_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -349,4 +349,4 @@ TEST(DescribingFunctionEdge, EveryFaultIsNamed) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::describing_function_test

@@ -11,7 +11,7 @@
 #include "analysis/describing/servo_estimate.hpp"
 #include "closed_form/limit_cycle.hpp"
 
-namespace gearlash::drive {
+namespace gearlash::drive::describing_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -378,4 +378,4 @@ TEST(EdgeDescribing, WithoutFeedbackNothingIsInALoop) {
 }
 
 }  // namespace
-}  // namespace gearlash::drive
+}  // namespace gearlash::drive::describing_test

@@ -16,7 +16,7 @@
 #include "base/seeded_draws.hpp"
 #include "closed_form/limit_cycle.hpp"
 
-namespace gearlash {
+namespace gearlash::harmonic_balance_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -494,4 +494,4 @@ TEST(HarmonicBalanceEdge, EstimateOfServosWithoutFrictionOrBacklashIsEmpty) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::harmonic_balance_test

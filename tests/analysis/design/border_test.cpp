@@ -11,7 +11,7 @@
 #include "analysis/pd_drive.hpp"
 #include "general/attractors/search_setting.hpp"
 
-namespace gearlash {
+namespace gearlash::border_test {
 namespace {
 
 /// Hunts if disturbed.
@@ -112,4 +112,4 @@ TEST(Border, AtALimitOfAQuantityNothingElseHappens) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::border_test

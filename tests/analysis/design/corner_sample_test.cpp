@@ -5,7 +5,7 @@
 
 #include <set>
 
-namespace gearlash {
+namespace gearlash::corner_sample_test {
 namespace {
 
 /// Of the parameters `which`, the combinations of ends that occur.
@@ -41,4 +41,4 @@ TEST(EdgeCornerSample, OfFewParametersHasAllCorners) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::corner_sample_test

@@ -7,7 +7,7 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 
-namespace gearlash {
+namespace gearlash::distribution_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -135,4 +135,4 @@ TEST(EdgeDistribution, EveryFaultIsNamed) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::distribution_test

@@ -16,7 +16,7 @@
 #include "closed_form/exact_half_cycle.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::drive_box_test {
 namespace {
 
 /// All but restitution, and the normal form's own.
@@ -162,4 +162,4 @@ TEST(PropertyDriveBox, HoldsEveryDataSheetBetweenItsEnds) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::drive_box_test

@@ -13,7 +13,7 @@
 #include "base/seeded_draws.hpp"
 #include "closed_form/growth_at_rest.hpp"
 
-namespace gearlash {
+namespace gearlash::drive_sensitivity_test {
 namespace {
 
 constexpr Sheet sheet{.motor_inertia = 1e-5,
@@ -270,4 +270,4 @@ TEST(DriveSensitivity, WithBouncesAgreesWithDifferencesToo) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::drive_sensitivity_test

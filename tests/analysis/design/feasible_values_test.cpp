@@ -11,7 +11,7 @@
 #include "base/range_check.hpp"
 #include "base/seeded_draws.hpp"
 
-namespace gearlash {
+namespace gearlash::feasible_values_test {
 namespace {
 
 /// The servo of the thesis's sample problem, about.
@@ -284,4 +284,4 @@ TEST(EdgeTarget, ContradictionsAreFaults) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::feasible_values_test

@@ -13,7 +13,7 @@
 #include "base/seeded_draws.hpp"
 #include "closed_form/growth_at_rest.hpp"
 
-namespace gearlash {
+namespace gearlash::hunting_margin_test {
 namespace {
 
 double growth_of(const Drivetrain& drive) {
@@ -299,4 +299,4 @@ TEST(EdgeHuntingMargin, IsFoundWhereGrowthAtRestIsNought) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::hunting_margin_test

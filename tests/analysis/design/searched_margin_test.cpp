@@ -15,7 +15,7 @@
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
 
-namespace gearlash {
+namespace gearlash::searched_margin_test {
 namespace {
 
 using testing::ElementsAre;
@@ -213,4 +213,4 @@ TEST(EdgeSearchedMargin, FaultsAreTold) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::searched_margin_test

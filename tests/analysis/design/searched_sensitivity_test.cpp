@@ -18,7 +18,7 @@
 #include "gearlash/sensitivity.hpp"
 #include "general/attractors/found_cycle.hpp"
 
-namespace gearlash {
+namespace gearlash::searched_sensitivity_test {
 namespace {
 
 struct CheckedSensitivities {
@@ -263,4 +263,4 @@ TEST(EdgeSearchedSensitivity, SaysWhyThereIsNone) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::searched_sensitivity_test

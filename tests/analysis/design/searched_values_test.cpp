@@ -17,7 +17,7 @@
 #include "gearlash/design.hpp"
 #include "gearlash/parameter.hpp"
 
-namespace gearlash {
+namespace gearlash::searched_values_test {
 namespace {
 
 using test::faults_of;
@@ -335,4 +335,4 @@ TEST(EdgeSearchedValues, WhereNothingMeetsATargetThereIsAClosestOne) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::searched_values_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace gearlash {
+namespace gearlash::target_test {
 namespace {
 
 Target within(Quantity quantity, const Bounds& permitted) {
@@ -130,4 +130,4 @@ TEST(Target, IsNotKnownWhereAStepWasCutShort) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::target_test

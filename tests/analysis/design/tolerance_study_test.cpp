@@ -13,7 +13,7 @@
 #include "base/seeded_draws.hpp"
 #include "toleranced_samples.hpp"
 
-namespace gearlash {
+namespace gearlash::tolerance_study_test {
 namespace {
 
 Target at_most(double size) {
@@ -447,4 +447,4 @@ TEST(SamplePlan, HasAPowerOfTwoOfPoints) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::tolerance_study_test

@@ -6,7 +6,7 @@
 
 #include "analysis/design/drives.hpp"
 
-namespace gearlash {
+namespace gearlash::toleranced_drive_test {
 namespace {
 
 using testing::ElementsAre;
@@ -185,4 +185,4 @@ TEST(EdgeTolerancedDrive, WithoutAClosedFormItIsSearched) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::toleranced_drive_test

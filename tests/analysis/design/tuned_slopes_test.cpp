@@ -15,7 +15,7 @@
 #include "gearlash/parameter.hpp"
 #include "model/reduced_drive.hpp"
 
-namespace gearlash {
+namespace gearlash::tuned_slopes_test {
 namespace {
 
 TuneTask hunting_task() {
@@ -110,4 +110,4 @@ TEST(TunedSlopes, OfADriveThatRestsAreThoseOfItsLoop) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::tuned_slopes_test

@@ -9,7 +9,7 @@
 
 #include "base/seeded_draws.hpp"
 
-namespace gearlash {
+namespace gearlash::value_scan_test {
 namespace {
 
 /// Meets the target within some intervals, and is missed by the distance to the nearest of them.
@@ -122,4 +122,4 @@ TEST(ValueScan, LocatesAJumpNoFurtherThanIsWorthIt) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::value_scan_test

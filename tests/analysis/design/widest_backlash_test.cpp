@@ -9,7 +9,7 @@
 #include "analysis/design/target.hpp"
 #include "toleranced_samples.hpp"
 
-namespace gearlash {
+namespace gearlash::widest_backlash_test {
 namespace {
 
 Target at_most(double size) {
@@ -137,4 +137,4 @@ TEST(EdgeWidestBacklash, EveryFaultIsNamed) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::widest_backlash_test

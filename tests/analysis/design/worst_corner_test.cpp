@@ -10,7 +10,7 @@
 #include "closed_form/lanes/cycle_batch.hpp"
 #include "toleranced_samples.hpp"
 
-namespace gearlash {
+namespace gearlash::worst_corner_test {
 namespace {
 
 std::vector<double> values_of(const WorstCorner& worst) {
@@ -198,4 +198,4 @@ TEST(EdgeWorstCorner, EveryFaultIsNamed) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::worst_corner_test

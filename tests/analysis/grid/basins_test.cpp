@@ -9,7 +9,7 @@
 #include "analysis/analyse.hpp"
 #include "gearlash/motion.hpp"
 
-namespace gearlash {
+namespace gearlash::basins_test {
 namespace {
 
 /// Integral action that its friction alone keeps from growing: it dies down from small starts and
@@ -95,4 +95,4 @@ TEST(Basins, StoppedWorkIsIncomplete) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::basins_test

@@ -11,7 +11,7 @@
 #include "gearlash/grid.hpp"
 #include "gearlash/motion.hpp"
 
-namespace gearlash {
+namespace gearlash::bifurcations_test {
 namespace {
 
 /// Integral action against friction, with a limited torque and anti-windup: beyond a fold a stable
@@ -139,4 +139,4 @@ TEST(Bifurcations, StoppedWorkIsIncomplete) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::bifurcations_test

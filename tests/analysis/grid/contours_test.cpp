@@ -11,7 +11,7 @@
 #include "analysis/grid/hunting_boundary.hpp"
 #include "analysis/grid/servo_grids.hpp"
 
-namespace gearlash {
+namespace gearlash::contours_test {
 namespace {
 
 using testing::DoubleEq;
@@ -132,4 +132,4 @@ TEST(Contours, AreInterpolatedWhereFacesBounce) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::contours_test

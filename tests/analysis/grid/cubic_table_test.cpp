@@ -8,7 +8,7 @@
 
 #include "base/seeded_draws.hpp"
 
-namespace gearlash {
+namespace gearlash::cubic_table_test {
 namespace {
 
 double cubic(double s) { return ((0.7 * s - 1.1) * s + 0.3) * s + 2.0; }
@@ -82,4 +82,4 @@ TEST(EdgeCubicAxis, ContainsItsEndsAndNothingBeyond) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::cubic_table_test

@@ -13,7 +13,7 @@
 #include "closed_form/growth_at_rest.hpp"
 #include "gearlash/chart.hpp"
 
-namespace gearlash {
+namespace gearlash::design_chart_test {
 namespace {
 
 using testing::HasSubstr;
@@ -568,4 +568,4 @@ TEST(DesignChart, WithRestitutionUnlikeCellsAreSolved) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::design_chart_test

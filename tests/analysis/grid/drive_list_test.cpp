@@ -12,7 +12,7 @@
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
 
-namespace gearlash {
+namespace gearlash::drive_list_test {
 namespace {
 
 using testing::HasSubstr;
@@ -83,4 +83,4 @@ TEST(EdgeDriveList, EveryFaultIsFound) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::drive_list_test

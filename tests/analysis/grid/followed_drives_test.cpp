@@ -13,7 +13,7 @@
 #include "analysis/pd_drive.hpp"
 #include "gearlash/analyse.hpp"
 
-namespace gearlash {
+namespace gearlash::followed_drives_test {
 namespace {
 
 /// From rest to hunting.
@@ -110,4 +110,4 @@ TEST(EdgeFollowedDrives, StopWhenAsked) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::followed_drives_test

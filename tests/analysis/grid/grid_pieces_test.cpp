@@ -8,7 +8,7 @@
 #include "analysis/grid/servo_grids.hpp"
 #include "base/same_bits.hpp"
 
-namespace gearlash {
+namespace gearlash::grid_pieces_test {
 namespace {
 
 Grid grid_of_servos() {
@@ -98,4 +98,4 @@ TEST(EdgeGridInPieces, WhatItsTakerThrowsIsThrownOn) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::grid_pieces_test

@@ -12,7 +12,7 @@
 #include "gearlash/analyse.hpp"
 #include "gearlash/parameter.hpp"
 
-namespace gearlash {
+namespace gearlash::grid_test {
 namespace {
 
 using testing::HasSubstr;
@@ -311,4 +311,4 @@ TEST(EdgeGrid, EvaluateRefusesAGridWithFaults) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::grid_test

@@ -12,7 +12,7 @@
 #include "closed_form/growth_at_rest.hpp"
 #include "closed_form/trajectory.hpp"
 
-namespace gearlash {
+namespace gearlash::hunting_boundary_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -273,4 +273,4 @@ TEST(PropertyHuntingBoundary, TheExchangeOfMotorAndLoadKeepsIt) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::hunting_boundary_test

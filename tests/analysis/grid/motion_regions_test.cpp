@@ -9,7 +9,7 @@
 #include "analysis/grid/servo_grids.hpp"
 #include "closed_form/growth_at_rest.hpp"
 
-namespace gearlash {
+namespace gearlash::motion_regions_test {
 namespace {
 
 Grid grid_of_servos() {
@@ -107,4 +107,4 @@ TEST(EdgeMotionRegions, StoppedTheirBordersLieHalfWay) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::motion_regions_test

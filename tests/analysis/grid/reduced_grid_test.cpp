@@ -12,7 +12,7 @@
 #include "analysis/grid/servo_grids.hpp"
 #include "base/seeded_draws.hpp"
 
-namespace gearlash {
+namespace gearlash::reduced_grid_test {
 namespace {
 
 constexpr Kept everything = {
@@ -197,4 +197,4 @@ TEST(EdgeReducedGrid, OtherTextsAreRefused) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::reduced_grid_test

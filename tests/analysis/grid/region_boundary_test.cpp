@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace gearlash {
+namespace gearlash::region_boundary_test {
 namespace {
 
 using SideAt = std::function<Side(const MapPoint&)>;
@@ -136,4 +136,4 @@ TEST(EdgeRegionBoundary, AnAxisWithoutLengthHasNone) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::region_boundary_test

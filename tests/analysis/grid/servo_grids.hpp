@@ -1,15 +1,11 @@
 // Grids over the normal form, as tests write them.
 #pragma once
 
+#include "analysis/design/drives.hpp"
 #include "analysis/grid/grid_evaluation.hpp"
 #include "analysis/grid/hunting_boundary.hpp"
 
 namespace gearlash {
-
-inline Drive drive_of(const NormalizedServo& servo) {
-  return normal_form(servo.damping, servo.inertia_ratio, servo.friction_ratio, servo.backlash,
-                     servo.restitution);
-}
 
 inline NormalizedServo servo_of(const Drive& drive) {
   return {.damping = drive.servo->damping,

@@ -19,7 +19,7 @@
 #include "base/seeded_draws.hpp"
 #include "closed_form/growth_at_rest.hpp"
 
-namespace gearlash {
+namespace gearlash::cycle_batch_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -324,4 +324,4 @@ TEST(EdgeCycleBatch, UnitsAreNamedFromNarrowToWide) {
 }
 
 }  // namespace
-}  // namespace gearlash
+}  // namespace gearlash::cycle_batch_test

@@ -8,7 +8,7 @@
 
 #include "random_drive.hpp"
 
-namespace gearlash::oracle {
+namespace gearlash::oracle::drive_score_test {
 namespace {
 
 class OracleIndustrialDrive : public testing::TestWithParam<std::uint64_t> {};
@@ -51,4 +51,4 @@ TEST(OracleEndingsAgree, ByKindAndAmplitudesToAShareOrAnEncoderStep) {
 }
 
 }  // namespace
-}  // namespace gearlash::oracle
+}  // namespace gearlash::oracle::drive_score_test

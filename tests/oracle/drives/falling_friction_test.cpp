@@ -10,7 +10,7 @@
 #include "mechanism.hpp"
 #include "random_drive.hpp"
 
-namespace gearlash::oracle {
+namespace gearlash::oracle::falling_friction_test {
 namespace {
 
 /// A random drive, without encoder steps, whose shafts have a Stribeck speed within the speeds of
@@ -82,4 +82,4 @@ TEST(PropertyFallingFriction, MovesAsSmallStepsDo) {
 }
 
 }  // namespace
-}  // namespace gearlash::oracle
+}  // namespace gearlash::oracle::falling_friction_test

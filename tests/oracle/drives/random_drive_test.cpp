@@ -11,7 +11,7 @@
 #include "gearlash/output.hpp"
 #include "plain_drive.hpp"
 
-namespace gearlash::oracle {
+namespace gearlash::oracle::random_drive_test {
 namespace {
 
 TEST(PropertyRandomDrive, IsSoundAndWithinItsRanges) {
@@ -77,4 +77,4 @@ TEST(PropertyRandomDrive, ComesInEveryKind) {
 }
 
 }  // namespace
-}  // namespace gearlash::oracle
+}  // namespace gearlash::oracle::random_drive_test

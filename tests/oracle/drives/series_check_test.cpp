@@ -13,7 +13,7 @@
 #include "gearlash/input.hpp"
 #include "textbook_gains.hpp"
 
-namespace gearlash::oracle {
+namespace gearlash::oracle::series_check_test {
 namespace {
 
 PlainDrive industrial(const std::string& name) {
@@ -95,4 +95,4 @@ TEST(PropertyDesignTask, ItsAnswersHoldWhenPutBack) {
 }
 
 }  // namespace
-}  // namespace gearlash::oracle
+}  // namespace gearlash::oracle::series_check_test

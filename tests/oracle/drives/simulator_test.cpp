@@ -9,7 +9,7 @@
 #include "ending.hpp"
 #include "mechanism.hpp"
 
-namespace gearlash::oracle {
+namespace gearlash::oracle::simulator_test {
 namespace {
 
 /// Far from both faces: each shaft moves alone.
@@ -272,4 +272,4 @@ TEST(OracleComputer, TakesTheSpeedFromDifferencesOfReadings) {
 }
 
 }  // namespace
-}  // namespace gearlash::oracle
+}  // namespace gearlash::oracle::simulator_test
