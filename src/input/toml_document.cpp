@@ -21,8 +21,8 @@ std::string named_place(const std::string& source_name, Place place) {
          std::to_string(std::max(place.column, 1U));
 }
 
-[[noreturn]] void refuse(const std::string& where, const std::string& field,
-                         const std::string& value, const std::string& permitted) {
+[[noreturn]] void refuse_at(const std::string& where, const std::string& field,
+                            const std::string& value, const std::string& permitted) {
   throw InvalidInput({{field, value, permitted, where}});
 }
 
@@ -40,8 +40,8 @@ void require_text(std::string_view text, const std::string& source_name) {
     const std::string_view before = text;
     const std::optional<char32_t> c = take_code_point(text);
     if (!c || *c == U'\0') {
-      refuse(named_place(source_name, place), "file",
-             "binary data (" + shown(before.substr(0, 1)) + ")", "must be text in UTF-8");
+      refuse_at(named_place(source_name, place), "file",
+                "binary data (" + shown(before.substr(0, 1)) + ")", "must be text in UTF-8");
     }
     place = *c == U'\n' ? Place{place.line + 1, 1} : Place{place.line, place.column + 1};
   }
@@ -138,11 +138,11 @@ void require_parsable(std::string_view text, const std::vector<std::string_view>
     const std::optional<std::size_t> byte = unparsable_at(structure_lines[i]);
     if (!byte) continue;
     const bool ascii = is_ascii(structure_lines[i][*byte]);
-    refuse(named_place(source_name,
-                       {static_cast<toml::source_index>(i + 1), column_of(lines[i], *byte)}),
-           "line", shown(lines[i]),
-           ascii ? "must not nest keys deeper than section.key"
-                 : "must be TOML: characters beyond ASCII must be inside closed quotes");
+    refuse_at(named_place(source_name,
+                          {static_cast<toml::source_index>(i + 1), column_of(lines[i], *byte)}),
+              "line", shown(lines[i]),
+              ascii ? "must not nest keys deeper than section.key"
+                    : "must be TOML: characters beyond ASCII must be inside closed quotes");
   }
 }
 
@@ -163,8 +163,9 @@ std::string_view columns(std::string_view line, std::size_t begin, std::size_t e
 TomlDocument::TomlDocument(std::string_view text, std::string_view source_name, std::size_t largest)
     : source_name_(shown(source_name, std::string_view::npos)) {
   if (text.size() > largest) {
-    refuse(named_place(source_name_, {1, 1}), "file", "over " + std::to_string(largest) + " bytes",
-           "must be a data sheet of at most " + std::to_string(largest) + " bytes");
+    refuse_at(named_place(source_name_, {1, 1}), "file",
+              "over " + std::to_string(largest) + " bytes",
+              "must be a data sheet of at most " + std::to_string(largest) + " bytes");
   }
   text = without_byte_order_mark(text);
   require_text(text, source_name_);
@@ -174,8 +175,8 @@ TomlDocument::TomlDocument(std::string_view text, std::string_view source_name, 
     root_ = toml::parse(text);
   } catch (const toml::parse_error& error) {
     const Place place = error.source().begin;
-    refuse(where(place), "line", shown(line(place.line)),
-           "must be TOML: " + shown(error.description(), 200));
+    refuse_at(where(place), "line", shown(line(place.line)),
+              "must be TOML: " + shown(error.description(), 200));
   }
 }
 

@@ -8,10 +8,8 @@
 namespace gearlash {
 namespace {
 
-constexpr int digits = 4;
-
 std::string torque_text(double torque, const AnswerReport& report) {
-  return fmt::format("±{} {}", significant(rounded_up(torque, digits), digits),
+  return fmt::format("±{} {}", significant(rounded_up(torque, usual_digits), usual_digits),
                      report.is_normalized ? "K rad" : "N m at the load");
 }
 
@@ -28,7 +26,8 @@ Json starts_json(const std::optional<SafeStarts>& starts) {
 /// Rounded down.
 std::string lower_bound_text(double radians, const AnswerReport& report) {
   const AngleUnit& unit = report.angle;
-  return significant(rounded_down(unit.from_radians(radians), digits), digits) + " " + unit.name;
+  return significant(rounded_down(unit.from_radians(radians), usual_digits), usual_digits) + " " +
+         unit.name;
 }
 
 std::string safe_starts_text(const AnswerReport& report) {
@@ -55,7 +54,9 @@ std::string ceiling_text(const AnswerReport& report) {
   if (!report.answer.ceiling) return "";
   const Ceiling& ceiling = *report.answer.ceiling;
   if (!ceiling.load) return "\n" + wrapped("No ceiling: " + ceiling.reason + ".");
-  const auto angle = [&](double value) { return swing_bound_text(value, report.angle, digits); };
+  const auto angle = [&](double value) {
+    return swing_bound_text(value, report.angle, usual_digits);
+  };
   std::vector<std::vector<std::string>> rows;
   rows.push_back({"load", angle(*ceiling.load), ""});
   if (ceiling.terms.size() > 1) {
@@ -79,9 +80,9 @@ std::string ceiling_text(const AnswerReport& report) {
 std::string specification_text(const AnswerReport& report) {
   if (!report.specification || !report.answer.ceiling) return "";
   const Ceiling& ceiling = *report.answer.ceiling;
-  const std::string wanted = "±" +
-                             significant(report.angle.from_radians(*report.specification), digits) +
-                             " " + report.angle.name;
+  const std::string wanted =
+      "±" + significant(report.angle.from_radians(*report.specification), usual_digits) + " " +
+      report.angle.name;
   if (!ceiling.load) return "";  // the reason stands where the ceiling would be
   const std::optional<double> widest = widest_backlash(report);
   if (widest) {

@@ -15,13 +15,11 @@
 namespace gearlash {
 namespace {
 
-constexpr int digits = 4;
-
 std::string value_text(const ChangeableNumber& number, double value, const AngleUnit& angle) {
   if (number.is_backlash()) {
-    return angle_text(value, angle, digits);
+    return angle_text(value, angle, usual_digits);
   }
-  return significant(value, digits) + (number.unit == "1" ? "" : " " + number.unit);
+  return significant(value, usual_digits) + (number.unit == "1" ? "" : " " + number.unit);
 }
 
 std::string boundary_text(const ChangeableNumber& number, const ParameterMargin& margin,

@@ -18,17 +18,15 @@
 namespace gearlash {
 namespace {
 
-constexpr int digits = 4;
-
 const AnswerReport& first_of(const ComparisonReport& report) { return report.cases.front().report; }
 
 std::string angle(const ComparisonReport& report, double radians) {
-  return angle_text(radians, first_of(report).angle, digits);
+  return angle_text(radians, first_of(report).angle, usual_digits);
 }
 
 std::string time(const ComparisonReport& report, const std::optional<double>& seconds) {
   if (!seconds) return "–";
-  return time_text(*seconds, first_of(report).is_normalized, digits);
+  return time_text(*seconds, first_of(report).is_normalized, usual_digits);
 }
 
 // ---- cells --------------------------------------------------------------------------------------
@@ -58,7 +56,7 @@ std::string pace_text(const ComparisonReport& report, const SensorCase& one) {
   }
   if (!period) return "–";
   if (first_of(report).is_normalized) return "period " + time(report, *period);
-  return significant(1.0 / *period, digits) + " Hz";
+  return significant(1.0 / *period, usual_digits) + " Hz";
 }
 
 std::string static_error(const ComparisonReport& report, const SensorCase& one) {
@@ -72,7 +70,7 @@ std::string static_error(const ComparisonReport& report, const SensorCase& one) 
   // Rest at a single place prints as one number.
   if (high - low <= 1e-6 * size) return angle(report, low);
   const AngleUnit& unit = first_of(report).angle;
-  return significant(unit.from_radians(low), digits) + " … " + angle(report, high);
+  return significant(unit.from_radians(low), usual_digits) + " … " + angle(report, high);
 }
 
 double encoder_step(const SensorCase& one) { return reduce(one.report.drive).sensing.resolution; }

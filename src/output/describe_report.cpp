@@ -20,8 +20,6 @@ using drive::DescribedMotion;
 using drive::DescribingAnalysis;
 using drive::PredictionError;
 
-constexpr int digits = 4;
-
 const char* stability(bool stable) { return stable ? "stable" : "unstable"; }
 
 // ---- text ---------------------------------------------------------------------------------------
@@ -40,10 +38,10 @@ struct Motion {
 };
 
 Cells motion_row(const std::string& name, const Motion& motion, const DescribeReport& report) {
-  return {name, swing_text(motion.amplitude, report.angle, digits),
-          "±" + angle_text(motion.motor_amplitude, report.angle, digits),
-          time_text(motion.period, report.is_normalized, digits),
-          frequency_text(motion.period, report.is_normalized, digits)};
+  return {name, swing_text(motion.amplitude, report.angle, usual_digits),
+          "±" + angle_text(motion.motor_amplitude, report.angle, usual_digits),
+          time_text(motion.period, report.is_normalized, usual_digits),
+          frequency_text(motion.period, report.is_normalized, usual_digits)};
 }
 
 Cells error_row(const PredictionError& error) {
@@ -97,7 +95,7 @@ std::string polynomial_text(const std::vector<double>& coefficients) {
     const double coefficient = coefficients[i];
     if (coefficient == 0.0) continue;
     const std::size_t power = coefficients.size() - 1 - i;
-    const std::string factor = significant(std::abs(coefficient), digits);
+    const std::string factor = significant(std::abs(coefficient), usual_digits);
     text += coefficient < 0.0 ? (text.empty() ? "−" : " − ") : (text.empty() ? "" : " + ");
     if (power == 0 || factor != "1") text += factor + (power > 0 ? " " : "");
     if (power > 0) text += "s";
@@ -123,7 +121,7 @@ std::string transfer_text(const TransferFunction& transfer) {
               ? in_brackets(transfer.numerator) + "/" + in_brackets(transfer.denominator)
               : polynomial_text(transfer.numerator);
   if (transfer.delay > 0.0)
-    text += fmt::format(" · e^(−{} s)", significant(transfer.delay, digits));
+    text += fmt::format(" · e^(−{} s)", significant(transfer.delay, usual_digits));
   return text;
 }
 
@@ -133,7 +131,7 @@ std::string unresolved_text(const DescribingAnalysis& analysis) {
   return fmt::format(
       "Between the angular frequencies {} and {} the balance is undecided, because its solutions "
       "fill a range or merge there. ",
-      significant(whole.low, digits), significant(whole.high, digits));
+      significant(whole.low, usual_digits), significant(whole.high, usual_digits));
 }
 
 std::string assumptions_text(const DescribingAnalysis& analysis) {
@@ -167,13 +165,13 @@ std::string analysis_text(const DescribingAnalysis& analysis, const DescribeRepo
   return remarks.empty() ? text : text + indented(wrapped(remarks));
 }
 
-std::string exact_text(const DescribeReport& report) {
+std::string exact_motion_text(const DescribeReport& report) {
   std::string text = std::string("exact: ") +
                      (is_forced(report) ? "forced oscillation" : name_of(report.answer.verdict));
   for (const Cycle& cycle : report.answer.cycles) {
     if (cycle.stability != Stability::stable) continue;
-    text += fmt::format(", {}, {}", swing_text(cycle.amplitude, report.angle, digits),
-                        frequency_text(cycle.period, report.is_normalized, digits));
+    text += fmt::format(", {}, {}", swing_text(cycle.amplitude, report.angle, usual_digits),
+                        frequency_text(cycle.period, report.is_normalized, usual_digits));
   }
   return text + "\n";
 }
@@ -274,7 +272,7 @@ DescribeReport describe_report_of(const Drive& drive, const Answer& answer, cons
 }
 
 std::string describe_text(const DescribeReport& report) {
-  std::string text = exact_text(report);
+  std::string text = exact_motion_text(report);
   for (const DescribingAnalysis& analysis : report.analyses) {
     text += "\n" + analysis_text(analysis, report);
   }

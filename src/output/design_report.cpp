@@ -14,15 +14,15 @@
 namespace gearlash {
 namespace {
 
-constexpr int digits = 6;
+constexpr int limit_digits = 6;
 
 /// The limit in few digits, rounded to the wanted side of the exact value.
 std::string rounded(double value, bool up) {
-  std::string text = significant(value, digits);
+  std::string text = significant(value, limit_digits);
   const double read = std::stod(text);
   if (value == 0.0 || (up ? read >= value : read <= value)) return text;
-  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - (digits - 1));
-  return significant(read + (up ? unit : -unit), digits);
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - (limit_digits - 1));
+  return significant(read + (up ? unit : -unit), limit_digits);
 }
 
 /// The unit of a parameter in text: the author's unit of angles for the backlash, else SI.
@@ -84,7 +84,7 @@ std::vector<std::string> interval_row(const DesignReport& report, const Feasible
   const Drivetrain changed = report.drive.with(parameter, value);
   const bool is_first = index == 0;
   return {is_first ? parameter : "  or",
-          is_first ? significant(values.present / unit.size, digits) + unit.name : "",
+          is_first ? significant(values.present / unit.size, limit_digits) + unit.name : "",
           interval_text(interval, values.searched, unit),
           change_text(value, values.present),
           change_text(natural_frequency(changed), natural_frequency(present)),
@@ -97,7 +97,7 @@ std::vector<std::string> interval_row(const DesignReport& report, const Feasible
 std::string reason(const DesignReport& report, const FeasibleValues& values) {
   const ShownUnit unit = shown_unit(report, values.parameter);
   const auto shown = [&](double value) {
-    return significant(value / unit.size, digits) + unit.name;
+    return significant(value / unit.size, limit_digits) + unit.name;
   };
   std::string text = values.parameter + ": ";
   if (values.searched.low == values.searched.high) return text + "is 0 and has no multiples";

@@ -13,8 +13,6 @@
 namespace gearlash {
 namespace {
 
-constexpr int digits = 4;
-
 /// A motion on which the drive may stay, beside the measured one.
 struct Compared {
   const char* list;   ///< of the answer
@@ -63,9 +61,10 @@ std::string share_text(double share) { return fmt::format("{:+.3g} %", 100.0 * s
 std::string measured_text(const AnswerReport& report) {
   if (!report.measured) return "";
   const auto angle = [&](double value) {
-    return "±" + significant(report.angle.from_radians(value), digits) + " " + report.angle.name;
+    return "±" + significant(report.angle.from_radians(value), usual_digits) + " " +
+           report.angle.name;
   };
-  const auto hertz = [](double value) { return significant(value, digits) + " Hz"; };
+  const auto hertz = [](double value) { return significant(value, usual_digits) + " Hz"; };
   const MeasuredHunting& measured = *report.measured;
   const std::vector<Compared> all = compared(report);
   std::string text = "\nMeasured: " + angle(measured.amplitude) + " at " +

@@ -14,7 +14,6 @@ namespace gearlash {
 namespace {
 
 constexpr std::uint64_t bins_per_octave = 8;
-constexpr int digits = 4;
 constexpr char border_verdict[] = "border_verdict";
 
 std::string border_name(const Axis& axis) { return "border_" + column_name(axis.path); }
@@ -176,14 +175,14 @@ std::string counts_text(const ReducedGrid& reduced) {
     if (count == 0) continue;
     const double share = static_cast<double>(count) / static_cast<double>(reduced.points());
     rows.push_back({std::string(name_of(static_cast<Verdict>(i))), std::to_string(count),
-                    significant(100.0 * share, digits) + " %"});
+                    significant(100.0 * share, usual_digits) + " %"});
   }
   return table_text(rows);
 }
 
 std::string value_text(double value, const QuantityInfo& info) {
   const std::string unit(info.unit);
-  return significant(value, digits) + (unit == "1" ? "" : " " + unit);
+  return significant(value, usual_digits) + (unit == "1" ? "" : " " + unit);
 }
 
 std::string extremes_text(const Grid& grid, const ReducedGrid& reduced) {
@@ -203,7 +202,7 @@ std::string extremes_text(const Grid& grid, const ReducedGrid& reduced) {
       for (std::size_t k = 0; k < place.size(); ++k) {
         const std::string unit = unit_of(grid.axes[k], grid.drive);
         std::string text = unit.empty() ? text_of(grid.axes[k], grid.drive, place[k])
-                                        : significant(place[k], digits);
+                                        : significant(place[k], usual_digits);
         if (!unit.empty() && unit != "1") text += " " + unit;
         row.push_back(std::move(text));
       }
@@ -221,7 +220,7 @@ std::string quantiles_text(const ReducedGrid& reduced) {
     const QuantityInfo& info = info_of(one.quantity);
     Row row = {std::string(info.name) + (info.unit == "1" ? "" : ", " + std::string(info.unit))};
     for (const double share : shown) {
-      row.push_back(one.known == 0 ? "–" : significant(one.sketch.quantile(share), digits));
+      row.push_back(one.known == 0 ? "–" : significant(one.sketch.quantile(share), usual_digits));
     }
     rows.push_back(std::move(row));
   }

@@ -14,6 +14,9 @@ struct Provenance {
   std::string version = {};  ///< of Gearlash
 };
 
+/// Of a result that a person reads beside others.
+inline constexpr int usual_digits = 4;
+
 /// The number with at most `digits` significant digits: "0.0814", "1.2e-05", "inf".
 std::string significant(double value, int digits);
 

@@ -14,7 +14,6 @@
 namespace gearlash {
 namespace {
 
-constexpr int digits = 4;
 /// Two standard errors: about 95 % of such intervals contain the true value.
 constexpr double bar = 2.0;
 
@@ -36,14 +35,15 @@ std::string percent_text(const Estimate& estimate, std::size_t samples) {
     return fmt::format("none of {}, so at most {} %", samples, significant(open, 2));
   }
   if (estimate.value == 1.0) {
-    return fmt::format("all {}, so at least {} %", samples, significant(100.0 - open, digits));
+    return fmt::format("all {}, so at least {} %", samples,
+                       significant(100.0 - open, usual_digits));
   }
-  return fmt::format("{} ± {} %", significant(100.0 * estimate.value, digits),
+  return fmt::format("{} ± {} %", significant(100.0 * estimate.value, usual_digits),
                      significant(100.0 * bar * *estimate.standard_error, 2));
 }
 
 std::string angle_text(double angle, const ToleranceReport& report) {
-  return gearlash::angle_text(angle, report.angle, digits);
+  return gearlash::angle_text(angle, report.angle, usual_digits);
 }
 
 std::string amplitude_text(const std::optional<Estimate>& estimate, const ToleranceReport& report) {
@@ -51,7 +51,7 @@ std::string amplitude_text(const std::optional<Estimate>& estimate, const Tolera
 }
 
 std::string frequency_text(const std::optional<Estimate>& estimate) {
-  return estimate ? significant(estimate->value, digits) + " Hz" : "none";
+  return estimate ? significant(estimate->value, usual_digits) + " Hz" : "none";
 }
 
 std::vector<Row> headline_rows(const ToleranceReport& report) {
@@ -72,7 +72,7 @@ std::vector<Row> quantile_rows(const ToleranceReport& report) {
       {"share of samples up to", amplitude_name(report), "amplitude, of those that hunt"}};
   if (has_frequency(report)) rows.front().emplace_back("frequency");
   for (std::size_t i = 0; i < study.amplitude.size(); ++i) {
-    Row row = {significant(100.0 * study.amplitude[i].share, digits) + " %",
+    Row row = {significant(100.0 * study.amplitude[i].share, usual_digits) + " %",
                amplitude_text(study.amplitude[i].value, report),
                amplitude_text(study.amplitude_of_hunting[i].value, report)};
     if (has_frequency(report)) row.push_back(frequency_text(study.frequency[i].value));
@@ -92,13 +92,13 @@ std::string index_text(const std::optional<SensitivityIndices>& indices,
 std::string number_text(const std::string& path, double value, const ToleranceReport& report) {
   const std::string unit(unit_of(report.drive.nominal, path));
   if (unit == "rad") return angle_text(value, report);
-  return significant(value, digits) + (unit == "1" ? "" : " " + unit);
+  return significant(value, usual_digits) + (unit == "1" ? "" : " " + unit);
 }
 
 /// "± 5 %", "0.05 rad to 0.15 rad", "normal, 3 %", "2 lots".
 std::string spread_text(const ParameterTolerance& varied, const ToleranceReport& report) {
   const auto share = [](double spread, double nominal) {
-    return significant(100.0 * spread / std::abs(nominal), digits) + " %";
+    return significant(100.0 * spread / std::abs(nominal), usual_digits) + " %";
   };
   const auto value = [&](double number) { return number_text(varied.path, number, report); };
   return std::visit(
@@ -158,12 +158,13 @@ std::string worst_text(const ToleranceReport& report) {
   const Performance& worst = report.worst.performance;
   std::string text = "The worst sample found within the tolerances ";
   if (worst.verdict == Verdict::cannot_hunt && !std::isnan(worst.growth_at_rest)) {
-    text += "cannot hunt (growth at rest " + significant(worst.growth_at_rest, digits) + ")";
+    text += "cannot hunt (growth at rest " + significant(worst.growth_at_rest, usual_digits) + ")";
   } else {
     text += name_of(worst.verdict);
     if (worst.amplitude > 0.0 && std::isfinite(worst.amplitude)) {
-      text += ": " + swing_text(worst.amplitude, report.angle, digits);
-      if (has_frequency(report)) text += " at " + significant(worst.frequency, digits) + " Hz";
+      text += ": " + swing_text(worst.amplitude, report.angle, usual_digits);
+      if (has_frequency(report))
+        text += " at " + significant(worst.frequency, usual_digits) + " Hz";
     }
   }
   const std::string how =
@@ -187,20 +188,20 @@ std::string proved_text(const ToleranceReport& report) {
     return "Not proved: a bound of all samples within the tolerances (" + proved.reason + ").";
   }
   std::string text = "Proved: no sample within the tolerances swings by more than " +
-                     swing_bound_text(*proved.bound, report.angle, digits) + " in the end" +
+                     swing_bound_text(*proved.bound, report.angle, usual_digits) + " in the end" +
                      (has_limit(report.drive.nominal) ? ", if its torque stays off the limit" : "");
   text += fmt::format(" (the ceiling, over {} {}", proved.parts,
                       proved.parts == 1 ? "box" : "boxes of parameters");
   if (proved.largest) {
-    text +=
-        "; of single drives it reaches " + swing_bound_text(*proved.largest, report.angle, digits);
+    text += "; of single drives it reaches " +
+            swing_bound_text(*proved.largest, report.angle, usual_digits);
   }
   return text + ").";
 }
 
 std::string backlash_text(const ToleranceReport& report) {
   if (report.demanded_yield == 0.0) return "";
-  const std::string demand = significant(100.0 * report.demanded_yield, digits) + " %";
+  const std::string demand = significant(100.0 * report.demanded_yield, usual_digits) + " %";
   if (!report.backlash) {
     return "\n" + wrapped("No tolerance of the backlash gives a yield of " + demand + ".");
   }

@@ -20,7 +20,7 @@ struct Colours {
   const char* load;
   const char* motor;
 };
-constexpr std::array<Colours, 4> colours = {
+constexpr std::array<Colours, 4> shaft_colours = {
     Colours{load_colour, motor_colour}, Colours{"#009e73", "#cc79a7"},
     Colours{"#000000", "#8a8a8a"}, Colours{"#56b4e9", "#e69f00"}};
 
@@ -133,7 +133,7 @@ class PlaneCurve {
     }
     const bool is_unstable = drawn_.role == MotionRole::unstable;
     const Colours colour =
-        is_unstable ? Colours{"#000000", "#8a8a8a"} : colours[number_ % colours.size()];
+        is_unstable ? Colours{"#000000", "#8a8a8a"} : shaft_colours[number_ % shaft_colours.size()];
     const double width = drawn_.role == MotionRole::background ? 0.8
                          : is_unstable                         ? 1.6
                          : drawn_.is_cycle                     ? 2.8
