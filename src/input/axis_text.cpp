@@ -16,7 +16,7 @@
 namespace gearlash {
 namespace {
 
-constexpr char forms[] = "must be PATH=FROM:TO:COUNT, PATH=FROM:TO:COUNT:log or PATH=A,B,C";
+constexpr char axis_forms[] = "must be PATH=FROM:TO:COUNT, PATH=FROM:TO:COUNT:log or PATH=A,B,C";
 
 /// The drive's parameters and the short names.
 std::string known_text(const Drive& drive, std::string_view name) {
@@ -60,10 +60,10 @@ std::size_t read_count(std::string_view field, std::string_view text) {
 
 AxisText split_axis(std::string_view field, std::string_view text) {
   const std::size_t equals = text.find('=');
-  if (equals == std::string_view::npos) refuse(field, text, forms);
+  if (equals == std::string_view::npos) refuse(field, text, axis_forms);
   const std::string_view name = trimmed(text.substr(0, equals));
   const std::string_view values = trimmed(text.substr(equals + 1));
-  if (name.empty() || values.empty()) refuse(field, text, forms);
+  if (name.empty() || values.empty()) refuse(field, text, axis_forms);
   return {std::string(field), std::string(name), std::string(values)};
 }
 
@@ -107,7 +107,7 @@ Axis read_axis(const AxisText& text, const Drive& drive) {
     const bool is_logarithmic = parts.size() == 4 && parts[3] == "log";
     const bool is_word = !parameter->choices.empty();
     if (is_word || (parts.size() != 3 && !is_logarithmic)) {
-      refuse(text.field, text.name + "=" + text.values, forms);
+      refuse(text.field, text.name + "=" + text.values, axis_forms);
     }
     axis = spaced_axis(text.field, axis.path, value_of(parts[0]), value_of(parts[1]),
                        read_count(text.field, parts[2]),

@@ -17,7 +17,7 @@
 namespace gearlash {
 namespace {
 
-constexpr char forms[] =
+constexpr char target_forms[] =
     "must be no-hunting, no-hunting-if-disturbed or no-runaway, or a quantity such as amplitude, "
     "frequency, period, growth-at-rest, ceiling, bandwidth, overshoot or static-error, then <= or "
     ">=, then a limit, as in \"amplitude <= 1 arcmin\"; several joined by \"and\"";
@@ -64,7 +64,7 @@ class TargetReader {
         return;
       }
       const std::optional<Condition> parts = split(condition);
-      if (!parts || parts->limit.empty()) refuse(field_, condition, forms);
+      if (!parts || parts->limit.empty()) refuse(field_, condition, target_forms);
       add(condition, *parts);
     } catch (const InvalidInput& error) {
       faults_.insert(faults_.end(), error.faults().begin(), error.faults().end());
@@ -91,7 +91,7 @@ class TargetReader {
   void add(std::string_view condition, const Condition& parts) {
     const std::optional<Quantity> quantity = find_quantity(parts.quantity);
     if (!quantity || info_of(*quantity).kind != QuantityKind::number)
-      refuse(field_, condition, forms);
+      refuse(field_, condition, target_forms);
     const bool is_period = quantity == Quantity::period;
     if (time_scale_ == TimeScale::unknown && has_time(*quantity)) {
       refuse(field_, condition,
