@@ -98,7 +98,7 @@ clang:  ## build everything with clang 16, warnings being errors, and run every 
 # Left out: tests that read sources, build other programs or run scripts, where the sanitizers watch
 # nothing; those that count allocations, which the sanitizers count themselves; those of the documents'
 # output and of the page, which repeat those of the command line; the oracles, whose time is spent in
-# Boost's numbers of many digits; and five tests that do for minutes what others do for seconds.
+# Boost's numbers of many digits; and six tests that do for minutes what others do for seconds.
 # SANITIZED, a pattern of labels, runs the tests of some rooms alone.
 sanitize:  ## clang 16 with AddressSanitizer and UndefinedBehaviorSanitizer, warnings being errors
 	@$(INSTALL) test clang
