@@ -163,8 +163,9 @@ std::string worst_text(const ToleranceReport& report) {
     text += name_of(worst.verdict);
     if (worst.amplitude > 0.0 && std::isfinite(worst.amplitude)) {
       text += ": " + swing_text(worst.amplitude, report.angle, usual_digits);
-      if (has_frequency(report))
+      if (has_frequency(report)) {
         text += " at " + significant(worst.frequency, usual_digits) + " Hz";
+      }
     }
   }
   const std::string how =

@@ -5,23 +5,13 @@
 
 #include <vector>
 
+#include "analysis/pd_drive.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash::attractor_picture_test {
 namespace {
 
 using drive::MotionEnd;
-
-Drive pd_drive() {
-  Drive drive;
-  drive.motor = {.kind = TorqueControl{}, .inertia = 2e-5, .friction = {.viscous = 1e-4}};
-  drive.gearbox = {.ratio = 20.0, .backlash = 2e-3};
-  drive.load = {.inertia = 5e-3, .friction = {.viscous = 1e-3}};
-  drive.contact = RigidContact{};
-  drive.controller.law =
-      PID{.terms = PIDTerms::PD, .proportional = 2.0, .derivative = 0.02, .filter = 1e-3};
-  return drive;
-}
 
 /// The load's position in the first moment of the picture.
 double shown_start(const std::vector<drive::Outcome>& outcomes) {
