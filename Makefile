@@ -95,26 +95,33 @@ clang:  ## build everything with clang 16, warnings being errors, and run every 
 	$(BUILD) clang-16
 	ctest --preset clang-16
 
-# Left out: tests that read sources, build other programs or run scripts, where the sanitizers watch
-# nothing; those that count allocations, which the sanitizers count themselves; those of the documents'
-# output and of the page, which repeat those of the command line; the oracles, whose time is spent in
-# Boost's numbers of many digits; and six tests that do for minutes what others do for seconds.
-# SANITIZED, a pattern of labels, runs the tests of some rooms alone.
+# The build is a project around Gearlash, tests/around. Left out: tests that read sources, build other
+# programs or run scripts, where the sanitizers watch nothing; those that count allocations, which the
+# sanitizers count themselves; those of the documents' output and of the page, which repeat those of
+# the command line; the oracles, whose time is spent in Boost's numbers of many digits; and six tests
+# that do for minutes what others do for seconds.
+# SANITIZED, names of folders of tests, builds and runs the tests of these alone.
+AROUND := cd tests/around &&
+SANITIZED_TARGETS = own_eigen test_on_one_thread gearlash_tool gearlash_python_package reader_fuzzer \
+                    $(filter-out test_python,$(SANITIZED:%=test_%))
+space := $(subst ,, )
 sanitize:  ## clang 16 with AddressSanitizer and UndefinedBehaviorSanitizer, warnings being errors
 	@$(INSTALL) test clang
-	cmake --preset asan-ubsan -DGEARLASH_BUILD_PYTHON=ON
-	$(BUILD) asan-ubsan
-	ctest --preset asan-ubsan $(if $(SANITIZED),--label-regex '$(SANITIZED)')
+	$(AROUND) cmake --preset asan-ubsan -DGEARLASH_BUILD_PYTHON=ON
+	$(AROUND) $(BUILD) asan-ubsan $(if $(SANITIZED),--target $(SANITIZED_TARGETS))
+	$(AROUND) ctest --preset asan-ubsan \
+	  $(if $(SANITIZED),--label-regex '^(around|$(subst $(space),|,$(strip $(SANITIZED))))(-.*)?$$')
 
 # libFuzzer writes new inputs to the first folder, in the build, and only reads the corpus in the
 # sources. The build is that of `make sanitize`.
 FUZZED := build/asan-ubsan/fuzz
+FUZZER := build/asan-ubsan/gearlash/tests/input/fuzz/reader_fuzzer
 fuzz:  ## feed random bytes to the readers for FUZZ_SECONDS (30)
 	@$(INSTALL) test clang
-	cmake --preset asan-ubsan
-	$(BUILD) asan-ubsan --target reader_fuzzer
+	$(AROUND) cmake --preset asan-ubsan
+	$(AROUND) $(BUILD) asan-ubsan --target reader_fuzzer
 	mkdir -p $(FUZZED)
-	build/asan-ubsan/tests/input/fuzz/reader_fuzzer -max_total_time=$(FUZZ_SECONDS) -print_final_stats=1 \
+	$(FUZZER) -max_total_time=$(FUZZ_SECONDS) -print_final_stats=1 \
 	  -dict=tests/input/fuzz/reader.dict -artifact_prefix=$(FUZZED)- \
 	  $(FUZZED) tests/input/fuzz/corpus
 

@@ -19,8 +19,11 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)    # for clang-tidy and editors
 add_compile_options(-ffp-contract=off)
 
 add_compile_options(-Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wold-style-cast)
-if(NOT CMAKE_UNITY_BUILD)  # where files share a compilation, one's local names are another's
+# Where files share a compilation, a local name may be that of another file's function.
+if(NOT CMAKE_UNITY_BUILD)
   add_compile_options(-Wshadow)
+elseif(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options(-Wshadow=local)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # False alarms on every `"text" + std::string` (gcc bug 105651, fixed in gcc 13), and on lists of

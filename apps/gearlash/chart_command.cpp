@@ -14,7 +14,7 @@
 namespace gearlash::cli {
 namespace {
 
-constexpr char examples[] =
+constexpr char chart_examples[] =
     "  gearlash chart --x inertia-ratio=1/9:9:200:log --curves damping=0.1:0.6:6 \\\n"
     "      --friction-ratio 0.1 --backlash 0.3 --plot curves=figure-7.svg\n"
     "  gearlash chart --x friction-ratio=0:1:101 --curves inertia-ratio=1/4,1,4 \\\n"
@@ -110,7 +110,7 @@ void add_chart_command(Command& app, Action& action) {
                    "over --x as stable and unstable branches with their borders;");
   command->footer(
       "Without --backlash, amplitudes are in backlashes, because they are proportional to it.\n\n" +
-      help_footer(examples));
+      help_footer(chart_examples));
   set_action(*command, action, options, run);
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 
 #include "command_line.hpp"
 #include "output/report_units.hpp"
@@ -36,10 +37,13 @@ void add_show_command(Command& app, Action& action);
 void add_explore_command(Command& app, Action& action);
 void add_thesis_command(Command& app, Action& action);
 
-/// Makes `run(*options, provenance)` the action of the command.
-template <class Options, class Run>
+/// Makes `run(*options, provenance)` the action of the command. The type of the options chooses
+/// among the functions `run` of all verbs.
+template <class Options>
+using Run = ExitStatus (*)(const Options& options, const Provenance& provenance);
+template <class Options>
 void set_action(Command& command, Action& action, const std::shared_ptr<Options>& options,
-                Run run) {
+                std::type_identity_t<Run<Options>> run) {
   command.callback([options, &action, run] {
     action = [options, run](const Provenance& provenance) { return run(*options, provenance); };
   });

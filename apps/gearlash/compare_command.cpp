@@ -16,7 +16,7 @@
 namespace gearlash::cli {
 namespace {
 
-constexpr char examples[] =
+constexpr char compare_examples[] =
     "  gearlash compare examples/robot-joint.toml --sensor load,motor,both\n"
     "  gearlash compare examples/elinco-fd162.toml --sensor load,motor --plot time=step.svg\n"
     "  gearlash compare examples/telescope-axis.toml --step \"1 arcmin\" --format json\n";
@@ -123,7 +123,7 @@ void add_compare_command(Command& app, Action& action) {
   command->add_option("--format", options->format, "Choose the format: text (default) or json")
       ->type_name("FORMAT");
   add_plot_option(*command, options->plots, "Draw time=FILE, the step responses;");
-  command->footer(help_footer(examples));
+  command->footer(help_footer(compare_examples));
   set_action(*command, action, options, run);
 }
 

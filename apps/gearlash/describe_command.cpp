@@ -16,12 +16,12 @@
 namespace gearlash::cli {
 namespace {
 
-constexpr char examples[] =
+constexpr char describe_examples[] =
     "  gearlash describe examples/elinco-fd162.toml --plot nyquist=nyquist.svg\n"
     "  gearlash describe --damping 0.19 --inertia-ratio 2 --friction-ratio 1/10 --backlash 0.3\n"
     "  gearlash describe examples/normalized.toml --format json | jq .analyses[].cycles\n";
 
-constexpr char explanation[] =
+constexpr char describe_explanation[] =
     "A cycle is predicted where the loop's gain meets -1/N(A). N is the gain of a nonlinearity\n"
     "for a sine of amplitude A. Each nonlinearity is described by itself, without the others.\n\n";
 
@@ -151,7 +151,7 @@ void add_describe_command(Command& app, Action& action) {
                    "coulomb-friction, dead-band or relay; default the first part in\n"
                    "the loop")
       ->type_name("PART");
-  command->footer(explanation + help_footer(examples));
+  command->footer(describe_explanation + help_footer(describe_examples));
   set_action(*command, action, options, run);
 }
 

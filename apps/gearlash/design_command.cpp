@@ -23,7 +23,7 @@
 namespace gearlash::cli {
 namespace {
 
-constexpr char examples[] =
+constexpr char design_examples[] =
     "  gearlash design examples/elinco-fd162.toml --target no-hunting\n"
     "  gearlash design examples/elinco-fd162.toml --target \"amplitude <= 1 deg and frequency >= 3 "
     "Hz\"\n"
@@ -260,7 +260,7 @@ void add_design_command(Command& app, Action& action) {
                   "Draw region=FILE, where the parameters of --vary meet the\ntarget;");
   command->add_option("--format", options->format, "Choose the format: text (default) or json")
       ->type_name("FORMAT");
-  command->footer(help_footer(examples));
+  command->footer(help_footer(design_examples));
   set_action(*command, action, options, run);
 }
 

@@ -15,7 +15,7 @@
 namespace gearlash::cli {
 namespace {
 
-constexpr char examples[] =
+constexpr char explore_examples[] =
     "  gearlash explore examples/robot-joint.toml --output joint.html\n"
     "  gearlash explore examples/elinco-fd162.toml --backlash \"12 arcmin\" --output servo.html\n"
     "  gearlash explore --damping 0.19 --inertia-ratio 2 --friction-ratio 0.1 --backlash 0.3 \\\n"
@@ -132,7 +132,7 @@ void add_explore_command(Command& app, Action& action) {
                    "Write this page, .html: one file, which works offline and in a mail")
       ->type_name("FILE")
       ->required();
-  command->footer(help_footer(examples));
+  command->footer(help_footer(explore_examples));
   set_action(*command, action, options, run);
 }
 

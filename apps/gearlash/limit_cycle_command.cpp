@@ -24,7 +24,7 @@
 namespace gearlash::cli {
 namespace {
 
-constexpr char examples[] =
+constexpr char limit_cycle_examples[] =
     "  gearlash limit-cycle examples/elinco-fd162.toml --plot phase=hunting.svg\n"
     "  gearlash limit-cycle examples/elinco-fd162.toml --backlash \"12 arcmin\"\n"
     "  gearlash limit-cycle --damping 0.19 --inertia-ratio 2 --friction-ratio 1/10 --backlash 0.3\n"
@@ -325,7 +325,7 @@ void add_limit_cycle_command(Command& app, Action& action) {
   command->add_flag("--sensitivities", options->sensitivities,
                     "Add exact sensitivities to every parameter, in per cent for one per cent; of\n"
                     "searched drives for a continuous controller without encoder");
-  command->footer(help_footer(examples));
+  command->footer(help_footer(limit_cycle_examples));
   set_action(*command, action, options, run);
 }
 

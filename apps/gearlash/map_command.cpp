@@ -9,7 +9,7 @@
 namespace gearlash::cli {
 namespace {
 
-constexpr char examples[] =
+constexpr char map_examples[] =
     "  gearlash map --x inertia-ratio=0.05:20:200:log --y damping=0.02:1:200 \\\n"
     "      --friction-ratio 0.2 --plot map=hunting.svg\n"
     "  gearlash map --x friction-ratio=0:1:100 --y damping=0.05:0.8:100 --inertia-ratio 2 \\\n"
@@ -59,7 +59,7 @@ void add_map_command(Command& app, Action& action) {
                    "if drives are searched;");
   command->footer(
       "Without --backlash, amplitudes are in backlashes, because they are proportional to it.\n\n" +
-      help_footer(examples));
+      help_footer(map_examples));
   set_action(*command, action, options, run);
 }
 

@@ -11,7 +11,7 @@
 namespace gearlash::cli {
 namespace {
 
-constexpr char examples[] =
+constexpr char motor_examples[] =
     "  gearlash motor examples/elinco-fd162.toml\n"
     "  gearlash motor examples/instrument-two-phase.toml\n";
 
@@ -50,7 +50,7 @@ void add_motor_command(Command& app, Action& action) {
       ->type_name("")
       ->required();
   add_set_option(*command, *options);
-  command->footer(help_footer(examples));
+  command->footer(help_footer(motor_examples));
   set_action(*command, action, options, run);
 }
 

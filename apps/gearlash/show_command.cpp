@@ -9,7 +9,7 @@
 namespace gearlash::cli {
 namespace {
 
-constexpr char examples[] =
+constexpr char show_examples[] =
     "  gearlash show examples/robot-joint.toml\n"
     "  gearlash show examples/robot-joint.toml --set controller.kp=\"0.8 N m/rad\" > joint.toml\n"
     "  gearlash show --damping 0.19 --inertia-ratio 2 --friction-ratio 0.1 --backlash 0.3\n"
@@ -39,7 +39,7 @@ void add_show_command(Command& app, Action& action) {
   add_servo_or_drive_options(*command, options->servo);
   command->add_option("--format", options->format, "Choose the format: toml (default) or json")
       ->type_name("FORMAT");
-  command->footer(help_footer(examples));
+  command->footer(help_footer(show_examples));
   set_action(*command, action, options, run);
 }
 

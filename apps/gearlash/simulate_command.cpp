@@ -24,7 +24,7 @@
 namespace gearlash::cli {
 namespace {
 
-constexpr char examples[] =
+constexpr char simulate_examples[] =
     "  gearlash simulate examples/elinco-fd162.toml > step.csv\n"
     "  gearlash simulate examples/elinco-fd162.toml --until 3 --plot time=step.svg\n"
     "  gearlash simulate examples/robot-joint.toml --events --output events.csv\n"
@@ -51,7 +51,7 @@ struct SimulateOptions {
 };
 
 /// The task, in SI.
-struct Task {
+struct SimulateRequest {
   WrittenDrive written{};
   Start start{};
   double period = 1.0;  ///< of the loop
@@ -108,7 +108,8 @@ double period_of_loop(const Drive& drive) {
 
 /// The default end is ten periods of the loop plus twice the settling time of the signals. `drive`
 /// is nullptr if it has faults.
-void read_times(const SimulateOptions& options, const Drive* drive, Task& task, Faults& faults) {
+void read_times(const SimulateOptions& options, const Drive* drive, SimulateRequest& task,
+                Faults& faults) {
   constexpr double periods = 10.0;
   task.until = 1.0;
   if (drive != nullptr) {
@@ -132,8 +133,8 @@ void read_times(const SimulateOptions& options, const Drive* drive, Task& task, 
   }
 }
 
-Task read_task(const SimulateOptions& options, Faults& faults) {
-  Task task;
+SimulateRequest read_task(const SimulateOptions& options, Faults& faults) {
+  SimulateRequest task;
   std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
   task.start = read_start(options, faults);
   if (written) {
@@ -150,7 +151,7 @@ Task read_task(const SimulateOptions& options, Faults& faults) {
 }
 
 /// Reports faults of the span under the options that were typed.
-Motion simulated(const Task& task, const SimulateOptions& options) {
+Motion simulated(const SimulateRequest& task, const SimulateOptions& options) {
   try {
     return simulate(task.written.drive, {.until = task.until, .start = task.start});
   } catch (const InvalidInput& error) {
@@ -174,7 +175,7 @@ Motion simulated(const Task& task, const SimulateOptions& options) {
 
 // ---- pictures -----------------------------------------------------------------------------------
 
-std::string title_of(const Task& task) {
+std::string title_of(const SimulateRequest& task) {
   const auto angle = [&](double radians) { return angle_text(radians, task.written.angle, 4); };
   const Signal reference = task.written.drive.reference.value_or(Signal{});
   const bool is_at_rest = task.start.load_position == 0.0 && task.start.load_speed == 0.0;
@@ -206,8 +207,8 @@ KnownHunting hunting_of(const WrittenDrive& written) {
 }
 
 /// The motion until its hunting shows, unless --until was typed. Tables end earlier.
-Motion motion_to_draw(const Task& task, const Motion& motion, const SimulateOptions& options,
-                      double hunting_period) {
+Motion motion_to_draw(const SimulateRequest& task, const Motion& motion,
+                      const SimulateOptions& options, double hunting_period) {
   constexpr double periods = 8.0;
   const double until = task.until + periods * hunting_period;
   const double longest = 0.5 * most_periods_drawn * task.period;
@@ -219,7 +220,8 @@ Motion motion_to_draw(const Task& task, const Motion& motion, const SimulateOpti
   return longer.events().size() > most_events_drawn ? motion : longer;
 }
 
-MotionPicture picture_of(const Task& task, const Motion& motion, const SimulateOptions& options) {
+MotionPicture picture_of(const SimulateRequest& task, const Motion& motion,
+                         const SimulateOptions& options) {
   const KnownHunting hunting = hunting_of(task.written);
   return {.title = title_of(task),
           .subtitle = hunting.headline,
@@ -258,7 +260,7 @@ ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
   std::vector<FileUse> outputs = files_of(plots);
   outputs.insert(outputs.begin(), {"--output", options.output});
   faults.require_distinct({"DRIVE.toml", options.servo.file}, outputs);
-  const Task task = read_task(options, faults);
+  const SimulateRequest task = read_task(options, faults);
   const Motion motion = simulated(task, options);
   Extras extras;
   std::optional<MotionPicture> picture;
@@ -331,7 +333,7 @@ void add_simulate_command(Command& app, Action& action) {
       ->add_option("--output", options->output,
                    "Write the table to this file; default standard output")
       ->type_name("FILE");
-  command->footer(help_footer(examples));
+  command->footer(help_footer(simulate_examples));
   set_action(*command, action, options, run);
 }
 

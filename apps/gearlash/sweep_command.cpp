@@ -22,12 +22,12 @@
 namespace gearlash::cli {
 namespace {
 
-constexpr char examples[] =
+constexpr char sweep_examples[] =
     "  gearlash sweep examples/sweep.toml --output sweep.nc\n"
     "  gearlash sweep examples/sweep.toml --output sweep.nc --resume\n"
     "  python3 -c 'import xarray; print(xarray.open_dataset(\"sweep.nc\"))'\n";
 
-constexpr char explanation[] =
+constexpr char sweep_explanation[] =
     "SWEEP.toml has the axes, and the drive without the parameters on them:\n"
     "  [sweep]\n"
     "  axes = [\"damping=0.05:0.6:56\", \"inertia-ratio=1/9:9:100:log\"]\n"
@@ -126,7 +126,7 @@ void add_sweep_command(Command& app, Action& action) {
       ->type_name("FILE")
       ->required();
   command->add_flag("--resume", options->resume, "Continue a sweep that was stopped or killed");
-  command->footer(explanation + help_footer(examples));
+  command->footer(sweep_explanation + help_footer(sweep_examples));
   set_action(*command, action, options, run);
 }
 

@@ -174,7 +174,8 @@ void add_thesis_chart_reading(Command& thesis, Action& action) {
       "chart-reading", "Read the amplitude off the charts, beside the exact one");
   add_servo_options(*command, *options);
   command->footer(help_footer(chart_reading_examples));
-  set_action(*command, action, options, [](auto& typed, const Provenance&) {
+  set_action(*command, action, options, [](const ServoOptions& given, const Provenance&) {
+    ServoOptions typed = given;
     if (typed.file.empty() && !typed.backlash) typed.backlash = "0.3";
     Faults faults;
     const std::optional<WrittenDrive> written = resolve_drive(typed, faults);

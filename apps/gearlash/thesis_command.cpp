@@ -4,7 +4,7 @@
 namespace gearlash::cli {
 namespace {
 
-constexpr char examples[] =
+constexpr char thesis_examples[] =
     "  gearlash thesis table-2\n"
     "  gearlash thesis machine\n"
     "  gearlash thesis run --damping 0.19 --inertia-ratio 2 --friction-ratio 0.1\n";
@@ -15,7 +15,7 @@ void add_thesis_command(Command& app, Action& action) {
   Command* thesis = app.add_subcommand(
       "thesis", "Run the program of 1960 and draw its charts, beside the exact answer");
   thesis->require_subcommand();
-  thesis->footer(help_footer(examples));
+  thesis->footer(help_footer(thesis_examples));
   add_thesis_table_2(*thesis, action);
   add_thesis_machine(*thesis, action);
   add_thesis_run(*thesis, action);

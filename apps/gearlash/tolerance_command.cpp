@@ -22,7 +22,7 @@
 namespace gearlash::cli {
 namespace {
 
-constexpr char examples[] =
+constexpr char tolerance_examples[] =
     "  gearlash tolerance examples/toleranced.toml\n"
     "  gearlash tolerance examples/toleranced.toml --target \"amplitude <= 1 deg\" --yield \"95 "
     "%\"\n"
@@ -31,7 +31,7 @@ constexpr char examples[] =
     "  gearlash tolerance examples/toleranced.toml --error \"0.1 %\"\n"
     "  gearlash tolerance examples/toleranced-joint.toml --target \"motor-amplitude <= 0.3 deg\"\n";
 
-constexpr char explanation[] =
+constexpr char tolerance_explanation[] =
     "The numbers of DRIVE.toml carry tolerances:\n"
     "  inertia = \"0.61 oz in2 ± 10 %\"                       uniform\n"
     "  backlash = { min = \"5 arcmin\", max = \"12 arcmin\" }   uniform\n"
@@ -75,7 +75,7 @@ TolerancePicture picture_of(const Plot& plot) {
       ->second;
 }
 
-struct Task {
+struct ToleranceRequest {
   TolerancedDrive drive;
   AngleUnit angle;
   SamplePlan sampling;
@@ -91,7 +91,7 @@ bool are_searched(const WrittenDrive& written) {
   return is_searched({written.drive, written.tolerances});
 }
 
-void read_sampling(const ToleranceOptions& options, Task& task, Faults& faults) {
+void read_sampling(const ToleranceOptions& options, ToleranceRequest& task, Faults& faults) {
   const auto whole = [&](const char* field, const std::string& text, std::uint64_t least,
                          std::uint64_t most) {
     return faults.collect([&] { return read_whole(field, text, least, most); }, least);
@@ -109,7 +109,7 @@ void read_sampling(const ToleranceOptions& options, Task& task, Faults& faults) 
 }
 
 /// The samples, and a search for the worst of them that takes no longer.
-void choose_effort(const ToleranceOptions& options, Task& task) {
+void choose_effort(const ToleranceOptions& options, ToleranceRequest& task) {
   if (may_bounce(task.drive)) task.worst_search.samples = 256;
   if (is_searched(task.drive)) {
     task.worst_search = {.samples = 8, .starts = 1, .amplitude = task.questions.amplitude};
@@ -121,7 +121,8 @@ void choose_effort(const ToleranceOptions& options, Task& task) {
 }
 
 /// Of a searched drive the motor's, which may hunt within the gap while the load stands still.
-void read_amplitude(const ToleranceOptions& options, bool is_searched, Task& task, Faults& faults) {
+void read_amplitude(const ToleranceOptions& options, bool is_searched, ToleranceRequest& task,
+                    Faults& faults) {
   if (!options.amplitude.empty()) {
     faults.require_choice("--amplitude", options.amplitude, {"load", "motor"});
   }
@@ -130,7 +131,8 @@ void read_amplitude(const ToleranceOptions& options, bool is_searched, Task& tas
   task.worst_search.amplitude = task.questions.amplitude;
 }
 
-void read_questions(const ToleranceOptions& options, TimeScale scale, Task& task, Faults& faults) {
+void read_questions(const ToleranceOptions& options, TimeScale scale, ToleranceRequest& task,
+                    Faults& faults) {
   if (!options.target.empty()) {
     task.questions.target =
         faults.collect([&] { return read_target("--target", options.target, scale); }, Target{});
@@ -142,7 +144,7 @@ void read_questions(const ToleranceOptions& options, TimeScale scale, Task& task
   }
 }
 
-void read_outputs(const ToleranceOptions& options, Task& task, Faults& faults) {
+void read_outputs(const ToleranceOptions& options, ToleranceRequest& task, Faults& faults) {
   std::vector<std::string> kinds;
   for (const auto& [name, picture] : pictures) kinds.emplace_back(name);
   task.plots = read_plots(options.plots, kinds, faults);
@@ -155,8 +157,8 @@ void read_outputs(const ToleranceOptions& options, Task& task, Faults& faults) {
   faults.require_distinct({"DRIVE.toml", options.servo.file}, outputs);
 }
 
-Task read_task(const ToleranceOptions& options) {
-  Task task;
+ToleranceRequest read_task(const ToleranceOptions& options) {
+  ToleranceRequest task;
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "json"});
   const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
@@ -183,7 +185,7 @@ Task read_task(const ToleranceOptions& options) {
 }
 
 ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
-  const Task task = read_task(options);
+  const ToleranceRequest task = read_task(options);
   std::optional<TerminalProgress> progress;
   const auto begin = [&](const char* what, std::size_t count,
                          const char* name = "drives") -> Progress& {
@@ -268,7 +270,7 @@ void add_tolerance_command(Command& app, Action& action) {
       ->type_name("FILE");
   command->add_option("--format", options->format, "Choose the format: text (default) or json")
       ->type_name("FORMAT");
-  command->footer(explanation + help_footer(examples));
+  command->footer(tolerance_explanation + help_footer(tolerance_examples));
   set_action(*command, action, options, run);
 }
 

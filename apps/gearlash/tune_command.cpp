@@ -20,14 +20,14 @@
 namespace gearlash::cli {
 namespace {
 
-constexpr char examples[] =
+constexpr char tune_examples[] =
     "  gearlash tune examples/toleranced-joint.toml --set controller.kind=PD\n"
     "  gearlash tune examples/toleranced-joint.toml --target \"motor-amplitude <= 0.3 deg\" \\\n"
     "      --parameters controller.integral=20:600,controller.proportional --share \"95 %\"\n"
     "  gearlash tune examples/robot-joint.toml --set controller.kind=PD --for static-error \\\n"
     "      --write tuned.toml\n";
 
-constexpr char explanation[] =
+constexpr char tune_explanation[] =
     "The series is what the tolerances of DRIVE.toml permit (gearlash tolerance --help shows how "
     "to\n"
     "write them); without tolerances it is the one drive. The target, if none is given, is to come "
@@ -56,7 +56,7 @@ std::string text_of_usual(const Target& target, const AngleUnit& angle) {
          " (one step of the encoder) and no-runaway";
 }
 
-struct Task {
+struct TuneRequest {
   TuneTask task;
   TuneEffort effort;
   std::string target_text;
@@ -69,7 +69,7 @@ Aim read_aim(const std::string& text, Faults& faults) {
   return text == "static-error" ? Aim::static_error : Aim::bandwidth;
 }
 
-void read_numbers(const TuneOptions& options, Task& task, Faults& faults) {
+void read_numbers(const TuneOptions& options, TuneRequest& task, Faults& faults) {
   task.task.aim = read_aim(options.aim, faults);
   task.task.share = read_share("--share", options.share, faults);
   task.task.least_phase_margin = faults.collect(
@@ -84,8 +84,8 @@ void read_numbers(const TuneOptions& options, Task& task, Faults& faults) {
   task.effort.seed = whole("--seed", options.seed, 0, std::uint64_t{1} << 53U);
 }
 
-Task read_task(const TuneOptions& options) {
-  Task task;
+TuneRequest read_task(const TuneOptions& options) {
+  TuneRequest task;
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "json"});
   faults.require_distinct({"DRIVE.toml", options.servo.file}, {{"--write", options.write}});
@@ -122,7 +122,7 @@ Task read_task(const TuneOptions& options) {
 }
 
 ExitStatus run(const TuneOptions& options, const Provenance& provenance) {
-  const Task task = read_task(options);
+  const TuneRequest task = read_task(options);
   TuneReport report{.task = task.task,
                     .target_text = task.target_text,
                     .angle = task.angle,
@@ -184,7 +184,7 @@ void add_tune_command(Command& app, Action& action) {
       ->type_name("FILE");
   command->add_option("--format", options->format, "Choose the format: text (default) or json")
       ->type_name("FORMAT");
-  command->footer(explanation + help_footer(examples));
+  command->footer(tune_explanation + help_footer(tune_examples));
   set_action(*command, action, options, run);
 }
 
