@@ -1,6 +1,6 @@
 # The rules of `cmake --install`. Another project then uses
-#   find_package(gearlash 0.1 CONFIG REQUIRED)                  # the numerics
-#   find_package(gearlash 0.1 CONFIG REQUIRED COMPONENTS files) # also readers, reports, pictures
+#   find_package(gearlash CONFIG REQUIRED)                  # the numerics
+#   find_package(gearlash CONFIG REQUIRED COMPONENTS files) # also readers, reports, pictures
 #   target_link_libraries(... gearlash::gearlash)               # or gearlash::files with them
 # or compile with `pkg-config --cflags --libs gearlash`, or gearlash-files.
 
@@ -53,7 +53,7 @@ install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}" COMPONENT license)
 configure_package_config_file(
   cmake/gearlashConfig.cmake.in "${PROJECT_BINARY_DIR}/gearlashConfig.cmake"
   INSTALL_DESTINATION "${gearlash_package_dir}")
-# Below 1.0 a minor version may break its users, so 0.2 must not satisfy a request for 0.1.
+# Below 1.0 a minor version may break its users: 0.3 must not satisfy a request for 0.2.
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/gearlashConfigVersion.cmake"
                                  COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/gearlashConfig.cmake"

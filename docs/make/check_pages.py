@@ -19,7 +19,6 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORDS = ROOT / "docs/spelling.txt"
 MOST_WORDS = 20  # in the mean of a page
 FORMULAS = {"docs/explanation/mathematics.md"}  # its proofs have sentences that formulas carry
-HISTORY = {"CHANGELOG.md"}  # what older entries say stays
 
 LINK = re.compile(r"(?<!\\)\[((?:[^\[\]]|\[[^\[\]]*\])*)\]\(([^)\s]+)\)")
 
@@ -153,8 +152,6 @@ def main():
     for page in pages():
         name = name_of(page)
         faults += faults_of_links(page)
-        if name in HISTORY:
-            continue
         faults += faults_of_spelling(page, words)
         lengths = list(sentences_of(page))
         if not lengths or name in FORMULAS:
