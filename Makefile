@@ -15,7 +15,7 @@ export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 .DEFAULT_GOAL := help
 .PHONY: help demo tool test python web web-serve web-bench bench versions clang sanitize fuzz oracle million followed designed tuned \
         python-sweep dask-rates rivals derivatives seeded-faults \
-        coverage readme docs docs-check format format-check tidy clean wheel package package-check
+        coverage readme readme-check docs docs-check format format-check tidy clean wheel package package-check
 
 help:  ## this list
 	@awk -F':.*## ' '/^[a-z-]+:.*## / { printf "  make %-14s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -162,9 +162,15 @@ coverage:  ## the share of lines that the tests run
 	ctest --preset coverage
 	gcovr --root . --filter include --filter src --filter apps build/coverage
 
-readme: tool  ## renew the outputs and the pictures in README.md and docs
+readme: shown  ## renew the outputs and the pictures in README.md and docs
+	scripts/readme --jobs $(JOBS)
+
+readme-check: shown  ## are they what their commands make now? The slow ones too, which the tests leave out
+	scripts/readme --check --jobs $(JOBS)
+
+.PHONY: shown
+shown: tool
 	@$(BUILD) release --target hybrid_examples --target drive_examples
-	scripts/readme
 
 docs: tool  ## write the pages of docs as HTML: build/docs/html/index.html
 	@$(INSTALL) docs python

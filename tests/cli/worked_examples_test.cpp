@@ -82,7 +82,7 @@ void expect_decided(const std::filesystem::path& file) {
 TEST(WorkedExamples, OfTheProjectAreDecided) {
   int count = 0;
   for (const std::filesystem::path& file : files_in(root / "examples", ".toml")) {
-    if (!is_drive(file_text(file))) continue;
+    if (!is_drive(file_text(file)) || file.parent_path().filename() == "faulty") continue;
     SCOPED_TRACE(file.filename());
     expect_decided(file);
     ++count;
@@ -109,7 +109,7 @@ TEST(WorkedExamples, OnPagesAreDecided) {
 TEST(WorkedExamples, PrintNoUndecidedAnswerOnAnyPage) {
   int count = 0;
   for (const std::filesystem::path& page : pages()) {
-    for (const std::string& printed : blocks_of(page, "<!-- output: ", "<!-- end of output -->")) {
+    for (const std::string& printed : blocks_of(page, "<!-- output", "<!-- end of output -->")) {
       EXPECT_THAT(printed, Not(HasSubstr("undecided"))) << page.filename();
       ++count;
     }

@@ -1,4 +1,4 @@
-"""The Python of the pages is run, block by block, in the root of the repository."""
+"""The Python of the pages is run, block by block, beside examples and a sweep of them."""
 
 import doctest
 
@@ -11,8 +11,11 @@ PAGES = [page for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_a_page_shows_what_python_prints_now(page, monkeypatch):
-    monkeypatch.chdir(ROOT)
+def test_a_page_shows_what_python_prints_now(page, monkeypatch, tmp_path, tool):
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    monkeypatch.chdir(tmp_path)
+    if '"sweep.nc"' in page.read_text("utf-8"):
+        tool("sweep", "examples/sweep.toml", "--output", "sweep.nc")
     # A fence ends a block of output.
     text = page.read_text("utf-8").replace("```", "\n")
     parser = doctest.DocTestParser()
