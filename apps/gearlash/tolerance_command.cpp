@@ -5,14 +5,12 @@
 #include <memory>
 #include <optional>
 
-#include "analysis/design/drawn_results.hpp"
-#include "analysis/design/sampling.hpp"
+#include "analysis/design/toleranced_drive.hpp"
 #include "command.hpp"
 #include "input/target_text.hpp"
 #include "machine_faults.hpp"
 #include "model/reduced_drive.hpp"
 #include "output/output_file.hpp"
-#include "output/tolerance_data.hpp"
 #include "output/tolerance_report.hpp"
 #include "picture/tolerance_pictures.hpp"
 #include "plot_option.hpp"
@@ -48,21 +46,7 @@ struct ToleranceOptions {
   std::string yield;
   std::string format = "text";
   std::vector<std::string> plots;
-  std::string output;
 };
-
-/// In the format of its extension: .csv, .json or .nc.
-void write_data(const ToleranceReport& report, const std::string& file) {
-  OutputFile output(file);
-  if (file.ends_with(".nc")) {
-    write_tolerance_netcdf(report, output);
-  } else if (file.ends_with(".csv")) {
-    write_tolerance_csv(report, [&](std::string_view text) { output.write(text); });
-  } else {
-    output.write(tolerance_json(report));
-  }
-  output.commit();
-}
 
 constexpr std::pair<const char*, TolerancePicture> pictures[] = {
     {"distribution", TolerancePicture::distribution},
@@ -97,7 +81,7 @@ void read_sampling(const ToleranceOptions& options, ToleranceRequest& task, Faul
     return faults.collect([&] { return read_whole(field, text, least, most); }, least);
   };
   if (!options.samples.empty()) {
-    task.sampling = sampling_of(whole("--samples", options.samples, 32, most_samples));
+    task.sampling = sampling_of(whole("--samples", options.samples, 32, SamplePlan::most_samples));
   }
   task.sampling.seed = whole("--seed", options.seed, 0, std::uint64_t{1} << 53U);
   if (!options.error.empty()) {
@@ -144,17 +128,11 @@ void read_questions(const ToleranceOptions& options, TimeScale scale, ToleranceR
   }
 }
 
-void read_outputs(const ToleranceOptions& options, ToleranceRequest& task, Faults& faults) {
+void read_pictures(const ToleranceOptions& options, ToleranceRequest& task, Faults& faults) {
   std::vector<std::string> kinds;
   for (const auto& [name, picture] : pictures) kinds.emplace_back(name);
   task.plots = read_plots(options.plots, kinds, faults);
-  const auto ends_in = [&](const char* ending) { return options.output.ends_with(ending); };
-  if (!options.output.empty() && !ends_in(".csv") && !ends_in(".json") && !ends_in(".nc")) {
-    faults.add({"--output", shown(options.output), "must end in .csv, .json or .nc", ""});
-  }
-  std::vector<FileUse> outputs = files_of(task.plots);
-  outputs.push_back({"--output", options.output});
-  faults.require_distinct({"DRIVE.toml", options.servo.file}, outputs);
+  faults.require_distinct({"DRIVE.toml", options.servo.file}, files_of(task.plots));
 }
 
 ToleranceRequest read_task(const ToleranceOptions& options) {
@@ -167,7 +145,7 @@ ToleranceRequest read_task(const ToleranceOptions& options) {
   read_sampling(options, task, faults);
   read_amplitude(options, is_searched, task, faults);
   read_questions(options, has_time ? TimeScale::known : TimeScale::unknown, task, faults);
-  read_outputs(options, task, faults);
+  read_pictures(options, task, faults);
   if (is_searched && !options.yield.empty()) {
     faults.add({"--yield", options.yield, permitted_with_closed_form, ""});
   }
@@ -216,7 +194,6 @@ ExitStatus run(const ToleranceOptions& options, const Provenance& provenance) {
   report.proved = ceiling_of_all(task.drive, task.questions.amplitude, begin("Proof", 0, ""));
   progress.reset();
   Extras extras;
-  if (!options.output.empty()) extras.make([&] { write_data(report, options.output); });
   for (const Plot& plot : task.plots) {
     extras.make(
         [&] { write_file(plot.file, draw_tolerances(report, picture_of(plot), plot.format)); });
@@ -237,7 +214,7 @@ void add_tolerance_command(Command& app, Action& action) {
                    "Set the least number of samples, rounded up to 16 times a power of\n"
                    "two; default 65536, with bounces, of the motor, or for a target of other\n"
                    "quantities than amplitude, frequency and growth at rest 512, of a drive\n"
-                   "that is searched 64")
+                   "that is searched 64; at most 16777216, for every sample is kept")
       ->type_name("N");
   command
       ->add_option("--error", options->error,
@@ -264,10 +241,6 @@ void add_tolerance_command(Command& app, Action& action) {
                   "Draw distribution=FILE, the samples by amplitude, yield=FILE, the\n"
                   "yield over a limit of the amplitude, or indices=FILE, which parameter\n"
                   "decides;");
-  command
-      ->add_option("--output", options->output,
-                   "Write further data to this file (.csv, .json, .nc)")
-      ->type_name("FILE");
   command->add_option("--format", options->format, "Choose the format: text (default) or json")
       ->type_name("FORMAT");
   command->footer(tolerance_explanation + help_footer(tolerance_examples));

@@ -111,6 +111,8 @@ struct SamplePlan {
   std::size_t replicates = 16;  ///< ≥ 2
   std::uint64_t seed = 1960;    ///< of the shifts; equal seeds give equal bits on every machine
 
+  /// points × replicates at most: 2²⁴. A study keeps every sample, in 40 bytes: 0.7 GB.
+  static constexpr std::size_t most_samples = 16'777'216;
   [[nodiscard]] std::size_t samples() const { return points * replicates; }
   bool operator==(const SamplePlan&) const = default;
 };
@@ -134,9 +136,6 @@ struct StudyQuestions {
   Target target{};                                             ///< for the yield
   std::vector<double> shares = {0.05, 0.25, 0.5, 0.75, 0.95};  ///< for quantiles; each 0 … 1
   std::size_t bins = 40;                                       ///< of the histogram; 0: none
-  /// Up to so many samples keep every amplitude and frequency, 16 bytes each. Of more, quantiles
-  /// and histogram come from buckets; see ToleranceStudy::relative_accuracy.
-  std::size_t most_exact = std::size_t{1} << 20U;
 };
 
 /// 65,536 samples in closed form, which take a fraction of a second; 512 one by one and with
@@ -163,7 +162,8 @@ struct AmplitudeHistogram {
 /// (any verdict but cannot_hunt, comes_to_rest, forced and undecided). The amplitude of a drive
 /// that grows without bound or runs away is infinite. An unknown amplitude (irregular hunting,
 /// undecided) counts as infinite in quantiles, and such a drive meets no target. The mean covers
-/// finite amplitudes only.
+/// finite amplitudes only. Quantiles are order statistics of all samples: that of the share p of n
+/// values lies between the two whose mid-ranks (k − ½)/n are nearest to p (Hazen).
 struct ToleranceStudy {
   SamplePlan sampling{};                                 ///< as it was taken
   Estimate hunting{};                                    ///< probability
@@ -173,18 +173,14 @@ struct ToleranceStudy {
   std::vector<QuantileEstimate> amplitude_of_hunting{};  ///< rad, of the drives that hunt
   std::vector<QuantileEstimate> frequency{};             ///< Hz, of the drives with a cycle
   AmplitudeHistogram histogram{};                        ///< of amplitudes above 0
-  /// 0: quantiles are those of all values. Else they are that close to them, relatively, and the
-  /// histogram counts a value this close to an edge on either side of it. The lowest and the
-  /// highest value are exact. (DDSketch: Masson, Rim and Lee, VLDB 2019.)
-  double relative_accuracy = 0.0;
   std::size_t undecided = 0;           ///< samples of which it is not known whether they hunt
   std::size_t unknown_amplitudes = 0;  ///< samples whose amplitude is not known
   std::size_t refused = 0;  ///< draws that are no valid drive; 0 for a drive without faults()
-  bool stopped = false;     ///< by Progress: then only the counts hold
+  bool stopped = false;     ///< by Progress: then nothing else holds
 };
 
 /// Quasi-Monte Carlo over all varied parameters, on all cores, with the same bits for any number of
-/// cores. Memory: StudyQuestions::most_exact. With plastic contact it solves millions of drives per
+/// cores. Memory: SamplePlan::most_samples. With plastic contact it solves millions of drives per
 /// second. A drive that bounces takes some milliseconds, so use few samples there; a drive without
 /// a closed form, which analyse() searches, some tenths of a second. Throws InvalidInput with every
 /// fault of the drive, the sampling and the questions.
@@ -196,8 +192,8 @@ struct ToleranceStudy {
 /// study_tolerances() with the fewest points, of those of `sampling` doubled again and again, that
 /// give the probability of hunting, and the yield if there is a target, to within `error`: two
 /// standard errors, and 3/samples, which is what 95 % of runs without an exception leave open. Up
-/// to 10⁸ samples: where they do not suffice, the standard errors say so. Permitted: 1e-6 ≤ error ≤
-/// 0.5. Throws InvalidInput, as above.
+/// to SamplePlan::most_samples: where they do not suffice, the standard errors say so. Permitted:
+/// 1e-6 ≤ error ≤ 0.5. Throws InvalidInput, as above.
 [[nodiscard]] ToleranceStudy study_tolerances_to(double error, const TolerancedDrive& drive,
                                                  const SamplePlan& sampling = {},
                                                  const StudyQuestions& questions = {},

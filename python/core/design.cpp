@@ -74,54 +74,29 @@ py::object studied(py::handle series, py::handle sampling, py::handle questions,
   }));
 }
 
-/// Columns of what samples do, for pieces of a study.
-py::tuple answered_samples(py::handle series, py::handle sampling, py::handle questions,
-                           std::size_t first, std::size_t count, const py::object& progress) {
+/// What samples do, as an array of records, for pieces of a study.
+py::object answered_samples(py::handle series, py::handle sampling, py::handle questions,
+                            std::size_t first, std::size_t count, const py::object& progress) {
   const auto drives = from_python<TolerancedDrive>(series, "series");
   const auto plan = from_python<SamplePlan>(sampling, "sampling");
   const auto asked = from_python<StudyQuestions>(questions, "questions");
-  const detail::DrawnResults results = interruptible(progress, [&](Progress& reports) {
-    return answer_samples(drives, plan, asked, first, count, reports);
+  auto results = interruptible(progress, [&](Progress& reports) {
+    return answer_samples(drives, plan, asked, first, count, {}, reports);
   });
-  std::vector<std::uint8_t> verdicts;
-  std::vector<std::uint8_t> meets;
-  std::vector<double> growth;
-  std::vector<double> amplitude;
-  std::vector<double> frequency;
-  for (std::size_t i = 0; i < results.rows(); ++i) {
-    const Performance& one = results.performance[i];
-    verdicts.push_back(static_cast<std::uint8_t>(one.verdict));
-    meets.push_back(results.meets[i] ? 1 : 0);
-    growth.push_back(one.growth_at_rest);
-    amplitude.push_back(one.amplitude);
-    frequency.push_back(one.frequency);
-  }
-  return py::make_tuple(array_of(std::move(verdicts)), array_of(std::move(meets)),
-                        array_of(std::move(growth)), array_of(std::move(amplitude)),
-                        array_of(std::move(frequency)), results.refused);
+  return results ? py::object(array_of(std::move(*results))) : py::none();
 }
 
-using Bytes = py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast>;
+using SampleRecords = py::array_t<detail::DrawnResult, py::array::c_style | py::array::forcecast>;
 
-py::object study_of_samples(py::handle series, py::handle sampling, py::handle questions,
-                            const Bytes& verdicts, const Bytes& meets, const Numbers& growth,
-                            const Numbers& amplitude, const Numbers& frequency,
-                            std::size_t refused) {
-  detail::DrawnResults results{.refused = refused};
-  for (const py::ssize_t size : {meets.size(), growth.size(), amplitude.size(), frequency.size()}) {
-    if (size != verdicts.size()) throw py::value_error("columns must be of one length");
+py::object study_of_samples(py::handle sampling, py::handle questions,
+                            const SampleRecords& records) {
+  const detail::DrawnResults results(records.data(), records.data() + records.size());
+  for (const detail::DrawnResult& one : results) {
+    if (static_cast<std::size_t>(one.verdict) >= std::size(Words<Verdict>::all)) {
+      throw py::value_error("unknown verdict");
+    }
   }
-  for (py::ssize_t i = 0; i < verdicts.size(); ++i) {
-    const std::uint8_t verdict = verdicts.data()[i];
-    if (verdict >= std::size(Words<Verdict>::all)) throw py::value_error("unknown verdict");
-    results.performance.push_back({.verdict = static_cast<Verdict>(verdict),
-                                   .growth_at_rest = growth.data()[i],
-                                   .amplitude = amplitude.data()[i],
-                                   .frequency = frequency.data()[i]});
-    results.meets.push_back(meets.data()[i] != 0);
-  }
-  return to_python(study_of(from_python<TolerancedDrive>(series, "series"),
-                            from_python<SamplePlan>(sampling, "sampling"),
+  return to_python(study_of(from_python<SamplePlan>(sampling, "sampling"),
                             from_python<StudyQuestions>(questions, "questions"), results));
 }
 
@@ -154,6 +129,8 @@ py::object tuned(py::handle task, py::handle effort, const py::object& progress)
 }  // namespace
 
 void add_design(py::module_& module) {
+  PYBIND11_NUMPY_DTYPE(detail::DrawnResult, growth_at_rest, amplitude, frequency, verdict, meets,
+                       refused);
   module.def("target", [](const std::string& text, py::handle drive) {
     return to_python(parse_target(text, drive_of(drive)));
   });

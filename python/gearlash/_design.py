@@ -143,8 +143,8 @@ def tolerance(drive: SeriesLike, varied: Mapping[str, Distribution] | None = Non
     target : str or Target, optional
         For the yield.
     samples : int, optional
-        The least number, rounded up to 16 times a power of two; default 65,536 in closed form, 512
-        with bounces, 64 of drives that are searched.
+        The least number, at most 16,777,216, rounded up to 16 times a power of two; default 65,536
+        in closed form, 512 with bounces, 64 of drives that are searched.
     error : float, optional
         Instead: as many as the probability of hunting and the yield need to be known to within this
         share, 1e-6 … 0.5.

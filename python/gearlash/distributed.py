@@ -153,15 +153,13 @@ def study(series: TolerancedDrive, sampling: SamplePlan, questions: StudyQuestio
     calls = [(series, sampling, questions, first, min(step, samples - first))
              for first in range(0, samples, step)]
     parts = _dealt_out(client, _answer_samples, calls, progress)
-    columns = [np.concatenate([part[i] for part in parts]) for i in range(5)]
-    return _core.study_of(series, sampling, questions, *columns, sum(part[5] for part in parts))
+    return _core.study_of(sampling, questions, np.concatenate(parts))
 
 
 def _answer_samples(series: TolerancedDrive, sampling: SamplePlan, questions: StudyQuestions,
-                    first: int, count: int) -> tuple[Any, ...]:
+                    first: int, count: int) -> Any:
     """Answer for some samples, in a worker."""
-    *columns, refused = _core.answer_samples(series, sampling, questions, first, count, None)
-    return *(np.array(column) for column in columns), refused
+    return np.array(_core.answer_samples(series, sampling, questions, first, count, None))
 
 
 def _dealt_out(client: Any, work: Callable[..., Any], calls: Sequence[tuple[Any, ...]],

@@ -230,10 +230,6 @@ std::string counts_text(const ToleranceReport& report) {
         " Undecided: {}; hunting with an unknown amplitude: {}; draws that are no drive: {}.",
         study.undecided, study.unknown_amplitudes, study.refused);
   }
-  if (study.relative_accuracy > 0.0) {
-    text += " So many are not kept: quantiles are within " +
-            significant(100.0 * study.relative_accuracy, 2) + " % of those of all samples.";
-  }
   return wrapped(text);
 }
 
@@ -321,7 +317,6 @@ std::string tolerance_json(const ToleranceReport& report) {
   json["amplitude"] = json_quantiles(study.amplitude);
   json["amplitude_of_hunting"] = json_quantiles(study.amplitude_of_hunting);
   json["frequency"] = json_quantiles(study.frequency);
-  json["quantile_accuracy"] = json_number(study.relative_accuracy);
   json["histogram"] = json_histogram(study.histogram);
   json["parameters"] = json_parameters(report);
   json["worst"] = json_performance(report.worst.performance);

@@ -45,14 +45,14 @@ TEST(ExitStatus, ThreeForAPictureThatFailsWhoseAnswerIsPrinted) {
   EXPECT_EQ(scratch.file_count(), 0U);
 }
 
-TEST(ExitStatus, ThreeForDataThatCannotBeWrittenBesideTheAnswer) {
+TEST(ExitStatus, ThreeForAPictureThatCannotBeWrittenBesideTheAnswer) {
   const Scratch scratch;
   const Outcome run = run_tool({"tolerance", "examples/toleranced.toml", "--samples", "32",
-                                "--output", (scratch / "missing" / "a.json").string(), "--plot",
-                                "yield=" + (scratch / "yield.svg").string()});
+                                "--plot", "indices=" + (scratch / "missing" / "a.svg").string(),
+                                "--plot", "yield=" + (scratch / "yield.svg").string()});
   EXPECT_EQ(run.status, 3);
   EXPECT_THAT(run.out, HasSubstr("hunt"));
-  EXPECT_THAT(run.err, HasSubstr("missing/a.json: cannot be written: No such file"));
+  EXPECT_THAT(run.err, HasSubstr("missing/a.svg: cannot be written: No such file"));
   EXPECT_THAT(file_text(scratch / "yield.svg"), StartsWith("<?xml"));
 }
 

@@ -301,14 +301,13 @@ TEST(OutputFiles, AFullDiskIsCalledSo) {
     GTEST_SKIP() << "no disk of one's own can be mounted here";
   }
   const Scratch own;
-  const Outcome tolerances = run_shell(on_a_full_disk(
+  const Outcome chart = run_shell(on_a_full_disk(
       own,
-      "\"$GEARLASH\" tolerance examples/toleranced.toml --samples 32 --output $FULL/a.nc\n"
-      "status=$?; ls -A $FULL; exit $status"));
-  EXPECT_EQ(tolerances.status, 3);
-  EXPECT_THAT(tolerances.err,
-              testing::EndsWith("a.nc: cannot be written: No space left on device\n"));
-  EXPECT_THAT(tolerances.out, testing::EndsWith("\nfilling\n"));
+      "\"$GEARLASH\" chart --x damping=0.1:0.6:3 --curves inertia-ratio=1 --friction-ratio 0.2 "
+      "--output $FULL/a.nc\nstatus=$?; ls -A $FULL; exit $status"));
+  EXPECT_EQ(chart.status, 3);
+  EXPECT_THAT(chart.err, testing::EndsWith("a.nc: cannot be written: No space left on device\n"));
+  EXPECT_THAT(chart.out, testing::EndsWith("filling\n"));
 }
 
 TEST(OutputFiles, AFullFolderForTemporaryFilesKeepsTheOldPicture) {

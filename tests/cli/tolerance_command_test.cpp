@@ -88,30 +88,6 @@ TEST(ToleranceCommand, PicturesAreDrawn) {
             "indices=FILE\n");
 }
 
-TEST(ToleranceCommand, DataAreThoseOfTheReport) {
-  const Scratch scratch;
-  const auto file = [&](const char* name) { return (scratch / name).string(); };
-  const auto study =
-      study_of({"examples/toleranced.toml", "--samples", "2000", "--output", file("a.csv")});
-  const auto lines = lines_of(test::file_text(scratch / "a.csv"));
-  EXPECT_THAT(lines, Contains("quantity,of,value,standard_error"));
-  EXPECT_THAT(lines, Contains(StartsWith("hunting,," + study["hunting"]["value"].dump() + ",")));
-  EXPECT_THAT(lines, Contains(StartsWith("amplitude_quantile,0.95,")));
-  EXPECT_THAT(lines, Contains(StartsWith("total_index_of_amplitude,load.friction,")));
-  EXPECT_EQ(run_tool({"tolerance", "examples/toleranced.toml", "--samples", "2000", "--output",
-                      file("a.nc")})
-                .status,
-            0);
-  const Outcome dump = test::run_shell("ncdump " + test::quoted(file("a.nc")));
-  for (const char* text : {"number = 9 ;", "double amplitude_quantile(share) ;",
-                           ":units = \"rad\" ;", ":history = ", "motor.inertia motor.friction",
-                           "double samples(bin) ;", "total_index_of_hunting"}) {
-    EXPECT_THAT(dump.out, HasSubstr(text));
-  }
-  EXPECT_THAT(run_tool({"tolerance", "examples/toleranced.toml", "--output", "a.txt"}).err,
-              HasSubstr("--output = a.txt: must end in .csv, .json or .nc"));
-}
-
 TEST(ToleranceCommand, OfAnyDriveSaysHowManyHunt) {
   const Outcome text = run_tool({"tolerance", "examples/toleranced-joint.toml", "--set",
                                  "motor.coulomb=0.153 kgf mm", "--set", "load.coulomb=20 mN m",

@@ -7,31 +7,33 @@
 
 #include "analysis/design/target.hpp"
 #include "analysis/design/toleranced_drive.hpp"
+#include "base/special_numbers.hpp"
 #include "closed_form/lanes/cycle_batch.hpp"
 
 namespace gearlash::detail {
 
-/// One row per drive.
-struct DrawnCycles {
+struct DrawnCycle {
+  Verdict verdict = Verdict::undecided;
   /// Amplitude in rad per rad of backlash. 0 where the drive cannot hunt (with any backlash, where
   /// it has any), infinite where it grows without bound, NaN where unknown.
-  std::vector<double> amplitude_per_backlash;
-  std::vector<double> backlash;        ///< rad
-  std::vector<double> growth_at_rest;  ///< NaN where the values give no valid drive
-  std::vector<double> frequency;       ///< Hz; NaN where there is no cycle
-  std::vector<Verdict> verdict;
-  std::size_t refused = 0;  ///< no valid drive: verdict undecided, amplitudes NaN
+  double amplitude_per_backlash = not_a_number;
+  double backlash = 0.0;                 ///< rad
+  double growth_at_rest = not_a_number;  ///< NaN where the values give no valid drive
+  double frequency = not_a_number;       ///< Hz; NaN where there is no cycle
+  bool refused = false;                  ///< no valid drive
 
-  std::size_t rows() const { return verdict.size(); }
-  double amplitude(std::size_t row) const {
-    return verdict[row] == Verdict::cannot_hunt ? 0.0 : amplitude_per_backlash[row] * backlash[row];
+  Performance performance() const {
+    const bool is_quiet = verdict == Verdict::cannot_hunt;
+    return {.verdict = verdict,
+            .growth_at_rest = growth_at_rest,
+            .amplitude = is_quiet ? 0.0 : amplitude_per_backlash * backlash,
+            .frequency = frequency};
   }
-  Performance performance(std::size_t row) const;
 };
 
 /// Solves `rows` drives. `values` holds the values of the varied parameters, drive by drive.
-DrawnCycles solve(const TolerancedDrive& drive, std::size_t rows, std::span<const double> values,
-                  VectorUnit unit);
+std::vector<DrawnCycle> solve(const TolerancedDrive& drive, std::size_t rows,
+                              std::span<const double> values, VectorUnit unit);
 
 /// The number of drives that a thread solves at a time.
 std::size_t drives_at_a_time(const TolerancedDrive& drive);

@@ -15,8 +15,6 @@ double amplitude_in(const Answer& answer, Quantity amplitude) {
 
 }  // namespace
 
-bool DrawnResults::hunts(std::size_t row) const { return gearlash::hunts(verdict(row)); }
-
 DrawnAnswers::DrawnAnswers(const TolerancedDrive& drive, const Target& target, Quantity amplitude,
                            VectorUnit unit)
     : drive_(drive),
@@ -30,38 +28,36 @@ std::size_t DrawnAnswers::at_a_time() const { return one_by_one_ ? 1 : drives_at
 
 DrawnResults DrawnAnswers::of(std::size_t rows, std::span<const double> values,
                               Progress& progress) const {
-  return one_by_one_ ? one_by_one(rows, values, progress) : in_closed_form(rows, values);
+  if (!one_by_one_) return in_closed_form(rows, values);
+  DrawnResults results;
+  const std::size_t width = drive_.varied.size();
+  for (std::size_t row = 0; row < rows; ++row) {
+    results.push_back(searched(values.subspan(row * width, width), progress));
+  }
+  return results;
 }
 
 DrawnResults DrawnAnswers::in_closed_form(std::size_t rows, std::span<const double> values) const {
-  const DrawnCycles cycles = solve(drive_, rows, values, unit_);
-  DrawnResults results{.refused = cycles.refused};
-  for (std::size_t row = 0; row < rows; ++row) {
-    results.performance.push_back(cycles.performance(row));
-    results.meets.push_back(is_met(target_, results.performance.back()));
+  DrawnResults results;
+  for (const DrawnCycle& cycle : solve(drive_, rows, values, unit_)) {
+    const Performance performance = cycle.performance();
+    results.emplace_back(performance, is_met(target_, performance), cycle.refused);
   }
   return results;
 }
 
-DrawnResults DrawnAnswers::one_by_one(std::size_t rows, std::span<const double> values,
-                                      Progress& progress) const {
-  DrawnResults results;
-  const std::size_t width = drive_.varied.size();
+DrawnResult DrawnAnswers::searched(std::span<const double> values, Progress& progress) const {
+  const Drive drive = searched_drive_with(drive_, values);
+  if (!faults(drive).empty()) return {{}, false, true};
   Wanted wanted = wanted_for(target_, drive_.nominal);
   wanted.borders = true;  // of each sample the amplitude counts
-  for (std::size_t row = 0; row < rows; ++row) {
-    const Drive drive = searched_drive_with(drive_, values.subspan(row * width, width));
-    const bool is_sound = faults(drive).empty();
-    const Answer answer = is_sound ? analyse(drive, wanted, progress) : Answer{};
-    results.refused += is_sound ? 0 : 1;
-    results.performance.push_back(
-        {.verdict = answer.verdict,
-         .growth_at_rest = answer.growth_at_rest.value_or(not_a_number),
-         .amplitude = amplitude_in(answer, amplitude_),
-         .frequency = answer.value(Quantity::frequency).value_or(not_a_number)});
-    results.meets.push_back(is_sound && is_met(target_, answer));
-  }
-  return results;
+  const Answer answer = analyse(drive, wanted, progress);
+  return {{.verdict = answer.verdict,
+           .growth_at_rest = answer.growth_at_rest.value_or(not_a_number),
+           .amplitude = amplitude_in(answer, amplitude_),
+           .frequency = answer.value(Quantity::frequency).value_or(not_a_number)},
+          is_met(target_, answer),
+          false};
 }
 
 }  // namespace gearlash::detail

@@ -7,25 +7,36 @@
 
 #include "analysis/design/target.hpp"
 #include "analysis/design/toleranced_drive.hpp"
+#include "base/special_numbers.hpp"
 #include "closed_form/lanes/cycle_batch.hpp"
 #include "gearlash/progress.hpp"
 
 namespace gearlash::detail {
 
-/// One row per drive.
-struct DrawnResults {
-  /// Amplitude of the load or the motor, as asked: 0 where the drive comes to rest, infinite where
-  /// it grows without bound or runs away, NaN where unknown.
-  std::vector<Performance> performance{};
-  std::vector<bool> meets{};  ///< the target
-  std::size_t refused = 0;    ///< no valid drive: undecided, numbers NaN
+/// What one drawn drive does. Studies keep one of each sample: 32 bytes.
+struct DrawnResult {
+  double growth_at_rest = not_a_number;
+  /// Of the load or the motor, as asked: 0 where the drive comes to rest, infinite where it grows
+  /// without bound or runs away, NaN where unknown.
+  double amplitude = not_a_number;
+  double frequency = not_a_number;  ///< Hz; NaN where there is no cycle
+  Verdict verdict = Verdict::undecided;
+  bool meets = false;    ///< the target
+  bool refused = false;  ///< no valid drive: undecided, numbers NaN
 
-  std::size_t rows() const { return performance.size(); }
-  double amplitude(std::size_t row) const { return performance[row].amplitude; }
-  Verdict verdict(std::size_t row) const { return performance[row].verdict; }
+  DrawnResult() = default;
+  DrawnResult(const Performance& performance, bool meets_target, bool is_refused)
+      : growth_at_rest(performance.growth_at_rest),
+        amplitude(performance.amplitude),
+        frequency(performance.frequency),
+        verdict(performance.verdict),
+        meets(meets_target),
+        refused(is_refused) {}
+
   /// Whether it can move permanently of itself, or run away.
-  bool hunts(std::size_t row) const;
+  bool hunts() const { return gearlash::hunts(verdict); }
 };
+using DrawnResults = std::vector<DrawnResult>;
 
 /// Answers for drawn drives. From several threads at a time.
 class DrawnAnswers {
@@ -38,14 +49,13 @@ class DrawnAnswers {
   bool are_one_by_one() const { return one_by_one_; }
   /// The number of drives that a thread solves at a time.
   std::size_t at_a_time() const;
-  /// `values` holds the values of the varied parameters, drive by drive. Where `progress` stops it,
-  /// rows are unknown.
+  /// Of `rows` drives. `values` holds the values of the varied parameters, drive by drive. Where
+  /// `progress` stops it, results are unknown.
   DrawnResults of(std::size_t rows, std::span<const double> values, Progress& progress) const;
 
  private:
   DrawnResults in_closed_form(std::size_t rows, std::span<const double> values) const;
-  DrawnResults one_by_one(std::size_t rows, std::span<const double> values,
-                          Progress& progress) const;
+  DrawnResult searched(std::span<const double> values, Progress& progress) const;
 
   const TolerancedDrive& drive_;
   const Target& target_;

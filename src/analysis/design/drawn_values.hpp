@@ -1,10 +1,11 @@
 // The values of the varied parameters at the points of a sampling.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <span>
 #include <vector>
 
-#include "analysis/design/replicates.hpp"
 #include "analysis/design/shifted_sobol.hpp"
 #include "analysis/design/toleranced_drive.hpp"
 
@@ -14,15 +15,24 @@ class DrawnValues {
  public:
   /// `sets` independent sets of values at each point.
   DrawnValues(const TolerancedDrive& drive, const SamplePlan& sampling, std::size_t sets)
-      : points_(drive.varied.size() * sets, sampling), width_(drive.varied.size() * sets) {
+      : points_(drive.varied.size() * sets, sampling),
+        of_replicate_(sampling.points),
+        width_(drive.varied.size() * sets) {
     for (const ParameterTolerance& varied : drive.varied)
       quantiles_.emplace_back(varied.distribution);
   }
 
-  /// The values point by point; at each point first the whole first set, then the next.
-  std::vector<double> of(const SampleBlock& block) const {
-    std::vector<double> values(block.count * width_);
-    points_.fill(block.replicate, block.first, values);
+  /// The values sample by sample, from sample `first` on, numbered replicate by replicate; of each
+  /// first the whole first set, then the next.
+  std::vector<double> of(std::size_t first, std::size_t count) const {
+    std::vector<double> values(count * width_);
+    for (std::size_t done = 0; done < count;) {
+      const std::size_t point = (first + done) % of_replicate_;
+      const std::size_t part = std::min(count - done, of_replicate_ - point);
+      points_.fill((first + done) / of_replicate_, point,
+                   std::span(values).subspan(done * width_, part * width_));
+      done += part;
+    }
     std::size_t number = 0;
     for (double& value : values) {
       value = quantiles_[number](value);
@@ -33,6 +43,7 @@ class DrawnValues {
 
  private:
   ShiftedSobol points_;
+  std::size_t of_replicate_;
   std::size_t width_;
   std::vector<QuantileFunction> quantiles_;
 };

@@ -94,64 +94,45 @@ std::optional<Estimate> SortedReplicates::estimated_quantile(double p) const {
   return estimate_of(quantile(p), each);
 }
 
-std::size_t SortedReplicates::count_between(double low, double high) const {
-  std::size_t count = 0;
-  for (const auto& replicate : replicates) {
-    count += static_cast<std::size_t>(std::lower_bound(replicate.begin(), replicate.end(), high) -
-                                      std::lower_bound(replicate.begin(), replicate.end(), low));
-  }
-  return count;
-}
-
-SortedReplicates SortedReplicates::above(double floor) const {
+SortedReplicates SortedReplicates::from(double low) const {
   SortedReplicates part;
-  for (const auto& replicate : replicates) {
-    part.replicates.emplace_back(std::upper_bound(replicate.begin(), replicate.end(), floor),
-                                 replicate.end());
+  for (const auto& all : replicates) {
+    part.replicates.emplace_back(std::lower_bound(all.begin(), all.end(), low), all.end());
   }
   return part;
 }
 
-SortedReplicates SortedReplicates::finite() const {
+SortedReplicates SortedReplicates::below(double high) const {
   SortedReplicates part;
-  for (const auto& replicate : replicates) {
-    part.replicates.emplace_back(replicate.begin(),
-                                 std::lower_bound(replicate.begin(), replicate.end(),
-                                                  std::numeric_limits<double>::infinity()));
+  for (const auto& all : replicates) {
+    part.replicates.emplace_back(all.begin(), std::lower_bound(all.begin(), all.end(), high));
   }
   return part;
 }
 
-SketchedReplicates::SketchedReplicates(std::span<const QuantileSketch> replicates)
-    : replicates_(replicates) {
-  for (const QuantileSketch& replicate : replicates) whole_.merge(replicate);
+SortedReplicates sorted(std::span<double> column, std::size_t replicates, std::size_t threads) {
+  const std::size_t points = column.size() / replicates;
+  SortedReplicates all{std::vector<std::span<const double>>(replicates)};
+  on_threads(threads, replicates, [&](std::size_t i) {
+    const std::span<double> replicate = column.subspan(i * points, points);
+    std::sort(replicate.begin(), replicate.end());
+    all.replicates[i] = replicate;
+  });
+  return all;
 }
 
-std::optional<Estimate> SketchedReplicates::estimated_quantile(double p) const {
-  if (whole_.size() == 0) return std::nullopt;
-  std::vector<double> each;
-  for (const QuantileSketch& replicate : replicates_) each.push_back(replicate.quantile(p));
-  return estimate_of(whole_.quantile(p), each);
-}
-
-std::size_t block_count(const SamplePlan& sampling, std::size_t points_at_a_time) {
-  return (sampling.points + points_at_a_time - 1) / points_at_a_time * sampling.replicates;
-}
-
-bool for_all_blocks(const SamplePlan& sampling, std::size_t points_at_a_time,
-                    const Workers& workers, Progress& progress,
-                    const std::function<void(const SampleBlock&, Progress&)>& work) {
-  const std::size_t blocks = block_count(sampling, points_at_a_time);
-  const std::size_t of_replicate = blocks / sampling.replicates;
-  SharedProgress shared(progress, sampling.samples());
-  on_threads(workers.threads, blocks, [&](std::size_t index) {
+bool in_blocks(std::size_t samples, std::size_t at_a_time, const Workers& workers,
+               Progress& progress,
+               const std::function<void(std::size_t, std::size_t, Progress&)>& work) {
+  SharedProgress shared(progress, samples);
+  on_threads(workers.threads, (samples + at_a_time - 1) / at_a_time, [&](std::size_t block) {
     if (shared.is_stopped()) return;
-    const std::size_t first = index % of_replicate * points_at_a_time;
-    const std::size_t count = std::min(points_at_a_time, sampling.points - first);
-    work({index, index / of_replicate, first, count}, shared);
+    const std::size_t first = block * at_a_time;
+    const std::size_t count = std::min(at_a_time, samples - first);
+    work(first, count, shared);
     if (!shared.is_stopped()) shared.finish(count);  // else it may have been broken off
   });
-  return shared.done() == sampling.samples();
+  return shared.done() == samples;
 }
 
 }  // namespace gearlash::detail

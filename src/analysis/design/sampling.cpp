@@ -7,7 +7,9 @@ namespace gearlash {
 SamplePlan sampling_of(std::size_t samples, const SamplePlan& like) {
   SamplePlan sampling = like;
   sampling.points = 1;
-  while (sampling.samples() < samples && sampling.samples() <= most_samples) sampling.points *= 2;
+  while (sampling.samples() < samples && sampling.samples() <= SamplePlan::most_samples) {
+    sampling.points *= 2;
+  }
   return sampling;
 }
 
@@ -18,10 +20,11 @@ std::vector<Fault> validate(const SamplePlan& sampling) {
     check.refuse("replicates", std::to_string(sampling.replicates),
                  "must be at least 2: their scatter gives the error");
   }
-  if (sampling.replicates > 0 && sampling.points > most_samples / sampling.replicates) {
-    check.refuse(
-        "points", std::to_string(sampling.points),
-        "must be at most " + std::to_string(most_samples) + " with all replicates together");
+  constexpr std::size_t most = SamplePlan::most_samples;
+  if (sampling.replicates > 0 && sampling.points > most / sampling.replicates) {
+    check.refuse("points", std::to_string(sampling.points),
+                 "must give at most " + std::to_string(most) +
+                     " samples with all replicates together: every sample is kept");
   }
   return check.faults();
 }

@@ -86,12 +86,13 @@ std::vector<double> mixed_values(const std::vector<double>& both_sets, std::size
 /// The sums of the drives of mixed_values(); `usual_amplitude` is subtracted from amplitudes.
 BlockSums sums_of(const detail::DrawnResults& results, std::size_t numbers,
                   double usual_amplitude) {
-  BlockSums sums{Sums(numbers), Sums(numbers), 0, results.refused};
-  for (std::size_t point = 0; point < results.rows(); point += numbers + 2) {
+  BlockSums sums{Sums(numbers), Sums(numbers)};
+  for (const detail::DrawnResult& result : results) sums.refused += result.refused ? 1 : 0;
+  for (std::size_t point = 0; point < results.size(); point += numbers + 2) {
     const auto size = [&](std::size_t of) {
-      return results.amplitude(point + of) - usual_amplitude;
+      return results[point + of].amplitude - usual_amplitude;
     };
-    const auto hunts = [&](std::size_t of) { return results.hunts(point + of) ? 1.0 : 0.0; };
+    const auto hunts = [&](std::size_t of) { return results[point + of].hunts() ? 1.0 : 0.0; };
     bool all_known = true;
     for (std::size_t i = 0; i < numbers + 2; ++i) all_known = all_known && std::isfinite(size(i));
     if (!all_known) {
@@ -110,7 +111,7 @@ BlockSums sums_of(const detail::DrawnResults& results, std::size_t numbers,
 
 /// A constant near the mean amplitude; subtracting it avoids cancellation in a small variance.
 double amplitude_of_mean_drive(const TolerancedDrive& drive, const detail::DrawnAnswers& answers) {
-  const double size = answers.of(1, means_of(drive), no_progress()).amplitude(0);
+  const double size = answers.of(1, means_of(drive), no_progress())[0].amplitude;
   return std::isfinite(size) ? size : 0.0;
 }
 
@@ -199,14 +200,17 @@ SensitivityStudy study_sensitivities(const TolerancedDrive& drive, const SampleP
   // of sums.
   const std::size_t at_a_time = std::max<std::size_t>(answers.at_a_time() / 4, 1);
   const double usual_amplitude = amplitude_of_mean_drive(drive, answers);
-  std::vector<BlockSums> blocks(detail::block_count(sampling, at_a_time),
-                                {Sums(numbers), Sums(numbers)});
-  const auto work = [&](const detail::SampleBlock& block, Progress& of_block) {
-    const detail::DrawnResults results =
-        answers.of(block.count * (numbers + 2), mixed_values(values.of(block), numbers), of_block);
-    blocks[block.index] = sums_of(results, numbers, usual_amplitude);
+  const std::size_t of_replicate = (sampling.points + at_a_time - 1) / at_a_time;
+  std::vector<BlockSums> blocks(of_replicate * sampling.replicates, {Sums(numbers), Sums(numbers)});
+  const auto work = [&](std::size_t block, std::size_t /*one*/, Progress& of_block) {
+    const std::size_t point = block % of_replicate * at_a_time;
+    const std::size_t count = std::min(at_a_time, sampling.points - point);
+    const std::size_t first = block / of_replicate * sampling.points + point;
+    const std::vector<double> mixed = mixed_values(values.of(first, count), numbers);
+    const detail::DrawnResults results = answers.of(count * (numbers + 2), mixed, of_block);
+    blocks[block] = sums_of(results, numbers, usual_amplitude);
   };
-  const bool all_done = detail::for_all_blocks(sampling, at_a_time, workers, progress, work);
+  const bool all_done = detail::in_blocks(blocks.size(), 1, workers, progress, work);
   SensitivityStudy study = study_of(drive, sampling, blocks, usual_amplitude);
   study.stopped = !all_done;
   return study;

@@ -1,6 +1,7 @@
 // Studies of a production run with given workers.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "analysis/design/drawn_results.hpp"
@@ -17,16 +18,19 @@ ToleranceStudy study_tolerances(const TolerancedDrive& drive, const SamplePlan& 
                                 const StudyQuestions& questions, const Workers& workers,
                                 Progress& progress = no_progress());
 
-/// What samples do, replicate by replicate, from number `first` on, on all cores: for studies whose
-/// samples are dealt out to several machines. Throws InvalidInput as study_tolerances(), and for
-/// samples that the plan does not have.
-detail::DrawnResults answer_samples(const TolerancedDrive& drive, const SamplePlan& sampling,
-                                    const StudyQuestions& questions, std::size_t first,
-                                    std::size_t count, Progress& progress = no_progress());
+/// What samples do, from number `first` on, numbered replicate by replicate: of a whole study, or
+/// of a part that is dealt out to one of several machines. Empty if progress stopped it. Throws
+/// InvalidInput as study_tolerances(), and for samples that the plan does not have.
+std::optional<detail::DrawnResults> answer_samples(const TolerancedDrive& drive,
+                                                   const SamplePlan& sampling,
+                                                   const StudyQuestions& questions,
+                                                   std::size_t first, std::size_t count,
+                                                   const Workers& workers, Progress& progress);
 
-/// The study of what all samples do, in their order: that of study_tolerances(), to the bit.
-ToleranceStudy study_of(const TolerancedDrive& drive, const SamplePlan& sampling,
-                        const StudyQuestions& questions, const detail::DrawnResults& results);
+/// The study of what all samples do, in their order. Throws InvalidInput with the faults of the
+/// sampling and the questions, and for another number of results.
+ToleranceStudy study_of(const SamplePlan& sampling, const StudyQuestions& questions,
+                        const detail::DrawnResults& results, std::size_t threads = 0);
 
 /// Solves varied.size() + 2 drives for each point: A and B, the two halves of Sobol points with
 /// twice as many coordinates as varied parameters, and AB_i, which is A with column i of B. With m

@@ -338,18 +338,6 @@ std::string_view unit_of(const Drive& drive, std::string_view path) {
   return dimension == nullptr ? "1" : dimension->unit;
 }
 
-ClosedFormServo drive_with(const TolerancedDrive& drive, std::span<const double> values) {
-  if (values.size() != drive.varied.size()) {
-    throw std::invalid_argument(std::to_string(values.size()) + " values; must be " +
-                                std::to_string(drive.varied.size()) +
-                                ", as many as there are varied numbers");
-  }
-  detail::DrawnDrive drawn(drive);
-  const Drive& changed = drawn.with(values);
-  require_none(faults_of_servo(changed));
-  return *closed_form_servo(*closed_form_drive(changed));
-}
-
 namespace detail {
 
 DrawnDrive::DrawnDrive(const TolerancedDrive& toleranced)

@@ -43,11 +43,6 @@ Drive searched_drive_with(const TolerancedDrive& drive, std::span<const double> 
 EnclosedCeiling ceiling_of_all(const TolerancedDrive& drive, Quantity amplitude,
                                Progress& progress = no_progress());
 
-/// The servo of the drive with `values` of the varied parameters, in their order. Throws
-/// InvalidInput where the drive has no closed form, and std::invalid_argument for another number of
-/// values.
-ClosedFormServo drive_with(const TolerancedDrive& drive, std::span<const double> values);
-
 namespace detail {
 
 /// A drawn drive with its backlash separated, because amplitudes are proportional to it.

@@ -92,7 +92,7 @@ class Units {
     if (effort.units <= all_.size()) return;
     const SamplePlan plan{
         .points = effort.units - all_.size(), .replicates = 2, .seed = effort.seed};
-    const Values drawn = detail::DrawnValues(task.series, plan, 1).of({0, 0, 0, plan.points});
+    const Values drawn = detail::DrawnValues(task.series, plan, 1).of(0, plan.points);
     for (std::size_t i = 0; i < drawn.size(); i += width) {
       add({drawn.begin() + static_cast<std::ptrdiff_t>(i),
            drawn.begin() + static_cast<std::ptrdiff_t>(i + width)});

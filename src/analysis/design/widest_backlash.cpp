@@ -7,7 +7,6 @@
 #include "analysis/design/drawn_values.hpp"
 #include "analysis/design/replicates.hpp"
 #include "analysis/design/sampling.hpp"
-#include "base/on_threads.hpp"
 #include "base/range_check.hpp"
 #include "base/special_numbers.hpp"
 #include "gearlash/parameter.hpp"
@@ -38,17 +37,16 @@ TolerancedDrive with_unit_backlash(TolerancedDrive drive) {
 
 /// The largest max for which a sample meets the target; `never` where it misses it even with
 /// max = min.
-double largest_max(const Target& target, const detail::DrawnCycles& cycles, std::size_t row,
-                   double min) {
-  Performance performance = cycles.performance(row);
+double largest_max(const Target& target, const detail::DrawnCycle& cycle, double min) {
+  Performance performance = cycle.performance();
   if (performance.verdict == Verdict::cannot_hunt) {
     return is_met(target, performance) ? infinity : never;
   }
-  const double size = cycles.amplitude_per_backlash[row];
+  const double size = cycle.amplitude_per_backlash;
   performance.amplitude = min * size;
   if (is_met(target, performance) && !std::isnan(performance.amplitude)) {
-    return min + std::max(0.0, target.permitted(Quantity::amplitude).high / size - min) /
-                     cycles.backlash[row];
+    return min +
+           std::max(0.0, target.permitted(Quantity::amplitude).high / size - min) / cycle.backlash;
   }
   if (min > 0.0 || performance.verdict == Verdict::undamped) return never;
   // A sample without backlash does not hunt.
@@ -59,49 +57,29 @@ double largest_max(const Target& target, const detail::DrawnCycles& cycles, std:
              : never;
 }
 
-/// The largest max of each sample, sorted within each replicate.
-class LargestMaxima {
- public:
-  LargestMaxima(std::vector<double> column, const SamplePlan& sampling, std::size_t threads)
-      : column_(std::move(column)) {
-    const auto replicate = [&](std::size_t i) {
-      return std::span<double>(column_).subspan(i * sampling.points, sampling.points);
-    };
-    on_threads(threads, sampling.replicates,
-               [&](std::size_t i) { std::sort(replicate(i).begin(), replicate(i).end()); });
-    for (std::size_t i = 0; i < sampling.replicates; ++i) {
-      all_.replicates.emplace_back(replicate(i));
-    }
-  }
+/// The largest max with at least this yield, by the largest max of each sample.
+std::optional<double> max_with_yield(const detail::SortedReplicates& maxima, double yield) {
+  const auto count = static_cast<double>(maxima.size());
+  const double share = std::clamp(yield, 0.0, 1.0);
+  constexpr double rounding = 1e-12;  // of the product, which is usually a whole number
+  const auto meeting = std::max<std::size_t>(
+      1, static_cast<std::size_t>(std::ceil(share * count * (1.0 - rounding))));
+  const detail::SortedReplicates met = maxima.from(0.0);
+  if (meeting > met.size()) return std::nullopt;
+  return met.smallest(met.size() - meeting);
+}
 
-  /// The largest max with at least this yield.
-  std::optional<double> with_yield(double yield) const {
-    const auto count = static_cast<double>(all_.size());
-    const double share = std::clamp(yield, 0.0, 1.0);
-    constexpr double rounding = 1e-12;  // of the product, which is usually a whole number
-    const auto meeting = std::max<std::size_t>(
-        1, static_cast<std::size_t>(std::ceil(share * count * (1.0 - rounding))));
-    const detail::SortedReplicates met = all_.above(never);
-    if (meeting > met.size()) return std::nullopt;
-    return met.smallest(met.size() - meeting);
+Estimate yield_with(const detail::SortedReplicates& maxima, double max) {
+  std::vector<double> meeting;
+  std::vector<double> samples;
+  for (const auto& replicate : maxima.from(max).replicates) {
+    meeting.push_back(static_cast<double>(replicate.size()));
   }
-
-  Estimate yield_with(double max) const {
-    std::vector<double> each;
-    double sum = 0.0;
-    for (const auto& replicate : all_.replicates) {
-      const auto first = std::lower_bound(replicate.begin(), replicate.end(), max);
-      each.push_back(static_cast<double>(replicate.end() - first) /
-                     static_cast<double>(replicate.size()));
-      sum += each.back();
-    }
-    return detail::estimate_of(sum / static_cast<double>(each.size()), each);
+  for (const auto& replicate : maxima.replicates) {
+    samples.push_back(static_cast<double>(replicate.size()));
   }
-
- private:
-  std::vector<double> column_;
-  detail::SortedReplicates all_;
-};
+  return *detail::ratio_of(meeting, samples);
+}
 
 }  // namespace
 
@@ -131,27 +109,26 @@ std::optional<WidestBacklash> widest_backlash(const TolerancedDrive& drive,
   const TolerancedDrive unit_drive = with_unit_backlash(drive);
   const detail::DrawnValues values(unit_drive, sampling, 1);
   std::vector<double> column(sampling.samples());
-  const auto work = [&](const detail::SampleBlock& block, Progress&) {
-    const detail::DrawnCycles cycles =
-        detail::solve(unit_drive, block.count, values.of(block), workers.unit);
-    const std::size_t place = block.replicate * sampling.points + block.first;
-    for (std::size_t row = 0; row < cycles.rows(); ++row) {
-      column[place + row] = largest_max(demand.target, cycles, row, min);
+  const auto work = [&](std::size_t first, std::size_t count, Progress&) {
+    const auto cycles = detail::solve(unit_drive, count, values.of(first, count), workers.unit);
+    for (std::size_t row = 0; row < count; ++row) {
+      column[first + row] = largest_max(demand.target, cycles[row], min);
     }
   };
   WidestBacklash widest;
   widest.min = min;
-  widest.stopped =
-      !detail::for_all_blocks(sampling, detail::drives_at_a_time(drive), workers, progress, work);
+  widest.stopped = !detail::in_blocks(sampling.samples(), detail::drives_at_a_time(drive), workers,
+                                      progress, work);
   if (widest.stopped) return widest;
-  const LargestMaxima maxima(std::move(column), sampling, workers.threads);
-  const auto max = maxima.with_yield(demand.yield);
+  const detail::SortedReplicates maxima =
+      detail::sorted(column, sampling.replicates, workers.threads);
+  const auto max = max_with_yield(maxima, demand.yield);
   if (!max) return std::nullopt;
   widest.max = *max;
-  widest.yield = maxima.yield_with(*max);
+  widest.yield = yield_with(maxima, *max);
   const double error = widest.yield.standard_error.value_or(0.0);
-  widest.uncertainty = {maxima.with_yield(demand.yield + error).value_or(min),
-                        maxima.with_yield(demand.yield - error).value_or(min)};
+  widest.uncertainty = {max_with_yield(maxima, demand.yield + error).value_or(min),
+                        max_with_yield(maxima, demand.yield - error).value_or(min)};
   return widest;
 }
 

@@ -1,7 +1,6 @@
 #include "analysis/design/worst_corner.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <numeric>
 
@@ -35,12 +34,11 @@ bool is_notably_worse(const Badness& a, const Badness& b) {
   return a.amplitude == b.amplitude && a.amplitude <= 0.0 && a.growth > b.growth * (1.0 + notable);
 }
 
-Badness badness_of(const detail::DrawnResults& results, std::size_t row) {
-  const auto& [verdict, growth, size, frequency, flight_time] = results.performance[row];
-  if (verdict != Verdict::undecided && !results.hunts(row)) {
-    return {-1.0, std::isnan(growth) ? -1.0 : growth};
+Badness badness_of(const detail::DrawnResult& result) {
+  if (result.verdict != Verdict::undecided && !result.hunts()) {
+    return {-1.0, std::isnan(result.growth_at_rest) ? -1.0 : result.growth_at_rest};
   }
-  return std::isnan(size) ? Badness{-2.0, -1.0} : Badness{size, 0.0};
+  return std::isnan(result.amplitude) ? Badness{-2.0, -1.0} : Badness{result.amplitude, 0.0};
 }
 
 /// The possible values of one parameter.
@@ -97,11 +95,13 @@ class Climb {
   }
 
   const std::vector<Coordinate>& coordinates() const { return coordinates_; }
-  std::size_t evaluations() const { return evaluations_; }
-  std::size_t unknown() const { return unknown_; }
   bool is_stopped() const { return shared_.is_stopped(); }
   Performance performance(const Values& values) {
-    return answers_.of(1, values, shared_).performance[0];
+    const detail::DrawnResult result = answers_.of(1, values, shared_).front();
+    return {.verdict = result.verdict,
+            .growth_at_rest = result.growth_at_rest,
+            .amplitude = result.amplitude,
+            .frequency = result.frequency};
   }
 
  private:
@@ -147,7 +147,6 @@ class Climb {
   std::vector<Badness> evaluate(const std::vector<Values>& all) {
     const std::size_t at_a_time = answers_.at_a_time();
     std::vector<Badness> badness(all.size());
-    std::atomic<std::size_t> unknown = 0;
     const auto work = [&](std::size_t block) {
       const std::size_t first = block * at_a_time;
       const std::size_t count = std::min(at_a_time, all.size() - first);
@@ -157,10 +156,7 @@ class Climb {
       }
       const detail::DrawnResults results = answers_.of(count, values, shared_);
       if (answers_.are_one_by_one()) shared_.finish(count);
-      for (std::size_t row = 0; row < count; ++row) {
-        badness[first + row] = badness_of(results, row);
-        if (badness[first + row].amplitude == -2.0) ++unknown;
-      }
+      for (std::size_t row = 0; row < count; ++row) badness[first + row] = badness_of(results[row]);
     };
     const std::size_t blocks = (all.size() + at_a_time - 1) / at_a_time;
     if (blocks == 1) {
@@ -168,8 +164,6 @@ class Climb {
     } else {
       on_threads(workers_.threads, blocks, work);
     }
-    evaluations_ += all.size();
-    unknown_ += unknown;
     return badness;
   }
 
@@ -321,8 +315,6 @@ class Climb {
   detail::DrawnAnswers answers_;
   SharedProgress shared_;
   std::vector<Coordinate> coordinates_;
-  std::size_t evaluations_ = 0;
-  std::size_t unknown_ = 0;
 };
 
 PlaceInRange place_of(double value, const Bounds& range) {
@@ -357,15 +349,12 @@ WorstCorner worst_corner(const TolerancedDrive& drive, const WorstSearch& search
   const Candidate top = climb.worst();
   WorstCorner worst;
   for (std::size_t i = 0; i < top.values.size(); ++i) {
-    const Bounds range = climb.coordinates()[i].range;
-    const Bounds support = support_of(drive.varied[i].distribution);
-    worst.numbers.push_back({drive.varied[i].path, top.values[i], place_of(top.values[i], range),
-                             range, std::isinf(support.low), std::isinf(support.high)});
+    const double value = top.values[i];
+    worst.numbers.push_back(
+        {drive.varied[i].path, value, place_of(value, climb.coordinates()[i].range)});
   }
   worst.performance = climb.performance(top.values);
   worst.stopped = climb.is_stopped();
-  worst.evaluations = climb.evaluations();
-  worst.unknown = climb.unknown();
   return worst;
 }
 

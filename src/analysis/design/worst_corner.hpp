@@ -32,17 +32,12 @@ struct WorstNumber {
   std::string path;
   double value = 0.0;
   PlaceInRange place = PlaceInRange::fixed;
-  Bounds range;                     ///< searched: three_sigma_range_of()
-  bool low_is_at_3_sigma = false;   ///< the distribution has no lowest value
-  bool high_is_at_3_sigma = false;  ///< the distribution has no highest value
 };
 
 struct WorstCorner {
   std::vector<WorstNumber> numbers;  ///< in the order of drive.varied
   Performance performance;
-  std::size_t evaluations = 0;
-  std::size_t unknown = 0;  ///< evaluations with an unknown amplitude, not compared
-  bool stopped = false;     ///< by Progress, of a searched drive: then nothing holds
+  bool stopped = false;  ///< by Progress, of a searched drive: then nothing holds
 };
 
 /// The drive with the largest amplitude (infinite where a drive grows without bound) in the box of

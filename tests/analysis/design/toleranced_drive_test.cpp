@@ -53,8 +53,6 @@ TEST(TolerancedDrive, IsTheDriveWithItsValues) {
   const ClosedFormServo found = drive_with(drive, std::vector{300.0, 3e-5});
   EXPECT_EQ(found.servo, normalize(drivetrain));
   EXPECT_EQ(found.natural_frequency, natural_frequency(drivetrain));
-  EXPECT_THROW(drive_with(drive, std::vector{300.0}), std::invalid_argument);
-  EXPECT_THROW(drive_with(drive, std::vector{-300.0, 3e-5}), InvalidInput);
 }
 
 /// Of every parameter on which the closed form depends.

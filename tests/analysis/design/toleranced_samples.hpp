@@ -28,6 +28,11 @@ inline TolerancedDrive normalised_toleranced(std::vector<ParameterTolerance> var
   return {normal_form(0.19, 2.0, 0.1, 0.3), std::move(varied)};
 }
 
+/// The servo of the drive with these values of its varied parameters.
+inline ClosedFormServo drive_with(const TolerancedDrive& drive, const std::vector<double>& values) {
+  return closed_form_servo(detail::DrawnDrive(drive).with(values)).value();
+}
+
 /// All numbers of the sample but restitution and ratio, some uniform, some normal, one in lots.
 inline TolerancedDrive widely_toleranced() {
   return toleranced({{"motor.inertia", within_share(1.0 / 3.0, 0.1)},

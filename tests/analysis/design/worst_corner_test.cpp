@@ -66,9 +66,9 @@ void expect_unbeaten(const TolerancedDrive& drive, std::uint64_t seed) {
   } else {
     EXPECT_NEAR(analysis.growth_at_rest, found, 1e-12 * found);
   }
-  for (const WorstNumber& number : worst.numbers) {
-    EXPECT_GE(number.value, number.range.low);
-    EXPECT_LE(number.value, number.range.high);
+  for (std::size_t i = 0; i < drive.varied.size(); ++i) {
+    EXPECT_TRUE(
+        three_sigma_range_of(drive.varied[i].distribution).contains(worst.numbers[i].value));
   }
 }
 
@@ -124,8 +124,6 @@ TEST(OracleWorstCorner, OfBacklashIsTheWidest) {
   ASSERT_EQ(worst.numbers.size(), 1U);
   EXPECT_EQ(worst.numbers[0].value, 0.3 + 3.0 * 0.01);
   EXPECT_EQ(worst.numbers[0].place, PlaceInRange::at_high);
-  EXPECT_TRUE(worst.numbers[0].high_is_at_3_sigma);
-  EXPECT_FALSE(worst.numbers[0].low_is_at_3_sigma);
   EXPECT_NEAR(worst.performance.amplitude, nominal * 1.1, 1e-13);
 }
 
@@ -168,7 +166,6 @@ TEST(EdgeWorstCorner, AnyNumberOfThreadsGivesTheSameBits) {
   const WorstCorner three = worst_corner(widely_toleranced(), {}, {.threads = 3});
   EXPECT_EQ(values_of(one), values_of(three));
   EXPECT_EQ(one.performance.amplitude, three.performance.amplitude);
-  EXPECT_EQ(one.evaluations, three.evaluations);
 }
 
 TEST(WorstCorner, TellsWhatShareOfTheClimbsIsDone) {
