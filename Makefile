@@ -5,6 +5,7 @@ FUZZ_SECONDS ?= 30
 JOBS ?= $(shell nproc)
 
 RELEASE := build/release
+SINGLE := build/single
 TOOL := $(RELEASE)/gearlash
 EXAMPLE := examples/elinco-fd162
 INSTALL := bash scripts/install-dependencies
@@ -14,7 +15,7 @@ export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
 .PHONY: help demo tool test python web web-serve web-bench bench versions clang sanitize fuzz oracle million followed designed tuned \
-        python-sweep dask-rates rivals derivatives seeded-faults \
+        python-sweep dask-rates rivals derivatives seeded-faults single includes release-check \
         coverage readme readme-check docs docs-check format format-check tidy clean wheel package package-check
 
 help:  ## this list
@@ -143,8 +144,8 @@ tuned: programs  ## gains of 20 industrial drives, tuned for their series, in th
 derivatives: programs  ## 300 random limit cycles: their derivatives beside differences
 	GEARLASH_CYCLES=300 $(RELEASE)/tests/test_analysis --gtest_filter='PropertySearchedSensitivity*'
 
-seeded-faults: programs  ## put small faults into the code: which does no test notice?
-	tests/seeded_faults/run $(RELEASE)
+seeded-faults: programs single  ## put small faults into the code: which does no test notice?
+	CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) tests/seeded_faults/run $(RELEASE) --single $(SINGLE)
 
 million: programs  ## 1,000,000 random servos beside the certified count of crossings
 	$(RELEASE)/tests/oracle/million_servos
@@ -194,9 +195,21 @@ format-check:  ## is all C++ laid out so?
 
 # All product files take ten processor-minutes; CI sets TIDIED to the changed ones.
 TIDIED ?= $(shell find src apps web/core -name '*.cpp' -not -name wasm_entry.cpp)
-tidy: tool  ## clang-tidy with the checks of .clang-tidy over the libraries and the tool
+tidy: single  ## clang-tidy with the checks of .clang-tidy over the libraries and the tool
 	@$(INSTALL) lint
-	echo $(TIDIED) | xargs -r -n 1 -P $(JOBS) clang-tidy-16 -p $(RELEASE) --quiet
+	echo $(TIDIED) | xargs -r -n 1 -P $(JOBS) clang-tidy-16 -p $(SINGLE) --quiet
+
+# All files take a quarter of an hour of a processor; CI sets INCLUDED to the changed ones.
+INCLUDED ?= $(shell find include src apps python web/core tests -name '*.[ch]pp' \
+                         -not -name wasm_entry.cpp)
+includes: single  ## does every header and every .cpp file compile by itself?
+	@scripts/includes --jobs $(JOBS) $(SINGLE) $(INCLUDED)
+
+# Each file has a compilation of its own there. Headers that the build writes are made, no more.
+single:
+	@$(INSTALL) test
+	cmake --preset single
+	$(BUILD) single --target gearlash_unit_table --target gearlash_python_records
 
 # Packed files have the date of the last commit, or of the changelog without git, so that the same
 # sources give the same bytes.
@@ -219,6 +232,10 @@ package: web  ## the tool, the library and the Python module as Debian packages:
 
 package-check: package wheel  ## install them into a bare Debian 12, build/package-root, and use them
 	scripts/package-check build/*.deb build/*.whl
+
+# Hours. CONTRIBUTING.md says how a release is made.
+release-check: FUZZ_SECONDS := 600
+release-check: includes readme-check seeded-faults fuzz bench package-check  ## before a release, beside make test
 
 clean:  ## remove all that was built
 	rm -rf build examples/*.svg

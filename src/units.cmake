@@ -13,4 +13,7 @@ add_custom_command(
           "${unit_table}"
   DEPENDS "${unit_script}" "${unit_aliases}" "${UDUNITS2_DATABASE}"
   COMMENT "Writing the table of units")
+# By a target of its own, the table waits for no library.
+add_custom_target(gearlash_unit_table DEPENDS "${unit_table}")
 target_sources(gearlash_input PRIVATE "${unit_table}")
+add_dependencies(gearlash_input gearlash_unit_table)
