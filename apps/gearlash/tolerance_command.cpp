@@ -150,22 +150,21 @@ void read_outputs(const ToleranceOptions& options, Task& task, Faults& faults) {
   if (!options.output.empty() && !ends_in(".csv") && !ends_in(".json") && !ends_in(".nc")) {
     faults.add({"--output", shown(options.output), "must end in .csv, .json or .nc", ""});
   }
-  std::vector<FileUse> outputs = files_of(task.plots);
-  outputs.push_back({"--output", options.output});
-  faults.require_distinct({"DRIVE.toml", options.servo.file}, outputs);
 }
 
 Task read_task(const ToleranceOptions& options) {
   Task task;
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "json"});
-  const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
+  read_outputs(options, task, faults);
+  std::vector<FileUse> outputs = files_of(task.plots);
+  outputs.push_back({"--output", options.output});
+  const std::optional<WrittenDrive> written = resolve_drive(options.servo, outputs, faults);
   const bool has_time = !written || !is_normalized(written->drive);
   const bool is_searched = written && are_searched(*written);
   read_sampling(options, task, faults);
   read_amplitude(options, is_searched, task, faults);
   read_questions(options, has_time ? TimeScale::known : TimeScale::unknown, task, faults);
-  read_outputs(options, task, faults);
   if (is_searched && !options.yield.empty()) {
     faults.add({"--yield", options.yield, permitted_with_closed_form, ""});
   }
