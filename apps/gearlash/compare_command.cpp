@@ -69,9 +69,8 @@ ExitStatus run(const CompareOptions& options, const Provenance& provenance) {
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "json"});
   const std::vector<Plot> plots = read_plots(options.plots, {"time"}, faults);
-  faults.require_distinct({"DRIVE.toml", options.servo.file}, files_of(plots));
   const std::vector<SensorPlace> places = read_sensors(options.sensors, faults);
-  const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
+  const std::optional<WrittenDrive> written = resolve_drive(options.servo, files_of(plots), faults);
   const drive::Step step = written ? read_step(options, *written, faults) : drive::Step{};
   faults.require_none();
 

@@ -48,8 +48,9 @@ struct DescribedDrive {
   Analysis analysis{};
 };
 
-DescribedDrive described_drive(const ServoOptions& options, Faults& faults) {
-  std::optional<WrittenDrive> written = resolve_drive(options, faults);
+DescribedDrive described_drive(const ServoOptions& options, const std::vector<Plot>& plots,
+                               Faults& faults) {
+  std::optional<WrittenDrive> written = resolve_drive(options, files_of(plots), faults);
   faults.require_none();
   TerminalProgress progress("Searching");
   Analysis analysis = analyse_in_full(written->drive, {.proofs = false}, progress);
@@ -117,8 +118,7 @@ ExitStatus run(const DescribeOptions& options, const Provenance& provenance) {
   faults.require_choice("--format", options.format, {"text", "json"});
   const std::vector<Plot> plots = read_plots(options.plots, {"nyquist"}, faults);
   check_part(options, faults);
-  faults.require_distinct({"DRIVE.toml", options.servo.file}, files_of(plots));
-  const DescribedDrive input = described_drive(options.servo, faults);
+  const DescribedDrive input = described_drive(options.servo, plots, faults);
 
   const Answer& answer = input.analysis.answer;
   const DescribeReport report =

@@ -205,8 +205,7 @@ ExitStatus run(const DesignOptions& options, const Provenance& provenance) {
   Faults faults;
   check_options(options, faults);
   const std::vector<Plot> plots = read_plots(options.plots, {"region"}, faults);
-  faults.require_distinct({"DRIVE.toml", options.servo.file}, files_of(plots));
-  const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
+  const std::optional<WrittenDrive> written = resolve_drive(options.servo, files_of(plots), faults);
   const bool has_time = !written || !is_normalized(written->drive);
   const Target target = faults.collect(
       [&] {

@@ -106,11 +106,15 @@ ExitStatus run(const ExploreOptions& options, const Provenance&) {
   if (fs::path(options.output).extension() != ".html" && options.output != "-") {
     faults.add({"--output", shown(options.output), "must end in .html", ""});
   }
-  faults.require_distinct({"DRIVE.toml", options.servo.file}, {{"--output", options.output}});
-  const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
+  const std::optional<WrittenDrive> written =
+      resolve_drive(options.servo, {{"--output", options.output}}, faults);
+  faults.require_none();
+  const fs::path without_drive = page_without_drive();
+  faults.require_distinct({{"the page without a drive", without_drive.string()}},
+                          {{"--output", options.output}});
   faults.require_none();
   constexpr std::size_t largest_page = 16U * 1024U * 1024U;
-  std::string page = read_text_file(page_without_drive(), largest_page);
+  std::string page = read_text_file(without_drive, largest_page);
   const std::string place = "id=\"user-drive\">";
   const std::size_t at = page.find(place);
   if (at == std::string::npos) throw OutputError("the page has no place for a drive");

@@ -73,7 +73,7 @@ void refuse_given(const ServoOptions& options, const AxisText& axis, const std::
 /// parameter, so nothing is then reported as missing.
 std::optional<WrittenDrive> read_fixed_drive(const ServoOptions& options,
                                              const std::vector<AxisText>& axes, bool are_all_there,
-                                             Faults& faults) {
+                                             const std::vector<FileUse>& outputs, Faults& faults) {
   ServoOptions completed = options;
   const Drive any = normal_form(0.5, 1.0, 0.5);
   for (const AxisText& axis : axes) {
@@ -88,7 +88,7 @@ std::optional<WrittenDrive> read_fixed_drive(const ServoOptions& options,
   for (const RivalOption& rival : rivals) {
     if (!are_all_there && rival.path != "contact.restitution") put_in_stand_in(completed, rival);
   }
-  return resolve_drive(completed, faults);
+  return resolve_drive(completed, outputs, faults);
 }
 
 std::vector<Axis> read_axes(const std::vector<AxisText>& texts, const Drive& drive,
@@ -233,9 +233,8 @@ GridTask read_grid_task(const GridOptions& options, const std::vector<AxisOption
   read_outputs(options, kinds, task, faults);
   std::vector<FileUse> outputs = files_of(task.plots);
   if (!task.table.empty()) outputs.push_back({"--output", task.table});
-  faults.require_distinct({"DRIVE.toml", options.servo.file}, outputs);
   const std::optional<WrittenDrive> written =
-      read_fixed_drive(options.servo, texts, texts.size() == typed_axes.size(), faults);
+      read_fixed_drive(options.servo, texts, texts.size() == typed_axes.size(), outputs, faults);
   const bool is_known = written || options.servo.file.empty();
   task.grid.proved = options.proved;
   if (written) task.angle = written->angle;
@@ -303,6 +302,7 @@ ExitStatus make_grid_files(const GridTask& task, const Provenance& provenance,
   progress.emplace(task.verb == "map" ? "Map" : "Chart", task.grid.size(), "points");
   GridTable table{.grid = task.grid, .provenance = provenance, .angle = task.angle};
   GridCount count;
+  Extras extras;
   std::string made;
   const auto commit = [&](OutputFile& file) {
     file.commit();
@@ -310,6 +310,7 @@ ExitStatus make_grid_files(const GridTask& task, const Provenance& provenance,
   };
   if (task.plots.empty() && ending_of(task.table) == ".nc") {
     count = write_netcdf(task, provenance, *output, *progress);
+    commit(*output);
   } else {
     table.table = Table(task.grid.size(), quantities_of(task));
     count = evaluate(task.grid, GridPoints(task.grid), 0, task.grid.size(), columns_of(table.table),
@@ -318,11 +319,14 @@ ExitStatus make_grid_files(const GridTask& task, const Provenance& provenance,
       progress.emplace("Borders");
       add_borders(table, *progress);
     }
-    if (output) write_table(task, table, count, *output);
+    if (output) {
+      extras.make([&] {
+        write_table(task, table, count, *output);
+        commit(*output);
+      });
+    }
   }
-  if (output) commit(*output);
   progress.reset();  // wiped before anything is printed
-  Extras extras;
   for (std::size_t i = 0; i < pictures.size(); ++i) {
     extras.make([&] {
       pictures[i]->write(draw(table, task.plots[i].format));

@@ -231,8 +231,7 @@ ExitStatus run(const LimitCycleOptions& options, const Provenance& provenance) {
   faults.require_choice("--format", options.format, {"text", "json"});
   const std::vector<Plot> plots =
       read_plots(options.plots, {"phase", "time", "tornado", "ceiling"}, faults);
-  faults.require_distinct({"DRIVE.toml", options.servo.file}, files_of(plots));
-  const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
+  const std::optional<WrittenDrive> written = resolve_drive(options.servo, files_of(plots), faults);
   Limits limits;
   if (!options.time_limit.empty()) {
     limits.seconds = read_time("--time-limit", options.time_limit, faults);

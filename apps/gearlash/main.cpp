@@ -11,6 +11,7 @@
 #include "command.hpp"
 #include "gearlash/version.hpp"
 #include "machine_faults.hpp"
+#include "output/netcdf_file.hpp"
 #include "output/output_file.hpp"
 
 namespace gearlash::cli {
@@ -98,8 +99,6 @@ ExitStatus guarded(int argument_count, char** arguments) {
 int main(int argument_count, char** arguments) {
   gearlash::cli::install_signal_handlers();
   const auto status = static_cast<int>(gearlash::cli::guarded(argument_count, arguments));
-  // Once a write has failed, HDF5 (1.10.8), which NetCDF writes with, crashes when the program
-  // ends.
-  if (status != 0) std::_Exit(status);
+  if (gearlash::must_end_at_once()) std::_Exit(status);
   return status;
 }

@@ -24,7 +24,7 @@ bool is_data_sheet(const Drive& drive) {
 
 ExitStatus run(const ServoOptions& options, const Provenance&) {
   Faults faults;
-  const std::optional<WrittenDrive> written = resolve_drive(options, faults);
+  const std::optional<WrittenDrive> written = resolve_drive(options, {}, faults);
   faults.require_none();
   if (!is_data_sheet(written->drive)) {
     throw InvalidInput({{"motor", "", "the procedure starts from a data sheet with [motor]",

@@ -10,7 +10,7 @@
 #include "input/section_reader.hpp"
 #include "input/text_file.hpp"
 #include "input/units.hpp"
-#include "input/written_texts.hpp"
+#include "model/parameters.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash::cli {
@@ -174,15 +174,7 @@ void Faults::require_choice(const std::string& field, const std::string& value,
   add({field, shown(value), "must be " + alternatives(choices), ""});
 }
 
-void Faults::require_distinct(const FileUse& input, const std::vector<FileUse>& outputs) {
-  std::vector<FileUse> others;
-  if (!input.file.empty()) {
-    others.push_back(input);
-    for (const auto& [path, text] : written_texts(input.file)) {
-      if (!path.ends_with(".file") || text.empty()) continue;
-      others.push_back({path, (fs::path(input.file).parent_path() / text).string()});
-    }
-  }
+void Faults::require_distinct(std::vector<FileUse> others, const std::vector<FileUse>& outputs) {
   for (const FileUse& output : outputs) {
     if (!may_be_lost(output.file)) continue;
     const auto same = std::find_if(others.begin(), others.end(), [&](const FileUse& other) {
@@ -194,6 +186,18 @@ void Faults::require_distinct(const FileUse& input, const std::vector<FileUse>& 
     }
     others.push_back(output);
   }
+}
+
+std::vector<FileUse> named_tables(Drive drive, const std::string& file) {
+  std::vector<FileUse> tables;
+  for (const Parameter& parameter : all_parameters_of_drives()) {
+    const Slot slot = parameter.slot(drive);
+    const auto* const* name = std::get_if<std::string*>(&slot);
+    if (name == nullptr || (*name)->empty()) continue;
+    tables.push_back(
+        {std::string(parameter.path), (fs::path(file).parent_path() / **name).string()});
+  }
+  return tables;
 }
 
 double read_si(std::string_view field, std::string_view text, const Dimension& dimension) {
@@ -293,7 +297,9 @@ double read_share(const std::string& field, std::string text, Faults& faults) {
   return share;
 }
 
-std::optional<WrittenDrive> resolve_drive(const ServoOptions& options, Faults& faults) {
+namespace {
+
+std::optional<WrittenDrive> read_drive_or_faults(const ServoOptions& options, Faults& faults) {
   std::vector<Setting> settings = settings_of(options, faults);
   if (options.file.empty() && options.sensor) {
     settings.push_back({"sensor.position", *options.sensor});
@@ -304,6 +310,19 @@ std::optional<WrittenDrive> resolve_drive(const ServoOptions& options, Faults& f
     faults.add(named_as_typed(error.faults(), options));
     return std::nullopt;
   }
+}
+
+}  // namespace
+
+std::optional<WrittenDrive> resolve_drive(const ServoOptions& options,
+                                          const std::vector<FileUse>& outputs, Faults& faults) {
+  std::optional<WrittenDrive> written = read_drive_or_faults(options, faults);
+  std::vector<FileUse> inputs;
+  if (written) inputs = named_tables(written->drive, options.file);
+  if (options.file == "-") inputs.push_back({"standard input", "/dev/stdin"});
+  if (!options.file.empty()) inputs.push_back({"DRIVE.toml", options.file});
+  faults.require_distinct(std::move(inputs), outputs);
+  return written;
 }
 
 Drive closed_form_drive(const WrittenDrive& written, const ServoOptions& options) {

@@ -60,10 +60,9 @@ class Faults {
   /// `value` if it is one of `choices`, else a fault of `field`.
   void require_choice(const std::string& field, const std::string& value,
                       const std::vector<std::string>& choices);
-  /// Adds a fault for each output that is the same file as `input`, as a file that it names (a
-  /// table of a signal), or as another output, because one would be lost. Empty names, "-" and
-  /// devices are exempt.
-  void require_distinct(const FileUse& input, const std::vector<FileUse>& outputs);
+  /// Adds a fault for each output that is the same file as one of `others`, which are read, or as
+  /// another output, because one would be lost. Empty names, "-" and devices are exempt.
+  void require_distinct(std::vector<FileUse> others, const std::vector<FileUse>& outputs);
   bool none() const { return faults_.empty(); }
   void require_none() const { gearlash::require_none(faults_); }
 
@@ -81,8 +80,13 @@ double read_time(const char* field, const std::string& text, Faults& faults);
 double read_share(const std::string& field, std::string text, Faults& faults);
 
 /// The drive as its user has it: the file, or the normal form of the options, with the settings of
-/// --set. Adds faults to `faults`. Without faults there is a result, and it is valid.
-std::optional<WrittenDrive> resolve_drive(const ServoOptions& options, Faults& faults);
+/// --set. Adds faults to `faults`, also those of Faults::require_distinct() for `outputs` beside
+/// every file that is read. Without faults there is a result, and it is valid.
+std::optional<WrittenDrive> resolve_drive(const ServoOptions& options,
+                                          const std::vector<FileUse>& outputs, Faults& faults);
+
+/// The tables that a drive of this file ("-": standard input) names, in the file or by --set.
+std::vector<FileUse> named_tables(Drive drive, const std::string& file);
 
 /// The drive without its signals, on which hunting does not depend. Throws InvalidInput, located at
 /// the file, where it has no closed form.

@@ -23,7 +23,7 @@ struct ShowOptions {
 ExitStatus run(const ShowOptions& options, const Provenance& provenance) {
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "toml", "json"});
-  const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
+  const std::optional<WrittenDrive> written = resolve_drive(options.servo, {}, faults);
   faults.require_none();
   const Drive& drive = written->drive;
   write_file("-", options.format == "json" ? show_json(drive, provenance) : show_text(drive));

@@ -133,9 +133,10 @@ void read_times(const SimulateOptions& options, const Drive* drive, SimulateRequ
   }
 }
 
-SimulateRequest read_task(const SimulateOptions& options, Faults& faults) {
+SimulateRequest read_task(const SimulateOptions& options, const std::vector<FileUse>& outputs,
+                          Faults& faults) {
   SimulateRequest task;
-  std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
+  std::optional<WrittenDrive> written = resolve_drive(options.servo, outputs, faults);
   task.start = read_start(options, faults);
   if (written) {
     set_reference(options, *written, faults);
@@ -259,8 +260,7 @@ ExitStatus run(const SimulateOptions& options, const Provenance& provenance) {
   const std::vector<Plot> plots = read_plots(options.plots, {"time", "phase"}, faults);
   std::vector<FileUse> outputs = files_of(plots);
   outputs.insert(outputs.begin(), {"--output", options.output});
-  faults.require_distinct({"DRIVE.toml", options.servo.file}, outputs);
-  const SimulateRequest task = read_task(options, faults);
+  const SimulateRequest task = read_task(options, outputs, faults);
   const Motion motion = simulated(task, options);
   Extras extras;
   std::optional<MotionPicture> picture;

@@ -94,7 +94,9 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
   for (const std::filesystem::path& file : unfinished_files(options.output)) {
     outputs.push_back({"--output, while unfinished", file.string()});
   }
-  faults.require_distinct({"SWEEP.toml", options.file}, outputs);
+  std::vector<FileUse> inputs = named_tables(sweep.grid.drive, options.file);
+  inputs.push_back({"SWEEP.toml", options.file});
+  faults.require_distinct(std::move(inputs), outputs);
   faults.require_none();
 
   const StopRequest stop;

@@ -178,7 +178,7 @@ void add_thesis_chart_reading(Command& thesis, Action& action) {
     ServoOptions typed = given;
     if (typed.file.empty() && !typed.backlash) typed.backlash = "0.3";
     Faults faults;
-    const std::optional<WrittenDrive> written = resolve_drive(typed, faults);
+    const std::optional<WrittenDrive> written = resolve_drive(typed, {}, faults);
     faults.require_none();
     const NormalizedServo servo = closed_form_servo(closed_form_drive(*written, typed))->servo;
     write_file("-", chart_reading_text(servo, thesis::read_chart(servo)));

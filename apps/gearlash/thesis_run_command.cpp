@@ -188,7 +188,7 @@ ExitStatus run_program(const RunOptions& options, const Provenance&) {
   ServoOptions typed = options.servo;
   if (typed.file.empty() && !typed.backlash) typed.backlash = "0.3";  // of the charts
   Faults faults;
-  const std::optional<WrittenDrive> written = resolve_drive(typed, faults);
+  const std::optional<WrittenDrive> written = resolve_drive(typed, {}, faults);
   faults.require_none();
   const NormalizedServo servo = closed_form_servo(closed_form_drive(*written, typed))->servo;
   const auto parameters = thesis::program_parameters(servo);

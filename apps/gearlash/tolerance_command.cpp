@@ -132,20 +132,20 @@ void read_pictures(const ToleranceOptions& options, ToleranceRequest& task, Faul
   std::vector<std::string> kinds;
   for (const auto& [name, picture] : pictures) kinds.emplace_back(name);
   task.plots = read_plots(options.plots, kinds, faults);
-  faults.require_distinct({"DRIVE.toml", options.servo.file}, files_of(task.plots));
 }
 
 ToleranceRequest read_task(const ToleranceOptions& options) {
   ToleranceRequest task;
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "json"});
-  const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
+  read_pictures(options, task, faults);
+  const std::optional<WrittenDrive> written =
+      resolve_drive(options.servo, files_of(task.plots), faults);
   const bool has_time = !written || !is_normalized(written->drive);
   const bool is_searched = written && are_searched(*written);
   read_sampling(options, task, faults);
   read_amplitude(options, is_searched, task, faults);
   read_questions(options, has_time ? TimeScale::known : TimeScale::unknown, task, faults);
-  read_pictures(options, task, faults);
   if (is_searched && !options.yield.empty()) {
     faults.add({"--yield", options.yield, permitted_with_closed_form, ""});
   }

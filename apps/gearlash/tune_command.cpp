@@ -88,9 +88,9 @@ TuneRequest read_task(const TuneOptions& options) {
   TuneRequest task;
   Faults faults;
   faults.require_choice("--format", options.format, {"text", "json"});
-  faults.require_distinct({"DRIVE.toml", options.servo.file}, {{"--write", options.write}});
   read_numbers(options, task, faults);
-  const std::optional<WrittenDrive> written = resolve_drive(options.servo, faults);
+  const std::optional<WrittenDrive> written =
+      resolve_drive(options.servo, {{"--write", options.write}}, faults);
   if (!written) faults.require_none();
   const Drive& drive = written->drive;
   task.angle = written->angle;

@@ -187,11 +187,12 @@ struct CeilingTerm {
   std::optional<double> effort{};  ///< N m
 };
 
-/// Starts of which no motion ever meets the torque limit: with the controller's numbers as at rest,
-/// both shafts displaced by x from rest at the reference and moving at the same speed v, with
-/// |x|/position + |v|/speed ≤ 1, anywhere in the gap. x and v are means of both shafts by their
-/// inertias. So a step of the reference up to `position` never meets it either, if the controller
-/// knows reference and position by their difference alone. A computer starts at a tick.
+/// Starts of which no motion ever meets the torque limit: with the controller's numbers those of
+/// the motion with the gap closed, both shafts displaced by x from it and faster than it by the
+/// same speed v, with |x|/position + |v|/speed ≤ 1, anywhere in the gap. x and v are means of both
+/// shafts by their inertias. So a step of the reference up to `position` never meets it either, if
+/// the controller knows reference and position by their difference alone and there is no gravity. A
+/// computer starts at a tick.
 struct SafeStarts {
   double position = 0.0;  ///< rad
   double speed = 0.0;     ///< rad/s
@@ -212,13 +213,17 @@ struct Ceiling {
   /// The motor's torque is limited, and motion that reaches the limit ever again is not bounded.
   bool is_below_limit = false;
   /// Whether a motion can stay off the limit: effort and holding torque together are below it.
-  /// Empty if the effort has no ceiling, there is no limit, or the signals move.
+  /// Empty if the effort has no ceiling, there is no limit, or the holding torque is not known: the
+  /// signals move, or with gravity or a ramp the controller does not know reference and position by
+  /// their difference alone.
   std::optional<bool> meets_limit{};
   /// Starts that never meet the torque limit. Empty if none is proved.
   std::optional<SafeStarts> safe_starts{};
+  std::string safe_starts_reason{};  ///< why they are withheld, where a condition of a proof fails
   /// N m: no motion in the end has a larger mean of the mesh torque's size. Rigid faces, a
   /// continuous controller, no dry friction, encoder or load torque; empty for others.
   std::optional<double> mesh_torque{};
+  std::string mesh_torque_reason{};  ///< why it is withheld, where only one condition fails
   std::vector<CeilingTerm> terms{};  ///< what each source contributes
   /// The term "gap speed" is bounded by what brakes it, not by the width of the gap.
   bool is_gap_speed_braked = false;

@@ -373,6 +373,7 @@ Analysis analysed(const Drive& drive, const Analysis* near, const Wanted& wanted
   add_figures(analysis.reduced, wanted, analysis.answer);
   if (wanted.ceiling) {
     analysis.answer.ceiling->mesh_torque = highest_mean_mesh_torque(analysis.reduced);
+    analysis.answer.ceiling->mesh_torque_reason = obstacle_of_mesh_torque(analysis.reduced);
   }
   std::vector<Note> notes = notes_on(drive);
   analysis.answer.notes.insert(analysis.answer.notes.begin(), notes.begin(), notes.end());

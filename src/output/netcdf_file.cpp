@@ -5,6 +5,7 @@
 #include <netcdf.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <limits>
 #include <system_error>
@@ -15,7 +16,7 @@
 namespace gearlash {
 namespace {
 
-constexpr int closed = -1;
+std::atomic<bool> is_loaded = false;
 
 /// A function of NetCDF's library. The library is loaded at the first call, because loading it and
 /// the forty libraries that it needs takes longer than most commands. It is never unloaded, because
@@ -27,6 +28,7 @@ void* function_of_library(const char* name) {
     throw OutputError(std::string("NetCDF files cannot be written without ") +
                       GEARLASH_NETCDF_SONAME + " (Debian: " + GEARLASH_NETCDF_PACKAGE + ")");
   }
+  is_loaded = true;
   errno = 0;  // loading may have set it
   return function;
 }
@@ -45,7 +47,6 @@ struct Loaded {
 constexpr Loaded<decltype(::nc_strerror)> nc_strerror{"nc_strerror"};
 constexpr Loaded<decltype(::nc_create)> nc_create{"nc_create"};
 constexpr Loaded<decltype(::nc_open)> nc_open{"nc_open"};
-constexpr Loaded<decltype(::nc_close)> nc_close{"nc_close"};
 constexpr Loaded<decltype(::nc_def_dim)> nc_def_dim{"nc_def_dim"};
 constexpr Loaded<decltype(::nc_def_var)> nc_def_var{"nc_def_var"};
 constexpr Loaded<decltype(::nc_def_var_chunking)> nc_def_var_chunking{"nc_def_var_chunking"};
@@ -84,7 +85,7 @@ void NetcdfFile::require(Call call, Arguments... arguments) const {
 }
 
 NetcdfFile NetcdfFile::create(const std::filesystem::path& path, std::string shown_name) {
-  int id = closed;
+  int id = 0;
   errno = 0;
   const int status = nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &id);
   if (status != NC_NOERR) refuse(shown_name, status, errno);
@@ -92,20 +93,11 @@ NetcdfFile NetcdfFile::create(const std::filesystem::path& path, std::string sho
 }
 
 NetcdfFile NetcdfFile::reopen(const std::filesystem::path& path, std::string shown_name) {
-  int id = closed;
+  int id = 0;
   const int status = nc_open(path.c_str(), NC_WRITE, &id);
   if (status != NC_NOERR) refuse(shown_name, status, 0);
   return {id, path, std::move(shown_name)};
 }
-
-NetcdfFile::~NetcdfFile() {
-  if (id_ != closed) nc_close(id_);
-}
-
-NetcdfFile::NetcdfFile(NetcdfFile&& other) noexcept
-    : id_(std::exchange(other.id_, closed)),
-      path_(std::move(other.path_)),
-      shown_name_(std::move(other.shown_name_)) {}
 
 NetcdfDimension NetcdfFile::add_dimension(const std::string& name, std::size_t length) {
   NetcdfDimension dimension = 0;
@@ -221,10 +213,8 @@ void NetcdfFile::flush() {
   if (!brought) refuse(shown_name_, NC_EHDFERR, system_error);
 }
 
-void NetcdfFile::close() {
-  errno = 0;
-  const int status = nc_close(std::exchange(id_, closed));
-  if (status != NC_NOERR) refuse(shown_name_, status, errno);
-}
+void NetcdfFile::close() { require(nc_sync); }
+
+bool must_end_at_once() noexcept { return is_loaded; }
 
 }  // namespace gearlash

@@ -15,15 +15,18 @@ using NetcdfVariable = int;
 
 /// Every member throws OutputError, naming the file as `shown_name`, if the library reports an
 /// error (disk full, no permission, a file of another layout).
+///
+/// The library's own file stays open: HDF5 (1.10.8) crashes as it closes a file if the last write
+/// fails, and at the end of a program in which any write has failed. So the program ends by
+/// std::_Exit if must_end_at_once(). Its close would only add the mark that the file is closed,
+/// which readers do not need.
 class NetcdfFile {
  public:
   /// Makes a new file, or opens an empty one, to be described and then filled.
   static NetcdfFile create(const std::filesystem::path& path, std::string shown_name);
   /// Reopens a file of create() to fill it further.
   static NetcdfFile reopen(const std::filesystem::path& path, std::string shown_name);
-  ~NetcdfFile();
-  NetcdfFile(NetcdfFile&& other) noexcept;
-  NetcdfFile& operator=(NetcdfFile&&) = delete;
+  NetcdfFile(NetcdfFile&&) = default;
 
   // The description comes before the first values or after resume_description().
   NetcdfDimension add_dimension(const std::string& name, std::size_t length);
@@ -62,6 +65,7 @@ class NetcdfFile {
   void begin_flush() const;
   /// Writes everything to the disk (fsync).
   void flush();
+  /// Writes everything to the file.
   void close();
 
  private:
@@ -74,9 +78,12 @@ class NetcdfFile {
   NetcdfVariable define(const std::string& name, int type,
                         const std::vector<NetcdfDimension>& dimensions);
 
-  int id_;  ///< the library's identifier; negative when closed
+  int id_;  ///< the library's identifier
   std::filesystem::path path_;
   std::string shown_name_;
 };
+
+/// Whether a NetCDF file may be open, so that the program must end by std::_Exit.
+bool must_end_at_once() noexcept;
 
 }  // namespace gearlash

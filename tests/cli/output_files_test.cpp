@@ -236,6 +236,60 @@ TEST(OutputFiles, NoneMayTakeThePlaceOfATableThatTheDriveNames) {
   }
 }
 
+TEST(OutputFiles, NoneMayTakeThePlaceOfATableThatIsNamedBesideTheFile) {
+  const Scratch scratch;
+  write_drive_with_table(scratch);
+  const std::string sheet = GEARLASH_SOURCE_DIRECTORY "/examples/elinco-fd162.toml";
+  std::ofstream(scratch / "plain.toml") << file_text(sheet);
+  std::ofstream(scratch / "sweep.toml")
+      << file_text(scratch / "drive.toml") << "[sweep]\naxes = [\"contact.restitution=0,0.1\"]\n";
+  const std::string table = file_text(scratch / "move.csv");
+  const std::string set = " --set reference.kind=table --set reference.file=move.csv ";
+  std::filesystem::create_symlink("move.csv", scratch / "move.nc");
+  std::filesystem::create_symlink("move.csv", scratch / "move.svg");
+  std::filesystem::create_hard_link(scratch / "move.csv", scratch / "move.html");
+  std::filesystem::create_hard_link(scratch / "move.csv", scratch / "move.toml");
+  for (const std::string& command : std::vector<std::string>{
+           "simulate plain.toml" + set + "--output ./move.csv",
+           "simulate - --output move.csv <drive.toml",
+           "cat drive.toml | simulate - --plot time=move.svg",
+           "simulate --damping 0.2 --inertia-ratio 2 --friction-ratio 0.1 --backlash 0.3" + set +
+               "--output move.csv",
+           "explore plain.toml" + set + "--output move.html",
+           "explore - --output move.html <drive.toml",
+           "limit-cycle plain.toml" + set + "--plot phase=move.svg",
+           "describe plain.toml" + set + "--plot nyquist=move.svg",
+           "compare plain.toml" + set + "--plot time=move.svg",
+           "tune plain.toml" + set + "--write move.toml",
+           "tolerance plain.toml" + set + "--plot yield=move.svg",
+           "design plain.toml" + set + "--target no-hunting --plot region=move.svg",
+           "chart plain.toml" + set + "--x gearbox.ratio=100,200 --output move.csv",
+           "map plain.toml" + set +
+               "--x gearbox.ratio=100,200 --y gearbox.backlash=0.1,0.2 --output move.nc",
+           "sweep sweep.toml --output move.nc"}) {
+    SCOPED_TRACE(command);
+    const std::size_t bar = command.find("| ");
+    const std::string piped = bar == std::string::npos ? "" : command.substr(0, bar + 2);
+    const Outcome run = run_shell("cd " + quoted((scratch / "").string()) + "; " + piped +
+                                  "\"$GEARLASH\" " + command.substr(piped.size()));
+    EXPECT_EQ(run.status, 2);
+    EXPECT_THAT(run.err, HasSubstr(": must not be the file of reference.file, move.csv\n"));
+    EXPECT_EQ(file_text(scratch / "move.csv"), table);
+  }
+}
+
+TEST(OutputFiles, NoneMayTakeThePlaceOfStandardInput) {
+  const Scratch scratch;
+  const std::string sheet = file_text(GEARLASH_SOURCE_DIRECTORY "/examples/elinco-fd162.toml");
+  std::ofstream(scratch / "own.toml") << sheet;
+  const Outcome run = run_shell("cd " + quoted((scratch / "").string()) +
+                                "; \"$GEARLASH\" simulate - --output own.toml <own.toml");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_EQ(run.err,
+            "gearlash: --output = own.toml: must not be the file of standard input, /dev/stdin\n");
+  EXPECT_EQ(file_text(scratch / "own.toml"), sheet);
+}
+
 TEST(OutputFiles, AnInputThatIsAPipeIsReadOnce) {
   const Outcome run =
       run_shell("cat examples/elinco-fd162.toml | \"$GEARLASH\" limit-cycle /dev/stdin");
@@ -282,6 +336,71 @@ TEST(OutputFiles, WhatSigkillLeavesIsRemovedByTheNextRun) {
   EXPECT_EQ(run_tool(simulate_into(scratch / "table.csv")).status, 0);
   EXPECT_EQ(scratch.file_count(), 1U);
   EXPECT_THAT(file_text(scratch / "table.csv"), StartsWith("time_s,"));
+}
+
+/// A chart whose NetCDF file has ten numbers of each quantity.
+std::string small_netcdf_file(const Scratch& scratch) {
+  return "\"$GEARLASH\" chart --x backlash=0.1:0.2:10 --damping 0.2 --inertia-ratio 2 "
+         "--friction-ratio 0.1 --output " +
+         quoted((scratch / "a.nc").string());
+}
+
+TEST(OutputFiles, AnyWriteOfANetcdfFileMayFail) {
+  if (!test::may_limit_memory) GTEST_SKIP() << "sanitizers are not preloaded first";
+  const Scratch scratch;
+  const std::string sweep = (scratch / "sweep.toml").string();
+  std::ofstream(sweep) << "[sweep]\naxes = [\"damping=0.1:0.6:5\"]\n[servo]\n"
+                          "inertia_ratio = 2\nfriction_ratio = 0.1\n";
+  for (const std::string& command :
+       {small_netcdf_file(scratch), "\"$GEARLASH\" sweep " + quoted(sweep) + " --output " +
+                                        quoted((scratch / "a.nc").string())}) {
+    int write = 1;
+    for (Outcome run; run.status != 0 && write < 200; ++write) {
+      run = run_shell("FAILING_WRITE=" + std::to_string(write) +
+                      " LD_PRELOAD=" GEARLASH_FAILING_WRITE " " + command);
+      if (run.status == 0) break;
+      SCOPED_TRACE(command + ", write " + std::to_string(write));
+      EXPECT_EQ(run.status, 3);
+      EXPECT_THAT(run.err, HasSubstr("a.nc: cannot be written: No space left on device\n"));
+      for (const char* left : {"a.nc", "a.nc.part", "a.nc.part.json"}) {
+        std::filesystem::remove(scratch / left);
+      }
+      EXPECT_EQ(scratch.file_count(), 1U);
+    }
+    EXPECT_GT(write, 10);
+    EXPECT_TRUE(std::filesystem::remove(scratch / "a.nc"));
+  }
+}
+
+TEST(OutputFiles, ANetcdfFileThatGrowsTooLargeLeavesNothing) {
+  const Scratch scratch;
+  // Each limit in kB up to the first that suffices. The message goes into a pipe, which has none.
+  const Outcome run =
+      run_shell("for size in {0..200}; do (ulimit -f $size; " + small_netcdf_file(scratch) +
+                ") 2>&1 | cat; status=${PIPESTATUS[0]}; [ $status = 0 ] && exit 0; "
+                "echo $status; ls -A " +
+                quoted((scratch / "").string()) + "; done; exit 1");
+  EXPECT_EQ(run.status, 0);
+  const std::vector<std::string> lines = test::lines_of(run.out);
+  EXPECT_GT(lines.size(), 20U);
+  for (std::size_t i = 0; i + 1 < lines.size(); i += 2) {
+    EXPECT_THAT(lines[i], testing::EndsWith("a.nc: cannot be written: File too large"));
+    EXPECT_EQ(lines[i + 1], "3");
+  }
+  EXPECT_THAT(lines.back(), HasSubstr("a.nc: 10 servos, "));
+}
+
+TEST(OutputFiles, ATableThatFailsWithholdsNeitherPictureNorAnswer) {
+  const Scratch scratch;
+  const Outcome run =
+      run_shell("cd " + quoted((scratch / "").string()) +
+                "; ulimit -f 200; \"$GEARLASH\" chart --x backlash=0.1:0.2:3000 --damping 0.2 "
+                "--inertia-ratio 2 --friction-ratio 0.1 --output a.nc --plot curves=a.svg");
+  EXPECT_EQ(run.status, 3);
+  EXPECT_EQ(run.err, "gearlash: a.nc: cannot be written: File too large\n");
+  EXPECT_THAT(run.out, StartsWith("a.svg: 3000 servos, "));
+  EXPECT_THAT(file_text(scratch / "a.svg"), StartsWith("<?xml"));
+  EXPECT_EQ(scratch.file_count(), 1U);
 }
 
 /// A line for bash in which the folder `full` of `scratch` is a disk without room.

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "analysis/ceiling/closed_gap.hpp"
 #include "analysis/ceiling/gap_speed.hpp"
 #include "analysis/ceiling/loop_gain.hpp"
 #include "base/datum.hpp"
@@ -95,27 +96,32 @@ struct Carried {
   Interval mesh;
 };
 
-/// The controller knows reference and position by their difference alone.
-bool follows_error(const drive::LinearController& controller) {
-  const auto is_difference = [](const std::vector<double>& row) { return row[0] == -row[1]; };
-  return is_difference(controller.direct) &&
-         std::all_of(controller.input_matrix.begin(), controller.input_matrix.end(), is_difference);
+bool is_weighed(const EnclosedDrive& drive) {
+  return drive.any_of([](const ReducedDrive& d) { return d.gravity.stiffness != 0.0; });
 }
 
-/// Of rest, or of an even motion along a ramp; empty where the reference or the load torque moves
-/// in another way, but for a sine of the load torque, which is a source.
-std::optional<Carried> carried_by(const EnclosedDrive& drive, DisturbedLoop& loop) {
+/// Why they are not known: the reference or the load torque moves in another way than along a ramp,
+/// or as a sine of the load torque, which is a source, or the motion does not follow the reference.
+/// Empty if they are known.
+std::string obstacle_of_carried(const EnclosedDrive& drive) {
   const ReducedDrive& form = drive.form();
-  if (std::holds_alternative<drive::Ramp>(form.load_torque)) return std::nullopt;
+  const bool has_ramp = std::holds_alternative<drive::Ramp>(form.reference);
+  const bool is_at_rest = std::holds_alternative<double>(form.reference);
+  if (std::holds_alternative<drive::Ramp>(form.load_torque) || !(is_at_rest || has_ramp) ||
+      (has_ramp && is_weighed(drive))) {
+    return "the reference or the load torque moves";
+  }
+  if (!(has_ramp || is_weighed(drive)) || follows_reference(form)) return {};
+  return "with gravity or a ramp its proof needs a controller that knows reference and position by "
+         "their difference alone";
+}
+
+/// Of rest, or of an even motion along a ramp. Precondition: no obstacle.
+Carried carried_by(const EnclosedDrive& drive, DisturbedLoop& loop) {
+  const ReducedDrive& form = drive.form();
   const Interval load_torque =
       drive.number([](const ReducedDrive& d) { return drive::middle_of(d.load_torque); });
-  const auto* ramp = std::get_if<drive::Ramp>(&form.reference);
-  if (ramp == nullptr && !std::holds_alternative<double>(form.reference)) return std::nullopt;
-  if (drive.any_of([](const ReducedDrive& d) { return d.gravity.stiffness != 0.0; })) {
-    const drive::LinearController controller =
-        form.sampling ? drive::sampled_controller(form.controller, *form.sampling)
-                      : drive::linear_controller(form.controller);
-    if (ramp != nullptr || !follows_error(controller)) return std::nullopt;
+  if (is_weighed(drive)) {
     // A constant torque displaces the loop by no more than any torque of that size.
     const LoopGain gain = loop.gain(Disturbance::torque_on_load);
     const Interval displacement = abs(load_torque) * Interval(gain.load);
@@ -126,7 +132,7 @@ std::optional<Carried> carried_by(const EnclosedDrive& drive, DisturbedLoop& loo
                                           displacement};
   }
   Interval speed = 0.0;
-  if (ramp != nullptr) {
+  if (std::holds_alternative<drive::Ramp>(form.reference)) {
     speed =
         drive.number([](const ReducedDrive& d) { return std::get<drive::Ramp>(d.reference).rate; });
   }
@@ -142,12 +148,23 @@ std::optional<Carried> carried_by(const EnclosedDrive& drive, DisturbedLoop& loo
 
 // ---- the gap's speed ----------------------------------------------------------------------------
 
+/// Whether the gap's acceleration jumps as the held torque changes. It is bounded at the starts of
+/// each hold, with the new torque, and not at their ends.
+bool jumps_between_holds(const EnclosedDrive& drive) {
+  const ReducedDrive& form = drive.form();
+  return form.sampling && form.winding.time_constant == 0.0 &&
+         drive.any_of([](const ReducedDrive& d) { return d.backlash > 0.0; });
+}
+
 /// Empty if the torque that the mesh carries is not known.
 std::optional<GapMotion> gap_motion(const EnclosedDrive& drive, DisturbedLoop& loop,
                                     const std::vector<ScaledSource>& sources,
                                     const std::optional<Carried>& carried) {
   using drive::RigidContact;
-  if (!carried || !std::holds_alternative<RigidContact>(drive.form().contact)) return std::nullopt;
+  if (!carried || !std::holds_alternative<RigidContact>(drive.form().contact) ||
+      jumps_between_holds(drive)) {
+    return std::nullopt;
+  }
   // Once the faces part the mesh torque is gone.
   Interval acceleration =
       abs(carried->mesh) * (1.0 / drive.number([](const ReducedDrive& d) {
@@ -234,11 +251,22 @@ void add_terms(const std::vector<ScaledSource>& sources, Ceiling& ceiling, Inter
 }
 
 /// Why the gap's speed has no bound.
-std::string obstacle_of_gap_speed(const std::optional<Carried>& carried) {
-  return carried
-             ? "the speed of the gap has no bound here: elastic faces, or feedback of the speed "
-               "that drives the gap"
-             : "the speed of the gap has no bound here: the reference or the load torque moves";
+std::string obstacle_of_gap_speed(const EnclosedDrive& drive, const std::string& of_carried) {
+  std::string reason = of_carried;
+  if (reason.empty() && jumps_between_holds(drive)) {
+    reason = "its proof does not cover the end of each hold, where the torque jumps";
+  } else if (reason.empty()) {
+    reason = "elastic faces, or feedback of the speed that drives the gap";
+  }
+  return "the speed of the gap has no bound here: " + reason;
+}
+
+/// Why no safe starts are proved.
+std::string obstacle_of_starts(const ReducedDrive& form) {
+  if (form.backlash == 0.0 || !std::holds_alternative<drive::CompliantContact>(form.contact)) {
+    return {};
+  }
+  return "with compliant faces their proof does not cover a start within the gap";
 }
 
 std::vector<ScaledSource> scaled_sources(const EnclosedDrive& drive, DisturbedLoop& loop) {
@@ -276,8 +304,11 @@ Ceiling ceiling_of(const EnclosedDrive& drive) {
   std::vector<ScaledSource> sources = scaled_sources(drive, *loop);
   const bool has_current_limit = std::isfinite(form.winding.torque_limit);
   ceiling.is_below_limit = std::isfinite(form.torque_limit) || has_current_limit;
+  const std::string of_carried = obstacle_of_carried(drive);
   std::optional<Carried> carried;
-  if (ceiling.is_below_limit || loop->reads_gap_speed()) carried = carried_by(drive, *loop);
+  if (of_carried.empty() && (ceiling.is_below_limit || loop->reads_gap_speed())) {
+    carried = carried_by(drive, *loop);
+  }
 
   Margin margin;
   Interval effort = 0.0;
@@ -290,7 +321,7 @@ Ceiling ceiling_of(const EnclosedDrive& drive) {
       sources.push_back({{"gap speed", Disturbance::gap_speed, speed.highest}, gain});
       ceiling.is_gap_speed_braked = speed.is_braked;
     } else if (gain.load > 0.0 || gain.motor > 0.0) {
-      ceiling.reason = "a sampled tachometer: " + obstacle_of_gap_speed(carried);
+      ceiling.reason = "a sampled tachometer: " + obstacle_of_gap_speed(drive, of_carried);
       return ceiling;
     } else {
       effort = infinity;
@@ -302,7 +333,7 @@ Ceiling ceiling_of(const EnclosedDrive& drive) {
     ceiling.reason = "its bound is beyond the numbers of this computer";
     return ceiling;
   }
-  if (!ceiling.effort) ceiling.effort_reason = obstacle_of_gap_speed(carried);
+  if (!ceiling.effort) ceiling.effort_reason = obstacle_of_gap_speed(drive, of_carried);
   if (!carried || !ceiling.effort || !ceiling.is_below_limit || has_current_limit) return ceiling;
   margin.left = Interval(lowest_torque_limit(drive)) - abs(carried->requested) - effort;
   ceiling.meets_limit = margin.left.low >= 0.0;
@@ -310,7 +341,9 @@ Ceiling ceiling_of(const EnclosedDrive& drive) {
     // The line above the gap's speed replaces its term.
     margin.left = margin.left + Interval(*ceiling.terms.back().effort);
   }
-  if (*ceiling.meets_limit) {
+  if (!*ceiling.meets_limit) return ceiling;
+  ceiling.safe_starts_reason = obstacle_of_starts(form);
+  if (ceiling.safe_starts_reason.empty()) {
     ceiling.safe_starts = starts_within(
         margin, *loop, 0.5 * drive.number([](const ReducedDrive& d) { return d.backlash; }));
   }

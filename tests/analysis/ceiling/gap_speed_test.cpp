@@ -86,6 +86,8 @@ Drive random_drive(SeededDraws& draws, bool is_sampled) {
                              .derivative = draws.log_uniform(0.02, 0.8),
                              .derivative_of_speed = true};
   if (is_sampled) {
+    // Its torque does not jump at the ticks, because the winding lags.
+    drive.motor.kind = ArmatureControl{1.0, 0.0, 1.0, draws.log_uniform(0.01, 0.2)};
     drive.sampling =
         Sampling{.period = draws.log_uniform(0.02, 0.2), .speed_by_differences = false};
   }
