@@ -14,7 +14,7 @@
 namespace gearlash {
 namespace {
 
-constexpr int few_digits = 4;
+constexpr int tuned_digits = 4;
 constexpr double turn = 2.0 * std::numbers::pi;
 
 const Drive& present_drive(const TuneReport& report) { return report.task.series.nominal; }
@@ -42,13 +42,13 @@ std::string reached_text(const TuneReport& report, const TunedDrive& tuned) {
   if (std::isnan(tuned.reached)) return "";
   switch (report.task.aim) {
     case Aim::bandwidth:
-      return ", with a bandwidth of at least " + significant(tuned.reached / turn, few_digits) +
+      return ", with a bandwidth of at least " + significant(tuned.reached / turn, tuned_digits) +
              " Hz";
     case Aim::settling:
-      return ", settling within " + significant(tuned.reached, few_digits) + " s";
+      return ", settling within " + significant(tuned.reached, tuned_digits) + " s";
     case Aim::static_error:
       return ", with a static error of at most " +
-             angle_text(tuned.reached, report.angle, few_digits);
+             angle_text(tuned.reached, report.angle, tuned_digits);
   }
   return "";
 }
@@ -122,7 +122,7 @@ std::string effort_text(const TuneReport& report) {
 
 std::string paragraph(const std::string& text) { return text.empty() ? "" : wrapped(text) + "\n"; }
 
-Json json_performance(const Answer& answer) {
+Json json_tuned(const Answer& answer) {
   return {{"verdict", name_of(answer.verdict)},
           {"amplitude", json_optional(answer.value(Quantity::amplitude))},
           {"motor_amplitude", json_optional(answer.value(Quantity::motor_amplitude))},
@@ -136,7 +136,7 @@ Json json_limiting(const TuneReport& report) {
   for (std::size_t i = 0; i < report.tuned.limiting->values.size(); ++i) {
     values[report.task.series.varied[i].path] = json_number(report.tuned.limiting->values[i]);
   }
-  return {{"values", values}, {"performance", json_performance(report.tuned.limiting->answer)}};
+  return {{"values", values}, {"performance", json_tuned(report.tuned.limiting->answer)}};
 }
 
 /// `axes`: those that were tuned.
@@ -183,8 +183,8 @@ std::string tune_json(const TuneReport& report) {
   json["target"] = report.target_text;
   json["aim"] = name_of(report.task.aim);
   json["share"] = json_number(report.task.share);
-  json["present"] = json_performance(report.present);
-  json["nominal"] = json_performance(report.nominal);
+  json["present"] = json_tuned(report.present);
+  json["nominal"] = json_tuned(report.nominal);
   json["tuned"] = json_tuned(report, report.task.tuned, report.tuned);
   json["limiting"] = json_limiting(report);
   const std::optional<std::string> why = why_integral_action_hunts(present_drive(report));
