@@ -13,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "chart_lookups.hpp"
 #include "contestants.hpp"
 #include "design_race.hpp"
 #include "fastest_times.hpp"
@@ -145,9 +144,8 @@ int main(int argc, char** argv) {
 
   const std::vector<Race> races = all_races();
   const std::vector<ReportPart> parts = {
-      enter_grid_race(),   enter_floor(),       enter_kernel_alone(),
-      enter_scaling(),     enter_map_to_file(), enter_chart_lookups(),
-      enter_design_race(), enter_hybrid_race(), enter_map_of_searched()};
+      enter_grid_race(),   enter_floor(),       enter_kernel_alone(), enter_scaling(),
+      enter_map_to_file(), enter_design_race(), enter_hybrid_race(),  enter_map_of_searched()};
   FastestTimes times;
   benchmark::RunSpecifiedBenchmarks(&times);
   std::printf(

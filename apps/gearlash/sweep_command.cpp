@@ -32,13 +32,12 @@ constexpr char sweep_explanation[] =
     "  [sweep]\n"
     "  axes = [\"damping=0.05:0.6:56\", \"inertia-ratio=1/9:9:100:log\"]\n"
     "  quantities = [\"amplitude\", \"period\"]   # all if left out\n"
-    "  keep = [\"counts\", \"quantiles\"]           # every point if left out; also extremes,\n"
-    "                                           # histograms and border\n"
     "  [servo]\n"
     "  friction_ratio = 0.1          # without backlash, amplitudes are in backlashes\n\n"
     "During the sweep FILE.part holds the results so far, and FILE.part.json their number.\n"
     "Both remain for --resume if the sweep is stopped or killed. FILE appears when it is\n"
-    "complete.\n\n";
+    "complete. A sweep has at most 1,000,000,000 points. gearlash.distributed, in Python, goes\n"
+    "past that, and past one machine.\n\n";
 
 struct SweepOptions {
   std::string file;
@@ -60,15 +59,12 @@ Provenance provenance_of(const SweepOptions& options, const Provenance& typed) {
   return {typed_command(static_cast<int>(arguments.size()), arguments.data()), typed.version};
 }
 
-void report_stop(const SweepRun& run, const SweepFile& sweep, const std::string& output) {
-  if (run.points_done == 0) {
-    report_lines("stopped before the first of " + std::to_string(sweep.grid.size()) +
-                 " points: there is nothing to resume");
-    return;
-  }
-  fmt::print(stderr,
-             "gearlash: stopped after {} of {} points, saved in {}.part; --resume continues\n",
-             run.points_done, sweep.grid.size(), shown(output, std::string::npos));
+void report_stop(std::size_t done, std::size_t points, const std::string& output) {
+  report_lines(
+      done == 0
+          ? fmt::format("stopped before the first of {} points: there is nothing to resume", points)
+          : fmt::format("stopped after {} of {} points, saved in {}.part; --resume continues", done,
+                        points, shown(output, std::string::npos)));
 }
 
 /// Progress that Ctrl-C stops.
@@ -102,16 +98,15 @@ ExitStatus run(const SweepOptions& options, const Provenance& provenance) {
   const StopRequest stop;
   std::optional<StoppableProgress> progress;
   progress.emplace(sweep.grid.size(), stop);
-  const SweepRun done =
+  const GridCount done =
       run_sweep(sweep, provenance_of(options, provenance), options.output,
                 options.resume ? SweepStart::resume : SweepStart::anew, *progress);
   progress.reset();  // wiped before anything is printed
-  if (done.points_done < sweep.grid.size()) {
-    report_stop(done, sweep, options.output);
+  if (done.points() < sweep.grid.size()) {
+    report_stop(done.points(), sweep.grid.size(), options.output);
     stop.obey();
   }
-  write_file("-", shown(options.output, std::string::npos) + ": " + solved_text(done.count) + "\n" +
-                      (done.summary.empty() ? "" : "\n" + done.summary));
+  write_file("-", shown(options.output, std::string::npos) + ": " + solved_text(done) + "\n");
   return ExitStatus::done;
 }
 

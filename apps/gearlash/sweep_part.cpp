@@ -6,11 +6,9 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
-#include <stdexcept>
 #include <system_error>
 
-#include "base/checksum.hpp"
+#include "input/sweep_file.hpp"
 #include "input/text_file.hpp"
 #include "input/units.hpp"
 #include "output/file_safety.hpp"
@@ -32,27 +30,19 @@ fs::path target_of(const fs::path& output) {
 
 fs::path with_ending(fs::path path, const char* ending) { return path += ending; }
 
-bool is_there(const fs::path& path) {
-  std::error_code ignored;
-  return fs::exists(path, ignored);
-}
-
 /// Marks a record as that of a sweep.
 constexpr char kind[] = "unfinished gearlash sweep";
-/// The state of a sweep that keeps its border has some characters for each of its points.
-constexpr std::size_t largest_record = 256 * largest_sweep_file;
-constexpr char unchanged[] = "must be unchanged since the sweep stopped";
+/// A record has the text of the sweep file, with escapes.
+constexpr std::size_t largest_record = 16 * largest_sweep_file;
 
 std::string text_of(const Json& record) {
   return record.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string hexadecimal(std::uint64_t number) { return fmt::format("{:016x}", number); }
-
 /// Over everything except the checksum itself.
-std::string checksum_of_record(Json record) {
+std::uint64_t checksum_of_record(Json record) {
   record.erase("checksum");
-  return hexadecimal(checksum_of(text_of(record)));
+  return checksum_of(text_of(record));
 }
 
 Json read_json(const fs::path& file) {
@@ -61,26 +51,6 @@ Json read_json(const fs::path& file) {
   } catch (const InvalidInput&) {  // unreadable: no record
     return {};
   }
-}
-
-bool is_link(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_symlink(fs::symlink_status(path, ignored));
-}
-
-std::size_t count_in(const Json& record, const char* key) {
-  const Json& value = record.at(key);
-  if (!value.is_number_unsigned()) throw std::out_of_range(key);
-  return value.get<std::size_t>();
-}
-
-std::uint64_t checksum_in(const Json& record, const char* key) {
-  constexpr int base = 16;
-  const std::string text = record.at(key).get<std::string>();
-  std::uint64_t sum = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), sum, base);
-  if (error != std::errc() || end != text.data() + text.size()) throw std::out_of_range(key);
-  return sum;
 }
 
 }  // namespace
@@ -137,9 +107,11 @@ void SweepPart::hold() {
 void SweepPart::require_own_files() {
   struct stat held {};
   if (fstat(descriptor_, &held) != 0 || !S_ISREG(held.st_mode)) refuse_foreign(data_);
-  const bool has_record = is_link(record_) || is_there(record_);
+  std::error_code ignored;
+  const fs::file_type type = fs::symlink_status(record_, ignored).type();
+  const bool has_record = type != fs::file_type::not_found;
   if (has_record) {
-    const Json record = is_link(record_) ? Json() : read_json(record_);
+    const Json record = type == fs::file_type::regular ? read_json(record_) : Json();
     if (!record.is_object() || record.value("kind", Json()) != kind) refuse_foreign(record_);
   }
   if (held.st_size > 0 && !has_record) refuse_foreign(data_);
@@ -153,55 +125,40 @@ void SweepPart::let_go() noexcept {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
-SweepPart::~SweepPart() { let_go(); }
-
-SweepRecord SweepPart::read_record(const SweepFile& sweep, const Provenance& provenance) const {
+SweepRecord SweepPart::read_record(const GridContents& contents) const {
   const Json json = read_json(record_);
   try {
-    if (json.at("checksum") != checksum_of_record(json)) refuse(unchanged);
-    if (json.at("provenance").at("version") != provenance.version) {
+    if (json.at("checksum") != checksum_of_record(json)) refuse_changed();
+    if (json.at("version") != contents.provenance.version) {
       refuse("must be of the same version of gearlash");
     }
-    if (json.at("sweep") != sweep.text || count_in(json, "points") != sweep.grid.size()) {
-      refuse("must be of the same sweep file");
-    }
-    SweepRecord record{.run = {.count = {.solved = {.side_by_side = count_in(json, "side_by_side"),
-                                                    .one_by_one = count_in(json, "one_by_one")},
-                                         .searched = count_in(json, "searched"),
-                                         .refused = count_in(json, "refused"),
-                                         .unproved = count_in(json, "unproved")},
-                               .points_done = count_in(json, "points_done")},
-                       .checksum_of_data = checksum_in(json, "checksum_of_data"),
-                       .reduced = json.value("reduced", "")};
-    const SweepRun& run = record.run;
-    if (run.points_done <= sweep.grid.size() && run.count.points() == run.points_done) {
-      return record;
-    }
-  } catch (const Json::exception&) {  // reported below
-  } catch (const std::out_of_range&) {
+    if (json.at("sweep") != contents.source_text) refuse("must be of the same sweep file");
+    return {.count = {.solved = {.side_by_side = json.at("side_by_side"),
+                                 .one_by_one = json.at("one_by_one")},
+                      .searched = json.at("searched"),
+                      .refused = json.at("refused"),
+                      .unproved = json.at("unproved")},
+            .data = Checksum(json.at("checksum_of_data").get<std::uint64_t>())};
+  } catch (const Json::exception&) {  // it has the checksum of a record, and is none
+    refuse_changed();
   }
-  refuse(unchanged);
 }
 
-void SweepPart::write_record(const SweepFile& sweep, const Provenance& provenance,
-                             const SweepRecord& record) {
-  const SweepRun& run = record.run;
-  Json json = {
-      {"kind", kind},
-      {"provenance",
-       {{"program", "gearlash"}, {"version", provenance.version}, {"command", provenance.command}}},
-      {"points", sweep.grid.size()},
-      {"points_done", run.points_done},
-      {"side_by_side", run.count.solved.side_by_side},
-      {"one_by_one", run.count.solved.one_by_one},
-      {"searched", run.count.searched},
-      {"refused", run.count.refused},
-      {"unproved", run.count.unproved},
-      {"sweep", sweep.text},
-      {"checksum_of_data", hexadecimal(record.checksum_of_data)}};
-  if (!record.reduced.empty()) json["reduced"] = record.reduced;
+void SweepPart::write_record(const GridContents& contents, const SweepRecord& record) {
+  const GridCount& count = record.count;
+  Json json = {{"kind", kind},
+               {"version", contents.provenance.version},
+               {"points", contents.grid.size()},
+               {"points_done", count.points()},
+               {"side_by_side", count.solved.side_by_side},
+               {"one_by_one", count.solved.one_by_one},
+               {"searched", count.searched},
+               {"refused", count.refused},
+               {"unproved", count.unproved},
+               {"sweep", contents.source_text},
+               {"checksum_of_data", record.data.value()}};
   json["checksum"] = checksum_of_record(json);
-  may_remove_data_ = may_remove_record_ = run.points_done == 0;
+  may_remove_data_ = may_remove_record_ = count.points() == 0;
   write_file(record_, text_of(json));
 }
 
@@ -212,23 +169,6 @@ void SweepPart::finish() {
   may_remove_data_ = false;
   fs::remove(record_, error);
   bring_name_to_disk(output_);
-}
-
-void SweepPart::begin_without_data() {
-  constexpr std::string_view note = "Unfinished: the record beside this file has what is known.\n";
-  if (is_begun_) return;
-  if (pwrite(descriptor_, note.data(), note.size(), 0) != static_cast<ssize_t>(note.size())) {
-    throw OutputError(whole_name(data_) +
-                      ": cannot be written: " + std::generic_category().message(errno));
-  }
-  is_begun_ = true;
-}
-
-void SweepPart::finish_without_data() {
-  std::error_code ignored;
-  fs::remove(record_, ignored);
-  fs::remove(data_, ignored);
-  may_remove_data_ = may_remove_record_ = false;
 }
 
 std::size_t SweepPart::bytes() const {

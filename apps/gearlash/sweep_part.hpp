@@ -2,21 +2,19 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <filesystem>
 #include <string>
 
-#include "input/sweep_file.hpp"
-#include "output/report_units.hpp"
-#include "sweep_run.hpp"
+#include "analysis/grid/grid_evaluation.hpp"
+#include "base/checksum.hpp"
+#include "output/grid_description.hpp"
 
 namespace gearlash {
 
 /// The progress of an unfinished sweep.
 struct SweepRecord {
-  SweepRun run;
-  std::uint64_t checksum_of_data = 0;
-  std::string reduced{};  ///< the state of a sweep that keeps no points, ReducedGrid::packed()
+  GridCount count;  ///< of the points done
+  Checksum data{};  ///< of their values
 };
 
 /// OUTPUT.part and OUTPUT.part.json, beside the file that a symbolic link leads to.
@@ -31,7 +29,7 @@ class SweepPart {
   /// regular file, if another program writes OUTPUT.part, or if a file does not come from a sweep.
   explicit SweepPart(const std::filesystem::path& output);
   /// Removes files without results, except those that existed before and were not begun.
-  ~SweepPart();
+  ~SweepPart() { let_go(); }
   SweepPart(const SweepPart&) = delete;
   SweepPart& operator=(const SweepPart&) = delete;
 
@@ -39,17 +37,12 @@ class SweepPart {
   bool is_begun() const { return is_begun_; }
   /// Its progress. Throws InvalidInput if it is of another sweep or version, or if the record has
   /// changed.
-  SweepRecord read_record(const SweepFile& sweep, const Provenance& provenance) const;
+  SweepRecord read_record(const GridContents& contents) const;
   /// Writes the record, whole or not at all. The first one is written before the data, so that
   /// there are never data without a record.
-  void write_record(const SweepFile& sweep, const Provenance& provenance,
-                    const SweepRecord& record);
+  void write_record(const GridContents& contents, const SweepRecord& record);
   /// Gives the data their name.
   void finish();
-  /// In place of data: marks the sweep as begun. All that it keeps is in its record.
-  void begin_without_data();
-  /// Removes both files of a sweep without data, which is complete under its own name.
-  void finish_without_data();
 
   const std::filesystem::path& data() const { return data_; }
   /// Bytes of the data on the disk.
@@ -59,6 +52,7 @@ class SweepPart {
   std::string shown_files() const;
   /// Throws InvalidInput about the files.
   [[noreturn]] void refuse(const std::string& permitted) const;
+  [[noreturn]] void refuse_changed() const { refuse("must be unchanged since the sweep stopped"); }
 
  private:
   void hold();

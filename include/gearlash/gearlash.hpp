@@ -4,7 +4,6 @@
 #include "gearlash/analyse.hpp"
 #include "gearlash/answer.hpp"
 #include "gearlash/bounds.hpp"
-#include "gearlash/chart.hpp"
 #include "gearlash/controller.hpp"
 #include "gearlash/design.hpp"
 #include "gearlash/drive.hpp"

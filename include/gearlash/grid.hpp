@@ -46,7 +46,7 @@ struct Grid {
 };
 
 /// Every fault of the axes (a parameter that the drive does not have or that two axes vary, values
-/// that are not permitted), of more than 10¹⁰ points, and of the drive, if every combination of the
+/// that are not permitted), of more than 10⁹ points, and of the drive, if every combination of the
 /// axes' ends is at fault. `fields` names the axes; default: axis 1, ….
 [[nodiscard]] std::vector<Fault> faults(const Grid& grid,
                                         const std::vector<std::string>& fields = {});

@@ -14,6 +14,10 @@ namespace gearlash {
 /// other changes are missed once in 2⁶⁴. It does not protect against intent.
 class Checksum {
  public:
+  Checksum() = default;
+  /// Continues from the value of another one.
+  explicit Checksum(std::uint64_t value) : value_(value) {}
+
   void add(std::uint64_t word) {
     constexpr std::uint64_t prime_1 = 0x9E3779B185EBCA87U;
     constexpr std::uint64_t prime_2 = 0xC2B2AE3D27D4EB4FU;

@@ -1,9 +1,6 @@
 #include "input/sweep_file.hpp"
 
-#include <algorithm>
-#include <iterator>
 #include <set>
-#include <utility>
 
 #include "analysis/grid/grid_evaluation.hpp"
 #include "input/axis_text.hpp"
@@ -50,7 +47,6 @@ class SweepReader {
            [&] { file.grid.axes.push_back(read_axis(axis, drive_of_axes(likely, axes))); });
     }
     file.quantities = read_quantities(section);
-    file.keep = read_keep(section, file.quantities);
     file.grid.proved = section.choice("verdicts", {"computed", "proved"}, false) == "proved";
     section.refuse_other_keys();
     findings_.require_none();  // the drive's required keys depend on the axes
@@ -60,8 +56,7 @@ class SweepReader {
     for (const AxisText& axis : axes) fields.push_back(axis.field);
     findings_.take(faults(file.grid, fields), &same_field, section.place());
     findings_.require_none();
-    const bool takes_all = !file.keep.anything() || file.keep.of_quantities();
-    if (file.quantities.empty() && takes_all) {
+    if (file.quantities.empty()) {
       const auto known = quantities_known(GridPoints(file.grid).engines());
       file.quantities.assign(known.begin(), known.end());
     }
@@ -122,36 +117,6 @@ class SweepReader {
       }
     }
     return {asked.begin(), asked.end()};
-  }
-
-  Kept read_keep(SectionReader& section, const std::vector<Quantity>& quantities) {
-    static constexpr std::pair<const char*, bool Kept::*> parts[] = {
-        {"counts", &Kept::counts},
-        {"extremes", &Kept::extremes},
-        {"histograms", &Kept::histograms},
-        {"quantiles", &Kept::quantiles},
-        {"border", &Kept::border}};
-    std::vector<std::string> names;
-    for (const auto& [name, part] : parts) names.emplace_back(name);
-    const std::vector<std::string> texts = section.texts("keep");
-    Kept keep;
-    for (std::size_t i = 0; i < texts.size(); ++i) {
-      const auto* const found =
-          std::find_if(std::begin(parts), std::end(parts),
-                       [&](const auto& part) { return part.first == texts[i]; });
-      if (found == std::end(parts)) {
-        findings_.take({{numbered("keep", i), "", one_of(names, texts[i]), ""}}, &same_field,
-                       section.place());
-      } else {
-        keep.*found->second = true;
-      }
-    }
-    if (keep.anything() && !keep.of_quantities() && !quantities.empty()) {
-      findings_.take({{numbered("quantities", 0), "",
-                       "must be left out: what is kept is not of quantities", ""}},
-                     &same_field, section.place());
-    }
-    return keep;
   }
 
   TomlDocument document_;

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/grid/reduced_grid.hpp"
 #include "gearlash/grid.hpp"
 
 namespace gearlash {
@@ -15,7 +14,6 @@ namespace gearlash {
 struct SweepFile {
   Grid grid;                         ///< valid: faults(grid) is empty
   std::vector<Quantity> quantities;  ///< all known ones if the file names none
-  Kept keep{};                       ///< nothing: every point
   std::string text;                  ///< of the file
 };
 
@@ -24,8 +22,7 @@ inline constexpr std::size_t most_axes_of_a_sweep = 6;
 inline constexpr std::size_t largest_sweep_file = 1024 * 1024;  ///< bytes
 
 /// Reads TOML text. The section [sweep] has `axes`, a list of axes as read_axis() reads them, the
-/// last varying fastest; `quantities`, a list of names; `keep`, a list of what to keep instead of
-/// every point ("counts", …, the members of Kept); and `verdicts`, "computed" or "proved". The
+/// last varying fastest; `quantities`, a list of names; and `verdicts`, "computed" or "proved". The
 /// other sections are those of a drive file without the varied parameters; [servo] without backlash
 /// gives amplitudes in backlashes (docs/reference/command-line.md). Signal tables are read from
 /// `folder`. Throws InvalidInput with every fault, as parse_drive() does.

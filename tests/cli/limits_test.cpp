@@ -169,7 +169,7 @@ TEST_F(Limits, OfAxesAndGrids) {
                        "\"inertia-ratio=1:2:1000000\"]\n" +
                        servo),
                   "--output", output("a.nc")},
-                 "points = 1e+12: must be at most 1e+10 on all axes together", "10000000000");
+                 "points = 1e+12: must be at most 1e+09 on all axes together", "1000000000");
   expect_refused(
       {"sweep", file("[sweep]\naxes = " + list_of("\"damping=0.1:0.6:2\"", 7) + "\n" + servo),
        "--output", output("a.nc")},

@@ -150,55 +150,6 @@ class ReadBack(unittest.TestCase):
         self.assertNotIn("sensor.position", json.loads(data.attrs["drive"]))
         self.assertIn("static_error", data)
 
-    def test_what_a_sweep_keeps_is_that_of_its_points(self):
-        whole = self.swept()
-        keep = '[sweep]\nkeep = ["counts", "extremes", "histograms", "quantiles", "border"]'
-        pathlib.Path(self.path("kept.toml")).write_text(SWEEP.replace("[sweep]", keep),
-                                                        encoding="utf-8")
-        kept = self.written("sweep", self.path("kept.toml"))
-        verdict = whole["verdict"]
-        dims = verdict.dims
-        self.assertEqual([int(n) for n in kept["points"]],
-                         [int((verdict == n).sum()) for n in range(11)])
-        for dim in dims:
-            others = [other for other in dims if other != dim]
-            for n in (0, 2):
-                self.assertEqual(list(kept["points_by_" + dim][:, n].values),
-                                 list((verdict == n).sum(others).values))
-        for name in QUANTITIES:
-            values = whole[name].values[whole["verdict"].values != 0] \
-                if name not in ("growth_at_rest",) else whole[name].values.ravel()
-            values = sorted(value for value in values if not math.isnan(value))
-            self.assertEqual(float(kept[name + "_known"]), len(values), name)
-            self.assertEqual(list(kept[name + "_extreme"].values), [values[0], values[-1]], name)
-            for i in range(2):
-                place = {dim: float(kept[f"{name}_extreme_{dim}"][i]) for dim in dims}
-                self.assertEqual(float(whole[name].sel(place)), (values[0], values[-1])[i], name)
-            counts = [sum(low <= value < high or value == low for value in values)
-                      for low, high in zip(kept[name + "_bin_from"].values,
-                                           kept[name + "_bin_to"].values)]
-            self.assertEqual(counts, list(kept[name + "_bin_points"].values), name)
-            accuracy = float(kept[name + "_quantile"].attrs["relative_accuracy"])
-            for share, found in zip(kept["share"].values, kept[name + "_quantile"].values):
-                rank = min(max(share * len(values) - 0.5, 0.0), len(values) - 1.0)
-                low, high = (values[min(int(rank) + i, len(values) - 1)] for i in range(2))
-                exact = low if low == high else low + (rank - int(rank)) * (high - low)
-                if math.isfinite(exact):
-                    self.assertAlmostEqual(found, exact, delta=accuracy * abs(high), msg=name)
-        different = set()
-        for axis, dim in enumerate(dims):
-            first = verdict.values.take(range(verdict.sizes[dim] - 1), axis)
-            second = verdict.values.take(range(1, verdict.sizes[dim]), axis)
-            for place in zip(*(first != second).nonzero()):
-                different.add(tuple(map(int, place)))
-                different.add(tuple(int(n) + (k == axis) for k, n in enumerate(place)))
-        border = [tuple(float(kept["border_" + dim][i]) for dim in dims)
-                  for i in range(kept.sizes["border_point"])]
-        self.assertEqual(border, [tuple(float(whole[dim][n]) for dim, n in zip(dims, place))
-                                  for place in sorted(different)])
-        self.assertGreater(len(border), 10)
-        self.assertEqual(kept.attrs["drive"], whole.attrs["drive"])
-
     def test_ncdump_reads_it(self):
         self.swept()
         header = run("ncdump", "-h", self.path("out.nc"))

@@ -68,64 +68,6 @@ TEST(SweepCommand, KilledAndGoneOnWithItGivesTheSameFile) {
   EXPECT_TRUE(file_text(killed / "a.nc") == file_text(whole / "a.nc"));
 }
 
-/// The same sweep, of which no points are kept.
-std::string reduced_sweep() {
-  std::string text = long_sweep;
-  text.insert(text.find('\n') + 1,
-              "keep = [\"counts\", \"extremes\", \"histograms\", \"quantiles\", \"border\"]\n"
-              "quantities = [\"amplitude\"]\n");
-  return text;
-}
-
-TEST(SweepCommand, KeepsTheSameWhenKilledAndGoneOnWith) {
-  const Scratch whole;
-  write(whole / "sweep.toml", reduced_sweep());
-  const Outcome run = run_shell(in_folder(whole, "\"$GEARLASH\" sweep sweep.toml --output a.nc"));
-  EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.out, testing::StartsWith("a.nc: 400 servos, 0 solved side by side, 400 one by "
-                                           "one\n\n  verdict"));
-  EXPECT_THAT(run.out, HasSubstr("Quantiles are within 0.098 % of a value.\n"));
-  EXPECT_EQ(whole.file_count(), 2U);
-
-  const Scratch killed;
-  write(killed / "sweep.toml", reduced_sweep());
-  const Outcome kill = run_shell(in_folder(killed, interrupted("KILL", "")));
-  EXPECT_THAT(kill.out, HasSubstr("status 137\n")) << kill.err;
-  const std::string resume =
-      in_folder(killed, "\"$GEARLASH\" sweep sweep.toml --output a.nc --resume");
-  const std::string record = file_text(killed / "a.nc.part.json");
-  std::string changed = record;
-  const std::size_t state = changed.find("\"reduced\": \"") + 20;
-  changed[state] = changed[state] == '1' ? '2' : '1';
-  write(killed / "a.nc.part.json", changed);
-  EXPECT_THAT(run_shell(resume).err, HasSubstr("must be unchanged since the sweep stopped"));
-  write(killed / "a.nc.part.json", record);
-  const Outcome resumed = run_shell(resume);
-  EXPECT_EQ(resumed.status, 0) << resumed.err;
-  EXPECT_EQ(resumed.out, run.out);
-  EXPECT_EQ(killed.file_count(), 2U);
-  EXPECT_TRUE(file_text(killed / "a.nc") == file_text(whole / "a.nc"));
-}
-
-/// Drives that are searched, in runs of 32: pieces and resuming do not matter either.
-TEST(SweepCommand, KeepsOfSearchedDrivesToo) {
-  const Scratch scratch;
-  std::string text = file_text(GEARLASH_SOURCE_DIRECTORY "/examples/telescope-axis.toml");
-  const std::size_t backlash = text.find("backlash =");
-  text.erase(backlash, text.find('\n', backlash) - backlash);
-  write(scratch / "sweep.toml",
-        text +
-            "\n[sweep]\naxes = [\"gearbox.backlash=5 arcmin,10 arcmin\"]\n"
-            "keep = [\"extremes\", \"border\"]\nquantities = [\"amplitude\"]\n");
-  const Outcome run = run_shell(in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.nc"));
-  EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("2 drives, 2 searched\n"));
-  // The telescope's page has ±1.786 arcmin.
-  EXPECT_THAT(run.out, HasSubstr("2         0.000464 rad       0.001454 rad"));
-  EXPECT_THAT(run.out, HasSubstr("0.0005195 rad      0.002909 rad"));
-  EXPECT_THAT(run.out, HasSubstr("Border: 0 points"));
-}
-
 TEST(SweepCommand, CtrlCKeepsWhatIsDone) {
   const Scratch scratch;
   write(scratch / "sweep.toml", long_sweep);
@@ -382,12 +324,15 @@ TEST(SweepCommand, EveryFaultOfTheFileIsToldWithItsPlace) {
 
 TEST(SweepCommand, TellsBeforehandThatTheDiskIsTooSmall) {
   const Scratch scratch;
+  if (std::filesystem::space(scratch / "").available > 105'000'000'000) {
+    GTEST_SKIP() << "the disk has room for the largest sweep of 13 quantities";
+  }
   write(scratch / "sweep.toml",
-        "[sweep]\naxes = [\"damping=0.1:0.6:1000000\", \"friction-ratio=0:1:10000\"]\n"
+        "[sweep]\naxes = [\"damping=0.1:0.6:1000000\", \"friction-ratio=0:1:1000\"]\n"
         "[servo]\ninertia_ratio = 1\n");
   const Outcome run = run_shell(in_folder(scratch, "\"$GEARLASH\" sweep sweep.toml --output a.nc"));
   EXPECT_EQ(run.status, 3);
-  EXPECT_THAT(run.err, HasSubstr("a.nc: cannot be written: needs 1.05e+03 GB, "));
+  EXPECT_THAT(run.err, HasSubstr("a.nc: cannot be written: needs 105 GB, "));
   EXPECT_EQ(scratch.file_count(), 1U);
 }
 

@@ -48,23 +48,15 @@ TEST(SweepFile, WhatIsVariedNeedNotBeGiven) {
   EXPECT_EQ(std::get<RigidContact>(in_backlashes.grid.drive.contact).restitution, 0.0);
 }
 
-TEST(SweepFile, WhatIsKeptIsRead) {
-  const std::string head = "[sweep]\naxes = ['damping=0.1,0.2']\n";
-  const std::string servo = "[servo]\ninertia_ratio = 1\nfriction_ratio = 0.1\n";
-  EXPECT_FALSE(parse_sweep(head + servo, "s.toml").keep.anything());
-  const SweepFile border = parse_sweep(head + "keep = ['border', 'counts']\n" + servo, "s.toml");
-  EXPECT_EQ(border.keep, (Kept{.counts = true, .border = true}));
-  EXPECT_TRUE(border.quantities.empty());
-  const SweepFile values =
-      parse_sweep(head + "keep = ['quantiles', 'extremes', 'histograms']\n" + servo, "s.toml");
-  EXPECT_EQ(values.keep, (Kept{.extremes = true, .histograms = true, .quantiles = true}));
-  EXPECT_EQ(values.quantities.size(), 13U);
-  EXPECT_THAT(faults(head + "keep = ['counts', 'mean']\n" + servo),
-              ElementsAre("s.toml:3:19: sweep.keep[1] = mean: must be one of counts, extremes, "
-                          "histograms, quantiles, border"));
-  EXPECT_THAT(
-      faults(head + "keep = ['counts']\nquantities = ['period']\n" + servo),
-      ElementsAre(testing::HasSubstr("must be left out: what is kept is not of quantities")));
+TEST(SweepFile, HasAtMostABillionPoints) {
+  const auto with_values = [](const std::string& count) {
+    return "[sweep]\naxes = ['damping=0.1:0.6:1000', 'friction-ratio=0:1:1000', "
+           "'inertia-ratio=1:2:" +
+           count + "']\n";
+  };
+  EXPECT_EQ(parse_sweep(with_values("1000"), "s.toml").grid.size(), 1'000'000'000U);
+  EXPECT_THAT(faults(with_values("1001")),
+              ElementsAre(testing::HasSubstr("points = 1.001e+09: must be at most 1e+09")));
 }
 
 TEST(SweepFile, AnyDriveIsSwept) {
@@ -86,7 +78,7 @@ TEST(SweepFile, FaultsAreToldWithTheirPlaces) {
       faults("[sweep]\naxes = []\nspeed = 1\n"),
       ElementsAre("s.toml:2:8: sweep.axes = []: must be a list of texts: [\"…\", \"…\"]",
                   "s.toml:3:1: sweep.speed = 1: is not a key of [sweep]: must be one of axes, "
-                  "quantities, keep, verdicts"));
+                  "quantities, verdicts"));
   EXPECT_THAT(
       faults("[sweep]\naxes = ['damping=0.1,0.2']\n[servo]\ninertia_ratio = 1\n"
              "friction_ratio=1\n[contact]\nrestitution = 2\n[gearbox]\n"),

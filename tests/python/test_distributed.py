@@ -86,6 +86,21 @@ def test_a_graph_of_its_own_pieces(pd_drive):
     assert np.array_equal(amplitudes.reshape(6, 5), here["amplitude"].values, equal_nan=True)
 
 
+def test_a_graph_has_more_points_than_a_sweep_may_have(servo):
+    grid = [gearlash.linear("servo.damping", 0.1, 0.5, 101),
+            gearlash.linear("servo.backlash", 0.1, 0.5, 100),
+            gearlash.linear("servo.friction_ratio", 0.1, 0.5, 1000),
+            gearlash.linear("servo.inertia_ratio", 1, 2, 100)]
+    with pytest.raises(gearlash.InvalidInput, match=r"points = 1\.01e\+09: must be at most 1e\+09"):
+        gearlash.sweep(servo, grid, ["amplitude"])
+    last = ours.graph(servo, grid, ["amplitude"], most=100_000_000)[-1]
+    _, columns = last.compute(scheduler="synchronous")
+    end = [gearlash.Axis(one.path, one.values[-1:]) for one in grid[:2]]
+    here = gearlash.sweep(servo, [*end, *grid[2:]], ["amplitude"])["amplitude"].values.ravel()
+    assert columns["amplitude"].size == 10_000_000
+    assert np.array_equal(columns["amplitude"][-here.size:], here)
+
+
 def test_results_go_to_netcdf_and_zarr(tmp_path, servo):
     data = gearlash.sweep(servo, {"servo.damping": "0.1:0.9:9", "servo.friction_ratio": [0.1, 0.2]})
     data.to_netcdf(tmp_path / "data.nc")

@@ -1,6 +1,7 @@
-"""The Python of the pages is run, block by block, beside examples and a sweep of them."""
+"""The Python of the pages is run, block by block, beside examples/ and the sweeps that pages make."""
 
 import doctest
+import re
 
 import pytest
 
@@ -14,10 +15,10 @@ PAGES = [page for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.
 def test_a_page_shows_what_python_prints_now(page, monkeypatch, tmp_path, tool):
     (tmp_path / "examples").symlink_to(ROOT / "examples")
     monkeypatch.chdir(tmp_path)
-    if '"sweep.nc"' in page.read_text("utf-8"):
-        tool("sweep", "examples/sweep.toml", "--output", "sweep.nc")
     # A fence ends a block of output.
     text = page.read_text("utf-8").replace("```", "\n")
+    for arguments in re.findall("^gearlash (sweep .*)$", text, re.MULTILINE):
+        tool(*arguments.split())
     parser = doctest.DocTestParser()
     test = parser.get_doctest(text, {}, page.name, str(page), 0)
     failures = []

@@ -16,7 +16,7 @@ namespace gearlash {
 
 /// The largest number of values on one axis, and of points of a grid.
 inline constexpr std::size_t most_values_on_an_axis = 1'000'000;
-inline constexpr double most_points_of_a_grid = 1e10;
+inline constexpr double most_points_of_a_grid = 1e9;
 
 /// A number of the normal form and its short name for axes.
 struct NormalFormNumber {

@@ -311,8 +311,7 @@ PointAnswer answer_at(const GridPoints& points, std::span<const double> place, Q
     complete(columns, 0);
   } else {
     const Drive drive = points.drive_at(place);
-    answer.is_drive = faults(drive).empty();
-    if (!answer.is_drive) return answer;
+    if (!faults(drive).empty()) return answer;
     write(columns, 0, analyse(drive, {.proofs = false, .borders = false}, progress));
   }
   const FigureColumns figures(columns, points.drive());

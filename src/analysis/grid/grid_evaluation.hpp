@@ -58,9 +58,8 @@ double of_motion(Quantity quantity, Verdict verdict, double value);
 struct PointAnswer {
   Verdict verdict = Verdict::undecided;
   double value = std::numeric_limits<double>::quiet_NaN();
-  bool is_drive = true;
 };
-/// As evaluate(). Allocates nothing for a normal form that is solved in a vector lane.
+/// As evaluate().
 PointAnswer answer_at(const GridPoints& points, std::span<const double> place, Quantity quantity,
                       Progress& progress = no_progress());
 

@@ -24,7 +24,6 @@ class GridPoints {
   /// Precondition: faults(grid) is empty.
   explicit GridPoints(const Grid& grid);
 
-  std::size_t axes() const { return axes_.size(); }
   /// Whether every point is a servo with its own numbers on the axes.
   bool are_of_normal_form() const { return servo_.has_value(); }
   /// Determined from the ends of the axes.
