@@ -14,7 +14,7 @@ BUILD := cmake --build --parallel $(JOBS) --preset
 export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo tool test python web web-serve web-bench bench versions clang sanitize fuzz oracle million followed designed tuned \
+.PHONY: help demo tool test python web web-serve web-bench bench versions clang sanitize fuzz oracle million followed designed tuned references referenced \
         python-sweep dask-rates rivals derivatives seeded-faults single includes release-check \
         coverage readme readme-check docs docs-check format format-check tidy clean wheel package package-check
 
@@ -99,8 +99,8 @@ clang:  ## build everything with clang 16, warnings being errors, and run every 
 # The build is a project around Gearlash, tests/around. Left out: tests that read sources, build other
 # programs or run scripts, where the sanitizers watch nothing; those that count allocations, which the
 # sanitizers count themselves; those of the documents' output and of the page, which repeat those of
-# the command line; the oracles, whose time is spent in Boost's numbers of many digits; and six tests
-# that do for minutes what others do for seconds.
+# the command line; the oracles, which compare numbers; and six tests that do for minutes what others
+# do for seconds.
 # SANITIZED, names of folders of tests, builds and runs the tests of these alone.
 AROUND := cd tests/around &&
 SANITIZED_TARGETS = own_eigen test_on_one_thread gearlash_tool gearlash_python_package reader_fuzzer \
@@ -140,6 +140,17 @@ designed: programs  ## random design tasks of drives without a closed form, put 
 
 tuned: programs  ## gains of 20 industrial drives, tuned for their series, in the fixed-step simulator
 	tests/oracle/drives/tune-drives --build $(RELEASE)
+
+references:  ## write the reference numbers of many digits again: tests/*/data/*.dat
+	@$(INSTALL) test
+	tests/references/make
+
+# REFERENCED times as many as the tests have.
+REFERENCED ?= 4
+referenced: programs  ## 18,000 other servos and much else beside numbers of many digits
+	tests/references/make --times $(REFERENCED) --to build/references
+	set -e; for room in closed_form general analysis; do GEARLASH_REFERENCES=$(CURDIR)/build/references \
+	  $(RELEASE)/tests/test_$$room --gtest_filter='*Oracle*'; done
 
 derivatives: programs  ## 300 random limit cycles: their derivatives beside differences
 	GEARLASH_CYCLES=300 $(RELEASE)/tests/test_analysis --gtest_filter='PropertySearchedSensitivity*'

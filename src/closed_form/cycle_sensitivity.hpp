@@ -53,7 +53,7 @@ struct CycleSensitivity {
 /// digits: it grows as ln(1/ln μ₀) towards the boundary of hunting and its derivatives as 1/ln μ₀.
 /// For a given t₂ they are well-conditioned. Error, of max(|derivative|, |value/p|): 512 epsilons
 /// for ζ ≥ 0.01, eight times that for μ₀ − 1 from 0.1 down to 1e-10, and for ζ down to 1e-6
-/// (tests/closed_form, against 70 digits). A refinement takes about 30 µs.
+/// (tests/closed_form, against many digits). A refinement takes about 30 µs.
 ///   The derivatives by e are 0 from above: bounces end after a time of order e, and the faces then
 /// engage in the state of the engaged motion, to third order in e (docs/explanation/mathematics.md,
 /// Settling). Over whole bounces ∫u̇ dt = 0, so only the distance of height ½e²u̇²/a over a time
@@ -66,7 +66,7 @@ struct CycleSensitivity {
 /// are l dM r/(l r) with its eigenvectors, and NaN if λ is double. All hold while no event grazes.
 /// Where a bounce comes or goes, they are those of the present sequence. Error, of
 /// max(|derivative|, |value/p|): about 1e-12, ten times that if the cycle hardly resists
-/// disturbances (1 − |λ| below 0.01) or an event nearly grazes (tests/closed_form, against 70
+/// disturbances (1 − |λ| below 0.01) or an event nearly grazes (tests/closed_form, against many
 /// digits). This includes settling bounces: what their sum leaves out is below rounding. Where e >
 /// 0.999 and too many bounces are left out, fading_rattle() gives the error. The cost is that of
 /// analyse_limit_cycles().
@@ -75,7 +75,7 @@ struct CycleSensitivity {
 /// Lagrange's polynomial through J/F = τ, 2τ, … 6τ, τ = 1e-3 min(1, ln μ₀)/(1 + 2ζ). Everything is
 /// analytic in J/F except for terms like e^{−t/τ}. Error, of max(|derivative|, |value|): 1e-11; by
 /// load_share, of max(|derivative|, |value|/F) with that side's F: 1e-9 (tests/closed_form, against
-/// 70 digits), more next to the boundary of hunting.
+/// many digits), more next to the boundary of hunting.
 ///
 /// An amplitude is half the difference of two extremes of the load. Where two of a kind tie, the
 /// derivative is that of one side. Throws InvalidInput.

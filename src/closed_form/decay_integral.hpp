@@ -11,8 +11,8 @@
 //   exp[−x] = 1 − x exp[0, −x],  exp[0, −x] = 1 − x exp[0, 0, −x], and so on,
 // without loss of digits. For large ones the same equations are solved upwards. Permitted: x, y ≥ 0
 // and finite. All are positive and decreasing. Relative error: at most 16 epsilons over the whole
-// quadrant (tests/closed_form, against 50 digits). Source: divided differences of the exponential,
-// McCurdy, Ng & Parlett, Math. Comp. 43 (1984).
+// quadrant (tests/closed_form, against many digits). Source: divided differences of the
+// exponential, McCurdy, Ng & Parlett, Math. Comp. 43 (1984).
 #pragma once
 
 #include <algorithm>
@@ -37,6 +37,9 @@ inline constexpr auto inverse_factorials = [] {
 /// terms reach a double's last bit there.
 inline constexpr double series_limit = 1.0;
 inline constexpr std::size_t series_terms = 20;
+/// Up to here the same terms of the series of two rates lose 10 epsilons; the quotient would lose
+/// 31 next to (1, 1), where it divides differences of differences.
+inline constexpr double two_rate_series_limit = 1.7;
 /// Short bounces have small arguments, and their series fewer terms. What these leave out is below
 /// 4e-18 of the sum: x¹²/14! and 13 x¹²/15! at 1/4, x⁸/10! and 9 x⁸/11! at 1/32.
 inline constexpr double small_argument = 0.25;
@@ -152,7 +155,10 @@ inline Convolution convolution(const Decay& x, const Decay& y) {
   const double value = difference > 0.5 ? (slow.factor - fast.factor) * (1.0 / difference)
                                         : slow.factor * decay(difference).integral;
   const double integral = (slow.integral - value) * inverse;
-  return {value, integral, (slow.double_integral - integral) * inverse};
+  const double double_integral = fast.exponent < detail::two_rate_series_limit
+                                     ? detail::two_rate_series(slow.exponent, fast.exponent)
+                                     : (slow.double_integral - integral) * inverse;
+  return {value, integral, double_integral};
 }
 
 }  // namespace gearlash

@@ -383,13 +383,14 @@ TEST(LimitCycleCommand, TellsHowFarHuntingIsOverParametersThatAreNamed) {
 }
 
 TEST(LimitCycleCommand, TellsHowFarHuntingIsOfADriveThatIsSearched) {
-  const std::vector<std::string> asked = {"limit-cycle", "examples/dynamixel-joint.toml",
-                                          "--margins"};
+  const std::vector<std::string> asked = {
+      "limit-cycle", "examples/symptoms/joint.toml", "--margins", "--parameters",
+      "gearbox.backlash=10 arcmin:100 arcmin:3,controller.proportional=200:2000:4"};
   const Outcome text = run_tool(asked);
   EXPECT_EQ(text.status, 0) << text.err;
   EXPECT_THAT(text.out,
               AllOf(HasSubstr("Where it begins to hunt or to run away, one parameter at a time\n"),
-                    HasSubstr("\n  controller.position_p_gain  800 "),
+                    HasSubstr("\n  controller.proportional  200 N m/rad "),
                     HasSubstr("Smallest combined change found: gearbox.backlash +"),
                     HasSubstr("Searched, not proved")));
   const auto margin_of = [&](const std::vector<std::string>& more, int status) {
@@ -409,13 +410,13 @@ TEST(LimitCycleCommand, TellsHowFarHuntingIsOfADriveThatIsSearched) {
   EXPECT_EQ(gain["certified"], false);
   EXPECT_TRUE(gain["below"].is_null());
   const double alone = gain["above"].get<double>() / gain["present"].get<double>();
-  const double together = margin["combined"]["factors"]["controller.position_p_gain"];
+  const double together = margin["combined"]["factors"]["controller.proportional"];
   EXPECT_GT(together, 1.0);
   EXPECT_LT(together, alone);
   // Put back: with the last gain it rests, with a little more it hunts.
   const auto verdict_with = [](double value) {
-    const Outcome run = run_tool({"limit-cycle", "examples/dynamixel-joint.toml", "--brief",
-                                  "--set", "controller.position_p_gain=" + std::to_string(value)});
+    const Outcome run = run_tool({"limit-cycle", "examples/symptoms/joint.toml", "--brief", "--set",
+                                  "controller.proportional=" + std::to_string(value) + " N m/rad"});
     return run.out;
   };
   EXPECT_THAT(verdict_with(gain["above"]), HasSubstr("comes to rest"));

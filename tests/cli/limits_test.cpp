@@ -155,8 +155,11 @@ TEST_F(Limits, OfAxesAndGrids) {
   };
   expect_refused(with(chart, {"damping=0.1:0.6:1000001", "--inertia-ratio", "1"}),
                  "--x = 1000001 values: must be from 1 to 1000000", "1000000");
-  expect_refused(with(chart, {"damping=0.1:0.6:1000000", "--curves", "inertia-ratio=1:9:11"}),
-                 "points = 11000000: must be at most 10000000 on both axes together", "10000000");
+  expect_refused(
+      with(chart, {"damping=0.1:0.6:1000000", "--curves", "inertia-ratio=1:9:11"}),
+      "points = 11000000: must be at most 10000000 on both axes together; gearlash sweep has room "
+      "for more",
+      "10000000");
   expect_refused({"map", "--x", "damping=0.1:0.6:4000", "--y", "friction-ratio=0.1:0.5:4000",
                   "--inertia-ratio", "1", "--output", output("a.csv")},
                  "points = 16000000: must be at most 10000000", "10000000");

@@ -233,13 +233,6 @@ TEST(SimulateCommand, TimesAndSpeedsMayCarryTheirUnit) {
   EXPECT_DOUBLE_EQ(number(table.rows[0][2]), 2.0 * std::numbers::pi);
 }
 
-/// SI always: a normal form without a natural frequency has 1 rad/s.
-TEST(SimulateCommand, TimesMayCarryTheirUnitInTheNormalFormToo) {
-  const Table table =
-      table_of(run_tool(with_sample_servo({"simulate", "--until", "50 ms", "--every", "50 ms"})));
-  EXPECT_DOUBLE_EQ(number(table.rows.back()[0]), 0.05);
-}
-
 /// That of the file, or of the option where the file has radians.
 TEST(SimulateCommand, PicturesAreInTheUnitOfTheAuthor) {
   const test::Scratch scratch;

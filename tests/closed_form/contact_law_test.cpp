@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "base/fifty_digits.hpp"
+#include "base/references.hpp"
 #include "base/seeded_draws.hpp"
 #include "closed_form/engaged_flow.hpp"
 
@@ -121,14 +121,14 @@ TEST(PropertyStaysEngaged, AgreesWithTheRawEquations) {
                             (-(Wide(dynamics.motor_friction) + dynamics.load_friction) * v - y) +
                         Wide(dynamics.load_friction) * v;
     const double noise = 8.0 * epsilon * (dynamics.load_inertia * (std::abs(y) + 4.0) + 4.0);
-    if (abs(torque) < noise) continue;
+    if (std::abs(torque) < noise) continue;
     ASSERT_EQ(stays_engaged(dynamics, face, y, v), face * torque > 0);
   }
 }
 
 // ---- the Zeno limit -----------------------------------------------------------------------------
 
-/// State in the frame of the flight: y, v, u − u_face, u̇ in fifty digits.
+/// State in the frame of the flight: y, v, u − u_face, u̇.
 struct WideBounce {
   Wide y, v, u, w;
 };
@@ -159,12 +159,12 @@ struct BouncesFollowed {
 /// Every bounce, until the speed is 1e-25 of what it was.
 BouncesFollowed follow(const ServoDynamics& dynamics, const GapState& start) {
   WideBounce state{start.load_position, start.load_speed, 0, start.gap_speed};
-  const Wide last = abs(state.w) * Wide("1e-25");
+  const Wide last = std::abs(state.w) * 1e-25L;
   const Wide e = dynamics.restitution;
   const Wide reduced = Wide(dynamics.motor_inertia) * dynamics.load_inertia;
   Wide total = 0;
   Wide energy = 0;
-  while (abs(state.w) > last) {
+  while (std::abs(state.w) > last) {
     const Wide acceleration = -Wide(dynamics.motor_rate) * (state.v + state.w) -
                               state.y / dynamics.motor_inertia + dynamics.load_rate * state.v;
     Wide t = -2 * state.w / acceleration;

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -54,8 +53,8 @@ TEST(EdgeEnergyBalance, DecimalsAreTakenAsWritten) {
   EXPECT_FALSE(is_dissipative(servo_of(10.0, 0.0, std::nextafter(decimal, 1.0)), Reading::decimal));
 }
 
-TEST(OracleEnergyBalance, AgreesWithTheSignInRationalNumbers) {
-  using Rational = boost::multiprecision::cpp_rational;
+/// In extended precision: no draw is as near to the boundary as its rounding.
+TEST(OracleEnergyBalance, AgreesWithTheSignOfTheInequality) {
   constexpr std::uint64_t seed = 1821;
   SCOPED_TRACE(seed);
   SeededDraws draws(seed);
@@ -65,7 +64,7 @@ TEST(OracleEnergyBalance, AgreesWithTheSignInRationalNumbers) {
     const double ratio = draws.log_uniform(1e-6, 1e6);
     const double friction =
         draws.happens(0.5) ? draws.uniform(0.0, 1.0) : 1.0 - draws.log_uniform(1e-15, 0.5);
-    const Rational z(damping), r(ratio), f(friction);
+    const long double z = damping, r = ratio, f = friction;
     const bool expected = f + (1 - f) * r <= 4 * z * z * f * (1 - f) * (1 + r);
     ASSERT_EQ(is_dissipative(servo_of(damping, ratio, friction)), expected);
     inside += expected;

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/fifty_digits.hpp"
+#include "base/references.hpp"
 #include "base/seeded_draws.hpp"
 
 namespace gearlash::first_contact_test {
@@ -226,14 +226,14 @@ TEST(EdgeFirstContact, MotionlessAndReceding) {
 }
 
 TEST(EdgeFirstContact, TinyReboundsComeBackWhenTheyShould) {
-  // u̇₀ = −w, ü₀ = a: back at 2w/a, with the next order from c and D. Fifty digits decide.
+  // u̇₀ = −w, ü₀ = a: back at 2w/a, with the next order from c and D.
   const ServoDynamics dynamics = servo_dynamics(
       {.damping = 0.3, .inertia_ratio = 2.0, .friction_ratio = 0.3, .backlash = 0.3});
   for (const double speed : {1e-1, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 1e-100}) {
     const GapFlight flight = flight_from(dynamics, {-0.8, 0.1, 0.15, -speed});
     const FirstContact contact = first_contact(flight, 0.3, infinity);
     ASSERT_EQ(contact.toward, 1.0) << speed;
-    // u/t = u̇₀ + ü₀ t exp[0,0,−ct] + G t² exp[0,0,−Dt,−ct], by series in fifty digits.
+    // u/t = u̇₀ + ü₀ t exp[0,0,−ct] + G t² exp[0,0,−Dt,−ct], by series in extended precision.
     const Wide c = flight.motor_rate;
     const Wide d = flight.load_rate;
     Wide time = 2 * Wide(speed) / flight.gap_acceleration;

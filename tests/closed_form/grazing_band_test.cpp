@@ -1,16 +1,24 @@
 // How near a face a turning point may be before rounding decides whether it touches: against the
-// raw equations of the servo's own numbers in fifty digits.
+// raw equations of the servo's own numbers in many digits.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdint>
 
+#include "base/references.hpp"
 #include "base/seeded_draws.hpp"
 #include "closed_form/first_contact.hpp"
-#include "raw_flight.hpp"
 
 namespace gearlash::grazing_band_test {
 namespace {
+
+/// Start of a flight: the gap and the face are placed afterwards.
+struct FlightStart {
+  NormalizedServo servo;
+  double load_position;
+  double load_speed;
+  double gap_speed;
+};
 
 GapFlight flight_of(const FlightStart& start, double gap) {
   return flight_from(servo_dynamics(start.servo),
@@ -30,45 +38,6 @@ double terms(const GapFlight& flight, double backlash, double motor_inertia, dou
                          std::abs(flight.coupling) * time * decays.coupled.double_integral));
 }
 
-/// Speeds from far below to far above the gap's; now and then rates that nearly coincide, or a pull
-/// of the loop that nearly balances friction, so that ü is a small difference of large terms.
-FlightStart random_flight(SeededDraws& draws) {
-  FlightStart start{};
-  start.servo.damping = draws.log_uniform(0.01, 2.0);
-  start.servo.inertia_ratio = draws.log_uniform(0.01, 100.0);
-  start.servo.friction_ratio = draws.uniform(0.01, 0.99);
-  if (draws.happens(0.2)) {
-    const double load_inertia = start.servo.inertia_ratio / (1.0 + start.servo.inertia_ratio);
-    start.servo.friction_ratio = load_inertia * (1.0 + draws.either_sign(1e-9, 1e-3));
-    start.servo.friction_ratio = std::min(start.servo.friction_ratio, 1.0);
-  }
-  start.load_speed = draws.either_sign(1e-3, 1e3);
-  start.gap_speed = draws.either_sign(1e-4, 1.0);
-  start.load_position = draws.uniform(-1.0, 1.0);
-  if (draws.happens(0.2)) {
-    const ServoDynamics dynamics = servo_dynamics(start.servo);
-    start.load_position = dynamics.motor_inertia * (dynamics.load_rate - dynamics.motor_rate) *
-                          start.load_speed * (1.0 + draws.either_sign(1e-9, 1e-1));
-  }
-  return start;
-}
-
-/// The turning points of a flight, at most two, between looks.
-std::vector<double> turning_guesses(const GapFlight& flight) {
-  std::vector<double> guesses;
-  double last = 0.0;
-  double direction = flight.gap_speed;
-  for (double time = 1e-8; time < 50.0 && guesses.size() < 2; time *= 1.05) {
-    const double speed = motion_in_flight(flight, time).gap_speed;
-    if (speed * direction < 0.0) {
-      guesses.push_back(0.5 * (last + time));
-      direction = speed;
-    }
-    last = time;
-  }
-  return guesses;
-}
-
 struct Tally {
   int judged = 0;
   int wrong = 0;
@@ -79,14 +48,14 @@ struct Tally {
 
 /// A gap in which the turning point is short of its face, or beyond, by a share of its `travel`;
 /// `before` is the travel of the turning point before it.
-void judge(const FlightStart& start, const Wide& turning, const Wide& travel, double before,
-           SeededDraws& draws, Tally& tally) {
+void judge(const FlightStart& start, Wide turning, Wide travel, double before, SeededDraws& draws,
+           Tally& tally) {
   const double toward = travel > 0 ? 1.0 : -1.0;
   const auto time = static_cast<double>(turning);
   if (toward * before > 0.99 * std::abs(static_cast<double>(travel))) return;  // met by that one
   const double share = draws.happens(0.5) ? 1.0 : draws.log_uniform(1.0, 1e6);
   const double backlash =
-      2.0 * share * std::max(static_cast<double>(abs(travel)), std::abs(before));
+      2.0 * share * std::max(static_cast<double>(std::abs(travel)), std::abs(before));
   const double off = draws.either_sign(1e-19, 1e-10);
   const double gap = static_cast<double>(Wide(toward) * backlash / 2 - travel * (1 + Wide(off)));
   const Wide beyond = toward * (Wide(gap) + travel) - Wide(backlash) / 2;
@@ -97,7 +66,7 @@ void judge(const FlightStart& start, const Wide& turning, const Wide& travel, do
   if (contact.toward == -toward && contact.time < time) return;  // the other face came first
   const double inertia = 1.0 / (1.0 + start.servo.inertia_ratio);
   const double size = terms(flight, backlash, inertia, time);
-  const double distance = static_cast<double>(abs(beyond));
+  const double distance = static_cast<double>(std::abs(beyond));
   ++tally.judged;
   if (contact.touch.toward == toward) {
     ++tally.touches;
@@ -114,19 +83,23 @@ TEST(OracleGrazing, IsJudgedRightBeyondItsBandWhateverTheSpeed) {
   SCOPED_TRACE(seed);
   SeededDraws draws(seed);
   Tally tally;
-  constexpr int flights = 1500;
-  for (int i = 0; i < flights && !HasFailure(); ++i) {
-    SCOPED_TRACE(i);
-    const FlightStart start = random_flight(draws);
-    const RawFlight raw(start);
-    Wide last = 0;
+  int flights = 0;
+  for (const Reference& exact : References("closed_form", "turning_points")) {
+    if (HasFailure()) break;
+    ++flights;
+    SCOPED_TRACE(flights);
+    const FlightStart start{.servo = {.damping = exact.input("damping"),
+                                      .inertia_ratio = exact.input("inertia_ratio"),
+                                      .friction_ratio = exact.input("friction_ratio")},
+                            .load_position = exact.input("load_position"),
+                            .load_speed = exact.input("load_speed"),
+                            .gap_speed = exact.input("gap_speed")};
     double farthest = 0.0;
-    for (const double guess : turning_guesses(flight_of(start, 0.0))) {
-      const auto turning = raw.turning_near(guess);
-      if (!turning || !(*turning > last)) break;
-      const Wide travel = raw.at(*turning).displacement;
-      for (int k = 0; k < 20; ++k) judge(start, *turning, travel, farthest, draws, tally);
-      last = *turning;
+    for (const std::string turning : {"first", "second"}) {
+      const Wide time = exact[turning + "_time"];
+      const Wide travel = exact[turning + "_travel"];
+      if (std::isnan(time)) break;
+      for (int k = 0; k < 20; ++k) judge(start, time, travel, farthest, draws, tally);
       farthest = static_cast<double>(travel);
     }
   }

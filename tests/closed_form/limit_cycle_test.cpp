@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/range_check.hpp"
+#include "base/described.hpp"
 #include "base/seeded_draws.hpp"
 #include "closed_form/extremes.hpp"
 
@@ -17,12 +17,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-std::string describe(const NormalizedServo& s) {
-  return "damping " + exact_text(s.damping) + " inertia_ratio " + exact_text(s.inertia_ratio) +
-         " friction_ratio " + exact_text(s.friction_ratio) + " backlash " + exact_text(s.backlash) +
-         " restitution " + exact_text(s.restitution);
-}
 
 /// Half peak-to-peak of the load from `from` on, sampled every 200th of a radian and at the events.
 /// The load's position has kinks at impacts only; between them a turning point is at most half a
@@ -64,7 +58,7 @@ TEST(PropertyVerdict, PlasticServosDoWhatItSays) {
   int resting = 0;
   for (int i = 0; i < 250 && !testing::Test::HasFailure(); ++i) {
     const NormalizedServo servo = random_servo(draws);
-    SCOPED_TRACE(describe(servo));
+    SCOPED_TRACE(described(servo));
     const LimitCycleAnalysis analysis = enclose_limit_cycles(servo, Reading::exact);
     EXPECT_TRUE(analysis.is_proved());
     ASSERT_EQ(analysis.verdict,
@@ -104,10 +98,10 @@ TEST(PropertyVerdict, FrictionOnOneSideOnlyAlwaysHunts) {
     servo.damping = draws.uniform(0.001, 3.0);
     servo.friction_ratio = draws.one_of({0.0, 1.0});
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
-    ASSERT_EQ(analysis.verdict, Verdict::hunts) << describe(servo);
-    ASSERT_EQ(analysis.growth_at_rest, infinity) << describe(servo);
-    ASSERT_EQ(analysis.cycles.size(), 1U) << describe(servo);
-    ASSERT_GT(analysis.cycles.front().amplitude, 0.0) << describe(servo);
+    ASSERT_EQ(analysis.verdict, Verdict::hunts) << described(servo);
+    ASSERT_EQ(analysis.growth_at_rest, infinity) << described(servo);
+    ASSERT_EQ(analysis.cycles.size(), 1U) << described(servo);
+    ASSERT_GT(analysis.cycles.front().amplitude, 0.0) << described(servo);
   }
 }
 
@@ -152,8 +146,8 @@ TEST(EdgeVerdict, OverdampedBetweenItsRatesNeverHunts) {
     if (rate < servo.damping - root || rate > servo.damping + root) continue;
     ++between;
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
-    ASSERT_EQ(analysis.verdict, Verdict::cannot_hunt) << describe(servo);
-    ASSERT_EQ(analysis.growth_at_rest, 0.0) << describe(servo);
+    ASSERT_EQ(analysis.verdict, Verdict::cannot_hunt) << described(servo);
+    ASSERT_EQ(analysis.growth_at_rest, 0.0) << described(servo);
   }
   EXPECT_GT(between, 100);
 }
@@ -225,7 +219,7 @@ TEST(PropertyRestitution, EveryReportedCycleReturnsToItself) {
   for (int i = 0; i < 25 && !testing::Test::HasFailure(); ++i) {
     NormalizedServo servo = random_servo(draws);
     servo.restitution = draws.uniform(0.05, 0.8);
-    SCOPED_TRACE(describe(servo));
+    SCOPED_TRACE(described(servo));
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
     double amplitude_before = infinity;
     for (const LimitCycle& cycle : analysis.cycles) {
@@ -273,7 +267,7 @@ TEST(PropertyRestitution, MultiplierIsTheRateAtWhichADisturbanceOfASettledCycleG
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
     for (const LimitCycle& cycle : analysis.cycles) {
       if (!cycle.settles || cycle.kind != CycleKind::symmetric) continue;
-      SCOPED_TRACE(describe(servo));
+      SCOPED_TRACE(described(servo));
       ++compared;
       // Settled bounces leave one number at each parting: its distance from the cycle's own.
       const auto partings = [&](double factor) {
@@ -312,7 +306,7 @@ TEST(PropertyRestitution, VerdictIsWhatALongSimulationDoes) {
   for (int i = 0; i < 40 && !testing::Test::HasFailure(); ++i) {
     NormalizedServo servo = random_servo(draws);
     servo.restitution = draws.uniform(0.05, 0.5);
-    SCOPED_TRACE(describe(servo));
+    SCOPED_TRACE(described(servo));
     const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
     if (std::abs(analysis.growth_at_rest - 1.0) < 0.01) continue;
     constexpr double until = 2e4;
@@ -432,7 +426,7 @@ TEST(PropertyVerdict, OverdampedServosRestAfterLargeMotionsAndHuntAfterSmallOnes
   int hunting = 0;
   for (int i = 0; i < 1000 && !testing::Test::HasFailure(); ++i) {
     const NormalizedServo servo = overdamped_servo(draws);
-    SCOPED_TRACE(describe(servo));
+    SCOPED_TRACE(described(servo));
     const LimitCycleAnalysis analysis = enclose_limit_cycles(servo, Reading::exact);
     ASSERT_TRUE(analysis.is_proved());
     ASSERT_TRUE(analysis.rests_engaged);

@@ -1,15 +1,14 @@
-// Cycles of dry friction, beside closed forms and independent arithmetic of 50 digits; and faces
+// Cycles of dry friction, beside closed forms and an independent motion in many digits; and faces
 // that give, as they become rigid.
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <boost/multiprecision/cpp_dec_float.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <vector>
 
+#include "base/references.hpp"
 #include "general/attractors/attractors.hpp"
 
 namespace gearlash::drive::stick_slip_test {
@@ -160,263 +159,31 @@ TEST(OracleStickSlip, ADriveThatDrawsALoadIsTheMassOnABelt) {
 
 // ---- a PID drive that hunts by stiction ---------------------------------------------------------
 
-using Digits50 = boost::multiprecision::cpp_dec_float_50;
-
 /// Friction on the motor, sensor of position on the load, of speed on the motor, plastic faces.
-struct StictionDrive {
-  double motor_inertia = 1.0;
-  double load_inertia = 0.25;
-  double motor_friction = 0.25;
-  double load_friction = 0.125;
-  double sliding = 0.25;
-  double breakaway = 0.375;
-  double backlash = 0.03125;
-  double proportional = 4.0;
-  double integral = 1.0;
-  double derivative = 2.0;
-
-  ReducedDrive drive() const {
-    ReducedDrive result;
-    result.motor = {motor_inertia,
-                    {.viscous = motor_friction, .coulomb = sliding, .breakaway = breakaway}};
-    result.load = {load_inertia, {.viscous = load_friction}};
-    result.backlash = backlash;
-    result.contact = RigidContact{0.0};
-    result.controller = ProportionalIntegralDerivative{.proportional = proportional,
-                                                       .integral = integral,
-                                                       .derivative = derivative,
-                                                       .derivative_of_speed = true};
-    return result;
-  }
-};
-
-/// The same by hand, apart from Gearlash: Taylor steps of one length, events by bisection and
-/// Newton's method on the series.
-class StictionReference {
- public:
-  explicit StictionReference(const StictionDrive& drive) : d_(drive) {
-    // Pressed against the forward face, at rest, the error at its largest.
-    x_[motor] = Digits50(0.5) + Digits50(d_.backlash) / 2;
-    x_[load] = Digits50(0.5);
-  }
-
-  struct Turn {
-    Digits50 time;
-    Digits50 value;
-  };
-  /// Where the load turned or came to rest, moving backward before.
-  const std::vector<Turn>& lows() const { return lows_; }
-  const std::vector<Turn>& highs() const { return highs_; }
-
-  void run(double until) {
-    while (time_ < until) step();
-  }
-
- private:
-  enum Number { motor, motor_speed, load, load_speed, integral, numbers };
-  using State = std::array<Digits50, numbers>;
-  static constexpr int order = 34;
-  static constexpr double length = 0.125;
-
-  Digits50 torque(const State& x) const {
-    return d_.integral * x[integral] - d_.proportional * x[load] - d_.derivative * x[motor_speed];
-  }
-
-  /// Of the k-th term of the series; what is constant counts in the first alone.
-  State slope(const State& x, bool is_first) const {
-    State dx;
-    dx[motor] = x[motor_speed];
-    dx[load] = x[load_speed];
-    dx[integral] = -x[load];
-    const Digits50 friction = is_first ? Digits50(way_ * d_.sliding) : Digits50(0);
-    if (face_ == 0) {
-      dx[motor_speed] = 0;
-      if (way_ != 0) {
-        dx[motor_speed] =
-            (torque(x) - d_.motor_friction * x[motor_speed] - friction) / d_.motor_inertia;
-      }
-      dx[load_speed] = -d_.load_friction * x[load_speed] / d_.load_inertia;
-    } else {
-      dx[motor_speed] = 0;
-      if (way_ != 0) {
-        dx[motor_speed] =
-            (torque(x) - (d_.motor_friction + d_.load_friction) * x[motor_speed] - friction) /
-            (d_.motor_inertia + d_.load_inertia);
-      }
-      dx[load_speed] = dx[motor_speed];
-    }
-    return dx;
-  }
-
-  /// What must not fall below 0 in a mode.
-  enum Guard { meets_forward, meets_backward, stops, breaks_forward, breaks_backward, parts };
-  std::vector<Guard> guards() const {
-    std::vector<Guard> all;
-    if (face_ == 0) all = {meets_forward, meets_backward};
-    if (way_ != 0) all.push_back(stops);
-    if (way_ == 0) all.insert(all.end(), {breaks_forward, breaks_backward});
-    if (face_ != 0 && way_ != 0) all.push_back(parts);
-    return all;
-  }
-  Digits50 at(Guard guard, const State& x) const {
-    switch (guard) {
-      case meets_forward:
-        return Digits50(d_.backlash) / 2 - (x[motor] - x[load]);
-      case meets_backward:
-        return Digits50(d_.backlash) / 2 + (x[motor] - x[load]);
-      case stops:
-        return way_ * x[motor_speed];
-      case breaks_forward:
-        return d_.breakaway - torque(x);
-      case breaks_backward:
-        return d_.breakaway + torque(x);
-      case parts:
-        break;
-    }
-    return face_ *
-           (d_.load_inertia * slope(x, true)[load_speed] + d_.load_friction * x[load_speed]);
-  }
-
-  State value(const std::vector<State>& terms, const Digits50& share) const {
-    State sum = terms.back();
-    for (std::size_t k = terms.size() - 1; k-- > 0;) {
-      for (std::size_t i = 0; i < numbers; ++i) sum[i] = sum[i] * share + terms[k][i];
-    }
-    return sum;
-  }
-
-  /// The first share of the step at which a form is 0 that is negative at `end` and not before.
-  template <class Form>
-  Digits50 zero(const std::vector<State>& terms, Form&& form, Digits50 end) const {
-    Digits50 low = 0;
-    Digits50 high = end;
-    Digits50 at_low = form(value(terms, low));
-    Digits50 at_high = form(value(terms, high));
-    for (int i = 0; i < 200 && high - low > Digits50("1e-45"); ++i) {
-      // Regula falsi (Illinois), with a halving now and then.
-      Digits50 middle = i % 3 == 2 || at_low == at_high
-                            ? Digits50((low + high) / 2)
-                            : Digits50((low * at_high - high * at_low) / (at_high - at_low));
-      if (!(middle > low && middle < high)) middle = (low + high) / 2;
-      const Digits50 here = form(value(terms, middle));
-      (here < 0 ? high : low) = middle;
-      (here < 0 ? at_high : at_low) = here;
-    }
-    return high;
-  }
-
-  void step() {
-    std::vector<State> terms = {x_};
-    const Digits50 h = length;
-    for (int k = 1; k <= order; ++k) {
-      State term = slope(terms.back(), k == 1);
-      for (Digits50& number : term) number *= h / k;
-      terms.push_back(std::move(term));
-    }
-    const State end = value(terms, 1);
-    Digits50 share = 1;
-    bool fires = false;
-    Guard which = stops;
-    for (const Guard guard : guards()) {
-      if (!(at(guard, fires ? value(terms, share) : end) < 0)) continue;
-      if (fired_now_ && guard == fired_ && at(guard, x_) <= 0) continue;
-      share = zero(
-          terms, [&](const State& x) { return at(guard, x); }, share);
-      fires = true;
-      which = guard;
-    }
-    const State next = fires ? value(terms, share) : end;
-    note_turn(terms, next, share);
-    x_ = next;
-    time_ += share * h;
-    fired_now_ = false;
-    if (fires) fire(which);
-  }
-
-  void note_turn(const std::vector<State>& terms, const State& next, const Digits50& share) {
-    const Digits50 before = x_[load_speed];
-    const Digits50 after = next[load_speed];
-    if (before * after >= 0) return;
-    const double sign = before > 0 ? 1.0 : -1.0;
-    const Digits50 at_turn = zero(
-        terms, [&](const State& x) { return Digits50(sign * x[load_speed]); }, share);
-    note(time_ + at_turn * length, value(terms, at_turn)[load], sign > 0.0);
-  }
-
-  void note(const Digits50& time, const Digits50& where, bool is_high) {
-    (is_high ? highs_ : lows_).push_back({time, where});
-  }
-
-  void fire(Guard guard) {
-    fired_ = guard;
-    fired_now_ = true;
-    if (guard == meets_forward || guard == meets_backward) {
-      const Digits50 before = x_[load_speed];
-      const Digits50 common = (d_.motor_inertia * x_[motor_speed] + d_.load_inertia * before) /
-                              (d_.motor_inertia + d_.load_inertia);
-      x_[motor_speed] = x_[load_speed] = common;
-      if (before * common < 0) note(time_, x_[load], before > 0);
-      face_ = guard == meets_forward ? 1 : -1;
-      way_ = common > 0 ? 1 : -1;
-    } else if (guard == stops) {
-      if (face_ != 0 && x_[load_speed] != 0) note(time_, x_[load], way_ > 0);
-      x_[motor_speed] = 0;
-      if (face_ != 0) x_[load_speed] = 0;
-      way_ = 0;
-    } else if (guard == parts) {
-      face_ = 0;
-    } else {
-      way_ = guard == breaks_forward ? 1 : -1;
-      if (face_ != 0 && way_ != face_) face_ = 0;
-    }
-  }
-
-  StictionDrive d_;
-  State x_{};
-  Digits50 time_ = 0;
-  int face_ = 1;
-  int way_ = 0;
-  Guard fired_ = stops;
-  bool fired_now_ = false;
-  std::vector<Turn> lows_;
-  std::vector<Turn> highs_;
-};
-
-TEST(OracleStickSlip, APidDriveWithStictionHuntsAsIn50Digits) {
-  const StictionDrive parameters;
+TEST(OracleStickSlip, APidDriveWithStictionHuntsAsInManyDigits) {
+  const References references("general", "stiction_hunting");
+  const Reference& exact = references.front();
+  const auto number = [&](const char* name) { return exact.input(name); };
+  ReducedDrive drive;
+  drive.motor = {number("motor_inertia"),
+                 {.viscous = number("motor_friction"),
+                  .coulomb = number("sliding"),
+                  .breakaway = number("breakaway")}};
+  drive.load = {number("load_inertia"), {.viscous = number("load_friction")}};
+  drive.backlash = number("backlash");
+  drive.contact = RigidContact{0.0};
+  drive.controller = ProportionalIntegralDerivative{.proportional = number("proportional"),
+                                                    .integral = number("integral"),
+                                                    .derivative = number("derivative"),
+                                                    .derivative_of_speed = true};
   const AttractorSearch found = find_attractors(
-      parameters.drive(),
-      {.starts = {{0.515625, 0.0, 0.5, 0.0}, {0.0, 0.0, 0.01, 0.0}, {5.0, 0.0, 5.0, 0.0}}});
+      drive, {.starts = {{0.515625, 0.0, 0.5, 0.0}, {0.0, 0.0, 0.01, 0.0}, {5.0, 0.0, 5.0, 0.0}}});
   ASSERT_EQ(found.cycles.size(), 1U);
   const FoundCycle& cycle = found.cycles.front();
   EXPECT_EQ(cycle.starts, 3U);
   EXPECT_EQ(cycle.stability, Stability::stable);
-
-  StictionReference reference(parameters);
-  reference.run(40.0 * cycle.period());
-  const auto& lows = reference.lows();
-  const auto& highs = reference.highs();
-  ASSERT_GT(lows.size(), 20U);
-  // The deepest low of the last period, and the highest high; the period from low to like low.
-  const auto deepest = [&](const std::vector<StictionReference::Turn>& turns, double from,
-                           double to, double sign) {
-    const StictionReference::Turn* best = nullptr;
-    for (const auto& turn : turns) {
-      if (turn.time < from || turn.time >= to) continue;
-      if (best == nullptr || sign * turn.value > sign * best->value) best = &turn;
-    }
-    return *best;
-  };
-  const double period = cycle.period();
-  const double end = 40.0 * period;
-  const auto high = deepest(highs, end - 1.1 * period, end, 1.0);
-  const auto low = deepest(lows, end - 1.1 * period, end, -1.0);
-  const double amplitude = static_cast<double>((high.value - low.value) / 2);
-  EXPECT_NEAR(cycle.amplitude, amplitude, 1e-10 * amplitude);
-  const double time = static_cast<double>(high.time);
-  const auto earlier = deepest(highs, time - 1.25 * period, time - 0.75 * period, 1.0);
-  const double measured = static_cast<double>(high.time - earlier.time);
-  EXPECT_NEAR(period, measured, 1e-10 * measured);
+  EXPECT_NEAR(cycle.amplitude, number("amplitude"), 1e-10 * cycle.amplitude);
+  EXPECT_NEAR(cycle.period(), number("period"), 1e-10 * cycle.period());
 }
 
 // ---- faces that give, as they become rigid ------------------------------------------------------

@@ -1,4 +1,5 @@
-// The coefficients of a guard over a step, and how uncertain they are, against fifty digits.
+// The coefficients of a guard over a step, and how uncertain they are, in extended
+// precision.
 #include "hybrid/guard_form.hpp"
 
 #include <gtest/gtest.h>
@@ -6,7 +7,7 @@
 #include <array>
 #include <vector>
 
-#include "base/fifty_digits.hpp"
+#include "base/references.hpp"
 #include "base/seeded_draws.hpp"
 
 namespace gearlash::hybrid::guard_form_test {
@@ -84,7 +85,7 @@ TEST(OracleGuardTable, CoefficientsOfRandomFlowsAreAsUncertainAsItSays) {
         EXPECT_NEAR(uncertainty, sum, 1e-12 * sum) << first;
         EXPECT_LE(uncertainty, table.bound_of_uncertainty(velocity, share, first)) << first;
         const auto k = static_cast<std::size_t>(first);
-        EXPECT_LE(abs(exact[k - 1] - found[k]), table.uncertainty_of(velocity, share, first));
+        EXPECT_LE(std::abs(exact[k - 1] - found[k]), table.uncertainty_of(velocity, share, first));
       }
     }
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/described.hpp"
 #include "base/range_check.hpp"
 #include "base/seeded_draws.hpp"
 #include "closed_form/trajectory.hpp"
@@ -22,12 +23,6 @@ NormalizedServo drawn_servo(SeededDraws& draws, int kind) {
   // Livelier faces make motions that never repeat, in which 40 time units multiply rounding by 10⁶.
   servo.restitution = kind % 2 == 0 ? 0.0 : draws.uniform(0.05, 0.6);
   return servo;
-}
-
-std::string describe(const NormalizedServo& s) {
-  return "damping " + exact_text(s.damping) + " inertia_ratio " + exact_text(s.inertia_ratio) +
-         " friction_ratio " + exact_text(s.friction_ratio) + " backlash " + exact_text(s.backlash) +
-         " restitution " + exact_text(s.restitution);
 }
 
 /// How far the two differ.
@@ -79,7 +74,7 @@ TEST(OracleSimulateServo, EventsOfThousandServosAreThoseOfTheClosedForm) {
   Differences worst;
   for (int i = 0; i < 1000; ++i) {
     const NormalizedServo servo = drawn_servo(draws, i);
-    SCOPED_TRACE(describe(servo));
+    SCOPED_TRACE(described(servo));
     constexpr double until = 40.0;
     const ServoState start = engaged_start(servo, -1.0, draws.uniform(-1.0, 1.0), 0.0);
     const Trajectory exact = simulate(servo, start, {.until = until, .reference = 0.0});

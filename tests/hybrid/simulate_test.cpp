@@ -177,33 +177,6 @@ TEST(EdgeSimulate, WhatOnlyTheLastTermTurnsIsNotSteppedOver) {
   }
 }
 
-// ---- an oscillator against a stop ---------------------------------------------------------------
-
-/// x″ + 0.1x′ + x = A cos t, a stop at x = 1; the force as an oscillation of its own.
-HybridSystem impact_oscillator(double restitution) {
-  Matrix reset = Matrix::Identity(4, 4);
-  reset(1, 1) = -restitution;
-  return {.state_names = {"x", "speed", "force", "force's rate"},
-          .modes = {{.name = "free",
-                     .flow = {matrix_of(4, {0.0, 1.0, 0.0, 0.0, -1.0, -0.1, 1.0, 0.0, 0.0, 0.0, 0.0,
-                                            1.0, 0.0, 0.0, -1.0, 0.0}),
-                              Vector::Zero(4)},
-                     .transitions = {{.name = "stop",
-                                      .guard = {vector_of({1.0, 0.0, 0.0, 0.0}), -1.0},
-                                      .direction = Direction::rising,
-                                      .reset = {reset, {}, {}}}}}},
-          .clocks = {}};
-}
-
-TEST(OracleSimulate, TheImpactOscillatorEndsInItsPublishedOrbit) {
-  const Trajectory motion =
-      simulate(impact_oscillator(0.8), {0, vector_of({0.0, 0.0, 1.0, 0.0})}, {.until = 600.0});
-  const Event& last = motion.events().back();
-  expect_digits("speed_after_impact", last.after[1], -1.35658635, 10.0);
-  const double phase = std::remainder(last.time, 2.0 * std::numbers::pi);
-  expect_digits("phase_of_impact", phase, 0.075952, 5.6);
-}
-
 // ---- switched flows -----------------------------------------------------------------------------
 
 TEST(OracleSimulate, AFastDecayIsLeftBehind) {

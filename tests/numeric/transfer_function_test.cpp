@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "base/fifty_digits.hpp"
 #include "base/seeded_draws.hpp"
 
 namespace gearlash::transfer_function_test {
@@ -15,6 +15,7 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double pi = 3.14159265358979323846;
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 std::vector<double> times(const std::vector<double>& a, const std::vector<double>& b) {
   std::vector<double> product(a.size() + b.size() - 1, 0.0);

@@ -3,9 +3,6 @@
 #pragma once
 
 #include <array>
-#include <boost/multiprecision/cpp_bin_float.hpp>
-#include <boost/numeric/odeint.hpp>
-#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -26,33 +23,16 @@ inline constexpr int shortest_step_level = 120;  // about 1e-36
 /// grows with the fastest rate, so it suits servos that are not stiff.
 class OdeintPropagator {
  public:
-  explicit OdeintPropagator(const RawServo<Extended>& servo) : servo_(servo) {}
+  explicit OdeintPropagator(const RawServo<Extended>& servo);
+  OdeintPropagator(OdeintPropagator&&) noexcept;
+  ~OdeintPropagator();
 
-  ExtendedState advance(Motion motion, const ExtendedState& start, int level) {
-    ExtendedState z = start;
-    const Extended step = std::ldexp(Extended(1), -level);
-    const auto derivative = [&](const ExtendedState& at, ExtendedState& rate, Extended) {
-      rate =
-          motion == Motion::engaged ? engaged_derivative(servo_, at) : gap_derivative(servo_, at);
-    };
-    boost::numeric::odeint::integrate_adaptive(*stepper_, derivative, z, Extended(0), step, step);
-    return z;
-  }
+  ExtendedState advance(Motion motion, const ExtendedState& start, int level);
 
  private:
-  using Method = boost::numeric::odeint::runge_kutta_fehlberg78<ExtendedState, Extended,
-                                                                ExtendedState, Extended>;
-  using Controlled = boost::numeric::odeint::controlled_runge_kutta<Method>;
-  /// Of static storage, because odeint copies the scratch space of a new method before using it.
-  static const Method& blank_method() {
-    static const Method method;
-    return method;
-  }
-
+  struct Stepper;  // Boost's headers are read once
   RawServo<Extended> servo_;
-  std::unique_ptr<Controlled> stepper_ = std::make_unique<Controlled>(
-      Controlled::error_checker_type(Extended(1e-19L), Extended(1e-18L)),
-      Controlled::step_adjuster_type(), blank_method());
+  std::unique_ptr<Stepper> stepper_;
 };
 
 /// Multiplies by exp(A 2^-level), A being the matrix of the raw equations. The exponentials of all
@@ -81,9 +61,6 @@ class ExponentialPropagator {
   static std::size_t table_index(int level) {
     return static_cast<std::size_t>(level - longest_step_level);
   }
-  static std::vector<Matrix> table(const RawServo<boost::multiprecision::cpp_bin_float_100>& servo,
-                                   Motion motion);
-
   std::vector<Matrix> engaged_;
   std::vector<Matrix> gap_;
 };

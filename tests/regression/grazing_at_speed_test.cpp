@@ -2,20 +2,24 @@
 // nearly alike: a state held the motor's speed v + u̇ alone, and u̇ was taken from their difference.
 #include <gtest/gtest.h>
 
-#include "closed_form/raw_flight.hpp"
+#include "base/references.hpp"
 #include "closed_form/trajectory.hpp"
 
 namespace gearlash::grazing_at_speed_test {
 namespace {
 
 // The servo and start as they were found.
-constexpr FlightStart found{.servo = {.damping = 0.12038,
-                                      .inertia_ratio = 0.62877,
-                                      .friction_ratio = 0.34696,
-                                      .restitution = 0.5},
-                            .load_position = 0.588,
-                            .load_speed = 164.38,
-                            .gap_speed = 0.0030};
+struct Start {
+  NormalizedServo servo;
+  double load_position, load_speed, gap_speed;
+};
+constexpr Start found{.servo = {.damping = 0.12038,
+                                .inertia_ratio = 0.62877,
+                                .friction_ratio = 0.34696,
+                                .restitution = 0.5},
+                      .load_position = 0.588,
+                      .load_speed = 164.38,
+                      .gap_speed = 0.0030};
 
 ServoState start_in_the_middle() {
   ServoState state{.motor_position = found.load_position,
@@ -31,10 +35,10 @@ struct Turning {
 };
 
 Turning turning() {
-  const RawFlight raw(found);
-  const double guess = -found.gap_speed / static_cast<double>(raw.at(0).acceleration);
-  const auto time = raw.turning_near(guess);
-  return {static_cast<double>(*time), raw.at(*time).displacement};
+  const References flights("closed_form", "turning_points");
+  const Reference& exact = flights.front();
+  EXPECT_EQ(exact.input("load_speed"), found.load_speed);
+  return {exact.input("first_time"), exact["first_travel"]};
 }
 
 /// From the middle of a gap so wide that the turning point is this share of it beyond the face.

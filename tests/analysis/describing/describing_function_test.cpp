@@ -1,4 +1,4 @@
-// Gains against published numbers, fifty digits, and quadrature of the waveforms themselves.
+// Gains against published numbers, many digits, and quadrature of the waveforms themselves.
 #include "analysis/describing/describing_function.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/correct_digits.hpp"
-#include "base/fifty_digits.hpp"
+#include "base/references.hpp"
 #include "base/seeded_draws.hpp"
 
 namespace gearlash::describing_function_test {
@@ -161,36 +161,23 @@ TEST(DescribingFunctionOracle, InertiaControlledBacklashEndsAsATriangle) {
   EXPECT_NEAR(std::abs(middle - Complex(0.5 + 2.0 / pi, -1.0 / pi)), 0.0, 8.0 * epsilon);
 }
 
-// The textbooks' forms in fifty digits. Each part of N to some epsilons, times how much an epsilon
-// in A changes it: near A = h that is A/(A − h) and is avoided by amplitudes that are exact.
+/// The textbooks' forms. Each part of N to some epsilons, times how much an epsilon in A changes
+/// it: near A = h that is A/(A − h) and is avoided by amplitudes that are exact.
 TEST(DescribingFunctionOracle, GainsKeepTheirDigitsAtBothEnds) {
-  const Wide wide_pi = boost::math::constants::pi<Wide>();
-  for (const double excess : {0x1p-40, 0x1p-20, 0x1p-8, 0.125, 0.75, 1.25, 8.0, 0x1p20, 0x1p40}) {
-    const double amplitude = 1.0 + excess;  // h = corner = 1
-    const Wide ratio = 1 / Wide(amplitude);
-    const Wide r = 1 - 2 * ratio;
-    const Complex play = describing_gain(FrictionControlledBacklash{2.0}, amplitude);
-    EXPECT_LT(epsilons_off(play.real(), (wide_pi / 2 + asin(r) + r * sqrt(1 - r * r)) / wide_pi), 8)
-        << excess;
-    EXPECT_LT(epsilons_off(play.imag(), -4 * ratio * (1 - ratio) / wide_pi), 8) << excess;
-
-    const Wide share = (asin(ratio) + ratio * sqrt(1 - ratio * ratio)) * 2 / wide_pi;
-    EXPECT_LT(epsilons_off(describing_gain(Saturation{}, amplitude).real(), share), 8) << excess;
-    EXPECT_LT(epsilons_off(describing_gain(DeadZone{}, amplitude).real(), 1 - share), 8) << excess;
-  }
-}
-
-TEST(DescribingFunctionOracle, CoastingGainsKeepTheirDigits) {
-  const Wide wide_pi = boost::math::constants::pi<Wide>();
-  for (const double ratio : {0x1p-40, 0x1p-20, 0x1p-8, 0.1, 0.5, 1.0, 1.5, 1.5625}) {  // h/A
-    Wide angle = 2;
-    for (int i = 0; i < 300; ++i)
-      angle -= (angle - sin(angle) - 2 * Wide(ratio)) / (1 - cos(angle));
-    const Complex gain = describing_gain(InertiaControlledBacklash{2.0 * ratio}, 1.0);
-    const Wide real = 1 - (angle - 2 * sin(angle) + sin(angle) * cos(angle)) / wide_pi;
-    const Wide imaginary = -(1 - cos(angle)) * (1 - cos(angle)) / wide_pi;
-    EXPECT_LT(epsilons_of(gain.real(), real, 1.0), 4) << ratio;  // it ends at 0
-    EXPECT_LT(epsilons_off(gain.imag(), imaginary), 8) << ratio;
+  for (const Reference& exact : References("analysis", "describing_gains")) {
+    const double number = exact.input("number");
+    SCOPED_TRACE(testing::Message() << exact.kind() << " " << number);
+    if (exact.kind() == "coasting") {  // the number is h/A
+      const Complex gain = describing_gain(InertiaControlledBacklash{2.0 * number}, 1.0);
+      EXPECT_LT(epsilons_of(gain.real(), exact["real"], 1.0), 4);  // it ends at 0
+      EXPECT_LT(epsilons_off(gain.imag(), exact["imaginary"]), 8);
+      continue;
+    }
+    const Complex play = describing_gain(FrictionControlledBacklash{2.0}, number);
+    EXPECT_LT(epsilons_off(play.real(), exact["real"]), 8);
+    EXPECT_LT(epsilons_off(play.imag(), exact["imaginary"]), 8);
+    EXPECT_LT(epsilons_off(describing_gain(Saturation{}, number).real(), exact["saturation"]), 8);
+    EXPECT_LT(epsilons_off(describing_gain(DeadZone{}, number).real(), exact["dead_zone"]), 8);
   }
 }
 

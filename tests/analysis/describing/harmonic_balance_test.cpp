@@ -12,7 +12,7 @@
 
 #include "analysis/describing/servo_estimate.hpp"
 #include "base/correct_digits.hpp"
-#include "base/fifty_digits.hpp"
+#include "base/references.hpp"
 #include "base/seeded_draws.hpp"
 #include "closed_form/limit_cycle.hpp"
 
@@ -23,7 +23,6 @@ using Complex = std::complex<double>;
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Correct decimal digits.
 /// s² T + s, as of K/(s(Ts + 1)), T = 1.
 TransferFunction type_one_servo(double gain) { return {{gain}, {1.0, 1.0, 0.0}}; }
 
@@ -48,34 +47,16 @@ TEST(HarmonicBalanceOracle, TypeOneServoOfGainFive) {
   EXPECT_EQ(large.period, 2.0 * pi / large.frequency);
 }
 
-/// Newton's method in fifty digits on 1 + NG = 0, N in the textbooks' form, from the solution
-/// found.
-TEST(HarmonicBalanceOracle, TypeOneServoInFiftyDigits) {
-  const Wide wide_pi = boost::math::constants::pi<Wide>();
-  const auto mismatch = [&](const Wide& amplitude, const Wide& frequency) {
-    const Wide ratio = 1 / amplitude;
-    const Wide r = 1 - 2 * ratio;
-    const Wide real = (wide_pi / 2 + asin(r) + r * sqrt(1 - r * r)) / wide_pi;
-    const Wide imaginary = -4 * ratio * (1 - ratio) / wide_pi;
-    // (jω)² + jω + 5 N
-    return std::pair<Wide, Wide>{-frequency * frequency + 5 * real, frequency + 5 * imaginary};
-  };
-  for (const PredictedCycle& cycle :
-       harmonic_balance(FrictionControlledBacklash{2.0}, type_one_servo(5.0)).cycles) {
-    Wide amplitude = cycle.amplitude;
-    Wide frequency = cycle.frequency;
-    for (int i = 0; i < 4; ++i) {
-      const Wide step = 1e-20;
-      const auto [f, g] = mismatch(amplitude, frequency);
-      const auto [fa, ga] = mismatch(amplitude + step, frequency);
-      const auto [fw, gw] = mismatch(amplitude, frequency + step);
-      const Wide a = (fa - f) / step, b = (fw - f) / step, c = (ga - g) / step, d = (gw - g) / step;
-      const Wide determinant = a * d - b * c;
-      amplitude -= (d * f - b * g) / determinant;
-      frequency -= (a * g - c * f) / determinant;
-    }
-    EXPECT_LT(epsilons_off(cycle.amplitude, amplitude), 32);
-    EXPECT_LT(epsilons_off(cycle.frequency, frequency), 32);
+/// The textbooks' form of N in many digits.
+TEST(HarmonicBalanceOracle, TypeOneServoKeepsItsDigits) {
+  const HarmonicBalance balance =
+      harmonic_balance(FrictionControlledBacklash{2.0}, type_one_servo(5.0));
+  auto cycle = balance.cycles.begin();
+  for (const Reference& exact : References("analysis", "type_one_cycles")) {
+    ASSERT_NE(cycle, balance.cycles.end());
+    EXPECT_LT(epsilons_off(cycle->amplitude, exact["amplitude"]), 32);
+    EXPECT_LT(epsilons_off(cycle->frequency, exact["frequency"]), 32);
+    ++cycle;
   }
 }
 

@@ -9,7 +9,7 @@
 
 #include "analysis/design/drives.hpp"
 #include "analysis/design/target.hpp"
-#include "base/range_check.hpp"
+#include "base/described.hpp"
 #include "base/seeded_draws.hpp"
 #include "closed_form/growth_at_rest.hpp"
 
@@ -31,11 +31,6 @@ NormalizedServo drawn_servo(SeededDraws& draws) {
           .inertia_ratio = inertia_ratio,
           .friction_ratio = draws.uniform(0.01, 0.99),
           .backlash = 0.1};
-}
-
-std::string describe(const NormalizedServo& s) {
-  return "damping " + exact_text(s.damping) + " inertia_ratio " + exact_text(s.inertia_ratio) +
-         " friction_ratio " + exact_text(s.friction_ratio);
 }
 
 // ---- one parameter ------------------------------------------------------------------------------
@@ -76,7 +71,7 @@ TEST(PropertyHuntingMargin, OfEachParameterIsWhereBisectionEnds) {
   int found = 0;
   for (int i = 0; i < 20; ++i) {
     const NormalizedServo servo = drawn_servo(draws);
-    SCOPED_TRACE(describe(servo));
+    SCOPED_TRACE(described(servo));
     const ChangeableDrive drive = changeable(servo);
     for (const std::string_view parameter :
          {"gear_ratio", "error_gain", "load_friction", "motor_friction", "tachometer",
@@ -168,7 +163,7 @@ TEST(PropertyHuntingMargin, NoRandomDirectionIsShorter) {
   SeededDraws draws(seed);
   for (int i = 0; i < 40; ++i) {
     const NormalizedServo servo = drawn_servo(draws);
-    SCOPED_TRACE(describe(servo));
+    SCOPED_TRACE(described(servo));
     const Drivetrain drive = changeable(servo, draws.log_uniform(1.0, 100.0)).drivetrain();
     const OverallMargin margin = overall_margin(drive);
     ASSERT_EQ(margin.outcome, MarginOutcome::found);
@@ -197,7 +192,7 @@ TEST(PropertyHuntingMargin, ChangesNoUnit) {
   SeededDraws draws(seed);
   for (int i = 0; i < 50; ++i) {
     const NormalizedServo servo = drawn_servo(draws);
-    SCOPED_TRACE(describe(servo));
+    SCOPED_TRACE(described(servo));
     const OverallMargin margin = overall_margin(changeable(servo).drivetrain());
     ASSERT_EQ(margin.outcome, MarginOutcome::found);
     const LogChange& x = *margin.change;
@@ -215,7 +210,7 @@ TEST(PropertyHuntingMargin, OfAllTogetherIsShorterThanOfOne) {
   SeededDraws draws(seed);
   for (int i = 0; i < 10; ++i) {
     const NormalizedServo servo = drawn_servo(draws);
-    SCOPED_TRACE(describe(servo));
+    SCOPED_TRACE(described(servo));
     const HuntingMargin margin = hunting_margin(changeable(servo));
     ASSERT_EQ(margin.parameters.size(), all_parameters.size() - 1);  // all but restitution
     for (const ParameterMargin& one : margin.parameters) {

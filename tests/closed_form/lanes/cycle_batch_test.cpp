@@ -14,7 +14,7 @@
 
 #include "analysis/grid/hunting_end.hpp"
 #include "analysis/grid/servo_grids.hpp"
-#include "base/range_check.hpp"
+#include "base/described.hpp"
 #include "base/same_bits.hpp"
 #include "base/seeded_draws.hpp"
 #include "closed_form/growth_at_rest.hpp"
@@ -51,12 +51,6 @@ Table one_by_one(const std::vector<NormalizedServo>& servos) {
     }
   }
   return table;
-}
-
-std::string described(const NormalizedServo& servo) {
-  return "damping " + exact_text(servo.damping) + ", inertia ratio " +
-         exact_text(servo.inertia_ratio) + ", friction ratio " + exact_text(servo.friction_ratio) +
-         ", backlash " + exact_text(servo.backlash);
 }
 
 /// The largest relative difference that the header states.
@@ -172,19 +166,6 @@ TEST(TableLimits, TheMotorsAmplitudeIsHalfTheBacklashWhereHuntingEnds) {
   EXPECT_NEAR(table[Quantity::multiplier][0], limit(Quantity::multiplier), 0.1);
   EXPECT_NEAR(table[Quantity::amplitude][0], limit(Quantity::amplitude), 0.01);
   EXPECT_NEAR(table[Quantity::impact_loss][0], limit(Quantity::impact_loss), 1e-4);
-}
-
-/// The numbers of the plastic cycle's own oracle, worked out in forty digits.
-TEST_P(OracleCycleBatch, FortyDigitNumbers) {
-  const std::vector<NormalizedServo> servos = {
-      {.damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3},
-      {.damping = 0.1, .inertia_ratio = 0.25, .friction_ratio = 0.2, .backlash = 0.3}};
-  Table table = table_of(servos.size());
-  EXPECT_EQ(find_limit_cycles(servos, columns_of(table), GetParam()).side_by_side, 2U);
-  EXPECT_NEAR(table[Quantity::amplitude][0], 0.241611108023074, 1e-14);
-  EXPECT_NEAR(table[Quantity::period][0], 6.45620541393174, 1e-13);
-  EXPECT_NEAR(table[Quantity::amplitude][1], 0.791450654824151, 1e-14);
-  EXPECT_NEAR(table[Quantity::period][1], 6.05991062080386, 1e-13);
 }
 
 TEST_P(OracleCycleBatch, AnswersDoNotDependOnNeighbours) {
