@@ -26,7 +26,7 @@ namespace {
 constexpr int headline_digits = 3;
 constexpr int table_digits = 6;
 
-using Rows = std::vector<std::vector<std::string>>;
+using ReportRows = std::vector<std::vector<std::string>>;
 
 std::string number(double value) { return significant(value, table_digits); }
 
@@ -146,7 +146,7 @@ std::string growth_beside_one(const Answer& answer) {
 // ---- cycles, rest, irregular motion -------------------------------------------------------------
 
 /// Adds the proved range if the enclosure is too wide for the table's digits.
-void add_range(Rows& rows, const Bounds& range, double scale, const std::string& unit) {
+void add_range(ReportRows& rows, const Bounds& range, double scale, const std::string& unit) {
   constexpr double unseen = 1e-6;
   if (range.high - range.low <= unseen * range.high) return;
   rows.push_back(
@@ -163,7 +163,7 @@ std::string residual_text(double residual) {
   return "< " + significant(bound, 2);
 }
 
-void add_energy(Rows& rows, const EnergyLost& energy, const Units& units) {
+void add_energy(ReportRows& rows, const EnergyLost& energy, const Units& units) {
   const double total = energy.total();
   rows.push_back({"energy lost per period", units.energy(total), ""});
   const auto share = [&](const char* name, double part) {
@@ -186,7 +186,7 @@ const char* multiplier_remark(Stability stability) {
   return "";
 }
 
-void add_contact(Rows& rows, const Cycle& cycle, const Answer& answer, const Units& units) {
+void add_contact(ReportRows& rows, const Cycle& cycle, const Answer& answer, const Units& units) {
   if (answer.engine == Engine::closed_form) {
     rows.push_back({"impacts", fmt::format("{} per period", cycle.events_per_period),
                     cycle.settles ? "faces stay together" : "faces bounce apart"});
@@ -203,7 +203,7 @@ void add_contact(Rows& rows, const Cycle& cycle, const Answer& answer, const Uni
 std::string cycle_text(const AnswerReport& report, const Cycle& cycle) {
   const Units units(report);
   const Answer& answer = report.answer;
-  Rows rows = {amplitude_row(report, "amplitude, load", cycle.amplitude)};
+  ReportRows rows = {amplitude_row(report, "amplitude, load", cycle.amplitude)};
   const bool has_bounds = answer.bounds && answer.bounds->has_cycle;
   if (has_bounds) {
     add_range(rows, answer.bounds->amplitude, report.angle.radians, report.angle.name);
@@ -238,7 +238,7 @@ std::string cycle_text(const AnswerReport& report, const Cycle& cycle) {
 /// The observable cycles with all their properties, then the unstable ones with one line each.
 std::string cycle_tables(const AnswerReport& report) {
   std::string text;
-  Rows unstable;
+  ReportRows unstable;
   const Units units(report);
   for (const Cycle& cycle : report.answer.cycles) {
     if (cycle.stability != Stability::unstable) {
@@ -264,7 +264,7 @@ std::string irregular_text(const AnswerReport& report, const IrregularMotion& mo
                                 ? "The motor hunts within the gap, while the load hardly moves"
                             : repeats(motion) ? "Motion whose swings repeat"
                                               : "Motion that was not seen to repeat";
-  Rows rows = {
+  ReportRows rows = {
       {amplitude_row(report, "amplitude, load", motion.amplitude)},
       {amplitude_row(report, "amplitude, motor", *motion.motor_amplitude)},
       {"center, from the reference", angle_text(motion.center, report.angle, table_digits), ""},
@@ -288,7 +288,7 @@ std::string irregular_text(const AnswerReport& report, const IrregularMotion& mo
 
 std::string rest_text(const AnswerReport& report) {
   const Rest& rest = *report.answer.rest;
-  Rows rows = {
+  ReportRows rows = {
       {"load, from the reference", range_text(report, rest.load), ""},
       {"motor, from the reference", range_text(report, rest.motor), ""},
       {"these are",
@@ -311,7 +311,7 @@ std::string rest_text(const AnswerReport& report) {
 /// The drive as a servo of 1960.
 std::string normal_form_table(const AnswerReport& report) {
   const NormalFormNumbers& form = *report.answer.normal_form;
-  Rows rows;
+  ReportRows rows;
   if (!report.is_normalized) {
     rows.push_back({"natural frequency, ω_n", number(form.natural_frequency) + " rad/s",
                     number(form.natural_frequency / (2.0 * std::numbers::pi)) + " Hz"});
@@ -333,7 +333,7 @@ std::string normal_form_table(const AnswerReport& report) {
 
 /// The gains of a torque-controlled drive at both shafts.
 std::string gains_table(const AnswerReport& report) {
-  Rows rows;
+  ReportRows rows;
   for (const PlacedGain& gain : placed_gains(report.drive)) {
     const std::string unit = " " + std::string(gain.unit);
     rows.push_back({std::string(gain.path.substr(gain.path.find('.') + 1)),

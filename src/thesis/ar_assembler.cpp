@@ -93,7 +93,6 @@ class Assembler {
       upper_source_ = source;
       return;
     }
-    constexpr unsigned half_word = 24;
     const Word word = (Word{*upper_} << half_word) | instruction;
     upper_.reset();
     put_word(word, upper_source_ + " | " + source);

@@ -11,7 +11,6 @@
 namespace gearlash::thesis {
 namespace {
 
-constexpr unsigned half_word = 24;
 constexpr std::size_t half_word_digits = 8;
 
 std::vector<std::string> cells_of(const std::string& line) {

@@ -8,7 +8,6 @@ namespace gearlash::thesis {
 namespace {
 
 constexpr unsigned address_bits = 077777;
-constexpr unsigned half_word = 24;
 
 /// a − b, one's complement, with end-around borrow: a subtractive adder, so that a − a is +0.
 Word difference(Word a, Word b) { return a >= b ? a - b : (a + word_bits - b) & word_bits; }

@@ -16,6 +16,7 @@
 namespace gearlash::thesis {
 
 inline constexpr std::size_t memory_words = 32768;
+inline constexpr unsigned half_word = 24;  ///< bits
 
 /// An instruction: operation (6 bits), designator b (3), operand m (15). A word holds two, the
 /// upper one first.
@@ -28,7 +29,7 @@ constexpr Instruction lower_instruction(Word word) {
   return {static_cast<unsigned>(word >> 18U) & 077U, static_cast<unsigned>(word >> 15U) & 07U,
           static_cast<unsigned>(word) & 077777U};
 }
-constexpr Instruction upper_instruction(Word word) { return lower_instruction(word >> 24U); }
+constexpr Instruction upper_instruction(Word word) { return lower_instruction(word >> half_word); }
 struct Mnemonic {
   std::string_view name;
   unsigned operation;

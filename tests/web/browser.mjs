@@ -44,29 +44,69 @@ export const launch = () =>
     args: [...(process.getuid() === 0 ? ['--no-sandbox'] : []), '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'],
   });
 
-/** A server and a browser for all tests of a file; both are there once the first test begins. */
-export function visit() {
-  const both = {};
-  before(async () => {
-    both.server = await serve();
-    both.browser = await launch();
-  });
-  after(async () => {
-    await both.browser.close();
-    both.server.close();
-  });
-  return both;
-}
+const usual = { width: 1300, height: 900 };
 
 /** A page that must not complain: `complaints` are the errors on its console. */
 export async function open(browser, address, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1300, height: 900 }, acceptDownloads: true, ...options });
+  const context = await browser.newContext({ viewport: usual, acceptDownloads: true, ...options });
   const page = await context.newPage();
   const complaints = [];
   page.on('console', (message) => ['error', 'warning'].includes(message.type()) && complaints.push(message.text()));
   page.on('pageerror', (error) => complaints.push(error.message));
   await page.goto(address);
   return { page, context, complaints, close: () => context.close() };
+}
+
+/**
+ * Leads the page to another link, as its address bar does: its core stays loaded. `settled` then
+ * waits for the answer of the new drive: the page has begun with it when it forgets the map, and
+ * takes no older answer from then on.
+ */
+const follow = (page, hash) =>
+  page.evaluate(
+    (address) =>
+      new Promise((resolve) => {
+        const words = document.getElementById('map-words');
+        words.textContent = 'of the link before';
+        new MutationObserver((_, observer) => {
+          if (words.textContent !== '') return;
+          observer.disconnect();
+          document.getElementById('level').textContent = '';
+          resolve();
+        }).observe(words, { childList: true });
+        location.hash = address;
+      }),
+    hash,
+  );
+
+/**
+ * A server, a browser and one page for all tests of a file. `at` leads the page to a link, works
+ * there, and wants its console silent. A page on which a test failed is left to no other.
+ */
+export function visit() {
+  const all = { tab: null };
+  before(async () => {
+    all.server = await serve();
+    all.browser = await launch();
+  });
+  after(async () => {
+    await all.browser.close();
+    all.server.close();
+  });
+  all.at = async (hash, work, viewport = usual) => {
+    try {
+      await all.tab?.page.setViewportSize(viewport);
+      if (all.tab) await follow(all.tab.page, hash);
+      else all.tab = await open(all.browser, `${all.server.url}#${hash}`, { viewport });
+      await work(all.tab.page, all.tab);
+      assert.deepEqual(all.tab.complaints, []);
+    } catch (error) {
+      await all.tab?.close();
+      all.tab = null;
+      throw error;
+    }
+  };
+  return all;
 }
 
 /** Waits for the fine answer of the present drive. */

@@ -30,13 +30,18 @@ async function opened(file, work) {
   }
 }
 
-test('it has the drive with its settings, and the same answer', async () => {
-  const file = join(place.folder, 'drive.html');
-  gearlash(['explore', 'examples/first-servo.toml', '--set', 'gearbox.backlash=12 arcmin', '--output', file]);
+test('it has the drive with its settings and its tables, and the same answer; text of the drive cannot end the page', async () => {
+  const toml = `# </script><script>document.title = "taken"</script>\n${example('elinco-fd162.toml')}\n[reference]\nkind = "table"\nfile = "steps.csv"\n`;
+  writeFileSync(join(place.folder, 'steps.csv'), 'time (s), position (rad)\n0, 0\n1, 0.2\n2, 0.2\n');
+  writeFileSync(join(place.folder, 'followed.toml'), toml);
+  const words = ['followed.toml', '--set', 'gearbox.backlash=12 arcmin'];
+  gearlash(['explore', ...words, '--output', 'followed.html'], place.folder);
+  const file = join(place.folder, 'followed.html');
   assert.ok(statSync(file).size < 3_000_000);
   await opened(file, async (page) => {
-    assert.match(await page.inputValue('#command'), /first-servo\.toml --set 'gearbox\.backlash=12 arcmin'/);
-    await assertSameReport(page, ['limit-cycle', 'examples/first-servo.toml', '--set', 'gearbox.backlash=12 arcmin']);
+    assert.match(await page.inputValue('#command'), /followed\.toml --set 'gearbox\.backlash=12 arcmin'/);
+    assert.match(await page.title(), /^Gearlash/);
+    await assertSameReport(page, ['limit-cycle', ...words], place.folder);
   });
 });
 
@@ -44,24 +49,6 @@ test('a normal form by options is a drive too', async () => {
   const file = join(place.folder, 'form.html');
   gearlash(['explore', '--damping', '0.1', '--inertia-ratio', '1', '--friction-ratio', '0.2', '--backlash', '0.3', '--output', file]);
   await opened(file, async (page) => assert.match(await page.textContent('#headline'), /±0\.497 rad/));
-});
-
-test('the tables that a drive names go with it', async () => {
-  const table = 'time (s), position (rad)\n0, 0\n1, 0.2\n2, 0.2\n';
-  writeFileSync(join(place.folder, 'steps.csv'), table);
-  const toml = `${example('first-servo.toml')}\n[reference]\nkind = "table"\nfile = "steps.csv"\n`;
-  writeFileSync(join(place.folder, 'followed.toml'), toml);
-  const printed = spawnSync(tool, ['limit-cycle', 'followed.toml'], { cwd: place.folder, encoding: 'utf8' });
-  assert.equal(printed.status, 0, printed.stderr);
-  gearlash(['explore', 'followed.toml', '--output', 'followed.html'], place.folder);
-  await opened(join(place.folder, 'followed.html'), (page) => assertSameReport(page, ['limit-cycle', 'followed.toml'], place.folder));
-});
-
-test('text of the drive cannot end the page', async () => {
-  const toml = `# </script><script>document.title = "taken"</script>\n${example('normalized.toml')}`;
-  writeFileSync(join(place.folder, 'sly.toml'), toml);
-  gearlash(['explore', 'sly.toml', '--output', 'sly.html'], place.folder);
-  await opened(join(place.folder, 'sly.html'), async (page) => assert.match(await page.title(), /^Gearlash/));
 });
 
 test('bad input is refused as by every command', () => {

@@ -23,8 +23,8 @@ struct Reply {
   std::vector<double> numbers;
 };
 
-/// Answers the page's requests: docs/explanation/architecture.md lists them. One object serves one
-/// page. It keeps the last drive and its answer, from which the next one is followed.
+/// Answers the page's requests, in the words of web/page/replies.ts. One object serves one page. It
+/// keeps the last drive and its answer, from which the next one is followed.
 class Core {
  public:
   explicit Core(Host host);

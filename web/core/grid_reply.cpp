@@ -1,5 +1,6 @@
 #include "grid_reply.hpp"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -53,9 +54,6 @@ Json branch_json(const CycleBranch& branch, const AngleUnit& angle, double unit,
 
 Json map_reply(const Json& request, const WrittenDrive& written, Numbers& numbers,
                Progress& progress) {
-  const std::string name = request.value("quantity", "amplitude");
-  const std::optional<Quantity> quantity = find_quantity(name);
-  if (!quantity) refuse("quantity", name, "must be the name of a quantity");
   GridTable table{
       .grid = {.drive = written.drive,
                .axes = {read("y", request, written.drive), read("x", request, written.drive)}},
@@ -63,15 +61,14 @@ Json map_reply(const Json& request, const WrittenDrive& written, Numbers& number
   const Grid& grid = table.grid;
   require_none(faults(grid, {"y", "x"}));
   require_few(grid);
-  const std::vector<Quantity> quantities = {Quantity::growth_at_rest, *quantity};
+  constexpr std::array quantities = {Quantity::growth_at_rest, Quantity::amplitude};
   table.table = Table(grid.size(), quantities);
   const GridCount count =
       evaluate(grid, GridPoints(grid), 0, grid.size(), columns_of(table.table), progress);
   add_borders(table, progress);
-  Json json = contour_map_json(map_of(table, *quantity), numbers);
+  Json json = contour_map_json(map_of(table, Quantity::amplitude), numbers);
   json["axes"] = {{"x", axis_facts(grid.axes[1], grid.drive, written.angle)},
                   {"y", axis_facts(grid.axes[0], grid.drive, written.angle)}};
-  json["points"] = grid.size();
   json["is_complete"] = !count.stopped;
   return json;
 }
@@ -88,30 +85,26 @@ Json chart_reply(const Json& request, const WrittenDrive& written, Numbers& numb
     irregular.insert(irregular.end(),
                      {motion.parameter / unit, angle.from_radians(motion.amplitude)});
   }
-  return {{"x", axis_facts(axis, written.drive, angle)},
-          {"low", axis.values.front() / unit},
-          {"high", axis.values.back() / unit},
-          {"y_label", "amplitude (" + angle.name + ")"},
-          {"branches", json_list(diagram.branches,
-                                 [&](const CycleBranch& branch) {
-                                   return branch_json(branch, angle, unit, numbers);
-                                 })},
-          {"irregular", numbers.add(irregular)},
-          {"borders", json_list(diagram.borders,
-                                [&](const MarkedBorder& border) {
-                                  return Json{
-                                      {"at", border.parameter / unit},
-                                      {"word", border.word},
-                                      {"amplitude", border.cycle ? json_number(angle.from_radians(
-                                                                       border.cycle->amplitude))
-                                                                 : Json(nullptr)}};
-                                })},
-          {"rests", json_list(diagram.rests,
-                              [&](const Bounds& rest) {
-                                return Json{rest.low / unit, rest.high / unit};
-                              })},
-          {"searched", diagram.searched},
-          {"is_complete", diagram.is_complete}};
+  return {
+      {"x", axis_facts(axis, written.drive, angle)},
+      {"low", axis.values.front() / unit},
+      {"high", axis.values.back() / unit},
+      {"y_label", "amplitude (" + angle.name + ")"},
+      {"branches", json_list(diagram.branches,
+                             [&](const CycleBranch& branch) {
+                               return branch_json(branch, angle, unit, numbers);
+                             })},
+      {"irregular", numbers.add(irregular)},
+      {"borders", json_list(diagram.borders,
+                            [&](const MarkedBorder& border) {
+                              return Json{{"at", border.parameter / unit}, {"word", border.word}};
+                            })},
+      {"rests", json_list(diagram.rests,
+                          [&](const Bounds& rest) {
+                            return Json{rest.low / unit, rest.high / unit};
+                          })},
+      {"searched", diagram.searched},
+      {"is_complete", diagram.is_complete}};
 }
 
 }  // namespace gearlash::web

@@ -8,7 +8,7 @@
 
 namespace gearlash::web {
 
-/// `request`: {"x": AXIS, "y": AXIS, "quantity": name}, axes as on the command line. The map, and
+/// `request`: {"x": AXIS, "y": AXIS}, axes as on the command line. The map of the amplitude, and
 /// the size of its axes' units in SI. Throws InvalidInput for faults of the axes.
 Json map_reply(const Json& request, const WrittenDrive& written, Numbers& numbers,
                Progress& progress);

@@ -74,9 +74,7 @@ Json motion_json(const DrawnMotion& drawn, const MotionPicture& picture,
   Json json = {{"name", drawn.name},
                {"name_of_motor", drawn.name_of_motor.empty() ? drawn.name : drawn.name_of_motor},
                {"role", name_of(drawn.role)},
-               {"is_cycle", drawn.is_cycle},
-               {"end_time", drawn.motion.end_time()},
-               {"stop", drawn.motion.stop_text()}};
+               {"is_cycle", drawn.is_cycle}};
   std::vector<DrawnPiece> pieces;
   try {
     pieces = legible_curve(picture, drawn.motion);
@@ -104,10 +102,6 @@ Json window_json(const PhaseWindow& window, Numbers& numbers) {
   return {{"positions", {window.positions.low, window.positions.high}},
           {"speeds", {window.speeds.low, window.speeds.high}},
           {"is_of_motor", window.is_of_motor},
-          {"starts", json_list(window.starts,
-                               [](const DrawnStart& start) {
-                                 return Json{start.position, start.speed, name_of(start.leads)};
-                               })},
           {"borders", std::move(borders)}};
 }
 
@@ -135,12 +129,6 @@ Json axis_json(const ChartAxis& axis) {
            })}};
 }
 
-Json contours_json(const std::vector<Contour>& contours, Numbers& numbers) {
-  return json_list(contours, [&](const Contour& contour) {
-    return Json{{"level", contour.level}, {"curves", curves_json(contour.curves, numbers)}};
-  });
-}
-
 }  // namespace
 
 Json motion_picture_json(const MotionPicture& picture, Numbers& numbers) {
@@ -155,10 +143,7 @@ Json motion_picture_json(const MotionPicture& picture, Numbers& numbers) {
       {"speed_unit", angle.name + (is_normalized(picture.drive) ? " ω_n" : "/s")},
       {"torque_unit", is_normalized(picture.drive) ? "K rad" : "N m"},
       {"gap", angle.from_radians(reduced.backlash)},
-      {"torque_limit", std::isfinite(reduced.torque_limit) ? Json(reduced.torque_limit) : Json()},
-      {"encoder_step", angle.from_radians(reduced.sensing.resolution)},
-      {"hunting_period", picture.hunting_period},
-      {"period", picture.period}};
+      {"torque_limit", std::isfinite(reduced.torque_limit) ? Json(reduced.torque_limit) : Json()}};
   json["motions"] = json_list(picture.motions, [&](const DrawnMotion& drawn) {
     return motion_json(drawn, picture, reduced.sensing, numbers);
   });
@@ -177,14 +162,15 @@ Json contour_map_json(const ContourMap& map, Numbers& numbers) {
                                               {"colour", region.colour},
                                               {"outlines", curves_json(region.outlines, numbers)}};
                                 })},
-          {"contours", contours_json(map.contours, numbers)},
-          {"other_contours", contours_json(map.other_contours, numbers)},
+          {"contours", json_list(map.contours,
+                                 [&](const Contour& contour) {
+                                   return Json{{"level", contour.level},
+                                               {"curves", curves_json(contour.curves, numbers)}};
+                                 })},
           {"boundary", curves_json(map.boundary, numbers)},
           {"hatching", curves_json(map.hatching, numbers)},
           {"inner_boundary", curves_json(map.inner_boundary, numbers)},
           {"inner_hatching", curves_json(map.inner_hatching, numbers)},
-          {"contour_meaning", map.contour_meaning},
-          {"other_meaning", map.other_meaning},
           {"boundary_meaning", map.boundary_meaning},
           {"hatching_meaning", map.hatching_meaning},
           {"inner_meaning", map.inner_meaning}};
@@ -204,8 +190,7 @@ Json line_chart_json(const LineChart& chart, Numbers& numbers) {
                                })},
           {"line_meaning", chart.line_meaning},
           {"mark_meaning", chart.mark_meaning},
-          {"end_meaning", chart.end_meaning},
-          {"empty_meaning", chart.empty_meaning}};
+          {"end_meaning", chart.end_meaning}};
 }
 
 }  // namespace gearlash::web

@@ -30,7 +30,6 @@ extern "C" {
 /// Answers the request, NUL-terminated UTF-8. The reply stays until the next call.
 EMSCRIPTEN_KEEPALIVE void gearlash_ask(const char* request) { reply() = core().ask(request); }
 EMSCRIPTEN_KEEPALIVE const char* gearlash_reply() { return reply().json.c_str(); }
-EMSCRIPTEN_KEEPALIVE std::size_t gearlash_reply_length() { return reply().json.size(); }
 EMSCRIPTEN_KEEPALIVE const double* gearlash_numbers() { return reply().numbers.data(); }
 EMSCRIPTEN_KEEPALIVE std::size_t gearlash_number_count() { return reply().numbers.size(); }
 }

@@ -307,14 +307,10 @@ export function contourMap(map: MapReply, numbers: Float64Array, theme: Theme, h
       if (points.length >= 8) labels.push({ kind: 'text', x: points[middle]!, y: points[middle + 1]!, text: short(contour.level, 3), colour: theme.load });
     }
   }
-  for (const contour of map.other_contours) {
-    for (const place of contour.curves) layers.push({ kind: 'line', points: column(numbers, place), colour: theme.accent, width: 1, dash: '2 3' });
-  }
   for (const border of map.boundary) layers.push({ kind: 'line', points: column(numbers, border), colour: theme.stop, width: 2.6 });
   for (const border of map.inner_boundary) layers.push({ kind: 'line', points: column(numbers, border), colour: theme.faint, width: 1.4, dash: '6 4' });
   layers.push(...labels);
   if (map.contours.length > 0) legend.push({ name: map.title.replace(/ \(.*/, '').toLowerCase(), colour: theme.load });
-  if (map.other_contours.length > 0) legend.push({ name: map.other_meaning, colour: theme.accent, dash: '2 3' });
   if (map.boundary.length > 0) legend.push({ name: map.boundary_meaning, colour: theme.stop });
   if (map.hatching.length > 0) legend.push({ name: map.hatching_meaning, colour: theme.faint, mark: 'hatched' });
   if (map.inner_boundary.length > 0) legend.push({ name: map.inner_meaning, colour: theme.faint, dash: '6 4' });
@@ -342,7 +338,7 @@ export function branchChart(chart: ChartReply, numbers: Float64Array, theme: The
     if (!legend.some((other) => other.name === entry.name)) legend.push(entry);
   };
   for (const [from, to] of chart.rests) {
-    layers.push({ kind: 'band', from, to, fill: theme.grid, along: 'x' });
+    layers.push({ kind: 'band', from, to, fill: theme.grid });
     name({ name: 'starts come to rest', colour: theme.grid, mark: 'area' });
   }
   for (const branch of chart.branches) {
@@ -363,7 +359,7 @@ export function branchChart(chart: ChartReply, numbers: Float64Array, theme: The
     name({ name: 'did not repeat', colour: theme.motor, mark: 'cross' });
   }
   chart.borders.forEach((border, i) => {
-    layers.push({ kind: 'rule', at: border.at, along: 'x', colour: theme.stop, dash: '4 3', text: border.word, row: i % 4 });
+    layers.push({ kind: 'rule', at: border.at, colour: theme.stop, dash: '4 3', text: border.word, row: i % 4 });
   });
   if (here) include(range, [here[1]]);
   // As the command line draws it: by ratio where amplitudes differ by more than a factor of 30.
@@ -372,7 +368,7 @@ export function branchChart(chart: ChartReply, numbers: Float64Array, theme: The
     ? { low: positive.low / 1.5, high: positive.high * 1.5, logarithmic: true }
     : { low: 0, high: range.high > 0 ? 1.08 * range.high : 1 };
   if (here) {
-    layers.push({ kind: 'rule', at: here[0], along: 'x', colour: theme.accent });
+    layers.push({ kind: 'rule', at: here[0], colour: theme.accent });
     layers.push({ kind: 'moving', at: [here[0], isWide ? Math.max(here[1], y.low) : here[1]], colour: theme.accent });
     name({ name: 'you are here', colour: theme.accent, mark: 'diamond' });
   }

@@ -37,11 +37,12 @@ export type Points = ArrayLike<number>;
 
 export type Layer =
   | { kind: 'line'; points: Points; colour: string; width?: number; dash?: string; fill?: string; closed?: boolean }
-  | { kind: 'marks'; points: Points; colour: string; size?: number; open?: boolean; shape?: 'circle' | 'cross' | 'diamond' }
+  | { kind: 'marks'; points: Points; colour: string; size?: number; open?: boolean; shape?: 'circle' | 'cross' }
   /** The one mark that moves: see moveMark(). */
   | { kind: 'moving'; at: [number, number]; colour: string }
-  | { kind: 'band'; from: number; to: number; fill: string; along: 'x' | 'y' }
-  | { kind: 'rule'; at: number; along: 'x' | 'y'; colour: string; dash?: string; text?: string; row?: number }
+  /** Across the whole height. */
+  | { kind: 'band'; from: number; to: number; fill: string }
+  | { kind: 'rule'; at: number; colour: string; dash?: string; text?: string; row?: number }
   | { kind: 'text'; x: number; y: number; text: string; colour: string };
 
 export interface LegendEntry {
@@ -110,7 +111,7 @@ function mark(shape: string, right: number, down: number, size: number, colour: 
   return `<circle cx="${at(right)}" cy="${at(down)}" r="${size}" ${style}/>`;
 }
 
-function layerText(layer: Layer, x: Scale, y: Scale, width: number, bottom: number): string {
+function layerText(layer: Layer, x: Scale, y: Scale, bottom: number): string {
   switch (layer.kind) {
     case 'line': {
       const dash = layer.dash ? ` stroke-dasharray="${layer.dash}"` : '';
@@ -130,19 +131,14 @@ function layerText(layer: Layer, x: Scale, y: Scale, width: number, bottom: numb
     case 'moving':
       return `<g class="moving" transform="translate(${at(x(layer.at[0]))} ${at(y(layer.at[1]))})">${mark('diamond', 0, 0, 7, layer.colour, false)}</g>`;
     case 'band': {
-      const [from, to] = [layer.from, layer.to].map(layer.along === 'x' ? x : y) as [number, number];
-      const low = Math.min(from, to);
-      const size = Math.abs(to - from);
-      return layer.along === 'x'
-        ? `<rect x="${at(low)}" y="${frame.top}" width="${at(size)}" height="${bottom - frame.top}" fill="${layer.fill}"/>`
-        : `<rect x="${frame.left}" y="${at(low)}" width="${width - frame.left - frame.right}" height="${at(size)}" fill="${layer.fill}"/>`;
+      const [from, to] = [x(layer.from), x(layer.to)];
+      return `<rect x="${at(Math.min(from, to))}" y="${frame.top}" width="${at(Math.abs(to - from))}" height="${bottom - frame.top}" fill="${layer.fill}"/>`;
     }
     case 'rule': {
-      const place = at((layer.along === 'x' ? x : y)(layer.at));
-      const ends = layer.along === 'x' ? `x1="${place}" x2="${place}" y1="${frame.top}" y2="${bottom}"` : `x1="${frame.left}" x2="${width - frame.right}" y1="${place}" y2="${place}"`;
+      const place = at(x(layer.at));
       const dash = layer.dash ? ` stroke-dasharray="${layer.dash}"` : '';
       const label = layer.text ? `<text x="${at(Number(place) + 4)}" y="${frame.top + 14 + 14 * (layer.row ?? 0)}" fill="${layer.colour}" font-size="12">${escapeText(layer.text)}</text>` : '';
-      return `<line ${ends} stroke="${layer.colour}" stroke-width="1.2"${dash}/>${label}`;
+      return `<line x1="${place}" x2="${place}" y1="${frame.top}" y2="${bottom}" stroke="${layer.colour}" stroke-width="1.2"${dash}/>${label}`;
     }
     case 'text':
       return `<text x="${at(x(layer.x))}" y="${at(y(layer.y))}" fill="${layer.colour}" font-size="12" text-anchor="middle" paint-order="stroke" stroke-width="3">${escapeText(layer.text)}</text>`;
@@ -230,7 +226,7 @@ export function draw(plot: Plot, theme: Theme, size: Size = {}): string {
   const clip = `clip${++clips}`;
   const text = (layers: Layer[]): string =>
     layers
-      .map((layer) => layerText(layer, x, y, width, bottom)).join('')
+      .map((layer) => layerText(layer, x, y, bottom)).join('')
       .replaceAll('paint-order="stroke"', `paint-order="stroke" stroke="${theme.paper}"`);
   // Marks at the end of an axis are drawn whole, others outside not at all.
   const isMark = (layer: Layer): boolean => layer.kind === 'marks' || layer.kind === 'moving';

@@ -21,7 +21,7 @@ export interface Slider {
   logarithmic: boolean;
 }
 
-export type Value = number | string | null | Value[];
+type Value = number | string | null | Value[];
 
 export interface Parameter {
   path: string;
@@ -50,8 +50,6 @@ export interface MotionCurve {
   name_of_motor: string;
   role: 'subject' | 'background' | 'unstable' | 'to rest' | 'to hunting' | 'running away' | 'not known';
   is_cycle: boolean;
-  end_time: number;
-  stop: string;
   /** Why the motion is not drawn. */
   reason?: string;
   columns?: Record<'time' | 'load' | 'load_speed' | 'motor' | 'motor_speed' | 'torque' | 'reference', Column> & {
@@ -74,48 +72,26 @@ export interface MotionPicture {
   torque_unit: string;
   gap: number;
   torque_limit: number | null;
-  encoder_step: number;
-  hunting_period: number;
-  period: number;
   motions: MotionCurve[];
   window: null | {
     positions: [number, number];
     speeds: [number, number];
     is_of_motor: boolean;
-    starts: [number, number, string][];
     borders: Column[];
   };
 }
 
-export interface Cycle {
-  kind: string;
-  stability: string;
-  certainty: string;
-  amplitude: number;
-  motor_amplitude: number;
-  center: number;
-  period: number;
-  frequency: number;
-  multiplier: number;
-  impact_speed: number;
-  residual: number;
-}
-
 /** The output of `gearlash limit-cycle --format json`, as far as the page reads it. */
-export interface Answer {
-  verdict: string;
-  certainty: { verdict: string; stability: string; completeness: string };
-  engine: string;
+interface Answer {
+  certainty: { verdict: string };
   growth_at_rest: number | 'inf' | null;
   ceiling: null | {
     value: number | null;
-    motor: number | null;
     reason: string | null;
     /** Motion that reaches the torque limit ever again is not bounded. */
     below_limit: boolean;
   };
-  cycles: Cycle[];
-  notes: { code: string; text: string }[];
+  cycles: { stability: string; amplitude: number }[];
 }
 
 export interface AnswerReply {
@@ -131,7 +107,7 @@ export interface AnswerReply {
   phase?: MotionPicture;
 }
 
-export interface AxisFacts {
+interface AxisFacts {
   path: string;
   label: string;
   logarithmic: boolean;
@@ -146,30 +122,21 @@ export interface ChartAxis {
   tics: [string, number][];
 }
 
-export interface Contour {
-  level: number;
-  curves: Column[];
-}
-
 export interface MapReply {
   title: string;
   subtitle: string;
   x: ChartAxis;
   y: ChartAxis;
   regions: { meaning: string; colour: string; outlines: Column[] }[];
-  contours: Contour[];
-  other_contours: Contour[];
+  contours: { level: number; curves: Column[] }[];
   boundary: Column[];
   hatching: Column[];
   inner_boundary: Column[];
   inner_hatching: Column[];
-  contour_meaning: string;
-  other_meaning: string;
   boundary_meaning: string;
   hatching_meaning: string;
   inner_meaning: string;
   axes: { x: AxisFacts; y: AxisFacts };
-  points: number;
   is_complete: boolean;
 }
 
@@ -180,7 +147,7 @@ export interface ChartReply {
   y_label: string;
   branches: { stability: string; line: Column }[];
   irregular: Column;
-  borders: { at: number; word: string; amplitude: number | null }[];
+  borders: { at: number; word: string }[];
   rests: [number, number][];
   searched: number;
   is_complete: boolean;
@@ -213,7 +180,6 @@ export interface FigureReply {
   line_meaning: string;
   mark_meaning: string;
   end_meaning: string;
-  empty_meaning: string;
 }
 
 /** A drive as the page holds it. */

@@ -2,7 +2,7 @@
 import { type Changed, Inputs, only } from './inputs';
 import type { DriveText, Fault, Parameter } from './replies';
 
-export interface StoryStep {
+interface StoryStep {
   title: string;
   sentence: string;
   drive: DriveText;

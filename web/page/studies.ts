@@ -11,7 +11,7 @@ import { quoted, setOptions } from './state';
 import { wordsOf } from './words';
 
 /** What the studies need of the page. */
-export interface Page {
+interface Page {
   drive(): DriveText;
   facts(): DriveReply;
   answer(): AnswerReply | null;

@@ -8,7 +8,7 @@ import { wordsOf } from './words';
 
 const byId = (id: string): HTMLElement => document.getElementById(id)!;
 
-export const figures = { first: 2, last: 15 };
+const figures = { first: 2, last: 15 };
 
 export class Thesis {
   constructor(

@@ -17,7 +17,7 @@ export const wordsOf = (error: unknown): string =>
       : String(error);
 
 /** A bound is rounded up. */
-export function roundedUp(bound: number): number {
+function roundedUp(bound: number): number {
   const shown = Number(bound.toPrecision(4));
   if (shown >= bound || bound <= 0) return shown;
   return Number((shown + 10 ** (Math.floor(Math.log10(bound)) - 3)).toPrecision(4));
