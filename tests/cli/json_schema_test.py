@@ -15,6 +15,8 @@ import jsonschema
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 SERVO = ["--damping", "0.19", "--inertia-ratio", "2", "--friction-ratio", "0.1", "--backlash", "0.3"]
+HUNTING_JOINT = ["examples/symptoms/joint.toml", "--set", "motor.coulomb=0", "--set",
+                 "load.coulomb=0"]
 COMMANDS = [
     ["limit-cycle", *SERVO],
     ["limit-cycle", *SERVO, "--restitution", "0.6"],
@@ -23,7 +25,8 @@ COMMANDS = [
      "--backlash", "0"],
     ["limit-cycle", "examples/elinco-fd162.toml", "--sensitivities", "--margins"],
     ["limit-cycle", *SERVO, "--sensitivities", "--margins"],
-    ["limit-cycle", "examples/dynamixel-joint.toml", "--margins"],
+    ["limit-cycle", "examples/dynamixel-joint.toml"],
+    ["limit-cycle", *HUNTING_JOINT, "--margins", "--parameters", "load.coulomb=0:0.2 N m:9"],
     ["limit-cycle", "examples/normalized.toml"],
     ["limit-cycle", "examples/robot-joint.toml", "--specification", "3 deg"],
     ["limit-cycle", "examples/elinco-fd162.toml", "--set", "contact.stiffness=5 N m/rad"],
@@ -41,13 +44,13 @@ COMMANDS = [
      "0.2"],
     ["chart", "examples/elinco-fd162.toml", "--x", "sensor.position=load,motor"],
     ["map", "--x", "damping=0.1:0.9:9", "--y", "friction-ratio=0.1:0.9:9", "--inertia-ratio", "1"],
-    ["map", "examples/elinco-fd162.toml", "--x", "gearbox.ratio=10,20", "--y",
+    ["map", "examples/elinco-fd162.toml", "--x", "gearbox.ratio=1,2", "--y",
      "sampling.period=1 ms,10 ms"],
     ["design", "examples/elinco-fd162.toml", "--target", "no-hunting", "--parameters",
      "gearbox.backlash,gearbox.ratio,tachometer,load.inertia"],
     ["design", *SERVO, "--target", "amplitude <= 0.1", "--parameters", "backlash,servo.damping"],
-    ["design", "examples/robot-joint.toml", "--target", "motor-amplitude <= 0.15 deg",
-     "--parameters", "sensor.position,controller.integral=50:300:3"],
+    ["design", *HUNTING_JOINT, "--target", "no-hunting-if-disturbed", "--parameters",
+     "sensor.position,load.coulomb=0:0.2 N m:9"],
     ["design", "examples/telescope-axis.toml", "--target", "ceiling <= 6.3 arcmin", "--parameters",
      "gearbox.backlash=5 arcmin:20 arcmin:2"],
     ["tune", "examples/elinco-fd162.toml", "--target", "no-hunting", "--phase-margin", "0 deg"],
