@@ -12,6 +12,7 @@ using test::quoted;
 using test::run_shell;
 using test::run_tool;
 using test::Scratch;
+using test::tool_path;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -88,7 +89,7 @@ TEST(ExitStatus, ThreeForMemory) {
 TEST(ExitStatus, WithoutThreadsTheWorkIsDoneInOne) {
   const Scratch scratch;
   std::filesystem::permissions(scratch / "", std::filesystem::perms(0755));
-  std::filesystem::copy_file(GEARLASH_TOOL, scratch / "gearlash");
+  std::filesystem::copy_file(tool_path(), scratch / "gearlash");
   std::filesystem::copy_file(GEARLASH_SOURCE_DIRECTORY "/examples/toleranced.toml",
                              scratch / "sheet.toml");
   std::filesystem::create_directory(scratch / "out");

@@ -16,6 +16,7 @@ using test::file_text;
 using test::Outcome;
 using test::run_shell;
 using test::Scratch;
+using test::tool_path;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
@@ -28,7 +29,7 @@ class ExploreCommand : public testing::Test {
   void SetUp() override {
     fs::create_directories(folder_ / "bin");
     fs::create_directories(folder_ / "share/gearlash");
-    fs::copy_file(GEARLASH_TOOL, folder_ / "bin/gearlash");
+    fs::copy_file(tool_path(), folder_ / "bin/gearlash");
     std::ofstream(folder_ / "share/gearlash/explorer.html") << page;
   }
   Outcome explore(const std::string& arguments) {

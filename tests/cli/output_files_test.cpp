@@ -12,6 +12,7 @@ using test::quoted;
 using test::run_shell;
 using test::run_tool;
 using test::Scratch;
+using test::tool_path;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -137,7 +138,7 @@ TEST(OutputFiles, AMapInterruptedWhileItIsWrittenLeavesNothing) {
 TEST(OutputFiles, LongWorkTellsATerminalHowFarItIsAndEndsWithControlC) {
   const Scratch scratch;
   const std::string terminal = quoted((scratch / "terminal").string());
-  std::ofstream(scratch / "work") << "GEARLASH=" << quoted(GEARLASH_TOOL) << "\n"
+  std::ofstream(scratch / "work") << "GEARLASH=" << quoted(tool_path()) << "\n"
                                   << long_work("map", scratch / "map.svg")
                                   << "\nstatus=$?; echo not left; exit $status\n";
   // `script` gives it a terminal, at which Ctrl-C is typed as soon as it has told something. Where

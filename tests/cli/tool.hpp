@@ -61,11 +61,17 @@ struct Outcome {
   std::string err;
 };
 
+/// The built program, or another one for the seeded faults.
+inline std::string tool_path() {
+  const char* const other = std::getenv("GEARLASH_TOOL");
+  return other != nullptr ? other : GEARLASH_TOOL;
+}
+
 /// A line for bash, in which $GEARLASH is the program. The tests' own locale and terminal have no
 /// influence.
 inline Outcome run_shell(const std::string& line) {
   const Scratch scratch;
-  std::ofstream(scratch / "line") << "GEARLASH=" << quoted(GEARLASH_TOOL) << "\n" << line << "\n";
+  std::ofstream(scratch / "line") << "GEARLASH=" << quoted(tool_path()) << "\n" << line << "\n";
   const std::string command =
       "cd " + quoted(GEARLASH_SOURCE_DIRECTORY) + " && LC_ALL=C.UTF-8 TERM=dumb bash " +
       quoted((scratch / "line").string()) + " >" + quoted((scratch / "out").string()) + " 2>" +
