@@ -51,7 +51,7 @@ TEST(OracleEnclosure, HoldsWhatIsExactAndIsNarrow) {
                  << servo.damping << " " << servo.inertia_ratio << " " << servo.friction_ratio);
     const LimitCycleAnalysis analysis = enclose_limit_cycles(servo, Reading::exact);
     growth.add(analysis.bounds->growth_at_rest, exact["growth"]);
-    if (std::abs(exact["growth"] - 1) > 1e-9) undecided += analysis.is_proved() ? 0 : 1;
+    if (std::abs(exact["growth"] - 1) > 1e-9) undecided += analysis.is_proved() ? 0U : 1U;
     if (!analysis.is_proved()) continue;
     EXPECT_EQ(analysis.verdict, exact["growth"] > 1 ? Verdict::hunts : Verdict::cannot_hunt);
     if (analysis.verdict != Verdict::hunts) continue;

@@ -43,14 +43,6 @@ Scale scale_of(const EngagedFlow& flow, double time) {
 /// Measured at most 3; eight is what the dozen roundings of the closed form could add up to.
 constexpr double flow_epsilons = 8.0;
 
-double random_damping(SeededDraws& draws) {
-  const double kind = draws.uniform(0.0, 1.0);
-  if (kind < 0.1) return draws.one_of({0.0, 1.0, 1000.0, 1e-12});
-  if (kind < 0.4) return std::abs(1.0 + draws.either_sign(1e-16, 1e-3));
-  if (kind < 0.8) return draws.uniform(0.0, 2.0);
-  return draws.log_uniform(1.0, 1000.0);
-}
-
 /// Random states, states through critical damping from both sides, and long times.
 TEST(OracleEngagedFlow, KeepsItsDigits) {
   for (const Reference& exact : References("closed_form", "engaged_motions")) {
