@@ -29,6 +29,7 @@ Drive read(const std::string& text, const std::vector<Setting>& settings = {}) {
 TEST(DriveText, EveryExampleReadsBackAsTheSameDrive) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(examples)) {
     if (entry.path().extension() != ".toml" || entry.path().stem() == "sweep") continue;
+    if (entry.path().parent_path().stem() == "faulty") continue;
     const Drive drive = read(read_text_file(entry.path(), largest_drive_file));
     const std::string text = to_toml(drive);
     const Drive again = read(text);

@@ -17,7 +17,10 @@ def test_a_page_shows_what_python_prints_now(page, monkeypatch, tmp_path, tool):
     monkeypatch.chdir(tmp_path)
     # A fence ends a block of output.
     text = page.read_text("utf-8").replace("```", "\n")
-    for arguments in re.findall("^gearlash (sweep .*)$", text, re.MULTILINE):
+    sweeps = re.findall("^gearlash (sweep examples/.*)$", text, re.MULTILINE)
+    if not sweeps and 'dataset("sweep.nc")' in text:
+        sweeps = ["sweep examples/sweep.toml --output sweep.nc"]
+    for arguments in sweeps:
         tool(*arguments.split())
     parser = doctest.DocTestParser()
     test = parser.get_doctest(text, {}, page.name, str(page), 0)

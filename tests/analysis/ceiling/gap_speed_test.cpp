@@ -164,33 +164,15 @@ TEST(EdgeGapSpeed, ElasticFacesOfASampledTachometerHaveNoCeilingUnlessTheyAreBra
   const Ceiling ceiling = ceiling_of(reduce(drive));
   EXPECT_FALSE(ceiling.load);
   EXPECT_THAT(ceiling.reason, HasSubstr("tachometer"));
+  // Withheld: its proof does not cover the end of a hold.
   drive.contact = RigidContact{0.5};
-  EXPECT_TRUE(ceiling_of(reduce(drive)).load);
+  EXPECT_FALSE(ceiling_of(reduce(drive)).load);
+  EXPECT_THAT(ceiling_of(reduce(drive)).reason, HasSubstr("where the torque jumps"));
   drive.contact = CompliantContact{.stiffness = 100.0};
   EXPECT_TRUE(ceiling_of(reduce(drive)).load);
   drive.contact = RigidContact{0.5};
   drive.reference = SineSignal{.amplitude = 1.0, .frequency = 1.0};
   EXPECT_THAT(ceiling_of(reduce(drive)).reason, HasSubstr("moves"));
-}
-
-TEST(Ceiling, WidestBacklashWithATachometerIsOnTheSafeSide) {
-  Drive drive;
-  drive.motor = {.kind = TorqueControl{}, .inertia = 0.5, .friction = {.viscous = 0.1}};
-  drive.load = {.inertia = 0.5, .friction = {.viscous = 0.1, .coulomb = 0.01}};
-  drive.gearbox = {.ratio = 1.0, .backlash = 0.1};
-  drive.sensor.position = SensorPlace::motor;
-  drive.controller.law = PID{.terms = PIDTerms::PD, .proportional = 1.0, .derivative = 0.5};
-  drive.sampling = Sampling{.period = 0.02, .speed_by_differences = false};
-  const Ceiling ceiling = ceiling_of(reduce(drive));
-  ASSERT_TRUE(ceiling.load) << ceiling.reason;
-  for (const double share : {0.7, 0.95, 1.5, 4.0}) {
-    const auto widest = ceiling.widest_backlash(share * *ceiling.load, 0.1);
-    ASSERT_TRUE(widest) << share;
-    Drive wider = drive;
-    wider.gearbox.backlash = *widest;
-    EXPECT_LE(*ceiling_of(reduce(wider)).load, share * *ceiling.load);
-    EXPECT_GE(*ceiling_of(reduce(wider)).load, 0.5 * share * *ceiling.load);
-  }
 }
 
 // ---- starts below the limit ---------------------------------------------------------------------
