@@ -53,7 +53,7 @@ TEST(OracleBouncingSensitivity, IsThatOfTheEquationsInManyDigits) {
     SCOPED_TRACE(testing::Message() << exact.kind() << " " << servo.damping);
     const CycleSensitivity found = cycle_sensitivity(servo);
     ASSERT_TRUE(found.available());
-    const double tolerance = 1024.0 * epsilon / (1.0 - std::abs(exact.input("multiplier")));
+    const double tolerance = 2048.0 * epsilon / (1.0 - std::abs(exact.input("multiplier")));
     compare(servo, found.amplitude, "amplitude", tolerance, exact);
     compare(servo, found.period, "period", tolerance, exact);
     compare(servo, found.multiplier, "multiplier", tolerance, exact);
