@@ -262,49 +262,26 @@ std::string describe(const NormalizedServo& s) {
          " restitution " + exact_text(s.restitution);
 }
 
-/// The arrival before LimitCycle::start.
-Arrival arrival_of(const NormalizedServo& servo, const LimitCycle& cycle) {
-  const ServoState& start = cycle.start;
-  const double gap_speed = start.motor_speed - start.load_speed;
-  return {start.load_position, start.load_speed + gap_speed / (1.0 + servo.inertia_ratio),
-          -gap_speed / servo.restitution};
-}
-
-/// Errors of derivatives, as shares of max(|derivative|, |value/parameter|); the largest. The
-/// arrival that the cycle starts from is known to some epsilons/(1 − λ), and hence are its
-/// derivatives.
-double compare(const NormalizedServo& servo, const LimitCycle& cycle) {
-  const double tolerance = 1024.0 * epsilon / (1.0 - std::abs(cycle.multiplier));
-  const CycleSensitivity found = cycle_sensitivity(servo);
-  EXPECT_TRUE(found.available());
-  const Numbers here{servo.damping, servo.inertia_ratio, servo.friction_ratio, servo.restitution};
-  const std::vector<Event> events = events_of_period(servo, cycle);
-  const Arrival arrival = arrival_of(servo, cycle);
-  const auto cycle_of = [&](const Numbers& numbers) {
-    return cycle_near(numbers, servo.backlash, events, {arrival(0), arrival(1), arrival(2)});
-  };
-  const Cycle value = cycle_of(here);
-  EXPECT_NEAR(static_cast<double>(value.multiplier), cycle.multiplier, 1e-11);
-  double worst = 0.0;
-  for (const Field& field : fields) {
-    const Real step = here.*field.number * Real("1e-14");
-    Numbers low = here;
-    Numbers high = here;
-    low.*field.number -= step;
-    high.*field.number += step;
-    const Cycle at_low = cycle_of(low);
-    const Cycle at_high = cycle_of(high);
-    const auto expect_near = [&](const char* quantity, const SensitiveValue& sensitive,
-                                 Real Cycle::*of) {
-      const Real slope = (at_high.*of - at_low.*of) / (2 * step);
-      const Real scale = std::max<Real>(abs(slope), abs(value.*of / here.*field.number));
-      const auto error = static_cast<double>(abs(sensitive.slope.*field.slope - slope) / scale);
-      EXPECT_LE(error, tolerance) << quantity << " by " << field.name;
-      worst = std::max(worst, error);
-    };
-    expect_near("amplitude", found.amplitude, &Cycle::amplitude);
-    expect_near("period", found.period, &Cycle::period);
-    expect_near("multiplier", found.multiplier, &Cycle::multiplier);
+/// Of drawn servos whose bounces settle or go on, of a pair of multipliers, of opposite ones of
+/// half a period (it turns one disturbance round, and a whole period has two nearly equal ones), of
+/// an asymmetric cycle that is weakly stable (the less a cycle resists, the more its derivatives
+/// have of the map's second ones), and of a subharmonic one. Errors are shares of max(|derivative|,
+/// |value/parameter|). The arrival that the cycle starts from is known to some epsilons/(1 − λ),
+/// and hence are its derivatives.
+TEST(OracleBouncingSensitivity, IsThatOfTheEquationsInManyDigits) {
+  for (const Reference& exact : References("closed_form", "bouncing_slopes")) {
+    const NormalizedServo servo{.damping = exact.input("damping"),
+                                .inertia_ratio = exact.input("inertia_ratio"),
+                                .friction_ratio = exact.input("friction_ratio"),
+                                .backlash = exact.input("backlash"),
+                                .restitution = exact.input("restitution")};
+    SCOPED_TRACE(testing::Message() << exact.kind() << " " << servo.damping);
+    const CycleSensitivity found = cycle_sensitivity(servo);
+    ASSERT_TRUE(found.available());
+    const double tolerance = 2048.0 * epsilon / (1.0 - std::abs(exact.input("multiplier")));
+    compare(servo, found.amplitude, "amplitude", tolerance, exact);
+    compare(servo, found.period, "period", tolerance, exact);
+    compare(servo, found.multiplier, "multiplier", tolerance, exact);
   }
   return worst;
 }

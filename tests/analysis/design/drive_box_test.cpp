@@ -13,7 +13,6 @@
 #include "analysis/design/drives.hpp"
 #include "analysis/design/target.hpp"
 #include "base/seeded_draws.hpp"
-#include "closed_form/exact_half_cycle.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash::drive_box_test {
@@ -64,16 +63,20 @@ TEST_P(OracleDriveBox, HoldsEveryDriveWithin) {
     const NormalizedServo servo = drawn_servo(draws);
     const ChangeableDrive drive = changeable(servo, draws.log_uniform(0.1, 100.0));
     const std::string_view parameter = parameters[i % std::size(parameters)];
-    const Bounds range = drive.range(parameter);
-    const double low = parameter == "tachometer" ? range.high * draws.log_uniform(1e-6, 0.3)
-                                                 : drive.present_value(parameter);
-    const Bounds values{low, std::min(range.high, low * (1.0 + drawn_width(draws, i)))};
     SCOPED_TRACE(testing::Message() << "case " << i << ", " << parameter);
-    const double inside = values.low + draws.uniform(0.0, 1.0) * (values.high - values.low);
-    const double value = std::min(inside, values.high);
-    const Drivetrain drawn = drive.with(parameter, value);
-    if (!validate(drawn).empty()) continue;
-    const double guess = performance_of(drawn).flight_time;
+    const NormalizedServo servo{.damping = exact.input("damping"),
+                                .inertia_ratio = exact.input("inertia_ratio"),
+                                .friction_ratio = exact.input("friction_ratio"),
+                                .backlash = draws.log_uniform(1e-4, 1.0)};
+    const double frequency = draws.log_uniform(0.1, 100.0);
+    const ChangeableDrive drive = changeable(servo, frequency);
+    const double present = drive.present_value(parameter);
+    const Bounds range = drive.range(parameter);
+    if (!range.contains(present)) continue;  // damping beyond ten times critical
+    Bounds values = drawn_about(present, draws, i);
+    if (parameter == "tachometer") values.high = range.high * draws.log_uniform(1e-6, 0.3);
+    values = {std::max(range.low, values.low), std::min(range.high, values.high)};
+    const double guess = performance_of(drive.with(parameter, values.low)).flight_time;
     const DriveBox box = drive.box(parameter, values);
     const CycleBounds bounds = bound_cycles(box.servo, guess);
     const ExactHalfCycle exact = exact_of(drawn);
@@ -131,6 +134,29 @@ Drive drawn_data_sheet(SeededDraws& draws) {
   return drive;
 }
 
+/// The closed form of growth_at_rest.hpp in extended precision: rounding is far below the error
+/// that numbers of a data sheet are taken to have.
+Wide growth_of(const Drivetrain& drive) {
+  const Wide inertia = Wide(drive.motor_inertia) + drive.load_inertia;
+  const Wide frequency = std::sqrt(drive.stiffness / inertia);
+  const Wide z = (Wide(drive.motor_friction) + drive.load_friction) / (2 * inertia * frequency);
+  const Wide c = drive.motor_friction / (drive.motor_inertia * frequency);
+  const Wide d = drive.load_friction / (drive.load_inertia * frequency);
+  if (z < 1) {
+    const Wide w = std::sqrt(1 - z * z);
+    const Wide angle = std::atan2(w * (drive.motor_inertia * d + drive.load_inertia * c) / inertia,
+                                  w * w - (c - z) * (d - z));
+    const auto form = [&](Wide rate) { return rate * rate - 2 * z * rate + 1; };
+    return std::sqrt(form(c) * form(d)) / (c * d) * std::exp(-z * angle / w);
+  }
+  const Wide w = std::sqrt(z * z - 1);
+  const Wide slow = 1 / (z + w);
+  const Wide fast = z + w;
+  const auto product = [&](Wide rate) { return (1 - rate / c) * (1 - rate / d); };
+  if (product(slow) >= 0) return 0;
+  return -product(slow) * std::pow(product(slow) / product(fast), slow / (fast - slow));
+}
+
 /// Every number of the box of two ends holds those of every drive between, and so does its growth.
 TEST(PropertyDriveBox, HoldsEveryDataSheetBetweenItsEnds) {
   constexpr std::uint64_t seed = 1843;
@@ -154,7 +180,7 @@ TEST(PropertyDriveBox, HoldsEveryDataSheetBetweenItsEnds) {
           std::min(values.high, values.low + draws.uniform(0.0, 1.0) * (values.high - values.low));
       const Drivetrain drawn = drive.with(number.name, value);
       ASSERT_TRUE(validate(drawn).empty());
-      expect_holds(bounds.growth_at_rest, exact_of(drawn).growth_at_rest());
+      expect_holds(bounds.growth_at_rest, growth_of(drawn));
       ++compared;
     }
   }
