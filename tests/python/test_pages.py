@@ -11,6 +11,7 @@ PAGES = [page for page in [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.
          if ">>> " in page.read_text("utf-8")]
 
 
+@pytest.mark.filterwarnings("ignore::DeprecationWarning:tornado", "ignore:make_current")
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
 def test_a_page_shows_what_python_prints_now(page, monkeypatch, tmp_path, tool):
     (tmp_path / "examples").symlink_to(ROOT / "examples")
