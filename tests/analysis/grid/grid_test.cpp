@@ -132,7 +132,7 @@ TEST(EdgeGrid, FaultsOfAllAxesAreToldAtOnce) {
           HasSubstr("--curves = servo.damping: must be another parameter than that of --x")));
   const Axis million{"servo.damping", std::vector<double>(1'000'000, 0.1)};
   EXPECT_THAT(to_string(faults(Grid{drive_of({}), {million, million}}, {"--x", "--y"}).back()),
-              HasSubstr("points = 1e+12: must be at most 1e+10"));
+              HasSubstr("points = 1e+12: must be at most 1e+09 on all axes together"));
 }
 
 TEST(Grid, LastAxisIsFastest) {
