@@ -18,7 +18,7 @@ enum class SweepStart : bool {
 /// OUTPUT.part.json. OUTPUT.part is renamed when it is complete. If the program is stopped or
 /// killed, or the disk is full, the two files remain, and SweepStart::resume continues after the
 /// last block. The finished file has the same bytes as one of an uninterrupted run. Memory: two
-/// blocks, about 130 MB. `progress` as in evaluate_in_pieces().
+/// blocks, about 160 MB. `progress` as in evaluate_in_pieces().
 ///
 /// Returns the count of all points done, those of earlier runs included: fewer than the grid has if
 /// `progress` stopped the work. The command of `provenance` is written into the file. Throws
