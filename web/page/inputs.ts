@@ -52,6 +52,8 @@ export class Inputs {
   constructor(
     private readonly place: HTMLElement,
     private readonly changed: Changed,
+    /** Begins the ids of the fields; a page with two lists of inputs needs two. */
+    private readonly prefix = 'field',
   ) {}
 
   /** Shows the drive. Where it has the same parameters as before only their values change. */
@@ -132,7 +134,7 @@ export class Inputs {
   private row(parameter: Parameter): HTMLElement {
     const row = document.createElement('div');
     row.className = `row ${parameter.kind}`;
-    const id = `field-${parameter.path.replace(/[^\w]/g, '-')}`;
+    const id = `${this.prefix}-${parameter.path.replace(/[^\w]/g, '-')}`;
     const fault = document.createElement('p');
     fault.className = 'fault';
     fault.id = `${id}-fault`;

@@ -80,7 +80,7 @@ export class Story {
     private readonly goTo: (step: number) => void,
     changed: Changed,
   ) {
-    this.inputs = new Inputs(byId('story-input'), changed);
+    this.inputs = new Inputs(byId('story-input'), changed, 'story-field');
   }
 
   /** Step `number`, from 1, with the control of its parameter. */
