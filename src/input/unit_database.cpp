@@ -88,6 +88,7 @@ std::optional<Unit> find_single(std::string_view word) {
     factor *= prefix->factor;
     word.remove_prefix(prefix->word.size());
     name.remove_prefix(prefix->word.size());
+    if (word.find_first_of("'\"%") == 0) break;  // signs take no prefix
   }
   return std::nullopt;
 }
