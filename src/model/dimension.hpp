@@ -25,104 +25,40 @@ struct Dimension {
   AngleRule angle = AngleRule::absent;
 };
 
+/// In columns: name, SI unit, powers of metre, kilogram, second, ampere and radian, angle.
 namespace dimensions {
-inline constexpr Dimension angle{
-    .name = "angle", .unit = "rad", .radian = 1, .angle = AngleRule::required};
-inline constexpr Dimension time{.name = "time", .unit = "s", .second = 1};
-inline constexpr Dimension angular_speed{.name = "angular speed",
-                                         .unit = "rad/s",
-                                         .second = -1,
-                                         .radian = 1,
-                                         .angle = AngleRule::required};
-inline constexpr Dimension angular_frequency{.name = "angular frequency",
-                                             .unit = "rad/s",
-                                             .second = -1,
-                                             .radian = 1,
-                                             .angle = AngleRule::required};
-inline constexpr Dimension inertia{
-    .name = "moment of inertia", .unit = "kg m2", .metre = 2, .kilogram = 1};
-inline constexpr Dimension torque_per_speed{.name = "torque per angular speed",
-                                            .unit = "N m s/rad",
-                                            .metre = 2,
-                                            .kilogram = 1,
-                                            .second = -1,
-                                            .radian = -1,
-                                            .angle = AngleRule::optional};
-inline constexpr Dimension torque_per_current{.name = "torque per current",
-                                              .unit = "N m/A",
-                                              .metre = 2,
-                                              .kilogram = 1,
-                                              .second = -2,
-                                              .ampere = -1};
-inline constexpr Dimension torque_per_voltage{
-    .name = "torque per voltage", .unit = "N m/V", .second = 1, .ampere = 1};
-inline constexpr Dimension voltage_per_speed{.name = "voltage per angular speed",
-                                             .unit = "V s/rad",
-                                             .metre = 2,
-                                             .kilogram = 1,
-                                             .second = -2,
-                                             .ampere = -1,
-                                             .radian = -1,
-                                             .angle = AngleRule::optional};
-inline constexpr Dimension voltage_per_angle{.name = "voltage per angle",
-                                             .unit = "V/rad",
-                                             .metre = 2,
-                                             .kilogram = 1,
-                                             .second = -3,
-                                             .ampere = -1,
-                                             .radian = -1,
-                                             .angle = AngleRule::required};
-inline constexpr Dimension resistance{.name = "electrical resistance",
-                                      .unit = "ohm",
-                                      .metre = 2,
-                                      .kilogram = 1,
-                                      .second = -3,
-                                      .ampere = -2};
-
-inline constexpr Dimension inductance{
-    .name = "inductance", .unit = "H", .metre = 2, .kilogram = 1, .second = -2, .ampere = -2};
-inline constexpr Dimension current{.name = "current", .unit = "A", .ampere = 1};
-
-inline constexpr Dimension torque{
-    .name = "torque", .unit = "N m", .metre = 2, .kilogram = 1, .second = -2};
-inline constexpr Dimension torque_per_angle{.name = "torque per angle",
-                                            .unit = "N m/rad",
-                                            .metre = 2,
-                                            .kilogram = 1,
-                                            .second = -2,
-                                            .radian = -1,
-                                            .angle = AngleRule::required};
-inline constexpr Dimension torque_per_angle_and_time{.name = "torque per angle and time",
-                                                     .unit = "N m/(rad s)",
-                                                     .metre = 2,
-                                                     .kilogram = 1,
-                                                     .second = -3,
-                                                     .radian = -1,
-                                                     .angle = AngleRule::required};
-inline constexpr Dimension voltage{
-    .name = "voltage", .unit = "V", .metre = 2, .kilogram = 1, .second = -3, .ampere = -1};
-inline constexpr Dimension voltage_per_angle_and_time{.name = "voltage per angle and time",
-                                                      .unit = "V/(rad s)",
-                                                      .metre = 2,
-                                                      .kilogram = 1,
-                                                      .second = -4,
-                                                      .ampere = -1,
-                                                      .radian = -1,
-                                                      .angle = AngleRule::required};
-inline constexpr Dimension angular_acceleration{.name = "angular acceleration",
-                                                .unit = "rad/s2",
-                                                .second = -2,
-                                                .radian = 1,
-                                                .angle = AngleRule::required};
-inline constexpr Dimension rate{.name = "rate", .unit = "1/s", .second = -1};
-inline constexpr Dimension speed_per_voltage{.name = "angular speed per voltage",
-                                             .unit = "rad/(s V)",
-                                             .metre = -2,
-                                             .kilogram = -1,
-                                             .second = 2,
-                                             .ampere = 1,
-                                             .radian = 1,
-                                             .angle = AngleRule::required};
+using enum AngleRule;
+inline constexpr Dimension angle{"angle", "rad", 0, 0, 0, 0, 1, required};
+inline constexpr Dimension time{"time", "s", 0, 0, 1, 0, 0, absent};
+inline constexpr Dimension angular_speed{"angular speed", "rad/s", 0, 0, -1, 0, 1, required};
+inline constexpr Dimension angular_frequency{
+    "angular frequency", "rad/s", 0, 0, -1, 0, 1, required};
+inline constexpr Dimension inertia{"moment of inertia", "kg m2", 2, 1, 0, 0, 0, absent};
+inline constexpr Dimension torque_per_speed{
+    "torque per angular speed", "N m s/rad", 2, 1, -1, 0, -1, optional};
+inline constexpr Dimension torque_per_current{
+    "torque per current", "N m/A", 2, 1, -2, -1, 0, absent};
+inline constexpr Dimension torque_per_voltage{"torque per voltage", "N m/V", 0, 0, 1, 1, 0, absent};
+inline constexpr Dimension voltage_per_speed{
+    "voltage per angular speed", "V s/rad", 2, 1, -2, -1, -1, optional};
+inline constexpr Dimension voltage_per_angle{
+    "voltage per angle", "V/rad", 2, 1, -3, -1, -1, required};
+inline constexpr Dimension resistance{"electrical resistance", "ohm", 2, 1, -3, -2, 0, absent};
+inline constexpr Dimension inductance{"inductance", "H", 2, 1, -2, -2, 0, absent};
+inline constexpr Dimension current{"current", "A", 0, 0, 0, 1, 0, absent};
+inline constexpr Dimension torque{"torque", "N m", 2, 1, -2, 0, 0, absent};
+inline constexpr Dimension torque_per_angle{
+    "torque per angle", "N m/rad", 2, 1, -2, 0, -1, required};
+inline constexpr Dimension torque_per_angle_and_time{
+    "torque per angle and time", "N m/(rad s)", 2, 1, -3, 0, -1, required};
+inline constexpr Dimension voltage{"voltage", "V", 2, 1, -3, -1, 0, absent};
+inline constexpr Dimension voltage_per_angle_and_time{
+    "voltage per angle and time", "V/(rad s)", 2, 1, -4, -1, -1, required};
+inline constexpr Dimension angular_acceleration{
+    "angular acceleration", "rad/s2", 0, 0, -2, 0, 1, required};
+inline constexpr Dimension rate{"rate", "1/s", 0, 0, -1, 0, 0, absent};
+inline constexpr Dimension speed_per_voltage{
+    "angular speed per voltage", "rad/(s V)", -2, -1, 2, 1, 1, required};
 }  // namespace dimensions
 
 }  // namespace gearlash
