@@ -90,7 +90,7 @@ using SampleRecords = py::array_t<detail::DrawnResult, py::array::c_style | py::
 
 py::object study_of_samples(py::handle sampling, py::handle questions,
                             const SampleRecords& records) {
-  const detail::DrawnResults results(records.data(), records.data() + records.size());
+  const std::span results(records.data(), static_cast<std::size_t>(records.size()));
   for (const detail::DrawnResult& one : results) {
     if (static_cast<std::size_t>(one.verdict) >= std::size(Words<Verdict>::all)) {
       throw py::value_error("unknown verdict");

@@ -21,14 +21,6 @@ static_assert(sizeof(DrawnResult) == 32);  // SamplePlan::most_samples says what
 
 constexpr double above_zero = std::numeric_limits<double>::denorm_min();
 
-/// One number of each sample.
-template <class Number>
-std::vector<double> column_of(const DrawnResults& results, Number number) {
-  std::vector<double> column(results.size());
-  std::transform(results.begin(), results.end(), column.begin(), number);
-  return column;
-}
-
 std::vector<QuantileEstimate> quantiles_of(const SortedReplicates& numbers,
                                            const std::vector<double>& shares) {
   std::vector<QuantileEstimate> quantiles;
@@ -68,7 +60,7 @@ AmplitudeHistogram histogram_of(const SortedReplicates& sizes, std::size_t bins)
 }
 
 /// The part of a study that needs only the counts.
-ToleranceStudy counted(const SamplePlan& sampling, const DrawnResults& results) {
+ToleranceStudy counted(const SamplePlan& sampling, std::span<const DrawnResult> results) {
   const std::vector<double> points(sampling.replicates, static_cast<double>(sampling.points));
   std::vector<double> hunting(sampling.replicates);
   std::vector<double> meeting(sampling.replicates);
@@ -144,7 +136,7 @@ std::optional<DrawnResults> answer_samples(const TolerancedDrive& drive, const S
 }
 
 ToleranceStudy study_of(const SamplePlan& sampling, const StudyQuestions& questions,
-                        const DrawnResults& results, std::size_t threads) {
+                        std::span<const DrawnResult> results, std::size_t threads) {
   RangeCheck check;
   check.include(validate(sampling)).include(validate(questions));
   require_none(check.faults());
@@ -153,18 +145,21 @@ ToleranceStudy study_of(const SamplePlan& sampling, const StudyQuestions& questi
                    "must be as many as samples: " + std::to_string(sampling.samples()), ""}});
   }
   ToleranceStudy study = counted(sampling, results);
-  std::vector<double> column = column_of(results, [](const DrawnResult& result) {
+  std::vector<double> column(results.size());  // one, for memory
+  const auto sorted_by = [&](auto number) {
+    std::transform(results.begin(), results.end(), column.begin(), number);
+    return detail::sorted(column, sampling.replicates, threads);
+  };
+  const SortedReplicates sizes = sorted_by([](const DrawnResult& result) {
     return std::isnan(result.amplitude) ? infinity : result.amplitude;
   });
-  const SortedReplicates sizes = detail::sorted(column, sampling.replicates, threads);
   study.amplitude = quantiles_of(sizes, questions.shares);
   study.amplitude_of_hunting = quantiles_of(sizes.from(above_zero), questions.shares);
   study.histogram = histogram_of(sizes, questions.bins);
   constexpr double no_cycle = -1.0;  // NaN has no place in an order
-  column = column_of(results, [](const DrawnResult& result) {
+  const SortedReplicates frequencies = sorted_by([](const DrawnResult& result) {
     return std::isnan(result.frequency) ? no_cycle : result.frequency;
   });
-  const SortedReplicates frequencies = detail::sorted(column, sampling.replicates, threads);
   study.frequency = quantiles_of(frequencies.from(0.0), questions.shares);
   return study;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "analysis/design/drawn_results.hpp"
@@ -30,7 +31,7 @@ std::optional<detail::DrawnResults> answer_samples(const TolerancedDrive& drive,
 /// The study of what all samples do, in their order. Throws InvalidInput with the faults of the
 /// sampling and the questions, and for another number of results.
 ToleranceStudy study_of(const SamplePlan& sampling, const StudyQuestions& questions,
-                        const detail::DrawnResults& results, std::size_t threads = 0);
+                        std::span<const detail::DrawnResult> results, std::size_t threads = 0);
 
 /// Solves varied.size() + 2 drives for each point: A and B, the two halves of Sobol points with
 /// twice as many coordinates as varied parameters, and AB_i, which is A with column i of B. With m
