@@ -175,6 +175,27 @@ TEST(EdgeGapSpeed, ElasticFacesOfASampledTachometerHaveNoCeilingUnlessTheyAreBra
   EXPECT_THAT(ceiling_of(reduce(drive)).reason, HasSubstr("moves"));
 }
 
+TEST(Ceiling, WidestBacklashWithATachometerIsOnTheSafeSide) {
+  Drive drive;
+  drive.motor = {
+      .kind = ArmatureControl{1.0, 0.0, 1.0, 0.1}, .inertia = 0.5, .friction = {.viscous = 0.1}};
+  drive.load = {.inertia = 0.5, .friction = {.viscous = 0.1, .coulomb = 0.01}};
+  drive.gearbox = {.ratio = 1.0, .backlash = 0.1};
+  drive.sensor.position = SensorPlace::motor;
+  drive.controller.law = PID{.terms = PIDTerms::PD, .proportional = 1.0, .derivative = 0.5};
+  drive.sampling = Sampling{.period = 0.02, .speed_by_differences = false};
+  const Ceiling ceiling = ceiling_of(reduce(drive));
+  ASSERT_TRUE(ceiling.load) << ceiling.reason;
+  for (const double share : {0.7, 0.95, 1.5, 4.0}) {
+    const auto widest = ceiling.widest_backlash(share * *ceiling.load, 0.1);
+    ASSERT_TRUE(widest) << share;
+    Drive wider = drive;
+    wider.gearbox.backlash = *widest;
+    EXPECT_LE(*ceiling_of(reduce(wider)).load, share * *ceiling.load);
+    EXPECT_GE(*ceiling_of(reduce(wider)).load, 0.5 * share * *ceiling.load);
+  }
+}
+
 // ---- starts below the limit ---------------------------------------------------------------------
 
 /// From the borders of the stated set, with filtered and unfiltered derivatives, no motion meets
