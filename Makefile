@@ -1,7 +1,7 @@
 # One target for each task. The builds themselves are CMake presets.
 
 FUZZ_SECONDS ?= 30
-# An optimised compilation takes up to 1 GB of memory; set JOBS=2 if memory is scarce.
+# A compilation takes up to 1 GB of memory, one 2 GB; set JOBS=2 if memory is scarce.
 JOBS ?= $(shell nproc)
 
 RELEASE := build/release
@@ -15,7 +15,7 @@ export CTEST_PARALLEL_LEVEL ?= $(JOBS)
 
 .DEFAULT_GOAL := help
 .PHONY: help demo tool test python web web-serve web-bench bench versions clang sanitize fuzz oracle million followed designed tuned references referenced \
-        python-sweep dask-rates rivals derivatives seeded-faults single includes release-check \
+        programs python-sweep dask-rates rivals derivatives seeded-faults single includes release-check \
         coverage readme readme-check docs docs-check format format-check tidy clean wheel package package-check
 
 help:  ## this list
@@ -161,11 +161,10 @@ seeded-faults: programs single  ## put small faults into the code: which does no
 million: programs  ## 1,000,000 random servos beside the certified count of crossings
 	$(RELEASE)/tests/oracle/million_servos
 
-.PHONY: programs
-programs:
+programs:  ## build everything, with the programs of tests/oracle that no test runs
 	@$(INSTALL) test
 	cmake --preset release -DGEARLASH_BUILD_TESTS=ON
-	$(BUILD) release
+	$(BUILD) release --target all --target oracle_programs
 
 coverage:  ## the share of lines that the tests run
 	@$(INSTALL) test lint
@@ -246,7 +245,7 @@ package-check: package wheel  ## install them into a bare Debian 12, build/packa
 
 # Hours. CONTRIBUTING.md says how a release is made.
 release-check: FUZZ_SECONDS := 600
-release-check: includes readme-check seeded-faults fuzz bench package-check  ## before a release, beside make test
+release-check: programs includes readme-check seeded-faults fuzz bench package-check  ## before a release, beside make test
 
 clean:  ## remove all that was built
 	rm -rf build examples/*.svg
