@@ -61,9 +61,4 @@ FourColumns solved_with_full_pivoting(const Eigen::Matrix3d& matrix, const FourC
 /// Pivots of the elimination with full pivoting, by modulus.
 double least_pivot(const Eigen::Matrix3d& matrix);
 
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-/// By partial pivoting. Precondition: not singular.
-Vector6d solved(const Matrix6d& matrix, const Vector6d& right);
-
 }  // namespace gearlash

@@ -86,8 +86,4 @@ double least_pivot(const Eigen::Matrix3d& matrix) {
   return Eigen::MatrixXd(matrix).fullPivLu().matrixLU().diagonal().cwiseAbs().minCoeff();
 }
 
-Vector6d solved(const Matrix6d& matrix, const Vector6d& right) {
-  return matrix.partialPivLu().solve(right);
-}
-
 }  // namespace gearlash

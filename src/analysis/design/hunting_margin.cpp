@@ -188,14 +188,14 @@ std::optional<Change> stationary_change(const LogGrowth& growth, Change at) {
     const auto here = growth.with_gradient(at);
     if (!std::isfinite(here.value) || !(here.gradient.squaredNorm() > 0.0)) return std::nullopt;
     if (i == 0) multiplier = at.dot(here.gradient) / here.gradient.squaredNorm();
-    Matrix6d slope = Matrix6d::Zero();
+    Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(6, 6);
     slope.topLeftCorner<5, 5>().setIdentity();
     slope.topLeftCorner<5, 5>() -= multiplier * curvature(growth, at);
     slope.topRightCorner<5, 1>() = -here.gradient;
     slope.bottomLeftCorner<1, 5>() = here.gradient.transpose();
-    Vector6d residual;
+    Eigen::VectorXd residual(6);
     residual << at - multiplier * here.gradient, here.value;
-    const Vector6d step = solved(slope, Vector6d(-residual));
+    const Eigen::VectorXd step = solved(slope, Eigen::VectorXd(-residual));
     if (!step.allFinite()) return std::nullopt;
     at += step.head<5>();
     multiplier += step(5);
