@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "closed_form/limit_cycle.hpp"
 #include "input/drive_file.hpp"
 #include "input/servo_of_file.hpp"
 
@@ -103,6 +104,7 @@ TEST(ServoFile, ReadsTheSampleProblem) {
   EXPECT_NEAR(file.servo.inertia_ratio, 2.0, 0.05);
   EXPECT_NEAR(file.servo.friction_ratio, 0.077, 0.0005);
   EXPECT_NEAR(*file.natural_frequency, 14.5, 0.05);
+  EXPECT_NEAR(analyse_limit_cycles(file.servo).cycles.at(0).amplitude, 0.083, 0.002);  // of a chart
 }
 
 TEST(ServoFile, ReadsTheNormalisedServo) {
