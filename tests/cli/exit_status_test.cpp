@@ -28,6 +28,7 @@ TEST(ExitStatus, ThreeForAPictureThatFailsWhoseAnswerIsPrinted) {
   const Scratch scratch;
   const std::string sheet = " examples/elinco-fd162.toml";
   const std::string plot = quoted((scratch / "a.svg").string());
+  std::ofstream(scratch / "a.svg") << "old";
   for (const auto& [command, answer] :
        {std::pair("limit-cycle" + sheet + " --plot phase=" + plot, "hunts: "),
         std::pair("limit-cycle examples/robot-joint.toml --plot phase=" + plot, "hunts: the motor"),
@@ -43,7 +44,8 @@ TEST(ExitStatus, ThreeForAPictureThatFailsWhoseAnswerIsPrinted) {
     EXPECT_THAT(run.out, StartsWith(answer)) << command;
     EXPECT_EQ(run.err, no_gnuplot) << command;
   }
-  EXPECT_EQ(scratch.file_count(), 0U);
+  EXPECT_EQ(file_text(scratch / "a.svg"), "old");
+  EXPECT_EQ(scratch.file_count(), 1U);
 }
 
 TEST(ExitStatus, ThreeForAPictureThatCannotBeWrittenBesideTheAnswer) {
