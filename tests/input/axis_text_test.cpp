@@ -114,6 +114,14 @@ TEST(EdgeAxisText, EachFaultIsOneLine) {
   EXPECT_EQ(fault("inertia-ratio=0:9:5:log"), "--x = 0: must be positive on a logarithmic axis");
   EXPECT_EQ(fault("friction-ratio=0.5,1.5"), "--x = 1.5: servo.friction_ratio must be from 0 to 1");
   EXPECT_THAT(fault("damping=0.1,,0.3"), testing::StartsWith("--x = \"\": must be"));
+  for (const std::string count : {"2.5", "99999999999999999999"}) {
+    EXPECT_EQ(fault("damping=0.1:0.5:" + count),
+              "--x = " + count + ": must be a count, a whole number from 1 to 1000000");
+  }
+  for (const std::string first : {"0.1", "0.3"}) {
+    EXPECT_EQ(fault("damping=" + first + ",0.1"),
+              "--x = " + first + " before 0.1: must rise from value to value");
+  }
 }
 
 }  // namespace
