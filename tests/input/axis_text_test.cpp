@@ -15,9 +15,9 @@ Axis axis(std::string_view text, const Drive& drive = normal_form(0.5, 1.0, 0.5)
   return read_axis(split_axis("--x", text), drive_of_axes(drive, {split_axis("--x", text)}));
 }
 
-std::string fault(std::string_view text) {
+std::string fault(std::string_view text, const Drive& drive = normal_form(0.5, 1.0, 0.5)) {
   try {
-    read_axis(split_axis("--x", text), normal_form(0.5, 1.0, 0.5));
+    axis(text, drive);
   } catch (const InvalidInput& error) {
     return error.what();
   }
@@ -75,14 +75,7 @@ TEST(AxisText, NumbersOfTheNormalFormAreVariedOfADataSheetToo) {
 }
 
 TEST(EdgeAxisText, FaultsOfPathsAndWordsSaySo) {
-  const auto fault_of = [](std::string_view text) {
-    try {
-      axis(text, joint());
-    } catch (const InvalidInput& error) {
-      return std::string(error.what());
-    }
-    return std::string("none");
-  };
+  const auto fault_of = [](std::string_view text) { return fault(text, joint()); };
   EXPECT_EQ(
       fault_of("controller.proportinal=1,2"),
       "--x = controller.proportinal: must be a number or a choice of this drive (did you mean "

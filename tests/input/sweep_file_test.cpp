@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/fault.hpp"
+#include "analysis/faults_of.hpp"
 
 namespace gearlash::sweep_file_test {
 namespace {
@@ -12,13 +12,7 @@ namespace {
 using testing::ElementsAre;
 
 std::vector<std::string> faults(const std::string& toml) {
-  std::vector<std::string> lines;
-  try {
-    parse_sweep(toml, "s.toml");
-  } catch (const InvalidInput& refusal) {
-    for (const Fault& fault : refusal.faults()) lines.push_back(to_string(fault));
-  }
-  return lines;
+  return test::faults_of([&] { parse_sweep(toml, "s.toml"); });
 }
 
 TEST(SweepFile, TheExampleIsRead) {
