@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "closed_form/limit_cycle.hpp"
 #include "tool.hpp"
@@ -13,16 +11,10 @@
 namespace gearlash::chart_command_test {
 namespace {
 
+using test::file_text;
 using test::Outcome;
 using test::run_tool;
 using testing::HasSubstr;
-
-std::string content(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 TEST(ChartCommand, CurvesAreSingleCalls) {
   const test::Scratch scratch;
@@ -31,7 +23,7 @@ TEST(ChartCommand, CurvesAreSingleCalls) {
       run_tool({"chart", "--x", "inertia-ratio=1/9:9:21:log", "--curves", "damping=0.1,0.3,0.6",
                 "--friction-ratio", "0.1", "--backlash", "0.3", "--output", file.string()});
   EXPECT_EQ(run.status, 0) << run.err;
-  const auto chart = nlohmann::json::parse(content(file));
+  const auto chart = nlohmann::json::parse(file_text(file));
   const auto& columns = chart["columns"];
   ASSERT_EQ(columns["amplitude"].size(), 63U);
   EXPECT_EQ(chart["axes"][0]["path"], "servo.damping");
@@ -54,33 +46,6 @@ TEST(ChartCommand, CurvesAreSingleCalls) {
   }
 }
 
-TEST(ChartCommand, TableHasALineAPoint) {
-  const test::Scratch scratch;
-  const auto file = scratch / "table.csv";
-  const Outcome run = run_tool({"chart", "--x", "friction-ratio=0:1:5", "--damping", "0.5",
-                                "--inertia-ratio", "1", "--output", file.string()});
-  EXPECT_EQ(run.status, 0) << run.err;
-  const std::string text = content(file);
-  EXPECT_THAT(text, testing::StartsWith("friction_ratio,verdict,growth_at_rest,amplitude,"));
-  EXPECT_THAT(text, HasSubstr("\n0.5,cannot hunt,"));
-  EXPECT_EQ(text.substr(text.rfind("\n1,") + 1, 8), "1,hunts,");
-}
-
-TEST(ChartCommand, PicturesAreDrawn) {
-  const test::Scratch scratch;
-  for (const char* ending : {"svg", "png", "pdf"}) {
-    const auto file = scratch / (std::string("chart.") + ending);
-    EXPECT_EQ(run_tool({"chart", "--x", "inertia-ratio=0.1:10:50:log", "--curves",
-                        "damping=0.2,0.5", "--friction-ratio", "0.2", "--output", file.string()})
-                  .status,
-              0);
-    EXPECT_GT(std::filesystem::file_size(file), 1000U);
-  }
-  const std::string svg = content(scratch / "chart.svg");
-  EXPECT_THAT(svg, HasSubstr("hunting ends"));
-  EXPECT_THAT(svg, HasSubstr("amplitude (backlashes)"));
-}
-
 TEST(ChartCommand, BifurcationPicturesHaveBranchesAndBorders) {
   const test::Scratch scratch;
   const std::string file = (scratch / "branches.svg").string();
@@ -89,9 +54,9 @@ TEST(ChartCommand, BifurcationPicturesHaveBranchesAndBorders) {
                 "0.1", "--backlash", "0.3 deg", "--plot", "bifurcation=" + file});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_EQ(run.out, file + ": 1 branches, 1 borders\n");
-  EXPECT_THAT(content(file), testing::AllOf(HasSubstr("stable cycle"), HasSubstr("loss of rest"),
-                                            HasSubstr("amplitude (deg)"),
-                                            HasSubstr("<title>Cycles over damping: amplitude")));
+  EXPECT_THAT(file_text(file), testing::AllOf(HasSubstr("stable cycle"), HasSubstr("loss of rest"),
+                                              HasSubstr("amplitude (deg)"),
+                                              HasSubstr("<title>Cycles over damping: amplitude")));
 }
 
 TEST(EdgeChartCommand, WhatABifurcationPictureCannotShowIsToldAtOnce) {
@@ -112,7 +77,7 @@ TEST(ChartCommand, InfinityIsToldInWords) {
   const Outcome run = run_tool({"chart", "--x", "inertia-ratio=0,1,inf", "--damping", "0.1",
                                 "--friction-ratio", "0.5", "--output", file.string()});
   EXPECT_EQ(run.status, 0) << run.err;
-  const auto chart = nlohmann::json::parse(content(file));
+  const auto chart = nlohmann::json::parse(file_text(file));
   EXPECT_EQ(chart["axes"][0]["values"], nlohmann::json({0.0, 1.0, "inf"}));
 }
 
@@ -124,7 +89,13 @@ std::string chart_over(const std::string& x, const std::vector<std::string>& mor
   arguments.insert(arguments.end(), more.begin(), more.end());
   const Outcome run = run_tool(arguments);
   EXPECT_EQ(run.status, 0) << run.err;
-  return content(file);
+  return file_text(file);
+}
+
+TEST(ChartCommand, PicturesShowWhereHuntingEnds) {
+  EXPECT_THAT(chart_over("inertia-ratio=0.1:10:50:log",
+                         {"--curves", "damping=0.2,0.5", "--friction-ratio", "0.2"}),
+              testing::AllOf(HasSubstr("hunting ends"), HasSubstr("amplitude (backlashes)")));
 }
 
 TEST(EdgeChartCommand, WhereNothingHuntsThePictureSaysSo) {
@@ -219,7 +190,7 @@ TEST(ChartCommand, APictureThatFailsDoesNotWithholdTheTable) {
   EXPECT_EQ(run.status, 3);
   EXPECT_THAT(run.err, HasSubstr("gnuplot"));
   EXPECT_THAT(run.out, HasSubstr("a.csv: 5 servos, "));
-  EXPECT_THAT(content(scratch / "a.csv"), testing::StartsWith("damping,verdict,"));
+  EXPECT_THAT(file_text(scratch / "a.csv"), testing::StartsWith("damping,verdict,"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "a.svg"));
 }
 
@@ -231,17 +202,10 @@ TEST(ChartCommand, AnyDriveIsSearched) {
                                 "--plot", "curves=" + (scratch / "chart.svg").string()});
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("2 drives, 1 solved side by side, 0 one by one, 1 searched\n"));
-  const auto chart = nlohmann::json::parse(content(file));
+  const auto chart = nlohmann::json::parse(file_text(file));
   EXPECT_EQ(chart["certainty"], "computed in closed form, searched elsewhere");
   EXPECT_EQ(chart["axes"][0]["values"], nlohmann::json({"load", "motor"}));
-  EXPECT_THAT(content(scratch / "chart.svg"), HasSubstr("sensor position"));
-}
-
-TEST(ChartCommand, OutputAndPlotMayBothBeLeftOutOnlyByMistake) {
-  const Outcome run = run_tool(
-      {"chart", "--x", "damping=0.1:0.6:5", "--inertia-ratio", "1", "--friction-ratio", "0.2"});
-  EXPECT_EQ(run.status, 2);
-  EXPECT_THAT(run.err, HasSubstr("--output is missing: must be given, or --plot curves=FILE"));
+  EXPECT_THAT(file_text(scratch / "chart.svg"), HasSubstr("sensor position"));
 }
 
 TEST(ChartCommand, FaultsAreToldAtOnce) {
@@ -260,6 +224,10 @@ TEST(ChartCommand, FaultsAreToldAtOnce) {
       run_tool({"chart", "--x", "damping=0.1:0.6:5", "--damping", "0.2", "--inertia-ratio", "1",
                 "--friction-ratio", "0.2", "--output", "a.csv"});
   EXPECT_EQ(twice.err, "gearlash: --damping = 0.2: must be left out: --x varies it\n");
+  const Outcome nowhere = run_tool(
+      {"chart", "--x", "damping=0.1:0.6:5", "--inertia-ratio", "1", "--friction-ratio", "0.2"});
+  EXPECT_EQ(nowhere.status, 2);
+  EXPECT_THAT(nowhere.err, HasSubstr("--output is missing: must be given, or --plot curves=FILE"));
   const Outcome missing = run_tool({"chart", "--output", "a.csv"});
   EXPECT_EQ(missing.status, 2);
   EXPECT_EQ(missing.err, "gearlash: --x is required; see gearlash chart --help\n");

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -23,93 +22,48 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-/// The parameters that are certified, and so found at once.
-constexpr char quick_parameters[] =
-    "backlash,gear_ratio,error_gain,load-friction,motor-friction,tachometer,load_inertia,"
-    "motor_inertia";
-
-nlohmann::json design_of(const std::string& file, const std::string& target) {
-  const Outcome run = run_tool(
-      {"design", file, "--target", target, "--parameters", quick_parameters, "--format", "json"});
-  EXPECT_EQ(run.status, 0) << run.err;
-  return nlohmann::json::parse(run.out);
-}
-
-/// examples/elinco-fd162.toml with another number in place of one.
-std::string changed_sheet(const Scratch& scratch, const std::string& was, const std::string& is) {
-  std::string text =
-      file_text(std::filesystem::path(GEARLASH_SOURCE_DIRECTORY) / "examples/elinco-fd162.toml");
-  const std::size_t place = text.find(was);
-  EXPECT_NE(place, std::string::npos) << was;
-  text.replace(place, was.size(), is);
-  const auto path = scratch / "changed.toml";
-  std::ofstream(path) << text;
-  return path.string();
-}
-
-nlohmann::json limit_cycle_of(const std::string& file) {
-  return nlohmann::json::parse(run_tool({"limit-cycle", file, "--format", "json"}).out);
-}
-
-std::string exactly(const nlohmann::json& number, const std::string& unit) {
-  return "\"" + number.dump() + " " + unit + "\"";
-}
-
 TEST(DesignCommand, AnswersPutIntoTheDataSheetMeetTheTarget) {
-  const Scratch scratch;
-  const auto design = design_of("examples/elinco-fd162.toml", "size <= 1 deg");
+  const std::pair<std::string, std::string> parameters[] = {
+      {"gearbox.backlash", " rad"},    {"controller.proportional", " V/rad"},
+      {"load.friction", " N m s/rad"}, {"motor.friction", " N m s/rad"},
+      {"load.inertia", " kg m2"},      {"gearbox.ratio", ""}};
+  std::string names;
+  for (const auto& [name, unit] : parameters) names += (names.empty() ? "" : ",") + name;
+  const Outcome run = run_tool({"design", "examples/elinco-fd162.toml", "--target", "size <= 1 deg",
+                                "--parameters", names, "--format", "json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto design = nlohmann::json::parse(run.out);
   EXPECT_EQ(design["met"], false);
   const double limit = std::acos(-1.0) / 180.0;
-  const auto answer_of = [&](const std::string& parameter) {
-    for (const auto& answer : design["answers"]) {
-      if (answer["parameter"] == parameter) return answer;
+  for (std::size_t i = 0; i < std::size(parameters); ++i) {
+    const auto& [name, unit] = parameters[i];
+    SCOPED_TRACE(name);
+    const auto& answer = design["answers"].at(i);
+    EXPECT_EQ(answer["parameter"], name);
+    ASSERT_FALSE(answer["intervals"].empty());
+    std::vector<std::string> values = {answer["nearest"]["value"].dump()};
+    if (name == "gearbox.ratio") {
+      values.clear();
+      for (const auto& interval : answer["intervals"]) {
+        const bool is_at_start = interval["from"] == answer["searched"]["from"];
+        values.push_back(interval[is_at_start ? "to" : "from"].dump());
+      }
     }
-    return nlohmann::json();
-  };
-  struct Change {
-    const char* parameter;
-    const char* was;
-    const char* key;
-    const char* unit;
-  };
-  for (const Change& change :
-       {Change{"gearbox.backlash", "backlash = \"0.1 rad\"", "backlash", "rad"},
-        Change{"controller.proportional", "error_gain = \"10 V/rad\"", "error_gain", "V/rad"},
-        Change{"load.friction", "friction = \"0.002 ozf in/(rad/s)\"", "friction", "N m s/rad"},
-        Change{"motor.friction", "friction = \"0.00064 ozf in/(rad/s)\"", "friction", "N m s/rad"},
-        Change{"load.inertia", "inertia = \"16.4e-6 slug ft2\"", "inertia", "kg m2"}}) {
-    const auto answer = answer_of(change.parameter);
-    ASSERT_FALSE(answer["intervals"].empty()) << change.parameter;
-    const std::string value = exactly(answer["nearest"]["value"], change.unit);
-    const auto then =
-        limit_cycle_of(changed_sheet(scratch, change.was, std::string(change.key) + " = " + value));
-    ASSERT_FALSE(then["cycles"].empty()) << change.parameter;
-    EXPECT_NEAR(then["cycles"][0]["amplitude"], limit, 1e-10 * limit) << change.parameter;
-  }
-  const auto ratio = answer_of("gearbox.ratio");
-  for (const auto& interval : ratio["intervals"]) {
-    const double end = interval["from"] == ratio["searched"]["from"]
-                           ? interval["to"].get<double>()
-                           : interval["from"].get<double>();
-    const auto then = limit_cycle_of(
-        changed_sheet(scratch, "ratio = 1 ", "ratio = " + nlohmann::json(end).dump() + " "));
-    EXPECT_NEAR(then["cycles"][0]["amplitude"], limit, 1e-10 * limit);
+    for (const std::string& value : values) {
+      const Outcome then = run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--set",
+                                     name + "=" + value + unit, "--format", "json"});
+      const auto cycles = nlohmann::json::parse(then.out)["cycles"];
+      ASSERT_FALSE(cycles.empty());
+      EXPECT_NEAR(cycles[0]["amplitude"], limit, 1e-10 * limit);
+    }
   }
 }
 
-TEST(DesignCommand, SaysWhatItCostsAndWhyNot) {
+TEST(DesignCommand, SaysOverWhichRangeNoValueMeetsTheTarget) {
   const Outcome run = run_tool({"design", "examples/elinco-fd162.toml", "--target", "no-hunting",
-                                "--parameters", quick_parameters});
+                                "--parameters", "motor_inertia"});
   EXPECT_EQ(run.status, 0) << run.err;
-  const auto lines = lines_of(run.out);
-  EXPECT_EQ(lines.at(0), "target: no-hunting");
-  EXPECT_THAT(lines.at(1), HasSubstr("not met"));
-  EXPECT_THAT(lines, Contains(StartsWith("  gearbox.ratio ")));
-  EXPECT_THAT(lines, Contains(StartsWith("    or ")));
-  EXPECT_THAT(lines, Contains("  gearbox.backlash: no value stops the hunting; the amplitude is "
-                              "proportional to it"));
-  EXPECT_THAT(lines, Contains(StartsWith("  motor.inertia: no value from ")));
-  EXPECT_THAT(run.out, HasSubstr("prove it"));
+  EXPECT_THAT(lines_of(run.out), Contains(StartsWith("  motor.inertia: no value from ")));
 }
 
 TEST(DesignCommand, TakesANormalizedServo) {
@@ -120,21 +74,16 @@ TEST(DesignCommand, TakesANormalizedServo) {
   EXPECT_THAT(run.out, HasSubstr("  servo.backlash  0.3 rad  at most 0.124166 rad  −58.6 %"));
 }
 
-TEST(DesignCommand, DrawsWhereTwoParametersMeetTheTarget) {
+TEST(DesignCommand, DrawsTheTwoParametersThatItAnswers) {
   const Scratch scratch;
-  for (const char* file : {"region.svg", "region.png", "region.pdf"}) {
-    const Outcome run =
-        run_tool({"design", "examples/elinco-fd162.toml", "--target", "size <= 1 deg", "--vary",
-                  "error_gain,load-friction", "--plot", "region=" + (scratch / file).string()});
-    EXPECT_EQ(run.status, 0) << run.err;
-    EXPECT_THAT(lines_of(run.out), Contains(StartsWith("  load.friction ")));
-    EXPECT_THAT(lines_of(run.out), Not(Contains(StartsWith("  gearbox.backlash "))));
-  }
-  const std::string svg = file_text(scratch / "region.svg");
-  for (const char* text : {"Target: size &lt;= 1 deg", "viscous friction of the load (N m s/rad)",
-                           "bandwidth, times now", "not met", ">now<"}) {
-    EXPECT_THAT(svg, HasSubstr(text));
-  }
+  const auto picture = scratch / "region.svg";
+  const Outcome run =
+      run_tool({"design", "examples/elinco-fd162.toml", "--target", "size <= 1 deg", "--vary",
+                "error_gain,load-friction", "--plot", "region=" + picture.string()});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(lines_of(run.out), Contains(StartsWith("  load.friction ")));
+  EXPECT_THAT(lines_of(run.out), Not(Contains(StartsWith("  gearbox.backlash "))));
+  EXPECT_THAT(file_text(picture), HasSubstr("Target: size &lt;= 1 deg"));
 }
 
 TEST(EdgeDesignCommand, PicturesThatCannotBeDrawnAreRefused) {

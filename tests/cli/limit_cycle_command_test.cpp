@@ -1,8 +1,8 @@
 // gearlash limit-cycle: what it prints is what the library finds.
 #include <gmock/gmock.h>
 
-#include <limits>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "base/range_check.hpp"
 #include "closed_form/growth_at_rest.hpp"
@@ -45,8 +45,18 @@ void expect_same_cycle(const json& printed, const LimitCycle& cycle) {
   EXPECT_EQ(printed["energy"]["total"].get<double>(), cycle.energy.lost());
 }
 
+json answer_of(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "limit-cycle");
+  arguments.insert(arguments.end(), {"--format", "json"});
+  return parsed(run_tool(arguments));
+}
+
+json answer_of_sample(const std::vector<std::string>& more = {}) {
+  return answer_of(with_sample_servo(more));
+}
+
 TEST(LimitCycleCommand, JsonReadsBackAsExactlyWhatTheLibraryFinds) {
-  const json printed = parsed(run_tool(with_sample_servo({"limit-cycle", "--format", "json"})));
+  const json printed = answer_of_sample();
   const NormalizedServo servo{
       .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3};
   const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
@@ -67,14 +77,14 @@ TEST(LimitCycleCommand, JsonReadsBackAsExactlyWhatTheLibraryFinds) {
   }
   EXPECT_EQ(printed["version"], version);
   EXPECT_THAT(printed["command"].get<std::string>(),
-              StartsWith("gearlash limit-cycle --format json --damping 0.19"));
+              StartsWith("gearlash limit-cycle --damping 0.19"));
   // Published numbers, so that a fault shared with the library would be seen.
   EXPECT_NEAR(printed["cycles"][0]["amplitude"].get<double>(), 0.241611108, 1e-9);
   EXPECT_NEAR(printed["cycles"][0]["period"].get<double>(), 6.456205, 1e-6);
 }
 
 TEST(LimitCycleCommand, BoundsAreProvedAndHoldWhatIsComputed) {
-  const json printed = parsed(run_tool(with_sample_servo({"limit-cycle", "--format", "json"})));
+  const json printed = answer_of_sample();
   for (const char* statement : {"verdict", "stability", "completeness"}) {
     EXPECT_EQ(printed["certainty"][statement], "enclosed");
   }
@@ -88,11 +98,11 @@ TEST(LimitCycleCommand, BoundsAreProvedAndHoldWhatIsComputed) {
   expect_within(printed["bounds"]["amplitude"], cycle["amplitude"]);
   expect_within(printed["bounds"]["period"], cycle["period"]);
   expect_within(printed["bounds"]["multiplier"], cycle["multiplier"]);
-  const json searched = parsed(
-      run_tool(with_sample_servo({"limit-cycle", "--format", "json", "--restitution", "0.3"})));
+  const json searched = answer_of_sample({"--restitution", "0.3"});
   EXPECT_EQ(searched["certainty"]["verdict"], "searched");
   EXPECT_EQ(searched["certainty"]["stability"], "computed");
   EXPECT_TRUE(searched["bounds"].is_null());
+  EXPECT_NEAR(searched["cycles"].at(0)["amplitude"].get<double>(), 0.2401, 5e-5);
 }
 
 TEST(LimitCycleCommand, WhereTheEnclosureTouchesOneItIsUndecidedAndSaysHowWideItIs) {
@@ -114,18 +124,17 @@ TEST(LimitCycleCommand, WhereTheEnclosureTouchesOneItIsUndecidedAndSaysHowWideIt
 }
 
 TEST(LimitCycleCommand, EnergyProvesWhatNoSearchCan) {
-  const std::vector<std::string> servo = {
-      "limit-cycle", "--damping",  "1.2", "--inertia-ratio", "1", "--friction-ratio",
-      "0.5",         "--backlash", "0.3", "--restitution",   "1"};
-  const Outcome text = run_tool(servo);
-  EXPECT_EQ(text.status, 0);
-  EXPECT_THAT(text.out, HasSubstr("The servo cannot hunt with any"));
-  EXPECT_THAT(text.out, HasSubstr("This is proved."));
-  std::vector<std::string> as_json = servo;
-  as_json.insert(as_json.end(), {"--format", "json"});
-  const json printed = parsed(run_tool(as_json));
+  std::vector<std::string> words = {"--damping",        "1.2", "--inertia-ratio", "1",
+                                    "--friction-ratio", "0.5", "--backlash",      "0.3",
+                                    "--restitution",    "1"};
+  const json printed = answer_of(words);
   EXPECT_EQ(printed["dissipative"], true);
   EXPECT_EQ(printed["certainty"]["verdict"], "theorem");
+  words.insert(words.begin(), "limit-cycle");
+  const Outcome text = run_tool(words);
+  EXPECT_EQ(text.status, 0);
+  EXPECT_THAT(text.out,
+              AllOf(HasSubstr("The servo cannot hunt with any"), HasSubstr("This is proved.")));
 }
 
 TEST(LimitCycleCommand, PrintsWhatIsKnownAtItsTimeLimit) {
@@ -138,11 +147,23 @@ TEST(LimitCycleCommand, PrintsWhatIsKnownAtItsTimeLimit) {
   EXPECT_LT(answer["search"]["starts"].size(), 10U);
 }
 
-TEST(LimitCycleCommand, RefusesATimeLimitThatIsNone) {
-  const Outcome run =
-      run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--time-limit", "0 s"});
-  EXPECT_EQ(run.status, 2);
-  EXPECT_THAT(run.err, HasSubstr("--time-limit = 0 s: must be positive, in s"));
+TEST(LimitCycleCommand, RefusesWhatIsNoLimitSpecificationOrMeasurement) {
+  const std::string size = ": must be a size of at least 100 MB";
+  for (const auto& [option, value, fault] :
+       {std::tuple("--time-limit", "0 s", "--time-limit = 0 s: must be positive, in s"),
+        std::tuple("--memory-limit", "much", size.c_str()),
+        std::tuple("--memory-limit", "-1 GB", size.c_str()),
+        std::tuple("--memory-limit", "99 MB", size.c_str()),
+        std::tuple("--memory-limit", "0", size.c_str()),
+        std::tuple("--specification", "0 rad", "--specification"),
+        std::tuple("--measured", "0.25 rad", "--measured"),
+        std::tuple("--measured", "0.25 rad, 3 kg", "--measured"),
+        std::tuple("--measured", "-1 rad, 1 Hz", "--measured"),
+        std::tuple("--measured", "1 rad, 0 Hz", "--measured")}) {
+    const Outcome run = run_tool(with_sample_servo({"limit-cycle", option, value}));
+    EXPECT_EQ(run.status, 2) << option << value;
+    EXPECT_THAT(run.err, HasSubstr(fault)) << option << value;
+  }
 }
 
 /// The search takes some 130 MB if it may.
@@ -168,26 +189,8 @@ TEST(LimitCycleCommand, CountsNoMemoryOfTheProgramThatStartsIt) {
   EXPECT_THAT(run.out, Not(HasSubstr("undecided")));
 }
 
-TEST(LimitCycleCommand, RefusesAMemoryLimitThatIsNone) {
-  for (const std::string size : {"much", "-1 GB", "99 MB", "0"}) {
-    const Outcome run =
-        run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--memory-limit", size});
-    EXPECT_EQ(run.status, 2) << size;
-    EXPECT_THAT(run.err, HasSubstr("must be a size of at least 100 MB")) << run.err;
-  }
-}
-
-TEST(LimitCycleCommand, BouncingContactHasItsCyclesInJsonToo) {
-  const json printed = parsed(
-      run_tool(with_sample_servo({"limit-cycle", "--format", "json", "--restitution", "0.3"})));
-  EXPECT_EQ(printed["certainty"]["verdict"], "searched");
-  ASSERT_FALSE(printed["cycles"].empty());
-  EXPECT_NEAR(printed["cycles"][0]["amplitude"].get<double>(), 0.2401, 5e-5);
-}
-
 TEST(LimitCycleCommand, PhysicalNumbersAreThoseOfTheDataSheet) {
-  const json printed =
-      parsed(run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--format", "json"}));
+  const json printed = answer_of({"examples/elinco-fd162.toml"});
   const ServoOfFile file =
       read_servo(std::string(GEARLASH_SOURCE_DIRECTORY) + "/examples/elinco-fd162.toml");
   const LimitCycle cycle = analyse_limit_cycles(file.servo).cycles.at(0);
@@ -204,38 +207,13 @@ TEST(LimitCycleCommand, PhysicalNumbersAreThoseOfTheDataSheet) {
               1.0, 1e-13);
 }
 
-TEST(LimitCycleCommand, NaturalFrequencyWithoutDataSheetGivesSecondsButNoJoules) {
-  const json printed =
-      parsed(run_tool({"limit-cycle", "examples/normalized.toml", "--format", "json"}));
-  EXPECT_EQ(printed["normal_form"]["natural_frequency"].get<double>(), 14.5);
-  EXPECT_TRUE(printed["cycles"][0]["energy"].is_null());
-  EXPECT_TRUE(printed["normal_form"]["stiffness"].is_null());
-}
-
 TEST(LimitCycleCommand, InfinityIsTextBecauseJsonHasNone) {
-  const json massless_motor =
-      parsed(run_tool({"limit-cycle", "--damping", "0.3", "--inertia-ratio", "inf",
-                       "--friction-ratio", "0.5", "--backlash", "0.1", "--format", "json"}));
-  EXPECT_EQ(massless_motor["normal_form"]["inertia_ratio"], "inf");
-  const json frictionless_load =
-      parsed(run_tool({"limit-cycle", "--damping", "0.3", "--inertia-ratio", "1",
-                       "--friction-ratio", "0", "--backlash", "0.1", "--format", "json"}));
-  EXPECT_EQ(frictionless_load["growth_at_rest"], "inf");
-}
-
-TEST(LimitCycleCommand, TextBeginsWithTheVerdict) {
-  EXPECT_THAT(run_tool({"limit-cycle", "examples/elinco-fd162.toml"}).out,
-              StartsWith("hunts: ±0.0819 rad (4.69°) at 2.26 Hz\n"));
-  EXPECT_THAT(run_tool(with_sample_servo({"limit-cycle"})).out,
-              StartsWith("hunts: ±0.242 rad (13.8°), period 6.456 / ω_n\n"));
-  EXPECT_THAT(run_tool({"limit-cycle", "examples/antenna-field-controlled.toml"}).out,
-              StartsWith("cannot hunt: growth at rest 0.422 < 1\n"));
-}
-
-TEST(LimitCycleCommand, SizeIsToldInTheUnitOfTheBacklash) {
-  EXPECT_THAT(
-      run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--backlash", "12 arcmin"}).out,
-      StartsWith("hunts: ±9.83 arcmin (0.00286 rad) at 2.26 Hz\n"));
+  const auto of = [](const char* inertia_ratio, const char* friction_ratio) {
+    return answer_of({"--damping", "0.3", "--inertia-ratio", inertia_ratio, "--friction-ratio",
+                      friction_ratio, "--backlash", "0.1"});
+  };
+  EXPECT_EQ(of("inf", "0.5")["normal_form"]["inertia_ratio"], "inf");
+  EXPECT_EQ(of("1", "0")["growth_at_rest"], "inf");
 }
 
 TEST(LimitCycleCommand, DegenerateServosHaveAnAnswer) {
@@ -251,115 +229,52 @@ TEST(LimitCycleCommand, DegenerateServosHaveAnAnswer) {
   EXPECT_THAT(verdict("100", "0.1"), StartsWith("cannot hunt: growth at rest 0 < 1\n"));
 }
 
-TEST(LimitCycleCommand, UnstableCyclesAreTheFootnoteOfTheStableOnes) {
-  const Outcome run = run_tool(with_sample_servo({"limit-cycle", "--restitution", "0.6"}));
-  EXPECT_EQ(run.status, 0);
-  EXPECT_THAT(run.out, StartsWith("hunts: ±0.217 rad"));
-  EXPECT_THAT(run.out,
-              HasSubstr("\nUnstable limit cycles, on which no motion stays\n  symmetric "));
-}
-
-TEST(LimitCycleCommand, TextHasNoEscapesWhereItIsNoTerminal) {
-  EXPECT_THAT(run_tool({"limit-cycle", "examples/elinco-fd162.toml"}).out,
-              testing::Not(HasSubstr("\x1b")));
-}
-
 TEST(LimitCycleCommand, StatesTheWidestBacklashThatMeetsASpecification) {
-  const auto answer = parsed(run_tool(
-      with_sample_servo({"limit-cycle", "--specification", "0.1 rad", "--format", "json"})));
-  EXPECT_EQ(answer["specification"]["amplitude"], 0.1);
-  EXPECT_EQ(answer["specification"]["is_met"], false);
-  const double widest = answer["specification"]["widest_backlash"];
+  const std::vector<std::string> specification = {"--specification", "0.1 rad"};
+  const json stated = answer_of_sample(specification)["specification"];
+  EXPECT_EQ(stated["amplitude"], 0.1);
+  EXPECT_EQ(stated["is_met"], false);
+  const double widest = stated["widest_backlash"];
   EXPECT_NEAR(widest, 0.1 / 0.8542, 1e-4);
-  const auto met =
-      parsed(run_tool({"limit-cycle", "--damping", "0.19", "--inertia-ratio", "2",
-                       "--friction-ratio", "0.1", "--backlash", std::to_string(0.999 * widest),
-                       "--specification", "0.1 rad", "--format", "json"}));
+  const json met =
+      answer_of({"--damping", "0.19", "--inertia-ratio", "2", "--friction-ratio", "0.1",
+                 "--backlash", std::to_string(0.999 * widest), specification[0], specification[1]});
   EXPECT_EQ(met["specification"]["is_met"], true);
-  EXPECT_TRUE(
-      parsed(run_tool(with_sample_servo({"limit-cycle", "--format", "json"})))["specification"]
-          .is_null());
-  const Outcome text = run_tool(with_sample_servo({"limit-cycle", "--specification", "0.1 rad"}));
-  EXPECT_THAT(text.out, HasSubstr("every backlash up to 0.117 rad"));
-  const Outcome bad = run_tool(with_sample_servo({"limit-cycle", "--specification", "0 rad"}));
-  EXPECT_EQ(bad.status, 2);
-  EXPECT_THAT(bad.err, HasSubstr("--specification"));
 }
 
 TEST(LimitCycleCommand, ComparesMeasuredHuntingWithWhatItFinds) {
-  const auto of_period = parsed(run_tool(
-      with_sample_servo({"limit-cycle", "--measured", "0.25 rad, 6.5 s", "--format", "json"})));
-  const json& measured = of_period["measured"];
+  const json measured = answer_of_sample({"--measured", "0.25 rad, 6.5 s"})["measured"];
   EXPECT_EQ(measured["amplitude"], 0.25);
   ASSERT_EQ(measured["motions"].size(), 1U);
   EXPECT_EQ(measured["motions"][0]["list"], "cycles");
   EXPECT_NEAR(measured["motions"][0]["amplitude_share"], 0.25 / 0.241611108 - 1.0, 1e-8);
   EXPECT_NEAR(measured["motions"][0]["frequency_share"], 6.456205 / 6.5 - 1.0, 1e-6);
-  const auto of_frequency = parsed(run_tool(
-      with_sample_servo({"limit-cycle", "--measured", "12 deg, 0.2 Hz", "--format", "json"})));
-  EXPECT_NEAR(of_frequency["measured"]["frequency"], 0.2, 1e-15);
-  EXPECT_TRUE(parsed(run_tool(with_sample_servo({"limit-cycle", "--format", "json"})))["measured"]
-                  .is_null());
-  const Outcome text =
-      run_tool(with_sample_servo({"limit-cycle", "--measured", "0.25 rad, 6.5 s"}));
-  EXPECT_THAT(text.out, HasSubstr("amplitude +3.47 %, frequency -0.674 %"));
-  for (const char* bad : {"0.25 rad", "0.25 rad, 3 kg", "-1 rad, 1 Hz", "1 rad, 0 Hz"}) {
-    const Outcome refused = run_tool(with_sample_servo({"limit-cycle", "--measured", bad}));
-    EXPECT_EQ(refused.status, 2) << bad;
-    EXPECT_THAT(refused.err, HasSubstr("--measured")) << bad;
-  }
+  const json of_frequency = answer_of_sample({"--measured", "12 deg, 0.2 Hz"})["measured"];
+  EXPECT_NEAR(of_frequency["frequency"], 0.2, 1e-15);
+  EXPECT_THAT(run_tool(with_sample_servo({"limit-cycle", "--measured", "0.25 rad, 6.5 s"})).out,
+              AllOf(StartsWith("hunts: ±0.242 rad (13.8°), period 6.456 / ω_n\n"),
+                    HasSubstr("amplitude +3.47 %, frequency -0.674 %")));
 }
 
-TEST(LimitCycleCommand, ReportsMarginsOnRequestAndSaysHow) {
-  const auto answer_of = [](const std::string& inertia_ratio, bool wants_margins) {
-    std::vector<std::string> arguments = {
-        "limit-cycle", "--damping",  "0.3", "--inertia-ratio", inertia_ratio, "--friction-ratio",
-        "0.4",         "--backlash", "0.3", "--restitution",   "0.3",         "--format",
-        "json"};
-    if (wants_margins) arguments.emplace_back("--margins");
-    const Outcome run = run_tool(arguments);
-    EXPECT_EQ(run.status, 0) << run.err;
-    return nlohmann::json::parse(run.out);
-  };
-  EXPECT_TRUE(answer_of("2", false)["margin"].is_null());
+TEST(LimitCycleCommand, ReportsMarginsOfAMasslessSideToo) {
   for (const char* massless : {"0", "inf"}) {
-    EXPECT_TRUE(answer_of(massless, false)["margin"].is_null());
-    const auto margin = answer_of(massless, true)["margin"];
+    const json margin =
+        answer_of({"--damping", "0.3", "--inertia-ratio", massless, "--friction-ratio", "0.4",
+                   "--backlash", "0.3", "--restitution", "0.3", "--margins"})["margin"];
     EXPECT_EQ(margin["parameters"].size(), 9U);
     for (const auto& one : margin["parameters"]) EXPECT_EQ(one["certified"], true);
     EXPECT_TRUE(margin["overall"].is_object());
   }
-  const auto offers = [](const std::vector<std::string>& more) {
-    std::vector<std::string> arguments = {"limit-cycle", "examples/elinco-fd162.toml"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const std::string text = run_tool(arguments).out;
-    const std::size_t place = text.find("Not shown: ");
-    return place == std::string::npos ? std::string() : text.substr(place);
-  };
-  EXPECT_THAT(offers({}), AllOf(HasSubstr("--margins"), HasSubstr("--sensitivities")));
-  EXPECT_THAT(offers({"--margins"}), testing::Not(HasSubstr("--margins")));
-  EXPECT_EQ(offers({"--margins", "--sensitivities"}), "");
 }
 
-TEST(LimitCycleCommand, TellsHowFarHuntingIsAndWhatItDependsOn) {
-  const test::Scratch scratch;
-  const Outcome run =
-      run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--sensitivities", "--margins",
-                "--format", "json", "--plot", "tornado=" + (scratch / "tornado.svg").string()});
-  ASSERT_EQ(run.status, 0) << run.err;
-  const auto answer = nlohmann::json::parse(run.out);
-  EXPECT_EQ(answer["margin"]["parameters"].size(), 8U);
-  EXPECT_GT(answer["margin"]["overall"]["distance"], 1.0);
-  EXPECT_EQ(answer["sensitivities"]["available"], true);
-  for (const auto& number : answer["sensitivities"]["numbers"]) {
-    if (number["parameter"] != "gearbox.backlash") continue;
-    EXPECT_EQ(number["amplitude"]["elasticity"], 1.0);
-    EXPECT_EQ(number["period"]["elasticity"], 0.0);
-  }
-  EXPECT_THAT(test::file_text(scratch / "tornado.svg"), testing::HasSubstr("motor.inertia"));
-  const Outcome text = run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--margins"});
-  EXPECT_THAT(text.out, testing::HasSubstr("Where hunting ends, one parameter at a time\n"));
-  EXPECT_THAT(text.out, testing::HasSubstr("Smallest combined change that stops the "));
+TEST(LimitCycleCommand, OffersWhatWasNotAskedFor) {
+  const std::string some = run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--margins"}).out;
+  const std::size_t offer = some.find("Not shown: ");
+  ASSERT_NE(offer, std::string::npos);
+  EXPECT_EQ(some.find("--margins", offer), std::string::npos);
+  EXPECT_THAT(
+      run_tool({"limit-cycle", "examples/elinco-fd162.toml", "--margins", "--sensitivities"}).out,
+      Not(HasSubstr("Not shown: ")));
 }
 
 TEST(LimitCycleCommand, TellsHowFarHuntingIsOverParametersThatAreNamed) {
@@ -374,7 +289,7 @@ TEST(LimitCycleCommand, TellsHowFarHuntingIsOverParametersThatAreNamed) {
               AllOf(HasSubstr("Where it comes to rest"), HasSubstr("\n  load.inertia "),
                     HasSubstr("\n  sensor.position "), HasSubstr("Searched, not proved")));
   asked.insert(asked.end(), {"--format", "json"});
-  const auto margin = nlohmann::json::parse(run_tool(asked).out)["margin"];
+  const auto margin = json::parse(run_tool(asked).out)["margin"];
   ASSERT_EQ(margin["parameters"].size(), 3U);
   EXPECT_EQ(margin["parameters"][1]["grid"].size(), 8U);  // and the present one
   EXPECT_TRUE(margin["overall"].is_null());
@@ -383,44 +298,32 @@ TEST(LimitCycleCommand, TellsHowFarHuntingIsOverParametersThatAreNamed) {
 }
 
 TEST(LimitCycleCommand, TellsHowFarHuntingIsOfADriveThatIsSearched) {
-  const std::vector<std::string> asked = {
-      "limit-cycle", "examples/symptoms/joint.toml", "--margins", "--parameters",
-      "gearbox.backlash=10 arcmin:100 arcmin:3,controller.proportional=200:2000:4"};
-  const Outcome text = run_tool(asked);
-  EXPECT_EQ(text.status, 0) << text.err;
-  EXPECT_THAT(text.out,
-              AllOf(HasSubstr("Where it begins to hunt or to run away, one parameter at a time\n"),
-                    HasSubstr("\n  controller.proportional  200 N m/rad "),
-                    HasSubstr("Smallest combined change found: gearbox.backlash +"),
-                    HasSubstr("Searched, not proved")));
-  const auto margin_of = [&](const std::vector<std::string>& more, int status) {
-    std::vector<std::string> arguments = asked;
-    arguments.insert(arguments.end(), {"--format", "json"});
+  const auto margin_of = [](const std::vector<std::string>& more, int status) {
+    std::vector<std::string> arguments = {
+        "limit-cycle",
+        "examples/symptoms/joint.toml",
+        "--margins",
+        "--format",
+        "json",
+        "--parameters",
+        "gearbox.backlash=10 arcmin:100 arcmin:3,controller.proportional=200:2000:4"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome run = run_tool(arguments);
     EXPECT_EQ(run.status, status) << run.err;
-    return nlohmann::json::parse(run.out)["margin"];
+    return json::parse(run.out)["margin"];
   };
-  const auto margin = margin_of({}, 0);
+  const json margin = margin_of({}, 0);
   EXPECT_EQ(margin["hunts"], false);
   EXPECT_EQ(margin["stopped"], false);
   EXPECT_TRUE(margin["overall"].is_null());
   ASSERT_EQ(margin["parameters"].size(), 2U);
-  const auto& gain = margin["parameters"][1];
+  const json& gain = margin["parameters"][1];
   EXPECT_EQ(gain["certified"], false);
   EXPECT_TRUE(gain["below"].is_null());
   const double alone = gain["above"].get<double>() / gain["present"].get<double>();
   const double together = margin["combined"]["factors"]["controller.proportional"];
   EXPECT_GT(together, 1.0);
   EXPECT_LT(together, alone);
-  // Put back: with the last gain it rests, with a little more it hunts.
-  const auto verdict_with = [](double value) {
-    const Outcome run = run_tool({"limit-cycle", "examples/symptoms/joint.toml", "--brief", "--set",
-                                  "controller.proportional=" + std::to_string(value) + " N m/rad"});
-    return run.out;
-  };
-  EXPECT_THAT(verdict_with(gain["above"]), HasSubstr("comes to rest"));
-  EXPECT_THAT(verdict_with(1.001 * gain["above"].get<double>()), HasSubstr("hunts"));
   // A limit stops the margins too.
   EXPECT_EQ(margin_of({"--time-limit", "100 ms"}, 1)["stopped"], true);
 }

@@ -37,11 +37,8 @@ std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder,
 }
 
 std::vector<std::filesystem::path> pages() {
-  std::vector<std::filesystem::path> all = {root / "README.md"};
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(root / "docs")) {
-    if (entry.path().extension() == ".md") all.push_back(entry.path());
-  }
-  std::sort(all.begin(), all.end());
+  std::vector<std::filesystem::path> all = files_in(root / "docs", ".md");
+  all.push_back(root / "README.md");
   return all;
 }
 

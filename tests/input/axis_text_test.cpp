@@ -15,9 +15,9 @@ Axis axis(std::string_view text, const Drive& drive = normal_form(0.5, 1.0, 0.5)
   return read_axis(split_axis("--x", text), drive_of_axes(drive, {split_axis("--x", text)}));
 }
 
-std::string fault(std::string_view text) {
+std::string fault(std::string_view text, const Drive& drive = normal_form(0.5, 1.0, 0.5)) {
   try {
-    read_axis(split_axis("--x", text), normal_form(0.5, 1.0, 0.5));
+    axis(text, drive);
   } catch (const InvalidInput& error) {
     return error.what();
   }
@@ -75,14 +75,7 @@ TEST(AxisText, NumbersOfTheNormalFormAreVariedOfADataSheetToo) {
 }
 
 TEST(EdgeAxisText, FaultsOfPathsAndWordsSaySo) {
-  const auto fault_of = [](std::string_view text) {
-    try {
-      axis(text, joint());
-    } catch (const InvalidInput& error) {
-      return std::string(error.what());
-    }
-    return std::string("none");
-  };
+  const auto fault_of = [](std::string_view text) { return fault(text, joint()); };
   EXPECT_EQ(
       fault_of("controller.proportinal=1,2"),
       "--x = controller.proportinal: must be a number or a choice of this drive (did you mean "
@@ -114,6 +107,14 @@ TEST(EdgeAxisText, EachFaultIsOneLine) {
   EXPECT_EQ(fault("inertia-ratio=0:9:5:log"), "--x = 0: must be positive on a logarithmic axis");
   EXPECT_EQ(fault("friction-ratio=0.5,1.5"), "--x = 1.5: servo.friction_ratio must be from 0 to 1");
   EXPECT_THAT(fault("damping=0.1,,0.3"), testing::StartsWith("--x = \"\": must be"));
+  for (const std::string count : {"2.5", "99999999999999999999"}) {
+    EXPECT_EQ(fault("damping=0.1:0.5:" + count),
+              "--x = " + count + ": must be a count, a whole number from 1 to 1000000");
+  }
+  for (const std::string first : {"0.1", "0.3"}) {
+    EXPECT_EQ(fault("damping=" + first + ",0.1"),
+              "--x = " + first + " before 0.1: must rise from value to value");
+  }
 }
 
 }  // namespace

@@ -10,12 +10,14 @@
 #include <string>
 
 #include "input/servo_of_file.hpp"
+#include "input/text_of_drive.hpp"
 #include "model/proportional_servo.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash::drive_file_test {
 namespace {
 
+using test::replaced;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -97,20 +99,7 @@ ReadDrive drive_of(const std::string& text, const std::filesystem::path& folder 
 /// "place: field = value: permitted" of every fault.
 std::vector<std::string> refusals(const std::string& text,
                                   const std::filesystem::path& folder = ".") {
-  try {
-    parse_drive(text, "drive.toml", folder, {});
-    return {};
-  } catch (const InvalidInput& refusal) {
-    std::vector<std::string> lines;
-    for (const Fault& fault : refusal.faults()) lines.push_back(to_string(fault));
-    return lines;
-  }
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
+  return test::faults_of([&] { parse_drive(text, "drive.toml", folder, {}); });
 }
 
 TEST(DriveFile, EveryBlockIsReadAndReferredToTheLoad) {

@@ -71,12 +71,8 @@ TEST(FirmwareFile, RefusesAFirmwareWithoutAPublishedConversion) {
       "public manual states how they convert");
   EXPECT_THAT(refusals({{"controller.kind", "feetech-sts"}}), ElementsAre(is_the_reason));
   Drive drive = read();
-  try {
-    set(drive, "controller.kind", "feetech-sts");
-    FAIL();
-  } catch (const InvalidInput& refusal) {
-    EXPECT_THAT(refusal.what(), is_the_reason);
-  }
+  EXPECT_THAT(test::faults_of([&] { set(drive, "controller.kind", "feetech-sts"); }),
+              ElementsAre(is_the_reason));
 }
 
 TEST(FirmwareFile, AnUnknownWordListsThoseThereAre) {

@@ -81,10 +81,7 @@ TEST(RobotForm, OtherSectionsAddToIt) {
 TEST(RobotForm, FaultsAreNamedAsItWasWritten) {
   const std::vector<Setting> inertia = {{"load.inertia", "0.4"}};
   const auto with = [&](const char* from, const char* to) {
-    std::string text = joint;
-    const std::size_t at = text.find(from);
-    EXPECT_NE(at, std::string::npos) << from;
-    return refusals_of_text(text.replace(at, std::string(from).size(), to), inertia);
+    return refusals_of_text(test::replaced(joint, from, to), inertia);
   };
   EXPECT_THAT(with("armature = 0.0022\n", ""), ElementsAre(HasSubstr("joint.armature is missing")));
   EXPECT_THAT(with("kp = 100\n", ""), ElementsAre(HasSubstr("actuator.kp is missing")));

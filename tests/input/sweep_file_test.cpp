@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "base/fault.hpp"
+#include "analysis/faults_of.hpp"
 
 namespace gearlash::sweep_file_test {
 namespace {
@@ -12,13 +12,7 @@ namespace {
 using testing::ElementsAre;
 
 std::vector<std::string> faults(const std::string& toml) {
-  std::vector<std::string> lines;
-  try {
-    parse_sweep(toml, "s.toml");
-  } catch (const InvalidInput& refusal) {
-    for (const Fault& fault : refusal.faults()) lines.push_back(to_string(fault));
-  }
-  return lines;
+  return test::faults_of([&] { parse_sweep(toml, "s.toml"); });
 }
 
 TEST(SweepFile, TheExampleIsRead) {
@@ -95,6 +89,32 @@ TEST(SweepFile, FaultsAreToldWithTheirPlaces) {
              "'friction_ratio=0,1', 'backlash=1,2', 'restitution=0,1', 'damping=1,2', "
              "'damping=3,4']\n"),
       ElementsAre(testing::HasSubstr("sweep.axes[6] = damping=3,4: must be at most 6 axes")));
+}
+
+TEST(SweepFile, EveryFaultIsTold) {
+  const auto expect_faults = [](const std::string& toml, const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) {
+      EXPECT_THAT(faults(toml), testing::Contains(testing::HasSubstr(text)));
+    }
+  };
+  expect_faults(
+      "[sweep]\n"
+      "axes = ['damping=0.6:0.1:5', 'weight=1:2:3', 'friction-ratio=0:1:1000000000000',\n"
+      "        'inertia-ratio=0:1:5:log', 'backlash=', 3]\n"
+      "quantities = ['amplitudes']\n",
+      {"s.toml:2:9: sweep.axes[0] = damping=0.6:0.1:5: must rise",
+       "s.toml:2:30: sweep.axes[1] = weight=1:2:3: must be a number or a choice",
+       "sweep.axes[2] = friction-ratio=0:1:1000000000000: must be from 1 to 1000000",
+       "sweep.axes[3] = inertia-ratio=0:1:5:log: must be positive",
+       "sweep.axes[4] = backlash=: must be PATH=", "sweep.axes[5] = 3: must be a text",
+       "sweep.quantities[0] = amplitudes: must be one of growth_at_rest, amplitude",
+       "(did you mean amplitude?)"});
+  expect_faults(
+      "[sweep]\naxes = ['damping=0.1:0.6:5', 'damping=0.7:0.8:5']\n"
+      "[servo]\ndamping = 0.1\ninertia_ratio = 1\n",
+      {"sweep.axes[1] = damping=0.7:0.8:5: must be another parameter than that of sweep.axes[0]",
+       "servo.damping = 0.1: must be left out: [sweep] varies it",
+       "servo.friction_ratio is missing: must be from 0 to 1"});
 }
 
 }  // namespace

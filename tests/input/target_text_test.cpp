@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/faults_of.hpp"
 #include "gearlash/input.hpp"
 
 namespace gearlash::target_text_test {
@@ -68,14 +69,7 @@ TEST(TargetText, OfADriveMayNameTimesIfItHasThem) {
 }
 
 std::vector<std::string> faults_of(std::string_view text, TimeScale scale = TimeScale::known) {
-  try {
-    read_target("--target", text, scale);
-  } catch (const InvalidInput& error) {
-    std::vector<std::string> lines;
-    for (const Fault& fault : error.faults()) lines.push_back(to_string(fault));
-    return lines;
-  }
-  return {};
+  return test::faults_of([&] { read_target("--target", text, scale); });
 }
 
 TEST(EdgeTargetText, FaultsAreToldAtOnceEachInALine) {

@@ -1,10 +1,12 @@
-// Drives read from text, and the faults of text that is refused.
+// Drives read from text, the faults of text that is refused, and text with a part replaced.
 #pragma once
+
+#include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-#include "gearlash/fault.hpp"
+#include "analysis/faults_of.hpp"
 #include "input/drive_file.hpp"
 
 namespace gearlash::test {
@@ -18,13 +20,13 @@ inline Drive drive_of_text(const std::string& text, const std::vector<Setting>& 
 inline std::vector<std::string> refusals_of_text(const std::string& text,
                                                  const std::vector<Setting>& settings = {},
                                                  const std::string& file = "joint.toml") {
-  std::vector<std::string> lines;
-  try {
-    (void)drive_of_text(text, settings, file);
-  } catch (const InvalidInput& refusal) {
-    for (const Fault& fault : refusal.faults()) lines.push_back(to_string(fault));
-  }
-  return lines;
+  return faults_of([&] { (void)drive_of_text(text, settings, file); });
+}
+
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
 }
 
 }  // namespace gearlash::test

@@ -68,7 +68,6 @@ TEST(Headline, NeedsNoCycle) {
   EXPECT_EQ(headline(irregular), "hunts irregularly: up to ±0.02 rad (1.15°)");
 }
 
-/// A start that ran away or stayed undecided is not in the small print alone.
 /// As a motor that ticks in its gap, beside hunting against the torque limit after large steps.
 TEST(Headline, NamesAMuchLargerMotionBesides) {
   AnswerReport report = report_of(Verdict::hunts_irregularly);
@@ -81,6 +80,7 @@ TEST(Headline, NamesAMuchLargerMotionBesides) {
   EXPECT_EQ(headline(report), "hunts irregularly: up to ±0.02 rad (1.15°)");
 }
 
+/// A start that ran away or stayed undecided is not in the small print alone.
 TEST(Headline, CountsTheStartsThatAreNoPartOfIt) {
   AnswerReport report = report_of(Verdict::hunts_irregularly);
   report.answer.irregular = {{.amplitude = 0.02}};

@@ -6,6 +6,9 @@
 
 #include <string>
 
+#include "picture/hunting_drive.hpp"
+#include "picture/svg_reading.hpp"
+
 namespace gearlash::bifurcation_picture_test {
 namespace {
 
@@ -35,21 +38,7 @@ BifurcationDiagram diagram_with_fold() {
 }
 
 Grid grid_of(const char* path, double high = 4.0) {
-  Drive drive;
-  drive.motor = {.inertia = 1.0, .friction = {.viscous = 0.9, .coulomb = 0.01}};
-  drive.load = {.inertia = 2.0, .friction = {.viscous = 0.1}};
-  drive.gearbox = {.ratio = 1.0, .backlash = 0.3};
-  drive.controller.law = PID{.proportional = 3.0};
-  return {.drive = drive, .axes = {linear(path, 1.0, high, 7)}};
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t place = text.find(part); place != std::string::npos;
-       place = text.find(part, place + 1)) {
-    ++found;
-  }
-  return found;
+  return {.drive = test::hunting_drive(), .axes = {linear(path, 1.0, high, 7)}};
 }
 
 TEST(BifurcationPicture, EachThingHasOneName) {
@@ -57,7 +46,7 @@ TEST(BifurcationPicture, EachThingHasOneName) {
                                             Quantity::amplitude, radians, PictureFormat::svg);
   for (const char* name : {"stable cycle", "unstable cycle", "can come to rest", "fold",
                            "something new", "border of running away"}) {
-    EXPECT_EQ(count(svg, ">" + std::string(name) + "</tspan>"), 1U) << name;
+    EXPECT_EQ(test::count_of(">" + std::string(name) + "</tspan>", svg), 1U) << name;
   }
   EXPECT_THAT(svg, AllOf(HasSubstr("amplitude (rad)"), HasSubstr("controller proportional"),
                          Not(HasSubstr("closes no cycle"))));

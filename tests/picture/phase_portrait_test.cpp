@@ -10,6 +10,7 @@
 
 #include "analysis/analyse.hpp"
 #include "picture/attractor_picture.hpp"
+#include "picture/hunting_drive.hpp"
 #include "picture/svg_reading.hpp"
 
 namespace gearlash::phase_portrait_test {
@@ -19,13 +20,10 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-/// A drive of the general engine that hunts from all starts.
-Drive hunting_drive() {
-  Drive drive;
-  drive.motor = {.inertia = 1.0, .friction = {.viscous = 0.9}, .limit = 2.0};
-  drive.load = {.inertia = 2.0, .friction = {.viscous = 0.1}};
-  drive.gearbox = {.ratio = 1.0, .backlash = 0.3};
-  drive.controller.law = PID{.proportional = 3.0};
+/// It hunts from all starts.
+Drive limited_drive() {
+  Drive drive = test::hunting_drive();
+  drive.motor.limit = 2.0;
   return drive;
 }
 
@@ -37,16 +35,8 @@ MotionPicture portrait_of(const Drive& drive, const Analysis& analysis, const Ba
   return picture;
 }
 
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
-    ++found;
-  }
-  return found;
-}
-
 TEST(PhasePortrait, ShowsTheWaysToTheHuntingUnderOneName) {
-  const Drive drive = hunting_drive();
+  const Drive drive = limited_drive();
   const Analysis analysis = analyse_in_full(drive);
   ASSERT_FALSE(has_several_basins(*analysis.search));
   const MotionPicture picture = portrait_of(drive, analysis, nullptr);
@@ -55,14 +45,14 @@ TEST(PhasePortrait, ShowsTheWaysToTheHuntingUnderOneName) {
                     [](const DrawnMotion& drawn) { return drawn.role == MotionRole::to_hunting; });
   EXPECT_GE(ways, 8);
   const std::string svg = draw_phase_plane(picture, PictureFormat::svg);
-  EXPECT_EQ(count(svg, ">load, on its way to hunting</tspan>"), 1U);
+  EXPECT_EQ(test::count_of(">load, on its way to hunting</tspan>", svg), 1U);
   EXPECT_THAT(svg, AllOf(HasSubstr("load, stable cycle"), Not(HasSubstr("border between basins")),
                          Not(HasSubstr("start that leads"))));
 }
 
 /// All of the cycle lies in the plane, with both shafts.
 TEST(PhasePortrait, ThePlaneHoldsTheHunting) {
-  const Drive drive = hunting_drive();
+  const Drive drive = limited_drive();
   const Analysis analysis = analyse_in_full(drive);
   const MotionPicture picture = portrait_of(drive, analysis, nullptr);
   const double amplitude = analysis.answer.cycles.front().amplitude;
@@ -77,7 +67,7 @@ TEST(PhasePortrait, ThePlaneHoldsTheHunting) {
 }
 
 TEST(PhasePortrait, MarksStartsByTheirEndAndTheBorder) {
-  const Drive drive = hunting_drive();
+  const Drive drive = limited_drive();
   const Analysis analysis = analyse_in_full(drive);
   const Basins basins{
       .positions = {.path = "position", .values = {-1.0, 1.0}},
@@ -95,7 +85,7 @@ TEST(PhasePortrait, MarksStartsByTheirEndAndTheBorder) {
 }
 
 TEST(PhasePortrait, ARampHasNoPlaneOfStarts) {
-  Drive drive = hunting_drive();
+  Drive drive = limited_drive();
   const Analysis analysis = analyse_in_full(drive);
   drive::ReducedDrive reduced = analysis.reduced;
   reduced.reference = drive::Ramp{.rate = 1.0};

@@ -1,6 +1,7 @@
-// What a picture in SVG shows: its text, and the strokes of one colour.
+// What a picture in SVG shows: its text, how often a part of it, and the strokes of one colour.
 #pragma once
 
+#include <cstddef>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -17,6 +18,14 @@ inline std::string visible_text(const std::string& svg) {
     if (c == '>') inside_tag = false;
   }
   return text;
+}
+
+inline std::size_t count_of(const std::string& part, const std::string& text) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+    ++count;
+  }
+  return count;
 }
 
 /// From one point of a path to the next, in pixels to the right and down.

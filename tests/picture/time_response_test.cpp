@@ -9,6 +9,7 @@
 
 #include "picture/axis_scale.hpp"
 #include "picture/gnuplot_script.hpp"
+#include "picture/hunting_drive.hpp"
 #include "picture/motion_picture.hpp"
 #include "picture/shown_end.hpp"
 #include "picture/svg_reading.hpp"
@@ -111,13 +112,9 @@ TEST(Wrapped, LongLinesBreakAfterASemicolonElseAComma) {
 
 /// A drive of the general engine that hunts, whose encoder has coarse steps.
 Drive coarse_drive() {
-  Drive drive;
-  drive.motor = {.inertia = 1.0, .friction = {.viscous = 0.9}};
-  drive.load = {.inertia = 2.0, .friction = {.viscous = 0.1}};
-  drive.gearbox = {.ratio = 1.0, .backlash = 0.3};
+  Drive drive = test::hunting_drive();
   drive.sensor.encoder.counts_per_turn = 100.0;
   drive.sampling = Sampling{.period = 0.05};
-  drive.controller.law = PID{.proportional = 3.0};
   drive.reference = StepSignal{.before = 0.0, .after = 5.0, .time = 2.0};
   return drive;
 }
@@ -149,9 +146,7 @@ TEST(TimeResponse, EachThingHasOneNameInTheLegend) {
     text.erase(from, text.find("</title>", from) - from);
   }
   for (const std::string name : {"gap, ± half the backlash", "faces apart", "encoder steps"}) {
-    const std::size_t place = text.find(name);
-    ASSERT_NE(place, std::string::npos) << name;
-    EXPECT_EQ(text.find(name, place + 1), std::string::npos) << name;
+    EXPECT_EQ(test::count_of(name, text), 1U) << name;
   }
 }
 
