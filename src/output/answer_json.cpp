@@ -110,7 +110,7 @@ Json json_search(const std::optional<SearchRecord>& search) {
           {"starts", json_list(search->starts, &json_start)}};
 }
 
-Json json_bounds(const std::optional<ProvedBounds>& bounds) {
+Json json_proved_bounds(const std::optional<ProvedBounds>& bounds) {
   if (!bounds) return nullptr;
   const auto of_cycle = [&](const Bounds& range) {
     return bounds->has_cycle ? json_range(range) : Json(nullptr);
@@ -142,7 +142,7 @@ std::string answer_json(const AnswerReport& report) {
       {"completeness", name_of(answer.completeness)}};
   json["normal_form"] = json_normal_form(answer.normal_form);
   json["growth_at_rest"] = json_optional(answer.growth_at_rest);
-  json["bounds"] = json_bounds(answer.bounds);
+  json["bounds"] = json_proved_bounds(answer.bounds);
   json["ceiling"] = ceiling_json(answer.ceiling);
   json["specification"] = specification_json(report);
   json["dissipative"] = answer.is_dissipative;

@@ -12,8 +12,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double turn = 2.0 * std::numbers::pi;
-
 /// The width in letters, without the "_" of subscripts.
 std::size_t width_of(const std::string& text) {
   const auto marks = std::count(text.begin(), text.end(), '_');
@@ -34,7 +32,7 @@ std::optional<Complex> TextPlacer::place(const Complex& point, const std::string
   double least = std::numeric_limits<double>::infinity();
   for (const double distance : {0.016, 0.034, 0.06}) {
     for (int direction = 0; direction < 16; ++direction) {
-      const Box box = beside(point, turn * direction / 16.0, distance, width);
+      const Box box = beside(point, std::numbers::pi * direction / 8.0, distance, width);
       const double cost = cost_of(box) + 20.0 * distance;
       if (cost >= least) continue;
       least = cost;

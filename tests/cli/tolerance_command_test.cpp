@@ -86,14 +86,13 @@ TEST(ToleranceCommand, DistributionsAreDrawn) {
 }
 
 TEST(ToleranceCommand, OfAnyDriveSaysHowManyHunt) {
-  const Outcome text = run_tool({"tolerance", "examples/toleranced-joint.toml", "--set",
-                                 "motor.coulomb=0.153 kgf mm", "--set", "load.coulomb=20 mN m",
-                                 "--set", "load.inertia=0.025 kg m2", "--samples", "32"});
+  const Outcome text = run_tool({"tolerance", "examples/first-servo.toml", "--set",
+                                 "gearbox.backlash=6 arcmin ± 20 %", "--samples", "32"});
   ASSERT_EQ(text.status, 0) << text.err;
   EXPECT_THAT(text.out,
               HasSubstr("hunt                                 all 32, so at least 90.62 %"));
   EXPECT_THAT(text.out, HasSubstr("amplitude of the motor, mean of all"));
-  EXPECT_THAT(text.out, HasSubstr("gearbox.backlash  0.5 deg to 2 deg"));
+  EXPECT_THAT(text.out, HasSubstr("gearbox.backlash  ± 20 %"));
   EXPECT_THAT(text.out, HasSubstr("Ends of the tolerances were tried"));
 }
 
