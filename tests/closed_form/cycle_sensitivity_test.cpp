@@ -245,21 +245,6 @@ TEST(PropertyCycleSensitivity, GrowthWithBouncesAgreesWithDifferences) {
   }
 }
 
-TEST(CycleSensitivity, OfAnAsymmetricCycleWhoseBouncesDoNotSettle) {
-  NormalizedServo servo = sample;
-  servo.restitution = 0.6;
-  const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
-  const LimitCycle& cycle = *largest_stable(analysis);
-  ASSERT_EQ(cycle.kind, CycleKind::asymmetric);
-  ASSERT_FALSE(cycle.settles);
-  const CycleSensitivity found = cycle_sensitivity(servo);
-  ASSERT_TRUE(found.available());
-  EXPECT_EQ(found.amplitude.value, cycle.amplitude);
-  // It begins as a fork next by: a short step, and so a rough difference.
-  const double slope = numerical_slope(servo, &NormalizedServo::damping, 1e-7, &LimitCycle::period);
-  EXPECT_NEAR(found.period.slope.damping, slope, 1e-4 * std::abs(slope));
-}
-
 TEST(EdgeCycleSensitivity, AnIrregularMotionHasTheGrowthAlone) {
   NormalizedServo servo = sample;
   servo.restitution = 0.9;
