@@ -220,16 +220,6 @@ TEST(PropertyDriveSensitivity, KnowsTheScalesOfTorqueTimeAndAngle) {
   }
 }
 
-TEST(DriveSensitivity, OfAmplitudeByBacklashIsOneForOne) {
-  const Jacobian found = derivatives(
-      armature_drive(), {Quantity::amplitude, Quantity::frequency, Quantity::growth_at_rest},
-      {"gearbox.backlash", "contact.restitution"});
-  EXPECT_DOUBLE_EQ(*found.elasticity(0, 0), 1.0);
-  EXPECT_EQ(*found.elasticity(1, 0), 0.0);
-  EXPECT_EQ(*found.elasticity(2, 0), 0.0);
-  EXPECT_EQ(*found.elasticity(0, 1), 0.0);
-}
-
 // ---- edges --------------------------------------------------------------------------------------
 
 TEST(EdgeDriveSensitivity, WithoutACycleSaysSo) {
