@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
 
 #include "base/correct_digits.hpp"
@@ -97,24 +96,6 @@ TEST(OracleDriveSystem, TheRigidServoIsTheClosedForm) {
     EXPECT_NEAR(found[load_position], wanted.load_position, 1e-11);
     EXPECT_NEAR(found[load_speed], wanted.load_speed, 1e-11);
   }
-}
-
-// ---- friction -----------------------------------------------------------------------------------
-
-/// A motor alone, far from both faces, on a spring (K = 1) with dry friction: half swings about
-/// ±F/K, each of time π, until it sticks.
-TEST(OracleDriveSystem, DryFrictionStopsAnOscillatorInHalfSwings) {
-  ReducedDrive drive;
-  drive.motor = {1.0, {.coulomb = 0.1, .breakaway = 0.15}};
-  drive.load.inertia = 1.0;
-  drive.backlash = 100.0;
-  drive.controller = ProportionalDerivative{1.0, 0.0};
-  drive.sensing.load_share_of_position = 0.0;
-  const auto motion = run(drive, {.motor_position = 1.0}, 40.0);
-  // 1 → −0.8 → 0.6 → −0.4 → 0.2 → 0, where the spring is slack.
-  EXPECT_NEAR(motion.end().numbers[motor_position], 0.0, 1e-12);
-  EXPECT_EQ(motion.end().numbers[motor_speed], 0.0);
-  EXPECT_NEAR(motion.events().back().time, 5.0 * std::numbers::pi, 1e-12);
 }
 
 TEST(EdgeDriveSystem, FaultsAreToldAllAtOnce) {

@@ -214,16 +214,5 @@ TEST(EdgePeriodicOrbit, WhereNothingActsOnAnyNumberThereAreNoMultipliers) {
   EXPECT_TRUE(orbit->multipliers.empty());
 }
 
-TEST(EdgePeriodicOrbit, AShiftInTimeIsNoMultiplier) {
-  const NormalizedServo servo{
-      .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3};
-  const hybrid::HybridSystem system = servo_system(servo);
-  const auto motion =
-      simulate(system, {separated, Vector{{-0.9, 0.0, -1.0, 0.0}}}, {.until = 200.0});
-  const auto orbit = closing_orbit(system, motion);
-  ASSERT_TRUE(orbit);
-  EXPECT_EQ(orbit->multipliers.size(), 3U);
-}
-
 }  // namespace
 }  // namespace gearlash::periodic_orbit_test

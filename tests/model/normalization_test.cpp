@@ -125,31 +125,5 @@ TEST(EdgeNormalization, ATotalInertiaBeyondDoublesIsNotTakenForZeroDamping) {
   }
 }
 
-TEST(PropertyReferring, GearRatioScalesAsAppendixASays) {
-  constexpr std::uint64_t seed = 1961;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
-  for (int i = 0; i < 1000; ++i) {
-    Drive direct;
-    direct.motor = {.kind = ArmatureControl{.torque_constant = draws.log_uniform(1e-3, 1),
-                                            .back_emf_constant = draws.log_uniform(1e-3, 1),
-                                            .resistance = draws.log_uniform(0.1, 1e3)},
-                    .inertia = draws.log_uniform(1e-30, 1.0),
-                    .friction = {.viscous = draws.log_uniform(1e-12, 1.0)}};
-    direct.gearbox = {.ratio = 1.0, .backlash = 0.1};
-    direct.load = {1e-3, {.viscous = 1e-3}};
-    direct.controller.law = PID{.proportional = draws.log_uniform(1e-2, 1e3)};
-    Drive geared = direct;
-    const double ratio = draws.log_uniform(1e-2, 1e3);
-    geared.gearbox.ratio = ratio;
-    const Drivetrain at_one = referred_drivetrain(direct);
-    const Drivetrain at_ratio = referred_drivetrain(geared);
-    expect_close(at_ratio.stiffness, at_one.stiffness * ratio, 4.0);
-    expect_close(at_ratio.motor_inertia, at_one.motor_inertia * ratio * ratio, 4.0);
-    expect_close(at_ratio.motor_friction, at_one.motor_friction * ratio * ratio, 5.0);
-    if (HasFailure()) FAIL() << "draw " << i;
-  }
-}
-
 }  // namespace
 }  // namespace gearlash::normalization_test
