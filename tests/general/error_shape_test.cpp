@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <string>
 #include <vector>
 
-#include "general/assemble/drive_system.hpp"
+#include "drives.hpp"
 
 namespace gearlash::drive::error_shape_test {
 namespace {
@@ -15,15 +14,7 @@ namespace {
 constexpr double inertia = 2.0;
 constexpr double friction = 0.3;
 
-/// A motor by itself, far from both faces.
-ReducedDrive lone_motor() {
-  ReducedDrive drive;
-  drive.motor = {inertia, {.viscous = friction}};
-  drive.load = {1.0, {.viscous = 0.1}};
-  drive.backlash = 1e6;
-  drive.sensing = {.load_share_of_position = 0.0};
-  return drive;
-}
+const Shaft motor{inertia, {.viscous = friction}};
 
 ErrorShape relay(double width, double hysteresis) {
   return {.begins = width + hysteresis,
@@ -32,11 +23,6 @@ ErrorShape relay(double width, double hysteresis) {
           .outer_gain = 0.0,
           .offset = 1.0,
           .jumps = true};
-}
-
-hybrid::Trajectory run(const ReducedDrive& drive, const ShaftStates& start, double until) {
-  const DriveSystem built = drive_system(drive);
-  return simulate(built.system, drive_start(drive, built, start), {.until = until});
 }
 
 /// The motor by Runge and Kutta's method, its torque a function of the error that may remember.
@@ -78,10 +64,10 @@ std::vector<Shaped> shapes() {
 
 TEST(OracleErrorShape, MovesAsSmallStepsDo) {
   for (const auto& [name, shape] : shapes()) {
-    ReducedDrive drive = lone_motor();
+    ReducedDrive drive = lone_motor(motor);
     drive.controller = ProportionalDerivative{.proportional = 4.0};
     drive.error_shape = shape;
-    const auto motion = run(drive, {.motor_position = 1.0}, 20.0);
+    const auto motion = moved(drive, {.motor_position = 1.0}, 20.0);
     int branch = shape.is_two_level() ? -1 : 0;
     const auto torque = [&, &shape = shape](double error) {
       for (int turn = 0; turn < 2; ++turn) {  // a branch may end where the other one begins
@@ -107,15 +93,14 @@ TEST(OracleErrorShape, IsARecursionFromSampleToSample) {
   constexpr double period = 0.1;
   for (const double delay : {0.0, 0.03, period, 0.25}) {
     for (const auto& [name, shape] : shapes()) {
-      ReducedDrive drive = lone_motor();
-      drive.motor.friction.viscous = 0.0;
+      ReducedDrive drive = lone_motor({inertia});
       drive.controller = ProportionalDerivative{4.0, 3.0};
       drive.error_shape = shape;
       drive.sampling = Sampling{.period = period, .delay = delay};
       drive.sensing.resolution = drive.sensing.resolution_of_speed = 0.013;
       drive.torque_limit = 2.0;
       drive.reference = 1.0;
-      const auto motion = run(drive, {.motor_position = 0.2, .motor_speed = 0.3}, 20.0);
+      const auto motion = moved(drive, {.motor_position = 0.2, .motor_speed = 0.3}, 20.0);
       const auto read = [](double value) { return 0.013 * std::round(value / 0.013); };
       double position = 0.2, speed = 0.3, last = read(0.2 - period * 0.3), given = 0.0;
       const auto coast = [&](double time) {
@@ -150,7 +135,7 @@ TEST(OracleErrorShape, IsARecursionFromSampleToSample) {
 }
 
 TEST(EdgeErrorShape, ThatMaySwitchWithoutEndIsRefused) {
-  ReducedDrive drive = lone_motor();
+  ReducedDrive drive = lone_motor(motor);
   drive.controller = ProportionalDerivative{.proportional = 4.0};
   drive.error_shape = relay(0.1, 0.0);
   ASSERT_EQ(validate(drive).size(), 1U);
