@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "base/references.hpp"
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 #include "closed_form/engaged_flow.hpp"
 
 namespace gearlash::contact_law_test {
@@ -36,9 +36,7 @@ Momentum momentum_of(const ServoDynamics& dynamics, double load_speed, double ga
 }
 
 TEST(PropertyImpact, MomentumIsKeptAndEnergyNeverGrows) {
-  constexpr std::uint64_t seed = 99;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(99);
   for (int i = 0; i < 50000; ++i) {
     const double restitution =
         draws.happens(0.3) ? draws.one_of({0.0, 1.0}) : draws.uniform(0.0, 1.0);
@@ -224,9 +222,7 @@ TEST(OracleSettlingBounces, DurationIsRightToThirdOrder) {
 }
 
 TEST(OracleSettlingBounces, WhenImminentItIsRightToRounding) {
-  constexpr std::uint64_t seed = 104;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(104);
   for (int i = 0; i < 20; ++i) {
     const double first_order = draws.log_uniform(1e-9, 8e-6);
     const BounceStart start = bounce_start(draws, first_order);

@@ -10,7 +10,7 @@
 #include "base/described.hpp"
 #include "base/range_check.hpp"
 #include "base/references.hpp"
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 #include "closed_form/growth_at_rest.hpp"
 #include "closed_form/limit_cycle.hpp"
 
@@ -215,9 +215,7 @@ TEST(PropertyCycleSensitivity, SmallRestitutionActsToThirdOrder) {
 
 /// Of the growth at rest; bouncing_sensitivity_test.cpp has the cycle's.
 TEST(PropertyCycleSensitivity, GrowthWithBouncesAgreesWithDifferences) {
-  constexpr std::uint64_t seed = 2105;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(2105);
   for (int i = 0; i < 25; ++i) {
     const NormalizedServo servo{.damping = draws.uniform(0.05, 0.5),
                                 .inertia_ratio = draws.log_uniform(0.2, 5.0),

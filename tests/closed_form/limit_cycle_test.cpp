@@ -4,12 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "base/described.hpp"
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 #include "closed_form/extremes.hpp"
 
 namespace gearlash::limit_cycle_test {
@@ -51,9 +50,7 @@ NormalizedServo random_servo(SeededDraws& draws) {
 }
 
 TEST(PropertyVerdict, PlasticServosDoWhatItSays) {
-  constexpr std::uint64_t seed = 701;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(701);
   int hunting = 0;
   int resting = 0;
   for (int i = 0; i < 250 && !testing::Test::HasFailure(); ++i) {
@@ -90,9 +87,7 @@ TEST(PropertyVerdict, PlasticServosDoWhatItSays) {
 }
 
 TEST(PropertyVerdict, FrictionOnOneSideOnlyAlwaysHunts) {
-  constexpr std::uint64_t seed = 702;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(702);
   for (int i = 0; i < 300; ++i) {
     NormalizedServo servo = random_servo(draws);
     servo.damping = draws.uniform(0.001, 3.0);
@@ -192,9 +187,7 @@ TEST(OracleRestitution, SizesOfSettledRuns) {
 }
 
 TEST(PropertyRestitution, EveryReportedCycleReturnsToItself) {
-  constexpr std::uint64_t seed = 704;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(704);
   int cycles = 0;
   for (int i = 0; i < 25 && !testing::Test::HasFailure(); ++i) {
     NormalizedServo servo = random_servo(draws);
@@ -237,9 +230,7 @@ TEST(PropertyRestitution, EveryReportedCycleReturnsToItself) {
 /// Size at the start of crossing number n, run by the simulator from a cycle's start disturbed by a
 /// common factor; the largest multiplier is the rate at which the disturbance grows.
 TEST(PropertyRestitution, MultiplierIsTheRateAtWhichADisturbanceOfASettledCycleGrows) {
-  constexpr std::uint64_t seed = 705;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(705);
   int compared = 0;
   for (int i = 0; i < 40 && compared < 8 && !testing::Test::HasFailure(); ++i) {
     NormalizedServo servo = random_servo(draws);
@@ -278,9 +269,7 @@ TEST(PropertyRestitution, MultiplierIsTheRateAtWhichADisturbanceOfASettledCycleG
 }
 
 TEST(PropertyRestitution, VerdictIsWhatALongSimulationDoes) {
-  constexpr std::uint64_t seed = 706;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(706);
   int hunting = 0;
   int resting = 0;
   for (int i = 0; i < 40 && !testing::Test::HasFailure(); ++i) {
@@ -374,9 +363,7 @@ bool rests_engaged(const NormalizedServo& servo, const ServoState& start) {
 }
 
 TEST(PropertyVerdict, OverdampedServosRestAfterLargeMotionsAndHuntAfterSmallOnes) {
-  constexpr std::uint64_t seed = 641;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(641);
   int hunting = 0;
   for (int i = 0; i < 1000 && !testing::Test::HasFailure(); ++i) {
     const NormalizedServo servo = overdamped_servo(draws);

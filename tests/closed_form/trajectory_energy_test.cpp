@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdint>
 
+#include "base/traced_draws.hpp"
 #include "closed_form/trajectory.hpp"
 #include "random_starts.hpp"
 
@@ -55,18 +55,14 @@ void expect_balanced(const RandomStart& start, double until, SeededDraws& draws)
 }
 
 TEST(PropertyEnergy, BooksBalanceForRandomServos) {
-  constexpr std::uint64_t seed = 301;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(301);
   for (int i = 0; i < 600 && !testing::Test::HasFailure(); ++i) {
     expect_balanced(random_start(draws), 20.0, draws);
   }
 }
 
 TEST(PropertyEnergy, BooksBalanceForMasslessSides) {
-  constexpr std::uint64_t seed = 302;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(302);
   for (int i = 0; i < 300 && !testing::Test::HasFailure(); ++i) {
     RandomStart start = random_start(draws);
     start.servo.damping = draws.uniform(0.05, 1.5);
@@ -79,9 +75,7 @@ TEST(PropertyEnergy, BooksBalanceForMasslessSides) {
 }
 
 TEST(PropertyEnergy, BooksBalanceWithoutDamping) {
-  constexpr std::uint64_t seed = 303;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(303);
   for (int i = 0; i < 100 && !testing::Test::HasFailure(); ++i) {
     RandomStart start = random_start(draws);
     start.servo.damping = 0.0;

@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "base/range_check.hpp"
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 #include "closed_form/limit_cycle.hpp"
 #include "servo_system.hpp"
 
@@ -44,9 +44,7 @@ double amplitude_of(const hybrid::PeriodicOrbit& orbit) {
 }
 
 TEST(OraclePeriodicOrbit, OfServosIsTheClosedFormsCycle) {
-  constexpr std::uint64_t seed = 6101;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(6101);
   int compared = 0;
   double worst_period = 0.0;
   double worst_multiplier = 0.0;

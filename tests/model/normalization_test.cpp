@@ -2,10 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash::normalization_test {
@@ -39,9 +38,7 @@ Drivetrain drivetrain_of(const NormalizedServo& servo, double inertia, double fr
 constexpr double round_trip_epsilons = 10.0;
 
 TEST(PropertyNormalization, RoundTripThroughPhysicalUnits) {
-  constexpr std::uint64_t seed = 1960;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(1960);
   for (int i = 0; i < 10000; ++i) {
     NormalizedServo servo{.damping = draws.uniform(0.001, 3.0),
                           .inertia_ratio = draws.log_uniform(1e-8, 1e8),

@@ -9,7 +9,7 @@
 #include "analysis/ceiling/ceiling.hpp"
 #include "analysis/design/proved_values.hpp"
 #include "analysis/pd_drive.hpp"
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 #include "gearlash/parameter.hpp"
 #include "model/reduced_drive.hpp"
 
@@ -17,8 +17,6 @@ namespace gearlash::enclosed_ceiling_test {
 namespace {
 
 using testing::HasSubstr;
-
-constexpr std::uint64_t seed = 42;
 
 Drive undriven_pd() {
   Drive drive = pd_drive();
@@ -89,8 +87,7 @@ Drive drawn_from(const Drive& drive, const std::vector<BoxSide>& box, SeededDraw
 }
 
 TEST(PropertyEnclosedCeiling, NoDriveOfTheBoxIsAbove) {
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  SeededDraws draws(seed);
+  TracedDraws draws(42);
   for (const Case& one : cases()) {
     SCOPED_TRACE(one.name);
     const std::vector<BoxSide> box = box_of(one);
@@ -147,8 +144,7 @@ TEST(EdgeEnclosedCeiling, SaysWhyThereIsNone) {
 }
 
 TEST(PropertyEnclosedCeiling, ATargetIsProvedOverTheValuesItSays) {
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  SeededDraws draws(seed);
+  TracedDraws draws(42);
   // The ceiling falls as the damping rises.
   const Drive drive = normal_form(0.19, 2.0, 0.1, 0.3);
   const double limit = *ceiling_of(reduce_settled(drive)).load;
