@@ -108,15 +108,23 @@ constexpr NormalizedServo sample{
     .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3};
 
 /// By Richardson's extrapolation of central differences, good to some 1e-9 of value/parameter.
+template <class Value>
 double numerical_slope(const NormalizedServo& servo, double NormalizedServo::*number, double step,
-                       double LimitCycle::*quantity) {
+                       const Value& value_of) {
   const auto at = [&](double shift) {
     NormalizedServo changed = servo;
     changed.*number += shift;
-    return analyse_limit_cycles(changed).cycles.at(0).*quantity;
+    return value_of(changed);
   };
   const auto difference = [&](double h) { return (at(h) - at(-h)) / (2.0 * h); };
   return (4.0 * difference(0.5 * step) - difference(step)) / 3.0;
+}
+
+double numerical_slope(const NormalizedServo& servo, double NormalizedServo::*number, double step,
+                       double LimitCycle::*quantity) {
+  return numerical_slope(servo, number, step, [&](const NormalizedServo& changed) {
+    return analyse_limit_cycles(changed).cycles.at(0).*quantity;
+  });
 }
 
 TEST(EdgeCycleSensitivity, EqualRatesAndExactlyCriticalDamping) {
@@ -226,15 +234,10 @@ TEST(PropertyCycleSensitivity, GrowthWithBouncesAgreesWithDifferences) {
     const CycleSensitivity found = cycle_sensitivity(servo);
     const auto compare = [&](double NormalizedServo::*number, double ServoGradient::*slope) {
       const double step = 1e-4 * std::min(servo.*number, 1.0 - servo.friction_ratio);
-      const auto difference = [&](double distance) {
-        NormalizedServo low = servo;
-        NormalizedServo high = servo;
-        low.*number -= distance;
-        high.*number += distance;
-        return (growth_at_rest(servo_dynamics(high)) - growth_at_rest(servo_dynamics(low))) /
-               (2.0 * distance);
-      };
-      const double expected = (4.0 * difference(0.5 * step) - difference(step)) / 3.0;
+      const double expected =
+          numerical_slope(servo, number, step, [](const NormalizedServo& changed) {
+            return growth_at_rest(servo_dynamics(changed));
+          });
       EXPECT_NEAR(found.growth_at_rest.slope.*slope, expected,
                   1e-7 * (std::abs(expected) + found.growth_at_rest.value / servo.*number));
     };

@@ -1,7 +1,6 @@
 // The books: every entry is computed from its own definition, so their balance is a test of all.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 
 #include "base/traced_draws.hpp"
 #include "closed_form/trajectory.hpp"
@@ -74,15 +73,6 @@ TEST(PropertyEnergy, BooksBalanceForMasslessSides) {
   }
 }
 
-TEST(PropertyEnergy, BooksBalanceWithoutDamping) {
-  TracedDraws draws(303);
-  for (int i = 0; i < 100 && !testing::Test::HasFailure(); ++i) {
-    RandomStart start = random_start(draws);
-    start.servo.damping = 0.0;
-    expect_balanced(start, 20.0, draws);
-  }
-}
-
 TEST(PropertyEnergy, EntriesOfLossNeverFall) {
   SeededDraws draws(304);
   for (int i = 0; i < 100; ++i) {
@@ -97,16 +87,6 @@ TEST(PropertyEnergy, EntriesOfLossNeverFall) {
       ASSERT_GE(now.impacts, before.impacts) << describe(start);
       before = now;
     }
-  }
-}
-
-TEST(PropertyEnergy, ElasticImpactsLoseNothing) {
-  SeededDraws draws(305);
-  for (int i = 0; i < 50; ++i) {
-    RandomStart start = random_start(draws);
-    start.servo.restitution = 1.0;
-    const Trajectory motion = run(start, 10.0);
-    ASSERT_EQ(motion.energy_at(10.0).impacts, 0.0) << describe(start);
   }
 }
 
