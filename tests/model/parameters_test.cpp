@@ -279,9 +279,6 @@ TEST(ReducedDrives, TheClosedFormIsFoundByPhysics) {
   ASSERT_TRUE(closed);
   drive.controller.law = PID{.proportional = 0.5};
   EXPECT_EQ(closed->servo, closed_form_servo(drive)->servo);
-  // A lead-lag element whose zero is its pole.
-  drive.controller.law = LeadLagController{0.5, 10.0, 10.0};
-  EXPECT_EQ(closed->servo, closed_form_servo(drive)->servo);
   EXPECT_TRUE(closed_form_servo(normal_form(0.2, 1.0, 0.2))->is_as_given);
 }
 
