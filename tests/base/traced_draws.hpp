@@ -9,10 +9,8 @@ namespace gearlash {
 
 class TracedDraws : public SeededDraws {
  public:
-  /// The place is that of the caller.
-  explicit TracedDraws(std::uint64_t seed, const char* file = __builtin_FILE(),
-                       int line = __builtin_LINE())
-      : SeededDraws(seed), trace_(file, line, testing::Message() << "seed " << seed) {}
+  explicit TracedDraws(std::uint64_t seed)
+      : SeededDraws(seed), trace_(__FILE__, __LINE__, testing::Message() << "seed " << seed) {}
 
  private:
   testing::ScopedTrace trace_;

@@ -234,10 +234,9 @@ TEST(PropertyCycleSensitivity, GrowthWithBouncesAgreesWithDifferences) {
     const CycleSensitivity found = cycle_sensitivity(servo);
     const auto compare = [&](double NormalizedServo::*number, double ServoGradient::*slope) {
       const double step = 1e-4 * std::min(servo.*number, 1.0 - servo.friction_ratio);
-      const double expected =
-          numerical_slope(servo, number, step, [](const NormalizedServo& changed) {
-            return growth_at_rest(servo_dynamics(changed));
-          });
+      const double expected = numerical_slope(
+          servo, number, step,
+          [](const NormalizedServo& changed) { return growth_at_rest(servo_dynamics(changed)); });
       EXPECT_NEAR(found.growth_at_rest.slope.*slope, expected,
                   1e-7 * (std::abs(expected) + found.growth_at_rest.value / servo.*number));
     };

@@ -1,7 +1,6 @@
 // The books: every entry is computed from its own definition, so their balance is a test of all.
 #include <gtest/gtest.h>
 
-
 #include "base/traced_draws.hpp"
 #include "closed_form/trajectory.hpp"
 #include "random_starts.hpp"

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-
 #include "base/seeded_draws.hpp"
 #include "closed_form/lanes/cycle_batch.hpp"
 #include "toleranced_samples.hpp"
