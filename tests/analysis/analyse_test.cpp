@@ -37,16 +37,6 @@ TEST(Analyse, NotesWhatASheetSaysAndTheModelLacks) {
   EXPECT_EQ(answer.notes[0].text.substr(0, 42), "gearbox.efficiency = 0.72 is not modelled:");
 }
 
-TEST(Analyse, AWindingWithInductanceHasNoClosedFormButACeiling) {
-  Drive drive = almost_undamped_motor(0.5);
-  drive.motor.kind = ArmatureControl{.torque_constant = 0.1, .resistance = 1.0};
-  EXPECT_TRUE(closed_form_servo(drive));
-  std::get<ArmatureControl>(drive.motor.kind).inductance = 1e-4;
-  EXPECT_FALSE(closed_form_servo(drive));
-  const Ceiling ceiling = *analyse(drive, {.ceiling = true}).ceiling;
-  EXPECT_TRUE(ceiling.load) << ceiling.reason;
-}
-
 TEST(EdgeAnalyse, BoundsCoverTheDataWhereTheFrictionIsADifference) {
   const Drive drive = almost_undamped_motor(1e-7);
   const Answer answer = analyse(drive);

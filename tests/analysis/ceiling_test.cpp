@@ -7,10 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <deque>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "base/seeded_draws.hpp"
 #include "closed_form/limit_cycle.hpp"
@@ -24,16 +21,6 @@ namespace {
 using drive::ReducedDrive;
 using testing::HasSubstr;
 
-/// In backlashes, from the design notes of version 0.2, by floating-point quadrature.
-TEST(OracleCeiling, HasTheValuesOfIndependentQuadrature) {
-  const auto load = [](double damping, double inertia_ratio, double friction_ratio) {
-    return *ceiling_of(reduce(normal_form(damping, inertia_ratio, friction_ratio))).load;
-  };
-  EXPECT_NEAR(load(0.19, 2.0, 0.1), 0.8542, 6e-5);
-  EXPECT_NEAR(load(0.1, 1.0, 0.2), 1.8597, 6e-5);
-  EXPECT_NEAR(load(0.4, 4.0, 0.2), 0.5466, 6e-5);
-}
-
 /// G + J_M/J = (c s − J_M/J)… of the servo: |G(∞)| and the norm of a second order in closed form.
 TEST(OracleCeiling, OfALoadThatIsAllTheInertia) {
   // J_M = 0, F_M = F: G = −(F s)/(s² + F s + 1), whose response e^{−ζt}(cos − …) changes its sign.
@@ -46,151 +33,6 @@ TEST(OracleCeiling, OfALoadThatIsAllTheInertia) {
   const Ceiling ceiling = ceiling_of(reduce(normal_form(damping, infinity, 0.0)));
   EXPECT_NEAR(*ceiling.load, 0.5 * norm, 1e-4 * norm);
   EXPECT_NEAR(*ceiling.motor, 0.5 * (norm + 1.0), 1e-4 * norm);
-}
-
-// ---- a loop followed step by step ---------------------------------------------------------------
-
-/// Both shafts, joined at a given gap, under a computer that runs a PD controller. By hand: the gap
-/// leaps, momentum and friction share the leap.
-class GappedLoop {
- public:
-  GappedLoop(const ReducedDrive& drive, double proportional, double derivative)
-      : drive_(drive), proportional_(proportional), derivative_(derivative) {
-    const drive::SplitDelay delay = drive::split_delay(*drive.sampling);
-    is_delayed_ = delay.rest > 0.0;
-    gives_out_between_ = is_delayed_ && delay.rest < drive.sampling->period;
-    const int waiting = delay.whole_periods + (is_delayed_ && !gives_out_between_ ? 1 : 0);
-    waiting_.assign(static_cast<std::size_t>(waiting), 0.0);
-  }
-
-  void leap(double change) {
-    const double share = drive_.motor.inertia / inertia();
-    const double of_load = -share * change;
-    const double of_motor = change + of_load;
-    load_ += of_load;
-    motor_ += of_motor;
-    speed_ -= (drive_.motor.friction.viscous * of_motor + drive_.load.friction.viscous * of_load) /
-              inertia();
-  }
-
-  /// At a tick.
-  void tick() {
-    const Reading now = reading();
-    const double asked = -proportional_ * now.position -
-                         derivative_ * (now.counted - last_) / drive_.sampling->period;
-    last_ = now.counted;
-    waiting_.push_back(asked);
-    if (!gives_out_between_) give_out();
-  }
-  /// At the tick, or where the rest of the delay is over.
-  void give_out() {
-    torque_ = waiting_.front();
-    waiting_.pop_front();
-  }
-  void coast(double time) {
-    const double rate = friction() / inertia();
-    const double final_speed = torque_ / friction();
-    const double factor = std::exp(-rate * time);
-    const double way = final_speed * time + (speed_ - final_speed) * (1.0 - factor) / rate;
-    load_ += way;
-    motor_ += way;
-    speed_ = final_speed + (speed_ - final_speed) * factor;
-  }
-  double load() const { return load_; }
-
- private:
-  struct Reading {
-    double position;
-    double counted;
-  };
-  Reading reading() const {
-    const auto of = [&](double share) { return share * load_ + (1.0 - share) * motor_; };
-    return {of(drive_.sensing.load_share_of_position), of(drive_.sensing.load_share_of_speed)};
-  }
-  double inertia() const { return drive_.motor.inertia + drive_.load.inertia; }
-  double friction() const { return drive_.motor.friction.viscous + drive_.load.friction.viscous; }
-
-  ReducedDrive drive_;
-  double proportional_;
-  double derivative_;
-  std::deque<double> waiting_;
-  bool is_delayed_ = false;
-  bool gives_out_between_ = false;
-  double load_ = 0.0;
-  double motor_ = 0.0;
-  double speed_ = 0.0;
-  double last_ = 0.0;
-  double torque_ = 0.0;
-};
-
-/// The largest load position that a gap within ±1, constant over each part of a tick, can cause.
-double summed_responses(const ReducedDrive& drive, double proportional, double derivative,
-                        int parts, int ticks) {
-  const double period = drive.sampling->period;
-  const double part = period / parts;
-  const double rest = drive::split_delay(*drive.sampling).rest;
-  const int gives_out = static_cast<int>(std::lround(rest / part));
-  // responses[i][k]: to a leap at the start of part i, seen at the start of part k from then on.
-  std::vector<std::vector<double>> responses;
-  for (int leap = 0; leap < parts; ++leap) {
-    GappedLoop loop(drive, proportional, derivative);
-    std::vector<double>& seen = responses.emplace_back();
-    for (int k = 0; k < parts * ticks; ++k) {
-      if (k == leap) loop.leap(1.0);
-      if (k % parts == 0) loop.tick();
-      if (rest > 0.0 && rest < period && k % parts == gives_out) loop.give_out();
-      seen.push_back(loop.load());
-      loop.coast(part);
-    }
-  }
-  double largest = 0.0;
-  for (int phase = 0; phase < parts; ++phase) {
-    // A pulse over one part is two leaps. The gap's value at the moment seen counts too.
-    double sum = 0.0;
-    for (int leap = 0; leap < parts; ++leap) {
-      for (int tick = 0; tick < ticks - 1; ++tick) {
-        const int seen = tick * parts + phase;
-        const auto k = static_cast<std::size_t>(seen);
-        if (seen < leap) continue;
-        const auto i = static_cast<std::size_t>(leap);
-        const double next = leap + 1 < parts ? responses[i + 1][k]
-                            : tick > 0       ? responses[0][k - static_cast<std::size_t>(parts)]
-                                             : 0.0;
-        sum += std::abs(responses[i][k] - next);
-      }
-    }
-    largest = std::max(largest, sum);
-  }
-  return largest;
-}
-
-TEST(OracleCeiling, OfSampledLoopsIsTheSumOfTheirAnswers) {
-  SeededDraws draws(1960);
-  int proved = 0;
-  for (int i = 0; i < 12; ++i) {
-    ReducedDrive drive;
-    drive.motor = {draws.log_uniform(0.2, 1.0), {.viscous = draws.log_uniform(0.01, 0.3)}};
-    drive.load = {draws.log_uniform(0.2, 1.0), {.viscous = draws.log_uniform(0.01, 0.3)}};
-    drive.backlash = 2.0;  // the gap is within ±1
-    const double proportional = draws.log_uniform(0.3, 1.0);
-    const double derivative = draws.log_uniform(0.5, 1.0);
-    drive.controller =
-        drive::ProportionalDerivative{.proportional = proportional, .derivative = derivative};
-    const double on_load = draws.one_of({0.0, 1.0});
-    drive.sensing = {.load_share_of_position = on_load,
-                     .load_share_of_speed = on_load == 0.0 ? 0.0 : draws.one_of({0.0, 1.0})};
-    constexpr double period = 0.125;
-    drive.sampling =
-        drive::Sampling{.period = period, .delay = period * draws.one_of({0.0, 0.5, 1.0, 1.25})};
-    const Ceiling ceiling = ceiling_of(drive);
-    SCOPED_TRACE("case " + std::to_string(i));
-    if (!ceiling.load) continue;
-    ++proved;
-    const double summed = summed_responses(drive, proportional, derivative, 32, 800);
-    EXPECT_GE(*ceiling.load, summed * (1.0 - 1e-9));
-    EXPECT_LE(*ceiling.load, summed * 1.02);
-  }
-  EXPECT_GT(proved, 8);
 }
 
 /// A fast computer does what a continuous controller does.

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include "analysis/faults_of.hpp"
 #include "gearlash/analyse.hpp"
@@ -43,24 +42,6 @@ TEST(Design, DampingWithoutHuntingBeginsWhereGrowthAtRestIsOne) {
   EXPECT_EQ(there.verdict, Verdict::cannot_hunt);
   EXPECT_EQ(analyse(with(sample_servo(), "servo.damping", least * (1.0 - 1e-12))).verdict,
             Verdict::hunts);
-}
-
-TEST(Design, AmplitudesAreInProportionToBacklash) {
-  const double amplitude = analyse(sample_servo()).largest_stable()->amplitude;
-  const FeasibleValues backlash =
-      feasible_values(sample_servo(), "servo.backlash", amplitude_within({0.0, 0.1}));
-  ASSERT_EQ(backlash.intervals.size(), 1U);
-  EXPECT_NEAR(backlash.intervals[0].high, 0.1 * 0.3 / amplitude, 1e-14);
-  EXPECT_FALSE(backlash.closest);
-}
-
-TEST(Design, WhereNothingMeetsATargetThereIsAClosestValue) {
-  const FeasibleValues inertia =
-      feasible_values(sample_servo(), "load_inertia", amplitude_within({1e3, Target::infinity}));
-  EXPECT_TRUE(inertia.intervals.empty());
-  EXPECT_FALSE(inertia.nearest());
-  ASSERT_TRUE(inertia.closest);
-  EXPECT_TRUE(inertia.searched.contains(*inertia.closest));
 }
 
 TEST(Design, ASignalThatEndsIsLeftOut) {

@@ -64,21 +64,9 @@ TEST(OracleLinearLoop, IsThatOfASecondOrderServo) {
   for (const double stiffness : {0.001, 0.02, 2.0, 500.0}) {
     ReducedDrive drive = rigid_drive();
     drive.controller = ProportionalDerivative{stiffness, 0.0};
-    const std::optional<LinearLoop> figures = loop_figures(drive);
-    ASSERT_TRUE(figures);
-    EXPECT_TRUE(figures->is_stable);
-    // J²ω⁴ + F²ω² = K², written without cancellation.
-    const double square = friction * friction;
-    const double crossover = std::sqrt(2.0 * stiffness * stiffness /
-                                       (square + std::hypot(square, 2.0 * inertia * stiffness)));
-    ASSERT_TRUE(figures->crossover && figures->phase_margin && figures->bandwidth);
-    EXPECT_NEAR(turn * *figures->crossover, crossover, near * crossover);
-    EXPECT_NEAR(*figures->phase_margin, std::atan2(friction, inertia * crossover), near);
-    const double part = 1.0 - 0.5 * square / (inertia * stiffness);  // 1 − 2ζ²
-    const double bandwidth =
-        std::sqrt(stiffness / inertia) *
-        std::sqrt(part > 0.0 ? part + std::hypot(part, 1.0) : 1.0 / (std::hypot(part, 1.0) - part));
-    EXPECT_NEAR(turn * *figures->bandwidth, bandwidth, near * bandwidth);
+    const auto open = [&](double w) { return stiffness / Complex(-inertia * w * w, friction * w); };
+    const auto closed = [&](double w) { return open(w) / (1.0 + open(w)); };
+    expect_figures(drive, open, closed, 1e-4, 1e4);
   }
 }
 

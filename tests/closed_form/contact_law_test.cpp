@@ -3,11 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdint>
 
 #include "base/references.hpp"
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 #include "closed_form/engaged_flow.hpp"
 
 namespace gearlash::contact_law_test {
@@ -37,9 +36,7 @@ Momentum momentum_of(const ServoDynamics& dynamics, double load_speed, double ga
 }
 
 TEST(PropertyImpact, MomentumIsKeptAndEnergyNeverGrows) {
-  constexpr std::uint64_t seed = 99;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(99);
   for (int i = 0; i < 50000; ++i) {
     const double restitution =
         draws.happens(0.3) ? draws.one_of({0.0, 1.0}) : draws.uniform(0.0, 1.0);
@@ -52,24 +49,12 @@ TEST(PropertyImpact, MomentumIsKeptAndEnergyNeverGrows) {
     // J_M + J_L = 1 only to rounding, and each sum of two momenta rounds: a handful of epsilons.
     ASSERT_NEAR(after.momentum, before.momentum, 8.0 * epsilon * (before.scale + after.scale));
     ASSERT_EQ(outcome.gap_speed, restitution == 0.0 ? 0.0 : -restitution * gap_speed);
+    ASSERT_FALSE(restitution == 0.0 && std::signbit(outcome.gap_speed));
     ASSERT_GE(outcome.energy_lost, 0.0);
+    ASSERT_TRUE(restitution < 1.0 || outcome.energy_lost == 0.0);
     const double turnover = before.energy + after.energy + gap_speed * gap_speed;
     ASSERT_NEAR(before.energy - after.energy, outcome.energy_lost, 8.0 * epsilon * turnover);
   }
-}
-
-TEST(EdgeImpact, EndsOfRestitution) {
-  const ServoDynamics plastic = dynamics_of(0.3, 3.0, 0.5, 0.0);
-  const ImpactOutcome together = impact(plastic, 1.0, -2.0);
-  EXPECT_EQ(together.gap_speed, 0.0);
-  EXPECT_EQ(together.load_speed, 0.5);     // (1·(−1) + 3·1)/4
-  EXPECT_EQ(together.energy_lost, 0.375);  // ½ · 3/16 · 4
-  EXPECT_FALSE(std::signbit(together.gap_speed));
-  const ServoDynamics elastic = dynamics_of(0.3, 3.0, 0.5, 1.0);
-  const ImpactOutcome apart = impact(elastic, 1.0, -2.0);
-  EXPECT_EQ(apart.gap_speed, 2.0);
-  EXPECT_EQ(apart.load_speed, 0.0);
-  EXPECT_EQ(apart.energy_lost, 0.0);
 }
 
 TEST(EdgeImpact, MasslessSidesEngageAtOnceWithoutLoss) {
@@ -237,9 +222,7 @@ TEST(OracleSettlingBounces, DurationIsRightToThirdOrder) {
 }
 
 TEST(OracleSettlingBounces, WhenImminentItIsRightToRounding) {
-  constexpr std::uint64_t seed = 104;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(104);
   for (int i = 0; i < 20; ++i) {
     const double first_order = draws.log_uniform(1e-9, 8e-6);
     const BounceStart start = bounce_start(draws, first_order);
@@ -270,24 +253,6 @@ TEST(EdgeSettlingBounces, NotWhilePulledApart) {
   EXPECT_TRUE(settling_bounces(dynamics, 1.0, -0.5, 0.0, -1e-12).imminent);
   EXPECT_TRUE(settling_bounces(dynamics, -1.0, 0.5, 0.0, 1e-12).imminent);
   EXPECT_FALSE(settling_bounces(dynamics, -1.0, 0.5, 0.0, 0.5).imminent);
-}
-
-TEST(PropertySettlingBounces, MirrorAndScale) {
-  SeededDraws draws(105);
-  for (int i = 0; i < 200; ++i) {
-    const BounceStart start = bounce_start(draws, draws.log_uniform(1e-8, 1e-2));
-    const GapState& s = start.state;
-    const SettlingBounces one =
-        settling_bounces(start.dynamics, start.face, s.load_position, s.load_speed, s.gap_speed);
-    const SettlingBounces mirrored = settling_bounces(start.dynamics, -start.face, -s.load_position,
-                                                      -s.load_speed, -s.gap_speed);
-    const SettlingBounces doubled = settling_bounces(
-        start.dynamics, start.face, 2.0 * s.load_position, 2.0 * s.load_speed, 2.0 * s.gap_speed);
-    ASSERT_EQ(one.duration, mirrored.duration);
-    ASSERT_EQ(one.duration, doubled.duration);
-    ASSERT_EQ(one.imminent, mirrored.imminent);
-    ASSERT_EQ(4.0 * one.energy_lost, doubled.energy_lost);
-  }
 }
 
 }  // namespace

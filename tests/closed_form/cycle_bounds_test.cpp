@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 #include "closed_form/limit_cycle.hpp"
 
 namespace gearlash::cycle_bounds_test {
@@ -76,9 +76,7 @@ void expect_within(const Bounds& bounds, double value) {
 class PropertyCycleBounds : public testing::TestWithParam<double> {};
 
 TEST_P(PropertyCycleBounds, HoldForEveryServoOfTheBox) {
-  constexpr std::uint64_t seed = 20261121;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(20261121);
   for (int i = 0; i < 2000; ++i) {
     const Range range = drawn_range(draws, GetParam());
     const double guess = flight_time_of(analyse_limit_cycles(range.at(0.5, 0.5, 0.5)));
@@ -99,9 +97,7 @@ TEST_P(PropertyCycleBounds, HoldForEveryServoOfTheBox) {
 INSTANTIATE_TEST_SUITE_P(Widths, PropertyCycleBounds, testing::Values(1.0, 0.1, 1e-2, 1e-4, 1e-8));
 
 TEST(PropertyCycleBounds, CloseInInProportionToTheWidth) {
-  constexpr std::uint64_t seed = 1966;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(1966);
   int compared = 0;
   for (int i = 0; i < 1000; ++i) {
     constexpr double width = 1e-6;

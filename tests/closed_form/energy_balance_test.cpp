@@ -4,10 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 #include "closed_form/growth_at_rest.hpp"
 #include "closed_form/limit_cycle.hpp"
 
@@ -55,9 +54,7 @@ TEST(EdgeEnergyBalance, DecimalsAreTakenAsWritten) {
 
 /// In extended precision: no draw is as near to the boundary as its rounding.
 TEST(OracleEnergyBalance, AgreesWithTheSignOfTheInequality) {
-  constexpr std::uint64_t seed = 1821;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(1821);
   int inside = 0;
   for (int i = 0; i < 5000; ++i) {
     const double damping = draws.log_uniform(0.1, 1000.0);

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 
+#include "base/traced_draws.hpp"
 #include "random_starts.hpp"
 
 namespace gearlash::extremes_test {
@@ -18,9 +18,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TEST(PropertyExtremes, NoSampleLiesOutsideAndTheyAreReached) {
-  constexpr std::uint64_t seed = 801;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(801);
   for (int i = 0; i < 300 && !testing::Test::HasFailure(); ++i) {
     const RandomStart start = random_start(draws, {.massless_sides = true});
     SCOPED_TRACE(describe(start));

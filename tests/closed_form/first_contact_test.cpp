@@ -4,11 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <vector>
 
 #include "base/references.hpp"
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 
 namespace gearlash::first_contact_test {
 namespace {
@@ -74,9 +73,7 @@ ServoDynamics random_dynamics(SeededDraws& draws, double backlash) {
 }
 
 TEST(PropertyFirstContact, RandomFlightsFromWithinTheGap) {
-  constexpr std::uint64_t seed = 577;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(577);
   for (int i = 0; i < 4000 && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE(i);
     const double backlash = draws.log_uniform(1e-3, 3.0);
@@ -89,9 +86,7 @@ TEST(PropertyFirstContact, RandomFlightsFromWithinTheGap) {
 }
 
 TEST(PropertyFirstContact, RandomReboundsFromEitherFace) {
-  constexpr std::uint64_t seed = 578;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(578);
   for (int i = 0; i < 4000 && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE(i);
     const double backlash = draws.log_uniform(1e-3, 3.0);
@@ -107,9 +102,7 @@ TEST(PropertyFirstContact, RandomReboundsFromEitherFace) {
 }
 
 TEST(PropertyFirstContact, CleanSeparationsFromEitherFace) {
-  constexpr std::uint64_t seed = 579;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(579);
   for (int i = 0; i < 4000 && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE(i);
     const double backlash = draws.log_uniform(1e-3, 3.0);
@@ -155,9 +148,7 @@ TEST(EdgeFirstContact, GrazingParabolaWithinAFewUlpsOfTheFace) {
 }
 
 TEST(EdgeFirstContact, GrazingOfRandomFlightsAtTheirTurningPoints) {
-  constexpr std::uint64_t seed = 580;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(580);
   int grazed = 0;
   for (int i = 0; i < 3000 && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE(i);

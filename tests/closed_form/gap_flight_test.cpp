@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdint>
 
 #include "base/references.hpp"
 #include "base/seeded_draws.hpp"
@@ -171,41 +170,6 @@ TEST(EdgeGapFlight, MasslessMotorRunsAtTheSpeedTheLoopDrivesItAt) {
     EXPECT_LE(epsilons_of(motion.load_speed, speed, 0.8), 8.0);
     const Wide gap_speed = -position / dynamics.motor_friction - speed;
     EXPECT_LE(epsilons_of(motion.gap_speed, gap_speed, 0.8 + 1.2 / 0.36), 8.0);
-  }
-}
-
-/// Largest difference of the states that two servos reach from one start at a few times well after
-/// the initial layer of a light shaft.
-double difference(const ServoDynamics& a, const ServoDynamics& b, const GapState& start) {
-  const GapFlight first = flight_from(a, start);
-  const GapFlight second = flight_from(b, start);
-  double largest = 0.0;
-  for (const double time : {0.5, 1.0, 3.0}) {
-    const FlightMotion x = motion_in_flight(first, time);
-    const FlightMotion y = motion_in_flight(second, time);
-    largest = std::max({largest, std::abs(x.load_position - y.load_position),
-                        std::abs(x.load_speed - y.load_speed), std::abs(x.gap_speed - y.gap_speed),
-                        std::abs(point_in_flight(first, time).gap_displacement -
-                                 point_in_flight(second, time).gap_displacement)});
-  }
-  return largest;
-}
-
-TEST(PropertyGapFlight, MasslessShaftsAreTheLimitsOfLightOnes) {
-  const GapState start{-0.4, 0.8, 0.05, 0.1};
-  // The difference is of the order of the light shaft's inertia, so a hundredth of the inertia
-  // leaves a hundredth of the difference (a half to twice that is allowed for the next order).
-  const ServoDynamics no_load = dynamics_of(0.3, 0.0, 0.4);
-  const ServoDynamics no_motor = dynamics_of(0.3, infinity, 0.4);
-  double load_before = difference(no_load, dynamics_of(0.3, 1e-3, 0.4), start);
-  double motor_before = difference(no_motor, dynamics_of(0.3, 1e3, 0.4), start);
-  for (const double light : {1e-5, 1e-7, 1e-9}) {
-    const double load = difference(no_load, dynamics_of(0.3, light, 0.4), start);
-    const double motor = difference(no_motor, dynamics_of(0.3, 1.0 / light, 0.4), start);
-    EXPECT_NEAR(load_before / load, 100.0, 50.0) << light;
-    EXPECT_NEAR(motor_before / motor, 100.0, 50.0) << light;
-    load_before = load;
-    motor_before = motor;
   }
 }
 

@@ -3,10 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdint>
 
 #include "base/references.hpp"
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 #include "closed_form/first_contact.hpp"
 
 namespace gearlash::grazing_band_test {
@@ -79,9 +78,7 @@ void judge(const FlightStart& start, Wide turning, Wide travel, double before, S
 }
 
 TEST(OracleGrazing, IsJudgedRightBeyondItsBandWhateverTheSpeed) {
-  constexpr std::uint64_t seed = 1961;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(1961);
   Tally tally;
   int flights = 0;
   for (const Reference& exact : References("closed_form", "turning_points")) {

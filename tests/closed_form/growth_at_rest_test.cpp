@@ -3,11 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdint>
 #include <optional>
 
 #include "base/references.hpp"
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 #include "closed_form/trajectory.hpp"
 
 namespace gearlash::growth_at_rest_test {
@@ -82,9 +81,7 @@ std::optional<double> simulated_growth(const NormalizedServo& servo, double expe
 }
 
 TEST(OracleGrowthAtRest, ASimulatedSmallDisturbanceGrowsByIt) {
-  constexpr std::uint64_t seed = 504;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(504);
   int compared = 0;
   for (int i = 0; i < 400; ++i) {
     NormalizedServo servo = random_servo(draws, 0.9);

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 #include "closed_form/growth_at_rest.hpp"
 
 namespace gearlash::parting_scan_test {
@@ -24,9 +24,7 @@ NormalizedServo random_servo(SeededDraws& draws) {
 /// From far outside, every motion comes in. The bound is on what lasts: after forty times the
 /// loop's slowest time constant nothing is left of the start.
 TEST(PropertyPartingScan, NoLastingMotionPartsBeyondTheBound) {
-  constexpr std::uint64_t seed = 2001;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(2001);
   int parted = 0;
   double nearest = 0.0;
   for (int i = 0; i < 300; ++i) {

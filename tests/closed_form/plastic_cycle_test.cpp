@@ -5,11 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdint>
 
 #include "base/described.hpp"
 #include "base/references.hpp"
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 #include "closed_form/extremes.hpp"
 #include "closed_form/growth_at_rest.hpp"
 
@@ -60,9 +59,7 @@ NormalizedServo hunting_servo(SeededDraws& draws) {
 }
 
 TEST(PropertyPlasticCycle, GrowthIncreasesWithTheSlopeItReports) {
-  constexpr std::uint64_t seed = 601;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(601);
   for (int i = 0; i < 500; ++i) {
     NormalizedServo servo{.damping = draws.uniform(0.0, 2.0),
                           .inertia_ratio = draws.log_uniform(0.03, 30.0),
@@ -91,9 +88,7 @@ TEST(PropertyPlasticCycle, GrowthIncreasesWithTheSlopeItReports) {
 }
 
 TEST(PropertyPlasticCycle, GrowthTendsToTheGrowthAtRest) {
-  constexpr std::uint64_t seed = 602;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(602);
   for (int i = 0; i < 300; ++i) {
     const NormalizedServo servo = hunting_servo(draws);
     const ServoDynamics dynamics = servo_dynamics(servo);
@@ -105,9 +100,7 @@ TEST(PropertyPlasticCycle, GrowthTendsToTheGrowthAtRest) {
 }
 
 TEST(PropertyPlasticCycle, EverythingAgreesWithASimulatedPeriod) {
-  constexpr std::uint64_t seed = 604;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(604);
   for (int i = 0; i < 400 && !testing::Test::HasFailure(); ++i) {
     const NormalizedServo servo = hunting_servo(draws);
     SCOPED_TRACE(described(servo));
@@ -156,9 +149,7 @@ TEST(PropertyPlasticCycle, EverythingAgreesWithASimulatedPeriod) {
 }
 
 TEST(PropertyPlasticCycle, SizeIsExactlyProportionalToBacklash) {
-  constexpr std::uint64_t seed = 605;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(605);
   for (int i = 0; i < 500; ++i) {
     const NormalizedServo servo = hunting_servo(draws);
     const LimitCycle one = only_cycle(servo);
@@ -181,9 +172,7 @@ TEST(PropertyPlasticCycle, SizeIsExactlyProportionalToBacklash) {
 }
 
 TEST(PropertyPlasticCycle, ExchangingMotorAndLoadKeepsItsTimes) {
-  constexpr std::uint64_t seed = 606;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(606);
   for (int i = 0; i < 500; ++i) {
     const NormalizedServo servo = hunting_servo(draws);
     NormalizedServo exchanged = servo;

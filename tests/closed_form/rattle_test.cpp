@@ -15,44 +15,19 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Rattling {
-  NormalizedServo servo;
-  double parting_error;  ///< permitted in the time at which the other face is reached
+  NormalizedServo servo;  ///< damping, inertia and friction ratio, backlash, restitution
+  double parting_error;   ///< permitted in the time at which the other face is reached
 };
 
 /// Stepped by 1 rad from the forward face they part, cross and rattle on the backward one.
 const std::vector<Rattling> rattling{
     // The drag ends the rattle long before the faces part: only the offset of 1e-9 is left out.
-    {{.damping = 0.19,
-      .inertia_ratio = 100.0,
-      .friction_ratio = 0.1,
-      .backlash = 0.3,
-      .restitution = 1.0},
-     1e-9},
-    {{.damping = 0.19,
-      .inertia_ratio = 100.0,
-      .friction_ratio = 0.1,
-      .backlash = 0.3,
-      .restitution = 0.9999},
-     1e-9},
-    {{.damping = 0.5,
-      .inertia_ratio = 100.0,
-      .friction_ratio = 0.1,
-      .backlash = 0.3,
-      .restitution = 1.0},
-     1e-9},
-    {{.damping = 0.1,
-      .inertia_ratio = 100.0,
-      .friction_ratio = 0.1,
-      .backlash = 0.3,
-      .restitution = 1.0},
-     1e-9},
+    {{0.19, 100.0, 0.1, 0.3, 1.0}, 1e-9},
+    {{0.19, 100.0, 0.1, 0.3, 0.9999}, 1e-9},
+    {{0.5, 100.0, 0.1, 0.3, 1.0}, 1e-9},
+    {{0.1, 100.0, 0.1, 0.3, 1.0}, 1e-9},
     // Here it does not quite, and some relative speed would be left as they part.
-    {{.damping = 0.1,
-      .inertia_ratio = 75.0,
-      .friction_ratio = 0.1,
-      .backlash = 0.3,
-      .restitution = 1.0},
-     1e-7}};
+    {{0.1, 75.0, 0.1, 0.3, 1.0}, 1e-7}};
 
 Trajectory stepped(const NormalizedServo& servo, double until, std::size_t event_limit) {
   return simulate(servo, engaged_start(servo, 0.0, 0.0, 1.0),

@@ -4,17 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdint>
 
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 
 namespace gearlash::return_map_test {
 namespace {
 
 TEST(PropertyReturnMap, DerivativeAgainstCentralDifferences) {
-  constexpr std::uint64_t seed = 901;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(901);
   int compared = 0;
   for (int i = 0; i < 600 && !testing::Test::HasFailure(); ++i) {
     const NormalizedServo servo{.damping = draws.uniform(0.02, 0.9),

@@ -2,9 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdint>
 #include <vector>
 
+#include "base/traced_draws.hpp"
 #include "closed_form/trajectory.hpp"
 #include "random_starts.hpp"
 
@@ -39,9 +39,7 @@ double scale_of(const RandomStart& start, const Trajectory& motion) {
 }
 
 TEST(PropertyEvents, StateAtAnEventIsTheStateAfterIt) {
-  constexpr std::uint64_t seed = 401;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(401);
   for (int i = 0; i < 1000 && !testing::Test::HasFailure(); ++i) {
     const RandomStart start = random_start(draws, {.massless_sides = true});
     SCOPED_TRACE(describe(start));
@@ -59,9 +57,7 @@ TEST(PropertyEvents, StateAtAnEventIsTheStateAfterIt) {
 }
 
 TEST(PropertyEvents, StatesJustBeforeAreTheStatesBefore) {
-  constexpr std::uint64_t seed = 402;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(402);
   for (int i = 0; i < 1000 && !testing::Test::HasFailure(); ++i) {
     const RandomStart start = random_start(draws);
     SCOPED_TRACE(describe(start));
@@ -86,9 +82,7 @@ TEST(PropertyEvents, StatesJustBeforeAreTheStatesBefore) {
 }
 
 TEST(PropertyEvents, EachKindDoesWhatItsNameSays) {
-  constexpr std::uint64_t seed = 403;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(403);
   for (int i = 0; i < 1000 && !testing::Test::HasFailure(); ++i) {
     const RandomStart start = random_start(draws, {.massless_sides = true});
     SCOPED_TRACE(describe(start));
@@ -135,9 +129,7 @@ TEST(PropertyEvents, EachKindDoesWhatItsNameSays) {
 }
 
 TEST(PropertyEvents, TheGapIsNeverExceededAndEngagedFacesTouch) {
-  constexpr std::uint64_t seed = 404;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(404);
   for (int i = 0; i < 1000 && !testing::Test::HasFailure(); ++i) {
     const RandomStart start = random_start(draws, {.massless_sides = true});
     SCOPED_TRACE(describe(start));

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <complex>
-#include <cstdint>
 #include <vector>
 
 #include "closed_form/trajectory.hpp"
@@ -64,126 +63,68 @@ double apart(const Trajectory& a, const Trajectory& b) {
   return largest;
 }
 
-struct Limit {
-  NormalizedServo near;
-  double small;  ///< the distance from the limit
-};
-
-/// The motions of `near` tend to that of `limit` at least as fast as small^order.
-void expect_convergence(const NormalizedServo& limit, const std::vector<Limit>& approach,
-                        double order, double constant) {
-  for (const double side : {1.0, -1.0}) {
-    const SimulationOptions options{.until = 8.0, .reference = side};
-    const ServoState start = engaged_start(limit, 0.0, 0.0, side);
-    const Trajectory there = simulate(limit, start, options);
-    for (const Limit& step : approach) {
-      const double difference = apart(simulate(step.near, start, options), there);
-      EXPECT_LE(difference, constant * std::pow(step.small, order) + 1e-13)
-          << "at a distance of " << step.small;
-    }
-  }
-}
-
-TEST(PropertyLimits, LightLoadsTendToTheMasslessLoad) {
-  for (const double restitution : {0.0, 0.5}) {
-    NormalizedServo limit{.damping = 0.3,
-                          .inertia_ratio = 0.0,
-                          .friction_ratio = 0.4,
-                          .backlash = 0.2,
-                          .restitution = restitution};
-    std::vector<Limit> approach;
-    for (const double light : {1e-4, 1e-6, 1e-8}) {
-      NormalizedServo near = limit;
-      near.inertia_ratio = light;
-      approach.push_back({near, light});
-    }
-    expect_convergence(limit, approach, 1.0, 100.0);
-  }
-}
-
-TEST(PropertyLimits, LightMotorsTendToTheMasslessMotor) {
-  for (const double restitution : {0.0, 0.5}) {
-    NormalizedServo limit{.damping = 0.3,
-                          .inertia_ratio = infinity,
-                          .friction_ratio = 0.4,
-                          .backlash = 0.2,
-                          .restitution = restitution};
-    std::vector<Limit> approach;
-    for (const double light : {1e-4, 1e-6, 1e-8}) {
-      NormalizedServo near = limit;
-      near.inertia_ratio = 1.0 / light;
-      approach.push_back({near, light});
-    }
-    expect_convergence(limit, approach, 1.0, 100.0);
-  }
-}
-
-template <class Change>
-void expect_continuous(const NormalizedServo& limit, const Change& change,
-                       const std::vector<double>& distances, double order, double constant) {
-  std::vector<Limit> approach;
-  for (const double distance : distances) {
-    NormalizedServo near = limit;
-    change(near, distance);
-    approach.push_back({near, distance});
-  }
-  expect_convergence(limit, approach, order, constant);
-}
-
-const std::vector<double> shrinking{1e-2, 1e-4, 1e-6, 1e-9, 1e-12, 1e-15};
-const NormalizedServo sample{
+constexpr NormalizedServo sample{
     .damping = 0.19, .inertia_ratio = 2.0, .friction_ratio = 0.1, .backlash = 0.3};
 
-TEST(PropertyLimits, NearlyPlasticTendsToPlastic) {
-  expect_continuous(
-      sample, [](NormalizedServo& s, double small) { s.restitution = small; }, shrinking, 1.0,
-      100.0);
-}
+/// A number of the sample, or of another servo, at a value from which it departs one way.
+struct Limit {
+  double NormalizedServo::*number;
+  double value;
+  double way = 1.0;
+  NormalizedServo servo = sample;
 
-TEST(PropertyLimits, NearlyElasticTendsToElastic) {
-  NormalizedServo limit = sample;
-  limit.restitution = 1.0;
-  expect_continuous(
-      limit, [](NormalizedServo& s, double small) { s.restitution = 1.0 - small; },
-      {1e-4, 1e-6, 1e-9, 1e-12, 1e-15}, 1.0, 1e3);
-}
+  /// About infinity, 1/distance.
+  NormalizedServo at(double distance) const {
+    NormalizedServo near = servo;
+    near.*number = std::isfinite(value) ? value + way * distance
+                   : distance > 0.0     ? 1.0 / distance
+                                        : value;
+    return near;
+  }
+};
 
-TEST(PropertyLimits, ThroughCriticalDamping) {
-  NormalizedServo limit = sample;
-  limit.damping = 1.0;
-  for (const double side : {-1.0, 1.0}) {
-    expect_continuous(
-        limit, [&](NormalizedServo& s, double small) { s.damping = 1.0 + side * small; }, shrinking,
-        1.0, 100.0);
+/// The motions nearby tend to that of the limit, in proportion to the distance or faster.
+void expect_convergence(const Limit& limit, const std::vector<double>& distances,
+                        double constant = 100.0) {
+  for (const double side : {1.0, -1.0}) {
+    SCOPED_TRACE(testing::Message() << limit.value << " to the side of " << limit.way);
+    const SimulationOptions options{.until = 8.0, .reference = side};
+    const ServoState start = engaged_start(limit.at(0.0), 0.0, 0.0, side);
+    const Trajectory there = simulate(limit.at(0.0), start, options);
+    for (const double distance : distances) {
+      EXPECT_LE(apart(simulate(limit.at(distance), start, options), there),
+                constant * distance + 1e-13)
+          << "at a distance of " << distance;
+    }
   }
 }
 
-TEST(PropertyLimits, ThroughEqualRates) {
-  NormalizedServo limit = sample;
-  limit.friction_ratio = 2.0 / 3.0;  // D = c at an inertia ratio of 2
-  for (const double side : {-1.0, 1.0}) {
-    expect_continuous(
-        limit,
-        [&](NormalizedServo& s, double small) { s.friction_ratio = 2.0 / 3.0 + side * small; },
-        shrinking, 1.0, 100.0);
+TEST(PropertyLimits, LightShaftsTendToMasslessOnes) {
+  for (const double restitution : {0.0, 0.5}) {
+    const NormalizedServo servo{
+        .damping = 0.3, .friction_ratio = 0.4, .backlash = 0.2, .restitution = restitution};
+    for (const double massless : {0.0, infinity}) {
+      expect_convergence({&NormalizedServo::inertia_ratio, massless, 1.0, servo},
+                         {1e-4, 1e-6, 1e-8});
+    }
   }
 }
 
-TEST(PropertyLimits, FrictionVanishingOnEitherSideOrBoth) {
-  NormalizedServo no_load_friction = sample;
-  no_load_friction.friction_ratio = 0.0;
-  expect_continuous(
-      no_load_friction, [](NormalizedServo& s, double small) { s.friction_ratio = small; },
-      shrinking, 1.0, 100.0);
-  NormalizedServo no_motor_friction = sample;
-  no_motor_friction.friction_ratio = 1.0;
-  expect_continuous(
-      no_motor_friction, [](NormalizedServo& s, double small) { s.friction_ratio = 1.0 - small; },
-      shrinking, 1.0, 100.0);
-  NormalizedServo none = sample;
-  none.damping = 0.0;
-  expect_continuous(
-      none, [](NormalizedServo& s, double small) { s.damping = small; }, shrinking, 1.0, 100.0);
+/// The kinds of contact, critical damping, equal rates (D = c at an inertia ratio of 2), and no
+/// friction on either side or both.
+TEST(PropertyLimits, ThroughWhereTheFormulasChange) {
+  for (const Limit& limit :
+       {Limit{&NormalizedServo::restitution, 0.0}, Limit{&NormalizedServo::damping, 1.0},
+        Limit{&NormalizedServo::damping, 1.0, -1.0},
+        Limit{&NormalizedServo::friction_ratio, 2.0 / 3.0},
+        Limit{&NormalizedServo::friction_ratio, 2.0 / 3.0, -1.0},
+        Limit{&NormalizedServo::friction_ratio, 0.0},
+        Limit{&NormalizedServo::friction_ratio, 1.0, -1.0},
+        Limit{&NormalizedServo::damping, 0.0}}) {
+    expect_convergence(limit, {1e-2, 1e-4, 1e-6, 1e-9, 1e-12, 1e-15});
+  }
+  expect_convergence({&NormalizedServo::restitution, 1.0, -1.0}, {1e-4, 1e-6, 1e-9, 1e-12, 1e-15},
+                     1e3);
 }
 
 TEST(PropertyLimits, VanishingBacklashTendsToNone) {
@@ -198,15 +139,6 @@ TEST(PropertyLimits, VanishingBacklashTendsToNone) {
     EXPECT_EQ(motion.stop_reason(), StopReason::reached_end);
     EXPECT_LE(apart(motion, there), 100.0 * small + 1e-13);
   }
-}
-
-TEST(EdgeLimits, FrictionlessMotionGrowsAndKeepsItsEnergyBooks) {
-  // ζ = 0, plastic: the gap feeds energy in at every crossing and nothing but impacts takes it out.
-  const NormalizedServo servo{
-      .damping = 0.0, .inertia_ratio = 1.0, .friction_ratio = 0.5, .backlash = 0.3};
-  const Trajectory motion =
-      simulate(servo, engaged_start(servo, -0.5, 0.0, 0.0), {.until = 500.0, .reference = 0.0});
-  EXPECT_GT(motion.energy_at(500.0).stored(), 4.0 * motion.energy_at(0.0).stored());
 }
 
 }  // namespace

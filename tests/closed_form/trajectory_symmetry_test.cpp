@@ -1,9 +1,9 @@
 // Mirror images, scaled copies and restarts of a motion are that motion again.
 #include <gtest/gtest.h>
 
-#include <cstdint>
 #include <vector>
 
+#include "base/traced_draws.hpp"
 #include "closed_form/trajectory.hpp"
 #include "random_starts.hpp"
 
@@ -80,9 +80,7 @@ constexpr RandomRange everything{.largest_damping = 3.0,
                                  .massless_sides = true};
 
 TEST(PropertyTrajectory, MirrorImageBitForBit) {
-  constexpr std::uint64_t seed = 201;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(201);
   for (int i = 0; i < 500 && !testing::Test::HasFailure(); ++i) {
     const RandomStart start = random_start(draws, everything);
     SCOPED_TRACE(describe(start));
@@ -91,9 +89,7 @@ TEST(PropertyTrajectory, MirrorImageBitForBit) {
 }
 
 TEST(PropertyTrajectory, ScaledByAPowerOfTwoBitForBit) {
-  constexpr std::uint64_t seed = 202;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(202);
   for (int i = 0; i < 500 && !testing::Test::HasFailure(); ++i) {
     const RandomStart start = random_start(draws, everything);
     SCOPED_TRACE(describe(start));
@@ -155,9 +151,7 @@ double permitted(const Condition& c, const Trajectory& motion, double until) {
 }
 
 TEST(PropertyTrajectory, ScaledByAnyFactorToRounding) {
-  constexpr std::uint64_t seed = 203;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(203);
   int compared = 0;
   int cut_short = 0;
   constexpr int count = 1000;
@@ -183,9 +177,7 @@ TEST(PropertyTrajectory, ScaledByAnyFactorToRounding) {
 }
 
 TEST(PropertyTrajectory, RestartedFromItsOwnStateItGoesOnAsBefore) {
-  constexpr std::uint64_t seed = 204;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(204);
   int compared = 0;
   int cut_short = 0;
   constexpr int count = 1500;

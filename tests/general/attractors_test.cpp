@@ -8,21 +8,10 @@
 #include <random>
 
 #include "closed_form/limit_cycle.hpp"
+#include "drives.hpp"
 
 namespace gearlash::drive::attractors_test {
 namespace {
-
-/// ω_n = 1, total inertia 1, sensor on the load.
-ReducedDrive servo(double damping, double inertia_ratio, double friction_ratio,
-                   double restitution = 0.0) {
-  ReducedDrive drive;
-  drive.motor = {1.0 / (1.0 + inertia_ratio), {.viscous = 2.0 * damping * (1.0 - friction_ratio)}};
-  drive.load = {inertia_ratio / (1.0 + inertia_ratio), {.viscous = 2.0 * damping * friction_ratio}};
-  drive.backlash = 0.3;
-  drive.contact = RigidContact{restitution};
-  drive.controller = ProportionalDerivative{1.0, 0.0};
-  return drive;
-}
 
 NormalizedServo same_servo(double damping, double inertia_ratio, double friction_ratio,
                            double restitution = 0.0) {
@@ -45,7 +34,7 @@ double misfit_after_a_period(const hybrid::HybridSystem& system,
 // ---- the servo ----------------------------------------------------------------------------------
 
 TEST(OracleAttractors, TheThesissServoHuntsFromEverywhere) {
-  const AttractorSearch found = find_attractors(servo(0.19, 2.0, 0.1));
+  const AttractorSearch found = find_attractors(servo_drive(0.19, 2.0, 0.1));
   ASSERT_EQ(found.cycles.size(), 1U);
   const FoundCycle& cycle = found.cycles.front();
   EXPECT_NEAR(cycle.amplitude, 0.241611108, 5e-10);
@@ -69,7 +58,7 @@ TEST(OracleAttractors, PlasticServosAreTheClosedForm) {
     const double inertia_ratio = 0.05 * std::pow(400.0, share(random));
     const double friction_ratio = 0.03 + 0.94 * share(random);
     const auto exact = analyse_limit_cycles(same_servo(damping, inertia_ratio, friction_ratio));
-    const auto found = find_attractors(servo(damping, inertia_ratio, friction_ratio));
+    const auto found = find_attractors(servo_drive(damping, inertia_ratio, friction_ratio));
     SCOPED_TRACE(testing::Message() << damping << " " << inertia_ratio << " " << friction_ratio);
     EXPECT_EQ(found.count(MotionEnd::undecided), 0U);
     ASSERT_EQ(found.cycles.size(), exact.cycles.size());
@@ -95,7 +84,7 @@ TEST(OracleAttractors, PlasticServosAreTheClosedForm) {
 TEST(OracleAttractors, RestIsNearedByTheGrowthAtRest) {
   const auto exact = analyse_limit_cycles(same_servo(0.4284, 3.023, 0.7225));
   ASSERT_EQ(exact.verdict, Verdict::cannot_hunt);
-  const auto found = find_attractors(servo(0.4284, 3.023, 0.7225));
+  const auto found = find_attractors(servo_drive(0.4284, 3.023, 0.7225));
   ASSERT_TRUE(found.rest);
   EXPECT_NEAR(found.rest->swing_ratio, exact.growth_at_rest, 1e-4);
 }
@@ -103,7 +92,7 @@ TEST(OracleAttractors, RestIsNearedByTheGrowthAtRest) {
 /// Restitution 0.6: two cycles that mirror each other are stable, the symmetric one between is not.
 TEST(OracleAttractors, MirrorImagesCountAsOne) {
   const auto exact = analyse_limit_cycles(same_servo(0.19, 2.0, 0.1, 0.6));
-  const auto found = find_attractors(servo(0.19, 2.0, 0.1, 0.6));
+  const auto found = find_attractors(servo_drive(0.19, 2.0, 0.1, 0.6));
   ASSERT_EQ(exact.cycles.size(), 2U);
   ASSERT_EQ(found.cycles.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -121,7 +110,7 @@ TEST(OracleAttractors, MirrorImagesCountAsOne) {
 /// Restitution 0.9: the closed form sees bounded motion of amplitude 0.1723 that does not repeat.
 TEST(OracleAttractors, ChaosIsMeasured) {
   const auto exact = analyse_limit_cycles(same_servo(0.19, 2.0, 0.1, 0.9));
-  const auto found = find_attractors(servo(0.19, 2.0, 0.1, 0.9));
+  const auto found = find_attractors(servo_drive(0.19, 2.0, 0.1, 0.9));
   ASSERT_EQ(found.irregular.size(), 1U);
   const IrregularFound& motion = found.irregular.front();
   EXPECT_EQ(motion.starts, found.outcomes.size());
@@ -145,7 +134,7 @@ TEST(OracleAttractors, ChaosIsMeasured) {
 /// Dry friction on the load makes rest stable; between it and the hunting there is an unstable
 /// cycle, and a little beside that either is reached.
 TEST(OracleAttractors, AnUnstableCycleSeparatesRestAndHunting) {
-  ReducedDrive drive = servo(0.19, 2.0, 0.1);
+  ReducedDrive drive = servo_drive(0.19, 2.0, 0.1);
   drive.load.friction.coulomb = 0.01;
   drive.load.friction.breakaway = 0.015;
   const AttractorSearch found = find_attractors(drive);
@@ -180,20 +169,10 @@ TEST(OracleAttractors, AnUnstableCycleSeparatesRestAndHunting) {
   EXPECT_GT(std::max(one, other), 0.9 * hunting.amplitude);
 }
 
-/// Amplitudes grow as exp(σt) for ever: Routh says so of s³ + 0.38 s² + s + 1.
-TEST(OracleAttractors, AnUnstableLoopRunsAway) {
-  ReducedDrive drive = servo(0.19, 2.0, 0.1);
-  drive.controller = ProportionalIntegralDerivative{.proportional = 1.0, .integral = 1.0};
-  const AttractorSearch found = find_attractors(drive);
-  EXPECT_EQ(found.count(MotionEnd::diverges), found.outcomes.size());
-  EXPECT_TRUE(found.cycles.empty());
-  EXPECT_FALSE(found.rest);
-}
-
 /// The loop is unstable, and a torque limit bounds its motion: however narrow the gap is beside
 /// that, the motion does not run away.
 TEST(OracleAttractors, ATorqueLimitBoundsMotionWhateverTheGap) {
-  ReducedDrive drive = servo(0.19, 2.0, 0.1);
+  ReducedDrive drive = servo_drive(0.19, 2.0, 0.1);
   drive.controller = ProportionalDerivative{1.0, -0.5};
   drive.torque_limit = 0.3;
   for (const double gap : {1e-9, 1e-11, 1e-13}) {
@@ -207,7 +186,7 @@ TEST(OracleAttractors, ATorqueLimitBoundsMotionWhateverTheGap) {
 
 /// s² + 0.38 s + 1 at s = 0.5i.
 TEST(OracleAttractors, WithoutEventsASineIsAnsweredAsTheLinearLoopDoes) {
-  ReducedDrive drive = servo(0.19, 2.0, 0.1);
+  ReducedDrive drive = servo_drive(0.19, 2.0, 0.1);
   drive.load = {0.5, {}};
   drive.motor = {0.5, {.viscous = 0.38}};
   drive.sensing.load_share_of_position = 0.0;
@@ -226,7 +205,7 @@ TEST(OracleAttractors, WithoutEventsASineIsAnsweredAsTheLinearLoopDoes) {
 
 /// Sampled hunting that locks to no multiple of the clock is quasi-periodic: no exponent above 0.
 TEST(OracleAttractors, AClockThatNothingLocksToIsNoChaos) {
-  ReducedDrive drive = servo(0.19, 2.0, 0.1);
+  ReducedDrive drive = servo_drive(0.19, 2.0, 0.1);
   drive.sampling = Sampling{.period = 0.05, .delay = 0.02};
   const AttractorSearch found =
       find_attractors(drive, {.starts = {{0.15, 0.0, 0.3, 0.0}, {0.2, 0.0, 0.27, 0.0}}});
@@ -243,7 +222,7 @@ TEST(OracleAttractors, AClockThatNothingLocksToIsNoChaos) {
 
 /// What a reference adds is nothing but place: fixed, or moving with a ramp (then friction counts).
 TEST(PropertyAttractors, CyclesMoveWithTheReference) {
-  ReducedDrive drive = servo(0.19, 2.0, 0.1);
+  ReducedDrive drive = servo_drive(0.19, 2.0, 0.1);
   const auto starts = [](double place, double speed) {
     return AttractorOptions{.starts = {{place + 0.45, speed, place + 0.3, speed}}};
   };
@@ -265,7 +244,7 @@ TEST(PropertyAttractors, CyclesMoveWithTheReference) {
 
 /// Encoders in a sampled drive stay where they are while the reference moves.
 TEST(EdgeAttractors, WhatCannotBeCarriedAlongIsMeasuredInPlace) {
-  ReducedDrive drive = servo(0.19, 2.0, 0.1);
+  ReducedDrive drive = servo_drive(0.19, 2.0, 0.1);
   drive.sampling = Sampling{.period = 0.05};
   drive.sensing.resolution = 0.01;
   drive.reference = Ramp{0.0, 0.3, 0.0};
@@ -278,7 +257,7 @@ TEST(EdgeAttractors, WhatCannotBeCarriedAlongIsMeasuredInPlace) {
 
 /// Otherwise a fast computer's drive would be watched for a few swings only.
 TEST(EdgeAttractors, TicksAreNotCountedAsEvents) {
-  ReducedDrive drive = servo(0.19, 2.0, 0.1);
+  ReducedDrive drive = servo_drive(0.19, 2.0, 0.1);
   drive.sampling = Sampling{.period = 0.02};
   const AttractorSearch found = find_attractors(
       drive, {.starts = {{0.45, 0.0, 0.3, 0.0}}, .most_events = 1'000, .most_edges = 0});
@@ -289,7 +268,7 @@ TEST(EdgeAttractors, TicksAreNotCountedAsEvents) {
 
 /// The load creeps to rest while the motor sticks: the ticks then repeat what stands still.
 TEST(EdgeAttractors, WhatStandsStillFromTickToTickIsAtRest) {
-  ReducedDrive drive = servo(0.02, 1.0, 0.15);
+  ReducedDrive drive = servo_drive(0.02, 1.0, 0.15);
   drive.motor.friction.coulomb = 0.26;
   drive.motor.friction.breakaway = 0.43;
   drive.sampling = Sampling{.period = 0.015};
@@ -309,14 +288,14 @@ TEST(EdgeAttractors, ASearchStopsWhenItIsTold) {
     std::vector<double> shares;
   };
   TwoStarts progress;
-  const AttractorSearch found = find_attractors(servo(0.19, 2.0, 0.1), {}, progress);
+  const AttractorSearch found = find_attractors(servo_drive(0.19, 2.0, 0.1), {}, progress);
   EXPECT_FALSE(found.is_complete);
   EXPECT_EQ(found.outcomes.size(), 2U);
   EXPECT_TRUE(std::is_sorted(progress.shares.begin(), progress.shares.end()));
 }
 
 TEST(EdgeAttractors, ALoadTorqueThatGrowsForEverIsRefused) {
-  ReducedDrive drive = servo(0.19, 2.0, 0.1);
+  ReducedDrive drive = servo_drive(0.19, 2.0, 0.1);
   drive.load_torque = Ramp{0.0, 1.0, 0.0};
   EXPECT_THROW(find_attractors(drive), InvalidInput);
 }
@@ -328,8 +307,8 @@ ReducedDrive random_drive(std::mt19937& random) {
   const auto between = [&](double low, double high) {
     return low * std::pow(high / low, share(random));
   };
-  ReducedDrive drive = servo(between(0.05, 0.5), between(0.1, 10.0), 0.05 + 0.9 * share(random),
-                             0.7 * share(random));
+  ReducedDrive drive = servo_drive(between(0.05, 0.5), between(0.1, 10.0),
+                                   0.05 + 0.9 * share(random), 0.7 * share(random));
   const auto one_in = [&](int n) { return share(random) * n < 1.0; };
   if (one_in(2)) {
     drive.contact = CompliantContact{between(1e2, 1e3), between(1.0, 10.0),
@@ -387,12 +366,8 @@ TEST(PropertyAttractors, EveryCycleClosesAndRepeats) {
 /// A stiff mesh at its critical damping has nearly parallel eigenvectors, and multiplies whatever
 /// is off its rest by 1e5. The value is that of steps that leave no decay out.
 TEST(Attractors, OfAStiffMeshAreKnownToRounding) {
-  ReducedDrive drive;
-  drive.motor = {1.0 / 3.0, {.viscous = 0.38 * 0.9}};
-  drive.load = {2.0 / 3.0, {.viscous = 0.38 * 0.1}};
-  drive.backlash = 0.3;
+  ReducedDrive drive = servo_drive(0.19, 2.0, 0.1);
   drive.contact = CompliantContact{1e5, 2.0 * std::sqrt(1e5 * 2.0 / 9.0), ContactDamping::full};
-  drive.controller = ProportionalDerivative{1.0, 0.0};
   const AttractorSearch found =
       find_attractors(drive, {.starts = {{.motor_position = 0.45, .load_position = 0.3}}});
   ASSERT_EQ(found.cycles.size(), 1U);
@@ -435,8 +410,8 @@ TEST(OracleAttractors, AFilteredSpeedIsTheFilteredDerivativeOfThePosition) {
 // ---- from one drive to its neighbour ------------------------------------------------------------
 
 TEST(FollowAttractors, FindsWhatASearchFinds) {
-  const AttractorSearch known = find_attractors(servo(0.19, 2.0, 0.1));
-  const ReducedDrive near = servo(0.191, 2.0, 0.1);
+  const AttractorSearch known = find_attractors(servo_drive(0.19, 2.0, 0.1));
+  const ReducedDrive near = servo_drive(0.191, 2.0, 0.1);
   const auto followed = follow_attractors(near, known);
   ASSERT_TRUE(followed);
   const AttractorSearch searched = find_attractors(near);
@@ -448,16 +423,16 @@ TEST(FollowAttractors, FindsWhatASearchFinds) {
 }
 
 TEST(FollowAttractors, GivesUpWhereTheDriveEndsInSomethingElse) {
-  const AttractorSearch hunting = find_attractors(servo(0.19, 2.0, 0.1));
-  EXPECT_FALSE(follow_attractors(servo(0.9, 2.0, 0.1), hunting));
-  const AttractorSearch resting = find_attractors(servo(0.9, 2.0, 0.1));
-  EXPECT_FALSE(follow_attractors(servo(0.19, 2.0, 0.1), resting));
-  EXPECT_TRUE(follow_attractors(servo(0.91, 2.0, 0.1), resting));
-  ReducedDrive unstable = servo(0.9, 2.0, 0.1);
+  const AttractorSearch hunting = find_attractors(servo_drive(0.19, 2.0, 0.1));
+  EXPECT_FALSE(follow_attractors(servo_drive(0.9, 2.0, 0.1), hunting));
+  const AttractorSearch resting = find_attractors(servo_drive(0.9, 2.0, 0.1));
+  EXPECT_FALSE(follow_attractors(servo_drive(0.19, 2.0, 0.1), resting));
+  EXPECT_TRUE(follow_attractors(servo_drive(0.91, 2.0, 0.1), resting));
+  ReducedDrive unstable = servo_drive(0.9, 2.0, 0.1);
   unstable.controller = ProportionalIntegralDerivative{.proportional = 1.0, .integral = 10.0};
   const AttractorSearch running_away = find_attractors(unstable);
   EXPECT_EQ(running_away.count(MotionEnd::diverges), running_away.outcomes.size());
-  EXPECT_FALSE(follow_attractors(servo(0.9, 2.0, 0.1), running_away));
+  EXPECT_FALSE(follow_attractors(servo_drive(0.9, 2.0, 0.1), running_away));
 }
 
 /// A PD with friction, which hunts if disturbed: the cycle between rest and hunting multiplies a
@@ -501,8 +476,8 @@ TEST(FollowAttractors, GivesUpWhereTheStateHasOtherNumbers) {
 
 /// Starts in the gap are then moved to its faces.
 TEST(FollowAttractors, StartsInANarrowerGapToo) {
-  const AttractorSearch known = find_attractors(servo(0.19, 2.0, 0.1));
-  ReducedDrive narrower = servo(0.19, 2.0, 0.1);
+  const AttractorSearch known = find_attractors(servo_drive(0.19, 2.0, 0.1));
+  ReducedDrive narrower = servo_drive(0.19, 2.0, 0.1);
   narrower.backlash = 0.2;
   const auto followed = follow_attractors(narrower, known);
   ASSERT_TRUE(followed);
@@ -515,7 +490,7 @@ TEST(FollowAttractors, GivesUpWhereASearchWasStopped) {
     bool go_on(double /*share*/, std::size_t /*bytes*/) override { return false; }
   };
   Stop stop;
-  const ReducedDrive drive = servo(0.19, 2.0, 0.1);
+  const ReducedDrive drive = servo_drive(0.19, 2.0, 0.1);
   EXPECT_FALSE(follow_attractors(drive, find_attractors(drive, {}, stop)));
 }
 

@@ -1,13 +1,12 @@
 // Drives beside published results and closed forms.
-#include "general/assemble/drive_system.hpp"
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
 
 #include "base/correct_digits.hpp"
 #include "closed_form/trajectory.hpp"
+#include "drives.hpp"
 
 namespace gearlash::drive::drive_system_test {
 namespace {
@@ -25,11 +24,6 @@ ReducedDrive modelica_backlash(ContactDamping law) {
   return drive;
 }
 
-hybrid::Trajectory run(const ReducedDrive& drive, const ShaftStates& shafts, double until) {
-  const DriveSystem built = drive_system(drive);
-  return simulate(built.system, drive_start(drive, built, shafts), {.until = until});
-}
-
 /// The events that begin or end contact.
 std::vector<hybrid::Event> partings_and_meetings(const ReducedDrive& drive,
                                                  const hybrid::Trajectory& motion) {
@@ -45,7 +39,7 @@ std::vector<hybrid::Event> partings_and_meetings(const ReducedDrive& drive,
 /// The reference file carries some 1e-5; the exact numbers beside it are of 50-digit arithmetic.
 TEST(OracleDriveSystem, CompliantBacklashIsModelicas) {
   const ReducedDrive drive = modelica_backlash(ContactDamping::limited);
-  const auto motion = run(drive, {.motor_position = 0.5 * std::numbers::pi}, 0.1);
+  const auto motion = moved(drive, {.motor_position = 0.5 * std::numbers::pi}, 0.1);
   const auto events = partings_and_meetings(drive, motion);
   ASSERT_GE(events.size(), 3U);
   // Published.
@@ -64,7 +58,7 @@ TEST(OracleDriveSystem, CompliantBacklashIsModelicas) {
 
 TEST(OracleDriveSystem, WithFullDampingTorqueJumps) {
   const ReducedDrive drive = modelica_backlash(ContactDamping::full);
-  const auto motion = run(drive, {.motor_position = 0.5 * std::numbers::pi}, 0.1);
+  const auto motion = moved(drive, {.motor_position = 0.5 * std::numbers::pi}, 0.1);
   const auto events = partings_and_meetings(drive, motion);
   ASSERT_GE(events.size(), 3U);
   EXPECT_NEAR(events[2].before[motor_speed], 52.249860, 5e-6);
@@ -80,16 +74,11 @@ TEST(OracleDriveSystem, TheRigidServoIsTheClosedForm) {
                                 .friction_ratio = 0.1,
                                 .backlash = 0.3,
                                 .restitution = restitution};
-    ReducedDrive drive;
-    drive.motor = {1.0 / 3.0, {.viscous = 2.0 * 0.19 * 0.9}};
-    drive.load = {2.0 / 3.0, {.viscous = 2.0 * 0.19 * 0.1}};
-    drive.backlash = 0.3;
-    drive.contact = RigidContact{restitution};
-    drive.controller = ProportionalDerivative{1.0, 0.0};
+    ReducedDrive drive = servo_drive(0.19, 2.0, 0.1, restitution);
     drive.reference = 1.0;
     constexpr double until = 30.0;
     const Trajectory exact = simulate(servo, engaged_start(servo, 0.0, 0.0, 1.0), {.until = until});
-    const auto motion = run(drive, {.motor_position = 0.15}, until);
+    const auto motion = moved(drive, {.motor_position = 0.15}, until);
     const ServoState wanted = exact.at(until);
     const hybrid::Vector found = motion.end().numbers;
     EXPECT_NEAR(found[motor_position], wanted.motor_position, 1e-11);
@@ -97,24 +86,6 @@ TEST(OracleDriveSystem, TheRigidServoIsTheClosedForm) {
     EXPECT_NEAR(found[load_position], wanted.load_position, 1e-11);
     EXPECT_NEAR(found[load_speed], wanted.load_speed, 1e-11);
   }
-}
-
-// ---- friction -----------------------------------------------------------------------------------
-
-/// A motor alone, far from both faces, on a spring (K = 1) with dry friction: half swings about
-/// ±F/K, each of time π, until it sticks.
-TEST(OracleDriveSystem, DryFrictionStopsAnOscillatorInHalfSwings) {
-  ReducedDrive drive;
-  drive.motor = {1.0, {.coulomb = 0.1, .breakaway = 0.15}};
-  drive.load.inertia = 1.0;
-  drive.backlash = 100.0;
-  drive.controller = ProportionalDerivative{1.0, 0.0};
-  drive.sensing.load_share_of_position = 0.0;
-  const auto motion = run(drive, {.motor_position = 1.0}, 40.0);
-  // 1 → −0.8 → 0.6 → −0.4 → 0.2 → 0, where the spring is slack.
-  EXPECT_NEAR(motion.end().numbers[motor_position], 0.0, 1e-12);
-  EXPECT_EQ(motion.end().numbers[motor_speed], 0.0);
-  EXPECT_NEAR(motion.events().back().time, 5.0 * std::numbers::pi, 1e-12);
 }
 
 TEST(EdgeDriveSystem, FaultsAreToldAllAtOnce) {

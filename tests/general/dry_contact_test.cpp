@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "general/assemble/drive_system.hpp"
+#include "drives.hpp"
 
 namespace gearlash::drive::dry_contact_test {
 namespace {
@@ -15,11 +15,6 @@ ReducedDrive dry_pair() {
   drive.load = {1.0, {.coulomb = 0.1, .breakaway = 0.3}};
   drive.backlash = 0.1;
   return drive;
-}
-
-hybrid::Trajectory moved(const ReducedDrive& drive, const ShaftStates& start, double until) {
-  const DriveSystem built = drive_system(drive);
-  return simulate(built.system, drive_start(drive, built, start), {.until = until});
 }
 
 /// On a spring of 1 N m/rad the motor brakes the load, as one of 3 kg m² that swings about −0.3

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "general/assemble/drive_system.hpp"
+#include "drives.hpp"
 
 namespace gearlash::drive::falling_friction_test {
 namespace {
@@ -25,8 +25,7 @@ TEST(OracleFallingFriction, AShaftThatBreaksAwayIsTheClosedForm) {
   drive.load = {2.0, {.viscous = 0.05, .coulomb = 0.3, .breakaway = 0.5, .stribeck_speed = 0.4}};
   drive.backlash = 1e6;
   drive.load_torque = torque;
-  const DriveSystem built = drive_system(drive);
-  const auto motion = simulate(built.system, drive_start(drive, built, {}), {.until = 40.0});
+  const auto motion = moved(drive, {}, 40.0);
   const double rate = (0.2 / 0.4 - 0.05) / 2.0;
   const double passes = std::log(1.0 + rate * 0.4 * 2.0 / (torque - 0.5)) / rate;
   const auto speed_at = [&](double time) {

@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <vector>
 
-#include "general/assemble/drive_system.hpp"
+#include "drives.hpp"
 
 namespace gearlash::drive::feedforward_test {
 namespace {
@@ -14,21 +12,13 @@ namespace {
 constexpr double stiffness = 4.0;
 constexpr double damping = 3.0;
 
-/// A motor by itself, far from both faces.
-ReducedDrive lone_motor() {
-  ReducedDrive drive;
-  drive.motor = {2.0, {.viscous = 0.5}};
-  drive.load.inertia = 1.0;
-  drive.backlash = 1e6;
-  drive.sensing = {.load_share_of_position = 0.0};
+ReducedDrive controlled_motor() {
+  ReducedDrive drive = lone_motor({2.0, {.viscous = 0.5}});
   drive.controller = ProportionalDerivative{stiffness, damping};
   return drive;
 }
 
-hybrid::Trajectory run(const ReducedDrive& drive, double until) {
-  const DriveSystem built = drive_system(drive);
-  return simulate(built.system, drive_start(drive, built, {}), {.until = until});
-}
+hybrid::Trajectory run(const ReducedDrive& drive, double until) { return moved(drive, {}, until); }
 
 /// With the reference sin t.
 double position_by_steps(const Feedforward& forward, double until) {
@@ -55,7 +45,7 @@ double position_by_steps(const Feedforward& forward, double until) {
 
 TEST(OracleFeedforward, OfFrictionHasTheSignOfTheReferencesSpeed) {
   for (const double speed : {0.0, 0.3}) {
-    ReducedDrive drive = lone_motor();
+    ReducedDrive drive = controlled_motor();
     drive.reference = Sine{0.0, 1.0, 1.0, 0.0};
     drive.feedforward = {.torque = 1.5, .speed = speed};
     const auto motion = run(drive, 13.0);
@@ -68,7 +58,7 @@ TEST(OracleFeedforward, OfFrictionHasTheSignOfTheReferencesSpeed) {
 /// A torque that compensates exactly leaves a steady ramp the error of its viscous friction alone.
 TEST(OracleFeedforward, OfFrictionLeavesARampNoDryError) {
   for (const bool is_sampled : {false, true}) {
-    ReducedDrive drive = lone_motor();
+    ReducedDrive drive = controlled_motor();
     drive.motor.friction.coulomb = drive.motor.friction.breakaway = 0.8;
     drive.reference = Ramp{0.0, -0.2, 0.0};
     drive.feedforward.torque = 0.8;
@@ -81,7 +71,7 @@ TEST(OracleFeedforward, OfFrictionLeavesARampNoDryError) {
 
 TEST(OracleFeedforward, OfFrictionEndsWithTheReferencesMotion) {
   for (const double speed : {0.0, 0.1}) {
-    ReducedDrive drive = lone_motor();
+    ReducedDrive drive = controlled_motor();
     drive.reference = Trapezoid{0.0, 1.0, 0.5, 0.3, 1.0};
     drive.feedforward = {.torque = 0.8, .speed = speed};
     EXPECT_NEAR(run(drive, 60.0).end().numbers[motor_position], 1.0, 1e-12) << speed;
@@ -92,7 +82,7 @@ TEST(OracleFeedforward, OfFrictionEndsWithTheReferencesMotion) {
 TEST(OracleFeedforward, OfTheGapStaysOnTheSideOfTheLastMotion) {
   for (const double time : {0.0, 0.2}) {
     for (const bool is_sampled : {false, true}) {
-      ReducedDrive drive = lone_motor();
+      ReducedDrive drive = controlled_motor();
       drive.feedforward = {.half_gap = 0.1, .take_up_time = time};
       if (is_sampled) drive.sampling = Sampling{.period = 0.01};
       EXPECT_NEAR(run(drive, 40.0).end().numbers[motor_position], 0.0, 1e-13);  // nothing moved
@@ -106,7 +96,7 @@ TEST(OracleFeedforward, OfTheGapStaysOnTheSideOfTheLastMotion) {
 
 /// The addition changes sides as a lag does.
 TEST(OracleFeedforward, OfTheGapIsTakenUpInItsTime) {
-  ReducedDrive drive = lone_motor();
+  ReducedDrive drive = controlled_motor();
   drive.reference = Sine{0.0, 1.0, 1.0, 0.0};
   drive.feedforward = {.half_gap = 0.1, .take_up_time = 0.2};
   const DriveSystem built = drive_system(drive);

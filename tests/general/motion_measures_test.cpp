@@ -3,23 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include "general/assemble/drive_system.hpp"
+#include "drives.hpp"
 
 namespace gearlash::drive::motion_measures_test {
 namespace {
 
-ReducedDrive hunting_drive() {
-  ReducedDrive drive;
-  drive.motor = {1.0 / 3.0, {.viscous = 0.342}};
-  drive.load = {2.0 / 3.0, {.viscous = 0.038}};
-  drive.backlash = 0.3;
-  drive.controller = ProportionalDerivative{1.0, 0.0};
-  return drive;
-}
-
 /// Late in a long motion, events that follow each other have the same time.
 TEST(MotionMeasures, OfSamplesOfOneTimeArePassingsAtThatTime) {
-  const ReducedDrive drive = hunting_drive();
+  const ReducedDrive drive = servo_drive(0.19, 2.0, 0.1);
   const DriveSystem system = drive_system(drive);
   const Eigen::Index size = system.system.size();
   const auto number = [&](Eigen::Index which) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "general/assemble/drive_system.hpp"
+#include "drives.hpp"
 #include "general/assemble/time_scale.hpp"
 #include "general/attractors/attractors.hpp"
 
@@ -22,31 +22,10 @@ ReducedDrive two_shafts() {
 }
 
 hybrid::State state_at(const ReducedDrive& drive, const ShaftStates& start, double time) {
-  const DriveSystem built = drive_system(drive);
-  return simulate(built.system, drive_start(drive, built, start), {.until = time}).at(time);
+  return moved(drive, start, time).at(time);
 }
 
 using Numbers = std::array<double, 4>;  // motor, its speed, load, its speed
-
-/// Runge and Kutta's method of order 4.
-template <class Slope>
-Numbers integrated(Numbers now, double until, int steps, const Slope& slope) {
-  const double step = until / steps;
-  const auto moved = [](Numbers from, const Numbers& along, double by) {
-    for (std::size_t i = 0; i < from.size(); ++i) from[i] += by * along[i];
-    return from;
-  };
-  for (int i = 0; i < steps; ++i) {
-    const Numbers a = slope(now);
-    const Numbers b = slope(moved(now, a, 0.5 * step));
-    const Numbers c = slope(moved(now, b, 0.5 * step));
-    const Numbers d = slope(moved(now, c, step));
-    for (std::size_t k = 0; k < now.size(); ++k) {
-      now[k] += step / 6.0 * (a[k] + 2.0 * b[k] + 2.0 * c[k] + d[k]);
-    }
-  }
-  return now;
-}
 
 TEST(OracleJoined, TheSpringPullsBothWaysByEitherLaw) {
   for (const ContactDamping law : {ContactDamping::limited, ContactDamping::full}) {
@@ -59,7 +38,7 @@ TEST(OracleJoined, TheSpringPullsBothWaysByEitherLaw) {
                      (mesh - 0.05 * x[3]) / 0.7};
     };
     const ShaftStates start{.motor_position = 0.03, .load_position = -0.02, .load_speed = 0.4};
-    const Numbers expected = integrated({0.03, 0.0, -0.02, 0.4}, 2.0, 20000, slope);
+    const Numbers expected = integrated(Numbers{0.03, 0.0, -0.02, 0.4}, 2.0, 20000, slope);
     const hybrid::State found = state_at(drive, start, 2.0);
     for (Eigen::Index i = 0; i < 4; ++i) {
       EXPECT_NEAR(found.numbers[i], expected[static_cast<std::size_t>(i)], 1e-11);

@@ -10,25 +10,16 @@
 #include <utility>
 #include <vector>
 
-#include "general/assemble/drive_system.hpp"
+#include "drives.hpp"
 
 namespace gearlash::drive::sampled_drive_test {
 namespace {
 
-/// A motor by itself, far from both faces.
-ReducedDrive lone_motor() {
-  ReducedDrive drive;
-  drive.motor.inertia = 2.0;
-  drive.load.inertia = 1.0;
-  drive.backlash = 1e6;
-  drive.sensing.load_share_of_position = 0.0;
+/// Drawn to 1 rad.
+ReducedDrive drawn_motor() {
+  ReducedDrive drive = lone_motor({2.0});
   drive.reference = 1.0;
   return drive;
-}
-
-hybrid::Trajectory run(const ReducedDrive& drive, const ShaftStates& start, double until) {
-  const DriveSystem built = drive_system(drive);
-  return simulate(built.system, drive_start(drive, built, start), {.until = until});
 }
 
 double rounded(double value, double step) {
@@ -65,14 +56,14 @@ TEST(OracleSampledDrive, IsARecursionFromSampleToSample) {
                             Sampled{0.25, 0.023, 2.0},        Sampled{2.0 * period, 0.02, 1.5},
                             Sampled{0.03, 0.023, 2.0, 0.0071}};
   for (const auto& [delay, resolution, limit, resolution_of_speed] : cases) {
-    ReducedDrive drive = lone_motor();
+    ReducedDrive drive = drawn_motor();
     drive.controller = ProportionalDerivative{4.0, 3.0};
     drive.sampling = Sampling{.period = period, .delay = delay};
     drive.sensing.resolution = resolution;
     drive.sensing.resolution_of_speed = resolution_of_speed;
     drive.torque_limit = limit;
     Motor motor{0.2, 0.3};
-    const auto motion = run(drive, {.motor_position = 0.2, .motor_speed = 0.3}, 20.0);
+    const auto motion = moved(drive, {.motor_position = 0.2, .motor_speed = 0.3}, 20.0);
     double last = rounded(0.2 - period * 0.3, resolution_of_speed);
     double given = 0.0;
     std::deque<double> waiting(static_cast<std::size_t>(delay / period), 0.0);
@@ -97,12 +88,12 @@ TEST(OracleSampledDrive, IsARecursionFromSampleToSample) {
 /// By hand: u = K (r − y) − D v with the speed of the sample, whatever the steps of the position.
 TEST(OracleSampledDrive, ATachometerReadsTheSpeedItself) {
   constexpr double period = 0.1;
-  ReducedDrive drive = lone_motor();
+  ReducedDrive drive = drawn_motor();
   drive.controller = ProportionalDerivative{4.0, 3.0};
   drive.sampling = Sampling{.period = period, .speed_by_differences = false};
   drive.sensing.resolution = drive.sensing.resolution_of_speed = 0.023;
   Motor motor{0.2, 0.3};
-  const auto motion = run(drive, {.motor_position = 0.2, .motor_speed = 0.3}, 5.0);
+  const auto motion = moved(drive, {.motor_position = 0.2, .motor_speed = 0.3}, 5.0);
   for (int sample = 0; sample < 50; ++sample) {
     motor.coast(4.0 * (1.0 - rounded(motor.position, 0.023)) - 3.0 * motor.speed, period);
     const hybrid::Vector numbers = motion.at(period * (sample + 1)).numbers;
@@ -135,13 +126,13 @@ TEST(OracleSampledDrive, AntiWindupIsARecursionFromSampleToSample) {
   }
   for (const auto& [method, share, delay] : cases) {
     SCOPED_TRACE(delay);
-    ReducedDrive drive = lone_motor();
+    ReducedDrive drive = drawn_motor();
     drive.controller = ProportionalIntegralDerivative{
         .proportional = 4.0, .integral = 1.5, .derivative = 3.0, .tracking_time = tracking_time};
     drive.sampling = Sampling{.period = period, .delay = delay, .method = method};
     drive.torque_limit = limit;
     Motor motor{0.2, 0.3};
-    const auto motion = run(drive, {.motor_position = 0.2, .motor_speed = 0.3}, 20.0);
+    const auto motion = moved(drive, {.motor_position = 0.2, .motor_speed = 0.3}, 20.0);
     double last = 0.2 - period * 0.3;
     double integral = 0.0;
     double beyond = 0.0;  // of what was asked for last
@@ -168,7 +159,7 @@ TEST(OracleSampledDrive, AntiWindupIsARecursionFromSampleToSample) {
 }
 
 TEST(SampledDrive, EveryNumberOfItsStateHasAName) {
-  ReducedDrive drive = lone_motor();
+  ReducedDrive drive = drawn_motor();
   drive.controller =
       ProportionalIntegralDerivative{.integral = 1.0, .derivative = 1.0, .filter = 0.1};
   drive.sampling = Sampling{.period = 0.1, .delay = 0.05};
@@ -182,10 +173,10 @@ TEST(SampledDrive, EveryNumberOfItsStateHasAName) {
 
 /// A continuous controller with an encoder: between counts the torque is constant.
 TEST(OracleSampledDrive, AnEncoderHoldsTheTorqueBetweenItsCounts) {
-  ReducedDrive drive = lone_motor();
+  ReducedDrive drive = drawn_motor();
   drive.controller = ProportionalDerivative{4.0, 0.0};
   drive.sensing.resolution = 0.1;
-  const auto motion = run(drive, {}, 0.9);
+  const auto motion = moved(drive, {}, 0.9);
   // From 0 to the first count, at 0.05, by τ = 4; then by 4 · 0.9 until 0.15.
   const auto& events = motion.events();
   ASSERT_GE(events.size(), 2U);
@@ -248,7 +239,7 @@ TEST(EdgeSampledDrive, FaultsAreToldAllAtOnce) {
     for (const Fault& fault : validate(drive)) fields.push_back(fault.path);
     return fields;
   };
-  ReducedDrive drive = lone_motor();
+  ReducedDrive drive = drawn_motor();
   drive.controller = SampledTransfer{{1.0}, {1.0, -2.0}};
   const auto with_denominator = [](const std::string& other) {
     return std::vector<std::string>{"controller.denominator", other};

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "drives.hpp"
 #include "general/attractors/attractors.hpp"
 #include "general/attractors/found_cycle.hpp"
 #include "general/attractors/motion_watch.hpp"
@@ -10,17 +11,8 @@
 namespace gearlash::drive::search_tolerances_test {
 namespace {
 
-ReducedDrive servo(double damping, double inertia_ratio, double friction_ratio) {
-  ReducedDrive drive;
-  drive.motor = {1.0 / (1.0 + inertia_ratio), {.viscous = 2.0 * damping * (1.0 - friction_ratio)}};
-  drive.load = {inertia_ratio / (1.0 + inertia_ratio), {.viscous = 2.0 * damping * friction_ratio}};
-  drive.backlash = 0.3;
-  drive.controller = ProportionalDerivative{1.0, 0.0};
-  return drive;
-}
-
-const ReducedDrive hunting = servo(0.19, 2.0, 0.1);
-const ReducedDrive fading = servo(0.4284, 3.023, 0.7225);
+const ReducedDrive hunting = servo_drive(0.19, 2.0, 0.1);
+const ReducedDrive fading = servo_drive(0.4284, 3.023, 0.7225);
 
 /// Two starts, and no edges between them.
 AttractorOptions few_starts() {
@@ -167,7 +159,7 @@ TEST(SearchTolerances, SwingsThatShrinkAreNotSteady) {
   AttractorOptions options = few_starts();
   options.tolerances.cycle.residual = 0.0;  // nothing closes
   options.starts = {{100.0, 0.0, 100.0, 0.0}};
-  const ReducedDrive slow = servo(1e-3, 1.0, 0.5);
+  const ReducedDrive slow = servo_drive(1e-3, 1.0, 0.5);
   options.tolerances.irregular.steadiness = 0.1;
   EXPECT_EQ(find_attractors(slow, options).count(MotionEnd::undecided), 1U);
   options.tolerances.irregular.steadiness = 0.3;

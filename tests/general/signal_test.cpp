@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "general/assemble/drive_system.hpp"
 
@@ -73,19 +72,6 @@ TEST(PropertySignal, ADriveIsGivenTheSignal) {
       }
     }
   }
-}
-
-/// J ω′ = T sin(Ωt): θ = (T/JΩ)(t − sin(Ωt)/Ω).
-TEST(OracleSignal, ALoadTorqueMovesTheLoad) {
-  ReducedDrive drive;
-  drive.motor.inertia = 1.0;
-  drive.load.inertia = 2.0;
-  drive.backlash = 1e6;
-  drive.load_torque = Sine{.amplitude = 3.0, .frequency = 5.0};
-  const DriveSystem built = drive_system(drive);
-  const auto motion = simulate(built.system, drive_start(drive, built, {}), {.until = 4.0});
-  const double exact = 3.0 / 2.0 / 5.0 * (4.0 - std::sin(20.0) / 5.0);
-  EXPECT_NEAR(motion.end().numbers[load_position], exact, 1e-13);
 }
 
 }  // namespace

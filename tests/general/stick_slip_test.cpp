@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/references.hpp"
+#include "drives.hpp"
 #include "general/attractors/attractors.hpp"
 
 namespace gearlash::drive::stick_slip_test {
@@ -77,16 +78,10 @@ ReducedDrive belt_drive(const Belt& belt) {
 /// Each half swing takes 2 F/K off the amplitude; the shaft stays where the spring's torque is
 /// below the breakaway as it stops, though above what friction is while it slides.
 TEST(OracleStickSlip, AShaftThatStopsWithinItsBreakawayStaysThere) {
-  ReducedDrive drive;
-  drive.motor = {2.0, {.coulomb = 0.3, .breakaway = 0.5}};
-  drive.load.inertia = 1.0;
-  drive.backlash = 1e6;  // the motor is by itself
-  drive.sensing.load_share_of_position = 0.0;
+  ReducedDrive drive = lone_motor({2.0, {.coulomb = 0.3, .breakaway = 0.5}});
   drive.controller = ProportionalDerivative{1.0, 0.0};
-  const DriveSystem built = drive_system(drive);
   for (const auto& [start, end] : {std::pair{1.0, -0.4}, std::pair{1.3, 0.1}, {-1.0, 0.4}}) {
-    const auto motion = simulate(built.system, drive_start(drive, built, {.motor_position = start}),
-                                 {.until = 99.0});
+    const auto motion = moved(drive, {.motor_position = start}, 99.0);
     EXPECT_NEAR(motion.end().numbers[motor_position], end, 1e-14) << start;
     EXPECT_EQ(motion.end().numbers[motor_speed], 0.0) << start;
   }
@@ -188,20 +183,11 @@ TEST(OracleStickSlip, APidDriveWithStictionHuntsAsInManyDigits) {
 
 // ---- faces that give, as they become rigid ------------------------------------------------------
 
-/// The thesis's servo with ω_n = 1.
-ReducedDrive thesis_servo(const Contact& contact) {
-  ReducedDrive drive;
-  drive.motor = {1.0 / 3.0, {.viscous = 0.38 * 0.9}};
-  drive.load = {2.0 / 3.0, {.viscous = 0.38 * 0.1}};
-  drive.backlash = 0.3;
-  drive.contact = contact;
-  drive.controller = ProportionalDerivative{1.0, 0.0};
-  return drive;
-}
-
+/// Of about the thesis's servo.
 double hunting_amplitude(const Contact& contact) {
-  const AttractorSearch found =
-      find_attractors(thesis_servo(contact), {.starts = {{0.45, 0.0, 0.3, 0.0}}});
+  ReducedDrive drive = servo_drive(0.19, 2.0, 0.1);
+  drive.contact = contact;
+  const AttractorSearch found = find_attractors(drive, {.starts = {{0.45, 0.0, 0.3, 0.0}}});
   return found.cycles.empty() ? std::nan("") : found.cycles.front().amplitude;
 }
 

@@ -3,33 +3,22 @@
 
 #include <cmath>
 
-#include "general/assemble/drive_system.hpp"
+#include "drives.hpp"
 
 namespace gearlash::drive::torque_limit_test {
 namespace {
 
-/// A motor by itself, far from both faces, drawn to 1 rad.
-ReducedDrive lone_motor(double inertia) {
-  ReducedDrive drive;
-  drive.motor.inertia = inertia;
-  drive.load.inertia = 1.0;
-  drive.backlash = 1e6;
-  drive.sensing.load_share_of_position = 0.0;
-  drive.reference = 1.0;
-  return drive;
-}
-
 /// J = 2 kg m², K = 8 N m/rad, limit 2 N m, from rest: 1 rad/s² until 0.25 rad are left, then a
 /// swing of 2 rad/s, then −1 rad/s² to rest at 2 rad, and all the way back.
 TEST(OracleTorqueLimit, BothEndsAreReachedAndLeft) {
-  ReducedDrive drive = lone_motor(2.0);
+  ReducedDrive drive = lone_motor({2.0});
+  drive.reference = 1.0;
   drive.controller = ProportionalDerivative{8.0, 0.0};
   drive.torque_limit = 2.0;
   const double accelerated = std::sqrt(1.5);  // 0.75 rad, and the speed there
   const double swinging = std::atan(2.0 * 0.25 / accelerated);
   const double there = 2.0 * accelerated + swinging;
-  const DriveSystem built = drive_system(drive);
-  const auto motion = simulate(built.system, drive_start(drive, built, {}), {.until = 3.0 * there});
+  const auto motion = moved(drive, {}, 3.0 * there);
   const auto expect = [&](double time, double position, double speed) {
     const hybrid::Vector numbers = motion.at(time).numbers;
     EXPECT_NEAR(numbers[motor_position], position, 1e-13) << time;
@@ -53,13 +42,12 @@ TEST(OracleTorqueLimit, AntiWindupDrawsTheIntegralBack) {
   constexpr double tracking_time = 0.5;
   constexpr double limit = 1.0;
   for (const double side : {1.0, -1.0}) {
-    ReducedDrive drive = lone_motor(1e15);
+    ReducedDrive drive = lone_motor({1e15});
     drive.reference = side;
     drive.controller = ProportionalIntegralDerivative{
         .proportional = proportional, .integral = integral, .tracking_time = tracking_time};
     drive.torque_limit = limit;
-    const DriveSystem built = drive_system(drive);
-    const auto motion = simulate(built.system, drive_start(drive, built, {}), {.until = 3.0});
+    const auto motion = moved(drive, {}, 3.0);
     constexpr double end = limit + integral * tracking_time;
     for (const double time : {0.1, 0.5, 3.0}) {
       const double asked = end + (proportional - end) * std::exp(-time / tracking_time);

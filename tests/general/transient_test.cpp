@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "drives.hpp"
 #include "general/attractors/irregular_motion.hpp"
 
 namespace gearlash::drive::transient_test {
@@ -60,11 +61,7 @@ TEST(Transient, ThatSwingsAsAStableCycleIsOnItsWayThere) {
 
 /// A start on the cycle, and one beside it that is watched for a few swings only.
 TEST(Transient, OfASearchIsListedOnce) {
-  ReducedDrive drive;
-  drive.motor = {1.0 / 3.0, {.viscous = 0.342}};
-  drive.load = {2.0 / 3.0, {.viscous = 0.038}};
-  drive.backlash = 0.3;
-  drive.controller = ProportionalDerivative{1.0, 0.0};
+  const ReducedDrive drive = servo_drive(0.19, 2.0, 0.1);
   AttractorOptions options;
   options.starts = {{1.0, 0.0, 1.0, 0.0}};
   const AttractorSearch found = find_attractors(drive, options);

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "general/assemble/drive_system.hpp"
+#include "drives.hpp"
 #include "general/assemble/time_scale.hpp"
 
 namespace gearlash::drive::winding_test {
@@ -35,33 +35,14 @@ Numbers slope_of(const ReducedDrive& drive, const Numbers& now) {
           (asked - drive.winding.back_emf * now[1] - now[2]) / drive.winding.time_constant};
 }
 
-/// Runge and Kutta's method of order 4.
-Numbers integrated(const ReducedDrive& drive, double until, int steps) {
-  const double step = until / steps;
-  const auto moved = [](Numbers from, const Numbers& along, double by) {
-    for (std::size_t i = 0; i < from.size(); ++i) from[i] += by * along[i];
-    return from;
-  };
-  Numbers now{};
-  for (int i = 0; i < steps; ++i) {
-    const Numbers a = slope_of(drive, now);
-    const Numbers b = slope_of(drive, moved(now, a, 0.5 * step));
-    const Numbers c = slope_of(drive, moved(now, b, 0.5 * step));
-    const Numbers d = slope_of(drive, moved(now, c, step));
-    for (std::size_t k = 0; k < now.size(); ++k) {
-      now[k] += step / 6.0 * (a[k] + 2.0 * b[k] + 2.0 * c[k] + d[k]);
-    }
-  }
-  return now;
-}
-
 TEST(OracleWinding, MovesAsItsEquationsSay) {
   const ReducedDrive drive = free_motor(3e-3);
   const DriveSystem built = drive_system(drive);
   constexpr double until = 0.2;
   const auto motion = simulate(built.system, drive_start(drive, built, {}), {.until = until});
   const hybrid::State end = motion.at(until);
-  const Numbers expected = integrated(drive, until, 20000);
+  const Numbers expected =
+      integrated(Numbers{}, until, 20000, [&](const Numbers& now) { return slope_of(drive, now); });
   EXPECT_NEAR(end.numbers[motor_position], expected[0], 1e-11);
   EXPECT_NEAR(end.numbers[motor_speed], expected[1], 1e-10);
   EXPECT_NEAR(end.numbers[built.at.winding], expected[2], 1e-9);
@@ -95,10 +76,7 @@ TEST(PropertyWinding, AVeryFastOneIsViscousFriction) {
   at_once.winding = {};
   const ReducedDrive fast = free_motor(1e-8);
   const auto position = [](const ReducedDrive& drive) {
-    const DriveSystem built = drive_system(drive);
-    return simulate(built.system, drive_start(drive, built, {}), {.until = 0.2})
-        .at(0.2)
-        .numbers[motor_position];
+    return moved(drive, {}, 0.2).end().numbers[motor_position];
   };
   EXPECT_NEAR(position(fast), position(at_once), 1e-6);
 }

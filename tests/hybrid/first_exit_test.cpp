@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 
 namespace gearlash::hybrid::first_exit_test {
 namespace {
@@ -81,9 +81,7 @@ TEST(EdgeFirstExit, TwoZerosSideBySideAreAnExit) {
 }
 
 TEST(PropertyFirstExit, IsTheLeastOfRandomZeros) {
-  constexpr std::uint64_t seed = 61;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(61);
   for (int i = 0; i < 2000; ++i) {
     std::vector<double> p = {draws.log_uniform(1e-3, 1e3)};
     double least = 2.0;
@@ -122,9 +120,7 @@ std::vector<double> drawn_series(SeededDraws& draws, std::size_t count) {
 }
 
 TEST(PropertyRoughExit, IsNearThatOfTheWholeSeries) {
-  constexpr std::uint64_t seed = 62;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(62);
   constexpr int series = 5000;
   int stays = 0;
   int falls = 0;

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/references.hpp"
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 #include "hybrid/hybrid_trajectory.hpp"
 
 namespace gearlash::hybrid::grazing_band_test {
@@ -178,9 +177,7 @@ Watched random_system(SeededDraws& draws) {
 }
 
 TEST(OracleGrazing, NoPassageOfRandomSystemsIsDeeperThanItsTouchSays) {
-  constexpr std::uint64_t seed = 1962;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(1962);
   Tally tally{.drift = 16.0};
   for (int i = 0; i < 600 && !testing::Test::HasFailure(); ++i) {
     SCOPED_TRACE(i);

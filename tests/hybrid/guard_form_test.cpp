@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/references.hpp"
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 
 namespace gearlash::hybrid::guard_form_test {
 namespace {
@@ -57,9 +57,7 @@ std::vector<Wide> exact_coefficients(const Step& step, const Velocity& velocity,
 }
 
 TEST(OracleGuardTable, CoefficientsOfRandomFlowsAreAsUncertainAsItSays) {
-  constexpr std::uint64_t seed = 1978;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(1978);
   for (int i = 0; i < 100; ++i) {
     SCOPED_TRACE(i);
     const Step step = random_step(draws);

@@ -2,19 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <initializer_list>
 #include <vector>
 
 #include "hybrid/hybrid_trajectory.hpp"
 
 namespace gearlash::hybrid::observe_test {
 namespace {
-
-Vector vector_of(std::initializer_list<double> values) {
-  Vector vector(static_cast<Eigen::Index>(values.size()));
-  std::copy(values.begin(), values.end(), vector.begin());
-  return vector;
-}
 
 /// Keeps what it receives.
 struct Kept : MotionObserver {
@@ -43,13 +36,13 @@ HybridSystem stuck_mass(double period, double gain, double stiction) {
   };
   const auto moving = [&](const char* name, double way, std::size_t index) {
     AffineMode mode{.name = name,
-                    .flow = {Matrix::Zero(4, 4), vector_of({0.0, -0.5 * way, 0.0, 0.0})}};
+                    .flow = {Matrix::Zero(4, 4), Vector{{0.0, -0.5 * way, 0.0, 0.0}}}};
     mode.flow.matrix(place, speed) = 1.0;
     mode.flow.matrix(speed, force) = 1.0;
     Matrix stop = Matrix::Identity(4, 4);
     stop(speed, speed) = 0.0;
     mode.transitions.push_back({.name = "stops",
-                                .guard = {vector_of({0.0, 1.0, 0.0, 0.0}), 0.0},
+                                .guard = {Vector{{0.0, 1.0, 0.0, 0.0}}, 0.0},
                                 .direction = way > 0.0 ? Direction::falling : Direction::rising,
                                 .reset = {stop, {}, {}},
                                 .target = 0});
@@ -59,11 +52,11 @@ HybridSystem stuck_mass(double period, double gain, double stiction) {
   AffineMode sticks{.name = "sticks", .flow = {Matrix::Zero(4, 4), Vector::Zero(4)}};
   sticks.flow.matrix(place, speed) = 1.0;
   sticks.transitions = {{.name = "forward",
-                         .guard = {vector_of({0.0, 0.0, 1.0, 0.0}), -stiction},
+                         .guard = {Vector{{0.0, 0.0, 1.0, 0.0}}, -stiction},
                          .direction = Direction::rising,
                          .target = 1},
                         {.name = "backward",
-                         .guard = {vector_of({0.0, 0.0, 1.0, 0.0}), stiction},
+                         .guard = {Vector{{0.0, 0.0, 1.0, 0.0}}, stiction},
                          .direction = Direction::falling,
                          .target = 2}};
   sticks.timed = clocked(0);
@@ -75,7 +68,7 @@ HybridSystem stuck_mass(double period, double gain, double stiction) {
 TEST(Observe, EndsWhereTheKeptMotionEnds) {
   for (const double gain : {2e-4, 2.5e-4, 3e-4}) {
     const PreparedSystem system(stuck_mass(1e-3, gain, 0.8));
-    const State start{0, vector_of({0.31, 0.0, 0.0, 0.0})};
+    const State start{0, Vector{{0.31, 0.0, 0.0, 0.0}}};
     const Trajectory motion = simulate(system, start, {.until = 90.00005});
     Kept kept;
     const Observed observed = observe(system, start, {.until = 90.00005}, kept);
@@ -103,12 +96,12 @@ TEST(Observe, StopsStandingAtTheTickThatBreaksAway) {
   // The first tick is at 0. Each sets the integral, then the force from the integral before.
   const double ticks = std::floor((0.8 - 0.36) / (0.3 * gain)) + 1.0;
   const Observed before =
-      observe(system, {0, vector_of({-0.3, 0.0, 0.0, 0.0})}, {.until = (ticks - 0.5) * 1e-3}, kept);
+      observe(system, {0, Vector{{-0.3, 0.0, 0.0, 0.0}}}, {.until = (ticks - 0.5) * 1e-3}, kept);
   EXPECT_EQ(before.end.mode, 0U);
   EXPECT_EQ(before.end.numbers[1], 0.0);
   EXPECT_LT(kept.pieces.size(), 200U);
   const Observed after =
-      observe(system, {0, vector_of({-0.3, 0.0, 0.0, 0.0})}, {.until = (ticks + 0.5) * 1e-3}, kept);
+      observe(system, {0, Vector{{-0.3, 0.0, 0.0, 0.0}}}, {.until = (ticks + 0.5) * 1e-3}, kept);
   EXPECT_EQ(after.end.mode, 1U);
   EXPECT_GT(after.end.numbers[1], 0.0);
 }
@@ -118,7 +111,7 @@ TEST(Observe, PassesOverTicksThatChangeNothing) {
   const PreparedSystem system(stuck_mass(1e-6, 0.0, 0.8));
   Kept kept;
   const Observed observed =
-      observe(system, {0, vector_of({0.1, 0.0, 0.0, 0.0})}, {.until = 1e6}, kept);
+      observe(system, {0, Vector{{0.1, 0.0, 0.0, 0.0}}}, {.until = 1e6}, kept);
   EXPECT_EQ(observed.stop_reason, StopReason::reached_end);
   EXPECT_EQ(observed.time, 1e6);
   EXPECT_EQ(observed.end.numbers[0], 0.1);

@@ -7,7 +7,7 @@
 
 #include "base/described.hpp"
 #include "base/range_check.hpp"
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 #include "closed_form/trajectory.hpp"
 #include "hybrid/hybrid_trajectory.hpp"
 #include "servo_system.hpp"
@@ -68,9 +68,7 @@ bool compare(const Trajectory& exact, const hybrid::Trajectory& found, Differenc
 }
 
 TEST(OracleSimulateServo, EventsOfThousandServosAreThoseOfTheClosedForm) {
-  constexpr std::uint64_t seed = 6001;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(6001);
   Differences worst;
   for (int i = 0; i < 1000; ++i) {
     const NormalizedServo servo = drawn_servo(draws, i);

@@ -51,31 +51,16 @@ void expect_as_printed(double value, double printed, double last_digit) {
       << value << " against " << printed;
 }
 
-TEST(OracleAppendixB, Step1Stiffness) {
-  expect_as_printed(referred_drivetrain(elinco_fd162()).stiffness / foot_pound_force, 0.0052, 1e-4);
-}
-
-TEST(OracleAppendixB, Step2MotorInertia) {
-  expect_as_printed(referred_drivetrain(elinco_fd162()).motor_inertia / slug_square_foot, 8.2e-6,
-                    1e-7);
-}
-
-TEST(OracleAppendixB, Step3NaturalFrequency) {
-  expect_as_printed(natural_frequency(referred_drivetrain(elinco_fd162())), 14.5, 0.1);
-}
-
-TEST(OracleAppendixB, Step4MechanicalFriction) {
+TEST(OracleAppendixB, EachStepIsAsPrinted) {
   const Drive drive = elinco_fd162();  // n = 1
-  const double total = drive.motor.friction.viscous + drive.load.friction.viscous;
-  expect_as_printed(total / foot_pound_force, 13.7e-6, 1e-7);
-}
-
-TEST(OracleAppendixB, Step5ElectricalFriction) {
-  expect_as_printed(refer_output(elinco_fd162()).friction / foot_pound_force, 121e-6, 1e-6);
-}
-
-TEST(OracleAppendixB, Steps6To8Ratios) {
-  const NormalizedServo servo = closed_form_servo(elinco_fd162())->servo;
+  const Drivetrain drivetrain = referred_drivetrain(drive);
+  expect_as_printed(drivetrain.stiffness / foot_pound_force, 0.0052, 1e-4);
+  expect_as_printed(drivetrain.motor_inertia / slug_square_foot, 8.2e-6, 1e-7);
+  expect_as_printed(natural_frequency(drivetrain), 14.5, 0.1);
+  const double mechanical = drive.motor.friction.viscous + drive.load.friction.viscous;
+  expect_as_printed(mechanical / foot_pound_force, 13.7e-6, 1e-7);
+  expect_as_printed(refer_output(drive).friction / foot_pound_force, 121e-6, 1e-6);
+  const NormalizedServo servo = closed_form_servo(drive)->servo;
   expect_as_printed(servo.damping, 0.19, 0.01);
   expect_as_printed(servo.inertia_ratio, 2.0, 0.1);
   expect_as_printed(servo.friction_ratio, 0.077, 0.001);

@@ -1,4 +1,5 @@
-// Transfer functions of controllers against C (sI − A)⁻¹ B + D worked out at single s.
+// Controllers as linear ones: their transfer functions are those that their names stand for, and
+// C (sI − A)⁻¹ B + D worked out at single s.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -66,6 +67,46 @@ void expect_same(const LinearController& controller, Complex s) {
     EXPECT_LT(std::abs(value_of(*found[i], s) - exact), 1e-12 * std::abs(exact) + 1e-300)
         << "input " << i << ", s = " << s;
   }
+}
+
+void expect_transfer(const Controller& controller, Complex s, Complex of_error, Complex of_speed) {
+  const auto found = direct_transfer(linear_controller(controller), s);
+  const double size = std::abs(of_error) + std::abs(of_speed);
+  EXPECT_LT(std::abs(Complex(found(0)) - of_error), 1e-14 * size);
+  EXPECT_LT(std::abs(Complex(found(1)) + of_error), 1e-14 * size);
+  EXPECT_LT(std::abs(Complex(found(2)) + of_speed), 1e-14 * size);
+}
+
+TEST(OracleController, HasTheTransferFunctionOfItsName) {
+  for (const Complex s : {Complex{0.3, 1.7}, Complex{2.0, -0.4}, Complex{0.0, 11.0}}) {
+    expect_transfer(ProportionalDerivative{3.0, 0.7}, s, 3.0, 0.7);
+    const ProportionalIntegralDerivative pid{3.0, 2.0, 0.7, 0.0, 0.0};
+    expect_transfer(pid, s, 3.0 + 2.0 / s, 0.7);
+    const ProportionalIntegralDerivative filtered{3.0, 2.0, 0.7, 0.05, 0.0};
+    expect_transfer(filtered, s, 3.0 + 2.0 / s + 0.7 * s / (0.05 * s + 1.0), 0.0);
+    const Cascade cascade{4.0, 0.6, 1.5, 0.0};
+    expect_transfer(cascade, s, 4.0 * (0.6 + 1.5 / s), 0.6 + 1.5 / s);
+    for (const double integral : {0.0, 1.5}) {
+      const Cascade of_filtered_speed{4.0, 0.6, integral, 0.0, 0.05};
+      const Complex speed = 0.6 + integral / s;
+      expect_transfer(of_filtered_speed, s, 4.0 * speed, speed / (0.05 * s + 1.0));
+    }
+    const LeadLag lead{2.0, 1.5, 9.0};
+    expect_transfer(lead, s, 2.0 * (s / 1.5 + 1.0) / (s / 9.0 + 1.0), 0.0);
+    const ErrorTransfer any{{{0.0, 2.0, 1.0, 3.0}, {0.5, 4.0, 1.0, 7.0}}};
+    const Complex exact = (2.0 * s * s + s + 3.0) / (0.5 * s * s * s + 4.0 * s * s + s + 7.0);
+    expect_transfer(any, s, exact, 0.0);
+    const ErrorTransfer biproper{{{2.0, 1.0, 3.0}, {4.0, 1.0, 7.0}}};
+    expect_transfer(biproper, s, (2.0 * s * s + s + 3.0) / (4.0 * s * s + s + 7.0), 0.0);
+  }
+}
+
+TEST(EdgeController, AnImproperTransferFunctionIsRefused) {
+  const ErrorTransfer improper{{{1.0, 0.0, 0.0}, {1.0, 1.0}}};
+  const auto faults = validate(Controller(improper));
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].path, "controller.numerator");
+  EXPECT_EQ(validate(Controller(LeadLag{1.0, 0.0, -1.0})).size(), 2U);
 }
 
 TEST(OracleControllerTransfer, IsThatOfTheStateSpace) {

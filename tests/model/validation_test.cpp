@@ -55,27 +55,18 @@ Drive sound_data_sheet() {
 }
 
 TEST(EdgeNormalizedServoRanges, EndsArePermitted) {
-  for (const double damping : {0.0, 1e-15, 1e3}) {
-    NormalizedServo servo = sound_servo();
-    servo.damping = damping;
-    EXPECT_THAT(validate(servo), IsEmpty()) << damping;
-  }
-  for (const double ratio : {0.0, 1e-9, 1e9, infinity}) {
-    NormalizedServo servo = sound_servo();
-    servo.inertia_ratio = ratio;
-    EXPECT_THAT(validate(servo), IsEmpty()) << ratio;
-  }
-  for (const double ratio : {0.0, 1.0}) {
-    NormalizedServo servo = sound_servo();
-    servo.friction_ratio = ratio;
-    servo.restitution = ratio;
-    EXPECT_THAT(validate(servo), IsEmpty()) << ratio;
-  }
-  for (const double backlash : {0.0, 1e-15, 1e6}) {
-    NormalizedServo servo = sound_servo();
-    servo.backlash = backlash;
-    EXPECT_THAT(validate(servo), IsEmpty()) << backlash;
-  }
+  const auto permitted = [](auto member, const std::vector<double>& values) {
+    for (const double value : values) {
+      NormalizedServo servo = sound_servo();
+      servo.*member = value;
+      EXPECT_THAT(validate(servo), IsEmpty()) << value;
+    }
+  };
+  permitted(&NormalizedServo::damping, {0.0, 1e-15, 1e3});
+  permitted(&NormalizedServo::inertia_ratio, {0.0, 1e-9, 1e9, infinity});
+  permitted(&NormalizedServo::friction_ratio, {0.0, 1.0});
+  permitted(&NormalizedServo::restitution, {0.0, 1.0});
+  permitted(&NormalizedServo::backlash, {0.0, 1e-15, 1e6});
 }
 
 TEST(EdgeNormalizedServoRanges, OneStepBeyondIsRefused) {
@@ -187,11 +178,6 @@ TEST(EdgeDrivetrainRanges, AllFaultsAreListed) {
   EXPECT_THAT(
       fields(validate(drivetrain)),
       ElementsAre("motor_inertia", "load_inertia", "motor_friction", "load_friction", "stiffness"));
-  // Whatever is already wrong with the inertias, a backlash out of range is wrong too.
-  Drivetrain two_faults = sound_drivetrain();
-  two_faults.backlash = -1.0;
-  two_faults.restitution = 7.0;
-  EXPECT_THAT(fields(validate(two_faults)), ElementsAre("backlash", "restitution"));
 }
 
 TEST(EdgeDrivetrainRanges, EveryFieldAtFaultIsListedAtOnce) {

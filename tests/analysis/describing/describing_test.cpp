@@ -66,34 +66,6 @@ TEST(OracleDescribing, TheServoHasItsOwnEstimate) {
   }
 }
 
-TEST(OracleDescribing, TypeOneServoWithPlayCyclesFromItsThresholdOn) {
-  constexpr double time_constant = 0.2;
-  const auto cycles = [&](double loop_gain) {
-    return described(type_one_servo(loop_gain / time_constant, time_constant),
-                     DescribedPart::gap_load_held)
-        .cycles;
-  };
-  EXPECT_EQ(cycles(3.416580).size(), 0U);
-  const auto near = cycles(3.416582);
-  ASSERT_EQ(near.size(), 2U);
-  // The two part as the root of the excess: their mean is off by the excess, some 1e-6. The
-  // published frequency is 0.7574973 (tests/analysis/describing/harmonic_balance_test.cpp says
-  // why).
-  EXPECT_NEAR(0.5 * (near[0].balance.frequency + near[1].balance.frequency) * time_constant,
-              0.757500, 5e-6);
-  EXPECT_NEAR(0.5 * (near[0].balance.amplitude + near[1].balance.amplitude), 1.289590, 2e-6);
-  // The published 1.055693, 0.318136 and 2.020631, 1.591382, in 30-digit arithmetic.
-  const auto five = cycles(5.0);
-  ASSERT_EQ(five.size(), 2U);
-  EXPECT_NEAR(five[0].balance.amplitude, 1.05569530822755889, 1e-12);
-  EXPECT_NEAR(five[0].balance.frequency * time_constant, 0.318142399157484501, 1e-12);
-  EXPECT_FALSE(five[0].balance.stable);
-  EXPECT_NEAR(five[1].balance.amplitude, 2.02063227695986025, 1e-12);
-  EXPECT_NEAR(five[1].balance.frequency * time_constant, 1.59138349520143382, 1e-12);
-  EXPECT_TRUE(five[1].balance.stable);
-  EXPECT_NEAR(five[1].amplitude, 1.02063227695986025, 1e-12);  // of the play's output
-}
-
 TEST(Describing, SensorsOnTheMotorLeaveOnlyTheLoadsReaction) {
   ReducedDrive drive = type_one_servo(5.0, 1.0);
   drive.sensing.load_share_of_position = 0.0;

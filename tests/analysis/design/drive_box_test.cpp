@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -13,7 +12,7 @@
 #include "analysis/design/drives.hpp"
 #include "analysis/design/target.hpp"
 #include "base/references.hpp"
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash::drive_box_test {
@@ -137,9 +136,7 @@ Wide growth_of(const Drivetrain& drive) {
 
 /// Every number of the box of two ends holds those of every drive between, and so does its growth.
 TEST(PropertyDriveBox, HoldsEveryDataSheetBetweenItsEnds) {
-  constexpr std::uint64_t seed = 1843;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(1843);
   int compared = 0;
   for (std::size_t i = 0; i < 4000 && !HasFailure(); ++i) {
     const Drive sheet = drawn_data_sheet(draws);

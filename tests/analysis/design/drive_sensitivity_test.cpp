@@ -10,7 +10,7 @@
 #include "analysis/design/drives.hpp"
 #include "analysis/design/target.hpp"
 #include "base/range_check.hpp"
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 #include "closed_form/growth_at_rest.hpp"
 
 namespace gearlash::drive_sensitivity_test {
@@ -143,9 +143,7 @@ TEST(DriveSensitivity, OfEachNumberAgreesWithDifferences) {
 }
 
 TEST(PropertyDriveSensitivity, OfRandomServosAgreesWithDifferences) {
-  constexpr std::uint64_t seed = 2301;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(2301);
   for (int compared = 0; compared < 100;) {
     const NormalizedServo servo{.damping = draws.log_uniform(0.02, 2.0),
                                 .inertia_ratio = draws.log_uniform(0.03, 30.0),
@@ -183,9 +181,7 @@ double directional(const DrivetrainSlopes& slopes, const Drivetrain& drive, doub
 }
 
 TEST(PropertyDriveSensitivity, KnowsTheScalesOfTorqueTimeAndAngle) {
-  constexpr std::uint64_t seed = 2302;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(2302);
   for (int compared = 0; compared < 500;) {
     const Drivetrain drive{.motor_inertia = draws.log_uniform(1e-4, 1e-1),
                            .load_inertia = draws.log_uniform(1e-4, 1e-1),
@@ -218,16 +214,6 @@ TEST(PropertyDriveSensitivity, KnowsTheScalesOfTorqueTimeAndAngle) {
           << name_of(quantity);
     }
   }
-}
-
-TEST(DriveSensitivity, OfAmplitudeByBacklashIsOneForOne) {
-  const Jacobian found = derivatives(
-      armature_drive(), {Quantity::amplitude, Quantity::frequency, Quantity::growth_at_rest},
-      {"gearbox.backlash", "contact.restitution"});
-  EXPECT_DOUBLE_EQ(*found.elasticity(0, 0), 1.0);
-  EXPECT_EQ(*found.elasticity(1, 0), 0.0);
-  EXPECT_EQ(*found.elasticity(2, 0), 0.0);
-  EXPECT_EQ(*found.elasticity(0, 1), 0.0);
 }
 
 // ---- edges --------------------------------------------------------------------------------------

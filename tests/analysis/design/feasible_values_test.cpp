@@ -9,7 +9,7 @@
 #include "analysis/design/drives.hpp"
 #include "analysis/design/target.hpp"
 #include "base/range_check.hpp"
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 
 namespace gearlash::feasible_values_test {
 namespace {
@@ -191,9 +191,7 @@ void scan(const Task& task, int values, Scan& found_so_far) {
 }
 
 TEST(PropertyFeasibleValues, AScanFindsNoOthers) {
-  constexpr std::uint64_t seed = 500;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(500);
   constexpr int tasks = 500;
   constexpr int values = 400;
   Scan all;
@@ -207,9 +205,7 @@ TEST(PropertyFeasibleValues, AScanFindsNoOthers) {
 }
 
 TEST(PropertyFeasibleValues, AScanFindsNoOthersOfMasslessSides) {
-  constexpr std::uint64_t seed = 501;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(501);
   constexpr int tasks = 200;
   constexpr int values = 400;
   Scan all;
@@ -225,9 +221,7 @@ TEST(PropertyFeasibleValues, AScanFindsNoOthersOfMasslessSides) {
 }
 
 TEST(PropertyFeasibleValues, AScanFindsNoOthersWithBounces) {
-  constexpr std::uint64_t seed = 45;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(45);
   constexpr int tasks = 5;
   constexpr int scanned = 30;
   int met = 0;

@@ -10,7 +10,7 @@
 #include "analysis/design/drives.hpp"
 #include "analysis/design/target.hpp"
 #include "base/described.hpp"
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 #include "closed_form/growth_at_rest.hpp"
 
 namespace gearlash::hunting_margin_test {
@@ -65,9 +65,7 @@ void expect_same(const std::optional<double>& found, double scanned) {
 }
 
 TEST(PropertyHuntingMargin, OfEachParameterIsWhereBisectionEnds) {
-  constexpr std::uint64_t seed = 2401;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(2401);
   int found = 0;
   for (int i = 0; i < 20; ++i) {
     const NormalizedServo servo = drawn_servo(draws);
@@ -158,9 +156,7 @@ Drivetrain at_boundary(const Drivetrain& drive, const OverallMargin& margin) {
 }
 
 TEST(PropertyHuntingMargin, NoRandomDirectionIsShorter) {
-  constexpr std::uint64_t seed = 2402;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(2402);
   for (int i = 0; i < 40; ++i) {
     const NormalizedServo servo = drawn_servo(draws);
     SCOPED_TRACE(described(servo));
@@ -187,9 +183,7 @@ TEST(PropertyHuntingMargin, NoRandomDirectionIsShorter) {
 }
 
 TEST(PropertyHuntingMargin, ChangesNoUnit) {
-  constexpr std::uint64_t seed = 2403;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(2403);
   for (int i = 0; i < 50; ++i) {
     const NormalizedServo servo = drawn_servo(draws);
     SCOPED_TRACE(described(servo));
@@ -205,9 +199,7 @@ TEST(PropertyHuntingMargin, ChangesNoUnit) {
 
 /// The margin by one parameter alone is a change of all, so it is no shorter.
 TEST(PropertyHuntingMargin, OfAllTogetherIsShorterThanOfOne) {
-  constexpr std::uint64_t seed = 2404;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(2404);
   for (int i = 0; i < 10; ++i) {
     const NormalizedServo servo = drawn_servo(draws);
     SCOPED_TRACE(described(servo));
@@ -245,9 +237,7 @@ TEST(HuntingMargin, WithBouncesOfAllTogetherIsWhereRestTurnsStable) {
             Verdict::cannot_hunt);
   EXPECT_EQ(performance_of(changed(drive, along, margin.change->length() - 1e-3)).verdict,
             Verdict::hunts);
-  constexpr std::uint64_t seed = 2405;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(2405);
   for (int k = 0; k < 500; ++k) {
     EXPECT_EQ(crossed(drive, drawn_direction(draws), margin.change->length() - 1e-6, 8), 0);
   }

@@ -12,7 +12,7 @@
 #include "analysis/design/target.hpp"
 #include "analysis/faults_of.hpp"
 #include "analysis/pd_drive.hpp"
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 #include "gearlash/analyse.hpp"
 #include "gearlash/design.hpp"
 #include "gearlash/parameter.hpp"
@@ -274,9 +274,7 @@ Task random_task(SeededDraws& draws) {
 TEST(PropertySearchedValues, MeetTheirTargetAndMissNothingWiderThanTheGrid) {
   const char* asked = std::getenv("GEARLASH_TASKS");
   const int tasks = asked != nullptr ? std::atoi(asked) : 10;
-  constexpr std::uint64_t seed = 2026;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(2026);
   int answered = 0;
   for (int i = 0; i < tasks; ++i) {
     const Task task = random_task(draws);

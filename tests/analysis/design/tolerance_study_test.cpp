@@ -412,15 +412,19 @@ TEST(EdgeToleranceStudy, WithoutVariedNumbersAllPiecesAreAlike) {
   EXPECT_EQ(study.histogram.counts.back(), 8U);
 }
 
-TEST(EdgeToleranceStudy, QuietDrivesHaveNoFrequency) {
-  const ToleranceStudy study =
-      study_tolerances(normalised_toleranced({{"servo.damping", UniformBetween{1.5, 2.0}}}),
-                       {.points = 64, .replicates = 2});
+TEST(EdgeToleranceStudy, QuietDrivesHaveNoFrequencyAndNoIndices) {
+  const TolerancedDrive quiet =
+      normalised_toleranced({{"servo.damping", UniformBetween{1.5, 2.0}}});
+  const SamplePlan sampling{.points = 64, .replicates = 2};
+  const ToleranceStudy study = study_tolerances(quiet, sampling);
   EXPECT_EQ(study.hunting.value, 0.0);
   EXPECT_EQ(study.amplitude.back().value->value, 0.0);
   EXPECT_FALSE(study.amplitude_of_hunting.back().value);
   EXPECT_FALSE(study.frequency.back().value);
+  EXPECT_EQ(study.mean_amplitude.value().value, 0.0);
   EXPECT_TRUE(study.histogram.edges.empty());
+  const SensitivityStudy indices = study_sensitivities(quiet, sampling);
+  EXPECT_FALSE(indices.numbers[0].of_amplitude || indices.numbers[0].of_hunting);
 }
 
 TEST(EdgeToleranceStudy, NoFrictionGrowsWithoutBound) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/seeded_draws.hpp"
+#include "base/traced_draws.hpp"
 
 namespace gearlash::value_scan_test {
 namespace {
@@ -42,9 +42,7 @@ std::vector<double> whole_numbers(int last) {
 constexpr Resolution fine{.smooth = 1e-12, .at_jump = 1e-6};
 
 TEST(ValueScan, FindsEveryIntervalThatIsWiderThanItsGrid) {
-  constexpr std::uint64_t seed = 1960;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
+  TracedDraws draws(1960);
   for (int i = 0; i < 300; ++i) {
     std::vector<Bounds> met;
     for (double from = draws.uniform(0.1, 3.0); from < 17.0; from += draws.uniform(1.1, 4.0)) {

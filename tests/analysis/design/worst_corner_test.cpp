@@ -4,8 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "base/seeded_draws.hpp"
 #include "closed_form/lanes/cycle_batch.hpp"
 #include "toleranced_samples.hpp"
@@ -88,33 +86,6 @@ TEST(PropertyWorstCorner, WithoutHuntingIsTheLargestGrowth) {
                                          {"servo.inertia_ratio", UniformBetween{0.2, 8.0}},
                                          {"servo.friction_ratio", UniformBetween{0.4, 0.6}}}),
                   64);
-}
-
-TEST(PropertyWorstCorner, OfRandomBoxesIsNotBeatenByTheirCornersAndMiddles) {
-  constexpr std::uint64_t seed = 65;
-  SCOPED_TRACE(seed);
-  SeededDraws draws(seed);
-  for (int i = 0; i < 30; ++i) {
-    SCOPED_TRACE(i);
-    const double damping = draws.log_uniform(0.03, 0.5);
-    const double ratio = draws.log_uniform(0.1, 10.0);
-    const double share = draws.uniform(0.1, 0.8);
-    const TolerancedDrive drive = normalised_toleranced(
-        {{"servo.damping", within_share(damping, draws.uniform(0.0, 0.6))},
-         {"servo.inertia_ratio", within_share(ratio, draws.uniform(0.0, 0.9))},
-         {"servo.friction_ratio", within_share(share, draws.uniform(0.0, 0.2))}});
-    const WorstCorner worst = worst_corner(drive, {.samples = 64, .starts = 2});
-    for (int k = 0; k < 2000; ++k) {
-      const NormalizedServo servo = drive_with(drive, drawn_values(drive, draws)).servo;
-      const LimitCycleAnalysis analysis = analyse_limit_cycles(servo);
-      const LimitCycle* cycle = largest_stable(analysis);
-      if (cycle != nullptr) {
-        ASSERT_LE(cycle->amplitude, worst.performance.amplitude * (1.0 + 1e-9));
-      } else if (worst.performance.verdict == Verdict::cannot_hunt) {
-        ASSERT_LE(analysis.growth_at_rest, worst.performance.growth_at_rest * (1.0 + 1e-9));
-      }
-    }
-  }
 }
 
 TEST(OracleWorstCorner, OfBacklashIsTheWidest) {

@@ -155,17 +155,6 @@ TEST(PropertyGrid, ThreadsAndVectorUnitsGiveTheSameBits) {
   }
 }
 
-TEST(PropertyGrid, PartsAreThoseOfTheWhole) {
-  const Grid grid = grid_of_three();
-  const Table whole = worked_out(grid);
-  constexpr std::size_t first = 5'000;
-  Table part = table_of(4'321);
-  work_out(grid, first, part);
-  for (std::size_t row = 0; row < part.rows(); ++row) {
-    ASSERT_TRUE(same_bits(part, whole, row, first + row)) << row;
-  }
-}
-
 TEST(EdgeGrid, CombinationsThatAreNoServoAreKnownOfNothing) {
   const Grid grid{.drive = drive_of({.damping = 0.2, .backlash = 0.3}),
                   .axes = {{"servo.inertia_ratio", {0.0, 1.0, infinity}},

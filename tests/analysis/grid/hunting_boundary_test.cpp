@@ -201,16 +201,6 @@ TEST(OracleHuntingBoundary, LongSimulationsWithBouncesNeitherGrowNorDieThere) {
   compare_at_random({grid}, 30, 50.0);
 }
 
-TEST(EdgeHuntingBoundary, NoneWhereAllHuntOrNoneDoes) {
-  const Axis friction = linear("servo.friction_ratio", 0.2, 0.8, 9);
-  EXPECT_TRUE(boundary_of({drive_of({.inertia_ratio = 1.0, .backlash = 0.3}),
-                           {linear("servo.damping", 0.05, 0.2, 9), friction}})
-                  .empty());
-  EXPECT_TRUE(boundary_of({drive_of({.inertia_ratio = 1.0, .backlash = 0.3}),
-                           {linear("servo.damping", 0.7, 0.9, 9), friction}})
-                  .empty());
-}
-
 TEST(EdgeHuntingBoundary, FrictionOnOneSideOnlyAlwaysHunts) {
   // The growth is infinite at friction ratio 0 and 1: the boundary ends at the map's top on either
   // side, short of them.
@@ -250,26 +240,6 @@ TEST(EdgeHuntingBoundary, RefusedCombinationsHaveNone) {
       EXPECT_FALSE(point.x < 0.2 && point.y < 0.5) << point.x << ", " << point.y;
     }
   }
-}
-
-TEST(PropertyHuntingBoundary, TheExchangeOfMotorAndLoadKeepsIt) {
-  // (friction_ratio, inertia_ratio) → (1 − friction_ratio, 1/inertia_ratio): a half turn of the
-  // map.
-  const Grid grid{drive_of({.damping = 0.5, .backlash = 1.0}),
-                  {logarithmic("servo.inertia_ratio", 1.0 / 30.0, 30.0, 21),
-                   linear("servo.friction_ratio", 0.0, 1.0, 21)}};
-  std::size_t points = 0;
-  for (const MapCurve& curve : boundary_of(grid)) {
-    for (const MapPoint& point : curve) {
-      NormalizedServo exchanged = servo_of(grid.drive);
-      exchanged.friction_ratio = 1.0 - point.x;
-      exchanged.inertia_ratio = 1.0 / point.y;
-      // Close to friction ratio 0 the complement loses digits: 1e-16 of 1e-2.
-      EXPECT_NEAR(growth_of(exchanged), 1.0, 1e-12);
-      ++points;
-    }
-  }
-  EXPECT_GT(points, 50U);
 }
 
 }  // namespace

@@ -244,18 +244,6 @@ TEST(EdgeCycleBatch, NoServosAtAll) {
   EXPECT_EQ(count.side_by_side + count.one_by_one, 0U);
 }
 
-TEST(EdgeCycleBatch, ServoThatCannotHuntHasNoCycle) {
-  const std::vector<NormalizedServo> servos = {
-      {.damping = 0.6, .inertia_ratio = 1.0, .friction_ratio = 0.5, .backlash = 0.3}};
-  Table table = table_of(1);
-  EXPECT_EQ(find_limit_cycles(servos, columns_of(table)).side_by_side, 1U);
-  EXPECT_EQ(table.verdict(0), Verdict::cannot_hunt);
-  EXPECT_LT(table[Quantity::growth_at_rest].front(), 1.0);
-  for (const Quantity quantity : closed_form_quantities) {
-    EXPECT_EQ(std::isnan(table[quantity].front()), quantity != Quantity::growth_at_rest);
-  }
-}
-
 TEST(EdgeCycleBatch, RefusesWhatItCannotDo) {
   std::vector<NormalizedServo> servos(70, {.damping = 0.1, .backlash = 0.3});
   servos[65].damping = not_known;
