@@ -100,7 +100,7 @@ Scale scale_of(const BifurcationDiagram& diagram, const Grid& grid, Quantity qua
   return scale;
 }
 
-struct Drawing {
+struct DrawnBranches {
   std::string data;
   std::vector<std::string> layers;
   std::vector<std::string> names;
@@ -116,7 +116,7 @@ struct Drawing {
   }
 };
 
-void add_rest(const BifurcationDiagram& diagram, const Scale& scale, Drawing& drawing) {
+void add_rest(const BifurcationDiagram& diagram, const Scale& scale, DrawnBranches& drawing) {
   if (!is_amplitude(scale.quantity)) return;
   DataBlock block("rest");
   for (const Bounds& interval : diagram.rests) {
@@ -127,7 +127,7 @@ void add_rest(const BifurcationDiagram& diagram, const Scale& scale, Drawing& dr
   drawing.add(block, "rest", "lines linewidth 5 linecolor rgb '#8a8a8a'", "can come to rest");
 }
 
-void add_branches(const BifurcationDiagram& diagram, const Scale& scale, Drawing& drawing) {
+void add_branches(const BifurcationDiagram& diagram, const Scale& scale, DrawnBranches& drawing) {
   for (const Stability stability : {Stability::unstable, Stability::neutral, Stability::stable}) {
     const std::string name = fmt::format("branch{}", static_cast<int>(stability));
     DataBlock lines(name);
@@ -152,7 +152,7 @@ void add_branches(const BifurcationDiagram& diagram, const Scale& scale, Drawing
   }
 }
 
-void add_irregular(const BifurcationDiagram& diagram, const Scale& scale, Drawing& drawing) {
+void add_irregular(const BifurcationDiagram& diagram, const Scale& scale, DrawnBranches& drawing) {
   if (!is_amplitude(scale.quantity)) return;
   DataBlock block("irregular");
   for (const IrregularAt& motion : diagram.irregular) {
@@ -212,7 +212,7 @@ int mark_of(const std::string& word) {
 
 /// One legend entry for each word.
 void add_borders(const BifurcationDiagram& diagram, const Axis& axis, const Scale& scale,
-                 Drawing& drawing) {
+                 DrawnBranches& drawing) {
   std::map<std::string, DataBlock> marks;
   std::map<std::string, DataBlock> upright;
   const auto block = [](std::map<std::string, DataBlock>& blocks, const std::string& word,
@@ -270,7 +270,7 @@ std::string draw_bifurcations(const BifurcationDiagram& diagram, const Grid& gri
                               Quantity quantity, const AngleUnit& angle, PictureFormat format) {
   const Axis& axis = grid.axes.front();
   const Scale scale = scale_of(diagram, grid, quantity, angle);
-  Drawing drawing;
+  DrawnBranches drawing;
   add_rest(diagram, scale, drawing);
   add_branches(diagram, scale, drawing);
   add_irregular(diagram, scale, drawing);

@@ -71,7 +71,7 @@ std::string label_command(const ContourLabel& label, const Paper& paper) {
 }
 
 /// The commands and layers of the picture, bottom to top.
-struct Drawing {
+struct DrawnContours {
   std::string commands = {};
   std::vector<std::string> layers = {};
 
@@ -83,7 +83,7 @@ struct Drawing {
 };
 
 /// Adds the regions, the largest outline first: what lies in a hole of one covers it.
-void add_regions(const ContourMap& map, const Paper& paper, Drawing& drawing) {
+void add_regions(const ContourMap& map, const Paper& paper, DrawnContours& drawing) {
   std::vector<std::pair<double, std::string>> layers;
   for (const ColouredRegion& region : map.regions) {
     for (const MapCurve& outline : region.outlines) {
@@ -104,7 +104,7 @@ void add_regions(const ContourMap& map, const Paper& paper, Drawing& drawing) {
 
 /// Adds the contours, with numbers in their longer parts.
 void add_contours(const ContourMap& map, const Paper& paper, PictureFormat format,
-                  Drawing& drawing) {
+                  DrawnContours& drawing) {
   std::vector<std::vector<PaperLine>> contours;
   std::vector<PaperLine> all;
   const auto keep = [&](const std::vector<MapCurve>& curves) {
@@ -242,7 +242,7 @@ std::string legend(const ContourMap& map, PictureFormat format) {
 
 std::string draw_contour_map(const ContourMap& map, PictureFormat format) {
   const Paper paper(map.x, map.y);
-  Drawing drawing;
+  DrawnContours drawing;
   drawing.commands = terminal(format) + heading(map.title, map.subtitle);
   drawing.commands +=
       fmt::format("set lmargin screen {}\nset rmargin screen {}\nset bmargin screen {}\n",
