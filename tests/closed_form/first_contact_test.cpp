@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/references.hpp"
+#include "base/special_numbers.hpp"
 #include "base/traced_draws.hpp"
 
 namespace gearlash::first_contact_test {

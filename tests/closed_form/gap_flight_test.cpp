@@ -7,6 +7,7 @@
 
 #include "base/references.hpp"
 #include "base/seeded_draws.hpp"
+#include "base/special_numbers.hpp"
 #include "closed_form/decay_integral.hpp"
 
 namespace gearlash::gap_flight_test {

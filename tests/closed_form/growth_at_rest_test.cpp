@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/references.hpp"
+#include "base/special_numbers.hpp"
 #include "base/traced_draws.hpp"
 #include "closed_form/trajectory.hpp"
 
