@@ -61,7 +61,10 @@ endfunction()
 # it runs as fast and compiles in three quarters of the time; code that calls the loops of other
 # rooms does so at level 2. Tests need no optimisation.
 function(gearlash_optimise target level)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O${level}> $<$<CONFIG:Debug>:-O0>)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O${level}>)
+  if(level LESS 2)  # a debug build may optimise what calculates
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Debug>:-O0>)
+  endif()
   if(EMSCRIPTEN AND level LESS 2)  # a tenth smaller
     target_compile_options(${target} PRIVATE "SHELL:-mllvm -inline-threshold=20")
   endif()
