@@ -248,7 +248,7 @@ package-check: package wheel  ## install them into a bare Debian 12, build/packa
 
 # Hours. CONTRIBUTING.md says how a release is made.
 release-check: FUZZ_SECONDS := 600
-release-check: programs includes readme-check seeded-faults fuzz bench package-check  ## before a release, beside make test
+release-check: programs includes readme-check seeded-faults sanitize fuzz bench package-check  ## before a release, beside make test
 
 clean:  ## remove all that was built
 	rm -rf build examples/*.svg
