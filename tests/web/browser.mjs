@@ -65,7 +65,8 @@ export async function open(browser, address, options = {}) {
 const follow = (page, hash) =>
   page.evaluate(
     (address) =>
-      new Promise((resolve) => {
+      new Promise((resolve, reject) => {
+        setTimeout(() => reject(new Error(`the page did not follow ${address}`)), 20_000);
         const words = document.getElementById('map-words');
         words.textContent = 'of the link before';
         new MutationObserver((_, observer) => {

@@ -95,6 +95,17 @@ onPage('sliders move by keys, and say their value', 'example=normalized', async 
   assert.equal(await page.inputValue('#field-servo-damping'), after);
 });
 
+onPage('a link is followed that was opened as the address of the drive before was kept', 'example=normalized', async (page) => {
+  await settled(page);
+  await page.evaluate(() => {
+    const kept = location.hash;
+    location.hash = 'example=elinco-fd162';
+    history.replaceState(null, '', kept);
+  });
+  await commandIs(page, 'gearlash limit-cycle elinco-fd162.toml');
+  await settled(page);
+});
+
 onPage('all answers are there: pictures, gears, map, changes', 'example=normalized', async (page) => {
   await idle(page);
   assert.match(await page.textContent('#ceiling'), /Ceiling, proved: .* ±0\.2563 rad/);

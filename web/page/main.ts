@@ -118,7 +118,7 @@ class Explorer {
     byId('story-back').onclick = () => void this.toStep(this.state.step - 1);
     byId('story-next').onclick = () => void this.toStep(this.state.step + 1);
     byId('story-take').onclick = () => void this.look('explore', false);
-    window.addEventListener('hashchange', () => void this.follow());
+    window.addEventListener('hashchange', (event) => void this.follow(new URL(event.newURL).hash));
     listenToFiles(byId<HTMLInputElement>('file'), byId('dropping'), (list) => void this.open(list));
   }
 
@@ -399,11 +399,11 @@ class Explorer {
     history.replaceState(null, '', this.lastAddress);
   }
 
-  /** A link was followed in this page, or its address edited. */
-  private async follow(): Promise<void> {
-    if (location.hash === this.lastAddress) return;
+  /** A link was followed in this page, or its address edited. The address may by now be another: that of the drive before, kept in between. */
+  private async follow(address: string): Promise<void> {
+    if (address === this.lastAddress) return;
     try {
-      this.state = await stateOf(location.hash, this.state, examples);
+      this.state = await stateOf(address, this.state, examples);
       await this.load();
     } catch (error) {
       this.tell(wordsOf(error));
