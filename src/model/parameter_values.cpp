@@ -85,10 +85,10 @@ void add_section_of(Drive& drive, std::string_view path) {
 
 const Parameter& parameter_of(const Drive& drive, std::string_view path) {
   const std::string_view plain = path.substr(0, path.find('['));
-  if (find_parameter(plain) == nullptr) refuse(path, "must be a parameter of drives");
   const Parameter* parameter = find_parameter(plain, drive);
-  if (parameter == nullptr || !exists(*parameter, drive)) {
-    refuse(path, "must be a parameter that this drive has");
+  if (parameter == nullptr) {
+    const bool is_known = find_parameter(plain) != nullptr;
+    refuse(path, is_known ? "must be a parameter that this drive has" : "must be a parameter of drives");
   }
   return *parameter;
 }

@@ -1,7 +1,7 @@
 #include "model/parameters.hpp"
 
-#include <algorithm>
 #include <iterator>
+#include <unordered_map>
 
 #include "model/parameter_list.hpp"
 
@@ -20,14 +20,17 @@ const std::vector<Parameter>& all_parameters_of_drives() {
 }
 
 const Parameter* find_parameter(std::string_view path) {
-  const std::vector<Parameter>& all = all_parameters_of_drives();
-  const auto named = [&](const Parameter& parameter) {
-    const auto is_it = [&](const OtherForm& form) { return form.path == path; };
-    return parameter.path == path ||
-           std::any_of(parameter.other_forms.begin(), parameter.other_forms.end(), is_it);
-  };
-  const auto found = std::find_if(all.begin(), all.end(), named);
-  return found == all.end() ? nullptr : &*found;
+  // Of parameters of one name the first: a map keeps what it has.
+  static const auto by_name = [] {
+    std::unordered_map<std::string_view, const Parameter*> map;
+    for (const Parameter& parameter : all_parameters_of_drives()) {
+      map.emplace(parameter.path, &parameter);
+      for (const OtherForm& form : parameter.other_forms) map.emplace(form.path, &parameter);
+    }
+    return map;
+  }();
+  const auto found = by_name.find(path);
+  return found == by_name.end() ? nullptr : found->second;
 }
 
 const Parameter* find_parameter(std::string_view path, const Drive& drive) {

@@ -75,7 +75,7 @@ TEST(ToleranceCommand, TheSameSeedGivesTheSameStudy) {
 TEST(ToleranceCommand, DistributionsAreDrawn) {
   const Scratch scratch;
   const auto run_with = [](const std::string& plot) {
-    return run_tool({"tolerance", "examples/toleranced.toml", "--samples", "2000", "--plot", plot});
+    return run_tool({"tolerance", "examples/toleranced.toml", "--samples", "200", "--plot", plot});
   };
   const Outcome run = run_with("distribution=" + (scratch / "a.svg").string());
   EXPECT_EQ(run.status, 0) << run.err;
