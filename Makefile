@@ -99,7 +99,7 @@ clang:  ## build everything with clang 16, warnings being errors, and run every 
 # The build is a project around Gearlash, tests/around. Left out: tests that read sources, build other
 # programs or run scripts, where the sanitizers watch nothing; those that count allocations, which the
 # sanitizers count themselves; those of the documents' output and of the page, which repeat those of
-# the command line; the oracles, which compare numbers; and ten tests that do for minutes what others
+# the command line; the oracles, which compare numbers; and twelve tests that do for minutes what others
 # do for seconds.
 # SANITIZED, names of folders of tests, builds and runs the tests of these alone, and watches only
 # rooms of these names.
@@ -159,7 +159,7 @@ derivatives: programs  ## 300 random limit cycles: their derivatives beside diff
 	GEARLASH_CYCLES=300 $(RELEASE)/tests/test_analysis --gtest_filter='PropertySearchedSensitivity*'
 
 seeded-faults: programs single  ## put small faults into the code: which does no test notice?
-	CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) tests/seeded_faults/run $(RELEASE) --single $(SINGLE)
+	CMAKE_BUILD_PARALLEL_LEVEL=$(JOBS) tests/seeded_faults/run $(RELEASE) --single $(SINGLE) --jobs $(JOBS)
 
 million: programs  ## 1,000,000 random servos beside the certified count of crossings
 	$(RELEASE)/tests/oracle/million_servos

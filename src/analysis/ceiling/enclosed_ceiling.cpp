@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <string_view>
 #include <utility>
 
@@ -307,16 +308,19 @@ std::variant<EnclosedDrive, std::string> enclosed_drive(const Drive& drive,
     if (side.values.low == side.values.high) continue;
     if (std::string reason = obstacle(drive, side); !reason.empty()) return reason;
   }
-  std::vector<ReducedDrive> ends;
-  for (std::size_t corner = 0; corner < std::size_t{1} << box.size(); ++corner) {
-    Drive at_corner = drive;
-    bool is_new = true;
-    for (std::size_t i = 0; i < box.size(); ++i) {
-      const bool is_high = (corner >> i & 1U) != 0;
-      if (is_high && box[i].values.low == box[i].values.high) is_new = false;
-      set_on({.path = box[i].path}, at_corner, is_high ? box[i].values.high : box[i].values.low);
+  std::vector<Drive> corners = {drive};
+  for (const BoxSide& side : box) {
+    const std::size_t count = corners.size();
+    if (side.values.low != side.values.high) {
+      corners.reserve(2 * count);
+      std::copy_n(corners.begin(), count, std::back_inserter(corners));
     }
-    if (!is_new) continue;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      set_on({.path = side.path}, corners[i], i < count ? side.values.low : side.values.high);
+    }
+  }
+  std::vector<ReducedDrive> ends;
+  for (const Drive& at_corner : corners) {
     if (!faults(at_corner).empty()) return std::string("some drives of the box are unsound");
     ends.push_back(reduce_settled(at_corner));
     if (!have_one_form(ends.front(), ends.back())) {
