@@ -71,13 +71,14 @@ TEST(Transient, OfASearchIsListedOnce) {
   beside.load_speed *= 1.02;
   beside.motor_speed *= 1.02;
   options.starts = {on_it, beside};
-  options.swing_times = 2.0;
+  options.swing_times = 1.0;
   options.budget.patience = 1.0;
   options.tolerances.irregular.least_turns = 4;
   for (const bool is_closed : {true, false}) {
     options.tolerances.cycle.wide_nearness = options.tolerances.cycle.widest_nearness =
         is_closed ? 1e-3 : 0.0;
     options.tolerances.cycle.known_event = is_closed ? 1e-4 : 0.0;
+    options.tolerances.cycle.nearness = is_closed ? 1e-6 : 1e-12;  // only the cycle itself
     const AttractorSearch both = find_attractors(drive, options);
     ASSERT_EQ(both.cycles.size(), 1U);
     EXPECT_EQ(both.cycles[0].starts, 2U);
