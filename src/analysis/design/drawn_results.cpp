@@ -15,6 +15,8 @@ double amplitude_in(const Answer& answer, Quantity amplitude) {
 
 }  // namespace
 
+bool DrawnResult::hunts() const { return gearlash::hunts(verdict); }
+
 DrawnAnswers::DrawnAnswers(const TolerancedDrive& drive, const Target& target, Quantity amplitude,
                            VectorUnit unit)
     : drive_(drive),

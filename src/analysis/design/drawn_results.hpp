@@ -34,7 +34,7 @@ struct DrawnResult {
         refused(is_refused) {}
 
   /// Whether it can move permanently of itself, or run away.
-  bool hunts() const { return gearlash::hunts(verdict); }
+  bool hunts() const;
 };
 using DrawnResults = std::vector<DrawnResult>;
 
