@@ -88,7 +88,8 @@ const Parameter& parameter_of(const Drive& drive, std::string_view path) {
   const Parameter* parameter = find_parameter(plain, drive);
   if (parameter == nullptr) {
     const bool is_known = find_parameter(plain) != nullptr;
-    refuse(path, is_known ? "must be a parameter that this drive has" : "must be a parameter of drives");
+    refuse(path,
+           is_known ? "must be a parameter that this drive has" : "must be a parameter of drives");
   }
   return *parameter;
 }
