@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/traced_draws.hpp"
 #include "hybrid/hybrid_trajectory.hpp"
 
 namespace gearlash::hybrid::fast_decays_test {
@@ -63,6 +64,42 @@ TEST(FastDecays, AreOverOneAfterTheOther) {
   decays[1].put_at_rest(state);
   EXPECT_NEAR(state[1], 3.0 / (10.0 - 1e-4), 1e-13);
   EXPECT_NEAR(state[2], 3.0, 1e-12);
+}
+
+/// A motor behind a filtered PID controller that reads the load, which coasts: nothing acts on the
+/// load, and the motor on itself alone. Rounding in the projector may not let them act either: a
+/// flow in which all numbers act on all others has one scale for all, and hid an impact behind it.
+TEST(PropertyFastDecays, LetNothingActThatDoesNot) {
+  TracedDraws draws(90);
+  enum : Eigen::Index { motor_position, motor_speed, load_position, load_speed, integral, filter };
+  std::size_t left_out = 0;
+  for (int i = 0; i < 100; ++i) {
+    const double rate = draws.log_uniform(100.0, 1e4);
+    const double derivative = draws.log_uniform(0.01, 1.0);
+    AffineFlow flow{Matrix::Zero(6, 6), Vector::Zero(6)};
+    Matrix& matrix = flow.matrix;
+    matrix(motor_position, motor_speed) = 1.0;
+    matrix(motor_speed, motor_speed) = -draws.log_uniform(0.1, 1.0);
+    matrix(motor_speed, load_position) = -1.0 - derivative * rate;
+    matrix(motor_speed, integral) = -1.0;
+    matrix(motor_speed, filter) = derivative * rate;
+    matrix(load_position, load_speed) = 1.0;
+    matrix(load_speed, load_speed) = -draws.log_uniform(0.1, 1.0);
+    matrix(integral, load_position) = draws.log_uniform(0.01, 1.0);
+    matrix(filter, load_position) = rate;
+    matrix(filter, filter) = -rate;
+    for (const FastDecays& fast : fast_decays(flow)) {
+      ++left_out;
+      for (const Matrix& acts : {fast.projector, fast.slow.matrix}) {
+        EXPECT_EQ(acts(load_position, motor_speed), 0.0);
+        EXPECT_EQ(acts(load_speed, motor_speed), 0.0);
+        EXPECT_EQ(acts(load_speed, filter), 0.0);
+        EXPECT_EQ(acts(load_speed, integral), 0.0);
+        EXPECT_EQ(acts(integral, motor_position), 0.0);
+      }
+    }
+  }
+  EXPECT_GE(left_out, 100U);
 }
 
 /// Shafts whose faces stay together move alike, to the last bit: nothing may part them.
