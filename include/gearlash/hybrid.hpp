@@ -63,18 +63,18 @@ class System {
   explicit System(std::vector<std::string> state_names);
 
   /// In it x′ = matrix x + offset; no offset: 0.
-  Mode mode(std::string name, std::vector<Row> matrix, Row offset = {});
+  Mode mode(std::string name, const std::vector<Row>& matrix, Row offset = {});
   /// Ticks at first, first + period, … (s, or the unit of time chosen); period > 0.
   Timer timer(std::string name, double period, double first = 0.0);
 
   /// While in `from`: as the guard leaves its side, x is reset and the mode becomes `to`.
-  System& on(Mode from, std::string event, Form guard, Mode to,
-             Direction direction = Direction::falling, Reset reset = {});
+  System& on(Mode from, std::string event, const Form& guard, Mode to,
+             Direction direction = Direction::falling, const Reset& reset = {});
   /// While in `from`: at each tick x is reset and the mode becomes `to`.
-  System& on_tick(Mode from, std::string event, Timer timer, Mode to, Reset reset = {});
+  System& on_tick(Mode from, std::string event, Timer timer, Mode to, const Reset& reset = {});
   /// Where ever faster firings of the event last added end, infinitely many in a finite time (a
   /// ball that bounces to rest). Without it the motion stops before their limit.
-  System& settling(Mode to, Reset onto = {});
+  System& settling(Mode to, const Reset& onto = {});
 
  private:
   friend const HybridSystem& assembled(const System& system);

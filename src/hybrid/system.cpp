@@ -64,7 +64,7 @@ System::Definition& System::own() {
   return *definition_;
 }
 
-Mode System::mode(std::string name, std::vector<Row> matrix, Row offset) {
+Mode System::mode(std::string name, const std::vector<Row>& matrix, Row offset) {
   Definition& definition = own();
   if (offset.empty()) offset.resize(definition.system.state_names.size());
   const std::string where = "mode \"" + name + "\".flow";
@@ -79,8 +79,8 @@ Timer System::timer(std::string name, double period, double first) {
   return {clocks.size() - 1};
 }
 
-System& System::on(Mode from, std::string event, Form guard, Mode to, Direction direction,
-                   Reset reset) {
+System& System::on(Mode from, std::string event, const Form& guard, Mode to, Direction direction,
+                   const Reset& reset) {
   Definition& definition = own();
   definition.last_event.reset();
   if (AffineMode* const mode = definition.known(from, event)) {
@@ -92,7 +92,7 @@ System& System::on(Mode from, std::string event, Form guard, Mode to, Direction 
   return *this;
 }
 
-System& System::on_tick(Mode from, std::string event, Timer timer, Mode to, Reset reset) {
+System& System::on_tick(Mode from, std::string event, Timer timer, Mode to, const Reset& reset) {
   Definition& definition = own();
   definition.last_event.reset();
   if (AffineMode* const mode = definition.known(from, event)) {
@@ -102,7 +102,7 @@ System& System::on_tick(Mode from, std::string event, Timer timer, Mode to, Rese
   return *this;
 }
 
-System& System::settling(Mode to, Reset onto) {
+System& System::settling(Mode to, const Reset& onto) {
   Definition& definition = own();
   if (definition.last_event) {
     Transition& transition = definition.system.modes[*definition.last_event].transitions.back();
