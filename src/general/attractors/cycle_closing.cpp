@@ -51,7 +51,7 @@ std::optional<PeriodicOrbit> CycleClosing::closed(const Trajectory& motion, doub
 }
 
 /// Whether an orbit could be `times` rounds of a cycle: each round needs an event and whole
-/// sampling periods. (A state at rest recurs after any time, however short.)
+/// sampling periods.
 bool CycleClosing::may_go_round(const PeriodicOrbit& orbit, int times) const {
   const double round = orbit.period / times;
   for (int i = 0; i < times; ++i) {
@@ -79,7 +79,6 @@ bool CycleClosing::hardly_moves(const PeriodicOrbit& orbit) const {
          much * tolerances_.recurrence * orbit.start.numbers.cwiseAbs().maxCoeff();
 }
 
-/// The shortest cycle, if an orbit goes round it several times.
 PeriodicOrbit CycleClosing::shortest(const PeriodicOrbit& orbit) const {
   if (hardly_moves(orbit)) return orbit;
   for (int times = 2; times < tolerances_.most_rounds; ++times) {

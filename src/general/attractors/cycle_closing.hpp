@@ -18,6 +18,10 @@ class CycleClosing {
   /// agrees.
   std::optional<FoundCycle> closed_cycle(const hybrid::Trajectory& motion, double nearness) const;
 
+  /// The shortest cycle, if an orbit goes round it several times. An orbit at rest stays as it is:
+  /// it recurs after any time, however short.
+  hybrid::PeriodicOrbit shortest(const hybrid::PeriodicOrbit& orbit) const;
+
   /// Among the known ones, a stable cycle that has the motion's last event in nearly the same
   /// state.
   std::optional<std::size_t> known_cycle_of(const hybrid::Trajectory& motion,
@@ -31,7 +35,6 @@ class CycleClosing {
                                               double nearness) const;
   bool may_go_round(const hybrid::PeriodicOrbit& orbit, int times) const;
   bool hardly_moves(const hybrid::PeriodicOrbit& orbit) const;
-  hybrid::PeriodicOrbit shortest(const hybrid::PeriodicOrbit& orbit) const;
 
   const SearchSetting& setting_;
   const AttractorOptions& options_;

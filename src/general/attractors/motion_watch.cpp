@@ -249,15 +249,6 @@ bool hardly_changes(const Watch& watch, const SearchSetting& setting,
   return true;
 }
 
-}  // namespace
-
-bool is_at_rest(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
-                const RestTolerances& tolerances) {
-  const std::vector<Extent>& last = stretch.last;
-  return !last.empty() &&
-         hardly_changes(watch, setting, tolerances, [&](std::size_t i) { return last[i].width(); });
-}
-
 bool trembles_at_rest(const Watch& watch, const SearchSetting& setting,
                       const RestTolerances& tolerances) {
   const hybrid::AffineFlow& flow = setting.system.system().mode(watch.here.mode).flow;
@@ -265,6 +256,21 @@ bool trembles_at_rest(const Watch& watch, const SearchSetting& setting,
   return hardly_changes(watch, setting, tolerances, [&](std::size_t i) {
     return std::abs(velocity[static_cast<Eigen::Index>(i)]) * setting.swing_time;
   });
+}
+
+}  // namespace
+
+bool is_endless(const Stretch& stretch) {
+  return stretch.stop_reason == hybrid::StopReason::zeno ||
+         stretch.stop_reason == hybrid::StopReason::chattering;
+}
+
+bool is_at_rest(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
+                const RestTolerances& tolerances) {
+  if (is_endless(stretch)) return trembles_at_rest(watch, setting, tolerances);
+  const std::vector<Extent>& last = stretch.last;
+  return !last.empty() &&
+         hardly_changes(watch, setting, tolerances, [&](std::size_t i) { return last[i].width(); });
 }
 
 namespace {

@@ -44,17 +44,16 @@ Stretch observe(Watch& watch, double until, std::size_t event_limit, const Searc
 /// none.
 std::optional<double> longest_move(const hybrid::Trajectory& motion, const SearchSetting& setting);
 
+/// Whether a stretch ended because events followed each other without end.
+bool is_endless(const Stretch& stretch);
+
 /// Whether no number on which the shafts' motion depends at once has moved in the last half of a
 /// stretch by more than a share of its total movement. (A controller of high order has others, high
-/// derivatives, that never move by less than rounding.)
+/// derivatives, that never move by less than rounding.) Where events follow each other without end:
+/// whether these numbers would change by no more than that within a swing time, because a shaft
+/// whose torque comes to rest at its friction's edge stops and breaks away by rounding alone.
 bool is_at_rest(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
                 const RestTolerances& tolerances);
-
-/// Whether, where events follow each other without end, the same numbers would change by no more
-/// than that within a swing time: a shaft whose torque comes to rest at its friction's edge stops
-/// and breaks away by rounding alone.
-bool trembles_at_rest(const Watch& watch, const SearchSetting& setting,
-                      const RestTolerances& tolerances);
 
 /// Whether friction at rest is higher than that of motion, on either shaft.
 bool has_stiction(const ReducedDrive& drive);

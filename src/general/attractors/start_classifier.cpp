@@ -105,21 +105,19 @@ bool StartClassifier::is_decided(const Watch& watch, const Stretch& stretch, Ver
     verdict.end = MotionEnd::diverges;
     return true;
   }
-  const bool is_endless =
-      stretch.stop_reason == StopReason::zeno || stretch.stop_reason == StopReason::chattering;
   const RestTolerances& rest = tolerances_.rest;
   const bool may_rest = setting_.coordinates != Coordinates::in_place;
   if (may_rest && settles(watch, stretch, verdict)) return true;
-  const bool rests = is_endless ? trembles_at_rest(watch, setting_, rest)
-                                : is_at_rest(watch, stretch, setting_, rest) ||
-                                      is_vanishing(watch, stretch, verdict) ||
-                                      (stretch.motion && is_fading(watch, stretch, setting_, rest));
+  const bool goes_on = !is_endless(stretch);
+  const bool rests = is_at_rest(watch, stretch, setting_, rest) ||
+                     (goes_on && (is_vanishing(watch, stretch, verdict) ||
+                                  (stretch.motion && is_fading(watch, stretch, setting_, rest))));
   if (may_rest && rests) {
     rest_at(watch.here.numbers, verdict);
     return true;
   }
-  if (is_endless) verdict.reason = "events without end: " + stretch.culprit;
-  if (is_endless || !may_rest) return is_endless;
+  if (!goes_on) verdict.reason = "events without end: " + stretch.culprit;
+  if (!goes_on || !may_rest) return !goes_on;
   return stretch.motion &&
          is_on_cycle(*stretch.motion, {tolerances_.cycle.nearness, tolerances_.cycle.wide_nearness},
                      verdict);
