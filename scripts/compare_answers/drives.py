@@ -4,7 +4,8 @@ import math
 import pathlib
 import tomllib
 
-EXAMPLES = pathlib.Path(__file__).resolve().parents[2] / "examples"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+EXAMPLES = ROOT / "examples"
 
 
 def log_uniform(rng, low, high):
@@ -140,79 +141,6 @@ def joint(rng, tolerances=()):
     return toml(drive)
 
 
-# Drives at the edges of what is proved: a controller that knows reference and position apart and
-# holds a hanging load, compliant faces with a torque limit, a sampled tachometer on the motor.
-PROVED = {
-    "hanging load": """
-[motor]
-kind = "torque-controlled"
-inertia = "0.2 kg m2"
-friction = "1 N m s/rad"
-[gearbox]
-ratio = 1
-backlash = "0.02 rad"
-[load]
-inertia = "1 kg m2"
-friction = "1 N m s/rad"
-gravity = "5 N m"
-gravity_angle = "-2.0707963267948966 rad"
-[sensor]
-position = "load"
-[controller]
-kind = "state-space"
-shaft = "load"
-gain = "1 N m/rad"
-A = []
-B = []
-C = []
-D = [40, -20, -4]
-[reference]
-kind = "step"
-after = "0.5 rad"
-""",
-    "compliant faces": """
-[motor]
-kind = "torque-controlled"
-inertia = "1 kg m2"
-friction = "1 N m s/rad"
-torque_limit = "0.2 N m"
-[gearbox]
-ratio = 1
-backlash = "0.02 rad"
-[load]
-inertia = "0.1 kg m2"
-friction = "1 N m s/rad"
-[contact]
-stiffness = "2 N m/rad"
-[sensor]
-position = "both"
-[controller]
-kind = "PD"
-shaft = "load"
-proportional = "1 N m/rad"
-derivative = "3 N m s/rad"
-""",
-    "sampled tachometer": """
-[motor]
-kind = "torque-controlled"
-inertia = "1 kg m2"
-friction = "0 N m s/rad"
-[gearbox]
-ratio = 1
-backlash = "0.02 rad"
-[load]
-inertia = "0.314 kg m2"
-friction = "0.2851 N m s/rad"
-[contact]
-restitution = 0.0
-[sensor]
-position = "motor"
-[controller]
-kind = "PD"
-shaft = "load"
-proportional = "0.01182 N m/rad"
-derivative = "0.5104 N m s/rad"
-[sampling]
-period = "3.442 s"
-speed = "tachometer"
-"""}
+# Drives at the edges of what is proved.
+PROVED = [(ROOT / f"tests/regression/data/{name}.toml").read_text(encoding="utf-8")
+          for name in ("hanging-load", "compliant-faces", "sampled-tachometer")]

@@ -48,7 +48,7 @@ def drives(rng):
 
 def ceilings(rng):
     """And the widest backlash that provably keeps a specification."""
-    for text in PROVED.values():
+    for text in PROVED:
         yield question("limit-cycle", text)
     for _ in range(20):
         yield question("limit-cycle", joint(rng), specification=f"{number(rng, 0.005, 0.5)} rad")

@@ -2,11 +2,13 @@
 // beside them that meet the condition keep theirs.
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <numbers>
+#include <string>
 
 #include "analysis/ceiling/ceiling.hpp"
 #include "gearlash/analyse.hpp"
-#include "input/drive_file.hpp"
+#include "gearlash/input.hpp"
 #include "model/reduced_drive.hpp"
 
 namespace gearlash::withheld_bounds_test {
@@ -14,43 +16,19 @@ namespace {
 
 using testing::HasSubstr;
 
-Drive drive_of(const char* toml) { return parse_drive(toml, "drive", {}).drive; }
+Drive drive_of(const std::string& name) {
+  return read_drive(std::filesystem::path(GEARLASH_SOURCE_DIRECTORY) / "tests/regression/data" /
+                    (name + ".toml"));
+}
 
 Ceiling ceiling(const Drive& drive) { return ceiling_of(reduce_settled(drive)); }
 
 // ---- the mean mesh torque -----------------------------------------------------------------------
 
-constexpr char hanging_load[] = R"([motor]
-kind = "torque-controlled"
-inertia = "0.2 kg m2"
-friction = "1 N m s/rad"
-[gearbox]
-ratio = 1
-backlash = "0.02 rad"
-[load]
-inertia = "1 kg m2"
-friction = "1 N m s/rad"
-gravity = "5 N m"
-gravity_angle = "-2.0707963267948966 rad"
-[sensor]
-position = "load"
-[controller]
-kind = "state-space"
-shaft = "load"
-gain = "1 N m/rad"
-A = []
-B = []
-C = []
-D = [40, -20, -4]
-[reference]
-kind = "step"
-after = "0.5 rad"
-)";
-
 /// It was stated as at most 0.182 N m. The loop with the gap closed rests at 0.9 rad, where the
 /// mesh carries 5 N m/rad · 0.4 rad = 2 N m for ever.
 TEST(RegressionWithheld, MeanMeshTorqueOfAHangingLoadThatRestsElsewhere) {
-  const Answer answer = analyse(drive_of(hanging_load), {.proofs = false, .ceiling = true});
+  const Answer answer = analyse(drive_of("hanging-load"), {.proofs = false, .ceiling = true});
   ASSERT_TRUE(answer.ceiling && answer.rest);
   EXPECT_NEAR(answer.rest->load.high, 0.4, 1e-6);  // from the reference
   EXPECT_FALSE(answer.ceiling->mesh_torque);
@@ -59,7 +37,7 @@ TEST(RegressionWithheld, MeanMeshTorqueOfAHangingLoadThatRestsElsewhere) {
 }
 
 TEST(RegressionWithheld, MeanMeshTorqueIsStatedWhereTheLoopRestsWithoutTorque) {
-  const Drive hanging = drive_of(hanging_load);
+  const Drive hanging = drive_of("hanging-load");
   Drive error_driven = hanging;
   std::get<StateSpaceController>(error_driven.controller.law).D = {20.0, -20.0, -4.0};
   Drive at_zero = hanging;
@@ -77,7 +55,7 @@ TEST(RegressionWithheld, MeanMeshTorqueIsStatedWhereTheLoopRestsWithoutTorque) {
 /// D_r r = 40 r lets the load move twice as fast as the ramp: the torque carried is not that of the
 /// ramp's own rate.
 TEST(RegressionWithheld, WhetherTheLimitIsMetAlongARampThatTheLoadDoesNotFollow) {
-  Drive drive = drive_of(hanging_load);
+  Drive drive = drive_of("hanging-load");
   drive.load.gravity = 0.0;
   drive.reference = RampSignal{.rate = 1.0};
   drive.motor.limit = 3.5;  // F · rate is 2 N m; the motion needs 4 N m
@@ -88,34 +66,10 @@ TEST(RegressionWithheld, WhetherTheLimitIsMetAlongARampThatTheLoadDoesNotFollow)
 
 // ---- the gap's speed ----------------------------------------------------------------------------
 
-constexpr char tachometer[] = R"([motor]
-kind = "torque-controlled"
-inertia = "1.0 kg m2"
-friction = "0.0 N m s/rad"
-[gearbox]
-ratio = 1
-backlash = "0.02 rad"
-[load]
-inertia = "0.314 kg m2"
-friction = "0.2851 N m s/rad"
-[contact]
-restitution = 0.0
-[sensor]
-position = "motor"
-[controller]
-kind = "PD"
-shaft = "load"
-proportional = "0.01182 N m/rad"
-derivative = "0.5104 N m s/rad"
-[sampling]
-period = "3.442 s"
-speed = "tachometer"
-)";
-
 /// It was stated as 0.03983 rad/s; with the acceleration at the end of each hold, before the torque
 /// jumps, it is 0.04405 rad/s.
 TEST(RegressionWithheld, CeilingsOfASampledTachometerWhoseTorqueJumps) {
-  Drive drive = drive_of(tachometer);
+  Drive drive = drive_of("sampled-tachometer");
   const Ceiling withheld = ceiling(drive);
   EXPECT_FALSE(withheld.load || withheld.motor || withheld.effort || withheld.safe_starts);
   EXPECT_THAT(withheld.reason, HasSubstr("a sampled tachometer"));
@@ -132,7 +86,7 @@ TEST(RegressionWithheld, CeilingsOfASampledTachometerWhoseTorqueJumps) {
 }
 
 TEST(RegressionWithheld, CeilingsOfASampledTachometerAreStatedWhereTheTorqueDoesNotJump) {
-  Drive drive = drive_of(tachometer);
+  Drive drive = drive_of("sampled-tachometer");
   drive.sampling->period = 0.05;
   EXPECT_FALSE(ceiling(drive).load);
   Drive winding = drive;
@@ -144,32 +98,10 @@ TEST(RegressionWithheld, CeilingsOfASampledTachometerAreStatedWhereTheTorqueDoes
 
 // ---- safe starts --------------------------------------------------------------------------------
 
-constexpr char compliant[] = R"([motor]
-kind = "torque-controlled"
-inertia = "1 kg m2"
-friction = "1 N m s/rad"
-torque_limit = "0.2 N m"
-[gearbox]
-ratio = 1
-backlash = "0.02 rad"
-[load]
-inertia = "0.1 kg m2"
-friction = "1 N m s/rad"
-[contact]
-stiffness = "2 N m/rad"
-[sensor]
-position = "both"
-[controller]
-kind = "PD"
-shaft = "load"
-proportional = "1 N m/rad"
-derivative = "3 N m s/rad"
-)";
-
 /// They were stated as 0.17536 rad, with the gap at the start as a position of the motor alone; by
 /// their definition they are 0.17239 rad.
 TEST(RegressionWithheld, SafeStartsWithCompliantFaces) {
-  Drive drive = drive_of(compliant);
+  Drive drive = drive_of("compliant-faces");
   const Ceiling withheld = ceiling(drive);
   EXPECT_TRUE(withheld.load && withheld.effort);
   EXPECT_EQ(withheld.meets_limit, true);
@@ -181,7 +113,7 @@ TEST(RegressionWithheld, SafeStartsWithCompliantFaces) {
   EXPECT_TRUE(ceiling(drive).safe_starts);
   EXPECT_EQ(ceiling(drive).safe_starts_reason, "");
 
-  drive = drive_of(compliant);
+  drive = drive_of("compliant-faces");
   drive.contact = RigidContact{};
   EXPECT_TRUE(ceiling(drive).safe_starts);
 }
