@@ -54,7 +54,6 @@ class BoxedHalfCycle {
   BoxedEnd flight_of_two_masses(const Interval& time) const;
   BoxedEnd flight_of_massless_motor(const Interval& time) const;
   BoxedEnd flight_over_massless_load(const Interval& time) const;
-  void set_form(BoxedEnd& end) const;
   void set_growth(BoxedEnd& end) const;
   Interval form_change(const BoxedEnd& end) const;
   Interval speed_change(const BoxedEnd& end) const;

@@ -52,7 +52,6 @@ class Float1604 {
   double value() const;  ///< exact: 36 bits fit into a double
 
   constexpr bool is_zero() const { return fraction_ == 0; }
-  constexpr bool is_below_zero() const { return fraction_ < 0; }
   constexpr Float1604 operator-() const { return Float1604(-fraction_, exponent_); }
   bool operator==(const Float1604&) const = default;
 

@@ -1,7 +1,9 @@
 #include "drive_reply.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 
 #include "analysis/final_servo.hpp"
@@ -35,21 +37,8 @@ Json slider(const Drive& drive, const Parameter& parameter, double value) {
   return {{"low", low}, {"high", axis.values.back()}, {"logarithmic", is_by_ratio}};
 }
 
-const char* name_of(ParameterKind kind) {
-  switch (kind) {
-    case ParameterKind::number:
-      return "number";
-    case ParameterKind::choice:
-      return "choice";
-    case ParameterKind::list:
-      return "list";
-    case ParameterKind::matrix:
-      return "matrix";
-    case ParameterKind::file:
-      return "file";
-  }
-  return "";
-}
+/// The names of ParameterKind, in its order.
+constexpr std::array kinds = {"number", "choice", "list", "matrix", "file"};
 
 /// All that the page shows of the parameters.
 class ParameterList {
@@ -71,7 +60,7 @@ class ParameterList {
     const std::string path(info.path);
     const Json& value = values_[path];
     Json json = {{"path", path},
-                 {"kind", name_of(info.kind)},
+                 {"kind", kinds.at(static_cast<std::size_t>(info.kind))},
                  {"meaning", info.meaning},
                  {"value", value},
                  {"is_default", contains(defaults_, path)},
