@@ -212,7 +212,7 @@ tidy: single  ## clang-tidy with the checks of .clang-tidy over the libraries an
 	@$(INSTALL) lint
 	echo $(TIDIED) | xargs -r -n 1 -P $(JOBS) clang-tidy-16 -p $(SINGLE) --quiet
 
-# All files take a quarter of an hour of a processor; CI sets INCLUDED to the changed ones.
+# All files take over half an hour of a processor; CI sets INCLUDED to the changed ones.
 # Left out are what Emscripten compiles, and another project's programs, which have options of their
 # own and a compilation each.
 INCLUDED ?= $(shell find include src apps python web/core tests -name '*.[ch]pp')

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/seeded_draws.hpp"
+#include "base/special_numbers.hpp"
 
 namespace gearlash::transfer_function_test {
 namespace {
