@@ -39,6 +39,7 @@ Json slider(const Drive& drive, const Parameter& parameter, double value) {
 
 /// The names of ParameterKind, in its order.
 constexpr std::array kinds = {"number", "choice", "list", "matrix", "file"};
+static_assert(kinds.size() == static_cast<std::size_t>(ParameterKind::file) + 1);
 
 /// All that the page shows of the parameters.
 class ParameterList {
