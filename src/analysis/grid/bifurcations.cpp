@@ -23,7 +23,7 @@ bool comes_to_rest(const Analysis& analysis) {
          verdict == Verdict::hunts_if_disturbed;
 }
 
-bool runs_away(const Analysis& analysis) {
+bool may_run_away(const Analysis& analysis) {
   if (analysis.search) return analysis.search->count(drive::MotionEnd::diverges) > 0;
   return analysis.answer.verdict == Verdict::grows_without_bound;
 }
@@ -473,8 +473,9 @@ void add_rest_and_runaway(const Drive& drive, const Axis& axis,
                          diagram);
         }
       }
-      if (const auto change = all.change_between(i - 1, runs_away(below), runs_away(*values[i]),
-                                                 runs_away, is_closed, progress)) {
+      if (const auto change =
+              all.change_between(i - 1, may_run_away(below), may_run_away(*values[i]), may_run_away,
+                                 is_closed, progress)) {
         diagram.borders.push_back(
             {.parameter = change->parameter, .word = "border of running away", .cycle = {}});
       }
