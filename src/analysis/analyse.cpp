@@ -382,6 +382,10 @@ Analysis analysed(const Drive& drive, const Analysis* near, const Wanted& wanted
 
 }  // namespace
 
+bool is_at_rest(Verdict verdict) {
+  return verdict == Verdict::cannot_hunt || verdict == Verdict::comes_to_rest;
+}
+
 void ask_for(Quantity quantity, const Drive& base, Wanted& wanted) {
   switch (info_of(quantity).scope) {
     case QuantityScope::ceiling:

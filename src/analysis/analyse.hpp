@@ -42,6 +42,9 @@ Analysis analyse_until(const Drive& drive, const Wanted& wanted,
 Answer answer_of(const LimitCycleAnalysis& analysis, const ClosedFormServo& servo,
                  std::optional<double> stiffness);
 
+/// Whether every motion ends at rest: cannot_hunt or comes_to_rest.
+bool is_at_rest(Verdict verdict);
+
 /// Adds to `wanted` what the quantity is of. `base`: the drive of the question, whose usual_step()
 /// all drives beside it make too.
 void ask_for(Quantity quantity, const Drive& base, Wanted& wanted);

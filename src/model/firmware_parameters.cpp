@@ -10,7 +10,7 @@ Slot of_firmware(Drive& drive, Member Registers::*member) {
   return drive.servo || !firmware ? Slot{} : slot_of(*firmware, member);
 }
 
-constexpr char number[] = "a number as the firmware has it, without a unit";
+constexpr char plain_number[] = "a number as the firmware has it, without a unit";
 
 std::vector<Parameter> dynamixel_parameters() {
   return {{.path = "controller.position_p_gain",
@@ -18,7 +18,7 @@ std::vector<Parameter> dynamixel_parameters() {
            .meaning = "Position P Gain (84) of a DYNAMIXEL X",
            .permitted = Permitted::not_negative,
            .is_required = true,
-           .wanted = number,
+           .wanted = plain_number,
            .usual = {10.0, 16383.0}},
           {.path = "controller.position_i_gain",
            .slot = [](Drive& d) { return of_firmware(d, &DynamixelX::position_i_gain); },
@@ -38,14 +38,14 @@ std::vector<Parameter> odrive_parameters() {
            .meaning = "pos_gain of ODrive, (turn/s)/turn",
            .permitted = Permitted::not_negative,
            .is_required = true,
-           .wanted = number,
+           .wanted = plain_number,
            .usual = {1.0, 500.0}},
           {.path = "controller.vel_gain",
            .slot = [](Drive& d) { return of_firmware(d, &ODrive::vel_gain); },
            .meaning = "vel_gain of ODrive, N m/(turn/s)",
            .permitted = Permitted::not_negative,
            .is_required = true,
-           .wanted = number,
+           .wanted = plain_number,
            .usual = {1e-3, 10.0}},
           {.path = "controller.vel_integrator_gain",
            .slot = [](Drive& d) { return of_firmware(d, &ODrive::vel_integrator_gain); },
@@ -60,7 +60,7 @@ std::vector<Parameter> moteus_parameters() {
            .meaning = "servo.pid_position.kp of moteus, N m per turn of the output",
            .permitted = Permitted::not_negative,
            .is_required = true,
-           .wanted = number,
+           .wanted = plain_number,
            .usual = {0.1, 1e4}},
           {.path = "controller.pid_position_ki",
            .slot = [](Drive& d) { return of_firmware(d, &Moteus::ki); },
@@ -85,14 +85,14 @@ std::vector<Parameter> simplefoc_parameters() {
            .meaning = "P_angle.P of SimpleFOC, (rad/s)/rad",
            .permitted = Permitted::not_negative,
            .is_required = true,
-           .wanted = number,
+           .wanted = plain_number,
            .usual = {1.0, 200.0}},
           {.path = "controller.PID_velocity_P",
            .slot = [](Drive& d) { return of_firmware(d, &SimpleFOC::velocity_p); },
            .meaning = "PID_velocity.P of SimpleFOC, V or A per rad/s",
            .permitted = Permitted::not_negative,
            .is_required = true,
-           .wanted = number,
+           .wanted = plain_number,
            .usual = {1e-3, 10.0}},
           {.path = "controller.PID_velocity_I",
            .slot = [](Drive& d) { return of_firmware(d, &SimpleFOC::velocity_i); },

@@ -379,12 +379,12 @@ std::optional<Drivetrain> proportional_drivetrain(const Drive& drive) {
 namespace {
 
 /// Output per error and per sensed speed of a proportional controller.
-struct Gains {
+struct ProportionalGains {
   double error = 0.0;
   double speed = 0.0;
 };
 
-Gains gains_of(const Controller& controller) {
+ProportionalGains gains_of(const Controller& controller) {
   if (const auto* pid = std::get_if<PID>(&controller.law)) {
     const bool has_derivative = pid->terms == PIDTerms::PD || pid->terms == PIDTerms::PID;
     return {pid->proportional, has_derivative ? pid->derivative : 0.0};
@@ -405,7 +405,7 @@ Drivetrain referred_drivetrain(const Drive& drive) {
   const double square = ratio * ratio;
   const ReferredOutput output = refer_output(drive);
   const double per_output = gain_scale(drive);
-  const Gains gains = gains_of(drive.controller);
+  const ProportionalGains gains = gains_of(drive.controller);
   return {.motor_inertia = motor_inertia_of(drive),
           .load_inertia = drive.load.inertia,
           .motor_friction =

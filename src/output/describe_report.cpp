@@ -31,13 +31,14 @@ std::string with_capital(std::string text) {
   return text;
 }
 
-struct Motion {
+struct ReportedMotion {
   double amplitude;
   double motor_amplitude;
   double period;
 };
 
-Cells motion_row(const std::string& name, const Motion& motion, const DescribeReport& report) {
+Cells motion_row(const std::string& name, const ReportedMotion& motion,
+                 const DescribeReport& report) {
   return {name, swing_text(motion.amplitude, report.angle, usual_digits),
           "±" + angle_text(motion.motor_amplitude, report.angle, usual_digits),
           time_text(motion.period, report.is_normalized, usual_digits),

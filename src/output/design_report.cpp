@@ -49,9 +49,9 @@ std::string interval_text(const Bounds& interval, const Bounds& searched, const 
 }
 
 /// The relative change; empty if the present value is 0.
-std::string change_text(double value, double present) {
+std::string change_from(double present, double value) {
   if (value == present) return "0 %";
-  return present == 0.0 ? "" : gearlash::change_text(value / present);
+  return present == 0.0 ? "" : change_text(value / present);
 }
 
 std::string performance_text(const Performance& performance, const DesignReport& report) {
@@ -86,10 +86,10 @@ std::vector<std::string> interval_row(const DesignReport& report, const Feasible
   return {is_first ? parameter : "  or",
           is_first ? significant(values.present / unit.size, limit_digits) + unit.name : "",
           interval_text(interval, values.searched, unit),
-          change_text(value, values.present),
-          change_text(natural_frequency(changed), natural_frequency(present)),
+          change_from(values.present, value),
+          change_from(natural_frequency(present), natural_frequency(changed)),
           significant(normalize(changed).damping, 3),
-          change_text(changed.stiffness, present.stiffness),
+          change_from(present.stiffness, changed.stiffness),
           performance_text(performance_of(changed), report)};
 }
 

@@ -25,7 +25,7 @@ using drive::DescribedPart;
 using drive::DescribingAnalysis;
 
 constexpr double turn = 2.0 * std::numbers::pi;
-constexpr int digits = 3;
+constexpr int label_digits = 3;
 
 // The frame of terminal() and heading(), in shares of the picture; then this picture's proportions.
 constexpr double frame_left = 0.11;
@@ -36,19 +36,19 @@ constexpr double paper_height = 7.0;
 
 // ---- key points ---------------------------------------------------------------------------------
 
-enum class Mark { stable, unstable, exact_frequency, exact_amplitude };
+enum class MarkKind { stable, unstable, exact_frequency, exact_amplitude };
 
 struct KeyPoint {
   Complex at;
-  Mark mark;
+  MarkKind mark;
   std::string label;  ///< beside it
   std::string legend;
 };
 
 std::string motion_text(double size, double period, const NyquistPicture& picture) {
-  const std::string swing = "±" + angle_text(size, picture.angle, digits);
-  if (picture.is_normalized) return swing + ", ω = " + significant(turn / period, digits);
-  return swing + ", " + frequency_text(period, false, digits);
+  const std::string swing = "±" + angle_text(size, picture.angle, label_digits);
+  if (picture.is_normalized) return swing + ", ω = " + significant(turn / period, label_digits);
+  return swing + ", " + frequency_text(period, false, label_digits);
 }
 
 /// The text after a comma that distinguishes analyses of one loop; empty for a single one.
@@ -67,7 +67,7 @@ std::vector<KeyPoint> key_points(const NyquistPicture& picture) {
       const bool stable = cycle.balance.stable;
       const std::string name = std::to_string(++number);
       points.push_back({loop_at(analysis.loop, cycle.balance.frequency),
-                        stable ? Mark::stable : Mark::unstable, name,
+                        stable ? MarkKind::stable : MarkKind::unstable, name,
                         fmt::format("{} {}{}: {}", name, stable ? "stable" : "unstable",
                                     distinction(picture, analysis),
                                     motion_text(cycle.amplitude, cycle.balance.period, picture))});
@@ -76,13 +76,13 @@ std::vector<KeyPoint> key_points(const NyquistPicture& picture) {
   for (const Cycle& cycle : picture.exact) {
     if (cycle.stability != Stability::stable) continue;
     points.push_back(
-        {loop_at(picture.analyses.front().loop, turn / cycle.period), Mark::exact_frequency,
+        {loop_at(picture.analyses.front().loop, turn / cycle.period), MarkKind::exact_frequency,
          "exact ω",
          "L at the exact frequency: " + motion_text(cycle.amplitude, cycle.period, picture)});
     for (const DescribingAnalysis& analysis : picture.analyses) {
       points.push_back(
           {inverse_gain(analysis.nonlinearity, drive::input_amplitude(analysis, cycle)),
-           Mark::exact_amplitude, "exact A",
+           MarkKind::exact_amplitude, "exact A",
            "−1/N at the exact amplitude" + distinction(picture, analysis)});
     }
   }
@@ -130,11 +130,11 @@ Window critical_window(const NyquistPicture& picture, const std::vector<KeyPoint
     }
   }
   const bool has_stable = std::any_of(points.begin(), points.end(), [](const KeyPoint& point) {
-    return point.mark == Mark::stable;
+    return point.mark == MarkKind::stable;
   });
-  const auto is_wanted = [&](Mark mark) {
-    return mark == Mark::stable || mark == Mark::exact_frequency ||
-           (mark == Mark::unstable && !has_stable);
+  const auto is_wanted = [&](MarkKind mark) {
+    return mark == MarkKind::stable || mark == MarkKind::exact_frequency ||
+           (mark == MarkKind::unstable && !has_stable);
   };
   for (const KeyPoint& point : points) {
     if (is_wanted(point.mark)) shown.push_back(point.at);
@@ -199,7 +199,7 @@ std::vector<CurveMark> frequency_marks(const NyquistPicture& picture, MarkChoose
   const bool in_hertz = !picture.is_normalized;
   for (const double number : round_numbers()) {
     const double frequency = in_hertz ? turn * number : number;
-    const std::string text = significant(number, digits);
+    const std::string text = significant(number, label_digits);
     chooser.offer(loop_at(picture.analyses.front().loop, frequency),
                   in_hertz ? text + " Hz" : text + " ω_n", marks);
   }
@@ -216,7 +216,7 @@ std::vector<CurveMark> amplitude_marks(const DescribingAnalysis& analysis, MarkC
     if (amplitude <= scale.least) continue;
     const std::string unit = scale.is_relative ? std::string(" ") + scale.name : "";
     chooser.offer(inverse_gain(analysis.nonlinearity, amplitude),
-                  significant(number, digits) + unit, marks);
+                  significant(number, label_digits) + unit, marks);
   }
   return marks;
 }
@@ -367,15 +367,15 @@ class NyquistDrawing {
     arrows_.push_back(window_.on_paper(tip));
   }
 
-  static int point_type(Mark mark) {
+  static int point_type(MarkKind mark) {
     switch (mark) {
-      case Mark::stable:
+      case MarkKind::stable:
         return 7;
-      case Mark::unstable:
+      case MarkKind::unstable:
         return 6;
-      case Mark::exact_frequency:
+      case MarkKind::exact_frequency:
         return 13;
-      case Mark::exact_amplitude:
+      case MarkKind::exact_amplitude:
         return 12;
     }
     return 0;

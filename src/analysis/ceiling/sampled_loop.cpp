@@ -24,7 +24,7 @@ using drive::LinearController;
 using drive::ReducedDrive;
 
 /// What is read at a tick.
-struct Reading {
+struct SensedReading {
   Interval position{0.0};
   Interval counted{0.0};     ///< the position whose differences are the speed
   Interval tachometer{0.0};  ///< the speed
@@ -33,7 +33,7 @@ struct Reading {
 /// A number as a linear form of the state at a tick and of what is read there.
 struct Form {
   IntervalVector of_state{};
-  Reading of_reading{};
+  SensedReading of_reading{};
 };
 
 Form operator+(Form a, const Form& b) {
@@ -52,7 +52,7 @@ Form operator*(const Interval& factor, Form form) {
   return form;
 }
 
-Interval product(const Reading& form, const Reading& read) {
+Interval product(const SensedReading& form, const SensedReading& read) {
   return form.position * read.position + form.counted * read.counted +
          form.tachometer * read.tachometer;
 }
@@ -75,7 +75,7 @@ struct Segment {
 
 /// A disturbance's way into the loop.
 struct Entry {
-  Reading read{};
+  SensedReading read{};
   IntervalVector acting{};  ///< on the plant, all the time; none if empty
   Disturbance disturbance;
 };
@@ -117,7 +117,7 @@ class SampledLoop : public DisturbedLoop {
   IntervalMatrix changes() const;
 
   Entry entry(Disturbance disturbance) const;
-  IntervalVector tick_input(const Reading& read) const;
+  IntervalVector tick_input(const SensedReading& read) const;
   Spread spread(const IntervalVector& acting) const;
   std::vector<Interval> norms(const IntervalVector& input, const std::vector<Form>& forms) const;
   std::vector<Interval> largest(const std::vector<Form>& forms, const Entry& entry) const;
@@ -298,7 +298,7 @@ IntervalMatrix SampledLoop::changes() const {
 }
 
 /// What a reading adds to the numbers at the next tick.
-IntervalVector SampledLoop::tick_input(const Reading& read) const {
+IntervalVector SampledLoop::tick_input(const SensedReading& read) const {
   IntervalVector input;
   for (const Form& next : next_) input.push_back(gearlash::product(next.of_reading, read));
   return input;

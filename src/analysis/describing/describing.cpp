@@ -194,12 +194,12 @@ void find_cycles(DescribingAnalysis& analysis, double gap) {
 // ---- one part at a time -------------------------------------------------------------------------
 
 /// A loop, and whether its delay had to be replaced.
-struct LinearLoop {
+struct GapLoop {
   TransferFunction function;
   bool delay_is_rational = false;
 };
 
-LinearLoop gap_loop(const ReducedDrive& drive, const Feedback& feedback) {
+GapLoop gap_loop(const ReducedDrive& drive, const Feedback& feedback) {
   if (feedback.from_motor.is_zero()) {
     return {rounded(feedback.from_load / plant_of(drive), feedback.delay)};
   }
@@ -214,7 +214,7 @@ LinearLoop gap_loop(const ReducedDrive& drive, const Feedback& feedback) {
 
 DescribingAnalysis described_gap(const ReducedDrive& drive, DescribedPart part) {
   const Feedback feedback = feedback_of(drive, TorqueGiven::as_asked);
-  const LinearLoop loop = gap_loop(drive, feedback);
+  const GapLoop loop = gap_loop(drive, feedback);
   DescribingAnalysis analysis{.part = part,
                               .nonlinearity = FrictionControlledBacklash{drive.backlash},
                               .loop = loop.function,

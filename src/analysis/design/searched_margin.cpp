@@ -14,9 +14,9 @@ namespace gearlash {
 namespace {
 
 /// Values of a parameter of a drive.
-class Values {
+class ParameterValues {
  public:
-  Values(const Drive& drive, const Axis& axis) : drive_(drive), axis_(axis) {}
+  ParameterValues(const Drive& drive, const Axis& axis) : drive_(drive), axis_(axis) {}
 
   bool are_words() const { return !parameter_of(axis_, drive_)->choices.empty(); }
   bool are_sound_at(double value) const {
@@ -37,7 +37,7 @@ bool is_undecided(const FeasibleValues& quiet, double value) {
 
 /// Keeps a border of a drive that rests only if the drive is known to hunt beyond it.
 void keep_if_hunting_begins(std::optional<double>& border, double outwards,
-                            const FeasibleValues& quiet, const Values& values) {
+                            const FeasibleValues& quiet, const ParameterValues& values) {
   if (!border) return;
   const double range = quiet.searched.high - quiet.searched.low;
   constexpr double nearest = 1e-3;  // of `located`, of the range: what counts as one value
@@ -47,7 +47,8 @@ void keep_if_hunting_begins(std::optional<double>& border, double outwards,
   }
 }
 
-void set_choices(const FeasibleValues& quiet, const Values& values, ParameterMargin& margin) {
+void set_choices(const FeasibleValues& quiet, const ParameterValues& values,
+                 ParameterMargin& margin) {
   for (const double word : quiet.grid) {
     if (word == quiet.present || is_undecided(quiet, word) || !values.are_sound_at(word)) continue;
     if (quiet.contains(word) == margin.hunts) margin.choices.push_back(word);
@@ -89,7 +90,7 @@ ParameterMargin searched_margin(const Drive& drive, const Axis& axis, bool hunts
   const FeasibleValues quiet = feasible_values(drive, axis, always_at_rest(), progress);
   ParameterMargin margin = margin_of(quiet);
   margin.hunts = hunts;
-  const Values values(drive, axis);
+  const ParameterValues values(drive, axis);
   if (values.are_words()) {
     margin.below.reset();
     margin.above.reset();

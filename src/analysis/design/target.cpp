@@ -28,10 +28,6 @@ bool asks_for_motion(const Target& target) {
   });
 }
 
-bool is_at_rest(Verdict verdict) {
-  return verdict == Verdict::cannot_hunt || verdict == Verdict::comes_to_rest;
-}
-
 /// Whether small disturbances do not die down.
 bool is_unstable(Verdict verdict) {
   switch (verdict) {

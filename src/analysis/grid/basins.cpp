@@ -11,8 +11,8 @@
 namespace gearlash {
 namespace {
 
-constexpr std::array kinds = {BasinKind::rest, BasinKind::hunting, BasinKind::running_away,
-                              BasinKind::not_known};
+constexpr std::array basin_kinds = {BasinKind::rest, BasinKind::hunting, BasinKind::running_away,
+                                    BasinKind::not_known};
 
 class Plane {
  public:
@@ -53,9 +53,9 @@ class Plane {
       return std::count(basins_.kinds.begin(), basins_.kinds.end(), kind);
     };
     const BasinKind most = *std::max_element(
-        kinds.begin(), kinds.end(),
+        basin_kinds.begin(), basin_kinds.end(),
         [&](BasinKind one, BasinKind other) { return count(one) < count(other); });
-    for (const BasinKind kind : kinds) {
+    for (const BasinKind kind : basin_kinds) {
       if (kind == most || count(kind) == 0 || progress.is_stopped()) continue;
       const auto side_of = [&](BasinKind found) {
         return found == kind ? Side::inside : Side::outside;

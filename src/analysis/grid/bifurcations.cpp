@@ -29,7 +29,7 @@ bool may_run_away(const Analysis& analysis) {
 }
 
 /// The place between two positions on the axis at which a property changes, if it differs.
-struct Change {
+struct ChangeOnAxis {
   double parameter = 0.0;
   bool is_above = false;  ///< whether the property holds above the place
 };
@@ -47,9 +47,9 @@ class Answers {
     return analysis;
   }
 
-  std::optional<Change> change_between(std::size_t low, bool holds_low, bool holds_high,
-                                       const std::function<bool(const Analysis&)>& holds,
-                                       bool is_closed, Progress& progress) const {
+  std::optional<ChangeOnAxis> change_between(std::size_t low, bool holds_low, bool holds_high,
+                                             const std::function<bool(const Analysis&)>& holds,
+                                             bool is_closed, Progress& progress) const {
     if (holds_low == holds_high) return std::nullopt;
     double from = position_on(axis_, axis_.values[low]);
     double to = position_on(axis_, axis_.values[low + 1]);
@@ -59,7 +59,7 @@ class Answers {
       if (!there) break;
       (holds(*there) == holds_low ? from : to) = middle;
     }
-    return Change{value_at(axis_, 0.5 * (from + to)), holds_high};
+    return ChangeOnAxis{value_at(axis_, 0.5 * (from + to)), holds_high};
   }
 
  private:

@@ -54,10 +54,6 @@ std::size_t points_at_a_time(const EnginesNeeded& engines, const FigureColumns& 
   return engines.bounces ? 8 : 4096;
 }
 
-bool is_at_rest(Verdict verdict) {
-  return verdict == Verdict::cannot_hunt || verdict == Verdict::comes_to_rest;
-}
-
 CycleColumns rows_of(const CycleColumns& columns, std::size_t first, std::size_t count) {
   CycleColumns rows;
   rows.verdict = columns.verdict.subspan(first, count);
@@ -167,9 +163,9 @@ class ListWalk {
 enum class Neighbours : bool { none, in_order };
 
 /// Consecutive points: those in closed form are solved as a batch, the others searched.
-class Part {
+class GridPart {
  public:
-  Part(const GridPoints& points, const CycleColumns& columns, Neighbours neighbours)
+  GridPart(const GridPoints& points, const CycleColumns& columns, Neighbours neighbours)
       : points_(points),
         columns_(columns),
         servos_(columns.verdict.size()),
@@ -387,7 +383,7 @@ GridCount evaluate_parts(const GridPoints& points, const std::vector<std::size_t
     if (searches.is_stopped()) return;
     const std::size_t begin = begins[index];
     const std::size_t rows = begins[index + 1] - begin;
-    Part part(points, rows_of(columns, begin, rows), neighbours);
+    GridPart part(points, rows_of(columns, begin, rows), neighbours);
     const GridCount of_part = work(begin, part, searches);
     {
       const std::scoped_lock lock(adding);
@@ -406,7 +402,7 @@ GridCount evaluate(const Grid& grid, const GridPoints& points, std::size_t first
   const std::vector<std::size_t> begins =
       parts_of(grid, points.engines(), first, count,
                points_at_a_time(points.engines(), FigureColumns(columns, points.drive())));
-  const auto work = [&](std::size_t begin, Part& part, SharedProgress& searches) {
+  const auto work = [&](std::size_t begin, GridPart& part, SharedProgress& searches) {
     return part.work_out(GridWalk(grid, first + begin), grid.proved, workers.unit, searches);
   };
   return evaluate_parts(points, begins, columns, Neighbours::in_order, progress, workers.threads,
@@ -421,7 +417,7 @@ void evaluate(const DriveList& list, const GridPoints& points, const CycleColumn
   std::vector<std::size_t> begins;
   for (std::size_t begin = 0; begin < list.size(); begin += at_a_time) begins.push_back(begin);
   begins.push_back(list.size());
-  const auto work = [&](std::size_t begin, Part& part, SharedProgress& searches) {
+  const auto work = [&](std::size_t begin, GridPart& part, SharedProgress& searches) {
     return part.work_out(ListWalk(list, begin), false, widest_vector_unit(), searches);
   };
   evaluate_parts(points, begins, columns, Neighbours::none, progress, 0, work);

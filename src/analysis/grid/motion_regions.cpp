@@ -12,8 +12,9 @@
 namespace gearlash {
 namespace {
 
-constexpr std::array kinds = {MotionKind::rests, MotionKind::hunts_if_disturbed, MotionKind::hunts,
-                              MotionKind::runs_away, MotionKind::not_known};
+constexpr std::array motion_kinds = {MotionKind::rests, MotionKind::hunts_if_disturbed,
+                                     MotionKind::hunts, MotionKind::runs_away,
+                                     MotionKind::not_known};
 
 /// The kinds of the points and where they change between two of them.
 class Kinds {
@@ -178,7 +179,7 @@ std::vector<MotionRegion> motion_regions(const Grid& grid, const Table& table, P
   const Axis x = widened(grid.axes[1]);
   const Axis y = widened(grid.axes[0]);
   std::vector<MotionRegion> regions;
-  for (const MotionKind kind : kinds) {
+  for (const MotionKind kind : motion_kinds) {
     if (!map.has(kind)) continue;
     const auto side_at = [&](const MapPoint& place) {
       return map.at(place) == kind ? Side::inside : Side::outside;

@@ -98,7 +98,7 @@ bool is_kept(const AffineReset& reset, const Vector& way) {
   return ((reset.matrix * way - way).array().abs() <= rounding * terms.array()).all();
 }
 
-bool is_carried_along(const hybrid::AffineMode& mode, const Vector& way) {
+bool leaves_mode_unchanged(const hybrid::AffineMode& mode, const Vector& way) {
   return is_nothing(mode.flow.matrix, way) &&
          std::all_of(
              mode.transitions.begin(), mode.transitions.end(),
@@ -125,7 +125,7 @@ Vector MovingFrame::outside(const Vector& numbers, double time) const {
 
 bool is_carried_along(const hybrid::HybridSystem& system, const Vector& way) {
   for (std::size_t i = 0; i < system.mode_count(); ++i) {
-    if (!is_carried_along(system.mode(i), way)) return false;
+    if (!leaves_mode_unchanged(system.mode(i), way)) return false;
   }
   return true;
 }

@@ -17,7 +17,7 @@ using hybrid::AffineForm;
 using hybrid::Matrix;
 using hybrid::Vector;
 
-constexpr double turn = 2.0 * std::numbers::pi;
+constexpr double full_turn = 2.0 * std::numbers::pi;
 
 // ---- coordinates --------------------------------------------------------------------------------
 
@@ -252,7 +252,7 @@ std::vector<ShaftStates> usual_starts(const SearchSetting& setting,
   const double braking = drive.torque_limit / (drive.motor.inertia + drive.load.inertia);
   const double fastest = std::sqrt(2.0 * braking * high);
   for (const double times : {1.0, 10.0}) {
-    const double passing = times * setting.large_length * turn / setting.swing_time;
+    const double passing = times * setting.large_length * full_turn / setting.swing_time;
     const double at_speed = speed + std::min(passing, fastest);
     starts.push_back({reference, at_speed, reference, at_speed});
     if (passing >= fastest) break;
