@@ -1,7 +1,7 @@
 # One target for each task. The builds themselves are CMake presets.
 
 FUZZ_SECONDS ?= 30
-# A compilation takes up to 1 GB of memory, one 2 GB; set JOBS=2 if memory is scarce.
+# A compilation takes up to 2 GB of memory; set JOBS=1 if memory is scarce.
 JOBS ?= $(shell nproc)
 
 RELEASE := build/release
