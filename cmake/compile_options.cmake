@@ -57,8 +57,9 @@ function(gearlash_read_once target)
   endif()
 endfunction()
 
-# Level 3 makes nothing here faster than level 2 and takes a fifth more time to compile. Code that
-# reads, writes or calls the loops of other rooms runs as fast at level 1. Tests need no more either.
+# Level 3 is for the innermost loops, in numeric, closed_form and hybrid: up to a third faster than
+# at level 2. What calls them runs as fast at level 2, and what judges, reads or writes at level 1,
+# which compiles sooner. Tests need no more either.
 function(gearlash_optimise target level)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O${level}>)
   if(level LESS 2)  # a debug build may optimise what calculates
