@@ -324,6 +324,24 @@ ReferredOutput refer_output(const Drive& drive) {
 
 namespace {
 
+/// Firmware compares counts: a threshold within rounding of a whole number of an encoder's steps is
+/// that number of them, as what it reads is.
+double counted(double threshold, double step) {
+  const double steps = std::round(threshold / step);
+  constexpr double rounding = 1e-9;
+  return std::abs(threshold / step - steps) <= rounding * std::abs(steps) ? steps * step
+                                                                          : threshold;
+}
+
+void count_thresholds(drive::ReducedDrive& reduced) {
+  const double step = reduced.sensing.resolution;
+  drive::ErrorShape& shape = reduced.error_shape;
+  if (step == 0.0 || shape.is_of_speed || shape.inner_gain != 0.0) return;
+  shape.begins = counted(shape.begins, step);
+  shape.ends = counted(shape.ends, step);
+  if (!shape.is_relay()) shape.offset = counted(shape.offset, step);
+}
+
 /// A reference that does not move has nothing to be compensated.
 void drop_idle_feedforward(drive::ReducedDrive& reduced) {
   if (std::holds_alternative<double>(reduced.reference)) reduced.feedforward = {};
@@ -336,6 +354,7 @@ drive::ReducedDrive reduce(const Drive& drive) {
   drive::ReducedDrive reduced = reduced_plant(drive);
   reduced.contact = reduce(drive.contact);
   reduced.sensing = reduce(drive.sensor, drive.servo ? 1.0 : drive.gearbox.ratio);
+  count_thresholds(reduced);
   if (drive.sampling) reduced.sampling = reduce(*drive.sampling);
   reduced.reference = drive.reference.value_or(0.0);
   drop_idle_feedforward(reduced);

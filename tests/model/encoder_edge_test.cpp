@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include "gearlash/drive.hpp"
+#include "model/reduced_drive.hpp"
 
 namespace gearlash::encoder_edge_test {
 namespace {
@@ -43,6 +45,26 @@ TEST(EncoderEdge, IsHeldByFrictionOrReadByAComputer) {
   drive = counting_drive();
   drive.sampling = Sampling{.period = 1e-3};
   EXPECT_TRUE(faults(drive).empty());
+}
+
+TEST(EncoderCounts, MeasureADeadBandThatIsAWholeNumberOfThem) {
+  Drive drive = counting_drive();
+  drive.sampling = Sampling{.period = 1e-3};
+  drive.sensor = {.position = SensorPlace::motor, .encoder = {.counts_per_turn = 12.0}};
+  constexpr double degree = std::numbers::pi / 180.0;
+  for (const double ratio : {3.0, 7.0, 49.0, 100.0, 190.0, 343.0}) {
+    drive.gearbox.ratio = ratio;
+    for (int counts = 1; counts < 100; ++counts) {
+      drive.controller.dead_band.width = counts * (30.0 / ratio) * degree;
+      const drive::ReducedDrive reduced = reduce(drive);
+      EXPECT_EQ(reduced.error_shape.begins, counts * reduced.sensing.resolution) << ratio;
+      EXPECT_EQ(reduced.error_shape.ends, reduced.error_shape.begins) << ratio;
+      EXPECT_EQ(reduced.error_shape.offset, -reduced.error_shape.begins) << ratio;
+    }
+    const double width = 2.00001 * (30.0 / ratio) * degree;
+    drive.controller.dead_band.width = width;
+    EXPECT_EQ(reduce(drive).error_shape.begins, width) << ratio;
+  }
 }
 
 TEST(EncoderCounts, HaveFortyBitsAtMost) {
