@@ -301,6 +301,16 @@ LinearController sampled_controller(const Controller& controller, const Sampling
   return result;
 }
 
+bool integrates(const Controller& controller) {
+  const LinearController form = linear_controller(controller);
+  const std::size_t order = form.order();
+  if (order == 0) return false;
+  Matrix velocity = matrix_of(form.state_matrix, order);
+  const bool is_from_sample_to_sample = std::holds_alternative<SampledTransfer>(controller);
+  if (is_from_sample_to_sample) velocity -= Matrix::Identity(velocity.rows(), velocity.cols());
+  return !all_solutions(velocity, matrix_of(form.input_matrix, 3).col(1));
+}
+
 double spectral_radius(const LinearController& controller) {
   const std::size_t order = controller.order();
   if (order == 0) return 0.0;

@@ -124,6 +124,11 @@ SplitDelay split_delay(const Sampling& sampling);
 /// outputs as above. Precondition: both are sound.
 LinearController sampled_controller(const Controller& controller, const Sampling& sampling);
 
+/// Whether a position that stands beside the reference leaves no state of the controller standing,
+/// within the torque limit: 0 = state_matrix z + input_matrix (0, y, 0) has no solution for y ≠ 0.
+/// Sampling by any method keeps that. Precondition: validate(controller) is empty.
+bool integrates(const Controller& controller);
+
 /// The largest modulus of an eigenvalue of the state matrix; 0 without states.
 double spectral_radius(const LinearController& controller);
 

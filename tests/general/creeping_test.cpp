@@ -28,13 +28,13 @@ TEST(Standstills, AreThoseOfBothShafts) {
   EXPECT_EQ(duration_of(standstills(load, {{0, 0}, {9, 9}}, 1e-9)), 0.0);
 }
 
-/// Friction at rest is that of motion.
+/// Friction at rest is that of motion, and the error is integrated.
 ReducedDrive drive_with_dry_friction() {
   ReducedDrive drive;
   drive.motor = {0.5, {.viscous = 0.1, .coulomb = 0.1, .breakaway = 0.1}};
   drive.load = {0.5, {.viscous = 0.1, .coulomb = 0.1, .breakaway = 0.1}};
   drive.backlash = 0.3;
-  drive.controller = ProportionalDerivative{1.0, 0.0};
+  drive.controller = ProportionalIntegralDerivative{1.0, 0.01, 0.0, 0.0};
   return drive;
 }
 
@@ -45,7 +45,8 @@ struct Pausing {
   double at;
 };
 
-const std::vector<Pausing> ever_later = {{1.0, 2.0, 0.1}, {3.0, 13.0, 0.01}, {14.0, 1000.0, 0.001}};
+const std::vector<Pausing> ever_later = {
+    {10.0, 20.0, 0.1}, {30.0, 130.0, 0.01}, {140.0, 10'000.0, 0.001}};
 
 /// The shaft that is not measured goes to and fro meanwhile.
 bool creeps(const ReducedDrive& drive, const std::vector<Pausing>& all) {
@@ -84,10 +85,10 @@ TEST(Creeping, IsEverLaterAndNearerByOneRatio) {
     for (Pausing& one : other) one.at *= 4.0;  // from beyond the gap, of 0.3
     EXPECT_FALSE(creeps(drive, other));
     other = ever_later;
-    other[1].to = 3.5;  // for less than before
+    other[1].to = 35.0;  // for less than before
     EXPECT_FALSE(creeps(drive, other));
     other = ever_later;
-    other[2].from = 995.0;
+    other[2].from = 9950.0;
     EXPECT_FALSE(creeps(drive, other));
   }
 }
@@ -101,6 +102,52 @@ TEST(Creeping, NeedsFrictionWithoutStiction) {
   }
 }
 
+/// Samples at bounces look like pauses.
+TEST(Creeping, NeedsDryFriction) {
+  ReducedDrive drive = drive_with_dry_friction();
+  drive.motor.friction = {.viscous = 0.1};
+  EXPECT_TRUE(creeps(drive, ever_later));
+  drive.load.friction = {.viscous = 0.1};
+  EXPECT_FALSE(creeps(drive, ever_later));
+}
+
+/// The load slides on within the gap, or stands as long as the motor does.
+TEST(Creeping, NeedsBothShaftsToStandWhereFrictionHoldsTheOtherAlone) {
+  ReducedDrive drive = drive_with_dry_friction();
+  drive.load.friction = {.viscous = 0.1};
+  EXPECT_FALSE(creeps(drive, ever_later));
+  const SearchSetting setting = search_setting(drive);
+  Watch watch{.here = setting.start({})};
+  for (const Pausing& one : ever_later) {
+    for (const double time : {one.from, one.to}) {
+      watch.load.push_back({time, one.at});
+      watch.motor.push_back({time, one.at + 0.15});
+    }
+  }
+  EXPECT_TRUE(is_creeping(watch, setting, {}));
+}
+
+TEST(Creeping, NeedsIntegralActionOfTheErrorItself) {
+  ReducedDrive drive = drive_with_dry_friction();
+  drive.controller = ProportionalDerivative{1.0, 0.0};
+  EXPECT_FALSE(creeps(drive, ever_later));
+  drive = drive_with_dry_friction();
+  drive.sensing.resolution = 1.0;  // larger than every error
+  EXPECT_FALSE(creeps(drive, ever_later));
+  drive = drive_with_dry_friction();
+  drive.error_shape = {.begins = 1e-6, .ends = 1e-6, .inner_gain = 0.0, .offset = -1e-6};
+  EXPECT_FALSE(creeps(drive, ever_later));
+}
+
+TEST(Creeping, NeedsPausesLongerThanASwing) {
+  std::vector<Pausing> faster = ever_later;
+  for (Pausing& one : faster) {
+    one.from *= 0.1;
+    one.to *= 0.1;
+  }
+  EXPECT_FALSE(creeps(drive_with_dry_friction(), faster));
+}
+
 TEST(StandsForLong, OfADriveWithoutStictionThatStandsByNow) {
   ReducedDrive drive = drive_with_dry_friction();
   const std::vector<Standstill> all = {{1.0, 10'000.0, 0.0, 0.0}};
@@ -110,6 +157,9 @@ TEST(StandsForLong, OfADriveWithoutStictionThatStandsByNow) {
   };
   EXPECT_TRUE(stands(10'000.0));
   EXPECT_FALSE(stands(10'001.0));  // it moves
+  drive.motor.friction = drive.load.friction = {.viscous = 0.1};
+  EXPECT_FALSE(stands(10'000.0));
+  drive = drive_with_dry_friction();
   drive.load.friction.breakaway = 0.2;
   EXPECT_FALSE(stands(10'000.0));
 }

@@ -109,6 +109,30 @@ TEST(EdgeController, AnImproperTransferFunctionIsRefused) {
   EXPECT_EQ(validate(Controller(LeadLag{1.0, 0.0, -1.0})).size(), 2U);
 }
 
+TEST(IntegralAction, IsAPoleAtZeroThatThePositionMoves) {
+  for (const Controller& with : std::vector<Controller>{
+           ProportionalIntegralDerivative{1.0, 0.1, 0.2, 0.05},
+           Cascade{.position = 3.0, .speed = 1.0, .speed_integral = 2.0},
+           ErrorTransfer{{{1.0, 2.0}, {1.0, 3.0, 0.0}}},
+           SampledTransfer{.numerator = {1.0, -0.9}, .denominator = {1.0, -1.0}},
+           // 0 and −2, turned so that no number is 0
+           LinearController{.state_matrix = {{-1.0, 1.0}, {1.0, -1.0}},
+           .input_matrix = {{1.0, -1.0, 0.0}, {0.5, -0.5, 0.0}},
+           .output = {1.0, 0.0}}}) {
+    EXPECT_TRUE(integrates(with)) << with.index();
+  }
+  for (const Controller& without : std::vector<Controller>{
+           ProportionalDerivative{1.0, 0.1}, ProportionalIntegralDerivative{1.0, 0.0, 0.2, 0.05},
+           Cascade{.position = 3.0, .speed = 1.0}, LeadLag{1.0, 2.0, 5.0},
+           ErrorTransfer{{{1.0, 2.0}, {1.0, 3.0, 1e-3}}},
+           SampledTransfer{.numerator = {1.0, -0.9}, .denominator = {1.0, -0.999}},
+           // an integral of the speed alone, which is 0 where the position stands
+           LinearController{
+               .state_matrix = {{0.0}}, .input_matrix = {{0.0, 0.0, 1.0}}, .output = {1.0}}}) {
+    EXPECT_FALSE(integrates(without)) << without.index();
+  }
+}
+
 TEST(OracleControllerTransfer, IsThatOfTheStateSpace) {
   const std::vector<Controller> controllers = {
       ProportionalDerivative{3.0, 0.7},

@@ -33,10 +33,35 @@ std::vector<Pause> pauses(const std::vector<Sample>& samples, double small) {
   return all;
 }
 
+/// Whether dry friction without stiction holds a shaft. With stiction slips have a size of their
+/// own.
+bool has_coulomb_friction_alone(const ReducedDrive& drive) {
+  return !has_stiction(drive) && (drive.motor.friction.is_dry() || drive.load.friction.is_dry());
+}
+
 /// Whether friction of a drive without stiction holds it at the end of its watch.
 bool may_creep(const std::vector<Standstill>& all, const Watch& watch,
                const SearchSetting& setting) {
-  return !has_stiction(setting.drive) && !all.empty() && all.back().to >= watch.time;
+  return has_coulomb_friction_alone(setting.drive) && !all.empty() && all.back().to >= watch.time;
+}
+
+/// Whether slips are in proportion to the errors before them: integral action alone ends a
+/// standstill, and neither an encoder's step nor a dead band gives them a size.
+bool slips_in_proportion(const ReducedDrive& drive) {
+  return has_coulomb_friction_alone(drive) && !drive.error_shape.is_present() &&
+         drive.sensing.resolution == 0.0 && integrates(drive.controller);
+}
+
+/// Pauses of the measured shaft. Where no friction of its own holds it, both shafts must stand.
+std::vector<Pause> held_pauses(const Watch& watch, const SearchSetting& setting, double small) {
+  const bool is_of_load = setting.drive.sensing.load_share_of_position > 0.5;
+  const Shaft& measured = is_of_load ? setting.drive.load : setting.drive.motor;
+  if (measured.friction.is_dry()) return pauses(is_of_load ? watch.load : watch.motor, small);
+  std::vector<Pause> all;
+  for (const Standstill& one : standstills(watch.load, watch.motor, small)) {
+    all.push_back({one.from, one.to, is_of_load ? one.load : one.motor});
+  }
+  return all;
 }
 
 }  // namespace
@@ -63,10 +88,9 @@ double duration_of(const std::vector<Standstill>& all) {
 
 bool is_creeping(const Watch& watch, const SearchSetting& setting,
                  const RestTolerances& tolerances) {
-  if (has_stiction(setting.drive)) return false;
-  const bool is_of_load = setting.drive.sensing.load_share_of_position > 0.5;
+  if (!slips_in_proportion(setting.drive)) return false;
   const std::vector<Pause> all =
-      pauses(is_of_load ? watch.load : watch.motor, tolerances.no_move * setting.small_length);
+      held_pauses(watch, setting, tolerances.no_move * setting.small_length);
   constexpr std::size_t least = 3;
   if (all.size() < least) return false;
   const Pause& first = all.end()[-3];
@@ -75,8 +99,9 @@ bool is_creeping(const Watch& watch, const SearchSetting& setting,
   const bool shrinks = std::abs(third.value) < std::abs(second.value) &&
                        std::abs(second.value) < std::abs(first.value) &&
                        std::abs(first.value) < setting.small_length;
-  const bool stays_longer =
-      third.duration() > second.duration() && second.duration() > first.duration();
+  const bool stays_longer = third.duration() > second.duration() &&
+                            second.duration() > first.duration() &&
+                            first.duration() > setting.swing_time;
   return shrinks && stays_longer &&
          std::abs(limit_of(first.value, second.value, third.value)) <
              tolerances.vanishing_limit * std::abs(third.value);
@@ -123,7 +148,7 @@ bool stands_for_long(const std::vector<Standstill>& all, const Watch& watch,
 
 std::vector<Standstill> places_of_rest(const FoundCycle& cycle, const SearchSetting& setting,
                                        const RestTolerances& tolerances) {
-  if (has_stiction(setting.drive)) return {};
+  if (!has_coulomb_friction_alone(setting.drive)) return {};
   const double share = tolerances.hardly_moving;
   const hybrid::Trajectory motion = motion_on(setting.system, cycle.orbit, 1.0);
   std::vector<Standstill> all = standstills(

@@ -25,10 +25,14 @@ std::vector<Standstill> standstills(const std::vector<Sample>& load,
 /// s, of all together.
 double duration_of(const std::vector<Standstill>& all);
 
-/// Whether, of a drive without stiction, the position that is measured stands ever longer, ever
-/// nearer to the reference, by one ratio within the gap. A slip is then in proportion to the error
-/// before it, so that all that follow shrink by that ratio (Armstrong-Hélouvry & Amin 1996;
-/// Ruderman, arXiv 2006.08977). With stiction slips have a size of their own.
+/// Whether the position that is measured stands ever longer, ever nearer to the reference, by one
+/// ratio within the gap, and each time for longer than a swing of the linear loop. If slips are in
+/// proportion to the errors before them, all that follow shrink by that ratio (Armstrong-Hélouvry &
+/// Amin 1996; Ruderman, arXiv 2006.08977). They are so if
+///   dry friction stops the shaft, and has no stiction, by which slips have a size of their own;
+///   the controller integrates the error, so that nothing else ends a standstill;
+///   the error is neither rounded by an encoder nor shaped by a dead band or relay.
+/// False where one of these does not hold.
 bool is_creeping(const Watch& watch, const SearchSetting& setting,
                  const RestTolerances& tolerances);
 
@@ -39,12 +43,13 @@ bool is_creeping(const Watch& watch, const SearchSetting& setting,
 bool is_fading(const Watch& watch, const Stretch& stretch, const SearchSetting& setting,
                const RestTolerances& tolerances);
 
-/// Whether a drive without stiction has at last stood for many times as long as it ever moved.
+/// Whether a drive with dry friction and no stiction has at last stood for many times as long as it
+/// ever moved.
 bool stands_for_long(const std::vector<Standstill>& all, const Watch& watch,
                      const SearchSetting& setting, const RestTolerances& tolerances);
 
-/// Where the shafts stand on a cycle of a drive without stiction, if they move, more than a share
-/// of its extent, for no more than that share of its period. Empty otherwise.
+/// Where the shafts stand on a cycle of a drive with dry friction and no stiction, if they move,
+/// more than a share of its extent, for no more than that share of its period. Empty otherwise.
 std::vector<Standstill> places_of_rest(const FoundCycle& cycle, const SearchSetting& setting,
                                        const RestTolerances& tolerances);
 
