@@ -15,7 +15,7 @@ namespace gearlash {
 
 enum class Verdict : std::uint8_t {
   cannot_hunt,             ///< every motion comes to rest
-  comes_to_rest,           ///< from every start that was searched
+  comes_to_rest,           ///< from every start that was searched, or all but a few undecided ones
   hunts,                   ///< no start led to rest; a stable cycle, or swings that repeat
   hunts_if_disturbed,      ///< rest is stable, and so is a limit cycle beside it
   hunts_irregularly,       ///< bounded motion that did not repeat

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "analysis/ceiling/ceiling.hpp"
+#include "analysis/contradictions.hpp"
 #include "analysis/design/changeable_drive.hpp"
 #include "analysis/drive_notes.hpp"
 #include "analysis/energy/absence_by_energy.hpp"
@@ -216,21 +217,25 @@ StartOutcome outcome_of(const drive::Outcome& found) {
   return outcome;
 }
 
-/// The verdict that follows from the outcomes of the starts and the motions found.
+/// The verdict that follows from the outcomes of the starts and the motions found. A few starts
+/// that stay undecided, a tenth at most, are told beside it.
 Verdict verdict_of(const drive::AttractorSearch& search, const drive::ReducedDrive& reduced,
                    const std::vector<IrregularMotion>& motions) {
   const bool rests = search.count(drive::MotionEnd::rest) > 0;
   const bool cycles = search.count(drive::MotionEnd::cycle) > 0;
   const bool swings = cycles || search.count(drive::MotionEnd::irregular) > 0;
   const bool diverges = search.count(drive::MotionEnd::diverges) > 0;
-  const bool is_open = search.count(drive::MotionEnd::undecided) > 0 || !search.is_complete;
+  const std::size_t undecided = search.count(drive::MotionEnd::undecided);
+  const bool is_open = undecided > 0 || !search.is_complete;
+  constexpr std::size_t few = 10;
+  const bool is_open_at_large = !search.is_complete || few * undecided > search.outcomes.size();
   if (swings && is_driven(reduced)) return Verdict::forced;
   if (swings && rests) return Verdict::hunts_if_disturbed;
   if (cycles || std::any_of(motions.begin(), motions.end(), repeats)) return Verdict::hunts;
   if (swings) return Verdict::hunts_irregularly;
   // An undecided start may stay bounded, or hunt.
   if (diverges) return rests || is_open ? Verdict::runs_away_if_disturbed : Verdict::runs_away;
-  return rests && !is_open ? Verdict::comes_to_rest : Verdict::undecided;
+  return rests && !is_open_at_large ? Verdict::comes_to_rest : Verdict::undecided;
 }
 
 std::vector<Note> notes_of(const drive::AttractorSearch& search) {
@@ -375,6 +380,8 @@ Analysis analysed(const Drive& drive, const Analysis* near, const Wanted& wanted
     analysis.answer.ceiling->mesh_torque = highest_mean_mesh_torque(analysis.reduced);
     analysis.answer.ceiling->mesh_torque_reason = obstacle_of_mesh_torque(analysis.reduced);
   }
+  // The motion from which a ceiling is measured stands in the end, unless a sine drives it.
+  if (!is_driven(analysis.reduced)) withdraw_if_contradictory(analysis.answer);
   std::vector<Note> notes = notes_on(drive);
   analysis.answer.notes.insert(analysis.answer.notes.begin(), notes.begin(), notes.end());
   return analysis;

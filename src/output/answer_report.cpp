@@ -449,8 +449,12 @@ std::string headline_of_verdict(const AnswerReport& report) {
       return verdict + ": no friction at all (damping 0)";
     case Verdict::undamped:
       return verdict + ": every oscillation persists (damping 0, backlash 0)";
-    case Verdict::comes_to_rest:
-      return fmt::format("{} from all {}", verdict, starts_text(answer.search->starts.size()));
+    case Verdict::comes_to_rest: {
+      const std::size_t all = answer.search->starts.size();
+      const std::size_t some = answer.search->count("rest");
+      const std::string of = some < all ? fmt::format("{} of", some) : "all";
+      return fmt::format("{} from {} {}", verdict, of, starts_text(all));
+    }
     case Verdict::cannot_hunt:
       if (answer.engine == Engine::general) {
         return verdict + ": everything outside the gap only takes energy";

@@ -148,6 +148,13 @@ TEST(Analyse, IsNoVerdictOnStartsThatAreUndecided) {
   EXPECT_EQ(verdict({rest, rest}), Verdict::comes_to_rest);
   EXPECT_EQ(verdict({rest, undecided}), Verdict::undecided);
   EXPECT_EQ(verdict({rest}, false), Verdict::undecided);
+  std::vector<drive::MotionEnd> many(18, rest);
+  many.resize(20, undecided);
+  EXPECT_EQ(verdict(many), Verdict::comes_to_rest);
+  EXPECT_EQ(verdict(many, false), Verdict::undecided);
+  many.pop_back();
+  many.front() = undecided;  // 2 of 19
+  EXPECT_EQ(verdict(many), Verdict::undecided);
 }
 
 }  // namespace

@@ -61,6 +61,9 @@ TEST(Headline, OfForcedMotionIsNoHunting) {
 
 TEST(Headline, NeedsNoCycle) {
   EXPECT_EQ(headline(report_of(Verdict::comes_to_rest)), "comes to rest from all 1 start");
+  AnswerReport almost = report_of(Verdict::comes_to_rest);
+  almost.answer.search->starts.push_back({.end = "undecided"});
+  EXPECT_EQ(headline(almost), "comes to rest from 1 of 2 starts; 1 of 2 starts undecided");
   EXPECT_EQ(headline(report_of(Verdict::runs_away)), "runs away");
   EXPECT_EQ(headline(report_of(Verdict::undecided)), "undecided");
   AnswerReport irregular = report_of(Verdict::hunts_irregularly);
